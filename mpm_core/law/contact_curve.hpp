@@ -1,0 +1,141 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "law/pair.hpp"
+
+namespace granulaw {
+
+/// The dimensionless contact law of one yielding body, tabulated.
+///
+/// What is stored. Four functions of one overlap x = delta/(lambda R*), each as ratio to the Hertz value or
+/// as a pure number, at nodes uniform in s = x^(1/4), s_k = k s_end/(count-1), k = 0..count-1:
+///     force_ratio[k]     g = F_L(x) / F_Hertz(x)                  loading force;       g(0) = 1
+///     residual_ratio[k]  rho = delta_r/delta_m                    residual overlap after a turn at x
+///     exponent[k]        n, unloading F = F_L(delta_m) u^n, u = (delta - delta_r)/(delta_m - delta_r)
+///     radius_ratio[k]    a(x) / a_Hertz(x), a_Hertz = R sqrt(x)   contact radius;      1 at x = 0
+/// Between nodes: cubic Hermite with the stored slopes (d/ds), so F, dF/dx are continuous.
+/// Half-open range 0 <= x < x_end = s_end^4. Beyond it the force goes on with the last stiffness, the other
+/// three keep their last value, and `in_range` says false: the caller counts and decides.
+///
+/// State of a contact: delta_max, the largest overlap since first touch; the caller zeroes it when the
+/// geometric overlap ends. delta >= delta_max: loading. Else unloading and reloading follow the same curve
+/// F = F_L(delta_max) max(0,u)^n. While delta_max is below the onset of yield, F = F_L(delta) both ways.
+///
+/// Admissible (no closed cycle gains energy) if dW_L/d(delta_m) >= dW_u/d(delta_m): see admissibility_margin().
+class ContactCurve
+{
+ public:
+  /// Node values as stored in a file. All vectors have the same length, at least 4.
+  struct Table
+  {
+    double s_end = 0;                    ///< s at the last node; x_end = s_end^4
+    double onset = 0;                    ///< x at which yield begins; infinity: never (elastic)
+    std::vector<double> force_ratio, force_ratio_slope;        ///< value and d/ds
+    std::vector<double> residual_ratio, residual_ratio_slope;
+    std::vector<double> exponent, exponent_slope;
+    std::vector<double> radius_ratio, radius_ratio_slope;
+  };
+
+  ContactCurve() = default;
+  /// Throws Error naming `where` if a vector's length, finiteness or range is wrong.
+  ContactCurve(const Table& table, const std::string& where);
+
+  /// Largest dimensionless overlap of the table.
+  double x_end() const { return x_end_; }
+  bool in_range(double x) const { return x <= x_end_; }
+  double onset() const { return onset_; }
+  const Table& table() const { return table_; }
+
+  /// Loading force over Hertz's force at x = 1, that is x^1.5 g(x); its derivative by x; a/R = sqrt(x) ratio.
+  struct Loading { double force, stiffness, radius; };
+  Loading loading(double x) const;
+
+  /// Turning point of a contact that reached x_m.
+  struct Turning { double force, stiffness, radius, residual, exponent; };
+  Turning turning(double x_m) const;
+
+  /// Work of loading to x, and work given back on complete unloading from x_m, in units of
+  /// (Hertz force at x = 1) * length.
+  double work_loading(double x) const;
+  double work_unloading(double x_m) const;
+
+  /// min over the table of (F_L - dW_u/d x_m)/F_L; negative: some closed cycle would gain energy.
+  double admissibility_margin() const;
+
+  /// The law: force, stiffness and contact radius of a pair at overlap `delta` (m, > 0) whose largest overlap
+  /// so far is `delta_max` (m). No allocation, no branch on strings, no exceptions.
+  ContactForce evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max) const;
+
+ private:
+  /// Cubic coefficients in t = (s - s_k)/h of the four functions over one interval: two cache lines.
+  struct Interval { double g[4], a[4], rho[4], n[4]; };
+  struct Position { const Interval* interval; double t, s, root; };
+
+  Position locate(double x) const
+  {
+    const double root = std::sqrt(x), s = std::sqrt(root);
+    const double position = s * per_h_;
+    const auto k = std::min(static_cast<std::size_t>(position), intervals_.size() - 1);
+    return {&intervals_[k], position - static_cast<double>(k), s, root};
+  }
+  /// Loading work from node k to t_end within its interval.
+  double interval_work(std::size_t k, double t_end) const;
+  static double cubic(const double (&c)[4], double t) { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
+  static double cubic_slope(const double (&c)[4], double t) { return c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]); }
+
+  std::vector<Interval> intervals_;
+  std::vector<double> work_;  // loading work up to each node
+  double per_h_ = 0;          // 1/(node spacing in s)
+  double x_end_ = 0;
+  double onset_ = 0;
+  Loading end_{};             // loading at x_end
+  Table table_;
+};
+
+inline ContactCurve::Loading ContactCurve::loading(double x) const
+{
+  if (x > x_end_) [[unlikely]]
+    return {end_.force + end_.stiffness * (x - x_end_), end_.stiffness, end_.radius * std::sqrt(x / x_end_)};
+  const Position p = locate(x);
+  const double g = cubic(p.interval->g, p.t);
+  const double dg = cubic_slope(p.interval->g, p.t) * per_h_;
+  // F = x^1.5 g, ds/dx = s/(4x): dF/dx = sqrt(x) (1.5 g + s g'/4)
+  return {x * p.root * g, p.root * (1.5 * g + 0.25 * p.s * dg), p.root * cubic(p.interval->a, p.t)};
+}
+
+inline ContactCurve::Turning ContactCurve::turning(double x_m) const
+{
+  const Loading top = loading(x_m);
+  const Position p = locate(std::min(x_m, x_end_));
+  return {top.force, top.stiffness, top.radius, x_m * cubic(p.interval->rho, p.t), cubic(p.interval->n, p.t)};
+}
+
+inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff, double delta,
+                                           double delta_max) const
+{
+  const double length = pair.length(r_eff), per_length = 1.0 / length;
+  const double force_scale = pair.force(r_eff), radius_scale = pair.radius(r_eff);
+  const double x = delta * per_length, x_max = delta_max * per_length;
+  if (x >= x_max || x_max <= onset_) {
+    const Loading now = loading(x);
+    return {force_scale * now.force, force_scale * per_length * now.stiffness, radius_scale * now.radius,
+            std::max(delta, delta_max)};
+  }
+  const Turning top = turning(x_max);
+  const double span = x_max - top.residual;
+  const double u = (x - top.residual) / span;
+  if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+  // F = F_m u^n; dF/dx = n F/(u span); a = a_m u^(n-1), the radius at which dF/dx = 2 E* a keeps its ratio
+  const double below = std::pow(u, top.exponent - 1.0);
+  const double force = top.force * below * u;
+  return {force_scale * force, force_scale * per_length * top.exponent * top.force * below / span,
+          radius_scale * top.radius * below, delta_max};
+}
+
+}  // namespace granulaw

@@ -1,0 +1,70 @@
+#pragma once
+
+/// Every name, unit and legend of a law file, shared by writer and reader (layout: docs/law-format.md).
+namespace granulaw::h5 {
+
+/// A dataset: its name, and what its attributes `unit` and `legend` say. Unit "1": a pure number.
+struct Field
+{
+  const char* name;
+  const char* unit;
+  const char* legend;
+};
+
+// Attributes of the root group.
+inline constexpr const char* format = "format";
+inline constexpr const char* format_value = "granulaw-law";
+inline constexpr const char* version_major = "version_major";
+inline constexpr const char* version_minor = "version_minor";
+inline constexpr int major = 1;  ///< counts up where an old reader would misread the file
+inline constexpr int minor = 0;  ///< counts up where something is only added
+
+// Attributes of every dataset.
+inline constexpr const char* unit = "unit";
+inline constexpr const char* legend = "legend";
+
+// Groups and the one text dataset.
+inline constexpr const char* provenance = "provenance";    ///< group; string attributes
+inline constexpr const char* pairs = "pairs";              ///< dataset of "a:b" and "a:wall"
+inline constexpr const char* bodies = "bodies";            ///< group; one subgroup for each material
+inline constexpr const char* material = "material";        ///< bodies/<name>/material, scalars
+inline constexpr const char* curve = "curve";              ///< bodies/<name>/curve, nodes
+inline constexpr const char* certificate = "certificate";  ///< bodies/<name>/certificate, scalars
+inline constexpr const char* support = "support";          ///< string attribute of certificate
+
+// bodies/<name>/material
+inline constexpr Field density{"density", "kg/m^3", "mass density"};
+inline constexpr Field youngs_modulus{"youngs_modulus", "Pa", "Young's modulus E"};
+inline constexpr Field poisson_ratio{"poisson_ratio", "1", "Poisson's ratio nu"};
+inline constexpr Field yield_stress{"yield_stress", "Pa", "uniaxial yield stress Y; absent: elastic"};
+inline constexpr Field hardening_modulus{"hardening_modulus", "Pa",
+                                         "linear hardening d(yield stress)/d(equivalent plastic strain)"};
+
+// bodies/<name>/curve
+inline constexpr Field s_end{"s_end", "1", "s = x^(1/4) at the last node, x = overlap/(lambda R*); nodes uniform in s"};
+inline constexpr Field onset{"onset", "1", "x at the onset of yield; absent: never"};
+inline constexpr Field force_ratio{"force_ratio", "1", "loading force over Hertz's 4/3 E* R^2 x^1.5"};
+inline constexpr Field force_ratio_slope{"force_ratio_slope", "1", "d(force_ratio)/ds"};
+inline constexpr Field residual_ratio{"residual_ratio", "1", "residual overlap over largest overlap x"};
+inline constexpr Field residual_ratio_slope{"residual_ratio_slope", "1", "d(residual_ratio)/ds"};
+inline constexpr Field exponent{"exponent", "1", "n of the unloading F = F_m u^n"};
+inline constexpr Field exponent_slope{"exponent_slope", "1", "d(exponent)/ds"};
+inline constexpr Field radius_ratio{"radius_ratio", "1", "contact radius over Hertz's R sqrt(x)"};
+inline constexpr Field radius_ratio_slope{"radius_ratio_slope", "1", "d(radius_ratio)/ds"};
+
+// bodies/<name>/certificate
+inline constexpr Field solver_error_force{"solver_error_force", "1", "relative, two resolutions, treated force"};
+inline constexpr Field solver_error_restitution{"solver_error_restitution", "1", "relative, two resolutions, e"};
+inline constexpr Field interpolation_error{"interpolation_error", "1",
+                                           "relative, table against the fitted curve it was made from"};
+inline constexpr Field residual_scatter{"residual_scatter", "1", "relative rms of the runs about the fit"};
+inline constexpr Field reload_loop_area{"reload_loop_area", "1",
+                                        "largest area of an unload/reload loop over the loading work there"};
+inline constexpr Field verification_error_force{"verification_error_force", "1",
+                                                "largest relative error of F_max, replay against impacts"};
+inline constexpr Field verification_error_restitution{"verification_error_restitution", "1",
+                                                      "largest relative error of e, replay against impacts"};
+inline constexpr Field verification_impacts{"verification_impacts", "1", "number of impacts compared; 0: none"};
+inline constexpr Field max_inertia{"max_inertia", "1", "I = rho V^2/Y up to which the rate-free law holds"};
+
+}  // namespace granulaw::h5

@@ -1,0 +1,227 @@
+#include "law/law_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "law/h5.hpp"
+#include "law/h5_names.hpp"
+
+namespace granulaw {
+
+namespace {
+
+using Table = ContactCurve::Table;
+
+constexpr std::size_t most_nodes = 65536, most_bodies = 256, most_pairs = 65536, most_notes = 1024;
+
+struct CurveField { const h5::Field& field; std::vector<double> Table::*values; };
+constexpr CurveField curve_fields[] = {
+    {h5::force_ratio, &Table::force_ratio},       {h5::force_ratio_slope, &Table::force_ratio_slope},
+    {h5::residual_ratio, &Table::residual_ratio}, {h5::residual_ratio_slope, &Table::residual_ratio_slope},
+    {h5::exponent, &Table::exponent},             {h5::exponent_slope, &Table::exponent_slope},
+    {h5::radius_ratio, &Table::radius_ratio},     {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
+
+struct CertificateField { const h5::Field& field; double Certificate::*value; };
+constexpr CertificateField certificate_fields[] = {
+    {h5::solver_error_force, &Certificate::solver_error_force},
+    {h5::solver_error_restitution, &Certificate::solver_error_restitution},
+    {h5::interpolation_error, &Certificate::interpolation_error},
+    {h5::residual_scatter, &Certificate::residual_scatter},
+    {h5::reload_loop_area, &Certificate::reload_loop_area},
+    {h5::verification_error_force, &Certificate::verification_error_force},
+    {h5::verification_error_restitution, &Certificate::verification_error_restitution},
+    {h5::verification_impacts, &Certificate::verification_impacts},
+    {h5::max_inertia, &Certificate::max_inertia}};
+
+void require_positive(double value, const std::string& where, const h5::Field& field)
+{
+  if (!(value > 0 && std::isfinite(value)))
+    fail(where, fmt::format("'{}' is out of range", field.name), fmt::format("{:.6g} {}", value, field.unit), "over 0");
+}
+
+/// What must hold between the numbers of one body, beyond what ContactCurve checks of its own nodes.
+void check_body(const BodyLaw& body, const std::string& where)
+{
+  const LawMaterial& m = body.material;
+  require_positive(m.density, where, h5::density);
+  require_positive(m.youngs_modulus, where, h5::youngs_modulus);
+  if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.5))
+    fail(where, "'poisson_ratio' is out of range", fmt::format("{:.6g}", m.poisson_ratio), "0 to below 0.5");
+  if (!(m.yield_stress > 0))
+    fail(where, "'yield_stress' is out of range", fmt::format("{:.6g} Pa", m.yield_stress), "over 0, or absent");
+  if (!(m.hardening_modulus >= 0 && std::isfinite(m.hardening_modulus)))
+    fail(where, "'hardening_modulus' is out of range", fmt::format("{:.6g} Pa", m.hardening_modulus), "0 or more");
+  if (m.yields() != std::isfinite(body.curve.onset()))
+    fail(where, m.yields() ? "the material yields but its curve has no onset"
+                           : "the material is elastic but its curve has an onset of yield");
+  for (const CertificateField& c : certificate_fields)
+    if (!(body.certificate.*c.value >= 0))  // NaN fails as well; max_inertia may be infinite (elastic)
+      fail(where, fmt::format("certificate '{}' is out of range", c.field.name),
+           fmt::format("{:.6g}", body.certificate.*c.value), "0 or more");
+}
+
+/// Names become HDF5 links and parts of "a:b": letters, digits, '_', '-', '.'.
+void check_name(const std::string& name, const std::string& where)
+{
+  const bool usable = !name.empty() && name.size() <= 100 && name.find_first_not_of(".") != std::string::npos &&
+                      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+                          std::string::npos;
+  if (!usable || name == wall_name)
+    fail(where, "unusable material name", fmt::format("'{}'", name),
+         fmt::format("letters, digits, '_', '-' and '.', and not '{}'", wall_name));
+}
+
+void check_pairs(const Law& law, const std::string& where)
+{
+  if (law.bodies.empty()) fail(where, "the law has no material");
+  for (const auto& [a, b] : law.pairs)
+    for (const std::string& name : {a, b})
+      if (name != wall_name && !law.bodies.contains(name))
+        fail(where, fmt::format("the pair '{}:{}' names a material that the file does not hold", a, b));
+}
+
+BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
+{
+  const std::string where = fmt::format("{}, material '{}'", path, name);
+  BodyLaw body;
+
+  const h5::Handle m = h5::open_group(group, h5::material, where);
+  body.material.name = name;
+  body.material.density = h5::read_scalar(m, h5::density, where);
+  body.material.youngs_modulus = h5::read_scalar(m, h5::youngs_modulus, where);
+  body.material.poisson_ratio = h5::read_scalar(m, h5::poisson_ratio, where);
+  if (h5::has_link(m, h5::yield_stress.name))
+    body.material.yield_stress = h5::read_scalar(m, h5::yield_stress, where);
+  body.material.hardening_modulus = h5::read_scalar(m, h5::hardening_modulus, where);
+
+  const h5::Handle c = h5::open_group(group, h5::curve, where);
+  Table table;
+  table.s_end = h5::read_scalar(c, h5::s_end, where);
+  table.onset = h5::has_link(c, h5::onset.name) ? h5::read_scalar(c, h5::onset, where)
+                                                : std::numeric_limits<double>::infinity();
+  for (const CurveField& f : curve_fields) table.*f.values = h5::read_vector(c, f.field, most_nodes, where);
+  body.curve = ContactCurve(table, where);
+
+  const h5::Handle k = h5::open_group(group, h5::certificate, where);
+  for (const CertificateField& f : certificate_fields)
+    body.certificate.*f.value = h5::read_scalar(k, f.field, where);
+  body.certificate.support = h5::read_text_attribute(k, h5::support, where);
+
+  check_body(body, where);
+  return body;
+}
+
+void write_body(hid_t group, const BodyLaw& body, const std::string& path)
+{
+  const h5::Handle m = h5::create_group(group, h5::material, path);
+  h5::write_scalar(m, h5::density, body.material.density, path);
+  h5::write_scalar(m, h5::youngs_modulus, body.material.youngs_modulus, path);
+  h5::write_scalar(m, h5::poisson_ratio, body.material.poisson_ratio, path);
+  if (body.material.yields()) h5::write_scalar(m, h5::yield_stress, body.material.yield_stress, path);
+  h5::write_scalar(m, h5::hardening_modulus, body.material.hardening_modulus, path);
+
+  const Table& table = body.curve.table();
+  const h5::Handle c = h5::create_group(group, h5::curve, path);
+  h5::write_scalar(c, h5::s_end, table.s_end, path);
+  if (std::isfinite(table.onset)) h5::write_scalar(c, h5::onset, table.onset, path);
+  for (const CurveField& f : curve_fields) h5::write_vector(c, f.field, table.*f.values, path);
+
+  const h5::Handle k = h5::create_group(group, h5::certificate, path);
+  for (const CertificateField& f : certificate_fields)
+    h5::write_scalar(k, f.field, body.certificate.*f.value, path);
+  h5::write_text_attribute(k, h5::support, body.certificate.support, path);
+}
+
+/// Refuses what is not a law file of this major version, each case with its own sentence.
+h5::Handle open_law(const std::string& path)
+{
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) fail(path, "no such file");
+  if (!std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path).good())
+    fail(path, "cannot be read as a file");
+  if (H5Fis_hdf5(path.c_str()) <= 0) fail(path, "is not an HDF5 file, so not a contact law (or it was cut off)");
+  h5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (!file.ok()) fail(path, "is damaged or cut off: build it again with `mpm table`");
+  if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != h5::format_value)
+    fail(path, "is an HDF5 file but not a contact law of granulaw");
+  const int major = h5::read_int_attribute(file, h5::version_major, path);
+  if (major != h5::major)
+    fail(path, "the law file's major version is not the one this program reads", std::to_string(major),
+         std::to_string(h5::major));
+  return file;
+}
+
+}  // namespace
+
+Law read_law(const std::string& path)
+{
+  const h5::Silence silence;
+  const h5::Handle file = open_law(path);
+  Law law;
+
+  const h5::Handle bodies = h5::open_group(file, h5::bodies, path);
+  for (const std::string& name : h5::link_names(bodies, most_bodies, path)) {
+    check_name(name, path);
+    law.bodies.emplace(name, read_body(h5::open_group(bodies, name.c_str(), path), name, path));
+  }
+
+  for (const std::string& pair : h5::read_texts(file, h5::pairs, most_pairs, path)) {
+    const auto colon = pair.find(':');
+    if (colon == std::string::npos) fail(path, "unusable pair", fmt::format("'{}'", pair), "a:b or a:wall");
+    law.pairs.emplace_back(pair.substr(0, colon), pair.substr(colon + 1));
+  }
+
+  const h5::Handle notes = h5::open_group(file, h5::provenance, path);
+  for (const std::string& name : h5::attribute_names(notes, most_notes, path))
+    law.provenance[name] = h5::read_text_attribute(notes, name.c_str(), path);
+
+  check_pairs(law, path);
+  return law;
+}
+
+void write_law(const Law& law, const std::string& path)
+{
+  check_pairs(law, path);
+  for (const auto& [name, body] : law.bodies) {
+    check_name(name, path);
+    check_body(body, fmt::format("{}, material '{}'", path, name));
+  }
+
+  const h5::Silence silence;
+  const std::string temporary = fmt::format("{}.tmp.{}", path, getpid());
+  try {
+    h5::Handle file(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+    if (!file.ok()) fail(path, "cannot write here (no such folder, or no permission)");
+    h5::write_text_attribute(file, h5::format, h5::format_value, path);
+    h5::write_int_attribute(file, h5::version_major, h5::major, path);
+    h5::write_int_attribute(file, h5::version_minor, h5::minor, path);
+
+    const h5::Handle notes = h5::create_group(file, h5::provenance, path);
+    for (const auto& [name, text] : law.provenance) h5::write_text_attribute(notes, name.c_str(), text, path);
+
+    std::vector<std::string> pairs;
+    for (const auto& [a, b] : law.pairs) pairs.push_back(a + ":" + b);
+    h5::write_texts(file, h5::pairs, pairs, path);
+
+    const h5::Handle bodies = h5::create_group(file, h5::bodies, path);
+    for (const auto& [name, body] : law.bodies)
+      write_body(h5::create_group(bodies, name.c_str(), path), body, path);
+
+    if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
+  } catch (...) {
+    std::remove(temporary.c_str());
+    throw;
+  }
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+    std::remove(temporary.c_str());
+    fail(path, "cannot write here");
+  }
+}
+
+}  // namespace granulaw

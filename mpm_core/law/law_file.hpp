@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "law/law.hpp"
+
+namespace granulaw {
+
+/// Reads a law file (HDF5; layout in docs/law-format.md, every name in h5_names.hpp). Any file that is not a
+/// whole, sane law of this major version gives one sentence as Error; never a crash or a large allocation.
+Law read_law(const std::string& path);
+
+/// Writes to PATH.tmp.<pid> and renames: a reader sees the old file or the new one, never a part.
+void write_law(const Law& law, const std::string& path);
+
+}  // namespace granulaw

@@ -1,0 +1,58 @@
+#include "law/replay.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+
+Replay replay_collision(const NormalForce& law, double effective_mass, double velocity,
+                        double duration_guess, int steps_per_contact)
+{
+  if (!(velocity > 0 && effective_mass > 0 && duration_guess > 0 && steps_per_contact > 0))
+    fail("replay", "velocity, mass, duration and steps must be positive");
+  Replay result;
+  const double dt = duration_guess / steps_per_contact;
+  double time = 0, delta = 0, delta_max = 0, v = velocity;
+  ContactForce now{};
+  const auto longest = static_cast<long>(steps_per_contact) * 100;
+  for (long step = 0; step < longest; ++step) {
+    result.samples.push_back({time, delta, now.force, now.contact_radius, v < 0});
+    v -= 0.5 * dt * now.force / effective_mass;
+    const double before = delta, force_before = now.force;
+    delta += dt * v;
+    if (delta <= 0) now = {};
+    else now = law(delta, delta_max);
+    delta_max = std::max(delta, delta_max);
+    v -= 0.5 * dt * now.force / effective_mass;
+    time += dt;
+    const double work = 0.5 * (force_before + now.force) * (delta - before);
+    (work > 0 ? result.work_load : result.work_unload) += std::abs(work);
+    result.force_max = std::max(result.force_max, now.force);
+    if (v < 0 && now.force <= 0) {
+      result.restitution = -v / velocity;
+      result.delta_max = delta_max;
+      result.delta_residual = std::max(0.0, delta);
+      result.contact_time = time;
+      result.samples.push_back({time, delta, 0.0, 0.0, true});
+      return result;
+    }
+  }
+  fail("replay", "the collision did not end within a hundred times the expected contact time");
+}
+
+Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
+                        int steps_per_contact)
+{
+  // Hertz's contact time 2.87 (m*^2/(E*^2 R* V))^(1/5): at most a few times too short for a plastic contact.
+  const double e_star = pair.mapping.e_star_pair();
+  const double duration =
+      2.87 * std::pow(effective_mass * effective_mass / (e_star * e_star * r_eff * velocity), 0.2);
+  Replay result = replay_collision(
+      [&](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); },
+      effective_mass, velocity, duration, steps_per_contact);
+  result.left_range = result.delta_max > pair.max_overlap(r_eff);
+  return result;
+}
+
+}  // namespace granulaw

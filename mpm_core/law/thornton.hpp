@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/pair.hpp"
+
+namespace granulaw {
+
+/// Thornton's elastic-perfectly-plastic contact in closed form: the baseline.
+/// C. Thornton, "Coefficient of restitution for collinear collisions of elastic-perfectly plastic spheres",
+/// J. Appl. Mech. 64 (1997) 383. State: the largest overlap since first touch, as for ContactCurve.
+///
+///   loading below yield  F = 4/3 E* sqrt(R*) d^1.5
+///   loading beyond       F = F_y + pi p_y R* (d - d_y)
+///   unloading, reloading F = 4/3 E* sqrt(R_p) (d - d_p)^1.5,
+///                        R_p = (4 E*/(3 F_m)) ((2 F_m + F_y)/(2 pi p_y))^1.5
+struct ThorntonPair
+{
+  double e_star;          ///< Pa, of the pair: 1/E* = 1/E*_i + 1/E*_j (one body's own where the partner is rigid)
+  double yield_pressure;  ///< Pa, p_y = 1.6 Y of the weaker body (eq. 9 with the customary factor); infinity: elastic
+
+  /// d_y = (pi p_y/(2 E*))^2 R*, m.
+  double yield_overlap(double r_eff) const
+  {
+    const double q = M_PI * yield_pressure / (2.0 * e_star);
+    return q * q * r_eff;
+  }
+
+  /// Force and stiffness at overlap `delta` (m, > 0); see ContactForce for units. No allocation, no exceptions.
+  ContactForce evaluate(double r_eff, double delta, double delta_max) const
+  {
+    const double hertz = 4.0 / 3.0 * e_star;
+    const double root = std::sqrt(r_eff * delta);
+    const double d_y = yield_overlap(r_eff);
+    const double reached = std::max(delta, delta_max);
+    if (reached <= d_y) return {hertz * root * delta, 2.0 * e_star * root, root, reached};
+    const double f_y = hertz * std::sqrt(r_eff * d_y) * d_y;
+    const double k_p = M_PI * yield_pressure * r_eff;
+    if (delta >= delta_max) {
+      const double force = f_y + k_p * (delta - d_y);
+      // a from F = F_y + pi p_y (a^2 - a_y^2): pressure capped at p_y over the yielded disc (eq. 14 to 16)
+      return {force, k_p, root, delta};
+    }
+    const double f_m = f_y + k_p * (delta_max - d_y);
+    const double radius = hertz / f_m * std::pow((2.0 * f_m + f_y) / (2.0 * M_PI * yield_pressure), 1.5);
+    const double elastic = std::cbrt(f_m * f_m / (hertz * hertz * radius));  // delta_max - d_p
+    const double depth = delta - (delta_max - elastic);
+    if (depth <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+    const double a = std::sqrt(radius * depth);
+    return {hertz * a * depth, 2.0 * e_star * a, a, delta_max};
+  }
+};
+
+/// Thornton's closed form e(V/V_y) (his eq. 41, with x = V_y/V <= 1): 1 below the yield velocity.
+inline double thornton_restitution(double v_over_vy)
+{
+  if (v_over_vy <= 1.0) return 1.0;
+  const double x = 1.0 / v_over_vy, x2 = x * x;
+  return std::sqrt(6.0 * std::sqrt(3.0) / 5.0) * std::sqrt(1.0 - x2 / 6.0) *
+         std::pow(x / (x + 2.0 * std::sqrt(1.2 - 0.2 * x2)), 0.25);
+}
+
+}  // namespace granulaw
