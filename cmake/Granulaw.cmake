@@ -1,0 +1,23 @@
+# granulaw_target(NAME): the house's compile options for one target, and nothing global.
+function(granulaw_target name)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wshadow -Wno-unknown-pragmas)
+  if(GRANULAW_SANITIZE)
+    target_compile_options(${name} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${name} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# The commit that is compiled in and written into every output file.
+find_package(Git QUIET)
+set(GRANULAW_GIT_HASH "unknown")
+if(GIT_FOUND)
+  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --dirty --abbrev=12
+                  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                  OUTPUT_VARIABLE GRANULAW_GIT_HASH OUTPUT_STRIP_TRAILING_WHITESPACE
+                  ERROR_QUIET RESULT_VARIABLE granulaw_git_result)
+  if(NOT granulaw_git_result EQUAL 0)
+    set(GRANULAW_GIT_HASH "unknown")
+  endif()
+endif()

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace granulaw {
+
+/// What a user did or gave that cannot be used: one sentence, no stack trace.
+/// Errors of the programmer are assertions, not this.
+class Error : public std::runtime_error
+{
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws Error "WHERE: WHAT: found FOUND, allowed is ALLOWED". Empty parts are left out.
+/// WHERE is a file and line, a key or an option; it always leads.
+[[noreturn]] void fail(std::string_view where, std::string_view what, std::string_view found = {},
+                       std::string_view allowed = {});
+
+/// The candidate with the smallest edit distance to `word`, or "" where none is near
+/// (distance over half of the word's length).
+std::string nearest(std::string_view word, std::span<const std::string> candidates);
+
+/// " (did you mean 'X'?)" or "".
+std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace granulaw

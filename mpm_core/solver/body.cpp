@@ -1,0 +1,140 @@
+#include "solver/body.hpp"
+
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr std::array<double, 4> corner_x{-1, 1, 1, -1}, corner_y{-1, -1, 1, 1}, hourglass_sign{1, -1, 1, -1};
+
+/// Exact integrals over one bilinear axisymmetric cell: 2 x 2 Gauss points.
+struct CellIntegrals
+{
+  double volume = 0, area = 0;
+  std::array<double, 4> mass{}, br{}, bz{}, bh{}, area_br{}, area_bz{};
+};
+
+CellIntegrals integrate(const std::array<MappedGrid::Node, 4>& x)
+{
+  CellIntegrals c;
+  const double g = 1 / std::sqrt(3.0);
+  for (const double xi : {-g, g})
+    for (const double eta : {-g, g}) {
+      std::array<double, 4> n, dx, dy;
+      double rx = 0, ry = 0, zx = 0, zy = 0, r = 0;
+      for (int k = 0; k < 4; ++k) {
+        n[k] = 0.25 * (1 + xi * corner_x[k]) * (1 + eta * corner_y[k]);
+        dx[k] = 0.25 * corner_x[k] * (1 + eta * corner_y[k]);
+        dy[k] = 0.25 * corner_y[k] * (1 + xi * corner_x[k]);
+        r += n[k] * x[k].r;
+        rx += dx[k] * x[k].r, ry += dy[k] * x[k].r;
+        zx += dx[k] * x[k].z, zy += dy[k] * x[k].z;
+      }
+      const double det = rx * zy - ry * zx;
+      if (!(det > 0)) fail("reference grid", "a cell is folded; use a smaller block or more cells");
+      c.area += det;
+      c.volume += 2 * M_PI * r * det;
+      for (int k = 0; k < 4; ++k) {
+        const double nr = dx[k] * zy - dy[k] * zx, nz = dy[k] * rx - dx[k] * ry;  // gradient times det
+        c.mass[k] += 2 * M_PI * r * det * n[k];
+        c.br[k] += 2 * M_PI * r * nr, c.bz[k] += 2 * M_PI * r * nz, c.bh[k] += 2 * M_PI * det * n[k];
+        c.area_br[k] += nr, c.area_bz[k] += nz;
+      }
+    }
+  for (int k = 0; k < 4; ++k) {
+    c.br[k] /= c.volume, c.bz[k] /= c.volume, c.bh[k] /= c.volume;
+    c.area_br[k] /= c.area, c.area_bz[k] /= c.area;
+  }
+  return c;
+}
+
+}  // namespace
+
+Body Body::build(const MappedGrid& grid, const Moduli& moduli, double hourglass_coefficient)
+{
+  Body b;
+  b.moduli = moduli;
+  b.nodes = static_cast<int>(grid.nodes.size());
+  b.points = static_cast<int>(grid.cells.size());
+  b.surface = grid.surface, b.axis = grid.axis, b.equator = grid.equator;
+  const auto nodal = [&] { return std::vector<double>(b.nodes, 0.0); };
+  const auto pointwise = [&] { return std::vector<double>(b.points, 0.0); };
+  const auto cornerwise = [&] { return std::vector<double>(4 * std::size_t(b.points), 0.0); };
+  b.r_i = nodal(), b.z_i = nodal(), b.mass_i = nodal(), b.inverse_mass_i = nodal();
+  b.ur_i = nodal(), b.uz_i = nodal(), b.vr_i = nodal(), b.vz_i = nodal(), b.fr_i = nodal(), b.fz_i = nodal();
+  b.br_p = cornerwise(), b.bz_p = cornerwise(), b.bh_p = cornerwise(), b.hourglass_p = cornerwise();
+  b.corner_p.resize(4 * std::size_t(b.points));
+  b.volume_p = pointwise(), b.stiffness_p = pointwise();
+  b.crr_p = pointwise(), b.czz_p = pointwise(), b.crz_p = pointwise(), b.chh_p = pointwise();
+  b.plastic_strain_p = pointwise(), b.plastic_work_p = pointwise(), b.elastic_energy_p = pointwise();
+  b.corner_fr.assign(4 * std::size_t(b.points) + 1, 0.0), b.corner_fz = b.corner_fr;
+
+  for (int i = 0; i < b.nodes; ++i) b.r_i[i] = grid.nodes[i].r, b.z_i[i] = grid.nodes[i].z;
+
+  const int zero_slot = 4 * b.points;
+  b.node_slots.assign(4 * std::size_t(b.nodes), zero_slot);
+  std::vector<int> used(b.nodes, 0);
+  for (int p = 0; p < b.points; ++p) {
+    std::array<MappedGrid::Node, 4> x;
+    for (int k = 0; k < 4; ++k) x[k] = grid.nodes[grid.cells[p][k]];
+    const CellIntegrals c = integrate(x);
+    double h_r = 0, h_z = 0, gradient = 0;
+    for (int k = 0; k < 4; ++k) {
+      h_r += hourglass_sign[k] * x[k].r, h_z += hourglass_sign[k] * x[k].z;
+      gradient += c.br[k] * c.br[k] + c.bz[k] * c.bz[k];
+    }
+    b.volume_p[p] = c.volume;
+    // hourglass_coefficient = 1 comes near the stiffness of full integration (see docs/method.md)
+    b.stiffness_p[p] = hourglass_coefficient * 0.25 * moduli.shear * c.volume * gradient;
+    for (int k = 0; k < 4; ++k) {
+      const int at = k * b.points + p, node = grid.cells[p][k];
+      b.corner_p[at] = node;
+      b.br_p[at] = c.br[k], b.bz_p[at] = c.bz[k], b.bh_p[at] = c.bh[k];
+      b.hourglass_p[at] = hourglass_sign[k] - h_r * c.area_br[k] - h_z * c.area_bz[k];
+      b.mass_i[node] += c.mass[k];
+      b.node_slots[used[node]++ * b.nodes + node] = at;
+    }
+  }
+  // The chords of the surface cells cut a little volume off: keep the sphere's mass exact (half: half of it).
+  const double meshed = std::accumulate(b.mass_i.begin(), b.mass_i.end(), 0.0);
+  double top = 0;
+  for (const double z : b.z_i) top = std::max(top, z);
+  const double exact = (top > 1.5 ? 4.0 : 2.0) / 3.0 * M_PI;
+  for (int i = 0; i < b.nodes; ++i) {
+    b.mass_i[i] *= exact / meshed;
+    b.inverse_mass_i[i] = 1 / b.mass_i[i];
+  }
+  b.mass = exact;
+  return b;
+}
+
+double Body::kinetic_energy() const
+{
+  double sum = 0;
+  for (int i = 0; i < nodes; ++i) sum += 0.5 * mass_i[i] * (vr_i[i] * vr_i[i] + vz_i[i] * vz_i[i]);
+  return sum;
+}
+
+double Body::strain_energy() const
+{
+  return std::accumulate(elastic_energy_p.begin(), elastic_energy_p.end(), 0.0);
+}
+
+double Body::plastic_work() const
+{
+  return std::accumulate(plastic_work_p.begin(), plastic_work_p.end(), 0.0);
+}
+
+double Body::mean_velocity() const
+{
+  double momentum = 0;
+  for (int i = 0; i < nodes; ++i) momentum += mass_i[i] * vz_i[i];
+  return momentum / mass;
+}
+
+}  // namespace granulaw

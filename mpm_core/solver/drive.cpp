@@ -1,0 +1,139 @@
+#include "solver/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granulaw {
+
+namespace {
+
+double mean_displacement(const Body& body)
+{
+  double moment = 0;
+  for (int i = 0; i < body.nodes; ++i) moment += body.mass_i[i] * body.uz_i[i];
+  return moment / body.mass;
+}
+
+double smooth_step(double t)
+{
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// Time without contact after which a body counts as having left: a few crossings of the contact zone would do;
+/// a surface vibration can close the contact again within about one crossing of the sphere (2 R/c).
+constexpr double leaving_time = 2.0;
+
+}  // namespace
+
+void ImpactDrive::apply(Body& body, double time, double dt, bool touching)
+{
+  time_ = time + dt;
+  if (touching) last_touch_ = time_;
+  if (body.mean_velocity() > 0) rebounding_ = true;
+  finished_ = rebounding_ && time_ - last_touch_ > leaving_time;
+}
+
+double ImpactDrive::progress() const { return std::min(1.0, time_ / expected_); }
+
+double ImpactDrive::overlap(const Body& body) const { return -mean_displacement(body); }
+
+void PressDrive::start_loading(double time, double overlap)
+{
+  phase_ = Phase::load;
+  start_ = time;
+  from_ = overlap;
+  // Reloading covers a short way: give it the time an unloading gets, plus its share of virgin loading.
+  const double depth = plan_.stops.back(), stop = plan_.stops[stop_];
+  const double share = (stop - std::max(0.0, deepest_)) / depth;
+  duration_ = deepest_ > 0 ? plan_.unload_ramp + plan_.ramp * share : plan_.ramp * std::sqrt(stop / depth);
+  reached_new_depth_ = deepest_ == 0;
+}
+
+void PressDrive::start_unloading(double time)
+{
+  phase_ = Phase::unload;
+  ++segment_;
+  start_ = last_touch_ = time;
+  // Elastic spring-back of a contact of radius a: between F/(2 E* a) (flat punch) and 1.5 times that (Hertz).
+  speed_ = 1.5 * force_ / (2 * e_star_ * std::max(radius_, 1e-6)) / plan_.unload_ramp;
+}
+
+double PressDrive::target_velocity(double time) const
+{
+  const double t = time - start_;
+  switch (phase_) {
+    case Phase::load: {
+      const double way = plan_.stops[stop_] - from_;
+      return way * M_PI / (2 * duration_) * std::sin(M_PI * std::clamp(t / duration_, 0.0, 1.0));
+    }
+    case Phase::unload: return -speed_ * smooth_step(t / (0.4 * plan_.unload_ramp));
+    case Phase::stop: return -speed_ * (1 - smooth_step(t / (0.2 * plan_.unload_ramp)));
+  }
+  return 0;
+}
+
+void PressDrive::apply(Body& body, double time, double dt, bool touching)
+{
+  if (touching) last_touch_ = time + dt;
+  const double velocity = -target_velocity(time + 0.5 * dt);  // overlap grows as the body moves down
+  if (plan_.support == Support::free) {
+    const double shift = velocity - body.mean_velocity();
+    for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += shift;
+    work_ += body.mass * shift * velocity - 0.5 * body.mass * shift * shift;
+  } else {
+    for (const int i : body.equator) {
+      const double shift = velocity - body.vz_i[i];
+      work_ += body.mass_i[i] * (shift * velocity - 0.5 * shift * shift);
+      body.vz_i[i] = velocity;
+    }
+  }
+
+  const double now = time + dt, depth = overlap(body);
+  switch (phase_) {
+    case Phase::load:
+      if (!reached_new_depth_ && depth > deepest_) {
+        reached_new_depth_ = true;
+        ++segment_;
+      }
+      if (now - start_ >= duration_) {
+        deepest_ = std::max(deepest_, depth);
+        start_unloading(now);
+      }
+      break;
+    case Phase::unload:
+      // Gone for long enough; or, where the force ended at once (elastic at nearly no load), after two ramps.
+      if (now - last_touch_ > leaving_time || depth < -0.5 * deepest_) {
+        if (stop_ + 1 == plan_.stops.size()) finished_ = true;
+        phase_ = Phase::stop;
+        start_ = now;
+      }
+      break;
+    case Phase::stop:
+      if (now - start_ >= 0.2 * plan_.unload_ramp && !finished_) {
+        ++stop_;
+        ++segment_;
+        start_loading(now, depth);
+      }
+      break;
+  }
+}
+
+Branch PressDrive::branch() const
+{
+  if (phase_ != Phase::load) return Branch::unload;
+  return reached_new_depth_ ? Branch::load : Branch::reload;
+}
+
+double PressDrive::progress() const
+{
+  const double stops = static_cast<double>(plan_.stops.size());
+  return std::min(1.0, (static_cast<double>(stop_) + (phase_ == Phase::load ? 0.3 : 0.7)) / stops);
+}
+
+double PressDrive::overlap(const Body& body) const
+{
+  return plan_.support == Support::free ? -mean_displacement(body) : -body.uz_i[body.equator.front()];
+}
+
+}  // namespace granulaw

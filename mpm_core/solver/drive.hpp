@@ -1,0 +1,86 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/body.hpp"
+#include "solver/runs.hpp"
+
+namespace granulaw {
+
+/// What moves the body: sets velocities after the contact impulse of a step (before it, the reported overlap
+/// would drift by the integral of F dt^2/m) and knows when the run is over. Solver units.
+class Drive
+{
+ public:
+  virtual ~Drive() = default;
+  /// Velocities for the step from `time` to `time + dt`; `touching`: the plane pushed in this step.
+  virtual void apply(Body& body, double time, double dt, bool touching) = 0;
+  virtual bool finished() const = 0;
+  virtual Branch branch() const = 0;
+  virtual int segment() const = 0;
+  /// 0..1
+  virtual double progress() const = 0;
+  /// Overlap: displacement towards the plane of what the drive calls the body's position.
+  virtual double overlap(const Body& body) const = 0;
+  /// Work done on the body by the drive so far (impact: none).
+  virtual double work() const { return 0; }
+};
+
+/// A free sphere; over when it has left the plane for good.
+class ImpactDrive : public Drive
+{
+ public:
+  ImpactDrive(double velocity, double expected_duration) : velocity_(velocity), expected_(expected_duration) {}
+  void apply(Body& body, double time, double dt, bool touching) override;
+  bool finished() const override { return finished_; }
+  Branch branch() const override { return rebounding_ ? Branch::unload : Branch::load; }
+  int segment() const override { return rebounding_ ? 1 : 0; }
+  double progress() const override;
+  double overlap(const Body& body) const override;
+
+ private:
+  double velocity_, expected_, last_touch_ = 0, time_ = 0;
+  bool rebounding_ = false, finished_ = false;
+};
+
+/// A body pressed along smooth ramps: overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at
+/// first touch); unloading at a speed that grows smoothly to a constant until the force has ended.
+class PressDrive : public Drive
+{
+ public:
+  struct Plan
+  {
+    std::vector<double> stops;  ///< ascending overlaps; after each the body is unloaded; the last is the depth
+    double ramp;                ///< duration of loading from 0 to depth
+    double unload_ramp;         ///< duration of an unloading, about
+    Support support;
+  };
+  PressDrive(const Plan& plan, double e_star_contact) : plan_(plan), e_star_(e_star_contact) { start_loading(0, 0); }
+  void apply(Body& body, double time, double dt, bool touching) override;
+  bool finished() const override { return finished_; }
+  Branch branch() const override;
+  int segment() const override { return segment_; }
+  double progress() const override;
+  double overlap(const Body& body) const override;
+  double work() const override { return work_; }
+  /// Mean force and contact radius of the last sample: sets the speed of the next unloading.
+  void observe(double force, double contact_radius) { force_ = force, radius_ = contact_radius; }
+
+ private:
+  enum class Phase { load, unload, stop };
+  void start_loading(double time, double overlap);
+  void start_unloading(double time);
+  double target_velocity(double time) const;
+
+  Plan plan_;
+  double e_star_;
+  Phase phase_ = Phase::load;
+  std::size_t stop_ = 0;
+  int segment_ = 0;
+  double start_ = 0, from_ = 0, duration_ = 1, speed_ = 0;
+  double last_touch_ = 0, force_ = 0, radius_ = 1, work_ = 0;
+  bool reached_new_depth_ = false, finished_ = false;
+  double deepest_ = 0;
+};
+
+}  // namespace granulaw

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "solver/body.hpp"
+
+namespace granulaw {
+
+/// Instruction sets the kernels are compiled for; the fastest one this processor has is taken at run time
+/// (environment GRANULAW_ISA = generic | avx2 | avx512 overrides). Results differ between sets in the last
+/// bits only (fused multiply-add).
+struct Kernels
+{
+  const char* name;
+
+  /// Stress at every material point from the nodal displacements, plastic state updated, and the internal
+  /// nodal forces fr_i, fz_i (force on the node = minus the stress divergence). If `frozen`, the plastic state
+  /// is left as it is and the response is elastic about it (power iteration).
+  void (*internal_force)(Body& body, bool frozen);
+
+  /// v_i += dt f_i / m_i
+  void (*accelerate)(Body& body, double dt);
+
+  /// u_i += dt v_i
+  void (*move)(Body& body, double dt);
+};
+
+const Kernels& kernels();
+
+namespace isa_generic { extern const Kernels kernels; }
+namespace isa_avx2 { extern const Kernels kernels; }
+namespace isa_avx512 { extern const Kernels kernels; }
+
+}  // namespace granulaw

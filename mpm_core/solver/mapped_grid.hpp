@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace granulaw {
+
+/// The reference grid fitted to a sphere of radius 1 that touches the plane z = 0 at the origin.
+///
+/// A conformal map carries the half disc (the meridian section, r >= 0) to the quarter plane
+///     zeta = (1 - w)/(1 + w),    w the disc coordinate, contact pole at w = 1, i.e. zeta = 0,
+/// where |zeta| = 1 is the mid-plane and the surface is the imaginary axis. In that plane the grid is a
+/// rounded square of N x N cells about the contact pole ("block") and rings of 2 N cells around it whose
+/// spacing grows in proportion to the distance from the pole: the far field is almost free.
+/// Beyond the mid-plane (full sphere) coarser rings and a large block close the far side.
+///
+///        ___
+///      /     \        far block, coarse
+///     |-------|       |zeta| = 1
+///      \  _  /        rings
+///       \[#]/         block, N x N
+///     ----+----  plane
+struct MappedGrid
+{
+  struct Node { double r, z; };
+  std::vector<Node> nodes;
+  std::vector<std::array<int, 4>> cells;  ///< corner nodes, counter-clockwise in (r, z)
+  std::vector<int> surface;               ///< nodes on the lower half's surface, from the pole outwards
+  std::vector<int> axis;                  ///< nodes with r = 0
+  std::vector<int> equator;               ///< nodes of the mid-plane; driven under midplane support
+
+  /// `cells_across` N >= 4; `block` = radius the block covers on the surface, in units of R, up to 0.9;
+  /// `full` = whole sphere, else the lower half up to the mid-plane.
+  static MappedGrid build(int cells_across, double block, bool full);
+};
+
+}  // namespace granulaw

@@ -1,0 +1,65 @@
+#include "solver/ripple.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace granulaw {
+
+TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
+{
+  double deepest = 0;
+  for (const TraceSample& s : trace)
+    if (s.branch == Branch::load) deepest = std::max(deepest, s.delta);
+  std::vector<const TraceSample*> used;
+  for (const TraceSample& s : trace)
+    if (s.branch == Branch::load && s.delta >= from * deepest && s.force > 0) used.push_back(&s);
+  if (used.size() < 12) return;
+  from_ = from * deepest;
+  const double low = std::log(from_), high = std::log(deepest);
+  centre_ = 0.5 * (low + high), half_ = 0.5 * (high - low);
+
+  // Relative ripple falls like (h/a)^1.65, a^2 ~ delta: weight of a residual in ln F ~ delta^0.8. Samples stand
+  // at equal times; what counts is equal steps of ln delta: weight by the step as well.
+  const int degree = used.size() > 60 ? 5 : 3;
+  const auto rows = static_cast<Eigen::Index>(used.size());
+  Eigen::MatrixXd a(rows, degree + 1);
+  Eigen::VectorXd b(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const TraceSample& s = *used[static_cast<std::size_t>(k)];
+    const double before = std::log(used[static_cast<std::size_t>(std::max<Eigen::Index>(k - 1, 0))]->delta);
+    const double after = std::log(used[static_cast<std::size_t>(std::min(k + 1, rows - 1))]->delta);
+    const double weight = std::pow(s.delta / deepest, 0.8) * std::sqrt(std::max(1e-6, after - before));
+    const double t = (std::log(s.delta) - centre_) / half_;
+    for (int j = 0; j <= degree; ++j)
+      a(k, j) = weight * (j == 0 ? 1 : j == 1 ? t : 2 * t * a(k, j - 1) / weight - a(k, j - 2) / weight);
+    b(k) = weight * std::log(s.force);
+  }
+  const Eigen::VectorXd x = a.colPivHouseholderQr().solve(b);
+  coefficients_.assign(x.data(), x.data() + x.size());
+
+  double sum = 0;
+  int count = 0;
+  for (const TraceSample* s : used)
+    if (s->delta >= 0.25 * deepest) {
+      const double ratio = s->force / force(s->delta) - 1;
+      sum += ratio * ratio;
+      ++count;
+    }
+  ripple_ = count ? std::sqrt(sum / count) : 0;
+}
+
+double TreatedLoading::force(double delta) const
+{
+  const double t = (std::log(delta) - centre_) / half_;
+  // Clenshaw
+  double b1 = 0, b2 = 0;
+  for (std::size_t j = coefficients_.size(); j-- > 1;) {
+    const double b0 = coefficients_[j] + 2 * t * b1 - b2;
+    b2 = b1;
+    b1 = b0;
+  }
+  return std::exp(coefficients_[0] + t * b1 - b2);
+}
+
+}  // namespace granulaw

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/trace.hpp"
+
+namespace granulaw {
+
+/// Treatment of the contact-edge ripple.
+///
+/// The contact radius of a grid grows by whole cells; the force swings about its mean by 0.5 % (elastic) to 3 %
+/// (plastic). The treated loading force is a weighted least-squares polynomial of ln F in ln delta through the
+/// virgin loading samples: it cannot follow the ripple (several periods over the range) but follows the law.
+class TreatedLoading
+{
+ public:
+  TreatedLoading() = default;
+  /// Fits the load branch of `trace` between `from` times the largest delta and the largest delta.
+  /// With fewer than 12 usable samples nothing is fitted and valid() is false.
+  explicit TreatedLoading(std::span<const TraceSample> trace, double from = 0.03);
+
+  bool valid() const { return !coefficients_.empty(); }
+  /// Treated force at overlap delta (same units as the trace); meaningful within the fitted range.
+  double force(double delta) const;
+  double from() const { return from_; }
+  /// rms of raw/treated - 1 over 0.25 to 1 of the largest delta.
+  double ripple() const { return ripple_; }
+
+ private:
+  std::vector<double> coefficients_;
+  double from_ = 0, centre_ = 0, half_ = 1, ripple_ = 0;
+};
+
+}  // namespace granulaw

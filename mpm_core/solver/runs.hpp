@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solver/material.hpp"
+#include "solver/trace.hpp"
+
+namespace granulaw {
+
+/// How the pressed body is held.
+enum class Support {
+  free,     ///< the whole sphere, its centre of mass driven by a uniform body force: as in a collision
+  midplane  ///< half a sphere whose equator plane is driven: as finite-element references do
+};
+
+struct RunOptions
+{
+  int resolution = 0;        ///< cells across the contact block; 0: the default of the run
+  double courant = 0.85;     ///< time step over the stability limit, 0.1 to 1
+  int samples = 800;         ///< trace length aimed at
+  bool estimate_error = false;  ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
+  std::function<void(double fraction)> progress;  ///< called now and then with 0..1; may throw to stop the run
+};
+
+/// A sphere thrown at a rigid, frictionless plane with `velocity` (m/s, > 0); runs until it has left it.
+RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& options = {});
+
+struct PressPlan
+{
+  double depth = 0;                ///< m, deepest overlap
+  Support support = Support::free;
+  std::vector<double> partial_unloads;  ///< m, ascending overlaps < depth at which the press unloads until the
+                                        ///< force ends, then reloads; each makes an unload and a reload segment
+  double ramp = 0;                 ///< loading time in R/c*; 0: the default of the run
+};
+
+/// A sphere pressed slowly onto a rigid, frictionless plane to plan.depth and taken off completely.
+RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOptions& options = {});
+
+}  // namespace granulaw
