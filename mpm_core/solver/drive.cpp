@@ -80,13 +80,18 @@ void PressDrive::apply(Body& body, double time, double dt, bool touching)
   if (plan_.support == Support::free) {
     const double shift = velocity - body.mean_velocity();
     for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += shift;
-    work_ += body.mass * shift * velocity - 0.5 * body.mass * shift * shift;
+    work_ += body.mass * shift * velocity;
   } else {
+    // A uniform body force carries the bulk along with the equator: without it the accelerating equator would
+    // have to push the half sphere's mass through the body, and the force would lag behind the overlap.
+    const double gain = velocity - velocity_;
+    work_ += gain * body.mass * body.mean_velocity();
+    for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += gain;
     for (const int i : body.equator) {
-      const double shift = velocity - body.vz_i[i];
-      work_ += body.mass_i[i] * (shift * velocity - 0.5 * shift * shift);
+      work_ += body.mass_i[i] * (velocity - body.vz_i[i]) * velocity;
       body.vz_i[i] = velocity;
     }
+    velocity_ = velocity;
   }
 
   const double now = time + dt, depth = overlap(body);

@@ -43,7 +43,7 @@ class ImpactDrive : public Drive
   bool rebounding_ = false, finished_ = false;
 };
 
-/// A body pressed along smooth ramps: overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at
+/// A body pressed along smooth ramps by a uniform body force (free) or by its equator plane (midplane): overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at
 /// first touch); unloading at a speed that grows smoothly to a constant until the force has ended.
 class PressDrive : public Drive
 {
@@ -79,6 +79,7 @@ class PressDrive : public Drive
   int segment_ = 0;
   double start_ = 0, from_ = 0, duration_ = 1, speed_ = 0;
   double last_touch_ = 0, force_ = 0, radius_ = 1, work_ = 0;
+  double velocity_ = 0;  // of the equator in the last step
   bool reached_new_depth_ = false, finished_ = false;
   double deepest_ = 0;
 };

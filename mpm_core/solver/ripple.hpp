@@ -18,7 +18,7 @@ class TreatedLoading
   TreatedLoading() = default;
   /// Fits the load branch of `trace` between `from` times the largest delta and the largest delta.
   /// With fewer than 12 usable samples nothing is fitted and valid() is false.
-  explicit TreatedLoading(std::span<const TraceSample> trace, double from = 0.03);
+  explicit TreatedLoading(std::span<const TraceSample> trace, double from = 0.08);
 
   bool valid() const { return !coefficients_.empty(); }
   /// Treated force at overlap delta (same units as the trace); meaningful within the fitted range.
