@@ -1,0 +1,18 @@
+# liggghts_style_headers(INCLUDE_DIR OUTPUT_DIR): the style_<kind>_model.h headers that LIGGGHTS's own build
+# generates and Debian does not ship: one include for each installed <kind>_model_<name>.h but the base.
+function(liggghts_style_headers include_dir output_dir)
+  foreach(kind normal tangential cohesion rolling surface)
+    file(GLOB headers RELATIVE ${include_dir} ${include_dir}/${kind}_model_*.h)
+    list(FILTER headers EXCLUDE REGEX "_base\\.h$")
+    list(SORT headers)
+    if(NOT headers)
+      message(FATAL_ERROR "no ${kind}_model_*.h in ${include_dir}: is this LIGGGHTS 3.8.0?")
+    endif()
+    set(text "")
+    foreach(header ${headers})
+      string(APPEND text "#include \"${header}\"\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${output_dir}/style_${kind}_model.h CONTENT "${text}" @ONLY)
+  endforeach()
+  file(CONFIGURE OUTPUT ${output_dir}/style_contact_model.h CONTENT "" @ONLY)
+endfunction()

@@ -1,0 +1,106 @@
+#include "liggghts_plugin/options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace granulaw::plugin {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// Words that LIGGGHTS itself reads behind the models, each followed by on or off.
+const Words passed_on = {"tangential_damping",         "limitForce",          "computeElasticPotential",
+                         "computeDissipatedEnergy",    "heating_tracking",    "heating_tangential_history",
+                         "heating_tangential_no_history", "torsionTorque"};
+const Words model_kinds = {"model", "tangential", "cohesion", "rolling_friction", "surface"};
+/// Words of `fix wall/gran` that must stand before the model's.
+const Words wall_words = {"primitive", "mesh", "n_meshes", "meshes", "shear", "store_force", "store_force_contact",
+                          "store_force_contact_every", "store_force_contact_stress", "temperature", "contact_area",
+                          "track_energy", "allow_special_domain_periodic"};
+
+bool contains(const Words& words, const std::string& word)
+{
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+Words own_words(Model model, bool is_wall)
+{
+  Words words = {"tangentialDampingRatio"};
+  if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
+  words.push_back(is_wall ? "wall" : "stats");
+  return words;
+}
+
+double number(const std::string& text, const std::string& where, const std::string& key)
+{
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end || !std::isfinite(value))
+    fail(where, fmt::format("'{}' needs a number", key), fmt::format("'{}'", text));
+  return value;
+}
+
+bool choice(const std::string& text, const char* yes, const char* no, const std::string& where, const std::string& key)
+{
+  if (text == yes) return true;
+  if (text == no) return false;
+  fail(where, fmt::format("'{}' has an unknown value", key), fmt::format("'{}'", text), fmt::format("{}, {}", yes, no));
+}
+
+}  // namespace
+
+const char* model_name(Model model) { return model == Model::mpm ? "mpm" : "thornton"; }
+
+Options parse_options(Model model, bool is_wall, const std::string& where, const Words& words, Words& rest)
+{
+  const Words own = own_words(model, is_wall);
+  Words known = own;
+  known.insert(known.end(), passed_on.begin(), passed_on.end());
+
+  Options options;
+  Words seen;
+  for (std::size_t i = 0; i < words.size();) {
+    const std::string& key = words[i++];
+    if (contains(model_kinds, key))
+      fail(where, fmt::format("'{}' is out of order: the order is {}, then the model's keywords{}", key,
+                              fmt::join(model_kinds, ", "), is_wall ? ", after all of the wall's own" : ""));
+    if (is_wall && contains(wall_words, key))
+      fail(where, fmt::format("'{}' must stand before the model's keywords ({})", key, fmt::join(known, ", ")));
+    if (!contains(known, key))
+      fail(where, fmt::format("unknown keyword '{}'{}", key, did_you_mean(key, known)), {},
+           fmt::format("{}", fmt::join(known, ", ")));
+    if (contains(seen, key)) fail(where, fmt::format("'{}' is given twice", key));
+    seen.push_back(key);
+    if (i >= words.size()) fail(where, fmt::format("'{}' needs a value", key));
+
+    if (key == "materials") {
+      while (i < words.size() && !contains(known, words[i])) options.materials.push_back(words[i++]);
+      if (options.materials.empty()) fail(where, "'materials' needs one name for each atom type");
+      continue;
+    }
+    const std::string& value = words[i++];
+    if (key == "law") options.law_path = value;
+    else if (key == "stats") options.stats_path = value;
+    else if (key == "wall") options.deformable_wall = choice(value, "deformable", "rigid", where, key);
+    else if (key == "beyondRange") options.stop_beyond_range = choice(value, "stop", "continue", where, key);
+    else if (key == "tangentialDampingRatio") {
+      options.tangential_damping = number(value, where, key);
+      if (!(*options.tangential_damping >= 0 && *options.tangential_damping <= 1))
+        fail(where, "'tangentialDampingRatio' is out of range", value, "0 to 1");
+    } else {
+      rest.push_back(key);
+      rest.push_back(value);
+    }
+  }
+  return options;
+}
+
+}  // namespace granulaw::plugin

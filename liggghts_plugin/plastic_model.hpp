@@ -1,0 +1,226 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "law/pair.hpp"
+#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/session.hpp"
+
+namespace granulaw::plugin {
+
+/// What a law needs to know about the atom types when a run begins. Index 0 is unused: types count from 1.
+struct Types
+{
+  int count = 0;
+  std::vector<double> youngs_modulus, poisson_ratio;  ///< Pa, -; NaN where no particle or wall has the type
+  std::vector<int> of_particles;                      ///< type of a particle that exists or can be inserted
+  std::vector<int> of_wall;                           ///< type of this wall (walls only)
+  std::vector<double> density_low, density_high;      ///< kg/m^3 of existing particles; low > high: none
+};
+
+/// Collective. Throws Error if a property is missing or the units are not SI.
+Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup);
+
+/// Warns once where the deck sets something that the model does not use.
+void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
+
+/// The history policy that `mpm` and `thornton` share, and everything else that is not the law itself.
+///
+/// State: one scalar per contact, delta_max, the largest overlap since first touch. It has newton flag "0" (the
+/// same number seen from either particle), advances only when the step does (computeflag and shearupdate), and
+/// returns to zero when the geometric overlap ends.
+///
+/// Physics is a value type without virtual calls:
+///   name                                             "mpm", "thornton"
+///   Contact                                          law of one pair of types: evaluate, dissipated, ...
+///   prepare(lmp, registry, setup, types)             checks of the deck against the law
+///   resolve(i, j, rigid, where) -> Contact           throws Error where there is no law for the pair
+template <class Physics>
+class PlasticModel : public NormalModelBase
+{
+ public:
+  PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* c) : NormalModelBase(lmp, hsetup, c) {}
+
+  void registerSettings(Settings& settings)
+  {
+    settings.registerOnOff("tangential_damping", tangential_damping_, true);
+    settings.registerOnOff("limitForce", limit_force_);  // the force is never attractive: nothing to limit
+    settings.registerOnOff("computeElasticPotential", elastic_potential_, false);
+    settings.registerOnOff("computeDissipatedEnergy", dissipated_energy_, false);
+  }
+
+  void postSettings(IContactHistorySetup* hsetup, ContactModelBase* cmb)
+  {
+    setup_ = Setup::current;
+    if (elastic_potential_ || dissipated_energy_)
+      fail(setup_->where,
+           "'computeElasticPotential' and 'computeDissipatedEnergy' are not available with this model; "
+           "fix granulaw/stats gives the energy dissipated by normal contacts");
+    history_offset_ = hsetup->add_history_value("delta_max", "0");
+    cmb->add_history_offset("delta_max", history_offset_);
+    damping_ = tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
+  }
+
+  void connectToProperties(PropertyRegistry& registry)
+  {
+    if (!setup_) fail(fmt::format("model {}", Physics::name), "repeat pair_style and pair_coeff after read_restart");
+    const Types types = gather_types(lmp, registry, *setup_);
+    physics_.prepare(lmp, registry, *setup_, types);
+    resolve_all(types);
+    warn_unused_properties(lmp, *setup_);
+    ledger_ = &setup_->session->ledger;
+    // Else surfacesClose is never called for pairs, and a pair that meets again keeps its old delta_max.
+    neighbor->register_contact_dist_factor(1.01);
+  }
+
+  double stressStrainExponent() { return 1.5; }
+
+  void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces)
+  {
+    if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
+    const double r_eff = sidata.is_wall ? sidata.radi : granulaw::effective_radius(sidata.radi, sidata.radj);
+    const Entry& entry = entries_[static_cast<std::size_t>(sidata.itype * stride_ + sidata.jtype)];
+    const double delta = sidata.deltan;
+    double& delta_max = sidata.contact_history[history_offset_];
+    if (delta > entry.largest_overlap * r_eff) [[unlikely]]
+      beyond_table(sidata, entry, r_eff);
+    if (sidata.is_wall && !layout_checked_) [[unlikely]]
+      check_layout(sidata);
+
+    const granulaw::ContactForce contact = entry.contact.evaluate(r_eff, delta, delta_max);
+    if (delta > delta_max && sidata.computeflag && sidata.shearupdate) advance(sidata, entry, r_eff, delta_max);
+
+    const double root = std::sqrt(r_eff * delta);
+    sidata.Fn = contact.force;
+    sidata.kn = delta > 0.0 ? contact.force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
+    sidata.kt = entry.eight_shear_moduli * root;             // Mindlin, as stock hertz
+    sidata.gamman = 0.0;
+    sidata.gammat = 2.0 * damping_ * std::sqrt(sidata.kt * sidata.meff);
+
+    const double force = sidata.is_wall ? contact.force * sidata.area_ratio : contact.force;
+    for (int c = 0; c < 3; ++c) {
+      i_forces.delta_F[c] += force * sidata.en[c];
+      if (!sidata.is_wall) j_forces.delta_F[c] -= force * sidata.en[c];
+    }
+  }
+
+  void surfacesClose(SurfacesCloseData& scdata, ForceData&, ForceData&)
+  {
+    if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
+    if (!scdata.contact_history) return;
+    double& delta_max = scdata.contact_history[history_offset_];
+    if (delta_max == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
+    const double r_eff = scdata.is_wall ? scdata.radi : granulaw::effective_radius(scdata.radi, scdata.radj);
+    ContactLedger::Side& side = scdata.is_wall ? ledger_->wall : ledger_->pair;
+    const double weight = scdata.is_wall || scdata.j < atom->nlocal ? 1.0 : 0.5;
+    side.ended += weight;
+    side.overlap.add(delta_max / r_eff, weight);
+    delta_max = 0.0;
+  }
+
+  void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
+  void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
+
+ private:
+  struct Entry
+  {
+    typename Physics::Contact contact;
+    double largest_overlap = -1.0;       // over R*, that the law answers for; -1: no law for this pair of types
+    double eight_shear_moduli = 0.0;     // 8 G*, Pa: k_t = 8 G* a (Mindlin)
+    double inertia_per_speed2 = 0.0;     // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
+  };
+
+  static double shear_compliance(double youngs_modulus, double poisson_ratio)
+  {
+    return 2.0 * (2.0 - poisson_ratio) * (1.0 + poisson_ratio) / youngs_modulus;
+  }
+
+  void resolve_all(const Types& types)
+  {
+    const bool is_wall = setup_->wall != nullptr, rigid = is_wall && !setup_->options.deformable_wall;
+    stride_ = types.count + 1;
+    entries_.assign(static_cast<std::size_t>(stride_ * stride_), Entry{});
+    for (int i = 1; i <= types.count; ++i)
+      for (int j = 1; j <= types.count; ++j) {
+        const bool needed = types.of_particles[i] && (is_wall ? types.of_wall[j] : types.of_particles[j]);
+        Entry& entry = entries_[static_cast<std::size_t>(i * stride_ + j)];
+        if (std::isnan(types.youngs_modulus[i]) || std::isnan(types.youngs_modulus[j])) continue;
+        try {
+          entry.contact = physics_.resolve(i, j, rigid, setup_->where);
+        } catch (const granulaw::Error&) {
+          if (needed) throw;
+          continue;  // beyond_table() says so if such particles meet after all
+        }
+        entry.largest_overlap = entry.contact.largest_overlap();
+        entry.inertia_per_speed2 = entry.contact.inertia_per_speed2();
+        entry.eight_shear_moduli = 8.0 / (shear_compliance(types.youngs_modulus[i], types.poisson_ratio[i]) +
+                                          shear_compliance(types.youngs_modulus[j], types.poisson_ratio[j]));
+      }
+  }
+
+  /// A step that takes the contact deeper than it ever was: ledger, then history.
+  void advance(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double& delta_max)
+  {
+    ContactLedger::Side& side = sidata.is_wall ? ledger_->wall : ledger_->pair;
+    const double weight = sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
+    if (delta_max == 0.0) {
+      const double speed = std::max(0.0, -sidata.vn);
+      side.touches += weight;
+      side.speed.add(speed, weight);
+      side.speed_max = std::max(side.speed_max, speed);
+      side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
+    }
+    const double delta = sidata.deltan;
+    if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
+    const double dissipated = entry.contact.dissipated(r_eff, delta);
+    if (dissipated > 0.0) side.dissipated += weight * (dissipated - entry.contact.dissipated(r_eff, delta_max));
+    delta_max = delta;
+  }
+
+  void beyond_table(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff)
+  {
+    if (entry.largest_overlap < 0)
+      error->one(FLERR, fmt::format("{}: no law for particles of type {} against {} {}; it was not among the pairs "
+                                    "that the deck could show when the run began",
+                                    setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type",
+                                    sidata.jtype).c_str());
+    ContactLedger::Side& side = sidata.is_wall ? ledger_->wall : ledger_->pair;
+    if (sidata.computeflag && sidata.shearupdate) side.beyond += sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
+    // 5 %: the linear continuation is still within about a percent of the force there.
+    if (setup_->options.stop_beyond_range && sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
+      error->one(FLERR, fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
+                                    "the law's table, which ends at {:.4g}: build a deeper law, or say "
+                                    "'beyondRange continue'",
+                                    setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype, -sidata.vn,
+                                    entry.largest_overlap).c_str());
+  }
+
+  /// In a library with another layout of SurfacesIntersectData these two would not agree.
+  void check_layout(const SurfacesIntersectData& sidata)
+  {
+    layout_checked_ = true;
+    const double distance = std::sqrt(sidata.delta[0] * sidata.delta[0] + sidata.delta[1] * sidata.delta[1] +
+                                      sidata.delta[2] * sidata.delta[2]);
+    if (std::abs(sidata.radi - distance - sidata.deltan) > 1e-6 * sidata.radi)
+      error->one(FLERR, fmt::format("{}: this LIGGGHTS lays out its contact data differently (was it built with "
+                                    "superquadrics?)", setup_->where).c_str());
+  }
+
+  Physics physics_;
+  const Setup* setup_ = nullptr;
+  std::vector<Entry> entries_;
+  int stride_ = 0;
+  int history_offset_ = -1;
+  double damping_ = 0.0;
+  ContactLedger* ledger_ = nullptr;
+  bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false, dissipated_energy_ = false;
+  bool layout_checked_ = false;
+};
+
+}  // namespace granulaw::plugin

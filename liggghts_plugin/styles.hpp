@@ -1,0 +1,193 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "liggghts_plugin/model_ids.hpp"
+#include "liggghts_plugin/plastic_model.hpp"
+
+namespace granulaw::plugin {
+
+namespace cm = LIGGGHTS::ContactModels;
+
+/// Runs `work`; what it throws ends the run on all ranks with one sentence. Nothing that a single rank may
+/// fail at is thrown here without the ranks having agreed on it (load_law).
+template <class Work>
+void guarded(LAMMPS* lmp, Work&& work)
+{
+  try {
+    work();
+  } catch (const std::exception& failure) {
+    const std::string message = failure.what();
+    lmp->error->all(FLERR, message.c_str());
+  }
+}
+
+/// Reads the plug-in's own words from a command; `rest` stays for LIGGGHTS.
+inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char** args, std::vector<std::string>& rest)
+{
+  // The factory counts the words down but leaves `args` on the last one where nothing is left.
+  const std::vector<std::string> words(args, args + std::max(0, nargs));
+  setup.options = parse_options(model, setup.wall != nullptr, setup.where, words, rest);
+  Session& session = *setup.session;
+  Options& options = setup.options;
+  if (model == Model::mpm) {
+    if (setup.wall && options.law_path.empty()) {
+      if (!session.pair_law) fail(setup.where, "'law FILE' is missing, and there is no pair_style gran model mpm to take it from");
+      setup.law = session.pair_law;
+    } else {
+      if (options.law_path.empty()) fail(setup.where, "'law FILE' is missing");
+      setup.law = load_law(lmp, options.law_path, setup.where);
+    }
+    if (setup.wall && options.materials.empty() && session.pair_options) options.materials = session.pair_options->materials;
+    if (options.materials.empty()) fail(setup.where, "'materials' is missing: one name for each atom type");
+  }
+  if (setup.wall && !options.tangential_damping && session.pair_options)
+    options.tangential_damping = session.pair_options->tangential_damping;
+  if (!setup.wall) {
+    session.pair_options = options;
+    session.pair_law = setup.law;
+  }
+}
+
+/// Calls LIGGGHTS's own settings() with `rest`, our setup being current for the model's postSettings.
+template <class Call>
+void with_setup(const Setup& setup, const std::vector<std::string>& rest, Call&& call)
+{
+  std::vector<std::string> words = rest;
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  Setup::current = &setup;
+  call(static_cast<int>(rest.size()), pointers.data());
+  Setup::current = nullptr;
+}
+
+template <class Style, Model model>
+void refuse_no_friction(const Setup& setup, const std::vector<std::string>& rest)
+{
+  // no_history is a dashpot capped at the Coulomb limit: without the dashpot there is no friction at all.
+  if constexpr (Style::TANGENTIAL == cm::TANGENTIAL_NO_HISTORY) {
+    const auto off = std::find(rest.begin(), rest.end(), "tangential_damping");
+    if ((off != rest.end() && *(off + 1) == "off") || setup.options.tangential_damping == 0.0)
+      fail(setup.where, "'tangential no_history' without tangential damping has no friction at all");
+  }
+}
+
+/// pair_style gran with one of our models.
+template <class Style, Model model>
+class PairStyle final : public LIGGGHTS::PairStyles::Granular<cm::ContactModel<Style>>
+{
+  using Base = LIGGGHTS::PairStyles::Granular<cm::ContactModel<Style>>;
+
+ public:
+  PairStyle(LAMMPS* lmp, PairGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp) {}
+
+  void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
+  {
+    guarded(lmp_, [&] {
+      setup_.session = Session::of(lmp_);
+      setup_.where = fmt::format("pair_style gran model {}", model_name(model));
+      std::vector<std::string> rest;
+      read_setup(lmp_, model, setup_, nargs, args, rest);
+      refuse_no_friction<Style, model>(setup_, rest);
+      with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
+      provide_stats_fix(lmp_, true);
+    });
+  }
+
+  void init_granular() override
+  {
+    guarded(lmp_, [&] {
+      Base::init_granular();
+      provide_stats_fix(lmp_, true);  // the box did not exist when pair_style stood before create_box
+    });
+  }
+
+ private:
+  LAMMPS* lmp_;
+  Setup setup_;
+};
+
+/// fix wall/gran with one of our models.
+template <class Style, Model model>
+class WallStyle final : public LIGGGHTS::Walls::Granular<cm::ContactModel<Style>>
+{
+  using Base = LIGGGHTS::Walls::Granular<cm::ContactModel<Style>>;
+
+ public:
+  WallStyle(LAMMPS* lmp, FixWallGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp), parent_(parent) {}
+
+  void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
+  {
+    guarded(lmp_, [&] {
+      setup_.session = Session::of(lmp_);
+      setup_.wall = parent_;
+      setup_.where = fmt::format("fix {} wall/gran model {}", parent_->id, model_name(model));
+      std::vector<std::string> rest;
+      read_setup(lmp_, model, setup_, nargs, args, rest);
+      refuse_no_friction<Style, model>(setup_, rest);
+      with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
+      provide_stats_fix(lmp_, false);  // adding a fix from inside a fix's constructor would corrupt the list
+    });
+  }
+
+  void init_granular() override
+  {
+    guarded(lmp_, [&] { Base::init_granular(); });
+  }
+
+ private:
+  LAMMPS* lmp_;
+  FixWallGran* parent_;
+  Setup setup_;
+};
+
+template <class Style, Model model>
+LIGGGHTS::PairStyles::IGranularPairStyle* make_pair_style(LAMMPS* lmp, PairGran* parent, int64_t hash)
+{
+  check_liggghts(lmp, dynamic_cast<void*>(parent), sizeof(PairGranProxy), "pair style");
+  return new PairStyle<Style, model>(lmp, parent, hash);
+}
+
+template <class Style, Model model>
+LIGGGHTS::Walls::IGranularWall* make_wall_style(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
+{
+  check_liggghts(lmp, dynamic_cast<void*>(parent), sizeof(FixWallGran), "fix wall/gran");
+  return new WallStyle<Style, model>(lmp, parent, hash);
+}
+
+template <int id, Model model, int tangential, int rolling>
+void add_combination()
+{
+  using Style = cm::GranStyle<id, tangential, cm::COHESION_OFF, rolling, cm::SURFACE_DEFAULT>;
+  LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", Style::HASHCODE, &make_pair_style<Style, model>);
+  LIGGGHTS::Walls::Factory::instance().addStyle("gran", Style::HASHCODE, &make_wall_style<Style, model>);
+}
+
+/// Registers {off, history, no_history} x {off, cdt, epsd2}, and a refusal in a sentence for every other
+/// combination (LIGGGHTS would say "Unknown normal model").
+template <int id, Model model>
+void register_model()
+{
+  cm::Factory::instance().addNormalModel(model_name(model), id);
+  add_combination<id, model, cm::TANGENTIAL_OFF, cm::ROLLING_OFF>();
+  add_combination<id, model, cm::TANGENTIAL_OFF, cm::ROLLING_CDT>();
+  add_combination<id, model, cm::TANGENTIAL_OFF, cm::ROLLING_EPSD2>();
+  add_combination<id, model, cm::TANGENTIAL_HISTORY, cm::ROLLING_OFF>();
+  add_combination<id, model, cm::TANGENTIAL_HISTORY, cm::ROLLING_CDT>();
+  add_combination<id, model, cm::TANGENTIAL_HISTORY, cm::ROLLING_EPSD2>();
+  add_combination<id, model, cm::TANGENTIAL_NO_HISTORY, cm::ROLLING_OFF>();
+  add_combination<id, model, cm::TANGENTIAL_NO_HISTORY, cm::ROLLING_CDT>();
+  add_combination<id, model, cm::TANGENTIAL_NO_HISTORY, cm::ROLLING_EPSD2>();
+}
+
+/// Called by the static object in registration.cpp when the library is loaded.
+void register_mpm();
+void register_thornton();
+/// A creator that refuses in a sentence, for every combination of model `id` that is not built.
+void register_refusals(int id);
+
+}  // namespace granulaw::plugin

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <limits>
+
+#include "law/thornton.hpp"
+#include "liggghts_plugin/plastic_model.hpp"
+
+namespace granulaw::plugin {
+
+/// One pair of types under Thornton's law (1997), closed form.
+struct ThorntonContact
+{
+  ThorntonPair law{};
+
+  ContactForce evaluate(double r_eff, double delta, double delta_max) const
+  {
+    return law.evaluate(r_eff, delta, delta_max);
+  }
+  double dissipated(double r_eff, double delta_max) const { return thornton_dissipation(law, r_eff, delta_max); }
+  double largest_overlap() const { return std::numeric_limits<double>::max(); }  // times R* stays finite or inf
+  double inertia_per_speed2() const { return 0.0; }  // the formula states no limit of velocity
+};
+
+/// Model `thornton`: yield stress of each type from `fix property/global yieldStress peratomtype`.
+class ThorntonPhysics
+{
+ public:
+  static constexpr const char* name = "thornton";
+  using Contact = ThorntonContact;
+
+  void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
+  Contact resolve(int i, int j, bool rigid, const std::string& where) const;
+
+ private:
+  std::vector<double> e_star_, yield_stress_;  // Pa, by type
+};
+
+}  // namespace granulaw::plugin

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include "liggghts_plugin/plastic_model.hpp"
+
+namespace granulaw::plugin {
+
+namespace {
+
+/// Flags the types of existing particles and of those that a fix can still insert.
+void find_particle_types(LAMMPS_NS::LAMMPS* lmp, Types& types)
+{
+  const LAMMPS_NS::Atom& atom = *lmp->atom;
+  for (int a = 0; a < atom.nlocal; ++a) {
+    const int t = atom.type[a];
+    types.of_particles[t] = 1;
+    if (!atom.density) continue;
+    types.density_low[t] = std::min(types.density_low[t], atom.density[a]);
+    types.density_high[t] = std::max(types.density_high[t], atom.density[a]);
+  }
+  for (int f = 0; f < lmp->modify->nfix; ++f)
+    for (int t = 1; t <= types.count; ++t)
+      if (lmp->modify->fix[f]->max_rad(t) > 0.0) types.of_particles[t] = 1;
+  const int n = types.count + 1;
+  MPI_Allreduce(MPI_IN_PLACE, types.of_particles.data(), n, MPI_INT, MPI_MAX, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, types.density_low.data(), n, MPI_DOUBLE, MPI_MIN, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, types.density_high.data(), n, MPI_DOUBLE, MPI_MAX, lmp->world);
+}
+
+void find_wall_types(LAMMPS_NS::FixWallGran& wall, Types& types)
+{
+  if (!wall.is_mesh_wall()) {
+    types.of_wall[wall.atom_type_wall()] = 1;
+    return;
+  }
+  for (int m = 0; m < wall.n_meshes(); ++m) types.of_wall[wall.mesh_list()[m]->atomTypeWall()] = 1;
+}
+
+}  // namespace
+
+Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup)
+{
+  if (std::string_view(lmp->update->unit_style) != "si")
+    fail(setup.where, "the model works in SI units", fmt::format("units {}", lmp->update->unit_style), "units si");
+  Types types;
+  types.count = lmp->atom->ntypes;
+  const auto n = static_cast<std::size_t>(types.count + 1);
+  types.youngs_modulus.assign(n, std::numeric_limits<double>::quiet_NaN());
+  types.poisson_ratio = types.youngs_modulus;
+  types.of_particles.assign(n, 0);
+  types.of_wall.assign(n, 0);
+  types.density_low.assign(n, std::numeric_limits<double>::infinity());
+  types.density_high.assign(n, 0.0);
+
+  const std::string caller = setup.where;
+  registry.registerProperty("youngsModulus", &MODEL_PARAMS::createYoungsModulus);
+  registry.registerProperty("poissonsRatio", &MODEL_PARAMS::createPoissonsRatio);
+  const double* youngs_modulus = registry.getVectorProperty("youngsModulus", caller.c_str())->data;
+  const double* poisson_ratio = registry.getVectorProperty("poissonsRatio", caller.c_str())->data;
+  for (int t = 1; t <= std::min(types.count, registry.max_type()); ++t) {
+    types.youngs_modulus[t] = youngs_modulus[t];
+    types.poisson_ratio[t] = poisson_ratio[t];
+  }
+  find_particle_types(lmp, types);
+  if (setup.wall) find_wall_types(*setup.wall, types);
+  return types;
+}
+
+void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+{
+  if (lmp->modify->find_fix_property("coefficientRestitution", "property/global", "peratomtypepair", 0, 0, "granulaw",
+                                     false) &&
+      setup.session->first_time("coefficientRestitution") && lmp->comm->me == 0)
+    lmp->error->warning(FLERR, fmt::format("{}: 'coefficientRestitution' is not used: restitution follows from the "
+                                           "contact law", setup.where).c_str());
+}
+
+}  // namespace granulaw::plugin
