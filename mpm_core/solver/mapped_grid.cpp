@@ -34,12 +34,13 @@ struct Half
   std::vector<std::vector<int>> rings;    // [ring][m] -> point
   std::vector<std::vector<int>> block;    // [i along x][j along y] -> point
 
-  Half(int cells_across, double block_zeta, double coarsening) : n(cells_across)
+  Half(int cells_across, double block_zeta, double coarsening, double shift) : n(cells_across)
   {
     block.assign(n + 1, std::vector<int>(n + 1));
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
-        const Zeta q = rounded_square(double(i) / n, double(j) / n);
+        const double along = j == 0 ? 0.0 : (j - shift) / (n - shift);
+        const Zeta q = rounded_square(double(i) / n, along);
         block[i][j] = add({block_zeta * q.x, block_zeta * q.y});
       }
     std::vector<int> rim;
@@ -84,13 +85,15 @@ struct Half
 
 }  // namespace
 
-MappedGrid MappedGrid::build(int cells_across, double block, bool full)
+MappedGrid MappedGrid::build(int cells_across, double block, bool full, double shift)
 {
-  assert(cells_across >= 4 && block > 0 && block <= 0.95);
+  assert(cells_across >= 4 && block > 0 && block <= 0.95 && shift > -1 && shift < 1);
   MappedGrid grid;
   // Surface radius r of zeta = i y is 2 y/(1 + y^2); invert for the block's edge.
-  const double block_zeta = block / (1 + std::sqrt(1 - block * block));
-  const Half near(cells_across, block_zeta, 1.25);
+  // The shift takes its part of a cell off the block's edge, so that all lines but the pole move alike.
+  const double shifted = block * (1 - shift / cells_across);
+  const double block_zeta = shifted / (1 + std::sqrt(1 - shifted * shifted));
+  const Half near(cells_across, block_zeta, 1.25, shift);
 
   const auto append = [&grid](const Half& half, bool mirrored, const std::vector<int>* glue) {
     std::vector<int> id(half.points.size(), -1);
@@ -123,7 +126,7 @@ MappedGrid MappedGrid::build(int cells_across, double block, bool full)
   for (std::size_t k = 1; k < near.rings.size(); ++k) grid.surface.push_back(id[near.rings[k][0]]);
   for (const int p : near.rings.back()) grid.equator.push_back(id[p]);
 
-  if (full) append(Half(cells_across, std::max(0.5, block_zeta), 2.5), true, &grid.equator);
+  if (full) append(Half(cells_across, std::max(0.5, block_zeta), 2.5, 0.0), true, &grid.equator);
 
   for (std::size_t p = 0; p < grid.nodes.size(); ++p)
     if (grid.nodes[p].r == 0.0) grid.axis.push_back(static_cast<int>(p));

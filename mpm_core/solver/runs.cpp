@@ -10,6 +10,7 @@
 #include "base/scales.hpp"
 #include "solver/body.hpp"
 #include "solver/drive.hpp"
+#include "solver/ensemble.hpp"
 #include "solver/plane_contact.hpp"
 #include "solver/ripple.hpp"
 #include "solver/time_step.hpp"
@@ -19,7 +20,6 @@ namespace granulaw {
 namespace {
 
 constexpr double hourglass_coefficient = 0.05;
-constexpr int default_resolution = 24;
 
 double cpu_seconds()
 {
@@ -43,6 +43,8 @@ void check(const Sphere& sphere, const RunOptions& options)
   if (!(sphere.radius > 0)) fail("particle", "'radius' cannot be used", fmt::format("{:g}", sphere.radius), "over 0 (m)");
   if (options.resolution != 0 && (options.resolution < 6 || options.resolution > 200))
     fail("--resolution", "cannot be used", std::to_string(options.resolution), "6 to 200 cells across the contact block");
+  if (options.phases < 1 || options.phases > 64)
+    fail("phases", "cannot be used", std::to_string(options.phases), "1 to 64 shifted grids");
   if (!(options.courant >= 0.05 && options.courant <= 1.0))
     fail("courant", "the explicit step is stable up to 1 only", fmt::format("{:g}", options.courant), "0.05 to 1");
 }
@@ -135,8 +137,10 @@ struct Simulation
     s.cpu_s = cpu_seconds() - cpu;
     s.point_updates_per_s = static_cast<double>(body.points) * static_cast<double>(steps) / s.cpu_s;
     const double put_in = energy_start + drive.work();
-    double peak = std::max(energy_start, std::abs(put_in));
-    for (const double w : {result_work(true)}) peak = std::max(peak, w);
+    const double peak = std::max({energy_start, std::abs(put_in), result_work(true)});
+    for (const TraceSample& t : result.trace) s.delta_max = std::max(s.delta_max, t.delta);
+    s.delta_residual = last_touch_overlap;
+    s.contact_time = last_touch_time;
     s.energy_error = std::abs(body.kinetic_energy() + body.strain_energy() + body.plastic_work() - put_in) / peak;
   }
 
@@ -155,44 +159,52 @@ struct Simulation
   }
 };
 
-/// Summary from the trace, still in solver units: the ripple treated (ripple.hpp). The work of unloading scales
-/// with the treated over the raw force at the turn: the raw turn stands at a random phase of the ripple.
-void summarise(Simulation& run, bool impact, double velocity, double v_out)
+/// Summary of one or several runs of the same job on shifted grids, whose mean trace is `result.trace`
+/// (ensemble.hpp); solver units. The loading force is treated for the ripple that is left (ripple.hpp).
+void summarise(RunResult& result, const std::vector<RunResult>& members)
 {
-  RunSummary& s = run.result.summary;
-  const TreatedLoading treated(run.result.trace);
+  RunSummary& s = result.summary;
+  const double weight = 1.0 / static_cast<double>(members.size());
+  double spread = 0;
+  for (const RunResult& member : members) {
+    const RunSummary& m = member.summary;
+    s.restitution_raw += weight * m.restitution_raw;
+    s.delta_max += weight * m.delta_max;
+    s.delta_residual += weight * m.delta_residual;
+    s.contact_time += weight * m.contact_time;
+    s.work_load += weight * m.work_load;
+    s.work_unload += weight * m.work_unload;
+    s.steps += m.steps;
+    s.cpu_s += m.cpu_s;
+    s.points = m.points;
+    s.energy_error = std::max(s.energy_error, m.energy_error);
+  }
+  for (const RunResult& member : members)
+    spread = std::max(spread, std::abs(member.summary.restitution_raw - s.restitution_raw));
+  s.restitution_spread = spread;
+  s.point_updates_per_s = static_cast<double>(s.points) * static_cast<double>(s.steps) / s.cpu_s;
+
+  const TreatedLoading treated(result.trace);
+  for (const TraceSample& t : result.trace) s.force_max = std::max(s.force_max, t.force);
+  s.restitution = s.restitution_raw;
+  if (!treated.valid()) return;
+  s.ripple = treated.ripple();
+  s.force_max = treated.force(s.delta_max);
+  if (members.size() > 1) return;
+  // A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
+  // What is elastic is given back whatever the phase: only the dissipated share is corrected.
   double raw_over_treated = 0;
   int at_turn = 0;
-  for (const TraceSample& t : run.result.trace) {
-    s.delta_max = std::max(s.delta_max, t.delta);
-    s.force_max = std::max(s.force_max, t.force);
-  }
-  double correction = 1;
-  if (treated.valid()) {
-    s.ripple = treated.ripple();
-    s.force_max = treated.force(s.delta_max);
-    for (const TraceSample& t : run.result.trace)
-      if (t.branch == Branch::load && t.delta >= 0.99 * s.delta_max) {
-        raw_over_treated += t.force / treated.force(t.delta);
-        ++at_turn;
-      }
-    if (at_turn) correction = at_turn / raw_over_treated;
-  }
-  s.delta_residual = run.last_touch_overlap;
-  s.contact_time = run.last_touch_time;
-  if (impact) {
-    s.restitution_raw = v_out / velocity;
-    s.work_load = run.energy_start;
-    s.work_unload = run.energy_start * s.restitution_raw * s.restitution_raw;
-  } else {
-    s.work_load = run.result_work(true);
-    s.work_unload = run.result_work(false);
-    s.restitution_raw = std::sqrt(std::max(0.0, s.work_unload / s.work_load));
-  }
-  // What is elastic is given back whatever the phase: only the dissipated share is corrected.
-  correction = 1 + (correction - 1) * (1 - std::min(1.0, s.restitution_raw * s.restitution_raw));
+  for (const TraceSample& t : result.trace)
+    if (t.branch == Branch::load && t.delta >= 0.99 * s.delta_max) {
+      raw_over_treated += t.force / treated.force(t.delta);
+      ++at_turn;
+    }
+  if (!at_turn) return;
+  const double dissipated = 1 - std::min(1.0, s.restitution_raw * s.restitution_raw);
+  const double correction = 1 + (at_turn / raw_over_treated - 1) * dissipated;
   s.work_unload *= correction;
-  s.restitution = s.restitution_raw * std::sqrt(correction);
+  s.restitution *= std::sqrt(correction);
 }
 
 void to_si(RunResult& result, const Scales& scale)
@@ -210,17 +222,46 @@ void to_si(RunResult& result, const Scales& scale)
   s.work_load *= scale.energy(), s.work_unload *= scale.energy();
 }
 
-int resolution_of(const RunOptions& options) { return options.resolution ? options.resolution : default_resolution; }
-
-/// Error of `fine` from a second run at 0.7 of its resolution. The errors fall at least like h^1.65: their
-/// difference is at least 0.8 of the coarse run's error and overstates the fine run's.
-void estimate_error(RunResult& fine, const RunSummary& coarse)
+/// Cells across the block: 16, and more for deep contacts, where steps are few and strains large.
+int resolution_of(const RunOptions& options, double deepest)
 {
-  RunSummary& s = fine.summary;
-  const double force = std::abs(coarse.force_max / s.force_max - 1);
-  const double restitution = std::abs(coarse.restitution / s.restitution - 1);
-  s.error_estimate = std::max(force, restitution);
-  s.cpu_s += coarse.cpu_s;
+  return options.resolution ? options.resolution : static_cast<int>(std::lround(16 * (1 + std::min(2.0, deepest / 0.1))));
+}
+
+/// Runs `single(cells across, shift, progress)` on options.phases shifted grids and, if asked, once more at a
+/// coarser resolution for the error estimate.
+RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& scale,
+                       const std::function<RunResult(int, double, const std::function<void(double)>&)>& single)
+{
+  const int n = resolution_of(options, deepest);
+  const int coarse = std::max(6, static_cast<int>(std::lround(0.7 * n)));
+  const double share = options.estimate_error ? std::pow(n, 3) / (std::pow(n, 3) + std::pow(coarse, 3)) : 1.0;
+  const auto run_all = [&](int cells, double from, double to) {
+    const auto progress = [&](double fraction) {
+      if (options.progress) options.progress(from + (to - from) * fraction);
+    };
+    const std::vector<RunResult> members = run_phases(
+        options.phases, options.threads, progress,
+        [&](double shift, const std::function<void(double)>& report) { return single(cells, shift, report); });
+    RunResult result;
+    result.trace = mean_trace(members);
+    summarise(result, members);
+    return result;
+  };
+  RunResult result = run_all(n, 0.0, share);
+  if (options.estimate_error) {
+    const RunSummary other = run_all(coarse, share, 1.0).summary;
+    RunSummary& s = result.summary;
+    // Errors fall at least like h: their difference at 0.7 of the resolution is at least 0.4 of the fine run's.
+    const double force = std::abs(other.force_max / s.force_max - 1);
+    const double restitution = std::abs(other.restitution / s.restitution - 1);
+    const double scatter = s.restitution_spread / s.restitution / std::max(1, options.phases);
+    s.error_estimate = 2 * std::max({force, restitution, scatter});
+    s.cpu_s += other.cpu_s;
+    s.steps += other.steps;
+  }
+  to_si(result, scale);
+  return result;
 }
 
 }  // namespace
@@ -242,21 +283,18 @@ RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& op
   const double deepest = std::min(0.9, std::max(hertz, plastic));
   const double duration = 2.0 * deepest / v + 2.5;
 
-  const int n = resolution_of(options);
-  const MappedGrid grid = MappedGrid::build(n, block_size(deepest, sphere.material), true);
-  Simulation run(Body::build(grid, moduli, hourglass_coefficient), options, duration);
-  std::fill(run.body.vz_i.begin(), run.body.vz_i.end(), -v);
-  ImpactDrive drive(v, duration);
-  run.run(drive, options.progress, [](const TraceSample&) {});
-  summarise(run, true, v, run.body.mean_velocity());
-  to_si(run.result, scale);
-  if (options.estimate_error) {
-    RunOptions coarse = options;
-    coarse.resolution = std::max(6, static_cast<int>(std::lround(0.7 * n)));
-    coarse.estimate_error = false;
-    estimate_error(run.result, run_impact(sphere, velocity, coarse).summary);
-  }
-  return run.result;
+  return run_ensemble(options, deepest, scale, [&](int cells, double shift, const std::function<void(double)>& progress) {
+    const MappedGrid grid = MappedGrid::build(cells, block_size(deepest, sphere.material), true, shift);
+    Simulation run(Body::build(grid, moduli, hourglass_coefficient), options, duration);
+    std::fill(run.body.vz_i.begin(), run.body.vz_i.end(), -v);
+    ImpactDrive drive(v, duration);
+    run.run(drive, progress, [](const TraceSample&) {});
+    RunSummary& s = run.result.summary;
+    s.restitution_raw = run.body.mean_velocity() / v;
+    s.work_load = run.energy_start;
+    s.work_unload = run.energy_start * s.restitution_raw * s.restitution_raw;
+    return std::move(run.result);
+  });
 }
 
 RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOptions& options)
@@ -277,23 +315,20 @@ RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOption
   stops.ramp = plan.ramp > 0 ? plan.ramp : default_ramp(depth, sphere.material);
   stops.unload_ramp = 0.4 * stops.ramp;
   stops.support = plan.support;
-
   const Moduli moduli = dimensionless(sphere.material);
-  const int n = resolution_of(options);
-  const MappedGrid grid = MappedGrid::build(n, block_size(depth, sphere.material), plan.support == Support::free);
-  RunOptions sampling = options;
-  Simulation run(Body::build(grid, moduli, hourglass_coefficient), sampling, stops.ramp + stops.unload_ramp);
-  PressDrive drive(stops, 1.0);
-  run.run(drive, options.progress, [&](const TraceSample& t) { drive.observe(t.force, t.contact_radius); });
-  summarise(run, false, 0, 0);
-  to_si(run.result, scale);
-  if (options.estimate_error) {
-    RunOptions coarse = options;
-    coarse.resolution = std::max(6, static_cast<int>(std::lround(0.7 * n)));
-    coarse.estimate_error = false;
-    estimate_error(run.result, run_press(sphere, plan, coarse).summary);
-  }
-  return run.result;
+
+  return run_ensemble(options, depth, scale, [&](int cells, double shift, const std::function<void(double)>& progress) {
+    const MappedGrid grid =
+        MappedGrid::build(cells, block_size(depth, sphere.material), plan.support == Support::free, shift);
+    Simulation run(Body::build(grid, moduli, hourglass_coefficient), options, stops.ramp + stops.unload_ramp);
+    PressDrive drive(stops, 1.0);
+    run.run(drive, progress, [&](const TraceSample& t) { drive.observe(t.force, t.contact_radius); });
+    RunSummary& s = run.result.summary;
+    s.work_load = run.result_work(true);
+    s.work_unload = run.result_work(false);
+    s.restitution_raw = std::sqrt(std::max(0.0, s.work_unload / s.work_load));
+    return std::move(run.result);
+  });
 }
 
 }  // namespace granulaw

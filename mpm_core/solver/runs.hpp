@@ -17,6 +17,9 @@ enum class Support {
 struct RunOptions
 {
   int resolution = 0;        ///< cells across the contact block; 0: the default of the run
+  int phases = 4;            ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
+                             ///< of the first harmonics of the contact-edge ripple (ensemble.hpp); 1: a single run
+  int threads = 1;           ///< threads that share these runs
   double courant = 0.85;     ///< time step over the stability limit, 0.1 to 1
   int samples = 800;         ///< trace length aimed at
   bool estimate_error = false;  ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)

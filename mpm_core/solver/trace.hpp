@@ -25,6 +25,7 @@ struct RunSummary
 {
   double restitution = 0;        ///< treated; impact: |v after|/V; press: sqrt(work_unload/work_load)
   double restitution_raw = 0;    ///< the same without the ripple treatment
+  double restitution_spread = 0; ///< largest deviation of a single shifted grid's e from their mean
   double force_max = 0;          ///< N
   double delta_max = 0;          ///< m
   double delta_residual = 0;     ///< m, delta at which the force has ended for good
