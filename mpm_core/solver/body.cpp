@@ -55,7 +55,7 @@ CellIntegrals integrate(const std::array<MappedGrid::Node, 4>& x)
 
 }  // namespace
 
-Body Body::build(const MappedGrid& grid, const Moduli& moduli, double hourglass_coefficient)
+Body Body::build(const MappedGrid& grid, const Moduli& moduli, double hourglass_modulus)
 {
   Body b;
   b.moduli = moduli;
@@ -89,8 +89,8 @@ Body Body::build(const MappedGrid& grid, const Moduli& moduli, double hourglass_
       gradient += c.br[k] * c.br[k] + c.bz[k] * c.bz[k];
     }
     b.volume_p[p] = c.volume;
-    // hourglass_coefficient = 1 comes near the stiffness of full integration (see docs/method.md)
-    b.stiffness_p[p] = hourglass_coefficient * 0.25 * moduli.shear * c.volume * gradient;
+    // a modulus of G would come near the stiffness of full integration
+    b.stiffness_p[p] = 0.25 * hourglass_modulus * c.volume * gradient;
     for (int k = 0; k < 4; ++k) {
       const int at = k * b.points + p, node = grid.cells[p][k];
       b.corner_p[at] = node;

@@ -52,7 +52,7 @@ struct Body
 
   Moduli moduli{};
 
-  static Body build(const MappedGrid& grid, const Moduli& moduli, double hourglass_coefficient);
+  static Body build(const MappedGrid& grid, const Moduli& moduli, double hourglass_modulus);
 
   double kinetic_energy() const;
   double strain_energy() const;    ///< elastic and hourglass energy at the last force evaluation

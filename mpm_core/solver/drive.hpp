@@ -67,10 +67,13 @@ class PressDrive : public Drive
   void observe(double force, double contact_radius) { force_ = force, radius_ = contact_radius; }
 
  private:
-  enum class Phase { load, unload, stop };
+  enum class Phase { load, hold, unload, stop };
   void start_loading(double time, double overlap);
+  void start_holding(double time);
   void start_unloading(double time);
   double target_velocity(double time) const;
+  /// Takes `share` of every velocity relative to the drive's own out of the body.
+  void damp(Body& body, double velocity, double share);
 
   Plan plan_;
   double e_star_;
