@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <cstdlib>
 #include <cstring>
 
 #include "liggghts_plugin/liggghts.hpp"
@@ -16,9 +15,7 @@ constexpr const char* built_for = "LIGGGHTS-PUBLIC 3.8.0";
 
 [[noreturn]] void refuse(LAMMPS_NS::LAMMPS* lmp, const std::string& why)
 {
-  lmp->error->all(FLERR, fmt::format("granulaw was built for {} without superquadrics (Debian's liggghts): {}",
-                                     built_for, why).c_str());
-  std::abort();  // error->all does not return
+  stop_all(lmp, fmt::format("granulaw was built for {} without superquadrics (Debian's liggghts): {}", built_for, why));
 }
 
 }  // namespace

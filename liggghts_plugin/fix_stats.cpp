@@ -61,7 +61,7 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg) : Fix(lmp_, na
   extscalar = extvector = 0;  // totals, never to be divided by the number of particles
   for (int i = 3; i < narg; i += 2) {
     if (std::strcmp(arg[i], "file") != 0 || i + 1 >= narg)
-      error->all(FLERR, fmt::format("fix {} granulaw/stats: found '{}', allowed is: file FILE", id, arg[i]).c_str());
+      stop_all(lmp, fmt::format("fix {} granulaw/stats: found '{}', allowed is: file FILE", id, arg[i]));
     path_ = arg[i + 1];
   }
 }

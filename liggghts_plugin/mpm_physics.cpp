@@ -38,9 +38,16 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
 {
   setup_ = &setup;
   const auto& materials = setup.options.materials;
-  if (materials.size() != static_cast<std::size_t>(types.count))
-    fail(setup.where, fmt::format("'materials' names {} materials ({}), but there are {} atom types: one for each",
-                                  materials.size(), fmt::join(materials, ", "), types.count));
+  if (materials.size() != static_cast<std::size_t>(types.count)) {
+    // names end where the next keyword begins, so a misspelt keyword looks like one more material
+    std::string hint;
+    const auto words = keywords(Model::mpm, setup.wall != nullptr);
+    for (std::size_t k = static_cast<std::size_t>(types.count); k < materials.size() && hint.empty(); ++k)
+      if (const std::string word = nearest(materials[k], words); !word.empty())
+        hint = fmt::format("; '{}' is no keyword, did you mean '{}'?", materials[k], word);
+    fail(setup.where, fmt::format("'materials' needs one name for each of the {} atom types, found {}: {}{}",
+                                  types.count, materials.size(), fmt::join(materials, " "), hint));
+  }
   for (int t = 1; t <= types.count; ++t) {
     const auto found = setup.law->law.bodies.find(materials[static_cast<std::size_t>(t - 1)]);
     if (found == setup.law->law.bodies.end() || std::isnan(types.youngs_modulus[t])) continue;

@@ -30,14 +30,6 @@ bool contains(const Words& words, const std::string& word)
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-Words own_words(Model model, bool is_wall)
-{
-  Words words = {"tangentialDampingRatio"};
-  if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
-  words.push_back(is_wall ? "wall" : "stats");
-  return words;
-}
-
 double number(const std::string& text, const std::string& where, const std::string& key)
 {
   double value = 0;
@@ -59,12 +51,20 @@ bool choice(const std::string& text, const char* yes, const char* no, const std:
 
 const char* model_name(Model model) { return model == Model::mpm ? "mpm" : "thornton"; }
 
+Words keywords(Model model, bool is_wall)
+{
+  Words words = {"tangentialDampingRatio", is_wall ? "wall" : "stats"};
+  if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
+  words.insert(words.end(), passed_on.begin(), passed_on.end());
+  return words;
+}
+
 Options parse_options(Model model, bool is_wall, const std::string& where, const Words& words, Words& rest)
 {
-  const Words own = own_words(model, is_wall);
-  Words known = own;
-  known.insert(known.end(), passed_on.begin(), passed_on.end());
-
+  const Words known = keywords(model, is_wall);
+  const auto is_reserved = [&](const std::string& word) {
+    return contains(known, word) || contains(model_kinds, word) || (is_wall && contains(wall_words, word));
+  };
   Options options;
   Words seen;
   for (std::size_t i = 0; i < words.size();) {
@@ -82,7 +82,7 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
     if (i >= words.size()) fail(where, fmt::format("'{}' needs a value", key));
 
     if (key == "materials") {
-      while (i < words.size() && !contains(known, words[i])) options.materials.push_back(words[i++]);
+      while (i < words.size() && !is_reserved(words[i])) options.materials.push_back(words[i++]);
       if (options.materials.empty()) fail(where, "'materials' needs one name for each atom type");
       continue;
     }

@@ -24,6 +24,9 @@ struct Options
 /// Tangential damping where the deck says nothing: see docs, "Tangential force".
 inline constexpr double default_tangential_damping = 0.1;
 
+/// Every word that may stand behind the models: the plug-in's own, then those that LIGGGHTS reads.
+std::vector<std::string> keywords(Model model, bool is_wall);
+
 /// Takes the plug-in's words out of `words` and leaves the rest for LIGGGHTS in `rest`. Throws Error with one
 /// sentence that starts with `where` on an unknown or misplaced word, a missing or bad value.
 Options parse_options(Model model, bool is_wall, const std::string& where, const std::vector<std::string>& words,

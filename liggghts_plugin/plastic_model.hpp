@@ -45,7 +45,11 @@ template <class Physics>
 class PlasticModel : public NormalModelBase
 {
  public:
-  PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* c) : NormalModelBase(lmp, hsetup, c) {}
+  PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* cmb) : NormalModelBase(lmp, hsetup, cmb)
+  {
+    history_offset_ = hsetup->add_history_value("delta_max", "0");
+    cmb->add_history_offset("delta_max", history_offset_);
+  }
 
   void registerSettings(Settings& settings)
   {
@@ -55,15 +59,13 @@ class PlasticModel : public NormalModelBase
     settings.registerOnOff("computeDissipatedEnergy", dissipated_energy_, false);
   }
 
-  void postSettings(IContactHistorySetup* hsetup, ContactModelBase* cmb)
+  void postSettings(IContactHistorySetup*, ContactModelBase*)
   {
     setup_ = Setup::current;
     if (elastic_potential_ || dissipated_energy_)
       fail(setup_->where,
            "'computeElasticPotential' and 'computeDissipatedEnergy' are not available with this model; "
            "fix granulaw/stats gives the energy dissipated by normal contacts");
-    history_offset_ = hsetup->add_history_value("delta_max", "0");
-    cmb->add_history_offset("delta_max", history_offset_);
     damping_ = tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
   }
 
@@ -186,19 +188,19 @@ class PlasticModel : public NormalModelBase
   void beyond_table(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff)
   {
     if (entry.largest_overlap < 0)
-      error->one(FLERR, fmt::format("{}: no law for particles of type {} against {} {}; it was not among the pairs "
+      stop_one(lmp, fmt::format("{}: no law for particles of type {} against {} {}; it was not among the pairs "
                                     "that the deck could show when the run began",
                                     setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type",
-                                    sidata.jtype).c_str());
+                                    sidata.jtype));
     ContactLedger::Side& side = sidata.is_wall ? ledger_->wall : ledger_->pair;
     if (sidata.computeflag && sidata.shearupdate) side.beyond += sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
     // 5 %: the linear continuation is still within about a percent of the force there.
     if (setup_->options.stop_beyond_range && sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
-      error->one(FLERR, fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
+      stop_one(lmp, fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
                                     "the law's table, which ends at {:.4g}: build a deeper law, or say "
                                     "'beyondRange continue'",
                                     setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype, -sidata.vn,
-                                    entry.largest_overlap).c_str());
+                                    entry.largest_overlap));
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.
@@ -208,8 +210,8 @@ class PlasticModel : public NormalModelBase
     const double distance = std::sqrt(sidata.delta[0] * sidata.delta[0] + sidata.delta[1] * sidata.delta[1] +
                                       sidata.delta[2] * sidata.delta[2]);
     if (std::abs(sidata.radi - distance - sidata.deltan) > 1e-6 * sidata.radi)
-      error->one(FLERR, fmt::format("{}: this LIGGGHTS lays out its contact data differently (was it built with "
-                                    "superquadrics?)", setup_->where).c_str());
+      stop_one(lmp, fmt::format("{}: this LIGGGHTS lays out its contact data differently (was it built with "
+                                    "superquadrics?)", setup_->where));
   }
 
   Physics physics_;

@@ -38,14 +38,12 @@ constexpr const char* refusal =
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
 {
-  lmp->error->all(FLERR, refusal);
-  return nullptr;
+  stop_all(lmp, refusal);
 }
 
 lg::Walls::IGranularWall* refuse_wall(LAMMPS* lmp, FixWallGran*, int64_t)
 {
-  lmp->error->all(FLERR, refusal);
-  return nullptr;
+  stop_all(lmp, refusal);
 }
 
 bool is_built(int tangential, int cohesion, int rolling, int surface)

@@ -20,8 +20,7 @@ void guarded(LAMMPS* lmp, Work&& work)
   try {
     work();
   } catch (const std::exception& failure) {
-    const std::string message = failure.what();
-    lmp->error->all(FLERR, message.c_str());
+    stop_all(lmp, failure.what());
   }
 }
 

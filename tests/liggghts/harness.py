@@ -1,0 +1,110 @@
+"""Decks, runs and numbers for the tests of the LIGGGHTS plug-in."""
+import math
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+LAUNCHER = os.environ["GRANULAW_LAUNCHER"]
+PLUGIN = os.environ["GRANULAW_PLUGIN"]
+FIXTURE = os.environ["GRANULAW_FIXTURE"]
+MPIRUN = os.environ.get("GRANULAW_MPIRUN", "mpirun")
+
+
+class Material:
+    """SI. E*/Y = 100 for powder, as in tests/unit/synthetic_law.hpp."""
+
+    def __init__(self, name, density, youngs_modulus, poisson_ratio, yield_stress):
+        self.name, self.density, self.yield_stress = name, density, yield_stress
+        self.youngs_modulus, self.poisson_ratio = youngs_modulus, poisson_ratio
+        self.e_star = youngs_modulus / (1 - poisson_ratio**2)
+
+
+POWDER = Material("powder", 1500.0, 9.1e9, 0.3, 1e8)
+GLASS = Material("glass", 2500.0, 70e9, 0.2, 1e30)
+
+
+def properties(materials, friction=0.0):
+    n = len(materials)
+    matrix = " ".join([str(friction)] * (n * n))
+    return (
+        f"fix p1 all property/global youngsModulus peratomtype {' '.join(repr(m.youngs_modulus) for m in materials)}\n"
+        f"fix p2 all property/global poissonsRatio peratomtype {' '.join(repr(m.poisson_ratio) for m in materials)}\n"
+        f"fix p3 all property/global yieldStress peratomtype {' '.join(repr(m.yield_stress) for m in materials)}\n"
+        f"fix p4 all property/global coefficientFriction peratomtypepair {n} {matrix}\n"
+        f"fix p5 all property/global coefficientRollingFriction peratomtypepair {n} {matrix}\n")
+
+
+def head(types=1, half=0.05, units="si", boundary="f f f", skin=None, extra="", pair_first=""):
+    """Everything before the pair style; a cube of half-width `half` (m)."""
+    return (f"units {units}\nhard_particles yes\natom_style granular\natom_modify map array {extra}\n"
+            f"boundary {boundary}\nnewton off\ncommunicate single vel yes\n{pair_first}"
+            f"region box block {-half} {half} {-half} {half} {-half} {half} units box\ncreate_box {types} box\n"
+            f"neighbor {skin if skin else half / 20} bin\nneigh_modify delay 0\n")
+
+
+class Deck(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-liggghts-")
+        self.folder = pathlib.Path(self._folder.name)
+        self.law = self.folder / "powder.h5"
+        self.fixture("write", self.law)
+
+    def tearDown(self):
+        self._folder.cleanup()
+
+    def fixture(self, *words):
+        done = subprocess.run([FIXTURE, *map(str, words)], capture_output=True, text=True, check=True)
+        return [float(w) for w in done.stdout.split()] if done.stdout else []
+
+    def run_deck(self, deck, ranks=1, launcher=None, environment=None, expect_failure=False):
+        """Runs and returns what was printed. Fails the test unless the exit status is as expected."""
+        path = self.folder / "in.deck"
+        path.write_text(deck)
+        command = [launcher or LAUNCHER, "-in", str(path), "-log", str(self.folder / "log.liggghts")]
+        if ranks > 1:
+            command = [MPIRUN, "--oversubscribe", "-np", str(ranks)] + command
+        done = subprocess.run(command, capture_output=True, text=True, errors="backslashreplace", cwd=self.folder, timeout=300,
+                              env={**os.environ, **(environment or {})})
+        text = done.stdout + done.stderr
+        if expect_failure:
+            self.assertNotEqual(done.returncode, 0, "should have failed:\n" + text[-3000:])
+        else:
+            self.assertEqual(done.returncode, 0, text[-3000:])
+        return text
+
+    def result(self, text, name):
+        """The numbers behind `print "NAME ..."`."""
+        found = re.findall(rf"^{name} (.*)$", text, re.M)
+        self.assertTrue(found, f"no line '{name} ...' in:\n{text[-3000:]}")
+        return [float(w) for w in found[-1].split()]
+
+
+def sphere_mass(radius, density):
+    return 4.0 / 3.0 * math.pi * radius**3 * density
+
+
+def thornton_closed_form(ratio):
+    """e of V/V_y = ratio > 1: Thornton 1997, eq. 41."""
+    x = 1.0 / ratio
+    return (math.sqrt(6 * math.sqrt(3) / 5) * math.sqrt(1 - x * x / 6)
+            * (x / (x + 2 * math.sqrt(1.2 - 0.2 * x * x)))**0.25)
+
+
+def thornton_yield_velocity(e_star, p_y, r_eff, m_eff):
+    """Speed whose kinetic energy is the elastic work up to yield: m V_y^2/2 = 8/15 E* R*^3 (pi p_y/(2E*))^5."""
+    return math.sqrt(16 / 15 * e_star * r_eff**3 * (math.pi * p_y / (2 * e_star))**5 / m_eff)
+
+
+def plane_stl(half=0.02, z=0.0):
+    """A square of two triangles, normal +z, split along the diagonal x = y."""
+    a, b, c, d = (-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z)
+    text = "solid plane\n"
+    for triangle in ((a, b, c), (a, c, d)):
+        text += "facet normal 0 0 1\nouter loop\n"
+        text += "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*v) for v in triangle) + "endloop\nendfacet\n"
+    return text + "endsolid plane\n"

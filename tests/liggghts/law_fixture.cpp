@@ -1,0 +1,83 @@
+// Makes the synthetic law files that the plug-in's tests read, and replays single collisions outside LIGGGHTS.
+//
+//   law_fixture write FILE                                   the synthetic law, all pairs
+//   law_fixture write FILE pairs a:b c:wall ...              only these pairs
+//   law_fixture write FILE major N                           claims to be of major version N
+//   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
+//   law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
+// The last two print "restitution duration(s) delta_max(m)".
+#include <hdf5.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include "law/law_file.hpp"
+#include "law/replay.hpp"
+#include "law/thornton.hpp"
+#include "synthetic_law.hpp"
+
+namespace {
+
+void set_major(const char* path, int major)
+{
+  const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t attribute = H5Aopen(file, "version_major", H5P_DEFAULT);
+  H5Awrite(attribute, H5T_NATIVE_INT, &major);
+  H5Aclose(attribute);
+  H5Fclose(file);
+}
+
+void print(const granulaw::Replay& replay)
+{
+  std::printf("%.10g %.10g %.10g\n", replay.restitution, replay.contact_time, replay.delta_max);
+}
+
+int run(int argc, char** argv)
+{
+  const auto word = [&](int k) { return std::string(k < argc ? argv[k] : ""); };
+  const auto number = [&](int k) { return std::strtod(word(k).c_str(), nullptr); };
+  if (word(1) == "write") {
+    granulaw::Law law = granulaw::testing::SyntheticLaw{}.law();
+    if (word(3) == "pairs") {
+      law.pairs.clear();
+      for (int k = 4; k < argc; ++k) {
+        const std::string pair = word(k);
+        law.pairs.emplace_back(pair.substr(0, pair.find(':')), pair.substr(pair.find(':') + 1));
+      }
+    }
+    granulaw::write_law(law, word(2));
+    if (word(3) == "major") set_major(argv[2], std::atoi(argv[4]));
+    return 0;
+  }
+  if (word(1) == "mpm") {
+    const granulaw::Law law = granulaw::read_law(word(2));
+    const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
+    print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
+    return 0;
+  }
+  if (word(1) == "thornton") {
+    const granulaw::ThorntonPair pair{number(2), number(3)};
+    const double r_eff = number(4), m_eff = number(5), v = number(6);
+    const double duration = 2.87 * std::pow(m_eff * m_eff / (pair.e_star * pair.e_star * r_eff * v), 0.2);
+    print(granulaw::replay_collision([&](double d, double d_max) { return pair.evaluate(r_eff, d, d_max); }, m_eff, v,
+                                     duration));
+    return 0;
+  }
+  std::fprintf(stderr, "law_fixture: see the head of law_fixture.cpp\n");
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "law_fixture: %s\n", error.what());
+    return 1;
+  }
+}

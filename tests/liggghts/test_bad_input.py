@@ -1,0 +1,98 @@
+"""What a user can get wrong: each ends with one clear sentence and a non-zero status."""
+import unittest
+
+from collisions import wall_deck
+from harness import GLASS, POWDER, Deck, Material, head, properties
+
+RADIUS = 1.7e-3
+
+
+class BadInput(Deck):
+    def refused(self, deck, *parts):
+        text = self.run_deck(deck, expect_failure=True)
+        errors = [line for line in text.splitlines() if line.startswith("ERROR")]
+        self.assertEqual(len(errors), 1, text[-2000:])
+        for part in parts:
+            self.assertIn(part, errors[0])
+
+    def deck(self, words, material=POWDER, model="mpm", **keywords):
+        return wall_deck(model, words, material, RADIUS, 1.0, 2e-7, **keywords)
+
+    def good(self):
+        return f"law {self.law} materials powder"
+
+    def test_the_deck_is_good_otherwise(self):
+        self.run_deck(self.deck(self.good()))
+
+    def test_law_file(self):
+        self.refused(self.deck("materials powder"), "'law FILE' is missing")
+        self.refused(self.deck("law nowhere.h5 materials powder"), "nowhere.h5")
+        truncated = self.folder / "truncated.h5"
+        truncated.write_bytes(self.law.read_bytes()[:3000])
+        self.refused(self.deck(f"law {truncated} materials powder"), "truncated.h5")
+        future = self.folder / "future.h5"
+        self.fixture("write", future, "major", 7)
+        self.refused(self.deck(f"law {future} materials powder"), "future.h5", "7")
+
+    def test_materials(self):
+        self.refused(self.deck(f"law {self.law}"), "'materials' is missing")
+        self.refused(self.deck(f"law {self.law} materials powdr"), "no material 'powdr'", "did you mean 'powder'")
+        self.refused(self.deck(f"law {self.law} materials powder glass"), "one name for each of the 1 atom types, found 2")
+
+    def test_pair_that_the_law_lacks(self):
+        part = self.folder / "part.h5"
+        self.fixture("write", part, "pairs", "powder:powder")
+        self.refused(self.deck(f"law {part} materials powder"), "fix w wall/gran", "'powder:wall'", "powder:powder")
+        self.fixture("write", part, "pairs", "powder:wall")
+        self.refused(self.deck(f"law {part} materials powder"), "pair_style gran", "'powder:powder'", "types 1")
+
+    def test_moduli_that_disagree(self):
+        soft = Material("powder", 1500.0, 8e9, 0.3, 1e8)
+        self.refused(self.deck(self.good(), material=soft), "youngsModulus of type 1", "8e+09", "9.1e+09", "powder.h5")
+        other = Material("powder", 1500.0, 9.1e9, 0.31, 1e8)
+        self.refused(self.deck(self.good(), material=other), "poissonsRatio of type 1", "0.31", "0.3 ")
+
+    def test_words(self):
+        self.refused(self.deck(self.good() + " limitForce on lw x"), "unknown keyword 'lw'", "law")
+        self.refused(self.deck(self.good() + " limitForc on"), "'limitForc' is no keyword", "'limitForce'")
+        self.refused(self.deck(self.good() + " rolling_friction cdt"), "'rolling_friction' is out of order")
+        self.refused(self.deck(self.good() + " tangentialDampingRatio much"), "needs a number", "much")
+        self.refused(self.deck(self.good() + " tangentialDampingRatio 2"), "out of range", "0 to 1")
+        self.refused(self.deck(self.good() + " law again.h5"), "'law' is given twice")
+        self.refused(self.deck(self.good(), wall_words="wall soft"), "'wall'", "deformable, rigid")
+        self.refused(self.deck(self.good(), wall="", wall_words="wall rigid primitive type 1 zplane 0.0"),
+                     "'primitive' must stand before")
+        self.refused(self.deck(self.good() + " computeDissipatedEnergy on"), "not available", "granulaw/stats")
+        self.refused(self.deck(self.good() + " tangential_damping off", tangential="no_history"), "no friction")
+
+    def test_combinations_that_are_not_built(self):
+        for words in ("cohesion sjkr", "rolling_friction epsd"):
+            deck = self.deck(self.good()).replace("tangential history", "tangential history " + words)
+            self.refused(deck, "choose among these")
+
+    def test_units(self):
+        deck = self.deck(self.good()).replace("units si", "units cgs")
+        self.refused(deck, "units cgs", "units si")
+
+    def test_thornton_yield_stress(self):
+        deck = self.deck("", model="thornton")
+        self.refused("\n".join(l for l in deck.splitlines() if "yieldStress" not in l), "yieldStress")
+        bad = Material("powder", 1500.0, 9.1e9, 0.3, -1.0)
+        self.refused(self.deck("", material=bad, model="thornton"), "yieldStress of type 1")
+
+    def test_wall_without_a_pair_to_inherit_from(self):
+        deck = self.deck("", model="hertz").replace("wall/gran model hertz", "wall/gran model mpm")
+        deck = deck.replace("fix p1", "fix p6 all property/global coefficientRestitution peratomtypepair 1 0.5\nfix p1")
+        self.refused(deck, "fix w wall/gran model mpm", "'law FILE' is missing")
+
+    def test_beyond_the_table(self):
+        fast = wall_deck("mpm", self.good(), POWDER, RADIUS, 60.0, 2e-7)
+        text = self.run_deck(fast, expect_failure=True)
+        self.assertIn("more than 5 % beyond the law's table, which ends at 0.1", text)
+        text = self.run_deck(wall_deck("mpm", self.good() + " beyondRange continue", POWDER, RADIUS, 60.0, 2e-7,
+                                       wall_words="beyondRange continue"))
+        self.assertIn("contact-steps beyond the law's table", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,80 @@
+"""The ways a deck can be written: order of commands, restart, LD_PRELOAD, rolling friction, converted Hertz decks."""
+import unittest
+
+import gas
+from collisions import wall_deck
+from harness import PLUGIN, POWDER, Deck, head, properties
+
+RADIUS = 1.7e-3
+
+
+class Options(Deck):
+    def setUp(self):
+        super().setUp()
+        self.words = f"law {self.law} materials powder"
+
+    def deck(self, words=None, **keywords):
+        return wall_deck("mpm", self.words if words is None else words, POWDER, RADIUS, 1.0, 2e-7, **keywords)
+
+    def speed(self, deck, **keywords):
+        return self.result(self.run_deck(deck, **keywords), "SPEED")[0]
+
+    def test_pair_style_before_create_box(self):
+        deck = self.deck()
+        style = next(l for l in deck.splitlines() if l.startswith("pair_style"))
+        early = deck.replace(style + "\n", "").replace("region box", style + "\nregion box")
+        self.assertEqual(self.speed(early), self.speed(deck))
+
+    def test_ld_preload_with_the_stock_binary(self):
+        found = self.speed(self.deck(), launcher="liggghts", environment={"LD_PRELOAD": PLUGIN})
+        self.assertEqual(found, self.speed(self.deck()))
+
+    def test_converted_hertz_deck(self):
+        """limitForce and tangential_damping are known; coefficientRestitution is said not to be used."""
+        e = "fix p6 all property/global coefficientRestitution peratomtypepair 1 0.5\nfix p1"
+        text = self.run_deck(self.deck(self.words + " limitForce on tangential_damping on").replace("fix p1", e))
+        self.assertEqual(text.count("'coefficientRestitution' is not used"), 1)
+        self.assertEqual(self.result(text, "SPEED")[0], self.speed(self.deck()))
+
+    def test_density_warning(self):
+        text = self.run_deck(self.deck().replace("density 1500.0", "density 1600.0"))
+        self.assertEqual(text.count("have density 1600 to 1600 kg/m^3"), 1)
+
+    def test_every_combination_starts(self):
+        for model in ("mpm", "thornton"):
+            for tangential in ("off", "history", "no_history"):
+                for rolling in ("", " rolling_friction cdt", " rolling_friction epsd2"):
+                    deck = wall_deck(model, self.words if model == "mpm" else "", POWDER, RADIUS, 1.0, 2e-7,
+                                     tangential=tangential + rolling)
+                    self.assertGreater(self.speed(deck), 0.1, f"{model} {tangential} {rolling}")
+
+    def test_own_statistics_fix(self):
+        """`fix ID all granulaw/stats` by the user takes the place of the automatic one."""
+        deck = self.deck().replace("run 120", "fix s all granulaw/stats file s.json\nvariable d equal f_s\nrun 120")
+        self.run_deck(deck + 'print "D ${d}"\n')
+        self.assertTrue((self.folder / "s.json").exists())
+
+    def test_check_timestep(self):
+        deck = self.deck().replace("run 120", "fix c all check/timestep/gran 10 0.5 0.5\nrun 120")
+        self.assertGreater(self.speed(deck), 0.1)
+
+    def test_restart(self):
+        """A run through a restart file equals the run in one go; without pair_style it says what to do."""
+        gas.data_file(self.folder / "gas.data")
+        model = gas.model(self.words + " tangentialDampingRatio 0")
+        whole = self.run_deck(gas.start() + model + gas.MOVE + gas.OUTPUT + "run 2000\nrun 2000\n" + gas.PRINT)
+        for ranks in (1, 2):
+            self.run_deck(gas.start() + model + gas.MOVE + gas.OUTPUT + "run 2000\nwrite_restart half.restart\n",
+                          ranks=ranks)
+            again = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary p p p\n"
+                     "newton off\ncommunicate single vel yes\nread_restart half.restart\nneighbor 0.0004 bin\n"
+                     "neigh_modify delay 0\n")
+            resumed = self.run_deck(again + model + gas.MOVE + gas.OUTPUT + "run 2000\n" + gas.PRINT)
+            # rounding, amplified by 2000 steps of collisions
+            self.assertAlmostEqual(self.result(resumed, "GAS")[0] / self.result(whole, "GAS")[0], 1.0, delta=1e-8)
+        bare = self.run_deck(again + properties([POWDER], 0.3) + gas.MOVE + "run 1\n", expect_failure=True)
+        self.assertIn("repeat pair_style and pair_coeff after read_restart", bare)
+
+
+if __name__ == "__main__":
+    unittest.main()

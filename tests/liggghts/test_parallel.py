@@ -1,0 +1,32 @@
+"""Two MPI ranks: the same physics, the same ledger, and a clean stop when something is wrong."""
+import unittest
+
+import gas
+from harness import Deck
+
+
+class Parallel(Deck):
+    def setUp(self):
+        super().setUp()
+        gas.data_file(self.folder / "gas.data")
+
+    def test_gas_on_two_ranks(self):
+        for model in ("mpm", "thornton"):
+            words = f"law {self.law} materials powder" if model == "mpm" else ""
+            deck = gas.start() + gas.model(words, name=model) + gas.MOVE + gas.OUTPUT + "run 5000\n" + gas.PRINT
+            one = self.result(self.run_deck(deck), "GAS")
+            two = self.result(self.run_deck(deck, ranks=2), "GAS")
+            for value, expected in zip(two, one):
+                self.assertAlmostEqual(value / expected, 1.0, delta=1e-6, msg=model)  # order of summation, as in test_history
+
+    def test_error_stops_all_ranks(self):
+        for words, sentence in ((f"law missing.h5 materials powder", "missing.h5"),
+                                (f"law {self.law} materials chalk", "no material 'chalk'")):
+            deck = gas.start() + gas.model(words) + gas.MOVE + "run 1\n"
+            text = self.run_deck(deck, ranks=2, expect_failure=True)
+            self.assertEqual(text.count("ERROR"), 1, text[-2000:])
+            self.assertIn(sentence, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
