@@ -114,6 +114,9 @@ double ContactCurve::work_unloading(double x_m) const
 double ContactCurve::admissibility_margin() const
 {
   double margin = std::numeric_limits<double>::infinity();
+  // A turn just past the onset must not give back more than was put in.
+  if (const double first = onset_ * (1.0 + 1e-9); onset_ > 0 && first < x_end_)
+    margin = 1.0 - work_unloading(first) / work_loading(first);
   const std::size_t samples = 4 * intervals_.size();
   for (std::size_t k = 1; k < samples; ++k) {
     const double s = table_.s_end * static_cast<double>(k) / static_cast<double>(samples);

@@ -65,7 +65,8 @@ class ContactCurve
   double work_loading(double x) const;
   double work_unloading(double x_m) const;
 
-  /// min over the table of (F_L - dW_u/d x_m)/F_L; negative: some closed cycle would gain energy.
+  /// min over the table of (F_L - dW_u/d x_m)/F_L, and of (W_L - W_u)/W_L just past the onset; negative: some
+  /// closed cycle would gain energy. Infinity: the table ends before the onset.
   double admissibility_margin() const;
 
   /// The law: force, stiffness and contact radius of a pair at overlap `delta` (m, > 0) whose largest overlap

@@ -1,0 +1,227 @@
+#include "law/law_file.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "base/error.hpp"
+#include "synthetic_law.hpp"
+
+namespace granulaw {
+namespace {
+
+// HDF5 1.10 complains at exit ("infinite loop closing library") after it was fed damaged files; nothing is open then.
+[[maybe_unused]] const herr_t no_exit_handler = H5dont_atexit();
+
+namespace fs = std::filesystem;
+using testing::SyntheticLaw;
+
+class LawFile : public ::testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    folder_ = fs::temp_directory_path() / ("granulaw_law_file_" + std::to_string(getpid()) + "_" +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    path_ = (folder_ / "law.h5").string();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Writes a good law, changes the file through the raw API, returns the reader's sentence ("" if it accepts).
+  std::string after(const std::function<void(hid_t)>& change)
+  {
+    write_law(SyntheticLaw{}.law(), path_);
+    const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    change(file);
+    H5Fclose(file);
+    return refusal();
+  }
+  std::string refusal()
+  {
+    try {
+      read_law(path_);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static void overwrite(hid_t file, const char* dataset, const std::function<void(std::vector<double>&)>& change)
+  {
+    const hid_t set = H5Dopen2(file, dataset, H5P_DEFAULT), space = H5Dget_space(set);
+    std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    change(values);
+    H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Sclose(space);
+    H5Dclose(set);
+  }
+  /// Replaces a dataset by an empty one of another type or extent.
+  static void replace(hid_t file, const char* dataset, hid_t type, hsize_t extent, bool chunked = false)
+  {
+    H5Ldelete(file, dataset, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(1, &extent, nullptr), list = H5Pcreate(H5P_DATASET_CREATE);
+    const hsize_t chunk = 1024;
+    if (chunked) H5Pset_chunk(list, 1, &chunk);
+    H5Dclose(H5Dcreate2(file, dataset, type, space, H5P_DEFAULT, list, H5P_DEFAULT));
+    H5Pclose(list);
+    H5Sclose(space);
+  }
+
+  fs::path folder_;
+  std::string path_;
+};
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
+TEST_F(LawFile, RoundTripIsBitExact)
+{
+  const Law law = SyntheticLaw{}.law();
+  write_law(law, path_);
+  const Law read = read_law(path_);
+  EXPECT_EQ(read.pairs, law.pairs);
+  EXPECT_EQ(read.provenance, law.provenance);
+  ASSERT_EQ(read.bodies.size(), law.bodies.size());
+  for (const auto& [name, body] : law.bodies) {
+    const BodyLaw& other = read.bodies.at(name);
+    EXPECT_EQ(other.material.density, body.material.density);
+    EXPECT_EQ(other.material.youngs_modulus, body.material.youngs_modulus);
+    EXPECT_EQ(other.material.poisson_ratio, body.material.poisson_ratio);
+    EXPECT_EQ(other.material.yield_stress, body.material.yield_stress);
+    EXPECT_EQ(other.certificate.max_inertia, body.certificate.max_inertia);
+    EXPECT_EQ(other.certificate.support, body.certificate.support);
+    const ContactCurve::Table &a = body.curve.table(), &b = other.curve.table();
+    EXPECT_EQ(a.s_end, b.s_end);
+    EXPECT_EQ(a.onset, b.onset);
+    EXPECT_TRUE(same_bits(a.force_ratio, b.force_ratio) && same_bits(a.force_ratio_slope, b.force_ratio_slope));
+    EXPECT_TRUE(same_bits(a.residual_ratio, b.residual_ratio) && same_bits(a.residual_ratio_slope, b.residual_ratio_slope));
+    EXPECT_TRUE(same_bits(a.exponent, b.exponent) && same_bits(a.exponent_slope, b.exponent_slope));
+    EXPECT_TRUE(same_bits(a.radius_ratio, b.radius_ratio) && same_bits(a.radius_ratio_slope, b.radius_ratio_slope));
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "a temporary file was left";
+}
+
+TEST_F(LawFile, EveryTruncationIsRefused)
+{
+  write_law(SyntheticLaw{}.law(), path_);
+  const auto size = fs::file_size(path_);
+  for (int k = 0; k < 40; ++k) {
+    write_law(SyntheticLaw{}.law(), path_);
+    fs::resize_file(path_, size * static_cast<unsigned>(k) / 40);
+    EXPECT_NE(refusal(), "") << "cut to " << k << "/40";
+  }
+  write_law(SyntheticLaw{}.law(), path_);
+  fs::resize_file(path_, size - 1);
+  EXPECT_NE(refusal(), "") << "cut by one byte";
+}
+
+TEST_F(LawFile, FlippedBytesNeverCrash)
+{
+  write_law(SyntheticLaw{}.law(), path_);
+  std::ifstream in(path_, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(in)), {});
+  unsigned state = 1;
+  for (int k = 0; k < 300; ++k) {
+    std::string bad = good;
+    for (int j = 0; j < 4; ++j) {
+      state = state * 1664525u + 1013904223u;
+      bad[state % bad.size()] = static_cast<char>(state >> 24);
+    }
+    std::ofstream(path_, std::ios::binary) << bad;
+    refusal();  // accepted or refused: only a crash or a foreign exception fails
+  }
+}
+
+TEST_F(LawFile, MissingAndForeignFilesAreRefused)
+{
+  EXPECT_NE(refusal().find("no such file"), std::string::npos);
+  std::ofstream(path_) << "not a law\n";
+  EXPECT_NE(refusal().find("not an HDF5 file"), std::string::npos);
+  H5Fclose(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_NE(refusal().find("not a contact law"), std::string::npos);
+  path_ = folder_.string();
+  EXPECT_NE(refusal(), "");
+}
+
+TEST_F(LawFile, AnotherMajorVersionIsRefusedWithBothNumbers)
+{
+  const std::string sentence = after([](hid_t file) {
+    const hid_t attribute = H5Aopen(file, "version_major", H5P_DEFAULT);
+    const int next = 2;
+    H5Awrite(attribute, H5T_NATIVE_INT, &next);
+    H5Aclose(attribute);
+  });
+  EXPECT_NE(sentence.find("major version"), std::string::npos);
+  EXPECT_NE(sentence.find("found 2, allowed is 1"), std::string::npos) << sentence;
+}
+
+TEST_F(LawFile, UnusableNumbersAreRefused)
+{
+  const auto set_first = [](double value) { return [value](std::vector<double>& v) { v[0] = value; }; };
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/curve/exponent", set_first(NAN)); }).find("exponent"),
+            std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/material/density", set_first(-1)); }).find("density"),
+            std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/material/poisson_ratio", set_first(0.5)); }), "");
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/material/yield_stress", set_first(NAN)); }), "");
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/certificate/max_inertia", set_first(NAN)); }), "");
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/curve/s_end", set_first(1e9)); }), "");
+  EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies/powder/curve/onset", H5P_DEFAULT); }).find("onset"),
+            std::string::npos);
+}
+
+TEST_F(LawFile, WrongTypesAndSizesAreRefusedWithoutLargeAllocation)
+{
+  const char* set = "bodies/powder/curve/force_ratio";
+  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_STD_I32LE, 129); }).find("force_ratio"), std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_C_S1, 129); }).find("force_ratio"), std::string::npos);
+  // 2^50 doubles that are declared but not stored
+  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, hsize_t{1} << 50, true); }).find("up to"), std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, 7); }).find("length"), std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { replace(f, "pairs", H5T_IEEE_F64LE, 3); }).find("pairs"), std::string::npos);
+  EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies", H5P_DEFAULT); }).find("bodies"), std::string::npos);
+  EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies/glass", H5P_DEFAULT); }).find("glass"), std::string::npos);
+}
+
+TEST_F(LawFile, AFailedWriteLeavesTheOldFile)
+{
+  write_law(SyntheticLaw{}.law(), path_);
+  const auto size = fs::file_size(path_);
+  Law bad = SyntheticLaw{}.law();
+  bad.bodies["powder"].material.density = -1;
+  EXPECT_THROW(write_law(bad, path_), Error);
+  EXPECT_EQ(fs::file_size(path_), size);
+  EXPECT_THROW(write_law(SyntheticLaw{}.law(), (folder_ / "no" / "law.h5").string()), Error);
+}
+
+TEST(Law, ResolvesPairsByTheWeakerBody)
+{
+  const Law law = SyntheticLaw{}.law();
+  const PairLaw mixed = resolve_pair(law, "glass", "powder", "test");
+  EXPECT_EQ(mixed.yielding->material.name, "powder");
+  EXPECT_DOUBLE_EQ(mixed.mapping.e_star_pair(), 1.0 / (1.0 / 10e9 + 1.0 / (70e9 / 0.96)));
+  EXPECT_DOUBLE_EQ(resolve_pair(law, "wall", "powder", "test").mapping.sqrt_lambda, 1.0);
+  EXPECT_DOUBLE_EQ(resolve_pair(law, "powder", "powder", "test").mapping.sqrt_lambda, 2.0);
+  try {
+    resolve_pair(law, "powdr", "wall", "deck");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'powder'"), std::string::npos) << error.what();
+  }
+  Law fewer = law;
+  fewer.pairs = {{"powder", "wall"}};
+  EXPECT_THROW(resolve_pair(fewer, "powder", "powder", "deck"), Error);
+}
+
+}  // namespace
+}  // namespace granulaw

@@ -1,0 +1,78 @@
+#include "law/thornton.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/scales.hpp"
+#include "law/replay.hpp"
+#include "synthetic_law.hpp"
+
+namespace granulaw {
+namespace {
+
+TEST(Thornton, ClosedFormMatchesThePublishedNumbers)
+{
+  const double table[][2] = {{2, .93063}, {5, .77334}, {10, .65856}, {20, .55711}, {50, .44461}, {100, .37430}, {1000, .21070}};
+  for (const auto& [v, e] : table) EXPECT_NEAR(thornton_restitution(v), e, 1e-5);
+  EXPECT_EQ(thornton_restitution(0.5), 1.0);
+}
+
+TEST(Thornton, ReplayGivesTheClosedForm)
+{
+  const double e_star = 10e9, y = 1e8, rho = 1500, r = 0.002;
+  const ThorntonPair pair{e_star, 1.6 * y};
+  const double mass = 4.0 / 3.0 * M_PI * rho * r * r * r;
+  for (const double ratio : {0.5, 1.5, 2.0, 5.0, 20.0, 100.0, 1000.0}) {
+    const double v = ratio * yield_velocity(e_star, y, rho);
+    const double guess = 2.87 * std::pow(mass * mass / (e_star * e_star * r * v), 0.2);
+    const Replay replay = replay_collision(
+        [&](double delta, double delta_max) { return pair.evaluate(r, delta, delta_max); }, mass, v, guess);
+    // velocity Verlet at 20000 steps a contact: 1e-6; the kink at the turn adds one step's work
+    EXPECT_NEAR(replay.restitution, thornton_restitution(ratio), 2e-4 * thornton_restitution(ratio)) << ratio;
+    EXPECT_NEAR(replay.work_unload / replay.work_load, replay.restitution * replay.restitution, 1e-3);
+  }
+}
+
+TEST(Thornton, ForceAndRadiusAreContinuousAtYieldAndAtTheTurn)
+{
+  const ThorntonPair pair{10e9, 1.6e8};
+  const double r = 0.002, d_y = pair.yield_overlap(r);
+  const auto below = pair.evaluate(r, d_y * (1 - 1e-12), 0), above = pair.evaluate(r, d_y * (1 + 1e-12), 0);
+  EXPECT_NEAR(below.force, above.force, 1e-10 * above.force);
+  EXPECT_NEAR(below.stiffness, above.stiffness, 1e-10 * above.stiffness);
+  const double d_m = 30 * d_y;
+  const auto loading = pair.evaluate(r, d_m, d_m), unloading = pair.evaluate(r, d_m * (1 - 1e-12), d_m);
+  EXPECT_NEAR(loading.force, unloading.force, 1e-9 * loading.force);
+  EXPECT_NEAR(loading.contact_radius, unloading.contact_radius, 1e-9 * loading.contact_radius);
+}
+
+TEST(Replay, ElasticCollisionOfALawIsHertz)
+{
+  // The synthetic law at 1e-8 of an overlap is Hertz to 0.9 sqrt(1e-8) = 1e-4.
+  const Law law = testing::SyntheticLaw{}.law();
+  const PairLaw pair = resolve_pair(law, "glass", "wall", "test");
+  const double r = 0.002, mass = 4.0 / 3.0 * M_PI * 2500 * r * r * r, e_star = pair.mapping.e_star;
+  const double delta = 1e-8 * r;
+  const double v = std::sqrt(16.0 / 15.0 * e_star * std::sqrt(r) * std::pow(delta, 2.5) / mass);
+  const Replay replay = replay_collision(pair, r, mass, v);
+  EXPECT_NEAR(replay.restitution, 1.0, 1e-6);
+  EXPECT_NEAR(replay.delta_max / delta, 1.0, 2e-4);
+  // Hertz: T = 2.9432 delta/V (Johnson, sect. 11.4)
+  EXPECT_NEAR(replay.contact_time / (2.9432 * delta / v), 1.0, 5e-4);
+  EXPECT_FALSE(replay.left_range);
+}
+
+TEST(Replay, RestitutionIsTheRatioOfTheWorkFunctions)
+{
+  const Law law = testing::SyntheticLaw{}.law();
+  const PairLaw pair = resolve_pair(law, "powder", "wall", "test");
+  const double r = 0.002, mass = 4.0 / 3.0 * M_PI * 1500 * r * r * r;
+  for (const double v : {0.05, 0.5, 3.0}) {
+    const Replay replay = replay_collision(pair, r, mass, v);
+    const double x = replay.delta_max / r;
+    ASSERT_FALSE(replay.left_range);
+    EXPECT_NEAR(replay.restitution, std::sqrt(pair.curve->work_unloading(x) / pair.curve->work_loading(x)), 2e-4);
+  }
+}
+
+}  // namespace
+}  // namespace granulaw
