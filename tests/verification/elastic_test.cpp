@@ -1,0 +1,87 @@
+// Elastic contact against finite elements and against three formulations' common result.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "references.hpp"
+#include "solver/ripple.hpp"
+#include "solver/runs.hpp"
+
+namespace granulaw {
+namespace {
+
+TEST(ElasticImpact, ReturnsAllEnergy)
+{
+  const RunResult r = run_impact(reference::unit_sphere(0), reference::elastic_impact_velocity());
+  EXPECT_GE(r.summary.restitution, 0.999);  // what stays behind as vibration of the sphere is of order (V/c)^(3/5) 1e-3
+  EXPECT_LE(r.summary.restitution, 1.0 + 1e-4);  // no energy from nowhere, beyond the step's own oscillation
+  EXPECT_NEAR(r.summary.contact_time, reference::elastic_impact_time, 0.005 * reference::elastic_impact_time);
+  EXPECT_NEAR(r.summary.force_max, reference::elastic_impact_force, 0.005 * reference::elastic_impact_force);
+  EXPECT_LT(r.summary.energy_error, 1e-4);  // measured 1e-6: leapfrog's bounded oscillation
+}
+
+/// Depth by depth, as a user would who asks for the force at one overlap: 0.5 % is the bound; the reference
+/// itself is good to 0.1 %.
+TEST(ElasticPress, AgreesWithFiniteElements)
+{
+  for (const double depth : {0.003, 0.01}) {
+    PressPlan plan;
+    plan.depth = depth;
+    plan.support = Support::midplane;
+    const RunResult r = run_press(reference::unit_sphere(0), plan);
+    const TreatedLoading treated(r.trace);
+    ASSERT_TRUE(treated.valid());
+    for (const auto& point : reference::elastic_press)
+      if (point.delta <= depth && point.delta >= 0.1 * depth) {
+        EXPECT_NEAR(treated.force(point.delta) / point.force, 1.0, 0.005) << "delta/R = " << point.delta << " of a press to " << depth;
+      }
+    EXPECT_NEAR(r.summary.restitution, 1.0, 1e-3);  // measured 1.0002: vibration at the turn
+  }
+}
+
+TEST(Ripple, MeanOverShiftedGridsRemovesIt)
+{
+  RunOptions one;
+  one.resolution = 12;
+  one.phases = 1;
+  RunOptions four = one;
+  four.phases = 4;
+  const Sphere sphere = reference::unit_sphere(100);
+  PressPlan plan;
+  plan.depth = 0.02;
+  const double raw = run_press(sphere, plan, one).summary.ripple;
+  const double mean = run_press(sphere, plan, four).summary.ripple;
+  EXPECT_GT(raw, 0.005);       // there is a ripple to remove
+  EXPECT_LT(mean, 0.5 * raw);  // its first three harmonics are gone; the rest is at most 1/4 for a saw-tooth
+}
+
+TEST(BadInput, IsRefusedInOneSentence)
+{
+  const Sphere good = reference::unit_sphere(100);
+  const auto message = [](auto&& call) {
+    try {
+      call();
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  Sphere bad = good;
+  bad.material.youngs_modulus = -1;
+  EXPECT_NE(message([&] { run_impact(bad, 0.001); }).find("youngs_modulus"), std::string::npos);
+  bad = good;
+  bad.material.poisson_ratio = 0.5;
+  EXPECT_NE(message([&] { run_impact(bad, 0.001); }).find("poisson_ratio"), std::string::npos);
+  EXPECT_NE(message([&] { run_impact(good, -1); }).find("velocity"), std::string::npos);
+  EXPECT_NE(message([&] { run_impact(good, 2.0); }).find("wave speed"), std::string::npos);
+  PressPlan plan;
+  plan.depth = 1.5;
+  EXPECT_NE(message([&] { run_press(good, plan); }).find("depth"), std::string::npos);
+  RunOptions o;
+  o.courant = 1.2;
+  EXPECT_NE(message([&] { run_impact(good, 0.001, o); }).find("courant"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace granulaw
