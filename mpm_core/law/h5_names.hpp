@@ -57,9 +57,14 @@ inline constexpr Field solver_error_force{"solver_error_force", "1", "relative, 
 inline constexpr Field solver_error_restitution{"solver_error_restitution", "1", "relative, two resolutions, e"};
 inline constexpr Field interpolation_error{"interpolation_error", "1",
                                            "relative, table against the fitted curve it was made from"};
+inline constexpr Field held_out_error{"held_out_error", "1", "largest relative error of e at a press depth left out of the fit"};
 inline constexpr Field residual_scatter{"residual_scatter", "1", "relative rms of the runs about the fit"};
 inline constexpr Field reload_loop_area{"reload_loop_area", "1",
                                         "largest area of an unload/reload loop over the loading work there"};
+inline constexpr Field slow_press_force{"slow_press_force", "1",
+                                        "force of a slow press over the impact's at its overlap, less 1; signed"};
+inline constexpr Field slow_press_restitution{"slow_press_restitution", "1",
+                                              "e of a slow press over the impact's at its overlap, less 1; signed"};
 inline constexpr Field verification_error_force{"verification_error_force", "1",
                                                 "largest relative error of F_max, replay against impacts"};
 inline constexpr Field verification_error_restitution{"verification_error_restitution", "1",

@@ -29,8 +29,11 @@ struct Certificate
   double solver_error_force = 0;        ///< two resolutions, treated force
   double solver_error_restitution = 0;  ///< two resolutions, e
   double interpolation_error = 0;       ///< table against the fitted curve it was made from
+  double held_out_error = 0;            ///< largest error of e at a press depth left out of the fit
   double residual_scatter = 0;          ///< rms of the runs about the fit: what the ripple treatment removed
   double reload_loop_area = 0;          ///< largest area of an unload/reload loop over the loading work there
+  double slow_press_force = 0;          ///< F of a slow press over the impact's at the deepest impact's overlap, less 1
+  double slow_press_restitution = 0;    ///< the same of e: what inertia does at max_inertia (signed)
   double verification_error_force = 0;  ///< largest error of F_max, replay of this law against fresh impacts
   double verification_error_restitution = 0;  ///< the same of e
   double verification_impacts = 0;      ///< how many impacts were compared

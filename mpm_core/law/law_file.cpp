@@ -27,13 +27,16 @@ constexpr CurveField curve_fields[] = {
     {h5::exponent, &Table::exponent},             {h5::exponent_slope, &Table::exponent_slope},
     {h5::radius_ratio, &Table::radius_ratio},     {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
 
-struct CertificateField { const h5::Field& field; double Certificate::*value; };
+struct CertificateField { const h5::Field& field; double Certificate::*value; bool is_signed = false; };
 constexpr CertificateField certificate_fields[] = {
     {h5::solver_error_force, &Certificate::solver_error_force},
     {h5::solver_error_restitution, &Certificate::solver_error_restitution},
     {h5::interpolation_error, &Certificate::interpolation_error},
+    {h5::held_out_error, &Certificate::held_out_error},
     {h5::residual_scatter, &Certificate::residual_scatter},
     {h5::reload_loop_area, &Certificate::reload_loop_area},
+    {h5::slow_press_force, &Certificate::slow_press_force, true},
+    {h5::slow_press_restitution, &Certificate::slow_press_restitution, true},
     {h5::verification_error_force, &Certificate::verification_error_force},
     {h5::verification_error_restitution, &Certificate::verification_error_restitution},
     {h5::verification_impacts, &Certificate::verification_impacts},
@@ -61,9 +64,10 @@ void check_body(const BodyLaw& body, const std::string& where)
     fail(where, m.yields() ? "the material yields but its curve has no onset"
                            : "the material is elastic but its curve has an onset of yield");
   for (const CertificateField& c : certificate_fields)
-    if (!(body.certificate.*c.value >= 0))  // NaN fails as well; max_inertia may be infinite (elastic)
-      fail(where, fmt::format("certificate '{}' is out of range", c.field.name),
-           fmt::format("{:.6g}", body.certificate.*c.value), "0 or more");
+    if (const double value = body.certificate.*c.value; !(value >= (c.is_signed ? -1.0 : 0.0)))
+      // NaN fails as well; max_inertia may be infinite (elastic)
+      fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
+           c.is_signed ? "-1 or more" : "0 or more");
 }
 
 /// Names become HDF5 links and parts of "a:b": letters, digits, '_', '-', '.'.
