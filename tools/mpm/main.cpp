@@ -1,0 +1,71 @@
+// mpm: contact laws by the material point method. One command a file; this one parses, reports and exits.
+//
+// Exit codes: 0 done; 1 the input cannot be used (one sentence on stderr); 2 the command line cannot be
+// understood; 130 stopped by Ctrl-C.
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <new>
+
+#include "base/error.hpp"
+#include "base/version.hpp"
+#include "commands.hpp"
+#include "terminal.hpp"
+
+namespace granulaw {
+std::string command_line;
+}
+
+int main(int argc, char** argv)
+{
+  using namespace granulaw;
+  // HDF5 prints at exit after it was fed a damaged file; every file is closed by its owner anyway.
+  H5dont_atexit();
+  for (int k = 0; k < argc; ++k) command_line += (k ? " " : "") + std::string(k ? argv[k] : "mpm");
+
+  CLI::App app{
+      "mpm: contact laws between particles, computed by the material point method.\n"
+      "\n"
+      "All input and output is in SI units: kg/m^3, Pa, m, m/s, N, J, s.\n"
+      "A first session:\n"
+      "  mpm impact materials.toml --particle grain --velocity 1.0        one collision with a rigid wall\n"
+      "  mpm table materials.toml -o law.h5                               the contact law of every pair\n"
+      "  mpm law law.h5 --pair powder:wall --velocity 1.0                 the same collision by the law\n"
+      "  mpm plot law.h5 -o law.png                                       what the law looks like\n"
+      "Each command explains itself: mpm impact --help",
+      "mpm"};
+  app.set_version_flag("--version", fmt::format("mpm {} ({})", version(), git_hash()));
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("mpm: {} (mpm --help and mpm COMMAND --help list what is possible)\n", error.what());
+  });
+  add_impact(app);
+  add_press(app);
+  add_table(app);
+  add_law(app);
+  add_check(app);
+  add_info(app);
+  add_plot(app);
+  add_plan(app);
+
+  catch_interrupts();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : 2;
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "mpm: stopped\n");
+    return 130;
+  } catch (const Error& error) {
+    fmt::print(stderr, "mpm: {}\n", error.what());
+    return 1;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "mpm: not enough memory\n");
+    return 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "mpm: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

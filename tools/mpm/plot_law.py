@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+"""Draws a contact law: plot_law.py LAW.h5 PICTURE. Called by `mpm plot`.
+
+Left, force against overlap with unloading branches; right, e against V/V_y, Thornton (1997) beside it.
+Dimensionless, one colour a material.
+"""
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def hermite(nodes, value, slope, s):
+    """Cubic Hermite with slopes d/ds, nodes uniform: as the law library evaluates (docs/law-format.md)."""
+    h = nodes[1] - nodes[0]
+    k = np.clip((s / h).astype(int), 0, len(nodes) - 2)
+    t = s / h - k
+    return ((1 + 2 * t) * (1 - t) ** 2 * value[k] + t * (1 - t) ** 2 * h * slope[k]
+            + t * t * (3 - 2 * t) * value[k + 1] + t * t * (t - 1) * h * slope[k + 1])
+
+
+class Body:
+    def __init__(self, group):
+        material, curve = group["material"], group["curve"]
+        self.e_star = material["youngs_modulus"][()] / (1 - material["poisson_ratio"][()] ** 2)
+        self.yield_stress = material["yield_stress"][()] if "yield_stress" in material else np.inf
+        self.onset = curve["onset"][()] if "onset" in curve else np.inf
+        self.s_end = curve["s_end"][()]
+        self.curve = {name: curve[name][:] for name in curve if curve[name].shape}
+        self.nodes = np.linspace(0, self.s_end, len(self.curve["force_ratio"]))
+
+    def of(self, name, x):
+        return hermite(self.nodes, self.curve[name], self.curve[name + "_slope"], np.asarray(x) ** 0.25)
+
+    def loading(self, x):
+        """F/(4/3 E* R^2)."""
+        return x ** 1.5 * self.of("force_ratio", x)
+
+    def works(self):
+        """x, loading work and returned work, in 4/3 E* R^3."""
+        s = np.linspace(0, self.s_end, 4001)[1:]
+        x = s ** 4
+        integrand = 4 * s ** 3 * self.loading(x)
+        loaded = np.cumsum(integrand) * (s[1] - s[0])
+        returned = self.loading(x) * x * (1 - self.of("residual_ratio", x)) / (self.of("exponent", x) + 1)
+        return x, loaded, np.where(x > self.onset, returned, loaded)
+
+
+def thornton(v):
+    x = 1 / np.maximum(v, 1)
+    e = np.sqrt(6 * np.sqrt(3) / 5) * np.sqrt(1 - x * x / 6) * (x / (x + 2 * np.sqrt(1.2 - 0.2 * x * x))) ** 0.25
+    return np.where(v > 1, e, 1.0)
+
+
+def main(law, picture):
+    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2))
+    with h5py.File(law) as file:
+        for colour, name in enumerate(file["bodies"]):
+            body, c = Body(file["bodies"][name]), f"C{colour}"
+            x = np.linspace(0, body.s_end, 400)[1:] ** 4
+            scale = 4 / 3 * body.e_star / (body.yield_stress if np.isfinite(body.yield_stress) else body.e_star)
+            label = f"{name}" + (f", E*/Y = {body.e_star / body.yield_stress:.0f}" if np.isfinite(body.yield_stress) else ", elastic")
+            left.plot(x, scale * body.loading(x), c, label=label)
+            if not np.isfinite(body.onset):
+                continue
+            for x_m in np.array([0.15, 0.4, 0.7, 1.0]) * x[-1]:
+                residual = float(body.of("residual_ratio", x_m)) * x_m
+                u = np.linspace(0, 1, 100)
+                left.plot(residual + u * (x_m - residual),
+                          scale * float(body.loading(x_m)) * u ** float(body.of("exponent", x_m)), c, lw=0.8)
+            x, loaded, returned = body.works()
+            # kinetic energy 2/3 pi rho R^3 V^2 = 4/3 E* R^3 loaded; rho V_y^2 = (pi/2)^4 (2/5) 1.6^5 Y^5/E*^4
+            v_y = np.sqrt((np.pi / 2) ** 4 * 0.4 * 1.6 ** 5 * (body.yield_stress / body.e_star) ** 5)
+            right.plot(np.sqrt(2 / np.pi * loaded) / v_y, np.sqrt(returned / loaded), c, label=label)
+    v = np.geomspace(0.5, max(right.get_xlim()[1], 100), 400)
+    right.plot(v, thornton(v), "k--", lw=1, label="Thornton 1997")
+    right.set(xscale="log", xlim=(0.5, v[-1]), ylim=(0, 1.05), xlabel="V / V_y", ylabel="coefficient of restitution e")
+    left.set(xlabel="overlap / R", ylabel="force / (Y R²)", xlim=(0, None), ylim=(0, None))
+    for axis in (left, right):
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(picture, dpi=150)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])

@@ -1,0 +1,169 @@
+// mpm impact, mpm press: one run of the solver against a rigid wall.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "base/scales.hpp"
+#include "commands.hpp"
+#include "materials_file.hpp"
+#include "solver/runs.hpp"
+#include "terminal.hpp"
+#include "trace_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// What both commands take.
+struct RunRequest
+{
+  std::string materials, particle, grid = "mapped", output, support = "free";
+  double velocity = 0, depth = 0, tolerance = 0;
+  int resolution = 0, jobs = 1;
+  bool json = false;
+};
+
+void add_common(CLI::App& command, RunRequest& r)
+{
+  command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")->required();
+  command.add_option("--particle", r.particle, "particle of that file")->required();
+  command.add_option("--grid", r.grid, "reference grid: mapped (tartan and updated come in a later version)");
+  auto* resolution = command.add_option("--resolution", r.resolution,
+                                        "cells across the contact block, 6 to 200 (default: the run's own)");
+  command.add_option("--tolerance", r.tolerance, "relative error of force and e to reach, such as 0.01: the resolution is "
+                                                 "doubled until two resolutions agree so well")->excludes(resolution);
+  command.add_option("-o,--output", r.output, "trace of the run: NAME.csv or NAME.h5");
+  command.add_option("--jobs", r.jobs, "threads (default 1)")->check(CLI::Range(1, 256));
+  command.add_flag("--json", r.json, "print one JSON object instead of the summary");
+}
+
+void check(const RunRequest& r)
+{
+  if (r.grid == "tartan" || r.grid == "updated")
+    fail("--grid", fmt::format("'{}' is not in this version yet", r.grid), {}, "mapped");
+  if (r.grid != "mapped") fail("--grid", "unknown grid", r.grid, "mapped, tartan, updated (this version: mapped)");
+  if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
+    fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
+  check_output(r.output, ".csv, .h5");
+}
+
+/// Runs at the resolution asked for, or doubles it until the tolerance is met (at most twice).
+RunResult run_to_tolerance(const RunRequest& r, const std::function<RunResult(const RunOptions&)>& run)
+{
+  ProgressBar bar;
+  RunOptions options;
+  options.resolution = r.resolution;
+  options.threads = r.jobs;
+  options.progress = [&](double done) { bar.update(done, options.resolution ? fmt::format("resolution {}", options.resolution) : ""); };
+  options.estimate_error = r.tolerance > 0;
+  if (r.tolerance <= 0) return run(options);
+  RunResult result;
+  for (const int resolution : {16, 32, 64}) {
+    options.resolution = resolution;
+    result = run(options);
+    if (result.summary.error_estimate <= r.tolerance) return result;
+  }
+  fmt::print(stderr, "mpm: tolerance {:.2g} not reached: the estimate at resolution 64 is {:.2g}\n", r.tolerance,
+             result.summary.error_estimate);
+  return result;
+}
+
+void print_json(const RunSummary& s)
+{
+  nlohmann::ordered_json out;
+  out["e"] = s.restitution;
+  out["force_max_N"] = s.force_max;
+  out["delta_max_m"] = s.delta_max;
+  out["delta_residual_m"] = s.delta_residual;
+  out["contact_time_s"] = s.contact_time;
+  out["work_load_J"] = s.work_load;
+  out["work_unload_J"] = s.work_unload;
+  out["points"] = s.points;
+  out["steps"] = s.steps;
+  out["cpu_s"] = s.cpu_s;
+  out["point_updates_per_s"] = s.point_updates_per_s;
+  if (s.error_estimate > 0) out["error_estimate"] = s.error_estimate;
+  else out["error_estimate"] = nullptr;
+  fmt::print("{}\n", out.dump(2));
+}
+
+void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
+{
+  if (!r.output.empty()) write_trace(result, r.output);
+  const RunSummary& s = result.summary;
+  if (r.json) return print_json(s);
+  fmt::print("coefficient of restitution e   {:.4f}\n", s.restitution);
+  fmt::print("largest force                  {:.5g} N\n", s.force_max);
+  fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max, s.delta_max / sphere.radius);
+  fmt::print("residual overlap               {:.5g} m\n", s.delta_residual);
+  fmt::print("contact time                   {:.5g} s\n", s.contact_time);
+  fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", s.work_load, s.work_unload);
+  if (s.error_estimate > 0) fmt::print("error, from two resolutions    {:.2g}\n", s.error_estimate);
+  fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps, s.cpu_s,
+             1e-6 * s.point_updates_per_s);
+  if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
+}
+
+void print_setting(const RunRequest& r, const Sphere& sphere)
+{
+  if (r.json) return;
+  const Material& m = sphere.material;
+  fmt::print("sphere of {:.4g} m radius, E* = {:.4g} Pa", sphere.radius, m.e_star());
+  if (m.yields()) {
+    const double v_y = yield_velocity(m.e_star(), m.yield_stress, m.density);
+    fmt::print(", E*/Y = {:.4g}, yield velocity V_y = {:.4g} m/s", m.e_star() / m.yield_stress, v_y);
+    if (r.velocity > 0)
+      fmt::print(", V/V_y = {:.4g}, I = rho V^2/Y = {:.3g}", r.velocity / v_y, m.density * r.velocity * r.velocity / m.yield_stress);
+  } else {
+    fmt::print(", elastic");
+  }
+  fmt::print("\n");
+}
+
+}  // namespace
+
+void add_impact(CLI::App& app)
+{
+  const auto r = std::make_shared<RunRequest>();
+  CLI::App* command = app.add_subcommand(
+      "impact", "A sphere hits a rigid wall: e, force, overlap, contact time.\n"
+                "Example: mpm impact materials.toml --particle grain --velocity 1.0 -o trace.csv");
+  add_common(*command, *r);
+  command->add_option("--velocity", r->velocity, "approach speed, m/s")->required();
+  command->callback([r] {
+    check(*r);
+    const Sphere sphere = read_materials(r->materials).sphere(r->particle);
+    if (!(r->velocity > 0 && std::isfinite(r->velocity)))
+      fail("--velocity", "cannot be used", fmt::format("{:g} m/s", r->velocity), "over 0");
+    print_setting(*r, sphere);
+    report(*r, sphere, run_to_tolerance(*r, [&](const RunOptions& o) { return run_impact(sphere, r->velocity, o); }));
+  });
+}
+
+void add_press(CLI::App& app)
+{
+  const auto r = std::make_shared<RunRequest>();
+  CLI::App* command = app.add_subcommand(
+      "press", "A sphere is pressed slowly onto a rigid wall and taken off again: the rate-free law.\n"
+               "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv");
+  add_common(*command, *r);
+  command->add_option("--depth", r->depth, "deepest overlap, as a share of the radius")->required();
+  command->add_option("--support", r->support, "free (as in a collision) or midplane (as in finite-element references)");
+  command->callback([r] {
+    check(*r);
+    if (r->support != "free" && r->support != "midplane") fail("--support", "unknown support", r->support, "free, midplane");
+    const Sphere sphere = read_materials(r->materials).sphere(r->particle);
+    if (!(r->depth > 0 && r->depth <= 0.8))
+      fail("--depth", "cannot be used", fmt::format("{:g} (a share of the radius)", r->depth), "over 0, up to 0.8");
+    PressPlan plan;
+    plan.depth = r->depth * sphere.radius;
+    plan.support = r->support == "free" ? Support::free : Support::midplane;
+    print_setting(*r, sphere);
+    report(*r, sphere, run_to_tolerance(*r, [&](const RunOptions& o) { return run_press(sphere, plan, o); }));
+  });
+}
+
+}  // namespace granulaw

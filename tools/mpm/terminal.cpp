@@ -1,0 +1,50 @@
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+namespace granulaw {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void remember_interrupt(int) { interrupted = 1; }
+
+}  // namespace
+
+void catch_interrupts()
+{
+  std::signal(SIGINT, remember_interrupt);
+  std::signal(SIGTERM, remember_interrupt);
+}
+
+void stop_if_interrupted()
+{
+  if (interrupted) throw Interrupted{};
+}
+
+ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+
+ProgressBar::~ProgressBar()
+{
+  if (visible_) fmt::print(stderr, "\r{:79}\r", "");
+}
+
+void ProgressBar::update(double done, const std::string& what)
+{
+  stop_if_interrupted();
+  const auto now = std::chrono::steady_clock::now();
+  if (!visible_ || now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  const auto width = static_cast<int>(30 * std::clamp(done, 0.0, 1.0));
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  fmt::print(stderr, "\r[{:30}] {:3.0f} % {:4.0f} s  {:30.30}", std::string(static_cast<std::size_t>(width), '='),
+             100 * done, seconds, what);
+  std::fflush(stderr);
+}
+
+}  // namespace granulaw

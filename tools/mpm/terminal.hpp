@@ -1,0 +1,29 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace granulaw {
+
+/// Thrown where a run stops because of Ctrl-C or SIGTERM.
+struct Interrupted {};
+
+/// Ctrl-C and SIGTERM from now on only set a flag.
+void catch_interrupts();
+/// Throws Interrupted once the flag is set.
+void stop_if_interrupted();
+
+/// A bar on stderr, drawn only when stderr is a terminal; every update also looks for Ctrl-C.
+class ProgressBar
+{
+ public:
+  ProgressBar();
+  ~ProgressBar();
+  void update(double done, const std::string& what);
+
+ private:
+  bool visible_;
+  std::chrono::steady_clock::time_point start_, last_{};
+};
+
+}  // namespace granulaw
