@@ -66,18 +66,24 @@ def square(half, z):
     return [(a, b, c), (a, c, d)]
 
 
-def random_cloud(count, radius, cylinder, bottom, packing, rng):
-    """Centres placed one by one at random without overlap (random sequential addition, cell list)."""
-    free = cylinder - 1.1 * radius
-    volume = count * 4.0 / 3.0 * math.pi * radius**3 / packing
-    height = volume / (math.pi * free**2)
+def random_cloud(count, radius, orifice, cylinder, bottom, packing, rng):
+    """Centres placed one by one at random, clear of each other and of the walls (random sequential addition)."""
+    def free(z):  # distance from the axis that a centre at height z may have
+        cone = orifice + z * math.tan(HALF_ANGLE) - 1.05 * radius / math.cos(HALF_ANGLE)
+        return min(cone, cylinder - 1.1 * radius)
+
+    height, volume, slice_height = 0.0, 0.0, 0.1 * radius
+    while volume < count * 4.0 / 3.0 * math.pi * radius**3 / packing:
+        volume += math.pi * max(free(bottom + height), 0.0) ** 2 * slice_height
+        height += slice_height
     cell = 2.0 * radius
     cells = {}
     centres = np.empty((count, 3))
+    widest = cylinder - 1.1 * radius
     n = 0
     while n < count:
-        p = rng.uniform([-free, -free, bottom], [free, free, bottom + height])
-        if p[0] ** 2 + p[1] ** 2 > free**2:
+        p = rng.uniform([-widest, -widest, bottom], [widest, widest, bottom + height])
+        if math.hypot(p[0], p[1]) > free(p[2]):
             continue
         key = tuple((p // cell).astype(int))
         near = (q for dx in (-1, 0, 1) for dy in (-1, 0, 1) for dz in (-1, 0, 1)
@@ -119,7 +125,7 @@ def main():
 
     os.makedirs(args.out, exist_ok=True)
     rng = np.random.default_rng(args.seed)
-    centres, top = random_cloud(args.particles, args.radius, args.cylinder, args.drop, args.packing, rng)
+    centres, top = random_cloud(args.particles, args.radius, args.orifice, args.cylinder, args.drop, args.packing, rng)
     wall_top = top + 5 * args.radius
     outlet = -10 * args.radius  # the plane where particles are counted and removed
     half = 1.2 * args.cylinder

@@ -30,9 +30,10 @@ def timing_rows(folder):
     times = {}
     path = os.path.join(folder, "timing.csv")
     if os.path.exists(path):
-        for row in csv.DictReader(open(path)):
-            times.setdefault(row["model"], []).append(
-                1e6 * float(row["loop_seconds"]) / (int(row["steps"]) * int(row["atoms"])))
+        with open(path) as file:
+            for row in csv.DictReader(file):
+                times.setdefault(row["model"], []).append(
+                    1e6 * float(row["loop_seconds"]) / (int(row["steps"]) * int(row["atoms"])))
     return times
 
 
@@ -101,8 +102,8 @@ def sentences(runs, table):
             if not value or not base:
                 continue
             change = 100 * (value.value / base.value - 1)
-            words = "differs" if value.differs(base) else "does not differ significantly"
-            out.append(f"- {quantity}: `{model}` {words} from `hertz` ({change:+.1f} %).")
+            words = "differs significantly" if value.differs(base) else "does not differ significantly"
+            out.append(f"- {quantity}: `{model}` {words} from `hertz` ({change:+.1f} %, by the spread within one filling).")
     for model, run in runs.items():
         if run.lost():
             out.append(f"- **`{model}` lost {run.lost()} particles: its other numbers cannot be trusted.**")

@@ -28,8 +28,11 @@ class Run:
         self.dt = float(re.findall(r"^timestep\s+([0-9.eE+-]+)\s*$", log, re.M)[-1])
         self.fill_steps = self.loops[0][1]
         self.dangerous_builds = sum(int(n) for n in re.findall(r"^Dangerous builds = (\d+)", log, re.M))
+        self.stats = None
         path = os.path.join(folder, "stats.json")
-        self.stats = json.load(open(path)) if os.path.exists(path) else None
+        if os.path.exists(path):
+            with open(path) as file:
+                self.stats = json.load(file)
 
     @property
     def opened(self):
