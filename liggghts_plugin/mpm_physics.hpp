@@ -8,29 +8,37 @@
 
 namespace granulaw::plugin {
 
-/// One pair of types under a tabulated law.
+/// One pair of types under a tabulated law: PairLaw with everything that does not change worked out.
 struct MpmContact
 {
-  PairLaw law;
-  const DissipationTable* dissipation = nullptr;
+  const HotTable* table = nullptr;
+  double per_lambda = 0;      // lambda of PairMapping
+  double force_scale = 0;     // Hertz force at x = 1 over R*^2, Pa
+  double inertia = 0;         // I over (relative speed)^2, s^2/m^2
 
-  ContactForce evaluate(double r_eff, double delta, double delta_max) const
+  MpmContact() = default;
+  MpmContact(const PairLaw& law, const HotTable& hot_table)
+      : table(&hot_table), per_lambda(1.0 / law.mapping.length(1.0)), force_scale(law.mapping.force(1.0)),
+        // the yielding body's share of the approach is V/sqrt(lambda): all on a rigid wall, half in a like pair
+        inertia(law.yielding->material.density / law.yielding->material.yield_stress * per_lambda)
   {
-    return law.evaluate(r_eff, delta, delta_max);
+  }
+
+  /// N, at overlap delta (m) of a contact whose largest overlap so far is delta_max (m).
+  double force(double r_eff, double delta, double delta_max) const
+  {
+    const double per_length = per_lambda / r_eff;
+    const double ratio = delta < delta_max ? delta / delta_max : 1.0;
+    return force_scale * r_eff * r_eff * table->force(delta * per_length, delta_max * per_length, ratio);
   }
   /// J, of a contact whose largest overlap is delta_max.
   double dissipated(double r_eff, double delta_max) const
   {
-    const double length = law.mapping.length(r_eff), x = delta_max / length;
-    return x <= law.curve->onset() ? 0.0 : law.mapping.force(r_eff) * length * (*dissipation)(x);
+    const double length = r_eff / per_lambda;
+    return force_scale * r_eff * r_eff * length * table->dissipated(delta_max / length);
   }
-  double largest_overlap() const { return law.max_overlap(1.0); }
-  /// The yielding body's share of the approach is V/sqrt(lambda): all of it on a rigid wall, half in a like pair.
-  double inertia_per_speed2() const
-  {
-    const double lambda = law.mapping.length(1.0);
-    return law.yielding->material.density / (law.yielding->material.yield_stress * lambda);
-  }
+  double largest_overlap() const { return table->curve().x_end() / per_lambda; }
+  double inertia_per_speed2() const { return inertia; }
 };
 
 /// Model `mpm`: laws from a file, one material name for each atom type.
@@ -50,7 +58,7 @@ class MpmPhysics
         fmt::format("{}: types {} ({}) and {} ({}{}), law file {}", where, i, a, j, rigid ? "rigid wall, " : "", b,
                     setup_->law->path);
     const PairLaw law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
-    return {law, &setup_->law->dissipation.at(law.yielding->material.name)};
+    return {law, setup_->law->tables.at(law.yielding->material.name)};
   }
 
  private:

@@ -38,7 +38,7 @@ void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 ///
 /// Physics is a value type without virtual calls:
 ///   name                                             "mpm", "thornton"
-///   Contact                                          law of one pair of types: evaluate, dissipated, ...
+///   Contact                                          law of one pair of types: force, dissipated, ...
 ///   prepare(lmp, registry, setup, types)             checks of the deck against the law
 ///   resolve(i, j, rigid, where) -> Contact           throws Error where there is no law for the pair
 template <class Physics>
@@ -95,17 +95,17 @@ class PlasticModel : public NormalModelBase
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
 
-    const granulaw::ContactForce contact = entry.contact.evaluate(r_eff, delta, delta_max);
+    const double normal_force = entry.contact.force(r_eff, delta, delta_max);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) advance(sidata, entry, r_eff, delta_max);
 
     const double root = std::sqrt(r_eff * delta);
-    sidata.Fn = contact.force;
-    sidata.kn = delta > 0.0 ? contact.force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
+    sidata.Fn = normal_force;
+    sidata.kn = delta > 0.0 ? normal_force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
     sidata.kt = entry.eight_shear_moduli * root;             // Mindlin, as stock hertz
     sidata.gamman = 0.0;
     sidata.gammat = 2.0 * damping_ * std::sqrt(sidata.kt * sidata.meff);
 
-    const double force = sidata.is_wall ? contact.force * sidata.area_ratio : contact.force;
+    const double force = sidata.is_wall ? normal_force * sidata.area_ratio : normal_force;
     for (int c = 0; c < 3; ++c) {
       i_forces.delta_F[c] += force * sidata.en[c];
       if (!sidata.is_wall) j_forces.delta_F[c] -= force * sidata.en[c];

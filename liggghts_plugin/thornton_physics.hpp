@@ -12,11 +12,11 @@ struct ThorntonContact
 {
   ThorntonPair law{};
 
-  ContactForce evaluate(double r_eff, double delta, double delta_max) const
+  double force(double r_eff, double delta, double delta_max) const
   {
-    return law.evaluate(r_eff, delta, delta_max);
+    return law.evaluate(r_eff, delta, delta_max).force;
   }
-  double dissipated(double r_eff, double delta_max) const { return thornton_dissipation(law, r_eff, delta_max); }
+  double dissipated(double r_eff, double delta_max) const;
   double largest_overlap() const { return std::numeric_limits<double>::max(); }  // times R* stays finite or inf
   double inertia_per_speed2() const { return 0.0; }  // the formula states no limit of velocity
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "law/fast_pow.hpp"
 #include "law/pair.hpp"
 
 namespace granulaw {
@@ -128,15 +129,18 @@ inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff
     return {force_scale * now.force, force_scale * per_length * now.stiffness, radius_scale * now.radius,
             std::max(delta, delta_max)};
   }
-  const Turning top = turning(x_max);
-  const double span = x_max - top.residual;
-  const double u = (x - top.residual) / span;
+  // turning(x_max) without what is not needed, from one position: this branch is where a dense flow spends its time
+  const Position p = locate(std::min(x_max, x_end_));
+  const double residual = cubic(p.interval->rho, p.t), span = 1.0 - residual;  // over delta_max
+  const double u = (delta / delta_max - residual) / span;
   if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+  const double top = x_max <= x_end_ ? x_max * p.root * cubic(p.interval->g, p.t)
+                                     : end_.force + end_.stiffness * (x_max - x_end_);
+  const double top_radius = p.root * cubic(p.interval->a, p.t) * (x_max <= x_end_ ? 1.0 : std::sqrt(x_max / x_end_));
   // F = F_m u^n; dF/dx = n F/(u span); a = a_m u^(n-1), the radius at which dF/dx = 2 E* a keeps its ratio
-  const double below = std::pow(u, top.exponent - 1.0);
-  const double force = top.force * below * u;
-  return {force_scale * force, force_scale * per_length * top.exponent * top.force * below / span,
-          radius_scale * top.radius * below, delta_max};
+  const double n = cubic(p.interval->n, p.t), below = fast_pow(u, n - 1.0);
+  return {force_scale * top * below * u, force_scale * per_length * n * top * below / (span * x_max),
+          radius_scale * top_radius * below, delta_max};
 }
 
 }  // namespace granulaw

@@ -43,12 +43,13 @@ struct ThorntonPair
       return {force, k_p, root, delta};
     }
     const double f_m = f_y + k_p * (delta_max - d_y);
-    const double radius = hertz / f_m * std::pow((2.0 * f_m + f_y) / (2.0 * M_PI * yield_pressure), 1.5);
-    const double elastic = std::cbrt(f_m * f_m / (hertz * hertz * radius));  // delta_max - d_p
-    const double depth = delta - (delta_max - elastic);
-    if (depth <= 0.0) return {0.0, 0.0, 0.0, delta_max};
-    const double a = std::sqrt(radius * depth);
-    return {hertz * a * depth, 2.0 * e_star * a, a, delta_max};
+    // With A = (2 F_m + F_y)/(2 pi p_y): R_p = 4 E* A^1.5/(3 F_m), d_m - d_p = 3 F_m/(4 E* sqrt A)
+    const double area = (2.0 * f_m + f_y) / (2.0 * M_PI * yield_pressure), edge = std::sqrt(area);
+    const double elastic = f_m / (hertz * edge);  // d_m - d_p
+    const double part = (delta - (delta_max - elastic)) / elastic;
+    if (part <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+    const double root_part = std::sqrt(part), a = edge * root_part;  // sqrt(R_p (d - d_p))
+    return {f_m * part * root_part, 2.0 * e_star * a, a, delta_max};
   }
 };
 
