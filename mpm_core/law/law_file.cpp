@@ -1,13 +1,12 @@
 #include "law/law_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "law/h5.hpp"
 #include "law/h5_names.hpp"
@@ -198,8 +197,7 @@ void write_law(const Law& law, const std::string& path)
   }
 
   const h5::Silence silence;
-  const std::string temporary = fmt::format("{}.tmp.{}", path, getpid());
-  try {
+  write_atomically(path, [&](const std::string& temporary) {
     h5::Handle file(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
     if (!file.ok()) fail(path, "cannot write here (no such folder, or no permission)");
     h5::write_text_attribute(file, h5::format, h5::format_value, path);
@@ -218,14 +216,7 @@ void write_law(const Law& law, const std::string& path)
       write_body(h5::create_group(bodies, name.c_str(), path), body, path);
 
     if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
-  } catch (...) {
-    std::remove(temporary.c_str());
-    throw;
-  }
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-    std::remove(temporary.c_str());
-    fail(path, "cannot write here");
-  }
+  });
 }
 
 }  // namespace granulaw

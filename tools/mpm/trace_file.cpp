@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "law/h5.hpp"
@@ -73,18 +74,10 @@ void check_output(const std::string& path, const std::string& endings)
 
 void write_trace(const RunResult& result, const std::string& path)
 {
-  const std::string temporary = fmt::format("{}.tmp.{}", path, getpid());
-  try {
+  write_atomically(path, [&](const std::string& temporary) {
     if (fs::path(path).extension() == ".csv") write_csv(result, temporary, path);
     else write_h5(result, temporary, path);
-  } catch (...) {
-    std::remove(temporary.c_str());
-    throw;
-  }
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-    std::remove(temporary.c_str());
-    fail(path, "cannot be written");
-  }
+  });
 }
 
 }  // namespace granulaw
