@@ -1,0 +1,133 @@
+#include "characterise/fit_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "characterise/smooth_spline.hpp"
+#include "synthetic_law.hpp"
+
+namespace granulaw {
+namespace {
+
+using testing::SyntheticLaw;
+
+/// A press as the solver would give it: the synthetic law with a ripple that is periodic in the contact radius,
+/// `cells` periods up to the largest, its amplitude falling as (1/cells passed)^1.65.
+Pressing rippled_press(const ContactCurve& curve, double depth, double ripple, int cells)
+{
+  Pressing press;
+  press.depth = depth;
+  press.residual = curve.turning(depth).residual;
+  press.work_ratio = curve.work_unloading(depth) / curve.work_loading(depth);
+  const double a_max = curve.loading(depth).radius;
+  for (int k = 1; k <= 400; ++k) {
+    const double t = k / 400.0, x = depth * std::pow(std::sin(0.5 * M_PI * t), 2);
+    const auto l = curve.loading(x);
+    const double passed = cells * l.radius / a_max;
+    const double swing = ripple * std::pow(std::max(1.0, passed) / cells, -1.65) * std::sin(2 * M_PI * passed + depth * 1e4);
+    press.loading.push_back({x, l.force * (1 + swing), l.radius});
+  }
+  return press;
+}
+
+std::vector<Pressing> presses(const ContactCurve& curve, double ripple)
+{
+  std::vector<Pressing> all;
+  for (int k = 0; k < 10; ++k) all.push_back(rippled_press(curve, 1e-3 * std::pow(100.0, k / 9.0), ripple, 12));
+  return all;
+}
+
+const ElasticCorrection finite_sphere{SyntheticLaw::finite_sphere, 0, 0};
+
+/// Largest relative errors of a fitted curve against the law the presses were made from.
+struct Errors { double force = 0, e = 0, residual = 0; };
+Errors compare(const ContactCurve& fitted, const ContactCurve& truth)
+{
+  Errors errors;
+  for (int k = 1; k <= 400; ++k) {
+    const double x = std::pow(0.562 * k / 400, 4);
+    errors.force = std::max(errors.force, std::abs(fitted.loading(x).force / truth.loading(x).force - 1));
+    if (x < 1.05 * truth.onset()) continue;
+    const double e = std::sqrt(fitted.work_unloading(x) / fitted.work_loading(x));
+    const double exact = std::sqrt(truth.work_unloading(x) / truth.work_loading(x));
+    errors.e = std::max(errors.e, std::abs(e / exact - 1));
+    errors.residual = std::max(errors.residual, std::abs(fitted.turning(x).residual - truth.turning(x).residual) / x);
+  }
+  return errors;
+}
+
+TEST(FitCurve, RecoversALawFromSmoothPresses)
+{
+  const ContactCurve truth = SyntheticLaw{}.curve();
+  const FittedCurve fitted = fit_plastic(presses(truth, 0.0), finite_sphere, truth.onset(), 0.1);
+  const ContactCurve curve(fitted.table, "test");
+  const Errors errors = compare(curve, truth);
+  // What ten turning points a factor 1.67 apart resolve; the issue asks for 1 %.
+  EXPECT_LT(errors.force, 1e-3);
+  EXPECT_LT(errors.e, 1e-3);
+  EXPECT_LT(errors.residual, 3e-3);
+  EXPECT_GE(curve.admissibility_margin(), 0);
+}
+
+TEST(FitCurve, DoesNotFollowTheContactEdgeRipple)
+{
+  const ContactCurve truth = SyntheticLaw{}.curve();
+  const FittedCurve smooth = fit_plastic(presses(truth, 0.0), finite_sphere, truth.onset(), 0.1);
+  const FittedCurve rippled = fit_plastic(presses(truth, 0.01), finite_sphere, truth.onset(), 0.1);
+  const ContactCurve a(smooth.table, "smooth"), b(rippled.table, "rippled");
+  double largest = 0;
+  for (int k = 160; k <= 400; ++k) {
+    const double x = std::pow(0.562 * k / 400, 4);
+    largest = std::max(largest, std::abs(b.loading(x).force / a.loading(x).force - 1));
+  }
+  // 1 % at the turn of every press, more before it; the issue asks for 0.5 % in F after treatment
+  EXPECT_LT(largest, 5e-3);
+  EXPECT_GT(rippled.quality.scatter, 0.005) << "the scatter must say that the runs were rippled";
+  EXPECT_LT(smooth.quality.scatter, 0.002);
+}
+
+TEST(FitCurve, ElasticFitRecoversItsCoefficients)
+{
+  Pressing press;
+  press.depth = 0.004;
+  for (int k = 1; k <= 300; ++k) {
+    const double x = press.depth * k / 300, r = std::sqrt(x);
+    press.loading.push_back({x, x * r * (1 + 0.87 * r + 0.4 * x), r * (1 - 0.2 * r)});
+  }
+  const ElasticCorrection fit = fit_elastic(press);
+  EXPECT_NEAR(fit.c1, 0.87, 1e-9);  // exact least squares
+  EXPECT_NEAR(fit.c2, 0.4, 1e-8);
+  EXPECT_NEAR(fit.d1, -0.2, 1e-9);
+  const ContactCurve curve(table_elastic(fit, 0.1).table, "test");
+  for (const double x : {1e-6, 1e-3, 0.03})
+    EXPECT_NEAR(curve.loading(x).force / (std::pow(x, 1.5) * (1 + 0.87 * std::sqrt(x) + 0.4 * x)), 1, 1e-7);
+}
+
+TEST(FitCurve, RefusesALawThatWouldGainEnergy)
+{
+  const ContactCurve truth = SyntheticLaw{}.curve();
+  std::vector<Pressing> all = presses(truth, 0.0);
+  all[5].work_ratio = 0.99;  // gives back more than the shallower press before it dissipated
+  EXPECT_THROW(fit_plastic(all, finite_sphere, truth.onset(), 0.1), Error);
+}
+
+TEST(SmoothSpline, StartsWithZeroValueAndSlopeAndReproducesACubic)
+{
+  std::vector<SmoothSpline::Sample> samples;
+  for (int k = 1; k <= 60; ++k) {
+    const double q = 1.5 * k / 60;
+    samples.push_back({q, 2 * q * q - 0.5 * q * q * q, 1.0});
+  }
+  const SmoothSpline spline(1.5, 8, samples, 1e-9);
+  EXPECT_NEAR(spline.value(0.0), 0, 1e-12);
+  EXPECT_NEAR(spline.slope(1e-9), 0, 1e-7);
+  for (const double q : {0.1, 0.5, 1.0, 1.5}) {
+    EXPECT_NEAR(spline.value(q), 2 * q * q - 0.5 * q * q * q, 1e-7);
+    EXPECT_NEAR(spline.slope(q), 4 * q - 1.5 * q * q, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace granulaw
