@@ -262,9 +262,11 @@ BodyLaw build_law(const LawMaterial& material, const BuildOptions& options, cons
   // 2. Slow presses to the deepest impact's overlap and beyond.
   const Pressing deepest = points.back();
   if (deepest.depth < options.depth) {
-    const auto depths = geometric(deepest.depth, options.depth, steps_of_factor(deepest.depth, options.depth, 1.6));
+    // The first fixes the ratios and is as good as the impact; the others lie where no rate-free law is exact.
+    const auto depths = geometric(deepest.depth, options.depth, steps_of_factor(deepest.depth, options.depth, 2.0));
     std::vector<RunJob> presses;
-    for (const double depth : depths) presses.push_back(make.press(sphere, depth, {}, false, make.phases_at(depth)));
+    for (const double depth : depths)
+      presses.push_back(make.press(sphere, depth, {}, false, presses.empty() ? make.phases_at(depth) : 2));
     presses.push_back(make.press(sphere, options.depth, {0.4 * options.depth}, false, 1));
     std::vector<RunResult> pressed = run_share(presses, options, 0.45, 0.85);
     certificate.reload_loop_area = loop_area(pressed.back());
