@@ -127,7 +127,7 @@ void build(const TableRequest& r)
   write_law(law, r.output);
   RunCache(options.cache_folder).remove();
 
-  bar.update(1.0, "");
+  bar.clear();
   fmt::print("wrote {}: pairs {}\n", r.output, law.pair_list());
   for (const auto& entry : law.bodies) print_certificate(entry.second);
 }

@@ -29,7 +29,7 @@ void stop_if_interrupted()
 
 ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
 
-ProgressBar::~ProgressBar()
+void ProgressBar::clear()
 {
   if (visible_) fmt::print(stderr, "\r{:79}\r", "");
 }

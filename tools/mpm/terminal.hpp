@@ -18,8 +18,9 @@ class ProgressBar
 {
  public:
   ProgressBar();
-  ~ProgressBar();
+  ~ProgressBar() { clear(); }
   void update(double done, const std::string& what);
+  void clear();  ///< wipes the bar's line, before something else is printed
 
  private:
   bool visible_;
