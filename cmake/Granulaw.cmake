@@ -20,4 +20,8 @@ if(GIT_FOUND)
   if(NOT granulaw_git_result EQUAL 0)
     set(GRANULAW_GIT_HASH "unknown")
   endif()
+  # A commit makes the next build configure again.
+  if(EXISTS ${PROJECT_SOURCE_DIR}/.git/logs/HEAD)
+    set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/.git/logs/HEAD)
+  endif()
 endif()
