@@ -26,7 +26,7 @@ def text(value, error=None, digits=4):
 
 
 def timing_rows(folder):
-    """{model: [microseconds a particle-step, ...]} of the interleaved runs, in order."""
+    """{model: [microseconds of wall-clock a particle-step, ...]} of the interleaved runs, in order."""
     times = {}
     path = os.path.join(folder, "timing.csv")
     if os.path.exists(path):
@@ -77,9 +77,9 @@ def measure(run, scene, times):
             max(stats["pair"]["inertia_number_max"], stats["wall"]["inertia_number_max"]) or None)),
         "contact-steps beyond the law": ("", one(stats["pair"]["contact_steps_beyond_table"] +
                                                  stats["wall"]["contact_steps_beyond_table"]) if stats else None),
-        "CPU per particle-step, dense, median": ("us", one(np.median(t)) if t else None),
-        "ratio to Hertz, interleaved": ("", Value(float(np.median(ratio)), float(np.std(ratio, ddof=1) / np.sqrt(n)))
-                                        if n > 1 else None),
+        "wall-clock per particle-step, dense, median": ("us", one(np.median(t)) if t else None),
+        "ratio to Hertz, interleaved, median": ("", Value(float(np.median(ratio)), float(np.std(ratio, ddof=1) / np.sqrt(n)))
+                                                if n > 1 and run.model != "hertz" else None),
         "ratio to Hertz, lowest": ("", one(np.min(ratio)) if n else None),
         "ratio to Hertz, highest": ("", one(np.max(ratio)) if n else None),
         "particles lost": ("", one(run.lost())),
@@ -146,7 +146,7 @@ def write_markdown(path, runs, scene, table, times):
         "- The coordination number counts geometric overlaps. A plastic contact that has lost its force but not its "
         "overlap still counts: part of the difference is that.",
         "- `sampled`: from the time series every few hundred steps, so a lower bound; without the word: from every step.",
-        f"- CPU times: runs of the filled hopper, just opened, one after the other in turn ({len(times.get('hertz', []))} "
+        f"- Wall-clock: runs of the filled hopper, just opened, one after the other in turn ({len(times.get('hertz', []))} "
         "rounds), each model from its own filling; the ratio is taken within a round. The production runs shared the "
         "machine and are not used for it. Another load on the machine still shows as spread.",
         "- Production runs: " + ", ".join(
