@@ -204,8 +204,14 @@ def case_table():
 
 
 def case_law():
-    for words in (["check", LAW], ["info", LAW]):
+    for words in (["check", LAW, "--seed", "7"], ["info", LAW]):
         assert Run(*words).code == 0
+    # a law that claims what the solver does not find fails its check: restitution falsified through the exponent
+    Path("false.h5").write_bytes(Path(LAW).read_bytes())
+    with h5py.File("false.h5", "r+") as file:
+        for body in file["bodies"].values():
+            body["curve/exponent"][...] = body["curve/exponent"][:] + 0.3
+    refused(["check", "false.h5", "--seed", "7"], "false.h5", "fails its check")
     wall = Run("law", LAW, "--pair", "powder:wall", "--velocity", "3", "--radius", "1e-3", "--json").json()
     like = Run("law", LAW, "--pair", "powder:powder", "--velocity", "6", "--radius", "1e-3", "--json").json()
     # a like pair closing at V is, for each sphere, a wall hit at V/2; replay: 1e-6

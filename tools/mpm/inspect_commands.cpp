@@ -1,4 +1,4 @@
-// mpm check, mpm info, mpm plot, mpm plan: what a law file says about itself.
+// mpm info, mpm plot, mpm plan: what a law file says about itself.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -52,19 +52,6 @@ void info(const std::string& path)
   for (const auto& entry : law.bodies) print_body(entry.second);
 }
 
-/// Reading checks every number; what is left is energy.
-void check_law(const std::string& path)
-{
-  const Law law = read_law(path);
-  for (const auto& [name, body] : law.bodies) {
-    const double margin = body.curve.admissibility_margin();
-    if (margin < 0)
-      fail(fmt::format("{}, material '{}'", path, name), "a closed cycle would gain energy", fmt::format("margin {:.3g}", margin), "0 or more");
-  }
-  for (const auto& [a, b] : law.pairs) resolve_pair(law, a, b, path);
-  fmt::print("{}: good ({} materials, pairs {}; no closed cycle gains energy)\n", path, law.bodies.size(), law.pair_list());
-}
-
 /// The script beside this program, or where cmake --install puts it.
 std::string plot_script()
 {
@@ -93,14 +80,6 @@ void plot(const std::string& law, const std::string& output)
 }
 
 }  // namespace
-
-void add_check(CLI::App& app)
-{
-  const auto path = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("check", "Is this file a whole, sane, admissible law?\nExample: mpm check law.h5");
-  command->add_option("LAW", *path, "law file of mpm table")->required();
-  command->callback([path] { check_law(*path); });
-}
 
 void add_info(CLI::App& app)
 {
