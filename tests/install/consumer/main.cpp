@@ -1,0 +1,22 @@
+// Uses each installed library once.
+#include <cmath>
+
+#include "base/scales.hpp"
+#include "characterise/fit_curve.hpp"
+#include "law/contact_curve.hpp"
+#include "solver/runs.hpp"
+
+int main()
+{
+  granulaw::Sphere sphere;
+  sphere.radius = 1e-3;
+  sphere.material.density = 1000;
+  sphere.material.youngs_modulus = 0.91e9;
+  sphere.material.poisson_ratio = 0.3;
+  granulaw::RunOptions options;
+  options.resolution = 8;
+  options.phases = 1;
+  const double e = granulaw::run_impact(sphere, 1.0, options).summary.restitution;
+  const granulaw::ContactCurve curve(granulaw::table_elastic({}, 0.1).table, "consumer");
+  return std::abs(e - 1) < 0.01 && curve.loading(0.01).force > 0 ? 0 : 1;
+}
