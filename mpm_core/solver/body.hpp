@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "solver/flow/laws.hpp"
 #include "solver/mapped_grid.hpp"
 #include "solver/material.hpp"
 
@@ -15,6 +16,7 @@ struct Moduli
   double yield;      ///< Y
   double hardening;  ///< H
   bool yields;       ///< false: elastic, Y and H unused
+  flow::Flow flow{}; ///< hardening and rate laws; the default is Y + H ep, which reads `yield` and `hardening`
 };
 
 /// A body on its reference grid, structure of arrays, solver units (R = rho = E* = 1).
@@ -49,6 +51,8 @@ struct Body
   // corner forces of each point, summed to the nodes by node_slots; the last entry is a zero
   std::vector<double> corner_fr, corner_fz;
   std::vector<int> node_slots;            ///< [4][nodes] positions in corner_f*; unused ones point at the zero
+
+  double elapsed = 0;  ///< time since the plastic state was last updated: `move` adds, internal_force empties it
 
   Moduli moduli{};
 

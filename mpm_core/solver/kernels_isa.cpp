@@ -1,13 +1,14 @@
 // Compiled once for each instruction set (CMakeLists.txt), with GRANULAW_ISA_NAMESPACE and GRANULAW_ISA_NAME set.
 // Nothing here may come from a shared inline function: the linker would pick one copy for all sets. Hence raw
 // pointers and compiler built-ins only.
+#include <type_traits>
+
+#include "solver/flow/laws.hpp"
 #include "solver/kernels.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
 namespace {
-
-#define GRANULAW_INLINE static inline __attribute__((always_inline))
 
 /// ln(1 + x) for 1 + x between about 0.2 and 5, relative error below 1e-11 there and 1e-16 for |x| < 0.3:
 /// ln(1+x) = 2 ln sqrt(1+x) = 4 artanh(s), s = x/(2 + 2 sqrt(1+x) + x). Exact to rounding as x -> 0.
@@ -44,14 +45,24 @@ GRANULAW_INLINE double exp_m1(double t)
   return t * sum;
 }
 
+/// Hardening law of a body that does not yield.
+struct Elastic
+{
+};
+
 /// Stress update and corner forces of every material point.
 ///
 /// Multiplicative J2 plasticity with logarithmic elastic strain: trial b = F Cp^-1 F^T, its principal
 /// logarithmic strains, radial return, first Piola-Kirchhoff stress P = tau F^-T. Yield is on the Cauchy
 /// stress sigma = tau/J: q(tau) <= J sigma_y. Everything is kept as difference from the identity.
-template <bool yields, bool frozen>
-GRANULAW_INLINE void stress_and_corner_forces(Body& body)
+/// Perfect and linear hardening have their return in closed form; other flow laws take plastic_increment.hpp.
+template <class Hardening, class Rate, bool frozen>
+GRANULAW_INLINE void stress_and_corner_forces(Body& body, [[maybe_unused]] const Hardening hardening_law,
+                                              [[maybe_unused]] const Rate rate_law)
 {
+  constexpr bool yields = !std::is_same_v<Hardening, Elastic>;
+  constexpr bool closed_form = std::is_same_v<Hardening, flow::Linear> && std::is_same_v<Rate, flow::RateIndependent>;
+  [[maybe_unused]] const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
   const int count = body.points, n = count;
   const double shear2 = 2.0 * body.moduli.shear, bulk = body.moduli.bulk;
   const double yield = body.moduli.yield, hardening = body.moduli.hardening;
@@ -120,12 +131,22 @@ GRANULAW_INLINE void stress_and_corner_forces(Body& body)
     double s1 = e1 - third, s2 = e2 - third, s3 = e3 - third;
 
     if constexpr (yields) {
-      // radial return: q - 3 G dg = J (sigma_y + H dg)
       const double jacobian = det * fhh;
       const double q = shear2 * __builtin_sqrt(1.5 * (s1 * s1 + s2 * s2 + s3 * s3));
-      const double flow = yield + hardening * plastic_strain[p];
-      const double over = q - jacobian * flow;
-      const double step = over > 0.0 ? over / (1.5 * shear2 + jacobian * hardening) : 0.0;
+      double step, mean_flow;
+      if constexpr (closed_form) {
+        // radial return: q - 3 G dg = J (sigma_y + H dg)
+        const double flow = yield + hardening * plastic_strain[p];
+        const double over = q - jacobian * flow;
+        step = over > 0.0 ? over / (1.5 * shear2 + jacobian * hardening) : 0.0;
+        mean_flow = jacobian * (flow + 0.5 * hardening * step);
+      } else {
+        const double start = jacobian * hardening_law(plastic_strain[p]).value;
+        const flow::PlasticIncrement increment =
+            flow::plastic_increment(hardening_law, rate_law, q, jacobian, 1.5 * shear2, plastic_strain[p], per_dt);
+        step = q > start ? increment.strain : 0.0;
+        mean_flow = 0.5 * (start * increment.factor + q - 1.5 * shear2 * step);
+      }
       const double shrink = 1.5 * shear2 * step / (q + tiny);
       if constexpr (!frozen) {
         // plastic state: b_new - b_trial carried back through F
@@ -142,7 +163,7 @@ GRANULAW_INLINE void stress_and_corner_forces(Body& body)
         czz[p] += per_det2 * (-g21 * hzr + g22 * frr);
         chh[p] += per_fhh * per_fhh * d3;
         plastic_strain[p] += step;
-        plastic_work[p] += volume[p] * jacobian * (flow + 0.5 * hardening * step) * step;
+        plastic_work[p] += volume[p] * mean_flow * step;
       }
       s1 -= shrink * s1, s2 -= shrink * s2, s3 -= shrink * s3;
     }
@@ -192,11 +213,43 @@ GRANULAW_INLINE void sum_to_nodes(Body& body)
   }
 }
 
+// One copy of the loop for each pair of a hardening and a rate law.
+template <class Hardening, class Rate>
+__attribute__((noinline)) void update(Body& body)
+{
+  const flow::Flow& laws = body.moduli.flow;
+  stress_and_corner_forces<Hardening, Rate, false>(body, Hardening::from(body.moduli.yield, laws.hardening_values),
+                                                   Rate::from(laws.rate_values));
+}
+
+template <class Rate, class... Hardening>
+void with_hardening(Body& body, flow::LawList<Hardening...>)
+{
+  int k = 0;
+  ((k++ == body.moduli.flow.hardening ? update<Hardening, Rate>(body) : void()), ...);
+}
+
+template <class... Rate>
+void with_rate(Body& body, flow::LawList<Rate...>)
+{
+  int k = 0;
+  ((k++ == body.moduli.flow.rate ? with_hardening<Rate>(body, flow::HardeningLaws{}) : void()), ...);
+}
+
 void internal_force(Body& body, bool frozen)
 {
-  if (!body.moduli.yields) stress_and_corner_forces<false, true>(body);
-  else if (frozen) stress_and_corner_forces<true, true>(body);
-  else stress_and_corner_forces<true, false>(body);
+  constexpr flow::Linear linear{};
+  constexpr flow::RateIndependent no_rate{};
+  if (!body.moduli.yields) {
+    stress_and_corner_forces<Elastic, flow::RateIndependent, true>(body, {}, no_rate);
+  } else if (frozen) {
+    stress_and_corner_forces<flow::Linear, flow::RateIndependent, true>(body, linear, no_rate);
+  } else if (body.moduli.flow.hardening == 0 && body.moduli.flow.rate == 0) {
+    stress_and_corner_forces<flow::Linear, flow::RateIndependent, false>(body, linear, no_rate);
+  } else {
+    with_rate(body, flow::RateLaws{});
+  }
+  if (!frozen) body.elapsed = 0.0;
   sum_to_nodes(body);
 }
 
@@ -227,6 +280,7 @@ void move(Body& body, double dt)
     ur[i] += dt * vr[i];
     uz[i] += dt * vz[i];
   }
+  body.elapsed += dt;
 }
 
 }  // namespace

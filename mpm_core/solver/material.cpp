@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "solver/flow_laws.hpp"
 #include "solver/material.hpp"
 
 namespace granulaw {
@@ -28,6 +29,7 @@ void validate(const Material& m, const char* where)
           "at most a tenth of E* = E/(1-nu^2)");
   require(m.hardening_modulus >= 0 && m.hardening_modulus <= m.youngs_modulus, where, "hardening.modulus",
           m.hardening_modulus, "0 up to youngs_modulus (Pa)");
+  validate_flow(m, where);
 }
 
 }  // namespace granulaw

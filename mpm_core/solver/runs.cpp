@@ -11,6 +11,7 @@
 #include "solver/body.hpp"
 #include "solver/drive.hpp"
 #include "solver/ensemble.hpp"
+#include "solver/flow_laws.hpp"
 #include "solver/plane_contact.hpp"
 #include "solver/ripple.hpp"
 #include "solver/time_step.hpp"
@@ -32,14 +33,17 @@ double cpu_seconds()
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-Moduli dimensionless(const Material& m)
+Scales scales_of(const Sphere& s) { return {s.radius, s.material.e_star(), s.material.density}; }
+
+Moduli dimensionless(const Sphere& sphere)
 {
+  const Material& m = sphere.material;
+  const Scales scale = scales_of(sphere);
+  const flow::Flow laws = flow_of(m, scale.stress, scale.time());
   const double e = m.youngs_modulus / m.e_star(), nu = m.poisson_ratio;
   return {e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu)), m.yields() ? m.yield_stress / m.e_star() : 0,
-          m.hardening_modulus / m.e_star(), m.yields()};
+          laws.hardening == 0 ? laws.hardening_values[0] : 0, m.yields(), laws};
 }
-
-Scales scales_of(const Sphere& s) { return {s.radius, s.material.e_star(), s.material.density}; }
 
 void check(const Sphere& sphere, const RunOptions& options)
 {
@@ -280,10 +284,10 @@ RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& op
     fail("--velocity", "is beyond what an impact of a sphere on a plane can be resolved for", fmt::format("{:g} m/s", velocity),
          fmt::format("up to half the wave speed sqrt(E*/rho), {:.4g} m/s", 0.5 * scale.velocity()));
 
-  const Moduli moduli = dimensionless(sphere.material);
+  const Moduli moduli = dimensionless(sphere);
   const double mass = 4.0 / 3.0 * M_PI;
   const double hertz = std::pow(15.0 / 16.0 * mass * v * v, 0.4);
-  const double plastic = moduli.yields ? v * std::sqrt(mass / (5.6 * M_PI * moduli.yield)) : 0;
+  const double plastic = moduli.yields ? v * std::sqrt(mass / (5.6 * M_PI * moduli.yield * rate_factor(sphere.material, velocity / sphere.radius))) : 0;
   const double deepest = std::min(0.9, std::max(hertz, plastic));
   const double duration = 2.0 * deepest / v + 2.5;
 
@@ -319,7 +323,7 @@ RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOption
   stops.ramp = plan.ramp > 0 ? plan.ramp : default_ramp(depth, sphere.material);
   stops.unload_ramp = 0.4 * stops.ramp;
   stops.support = plan.support;
-  const Moduli moduli = dimensionless(sphere.material);
+  const Moduli moduli = dimensionless(sphere);
 
   return run_ensemble(options, depth, scale, [&](int cells, double shift, const std::function<void(double)>& progress) {
     const MappedGrid grid =

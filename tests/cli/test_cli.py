@@ -131,8 +131,15 @@ def case_errors():
     broken('material = "powder"', 'material = "powdr"', "powdr", "did you mean 'powder'")
     broken("radius = 2e-3", "radius = 0", "radius", "over 0")
     broken("radius = 2e-3", "radius = 2e-3\nlayers = 3", "layers", "homogeneous")
-    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "voce", modulus = 1}', "voce", "linear")
-    broken("yield_stress = 100e6", "yield_stress = 1e8\nrate = {a = 1}", "rate", "version")
+    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "vose", modulus = 1}', "vose", "did you mean 'voce'")
+    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "voce", modulus = 1}', ":7:", "modulus", "saturation_stress")
+    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "swift", strength = 1e8, exponent = 0.2, ofset = 0.01}',
+           "ofset", "did you mean 'offset'")
+    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "swift", strength = 1e8, exponent = 0.2, offset = 0.01}',
+           "starts at 3.98107e+07 Pa", "yield_stress")
+    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "tabulated", strain = [0, 0.1], stress = 3}', "stress", "list", "Pa")
+    broken("yield_stress = 100e6", "yield_stress = 1e8\nrate = {a = 1}", "rate", "law")
+    broken("yield_stress = 100e6", 'rate = {law = "cowper-symonds", reference_rate = 40, exponent = 5}', "rate", "yield_stress")
     broken("[particle.grain]", "[particel.grain]", "particel", "did you mean 'particle'")
     materials()
 

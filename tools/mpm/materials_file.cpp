@@ -6,11 +6,14 @@
 #include <cmath>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "base/error.hpp"
 #include "law/law.hpp"
+#include "solver/flow_laws.hpp"
 
 namespace granulaw {
 
@@ -81,10 +84,24 @@ class Section
     if (!n.is_string()) fail(where(n), fmt::format("'{}' must be a text in quotes", key));
     return n.as_string()->get();
   }
-  Section table(const char* key) const
+  std::vector<double> numbers(const char* key, const char* unit) const
   {
     const toml::node& n = node(key);
-    if (!n.is_table()) fail(where(n), fmt::format("'{}' must be a table, such as {{law = \"linear\", modulus = 1e9}}", key));
+    std::vector<double> values;
+    if (const toml::array* list = n.as_array())
+      for (const toml::node& entry : *list) {
+        const std::optional<double> value = entry.value<double>();
+        if (!value || !entry.is_number()) fail(where(entry), fmt::format("'{}' must hold numbers only", key));
+        values.push_back(*value);
+      }
+    if (values.empty())
+      fail(where(n), fmt::format("'{}' must be a list of numbers{}", key, *unit ? fmt::format(" in {}", unit) : ""));
+    return values;
+  }
+  Section table(const char* key, const char* example) const
+  {
+    const toml::node& n = node(key);
+    if (!n.is_table()) fail(where(n), fmt::format("'{}' must be a table, such as {}", key, example));
     return {path_, *n.as_table(), fmt::format("{}.{}", name_, key)};
   }
 
@@ -94,10 +111,33 @@ class Section
   std::string name_;
 };
 
+const char* unit_of(flow::Quantity quantity)
+{
+  return quantity == flow::Quantity::stress ? "Pa" : quantity == flow::Quantity::rate ? "1/s" : "";
+}
+
+/// {law = "NAME", key = value, ...} with the keys that the law has.
+FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<FlowLawKeys>& known)
+{
+  FlowLaw law{s.text("law"), {}};
+  Words names;
+  for (const FlowLawKeys& entry : known) names.push_back(entry.name);
+  const auto found = std::find(names.begin(), names.end(), law.name);
+  if (found == names.end())
+    fail(s.where(s.node("law")), fmt::format("no {} law '{}'{}", kind, law.name, did_you_mean(law.name, names)), {},
+         fmt::format("{}", fmt::join(names, ", ")));
+  const std::vector<flow::Parameter>& parameters = known[found - names.begin()].parameters;
+  Words keys{"law"};
+  for (const flow::Parameter& p : parameters) keys.push_back(p.key);
+  s.check_keys(keys, {}, "");
+  for (const flow::Parameter& p : parameters)
+    law.values[p.key] = p.list ? s.numbers(p.key, unit_of(p.quantity)) : std::vector{s.number(p.key, unit_of(p.quantity))};
+  return law;
+}
+
 Material read_material(const Section& s)
 {
-  s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening"}, {"rate"},
-               "rate-dependent yield is not in this version yet");
+  s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate"}, {}, "");
   Material m;
   m.density = s.positive("density", "kg/m^3");
   m.youngs_modulus = s.positive("youngs_modulus", "Pa");
@@ -106,16 +146,26 @@ Material read_material(const Section& s)
     fail(s.where(s.node("poisson_ratio")), "'poisson_ratio' is out of range", fmt::format("{:g}", m.poisson_ratio),
          "0 to below 0.5 (0.5 is incompressible: the solver needs a finite bulk modulus; 0.49 works)");
   if (s.has("yield_stress")) m.yield_stress = s.positive("yield_stress", "Pa");
+  if (!m.yields() && (s.has("hardening") || s.has("rate"))) {
+    const char* key = s.has("hardening") ? "hardening" : "rate";
+    fail(s.where(s.node(key)), fmt::format("'{}' needs a 'yield_stress'", key));
+  }
   if (s.has("hardening")) {
-    const Section h = s.table("hardening");
-    const std::string law = h.text("law");
-    if (law != "linear")
-      fail(h.where(h.node("law")), "this version has no other hardening law yet", fmt::format("'{}'", law), "'linear'");
-    h.check_keys({"law", "modulus"}, {}, "");
-    if (!m.yields()) fail(s.where(s.node("hardening")), "'hardening' needs a 'yield_stress'");
-    m.hardening_modulus = h.number("modulus", "Pa");
-    if (!(m.hardening_modulus >= 0 && std::isfinite(m.hardening_modulus)))
-      fail(h.where(h.node("modulus")), "'modulus' is out of range", fmt::format("{:g} Pa", m.hardening_modulus), "0 or more");
+    const Section h = s.table("hardening", "{law = \"linear\", modulus = 1e9}");
+    const FlowLaw law = read_flow_law(h, "hardening", hardening_laws());
+    if (law.name == flow::Linear::name) {
+      m.hardening_modulus = law.values.at("modulus").front();
+      if (!(m.hardening_modulus >= 0 && std::isfinite(m.hardening_modulus)))
+        fail(h.where(h.node("modulus")), "'modulus' is out of range", fmt::format("{:g} Pa", m.hardening_modulus), "0 or more");
+    } else {
+      m.hardening = law;
+      validate_flow(m, h.where());
+    }
+  }
+  if (s.has("rate")) {
+    const Section r = s.table("rate", "{law = \"cowper-symonds\", reference_rate = 40, exponent = 5}");
+    m.rate = read_flow_law(r, "rate", rate_laws());
+    validate_flow(m, r.where());
   }
   return m;
 }

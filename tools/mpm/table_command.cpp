@@ -104,6 +104,17 @@ void build(const TableRequest& r)
     if (b != wall_name) names.insert(b);
   }
 
+  for (const std::string& name : names) {
+    const Material& m = file.material(name);
+    const std::string where = fmt::format("{}: [material.{}]", r.materials, name);
+    if (m.rate_dependent())
+      fail(where, fmt::format("its yield stress depends on the rate ('{}'): a contact law of such a material needs an axis in V/R, "
+                              "which this version does not have; mpm impact can be used", m.rate.name));
+    if (!m.hardening.name.empty())
+      fail(where, fmt::format("a law file cannot hold the hardening law '{}' yet", m.hardening.name), {},
+           "'linear' or none; mpm impact and mpm press can be used");
+  }
+
   BuildOptions options;
   options.jobs = r.jobs;
   options.tolerance = r.tolerance;
