@@ -11,6 +11,7 @@
 #include "solver/body.hpp"
 #include "solver/drive.hpp"
 #include "solver/ensemble.hpp"
+#include "solver/field_recorder.hpp"
 #include "solver/flow_laws.hpp"
 #include "solver/plane_contact.hpp"
 #include "solver/ripple.hpp"
@@ -102,10 +103,11 @@ struct Simulation
   }
 
   template <class Observe>
-  void run(Drive& drive, const std::function<void(double)>& progress, Observe observe)
+  void run(Drive& drive, FieldRecorder fields, const std::function<void(double)>& progress, Observe observe)
   {
     const double cpu = cpu_seconds();
     energy_start = body.kinetic_energy();
+    fields.begin(body);
     double time = 0, dt = courant * stable.limit(body);
     double impulse = 0, overlap_sum = 0, window_start = 0;
     long steps = 0, in_window = 0;
@@ -127,6 +129,7 @@ struct Simulation
         const double overlap = overlap_sum / in_window + 0.5 * (drive.overlap(body) - overlap_before);
         result.trace.push_back({window_start + 0.5 * length, overlap, impulse / length, contact.edge_radius(body), branch, segment});
         observe(result.trace.back());
+        fields.sample(body, time, drive.overlap(body), impulse / length, drive.finished());
         window_start = time;
         impulse = overlap_sum = 0;
         in_window = 0;
@@ -236,29 +239,35 @@ int resolution_of(const RunOptions& options, double deepest)
   return options.resolution ? options.resolution : static_cast<int>(std::lround(20 * (1 + std::min(1.0, deepest / 0.15))));
 }
 
-/// Runs `single(cells across, shift, progress)` on options.phases shifted grids and, if asked, once more at a
-/// coarser resolution for the error estimate.
-RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& scale,
-                       const std::function<RunResult(int, double, const std::function<void(double)>&)>& single)
+/// One run: cells across, shift, who wants to see its fields, progress.
+using SingleRun = std::function<RunResult(int, double, const FieldObserver&, const std::function<void(double)>&)>;
+
+/// Runs `single` on options.phases shifted grids and, if asked, once more at a coarser resolution for the error
+/// estimate. The fields shown are those of the fine grid whose shift is nearest to zero.
+RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& scale, const SingleRun& single)
 {
   const int n = resolution_of(options, deepest);
   const int coarse = std::max(6, static_cast<int>(std::lround(0.7 * n)));
   const double share = options.estimate_error ? std::pow(n, 3) / (std::pow(n, 3) + std::pow(coarse, 3)) : 1.0;
-  const auto run_all = [&](int cells, double from, double to) {
+  const auto run_all = [&](int cells, double from, double to, const FieldObserver& fields) {
     const auto progress = [&](double fraction) {
       if (options.progress) options.progress(from + (to - from) * fraction);
     };
     const std::vector<RunResult> members = run_phases(
         options.phases, options.threads, progress,
-        [&](double shift, const std::function<void(double)>& report) { return single(cells, shift, report); });
+        [&](double shift, const std::function<void(double)>& report) {
+          // shifts are whole multiples of 1/(2 phases): 0 where there is one, else the one just below it
+          const long half_steps = std::lround(2 * options.phases * shift);
+          return single(cells, shift, half_steps == 0 || half_steps == -1 ? fields : FieldObserver{}, report);
+        });
     RunResult result;
     result.trace = mean_trace(members);
     summarise(result, members);
     return result;
   };
-  RunResult result = run_all(n, 0.0, share);
+  RunResult result = run_all(n, 0.0, share, options.fields);
   if (options.estimate_error) {
-    const RunSummary other = run_all(coarse, share, 1.0).summary;
+    const RunSummary other = run_all(coarse, share, 1.0, {}).summary;
     RunSummary& s = result.summary;
     // Errors fall at least like h: their difference at 0.7 of the resolution is at least 0.4 of the fine run's.
     const double force = std::abs(other.force_max / s.force_max - 1);
@@ -291,12 +300,12 @@ RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& op
   const double deepest = std::min(0.9, std::max(hertz, plastic));
   const double duration = 2.0 * deepest / v + 2.5;
 
-  return run_ensemble(options, deepest, scale, [&](int cells, double shift, const std::function<void(double)>& progress) {
+  return run_ensemble(options, deepest, scale, [&](int cells, double shift, const FieldObserver& fields, const std::function<void(double)>& progress) {
     const MappedGrid grid = MappedGrid::build(cells, block_size(deepest, sphere.material), true, shift);
     Simulation run(Body::build(grid, moduli, hourglass_modulus(moduli)), options, duration);
     std::fill(run.body.vz_i.begin(), run.body.vz_i.end(), -v);
     ImpactDrive drive(v, duration);
-    run.run(drive, progress, [](const TraceSample&) {});
+    run.run(drive, {fields, scale, duration}, progress, [](const TraceSample&) {});
     RunSummary& s = run.result.summary;
     s.restitution_raw = run.body.mean_velocity() / v;
     s.work_load = run.energy_start;
@@ -325,12 +334,12 @@ RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOption
   stops.support = plan.support;
   const Moduli moduli = dimensionless(sphere);
 
-  return run_ensemble(options, depth, scale, [&](int cells, double shift, const std::function<void(double)>& progress) {
+  return run_ensemble(options, depth, scale, [&](int cells, double shift, const FieldObserver& fields, const std::function<void(double)>& progress) {
     const MappedGrid grid =
         MappedGrid::build(cells, block_size(depth, sphere.material), plan.support == Support::free, shift);
     Simulation run(Body::build(grid, moduli, hourglass_modulus(moduli)), options, stops.ramp + stops.unload_ramp);
     PressDrive drive(stops, 1.0);
-    run.run(drive, progress, [&](const TraceSample& t) { drive.observe(t.force, t.contact_radius); });
+    run.run(drive, {fields, scale, stops.ramp + stops.unload_ramp}, progress, [&](const TraceSample& t) { drive.observe(t.force, t.contact_radius); });
     RunSummary& s = run.result.summary;
     s.work_load = run.result_work(true);
     s.work_unload = run.result_work(false);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "solver/fields.hpp"
 #include "solver/material.hpp"
 #include "solver/trace.hpp"
 
@@ -23,6 +24,7 @@ struct RunOptions
   double courant = 0.85;     ///< time step over the stability limit, 0.1 to 1
   int samples = 800;         ///< trace length aimed at
   bool estimate_error = false;  ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
+  FieldObserver fields;      ///< who wants to see the body while the run goes on (fields.hpp)
   std::function<void(double fraction)> progress;  ///< called now and then with 0..1; may throw to stop the run
 };
 

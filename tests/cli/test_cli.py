@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import h5py
 import numpy as np
@@ -97,6 +98,51 @@ def case_press():
                      "--resolution", "8", "--json").json()
         assert abs(result["delta_max_m"] / 1e-4 - 1) < 1e-4, result
         assert 0 < result["delta_residual_m"] < result["delta_max_m"] and 0 < result["e"] < 1
+
+
+def case_fields():
+    blind = Run("impact", materials(), *HIT, "-o", "blind.csv", "--json").json()
+    seen = Run("impact", "m.toml", *HIT, "-o", "seen.csv", "--fields", "f.xdmf", "--frames", "12", "--json").json()
+    assert blind["e"] == seen["e"] and Path("blind.csv").read_bytes() == Path("seen.csv").read_bytes()
+    assert sorted(p.name for p in Path().iterdir()) == ["blind.csv", "f.h5", "f.xdmf", "m.toml", "seen.csv"]
+
+    # every array that the XDMF names exists with the extent it says, and every frame moves on
+    grids = ElementTree.parse("f.xdmf").getroot().find("Domain/Grid").findall("Grid")
+    assert 8 <= len(grids) <= 24, len(grids)  # the duration is only guessed beforehand
+    times = [float(g.find("Time").get("Value")) for g in grids]
+    assert times[0] == 0 and all(b > a for a, b in zip(times, times[1:]))
+    with h5py.File("f.h5") as f:
+        for grid in grids:
+            for item in grid.iter("DataItem"):
+                name, where = item.text.split(":")
+                assert name == "f.h5"
+                assert f[where].shape == tuple(map(int, item.get("Dimensions").split())), where
+                assert f[where].attrs["unit"] and f[where].attrs["legend"]
+        assert len(f["cells"]) == seen["points"] and f["cells"][:].max() < len(f["frame0000/position"])
+        frames = [f[f"frame{k:04}"] for k in range(len(grids))]
+        first, last = frames[0], frames[-1]
+        r, z = first["position"][:].T.astype(float)
+        assert abs(np.hypot(r, z - 2e-3).max() / 2e-3 - 1) < 1e-6  # float32; the sphere touches z = 0
+        assert np.all(first["velocity"][:, 1] == np.float32(-2.6))
+        up = np.median(last["velocity"][:, 1])  # most nodes lie near the contact: rings and block
+        assert 0 < up < 2.6, up
+        assert np.allclose(last["position"][:, 1], z + last["displacement"][:, 1], atol=1e-9)  # float32 of 4e-3 m
+        strain = last["equivalent_plastic_strain"][:]
+        middle = last["position"][:][f["cells"][:]].mean(axis=1)
+        assert strain.max() > 0.01 and middle[strain.argmax()][1] < 0.5e-3  # it yields near the wall
+        for frame in frames:
+            # perfectly plastic, 100 MPa, to float32
+            assert frame["von_mises_stress"][:].max() < 100e6 * (1 + 1e-6)
+    half = Run("press", "m.toml", "--particle", "grain", "--depth", "0.005", "--support", "midplane", "--resolution", "8",
+               "--fields", "p.xdmf", "--frames", "5", "--json")
+    assert half.code == 0, half.err
+    with h5py.File("p.h5") as f:
+        assert f["frame0000/position"][:, 1].max() <= 2e-3 * (1 + 1e-6)  # half a sphere
+
+    refused(["impact", "m.toml", *HIT, "--fields", "f.vtk"], "f.vtk", ".xdmf")
+    refused(["impact", "m.toml", *HIT, "--fields", "nowhere/f.xdmf"], "nowhere")
+    refused(["impact", "m.toml", *HIT, "--fields", "f.xdmf", "-o", "f.h5"], "--fields", "f.h5")
+    refused(["impact", "m.toml", *HIT, "--frames", "5"], "--fields", code=2)
 
 
 def case_errors():

@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "commands.hpp"
+#include "field_file.hpp"
 #include "materials_file.hpp"
 #include "solver/runs.hpp"
 #include "terminal.hpp"
@@ -20,9 +22,9 @@ namespace {
 /// What both commands take.
 struct RunRequest
 {
-  std::string materials, particle, grid = "mapped", output, support = "free";
+  std::string materials, particle, grid = "mapped", output, fields, support = "free";
   double velocity = 0, depth = 0, tolerance = 0;
-  int resolution = 0, jobs = 1;
+  int resolution = 0, jobs = 1, frames = 40;
   bool json = false;
 };
 
@@ -36,6 +38,8 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_option("--tolerance", r.tolerance, "relative error of force and e to reach, such as 0.01: the resolution is "
                                                  "doubled until two resolutions agree so well")->excludes(resolution);
   command.add_option("-o,--output", r.output, "trace of the run: NAME.csv or NAME.h5");
+  auto* fields = command.add_option("--fields", r.fields, "the deformed body over time for ParaView: NAME.xdmf, and NAME.h5 beside it");
+  command.add_option("--frames", r.frames, "about so many moments in it, 2 to 10000 (default 40)")->check(CLI::Range(2, 10000))->needs(fields);
   command.add_option("--jobs", r.jobs, "threads (default 1)")->check(CLI::Range(1, 256));
   command.add_flag("--json", r.json, "print one JSON object instead of the summary");
 }
@@ -48,15 +52,20 @@ void check(const RunRequest& r)
   if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
     fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
   check_output(r.output, ".csv, .h5");
+  if (r.fields.empty()) return;
+  check_field_output(r.fields);
+  if (std::filesystem::weakly_canonical(r.output) == std::filesystem::weakly_canonical(r.fields).replace_extension(".h5"))
+    fail("--fields", "its HDF5 file would be the trace's, -o", r.output, "another name");
 }
 
 /// Runs at the resolution asked for, or doubles it until the tolerance is met (at most twice).
-RunResult run_to_tolerance(const RunRequest& r, const std::function<RunResult(const RunOptions&)>& run)
+RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields, const std::function<RunResult(const RunOptions&)>& run)
 {
   ProgressBar bar;
   RunOptions options;
   options.resolution = r.resolution;
   options.threads = r.jobs;
+  options.fields = fields;
   options.progress = [&](double done) { bar.update(done, options.resolution ? fmt::format("resolution {}", options.resolution) : ""); };
   options.estimate_error = r.tolerance > 0;
   if (r.tolerance <= 0) return run(options);
@@ -69,6 +78,12 @@ RunResult run_to_tolerance(const RunRequest& r, const std::function<RunResult(co
   fmt::print(stderr, "mpm: tolerance {:.2g} not reached: the estimate at resolution 64 is {:.2g}\n", r.tolerance,
              result.summary.error_estimate);
   return result;
+}
+
+RunResult run_as_asked(const RunRequest& r, const std::function<RunResult(const RunOptions&)>& run)
+{
+  if (r.fields.empty()) return run_to_tolerance(r, {}, run);
+  return run_with_fields(r.fields, r.frames, [&](const FieldObserver& fields) { return run_to_tolerance(r, fields, run); });
 }
 
 void print_json(const RunSummary& s)
@@ -105,6 +120,7 @@ void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps, s.cpu_s,
              1e-6 * s.point_updates_per_s);
   if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
+  if (!r.fields.empty()) fmt::print("wrote {}\n", r.fields);
 }
 
 void print_setting(const RunRequest& r, const Sphere& sphere)
@@ -139,7 +155,7 @@ void add_impact(CLI::App& app)
     if (!(r->velocity > 0 && std::isfinite(r->velocity)))
       fail("--velocity", "cannot be used", fmt::format("{:g} m/s", r->velocity), "over 0");
     print_setting(*r, sphere);
-    report(*r, sphere, run_to_tolerance(*r, [&](const RunOptions& o) { return run_impact(sphere, r->velocity, o); }));
+    report(*r, sphere, run_as_asked(*r, [&](const RunOptions& o) { return run_impact(sphere, r->velocity, o); }));
   });
 }
 
@@ -162,7 +178,7 @@ void add_press(CLI::App& app)
     plan.depth = r->depth * sphere.radius;
     plan.support = r->support == "free" ? Support::free : Support::midplane;
     print_setting(*r, sphere);
-    report(*r, sphere, run_to_tolerance(*r, [&](const RunOptions& o) { return run_press(sphere, plan, o); }));
+    report(*r, sphere, run_as_asked(*r, [&](const RunOptions& o) { return run_press(sphere, plan, o); }));
   });
 }
 

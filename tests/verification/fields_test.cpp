@@ -1,0 +1,129 @@
+// The fields that are written for looking at: they must be the kernel's own, and looking must change nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "solver/kernels.hpp"
+#include "solver/runs.hpp"
+#include "solver/stress.hpp"
+
+namespace granulaw {
+namespace {
+
+/// A body that has yielded in several steps, after internal_force; no hourglass control, so that the stress is all
+/// there is in forces and energies.
+Body deformed(const Moduli& m)
+{
+  Body b = Body::build(MappedGrid::build(8, 0.3, true), m, 0.0);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> jitter(-1e-4, 1e-4);
+  for (int step = 1; step <= 4; ++step) {
+    for (int i = 0; i < b.nodes; ++i) {
+      b.ur_i[i] = b.r_i[i] * (0.01 * step * std::sin(2 * b.z_i[i]) + jitter(random));
+      b.uz_i[i] = -0.02 * step * b.z_i[i] * b.z_i[i] + 0.01 * step * b.r_i[i] * b.r_i[i] + jitter(random);
+    }
+    kernels().internal_force(b, false);
+  }
+  return b;
+}
+
+class Stress : public testing::TestWithParam<Moduli>
+{
+};
+
+/// Internal forces summed from the Cauchy stress, f = -V J sigma F^-T b, are the kernel's; so is the stored energy,
+/// V (dev(tau)^2/(4 G) + p_tau^2/(2 K)).
+TEST_P(Stress, GivesTheKernelsForcesAndEnergies)
+{
+  const Moduli m = GetParam();
+  const Body b = deformed(m);
+  const std::vector<CauchyStress> stress = cauchy_stress(b);
+  std::vector<double> fr(b.nodes, 0.0), fz(b.nodes, 0.0);
+  double largest = 0, energy = 0;
+  for (int p = 0; p < b.points; ++p) {
+    double hrr = 0, hrz = 0, hzr = 0, hzz = 0, hhh = 0;
+    for (int k = 0; k < 4; ++k) {
+      const std::size_t at = std::size_t(k) * b.points + p;
+      const int i = b.corner_p[at];
+      hrr += b.br_p[at] * b.ur_i[i], hrz += b.bz_p[at] * b.ur_i[i];
+      hzr += b.br_p[at] * b.uz_i[i], hzz += b.bz_p[at] * b.uz_i[i];
+      hhh += b.bh_p[at] * b.ur_i[i];
+    }
+    const double det = (1 + hrr) * (1 + hzz) - hrz * hzr, j = det * (1 + hhh);
+    const CauchyStress& s = stress[p];
+    // F^-T
+    const double irr = (1 + hzz) / det, irz = -hzr / det, izr = -hrz / det, izz = (1 + hrr) / det;
+    for (int k = 0; k < 4; ++k) {
+      const std::size_t at = std::size_t(k) * b.points + p;
+      const int i = b.corner_p[at];
+      const double gr = irr * b.br_p[at] + irz * b.bz_p[at], gz = izr * b.br_p[at] + izz * b.bz_p[at];
+      fr[i] -= b.volume_p[p] * j * (s.rr * gr + s.rz * gz + s.hh * b.bh_p[at] / (1 + hhh));
+      fz[i] -= b.volume_p[p] * j * (s.rz * gr + s.zz * gz);
+    }
+    const double q = j * s.von_mises(), pressure = j * s.pressure();
+    const double stored = b.volume_p[p] * (q * q / (6 * m.shear) + 0.5 * pressure * pressure / m.bulk);
+    // the kernel's plastic flow uses a Taylor series of exp, good to some 1e-10 at steps as long as here
+    EXPECT_NEAR(stored, b.elastic_energy_p[p], 1e-8 * b.elastic_energy_p[p] + 1e-18);
+    energy += stored;
+    if (m.yields && b.plastic_strain_p[p] > 0) {
+      EXPECT_LT(s.von_mises(), (m.yield + m.hardening * b.plastic_strain_p[p]) * (1 + 1e-8));
+    }
+  }
+  for (int i = 0; i < b.nodes; ++i) largest = std::max({largest, std::abs(b.fr_i[i]), std::abs(b.fz_i[i])});
+  for (int i = 0; i < b.nodes; ++i) {
+    EXPECT_NEAR(fr[i], b.fr_i[i], 1e-8 * largest);
+    EXPECT_NEAR(fz[i], b.fz_i[i], 1e-8 * largest);
+  }
+  EXPECT_GT(energy, 0);
+  if (m.yields) { EXPECT_GT(b.plastic_work(), 0); }
+}
+
+INSTANTIATE_TEST_SUITE_P(Moduli, Stress,
+                         testing::Values(Moduli{0.35, 0.76, 0.0, 0.0, false}, Moduli{0.35, 0.76, 0.01, 0.0, true},
+                                         Moduli{0.35, 0.76, 0.01, 0.02, true}));
+
+const Sphere powder{1e-3, {1500, 9.1e9, 0.3, 100e6}};
+
+/// Frames are in SI and hold what they say; the run is the same, bit for bit, whether anyone looks or not.
+TEST(Fields, LookingChangesNothing)
+{
+  RunOptions options;
+  options.resolution = 8, options.phases = 2;
+  const RunResult blind = run_impact(powder, 2.6, options);
+  std::vector<FieldFrame> frames;
+  int nodes = 0, cells = 0, begun = 0;
+  options.fields.frames = 20;
+  options.fields.begin = [&](int n, const std::vector<std::array<int, 4>>& c) { nodes = n, cells = int(c.size()), ++begun; };
+  options.fields.frame = [&](const FieldFrame& f) { frames.push_back(f); };
+  const RunResult seen = run_impact(powder, 2.6, options);
+  ASSERT_EQ(blind.trace.size(), seen.trace.size());
+  for (std::size_t k = 0; k < seen.trace.size(); ++k) {
+    EXPECT_EQ(blind.trace[k].force, seen.trace[k].force);
+    EXPECT_EQ(blind.trace[k].delta, seen.trace[k].delta);
+  }
+  EXPECT_EQ(begun, 1);
+  EXPECT_EQ(cells, seen.summary.points);
+  ASSERT_GT(frames.size(), 10u);  // the duration is only guessed beforehand: 20 is what is aimed at
+  EXPECT_LT(frames.size(), 40u);
+  EXPECT_EQ(frames.front().time, 0);
+  for (std::size_t k = 1; k < frames.size(); ++k) EXPECT_GT(frames[k].time, frames[k - 1].time);
+  for (const FieldFrame& f : frames) {
+    ASSERT_EQ(int(f.r.size()), nodes);
+    ASSERT_EQ(int(f.pressure.size()), cells);
+    double lowest = 1, hardest = 0;
+    for (const double z : f.z) lowest = std::min(lowest, z);
+    for (const double q : f.von_mises) hardest = std::max(hardest, q);
+    EXPECT_GT(lowest, -1e-15);       // m: nothing below the plane, to rounding of a radius of 1e-3
+    EXPECT_LT(hardest, 100e6 * (1 + 1e-8));  // perfectly plastic: nowhere above the yield stress
+  }
+  EXPECT_DOUBLE_EQ(frames.front().vz.front(), -2.6);  // to solver units and back: rounding
+  double deepest = 0, strain = 0;
+  for (const FieldFrame& f : frames) deepest = std::max(deepest, f.delta);
+  for (const double e : frames.back().plastic_strain) strain = std::max(strain, e);
+  EXPECT_NEAR(deepest, seen.summary.delta_max, 0.03 * seen.summary.delta_max);  // parabola, 1/20 of its width off
+  EXPECT_GT(strain, 0.01);
+}
+
+}  // namespace
+}  // namespace granulaw
