@@ -15,7 +15,8 @@ constexpr const char* built_for = "LIGGGHTS-PUBLIC 3.8.0";
 
 [[noreturn]] void refuse(LAMMPS_NS::LAMMPS* lmp, const std::string& why)
 {
-  stop_all(lmp, fmt::format("granulaw was built for {} without superquadrics (Debian's liggghts): {}", built_for, why));
+  stop_all(lmp, fmt::format("granulaw was built for {} without superquadrics (Debian's liggghts): {}",
+                            built_for, why));
 }
 
 }  // namespace
@@ -27,7 +28,8 @@ void check_liggghts(LAMMPS_NS::LAMMPS* lmp, const void* parent, std::size_t pare
   // Only builds with superquadrics have this class, and their structures are laid out differently.
   if (dlsym(RTLD_DEFAULT, "_ZTVN9LAMMPS_NS19AtomVecSuperquadricE"))
     refuse(lmp, "this LIGGGHTS was built with superquadrics");
-  // malloc rounds up to 16 bytes and keeps a word for itself: the block is at most 24 bytes larger than asked.
+  // malloc rounds up to 16 bytes and keeps a word for itself: the block is at most 24 bytes larger than
+  // asked.
   const std::size_t block = malloc_usable_size(const_cast<void*>(parent));
   if (block < parent_size || block > parent_size + 24)
     refuse(lmp, fmt::format("its {} takes {} bytes, {} expected", what, block, parent_size));

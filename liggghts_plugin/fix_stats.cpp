@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* style_name = "granulaw/stats";
 
-// Modify::fix_map is private, and LIGGGHTS has no call that adds a fix style. An explicit instantiation may name
-// private members ([temp.spec]), so it can hand out the pointer to member.
+// Modify::fix_map is private, and LIGGGHTS has no call that adds a fix style. An explicit instantiation may
+// name private members ([temp.spec]), so it can hand out the pointer to member.
 template <class Tag, auto member>
 struct Expose
 {
@@ -28,7 +28,10 @@ struct FixMapTag
 };
 template struct Expose<FixMapTag, &LAMMPS_NS::Modify::fix_map>;
 
-LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) { return new FixStats(lmp, narg, arg); }
+LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
+{
+  return new FixStats(lmp, narg, arg);
+}
 
 void reduce(ContactLedger::Side& side, MPI_Comm world)
 {
@@ -53,7 +56,8 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp, bool add)
   lmp->modify->add_fix(3, const_cast<char**>(arg));
 }
 
-FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg) : Fix(lmp_, narg, arg), session_(Session::of(lmp_))
+FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
+    : Fix(lmp_, narg, arg), session_(Session::of(lmp_))
 {
   scalar_flag = vector_flag = 1;
   size_vector = vector_length;
@@ -85,9 +89,11 @@ double FixStats::compute_scalar()
 double FixStats::compute_vector(int n)
 {
   const ContactLedger::Side &p = session_->ledger.pair, &w = session_->ledger.wall;
-  const double own[vector_length] = {p.dissipated, w.dissipated,  p.touches,     w.touches,           p.speed_max,
-                                     w.speed_max,  p.overlap_max, w.overlap_max, p.beyond + w.beyond,
-                                     std::max(p.inertia_max, w.inertia_max)};
+  const double own[vector_length] = {p.dissipated,        w.dissipated,
+                                     p.touches,           w.touches,
+                                     p.speed_max,         w.speed_max,
+                                     p.overlap_max,       w.overlap_max,
+                                     p.beyond + w.beyond, std::max(p.inertia_max, w.inertia_max)};
   const bool is_sum = n < 4 || n == 8;
   double result = 0;
   MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
@@ -99,7 +105,8 @@ void FixStats::post_run()
   const ContactLedger sum = total();
   if (comm->me != 0) return;
   std::string line = fmt::format(
-      "granulaw: {:.0f} contacts between particles, {:.0f} with walls; impacts up to {:.4g} and {:.4g} m/s; overlap/R* "
+      "granulaw: {:.0f} contacts between particles, {:.0f} with walls; impacts up to {:.4g} and {:.4g} m/s; "
+      "overlap/R* "
       "up to {:.4g} and {:.4g}; normal contacts dissipated {:.6g} J",
       sum.pair.touches, sum.wall.touches, sum.pair.speed_max, sum.wall.speed_max, sum.pair.overlap_max,
       sum.wall.overlap_max, sum.pair.dissipated + sum.wall.dissipated);
@@ -107,8 +114,10 @@ void FixStats::post_run()
     line += fmt::format("; {:.0f} contact-steps beyond the law's table", beyond);
   const double inertia = std::max(sum.pair.inertia_max, sum.wall.inertia_max);
   if (session_->inertia_limit > 0 && inertia > session_->inertia_limit)
-    line += fmt::format("; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
-                        "restitution", inertia, session_->inertia_limit);
+    line += fmt::format(
+        "; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
+        "restitution",
+        inertia, session_->inertia_limit);
   for (FILE* out : {screen, logfile})
     if (out) std::fprintf(out, "%s\n", line.c_str());
   if (!path_.empty()) write_json(sum, path_);
@@ -118,11 +127,11 @@ void FixStats::post_run()
 
 void FixStats::write_json(const ContactLedger& sum, const std::string& path) const
 {
-  const std::string header =
-      fmt::format("  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": {:.10g},\n"
-                  "  \"ranks\": {},\n  \"inertia_number_limit_of_law\": {:.6g},\n",
-                  version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs,
-                  session_->inertia_limit);
+  const std::string header = fmt::format(
+      "  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": {:.10g},\n"
+      "  \"ranks\": {},\n  \"inertia_number_limit_of_law\": {:.6g},\n",
+      version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs,
+      session_->inertia_limit);
   const std::string text = to_json(sum, header), temporary = fmt::format("{}.tmp.{}", path, getpid());
   FILE* file = std::fopen(temporary.c_str(), "w");
   const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();

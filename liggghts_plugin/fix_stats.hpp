@@ -8,8 +8,8 @@
 
 namespace granulaw::plugin {
 
-/// fix ID all granulaw/stats [file FILE]: what the normal contacts of models mpm and thornton did since the pair
-/// style was set. Added by pair_style itself as `fix granulaw all granulaw/stats` if the deck adds none.
+/// fix ID all granulaw/stats [file FILE]: what the normal contacts of models mpm and thornton did since the
+/// pair style was set. Added by pair_style itself as `fix granulaw all granulaw/stats` if the deck adds none.
 ///
 /// Global scalar: energy dissipated by normal contacts, J. Global vector (all since the pair style was set):
 ///   1, 2   energy dissipated in particle-particle, particle-wall contacts, J

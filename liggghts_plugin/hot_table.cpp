@@ -19,7 +19,8 @@ void fit(const double (&v)[4], double width, double (&c)[4])
 HotTable::HotTable(const ContactCurve& curve)
     : curve_(&curve), lowest_(std::ldexp(1.0, lowest_exponent)), x_end_(curve.x_end()), onset_(curve.onset())
 {
-  const auto count = static_cast<std::size_t>((std::bit_cast<std::uint64_t>(x_end_) - first_bits) >> shift) + 1;
+  const auto count =
+      static_cast<std::size_t>((std::bit_cast<std::uint64_t>(x_end_) - first_bits) >> shift) + 1;
   intervals_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double low = std::bit_cast<double>(first_bits + (static_cast<std::uint64_t>(k) << shift));

@@ -11,16 +11,17 @@
 
 namespace granulaw::plugin {
 
-/// A ContactCurve re-tabulated for the contact loop of a particle code: force and dissipated work only, no square
-/// root on the way to the interval.
+/// A ContactCurve re-tabulated for the contact loop of a particle code: force and dissipated work only, no
+/// square root on the way to the interval.
 ///
-/// Nodes divide each octave of x = overlap/(lambda R*) into 8 equal parts from 2^-40 up to x_end, so that the bits
-/// of x give the interval and the position in it. In each interval four cubics in that position, each exact at
-/// four equidistant points of the curve:
+/// Nodes divide each octave of x = overlap/(lambda R*) into 8 equal parts from 2^-40 up to x_end, so that the
+/// bits of x give the interval and the position in it. In each interval four cubics in that position, each
+/// exact at four equidistant points of the curve:
 ///     force     F_L(x)                    residual  delta_r/delta_m
 ///     exponent  n                         work      W_load - W_unload: spent on plastic strain
 /// in the curve's units (Hertz force at x = 1). One cache line for the loading branch, two for unloading.
-/// Below 2^-40 and beyond x_end the curve itself answers. Error against the curve: tests/liggghts/hot_table_test.cpp.
+/// Below 2^-40 and beyond x_end the curve itself answers. Error against the curve:
+/// tests/liggghts/hot_table_test.cpp.
 class HotTable
 {
  public:
@@ -31,14 +32,15 @@ class HotTable
   double force(double x, double x_max, double ratio) const
   {
     if (x >= x_max || x_max <= onset_) return in_table(x) ? at(x).force() : curve_->loading(x).force;
-    if (!in_table(x_max)) [[unlikely]] return slow_unloading(x_max, ratio);
+    if (!in_table(x_max)) [[unlikely]]
+      return slow_unloading(x_max, ratio);
     const Place place = at(x_max);
     const double residual = place.residual(), u = (ratio - residual) / (1.0 - residual);
     return u <= 0.0 ? 0.0 : place.force() * fast_pow(u, place.exponent());
   }
 
-  /// Work spent on plastic strain by a contact whose largest overlap is x_max: a function of x_max alone, because
-  /// unloading and reloading share a curve.
+  /// Work spent on plastic strain by a contact whose largest overlap is x_max: a function of x_max alone,
+  /// because unloading and reloading share a curve.
   double dissipated(double x_max) const
   {
     if (x_max <= onset_) return 0.0;
@@ -50,7 +52,10 @@ class HotTable
  private:
   static constexpr int bits_per_octave = 3, lowest_exponent = -40;
   static constexpr int shift = 52 - bits_per_octave;
-  struct alignas(64) Interval { double force[4], residual[4], exponent[4], work[4]; };
+  struct alignas(64) Interval
+  {
+    double force[4], residual[4], exponent[4], work[4];
+  };
 
   struct Place
   {

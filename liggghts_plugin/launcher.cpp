@@ -1,4 +1,5 @@
-// liggghts-mpm: LIGGGHTS with the models `mpm` and `thornton`. The stock main(), linked to the plug-in's library.
+// liggghts-mpm: LIGGGHTS with the models `mpm` and `thornton`. The stock main(), linked to the plug-in's
+// library.
 #include <mpi.h>
 
 #include <csignal>

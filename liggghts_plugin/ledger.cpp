@@ -17,8 +17,9 @@ std::string histogram_json(const LogHistogram& histogram, const char* quantity)
     edges += fmt::format("{}{:.6g}", b > low ? ", " : "", histogram.lower_edge(b));
     counts += fmt::format("{}{:.10g}", b > low ? ", " : "", histogram.count[b]);
   }
-  return fmt::format("{{\"quantity\": \"{}\", \"bins_per_decade\": {}, \"lower_edge\": [{}], \"count\": [{}]}}",
-                     quantity, LogHistogram::per_decade, edges, counts);
+  return fmt::format(
+      "{{\"quantity\": \"{}\", \"bins_per_decade\": {}, \"lower_edge\": [{}], \"count\": [{}]}}", quantity,
+      LogHistogram::per_decade, edges, counts);
 }
 
 std::string side_json(const ContactLedger::Side& s)

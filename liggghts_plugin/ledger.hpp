@@ -8,7 +8,8 @@
 
 namespace granulaw::plugin {
 
-/// Counts in logarithmic bins, eight a decade, from `first` (lower edge of bin 0); the outer bins catch the rest.
+/// Counts in logarithmic bins, eight a decade, from `first` (lower edge of bin 0); the outer bins catch the
+/// rest.
 struct LogHistogram
 {
   static constexpr int bins = 80, per_decade = 8;
@@ -32,15 +33,15 @@ struct ContactLedger
 {
   struct Side
   {
-    double dissipated = 0;      ///< J: loading work minus recoverable work, from the law's own work functions
-    double touches = 0;         ///< contacts that began
-    double ended = 0;           ///< contacts that ended
-    double speed_max = 0;       ///< m/s, largest approach speed at first touch
-    double overlap_max = 0;     ///< largest overlap/R*
-    double inertia_max = 0;     ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
-    double beyond = 0;          ///< contact-steps beyond the law's table
-    LogHistogram speed{1e-6};   ///< approach speed at first touch, m/s
-    LogHistogram overlap{1e-10};///< largest overlap/R* of each contact that ended
+    double dissipated = 0;     ///< J: loading work minus recoverable work, from the law's own work functions
+    double touches = 0;        ///< contacts that began
+    double ended = 0;          ///< contacts that ended
+    double speed_max = 0;      ///< m/s, largest approach speed at first touch
+    double overlap_max = 0;    ///< largest overlap/R*
+    double inertia_max = 0;    ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
+    double beyond = 0;         ///< contact-steps beyond the law's table
+    LogHistogram speed{1e-6};  ///< approach speed at first touch, m/s
+    LogHistogram overlap{1e-10};  ///< largest overlap/R* of each contact that ended
   };
   Side pair, wall;
 

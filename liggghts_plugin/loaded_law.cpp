@@ -6,15 +6,15 @@
 
 namespace granulaw::plugin {
 
-std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::string& path, const std::string& where)
+std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::string& path,
+                                          const std::string& where)
 {
   auto loaded = std::make_shared<LoadedLaw>();
   std::string message;
   try {
     loaded->path = path;
     loaded->law = read_law(path);
-    for (const auto& [name, body] : loaded->law.bodies)
-      loaded->tables.emplace(name, HotTable(body.curve));
+    for (const auto& [name, body] : loaded->law.bodies) loaded->tables.emplace(name, HotTable(body.curve));
   } catch (const std::exception& error) {
     message = error.what();
   }

@@ -23,6 +23,7 @@ struct LoadedLaw
 
 /// Reads `path` on every rank. Throws the same Error on all ranks if any rank cannot read it, so that an MPI
 /// run stops with one sentence.
-std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::string& path, const std::string& where);
+std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::string& path,
+                                          const std::string& where);
 
 }  // namespace granulaw::plugin

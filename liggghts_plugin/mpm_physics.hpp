@@ -12,14 +12,17 @@ namespace granulaw::plugin {
 struct MpmContact
 {
   const HotTable* table = nullptr;
-  double per_lambda = 0;      // lambda of PairMapping
-  double force_scale = 0;     // Hertz force at x = 1 over R*^2, Pa
-  double inertia = 0;         // I over (relative speed)^2, s^2/m^2
+  double per_lambda = 0;   // lambda of PairMapping
+  double force_scale = 0;  // Hertz force at x = 1 over R*^2, Pa
+  double inertia = 0;      // I over (relative speed)^2, s^2/m^2
 
   MpmContact() = default;
   MpmContact(const PairLaw& law, const HotTable& hot_table)
-      : table(&hot_table), per_lambda(1.0 / law.mapping.length(1.0)), force_scale(law.mapping.force(1.0)),
-        // the yielding body's share of the approach is V/sqrt(lambda): all on a rigid wall, half in a like pair
+      : table(&hot_table),
+        per_lambda(1.0 / law.mapping.length(1.0)),
+        force_scale(law.mapping.force(1.0)),
+        // the yielding body's share of the approach is V/sqrt(lambda): all on a rigid wall, half in a like
+        // pair
         inertia(law.yielding->material.density / law.yielding->material.yield_stress * per_lambda)
   {
   }
@@ -54,9 +57,8 @@ class MpmPhysics
   {
     const std::string& a = setup_->options.materials[static_cast<std::size_t>(i - 1)];
     const std::string& b = setup_->options.materials[static_cast<std::size_t>(j - 1)];
-    const std::string here =
-        fmt::format("{}: types {} ({}) and {} ({}{}), law file {}", where, i, a, j, rigid ? "rigid wall, " : "", b,
-                    setup_->law->path);
+    const std::string here = fmt::format("{}: types {} ({}) and {} ({}{}), law file {}", where, i, a, j,
+                                         rigid ? "rigid wall, " : "", b, setup_->law->path);
     const PairLaw law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
     return {law, setup_->law->tables.at(law.yielding->material.name)};
   }

@@ -16,14 +16,29 @@ namespace {
 using Words = std::vector<std::string>;
 
 /// Words that LIGGGHTS itself reads behind the models, each followed by on or off.
-const Words passed_on = {"tangential_damping",         "limitForce",          "computeElasticPotential",
-                         "computeDissipatedEnergy",    "heating_tracking",    "heating_tangential_history",
-                         "heating_tangential_no_history", "torsionTorque"};
+const Words passed_on = {"tangential_damping",
+                         "limitForce",
+                         "computeElasticPotential",
+                         "computeDissipatedEnergy",
+                         "heating_tracking",
+                         "heating_tangential_history",
+                         "heating_tangential_no_history",
+                         "torsionTorque"};
 const Words model_kinds = {"model", "tangential", "cohesion", "rolling_friction", "surface"};
 /// Words of `fix wall/gran` that must stand before the model's.
-const Words wall_words = {"primitive", "mesh", "n_meshes", "meshes", "shear", "store_force", "store_force_contact",
-                          "store_force_contact_every", "store_force_contact_stress", "temperature", "contact_area",
-                          "track_energy", "allow_special_domain_periodic"};
+const Words wall_words = {"primitive",
+                          "mesh",
+                          "n_meshes",
+                          "meshes",
+                          "shear",
+                          "store_force",
+                          "store_force_contact",
+                          "store_force_contact_every",
+                          "store_force_contact_stress",
+                          "temperature",
+                          "contact_area",
+                          "track_energy",
+                          "allow_special_domain_periodic"};
 
 bool contains(const Words& words, const std::string& word)
 {
@@ -40,16 +55,21 @@ double number(const std::string& text, const std::string& where, const std::stri
   return value;
 }
 
-bool choice(const std::string& text, const char* yes, const char* no, const std::string& where, const std::string& key)
+bool choice(const std::string& text, const char* yes, const char* no, const std::string& where,
+            const std::string& key)
 {
   if (text == yes) return true;
   if (text == no) return false;
-  fail(where, fmt::format("'{}' has an unknown value", key), fmt::format("'{}'", text), fmt::format("{}, {}", yes, no));
+  fail(where, fmt::format("'{}' has an unknown value", key), fmt::format("'{}'", text),
+       fmt::format("{}, {}", yes, no));
 }
 
 }  // namespace
 
-const char* model_name(Model model) { return model == Model::mpm ? "mpm" : "thornton"; }
+const char* model_name(Model model)
+{
+  return model == Model::mpm ? "mpm" : "thornton";
+}
 
 Words keywords(Model model, bool is_wall)
 {
@@ -73,7 +93,8 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
       fail(where, fmt::format("'{}' is out of order: the order is {}, then the model's keywords{}", key,
                               fmt::join(model_kinds, ", "), is_wall ? ", after all of the wall's own" : ""));
     if (is_wall && contains(wall_words, key))
-      fail(where, fmt::format("'{}' must stand before the model's keywords ({})", key, fmt::join(known, ", ")));
+      fail(where,
+           fmt::format("'{}' must stand before the model's keywords ({})", key, fmt::join(known, ", ")));
     if (!contains(known, key))
       fail(where, fmt::format("unknown keyword '{}'{}", key, did_you_mean(key, known)), {},
            fmt::format("{}", fmt::join(known, ", ")));
@@ -87,10 +108,14 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
       continue;
     }
     const std::string& value = words[i++];
-    if (key == "law") options.law_path = value;
-    else if (key == "stats") options.stats_path = value;
-    else if (key == "wall") options.deformable_wall = choice(value, "deformable", "rigid", where, key);
-    else if (key == "beyondRange") options.stop_beyond_range = choice(value, "stop", "continue", where, key);
+    if (key == "law")
+      options.law_path = value;
+    else if (key == "stats")
+      options.stats_path = value;
+    else if (key == "wall")
+      options.deformable_wall = choice(value, "deformable", "rigid", where, key);
+    else if (key == "beyondRange")
+      options.stop_beyond_range = choice(value, "stop", "continue", where, key);
     else if (key == "tangentialDampingRatio") {
       options.tangential_damping = number(value, where, key);
       if (!(*options.tangential_damping >= 0 && *options.tangential_damping <= 1))

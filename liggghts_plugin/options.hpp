@@ -10,15 +10,17 @@ namespace granulaw::plugin {
 enum class Model { mpm, thornton };
 const char* model_name(Model model);
 
-/// What the plug-in's own words in `pair_style gran` and `fix wall/gran` say. See docs/pair_gran_model_mpm.md.
+/// What the plug-in's own words in `pair_style gran` and `fix wall/gran` say. See
+/// docs/pair_gran_model_mpm.md.
 struct Options
 {
-  std::string law_path;                     ///< `law FILE` (mpm)
-  std::vector<std::string> materials;       ///< `materials A B ...`: one name for each atom type, type 1 first (mpm)
-  bool deformable_wall = false;             ///< `wall rigid|deformable` (walls)
-  std::optional<double> tangential_damping; ///< `tangentialDampingRatio Z`: fraction of critical damping
-  std::string stats_path;                   ///< `stats FILE` (pair): JSON written at the end of each run
-  bool stop_beyond_range = true;            ///< `beyondRange stop|continue` (mpm)
+  std::string law_path;  ///< `law FILE` (mpm)
+  std::vector<std::string>
+      materials;                 ///< `materials A B ...`: one name for each atom type, type 1 first (mpm)
+  bool deformable_wall = false;  ///< `wall rigid|deformable` (walls)
+  std::optional<double> tangential_damping;  ///< `tangentialDampingRatio Z`: fraction of critical damping
+  std::string stats_path;                    ///< `stats FILE` (pair): JSON written at the end of each run
+  bool stop_beyond_range = true;             ///< `beyondRange stop|continue` (mpm)
 };
 
 /// Tangential damping where the deck says nothing: see docs, "Tangential force".
@@ -29,7 +31,7 @@ std::vector<std::string> keywords(Model model, bool is_wall);
 
 /// Takes the plug-in's words out of `words` and leaves the rest for LIGGGHTS in `rest`. Throws Error with one
 /// sentence that starts with `where` on an unknown or misplaced word, a missing or bad value.
-Options parse_options(Model model, bool is_wall, const std::string& where, const std::vector<std::string>& words,
-                      std::vector<std::string>& rest);
+Options parse_options(Model model, bool is_wall, const std::string& where,
+                      const std::vector<std::string>& words, std::vector<std::string>& rest);
 
 }  // namespace granulaw::plugin

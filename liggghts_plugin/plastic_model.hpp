@@ -32,9 +32,9 @@ void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 
 /// The history policy that `mpm` and `thornton` share, and everything else that is not the law itself.
 ///
-/// State: one scalar per contact, delta_max, the largest overlap since first touch. It has newton flag "0" (the
-/// same number seen from either particle), advances only when the step does (computeflag and shearupdate), and
-/// returns to zero when the geometric overlap ends.
+/// State: one scalar per contact, delta_max, the largest overlap since first touch. It has newton flag "0"
+/// (the same number seen from either particle), advances only when the step does (computeflag and
+/// shearupdate), and returns to zero when the geometric overlap ends.
 ///
 /// Physics is a value type without virtual calls:
 ///   name                                             "mpm", "thornton"
@@ -45,7 +45,8 @@ template <class Physics>
 class PlasticModel : public NormalModelBase
 {
  public:
-  PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* cmb) : NormalModelBase(lmp, hsetup, cmb)
+  PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* cmb)
+      : NormalModelBase(lmp, hsetup, cmb)
   {
     history_offset_ = hsetup->add_history_value("delta_max", "0");
     cmb->add_history_offset("delta_max", history_offset_);
@@ -66,12 +67,14 @@ class PlasticModel : public NormalModelBase
       fail(setup_->where,
            "'computeElasticPotential' and 'computeDissipatedEnergy' are not available with this model; "
            "fix granulaw/stats gives the energy dissipated by normal contacts");
-    damping_ = tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
+    damping_ =
+        tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
   }
 
   void connectToProperties(PropertyRegistry& registry)
   {
-    if (!setup_) fail(fmt::format("model {}", Physics::name), "repeat pair_style and pair_coeff after read_restart");
+    if (!setup_)
+      fail(fmt::format("model {}", Physics::name), "repeat pair_style and pair_coeff after read_restart");
     const Types types = gather_types(lmp, registry, *setup_);
     physics_.prepare(lmp, registry, *setup_, types);
     resolve_all(types);
@@ -96,12 +99,14 @@ class PlasticModel : public NormalModelBase
       check_layout(sidata);
 
     const double normal_force = entry.contact.force(r_eff, delta, delta_max);
-    if (delta > delta_max && sidata.computeflag && sidata.shearupdate) advance(sidata, entry, r_eff, delta_max);
+    if (delta > delta_max && sidata.computeflag && sidata.shearupdate)
+      advance(sidata, entry, r_eff, delta_max);
 
     const double root = std::sqrt(r_eff * delta);
     sidata.Fn = normal_force;
-    sidata.kn = delta > 0.0 ? normal_force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
-    sidata.kt = entry.eight_shear_moduli * root;             // Mindlin, as stock hertz
+    sidata.kn =
+        delta > 0.0 ? normal_force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
+    sidata.kt = entry.eight_shear_moduli * root;   // Mindlin, as stock hertz
     sidata.gamman = 0.0;
     sidata.gammat = 2.0 * damping_ * std::sqrt(sidata.kt * sidata.meff);
 
@@ -133,9 +138,9 @@ class PlasticModel : public NormalModelBase
   struct Entry
   {
     typename Physics::Contact contact;
-    double largest_overlap = -1.0;       // over R*, that the law answers for; -1: no law for this pair of types
-    double eight_shear_moduli = 0.0;     // 8 G*, Pa: k_t = 8 G* a (Mindlin)
-    double inertia_per_speed2 = 0.0;     // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
+    double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
+    double eight_shear_moduli = 0.0;  // 8 G*, Pa: k_t = 8 G* a (Mindlin)
+    double inertia_per_speed2 = 0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
   };
 
   static double shear_compliance(double youngs_modulus, double poisson_ratio)
@@ -181,26 +186,30 @@ class PlasticModel : public NormalModelBase
     const double delta = sidata.deltan;
     if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
     const double dissipated = entry.contact.dissipated(r_eff, delta);
-    if (dissipated > 0.0) side.dissipated += weight * (dissipated - entry.contact.dissipated(r_eff, delta_max));
+    if (dissipated > 0.0)
+      side.dissipated += weight * (dissipated - entry.contact.dissipated(r_eff, delta_max));
     delta_max = delta;
   }
 
   void beyond_table(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff)
   {
     if (entry.largest_overlap < 0)
-      stop_one(lmp, fmt::format("{}: no law for particles of type {} against {} {}; it was not among the pairs "
-                                    "that the deck could show when the run began",
-                                    setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type",
-                                    sidata.jtype));
+      stop_one(
+          lmp,
+          fmt::format("{}: no law for particles of type {} against {} {}; it was not among the pairs "
+                      "that the deck could show when the run began",
+                      setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type", sidata.jtype));
     ContactLedger::Side& side = sidata.is_wall ? ledger_->wall : ledger_->pair;
-    if (sidata.computeflag && sidata.shearupdate) side.beyond += sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
+    if (sidata.computeflag && sidata.shearupdate)
+      side.beyond += sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
     // 5 %: the linear continuation is still within about a percent of the force there.
     if (setup_->options.stop_beyond_range && sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
-      stop_one(lmp, fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
-                                    "the law's table, which ends at {:.4g}: build a deeper law, or say "
-                                    "'beyondRange continue'",
-                                    setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype, -sidata.vn,
-                                    entry.largest_overlap));
+      stop_one(lmp,
+               fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
+                           "the law's table, which ends at {:.4g}: build a deeper law, or say "
+                           "'beyondRange continue'",
+                           setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype, -sidata.vn,
+                           entry.largest_overlap));
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.
@@ -211,7 +220,8 @@ class PlasticModel : public NormalModelBase
                                       sidata.delta[2] * sidata.delta[2]);
     if (std::abs(sidata.radi - distance - sidata.deltan) > 1e-6 * sidata.radi)
       stop_one(lmp, fmt::format("{}: this LIGGGHTS lays out its contact data differently (was it built with "
-                                    "superquadrics?)", setup_->where));
+                                "superquadrics?)",
+                                setup_->where));
   }
 
   Physics physics_;
@@ -221,7 +231,8 @@ class PlasticModel : public NormalModelBase
   int history_offset_ = -1;
   double damping_ = 0.0;
   ContactLedger* ledger_ = nullptr;
-  bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false, dissipated_energy_ = false;
+  bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false,
+       dissipated_energy_ = false;
   bool layout_checked_ = false;
 };
 

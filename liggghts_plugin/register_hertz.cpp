@@ -34,7 +34,8 @@ LIGGGHTS::Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int6
 template <int rolling>
 void add()
 {
-  using Style = cm::GranStyle<hertz_copy_id, cm::TANGENTIAL_HISTORY, cm::COHESION_OFF, rolling, cm::SURFACE_DEFAULT>;
+  using Style =
+      cm::GranStyle<hertz_copy_id, cm::TANGENTIAL_HISTORY, cm::COHESION_OFF, rolling, cm::SURFACE_DEFAULT>;
   LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", Style::HASHCODE, &make_pair<Style>);
   LIGGGHTS::Walls::Factory::instance().addStyle("gran", Style::HASHCODE, &make_wall<Style>);
 }

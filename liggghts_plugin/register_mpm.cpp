@@ -4,7 +4,8 @@
 namespace LIGGGHTS::ContactModels {
 
 template <>
-class NormalModel<granulaw::plugin::mpm_id> : public granulaw::plugin::PlasticModel<granulaw::plugin::MpmPhysics>
+class NormalModel<granulaw::plugin::mpm_id>
+    : public granulaw::plugin::PlasticModel<granulaw::plugin::MpmPhysics>
 {
  public:
   using PlasticModel::PlasticModel;
@@ -14,6 +15,9 @@ class NormalModel<granulaw::plugin::mpm_id> : public granulaw::plugin::PlasticMo
 
 namespace granulaw::plugin {
 
-void register_mpm() { register_model<mpm_id, Model::mpm>(); }
+void register_mpm()
+{
+  register_model<mpm_id, Model::mpm>();
+}
 
 }  // namespace granulaw::plugin

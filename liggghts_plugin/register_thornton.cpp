@@ -1,10 +1,11 @@
-#include "liggghts_plugin/thornton_physics.hpp"
 #include "liggghts_plugin/styles.hpp"
+#include "liggghts_plugin/thornton_physics.hpp"
 
 namespace LIGGGHTS::ContactModels {
 
 template <>
-class NormalModel<granulaw::plugin::thornton_id> : public granulaw::plugin::PlasticModel<granulaw::plugin::ThorntonPhysics>
+class NormalModel<granulaw::plugin::thornton_id>
+    : public granulaw::plugin::PlasticModel<granulaw::plugin::ThorntonPhysics>
 {
  public:
   using PlasticModel::PlasticModel;
@@ -14,6 +15,9 @@ class NormalModel<granulaw::plugin::thornton_id> : public granulaw::plugin::Plas
 
 namespace granulaw::plugin {
 
-void register_thornton() { register_model<thornton_id, Model::thornton>(); }
+void register_thornton()
+{
+  register_model<thornton_id, Model::thornton>();
+}
 
 }  // namespace granulaw::plugin

@@ -33,7 +33,8 @@ const std::vector<int> surface_ids = {
 };
 
 constexpr const char* refusal =
-    "models mpm and thornton are built for tangential off, history, no_history; cohesion off; rolling_friction off, "
+    "models mpm and thornton are built for tangential off, history, no_history; cohesion off; "
+    "rolling_friction off, "
     "cdt, epsd2; surface default: choose among these";
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
@@ -54,8 +55,8 @@ bool is_built(int tangential, int cohesion, int rolling, int surface)
          surface == cm::SURFACE_DEFAULT;
 }
 
-/// Registers everything when the library is loaded. Runs in Open MPI's helper processes as well, which inherit
-/// LD_PRELOAD: it must print nothing and read nothing.
+/// Registers everything when the library is loaded. Runs in Open MPI's helper processes as well, which
+/// inherit LD_PRELOAD: it must print nothing and read nothing.
 struct Registration
 {
   Registration()

@@ -46,26 +46,27 @@ struct Setup
 {
   std::shared_ptr<Session> session;
   Options options;
-  std::shared_ptr<const LoadedLaw> law;   ///< mpm only
-  std::string where;                      ///< "pair_style gran model mpm", "fix w wall/gran model mpm"
-  LAMMPS_NS::FixWallGran* wall = nullptr; ///< null for pairs
+  std::shared_ptr<const LoadedLaw> law;    ///< mpm only
+  std::string where;                       ///< "pair_style gran model mpm", "fix w wall/gran model mpm"
+  LAMMPS_NS::FixWallGran* wall = nullptr;  ///< null for pairs
 
   static const Setup* current;
 };
 
-/// Registers the fix style `granulaw/stats`; for pairs adds `fix granulaw all granulaw/stats` if the simulation
-/// box exists and no such fix does.
+/// Registers the fix style `granulaw/stats`; for pairs adds `fix granulaw all granulaw/stats` if the
+/// simulation box exists and no such fix does.
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp, bool add);
 
-/// Ends the run with "ERROR: MESSAGE" on all ranks (each must call it). error->all does this too, but in 3.8.0 it
-/// adds a "special message" from freed memory: bytes of garbage in one run of eight (seen).
+/// Ends the run with "ERROR: MESSAGE" on all ranks (each must call it). error->all does this too, but
+/// in 3.8.0 it adds a "special message" from freed memory: bytes of garbage in one run of eight (seen).
 [[noreturn]] void stop_all(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
-/// Ends the run from one rank. Unlike error->one it reaches the user from every rank and through a pipe: that one
-/// prints to a stream which MPI_Abort never flushes and other ranks than 0 do not have.
+/// Ends the run from one rank. Unlike error->one it reaches the user from every rank and through a pipe: that
+/// one prints to a stream which MPI_Abort never flushes and other ranks than 0 do not have.
 [[noreturn]] void stop_one(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
 
-/// Stops with one sentence unless this is the LIGGGHTS the plug-in was built for. `parent_size` is sizeof of the
-/// pair style or fix as the plug-in's headers have it, `parent` the object LIGGGHTS allocated (most derived).
+/// Stops with one sentence unless this is the LIGGGHTS the plug-in was built for. `parent_size` is sizeof of
+/// the pair style or fix as the plug-in's headers have it, `parent` the object LIGGGHTS allocated (most
+/// derived).
 void check_liggghts(LAMMPS_NS::LAMMPS* lmp, const void* parent, std::size_t parent_size, const char* what);
 
 }  // namespace granulaw::plugin

@@ -25,7 +25,8 @@ void guarded(LAMMPS* lmp, Work&& work)
 }
 
 /// Reads the plug-in's own words from a command; `rest` stays for LIGGGHTS.
-inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char** args, std::vector<std::string>& rest)
+inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char** args,
+                       std::vector<std::string>& rest)
 {
   // The factory counts the words down but leaves `args` on the last one where nothing is left.
   const std::vector<std::string> words(args, args + std::max(0, nargs));
@@ -34,13 +35,15 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
   Options& options = setup.options;
   if (model == Model::mpm) {
     if (setup.wall && options.law_path.empty()) {
-      if (!session.pair_law) fail(setup.where, "'law FILE' is missing, and there is no pair_style gran model mpm to take it from");
+      if (!session.pair_law)
+        fail(setup.where, "'law FILE' is missing, and there is no pair_style gran model mpm to take it from");
       setup.law = session.pair_law;
     } else {
       if (options.law_path.empty()) fail(setup.where, "'law FILE' is missing");
       setup.law = load_law(lmp, options.law_path, setup.where);
     }
-    if (setup.wall && options.materials.empty() && session.pair_options) options.materials = session.pair_options->materials;
+    if (setup.wall && options.materials.empty() && session.pair_options)
+      options.materials = session.pair_options->materials;
     if (options.materials.empty()) fail(setup.where, "'materials' is missing: one name for each atom type");
   }
   if (setup.wall && !options.tangential_damping && session.pair_options)
@@ -117,7 +120,10 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<cm::ContactModel<Style>
   using Base = LIGGGHTS::Walls::Granular<cm::ContactModel<Style>>;
 
  public:
-  WallStyle(LAMMPS* lmp, FixWallGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp), parent_(parent) {}
+  WallStyle(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
+      : Base(lmp, parent, hash), lmp_(lmp), parent_(parent)
+  {
+  }
 
   void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
   {

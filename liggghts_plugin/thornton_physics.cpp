@@ -26,7 +26,8 @@ double ThorntonContact::dissipated(double r_eff, double delta_max) const
   return loading - 0.4 * f_m * f_m / (hertz * std::sqrt(area));
 }
 
-void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, const Setup& setup, const Types& types)
+void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, const Setup& setup,
+                              const Types& types)
 {
   registry.registerProperty("yieldStress", &create_yield_stress);
   const double* yield_stress = registry.getVectorProperty("yieldStress", setup.where.c_str())->data;
@@ -35,8 +36,8 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
   for (int t = 1; t <= types.count; ++t) {
     if (std::isnan(types.youngs_modulus[t])) continue;
     if (!(yield_stress[t] > 0))
-      fail(setup.where, fmt::format("yieldStress of type {} is out of range", t), fmt::format("{:.6g} Pa", yield_stress[t]),
-           "over 0");
+      fail(setup.where, fmt::format("yieldStress of type {} is out of range", t),
+           fmt::format("{:.6g} Pa", yield_stress[t]), "over 0");
     e_star_[t] = plane_strain_modulus(types.youngs_modulus[t], types.poisson_ratio[t]);
     yield_stress_[t] = yield_stress[t];
   }

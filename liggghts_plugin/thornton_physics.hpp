@@ -17,7 +17,10 @@ struct ThorntonContact
     return law.evaluate(r_eff, delta, delta_max).force;
   }
   double dissipated(double r_eff, double delta_max) const;
-  double largest_overlap() const { return std::numeric_limits<double>::max(); }  // times R* stays finite or inf
+  double largest_overlap() const
+  {
+    return std::numeric_limits<double>::max();
+  }                                                  // times R* stays finite or inf
   double inertia_per_speed2() const { return 0.0; }  // the formula states no limit of velocity
 };
 

@@ -40,7 +40,8 @@ void find_wall_types(LAMMPS_NS::FixWallGran& wall, Types& types)
 Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup)
 {
   if (std::string_view(lmp->update->unit_style) != "si")
-    fail(setup.where, "the model works in SI units", fmt::format("units {}", lmp->update->unit_style), "units si");
+    fail(setup.where, "the model works in SI units", fmt::format("units {}", lmp->update->unit_style),
+         "units si");
   Types types;
   types.count = lmp->atom->ntypes;
   const auto n = static_cast<std::size_t>(types.count + 1);
@@ -67,11 +68,14 @@ Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Set
 
 void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
 {
-  if (lmp->modify->find_fix_property("coefficientRestitution", "property/global", "peratomtypepair", 0, 0, "granulaw",
-                                     false) &&
+  if (lmp->modify->find_fix_property("coefficientRestitution", "property/global", "peratomtypepair", 0, 0,
+                                     "granulaw", false) &&
       setup.session->first_time("coefficientRestitution") && lmp->comm->me == 0)
-    lmp->error->warning(FLERR, fmt::format("{}: 'coefficientRestitution' is not used: restitution follows from the "
-                                           "contact law", setup.where).c_str());
+    lmp->error->warning(FLERR,
+                        fmt::format("{}: 'coefficientRestitution' is not used: restitution follows from the "
+                                    "contact law",
+                                    setup.where)
+                            .c_str());
 }
 
 }  // namespace granulaw::plugin

@@ -5,9 +5,9 @@
 
 namespace granulaw {
 
-/// Calls `write(temporary path)` and renames the result to `path`: readers see the old file or the new one, never
-/// a part, and nothing is lost where writing fails (the temporary file is removed, the exception goes on).
-/// The temporary file stands beside `path` and keeps its ending.
+/// Calls `write(temporary path)` and renames the result to `path`: readers see the old file or the new one,
+/// never a part, and nothing is lost where writing fails (the temporary file is removed, the exception goes
+/// on). The temporary file stands beside `path` and keeps its ending.
 void write_atomically(const std::string& path, const std::function<void(const std::string&)>& write);
 
 /// Throws Error now if `path` could not be written later: its folder is missing or not writable.

@@ -12,10 +12,10 @@ struct Scales
   double stress = 1;   ///< Pa: E* = E/(1-nu^2)
   double density = 1;  ///< kg/m^3
 
-  double velocity() const { return std::sqrt(stress / density); }  ///< m/s
-  double time() const { return length / velocity(); }             ///< s
-  double force() const { return stress * length * length; }       ///< N
-  double energy() const { return force() * length; }              ///< J
+  double velocity() const { return std::sqrt(stress / density); }     ///< m/s
+  double time() const { return length / velocity(); }                 ///< s
+  double force() const { return stress * length * length; }           ///< N
+  double energy() const { return force() * length; }                  ///< J
   double mass() const { return density * length * length * length; }  ///< kg
 };
 
@@ -37,7 +37,10 @@ inline double yield_velocity(double e_star, double yield_stress, double density)
 /// C(nu): the Hertz peak pressure, in units of Y, at which J2 yield begins below the surface.
 /// Fit 1.295 exp(0.736 nu) through 1.299, 1.499, 1.613, 1.806 at nu = 0, .2, .3, .45 (K. L. Johnson,
 /// Contact Mechanics, sect. 6.1; Jackson and Green 2005).
-inline double onset_pressure_ratio(double poisson_ratio) { return 1.295 * std::exp(0.736 * poisson_ratio); }
+inline double onset_pressure_ratio(double poisson_ratio)
+{
+  return 1.295 * std::exp(0.736 * poisson_ratio);
+}
 
 /// Overlap/R at the true onset of yield on a rigid wall: (pi C Y/(2 E*))^2.
 inline double onset_overlap(double e_star, double yield_stress, double poisson_ratio)

@@ -48,43 +48,47 @@ struct JobMaker
   std::string key(const Sphere& s, const std::string& what) const
   {
     return fmt::format("{} nu={:.17g} yield={:.17g} hardening={:.17g} resolution={} granulaw={} {}", what,
-                       s.material.poisson_ratio, s.material.yield_stress, s.material.hardening_modulus, resolution,
-                       version(), git_hash());
+                       s.material.poisson_ratio, s.material.yield_stress, s.material.hardening_modulus,
+                       resolution, version(), git_hash());
   }
-  /// Shifted grids of which the mean is taken. Near the onset little is plastic and the ripple is small (0.02 % of
-  /// F, 0.02 % of e (m)), and the steps are many: two grids do.
+  /// Shifted grids of which the mean is taken. Near the onset little is plastic and the ripple is small (0.02
+  /// % of F, 0.02 % of e (m)), and the steps are many: two grids do.
   int phases_at(double depth) const { return depth < 5 * onset ? 2 : RunOptions{}.phases; }
 
   // Costs like the number of steps: duration/(cell size), where the cells scale with the contact radius.
-  RunJob press(const Sphere& sphere, double depth, std::vector<double> unloads, bool estimate, int phases) const
+  RunJob press(const Sphere& sphere, double depth, std::vector<double> unloads, bool estimate,
+               int phases) const
   {
     std::string stops;
     for (const double u : unloads) stops += fmt::format(" unload={:.17g}", u);
     const PressPlan plan{depth, Support::free, unloads, 0};
-    return {fmt::format("press to {:.3g} R", depth),
-            key(sphere, fmt::format("press free depth={:.17g}{} estimate={} phases={}", depth, stops, estimate, phases)),
-            (1 + 0.65 * static_cast<double>(unloads.size())) * (estimate ? 1.4 : 1.0) * phases / std::sqrt(depth),
-            [this, sphere, plan, estimate, phases](const RunOptions& options) {
-              RunOptions own = options;
-              own.resolution = resolution;
-              own.estimate_error = estimate;
-              own.phases = phases;
-              return source.press(sphere, plan, own);
-            }};
+    return {
+        fmt::format("press to {:.3g} R", depth),
+        key(sphere,
+            fmt::format("press free depth={:.17g}{} estimate={} phases={}", depth, stops, estimate, phases)),
+        (1 + 0.65 * static_cast<double>(unloads.size())) * (estimate ? 1.4 : 1.0) * phases / std::sqrt(depth),
+        [this, sphere, plan, estimate, phases](const RunOptions& options) {
+          RunOptions own = options;
+          own.resolution = resolution;
+          own.estimate_error = estimate;
+          own.phases = phases;
+          return source.press(sphere, plan, own);
+        }};
   }
   RunJob impact(const Sphere& sphere, double velocity, double expected_depth, bool estimate = false) const
   {
     const int phases = phases_at(expected_depth);
-    return {fmt::format("impact at {:.3g} c*", velocity),
-            key(sphere, fmt::format("impact velocity={:.17g} estimate={} phases={}", velocity, estimate, phases)),
-            0.25 * (estimate ? 1.4 : 1.0) * phases / std::sqrt(expected_depth),
-            [this, sphere, velocity, estimate, phases](const RunOptions& options) {
-              RunOptions own = options;
-              own.resolution = resolution;
-              own.estimate_error = estimate;
-              own.phases = phases;
-              return source.impact(sphere, velocity, own);
-            }};
+    return {
+        fmt::format("impact at {:.3g} c*", velocity),
+        key(sphere, fmt::format("impact velocity={:.17g} estimate={} phases={}", velocity, estimate, phases)),
+        0.25 * (estimate ? 1.4 : 1.0) * phases / std::sqrt(expected_depth),
+        [this, sphere, velocity, estimate, phases](const RunOptions& options) {
+          RunOptions own = options;
+          own.resolution = resolution;
+          own.estimate_error = estimate;
+          own.phases = phases;
+          return source.impact(sphere, velocity, own);
+        }};
   }
 };
 
@@ -92,7 +96,8 @@ struct JobMaker
 std::vector<double> geometric(double first, double last, int steps)
 {
   std::vector<double> values;
-  for (int k = 0; k <= steps; ++k) values.push_back(first * std::pow(last / first, static_cast<double>(k) / steps));
+  for (int k = 0; k <= steps; ++k)
+    values.push_back(first * std::pow(last / first, static_cast<double>(k) / steps));
   return values;
 }
 
@@ -128,7 +133,8 @@ double loop_area(const RunResult& run)
 }
 
 /// Runs jobs as one share [from, to] of the whole build's progress.
-std::vector<RunResult> run_share(const std::vector<RunJob>& jobs, const BuildOptions& options, double from, double to)
+std::vector<RunResult> run_share(const std::vector<RunJob>& jobs, const BuildOptions& options, double from,
+                                 double to)
 {
   const RunCache cache(options.cache_folder);
   const Progress progress = [&](double done, const std::string& what) {
@@ -150,11 +156,12 @@ int choose_resolution(const BuildOptions& options, const std::function<RunJob(in
 }
 
 /// Replays the law against impacts that took no part in its fit; fills verification_* and max_inertia.
-void verify(BodyLaw& body, const Sphere& sphere, const std::vector<double>& velocities, const BuildOptions& options,
-            const JobMaker& make)
+void verify(BodyLaw& body, const Sphere& sphere, const std::vector<double>& velocities,
+            const BuildOptions& options, const JobMaker& make)
 {
   std::vector<RunJob> jobs;
-  for (const double v : velocities) jobs.push_back(make.impact(sphere, v, expected_depth(v, sphere.material.yield_stress)));
+  for (const double v : velocities)
+    jobs.push_back(make.impact(sphere, v, expected_depth(v, sphere.material.yield_stress)));
   const std::vector<RunResult> runs = run_share(jobs, options, 0.85, 1.0);
   Certificate& c = body.certificate;
   constexpr double allowed = 0.01;  // the error that the law's velocity limit is defined by
@@ -171,14 +178,18 @@ void verify(BodyLaw& body, const Sphere& sphere, const std::vector<double>& velo
   }
 }
 
-BodyLaw build_elastic(BodyLaw body, const Sphere& sphere, const BuildOptions& options, const RunSource& source)
+BodyLaw build_elastic(BodyLaw body, const Sphere& sphere, const BuildOptions& options,
+                      const RunSource& source)
 {
   Certificate& certificate = body.certificate;
   JobMaker make{source, 0, 0};
-  make.resolution = choose_resolution(options, [&](int r) {
-    make.resolution = r;
-    return make.press(sphere, options.depth, {}, true, RunOptions{}.phases);
-  }, certificate.solver_error_force);
+  make.resolution = choose_resolution(
+      options,
+      [&](int r) {
+        make.resolution = r;
+        return make.press(sphere, options.depth, {}, true, RunOptions{}.phases);
+      },
+      certificate.solver_error_force);
   const Pressing press = pressing_from(
       run_share({make.press(sphere, options.depth, {}, true, RunOptions{}.phases)}, options, 0.1, 1.0)[0]);
   const FittedCurve fitted = table_elastic(fit_elastic(press), options.depth);
@@ -193,10 +204,10 @@ BodyLaw build_elastic(BodyLaw body, const Sphere& sphere, const BuildOptions& op
   return body;
 }
 
-/// Brings slow presses beyond the deepest impact onto it: there force, work and residual keep their ratio to the
-/// press (DESIGN section 4). `at_impact` is the press to the impact's own depth.
-std::vector<Pressing> continue_by(const std::vector<Pressing>& presses, const Pressing& at_impact, const Pressing& impact,
-                                  double force_ratio)
+/// Brings slow presses beyond the deepest impact onto it: there force, work and residual keep their ratio to
+/// the press (DESIGN section 4). `at_impact` is the press to the impact's own depth.
+std::vector<Pressing> continue_by(const std::vector<Pressing>& presses, const Pressing& at_impact,
+                                  const Pressing& impact, double force_ratio)
 {
   std::vector<Pressing> continued;
   const double work = impact.work_ratio / at_impact.work_ratio;
@@ -237,15 +248,21 @@ BodyLaw build_law(const LawMaterial& material, const BuildOptions& options, cons
   const double fastest = std::sqrt(largest_inertia * yield);
   if (fastest < 3 * slowest)
     fail(fmt::format("material '{}'", material.name),
-         fmt::format("yields only at an inertia rho V^2/Y near {:.1g}, where this version's rate-free law ends", largest_inertia),
+         fmt::format(
+             "yields only at an inertia rho V^2/Y near {:.1g}, where this version's rate-free law ends",
+             largest_inertia),
          fmt::format("E*/Y = {:.3g}", 1 / yield), "about 20 or more");
   JobMaker make{source, 0, onset};
   const double fastest_depth = expected_depth(fastest, yield);
-  make.resolution = choose_resolution(options, [&](int r) {
-    make.resolution = r;
-    return make.impact(sphere, fastest, fastest_depth, true);
-  }, certificate.solver_error_force);
-  certificate.solver_error_restitution = certificate.solver_error_force;  // the estimate is the larger of the two
+  make.resolution = choose_resolution(
+      options,
+      [&](int r) {
+        make.resolution = r;
+        return make.impact(sphere, fastest, fastest_depth, true);
+      },
+      certificate.solver_error_force);
+  certificate.solver_error_restitution =
+      certificate.solver_error_force;  // the estimate is the larger of the two
 
   const std::vector<double> velocities = geometric(slowest, fastest, steps_of_factor(slowest, fastest, 1.8));
   std::vector<RunJob> jobs;
@@ -262,8 +279,10 @@ BodyLaw build_law(const LawMaterial& material, const BuildOptions& options, cons
   // 2. Slow presses to the deepest impact's overlap and beyond.
   const Pressing deepest = points.back();
   if (deepest.depth < options.depth) {
-    // The first fixes the ratios and is as good as the impact; the others lie where no rate-free law is exact.
-    const auto depths = geometric(deepest.depth, options.depth, steps_of_factor(deepest.depth, options.depth, 2.0));
+    // The first fixes the ratios and is as good as the impact; the others lie where no rate-free law is
+    // exact.
+    const auto depths =
+        geometric(deepest.depth, options.depth, steps_of_factor(deepest.depth, options.depth, 2.0));
     std::vector<RunJob> presses;
     for (const double depth : depths)
       presses.push_back(make.press(sphere, depth, {}, false, presses.empty() ? make.phases_at(depth) : 2));

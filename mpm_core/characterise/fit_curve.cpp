@@ -13,11 +13,11 @@ namespace granulaw {
 
 namespace {
 
-constexpr double from_share = 0.1;    // of a press's depth: below, the contact spans too few cells
+constexpr double from_share = 0.1;         // of a press's depth: below, the contact spans too few cells
 constexpr double target_spacing = 0.0045;  // of table nodes in s: about 128 nodes to x = 0.1
 
-/// Ripple of a sample grows as (cell/contact radius)^1.65 (formulations.md, sect. 3): its weight falls as x^0.8.
-/// Samples stand at equal times; what counts is equal steps of ln x.
+/// Ripple of a sample grows as (cell/contact radius)^1.65 (formulations.md, sect. 3): its weight falls as
+/// x^0.8. Samples stand at equal times; what counts is equal steps of ln x.
 double weight_of(const Pressing& press, std::size_t k)
 {
   const auto& l = press.loading;
@@ -25,7 +25,10 @@ double weight_of(const Pressing& press, std::size_t k)
   return std::pow(l[k].x / press.depth, 0.8) * std::sqrt(std::max(1e-9, std::log(after / before)));
 }
 
-double hertz_force(double x) { return x * std::sqrt(x); }
+double hertz_force(double x)
+{
+  return x * std::sqrt(x);
+}
 
 /// The splines of a plastic law, in q = ln(s/s_onset).
 struct PlasticFit
@@ -39,18 +42,27 @@ struct PlasticFit
   double restitution(double x) const { return std::exp(-0.5 * dissipation.value(q(std::pow(x, 0.25)))); }
 };
 
-SmoothSpline turning_spline(std::span<const Pressing> presses, double s_onset, double q_end, double (*of)(const Pressing&))
+SmoothSpline turning_spline(std::span<const Pressing> presses, double s_onset, double q_end,
+                            double (*of)(const Pressing&))
 {
   std::vector<SmoothSpline::Sample> samples;
-  for (const Pressing& p : presses) samples.push_back({std::log(std::pow(p.depth, 0.25) / s_onset), of(p), 1.0});
+  for (const Pressing& p : presses)
+    samples.push_back({std::log(std::pow(p.depth, 0.25) / s_onset), of(p), 1.0});
   // Few, accurate points: about one knot interval for each, and only enough stiffness to bridge the gaps.
   return {q_end, std::max<int>(4, static_cast<int>(presses.size()) - 2), samples, 0.03};
 }
 
-double residual_measure(const Pressing& p) { return -std::log(1 - std::clamp(p.residual / p.depth, 0.0, 0.9999)); }
-double dissipation_measure(const Pressing& p) { return -std::log(std::min(1.0, p.work_ratio)); }
+double residual_measure(const Pressing& p)
+{
+  return -std::log(1 - std::clamp(p.residual / p.depth, 0.0, 0.9999));
+}
+double dissipation_measure(const Pressing& p)
+{
+  return -std::log(std::min(1.0, p.work_ratio));
+}
 
-PlasticFit fit_splines(std::span<const Pressing> presses, const ElasticCorrection& elastic, double onset, double x_end)
+PlasticFit fit_splines(std::span<const Pressing> presses, const ElasticCorrection& elastic, double onset,
+                       double x_end)
 {
   PlasticFit fit{std::pow(onset, 0.25), elastic, {}, {}, {}, {}};
   const double q_end = fit.q(std::pow(x_end, 0.25));
@@ -76,7 +88,8 @@ ContactCurve::Table empty_table(double s_onset, double x_end, std::vector<double
 {
   const double wanted = std::pow(x_end, 0.25);
   double spacing = target_spacing;
-  if (std::isfinite(s_onset) && s_onset < wanted) spacing = s_onset / std::max(4.0, std::round(s_onset / target_spacing));
+  if (std::isfinite(s_onset) && s_onset < wanted)
+    spacing = s_onset / std::max(4.0, std::round(s_onset / target_spacing));
   const auto intervals = static_cast<std::size_t>(std::ceil(wanted / spacing - 1e-9));
   for (std::size_t k = 0; k <= intervals; ++k) nodes.push_back(spacing * static_cast<double>(k));
   ContactCurve::Table table;
@@ -93,14 +106,19 @@ double elastic_exponent(const ElasticCorrection& e, double s)
 
 /// Slopes of a smooth function given at uniform nodes from `first` on: fourth-order differences inside,
 /// one-sided second order at the ends.
-void fill_slopes(const std::vector<double>& value, std::size_t first, std::size_t last, double h, std::vector<double>& slope)
+void fill_slopes(const std::vector<double>& value, std::size_t first, std::size_t last, double h,
+                 std::vector<double>& slope)
 {
   const auto v = [&](std::size_t k) { return value[k]; };
   for (std::size_t k = first; k <= last; ++k) {
-    if (k == first) slope[k] = (-3 * v(k) + 4 * v(k + 1) - v(k + 2)) / (2 * h);
-    else if (k == last) slope[k] = (3 * v(k) - 4 * v(k - 1) + v(k - 2)) / (2 * h);
-    else if (k == first + 1 || k + 1 == last) slope[k] = (v(k + 1) - v(k - 1)) / (2 * h);
-    else slope[k] = (8 * (v(k + 1) - v(k - 1)) - (v(k + 2) - v(k - 2))) / (12 * h);
+    if (k == first)
+      slope[k] = (-3 * v(k) + 4 * v(k + 1) - v(k + 2)) / (2 * h);
+    else if (k == last)
+      slope[k] = (3 * v(k) - 4 * v(k - 1) + v(k - 2)) / (2 * h);
+    else if (k == first + 1 || k + 1 == last)
+      slope[k] = (v(k + 1) - v(k - 1)) / (2 * h);
+    else
+      slope[k] = (8 * (v(k + 1) - v(k - 1)) - (v(k + 2) - v(k - 2))) / (12 * h);
   }
 }
 
@@ -118,9 +136,11 @@ ContactCurve::Table tabulate(const PlasticFit& fit, double onset, double x_end)
     const double g = el.force_ratio(s) * std::exp(fit.softening.value(q));
     const double a = el.radius_ratio(s) * std::exp(fit.widening.value(q));
     table.force_ratio.push_back(g);
-    table.force_ratio_slope.push_back(g * (el.force_ratio_slope(s) / el.force_ratio(s) + fit.softening.slope(q) * per_s));
+    table.force_ratio_slope.push_back(
+        g * (el.force_ratio_slope(s) / el.force_ratio(s) + fit.softening.slope(q) * per_s));
     table.radius_ratio.push_back(a);
-    table.radius_ratio_slope.push_back(a * (el.radius_ratio_slope(s) / el.radius_ratio(s) + fit.widening.slope(q) * per_s));
+    table.radius_ratio_slope.push_back(
+        a * (el.radius_ratio_slope(s) / el.radius_ratio(s) + fit.widening.slope(q) * per_s));
     const double kept = std::exp(-fit.residual.value(q));
     table.residual_ratio.push_back(1 - kept);
     table.residual_ratio_slope.push_back(kept * fit.residual.slope(q) * per_s);
@@ -132,7 +152,10 @@ ContactCurve::Table tabulate(const PlasticFit& fit, double onset, double x_end)
   const ContactCurve loading(table, "fitted curve");
   for (std::size_t k = 0; k < count; ++k) {
     const double s = nodes[k], x = s * s * s * s;
-    if (k <= at_onset) { table.exponent[k] = elastic_exponent(el, s); continue; }
+    if (k <= at_onset) {
+      table.exponent[k] = elastic_exponent(el, s);
+      continue;
+    }
     const double given_back = loading.work_loading(x) * std::exp(-fit.dissipation.value(fit.q(s)));
     table.exponent[k] = loading.loading(x).force * x * (1 - table.residual_ratio[k]) / given_back - 1;
   }
@@ -144,8 +167,8 @@ ContactCurve::Table tabulate(const PlasticFit& fit, double onset, double x_end)
   return table;
 }
 
-FitQuality assess(const PlasticFit& fit, std::span<const Pressing> presses, const ContactCurve& curve, double onset,
-                  double x_end)
+FitQuality assess(const PlasticFit& fit, std::span<const Pressing> presses, const ContactCurve& curve,
+                  double onset, double x_end)
 {
   FitQuality quality;
   double sum = 0;
@@ -157,7 +180,8 @@ FitQuality assess(const PlasticFit& fit, std::span<const Pressing> presses, cons
       sum += relative * relative;
       ++count;
     }
-    quality.turning_error = std::max(quality.turning_error, std::abs(fit.restitution(press.depth) / std::sqrt(press.work_ratio) - 1));
+    quality.turning_error = std::max(
+        quality.turning_error, std::abs(fit.restitution(press.depth) / std::sqrt(press.work_ratio) - 1));
   }
   quality.scatter = count ? std::sqrt(sum / count) : 0;
   const double s_end = std::pow(x_end, 0.25);
@@ -197,7 +221,8 @@ ElasticCorrection fit_elastic(const Pressing& press)
   std::vector<std::size_t> used;
   for (std::size_t k = 0; k < press.loading.size(); ++k)
     if (press.loading[k].x >= from_share * press.depth) used.push_back(k);
-  if (used.size() < 10) fail("fit", "too few samples in the elastic press", std::to_string(used.size()), "10 or more");
+  if (used.size() < 10)
+    fail("fit", "too few samples in the elastic press", std::to_string(used.size()), "10 or more");
   Eigen::MatrixXd a(used.size(), 2);
   Eigen::VectorXd b(used.size()), root(used.size()), r(used.size());
   for (std::size_t k = 0; k < used.size(); ++k) {
@@ -214,7 +239,8 @@ ElasticCorrection fit_elastic(const Pressing& press)
   return {c(0), c(1), root.dot(r) / root.dot(root)};
 }
 
-FittedCurve fit_plastic(std::span<const Pressing> presses, const ElasticCorrection& elastic, double onset, double x_end)
+FittedCurve fit_plastic(std::span<const Pressing> presses, const ElasticCorrection& elastic, double onset,
+                        double x_end)
 {
   if (presses.size() < 3) fail("fit", "too few presses", std::to_string(presses.size()), "3 or more");
   const PlasticFit fit = fit_splines(presses, elastic, onset, x_end);
@@ -223,10 +249,13 @@ FittedCurve fit_plastic(std::span<const Pressing> presses, const ElasticCorrecti
   for (int k = 1; k <= 1000; ++k) {
     const double x = std::pow(curve.table().s_end * k / 1000, 4);
     if (curve.loading(x).stiffness <= 0)
-      fail("fit", fmt::format("the loading force does not rise at delta/R = {:.4g}: the runs are too coarse", x));
+      fail("fit",
+           fmt::format("the loading force does not rise at delta/R = {:.4g}: the runs are too coarse", x));
   }
   if (const double margin = curve.admissibility_margin(); margin < 0)
-    fail("fit", fmt::format("the law would gain energy in a closed cycle (margin {:.3g}): the runs are too coarse", margin));
+    fail("fit",
+         fmt::format("the law would gain energy in a closed cycle (margin {:.3g}): the runs are too coarse",
+                     margin));
   result.quality = assess(fit, presses, curve, onset, x_end);
   return result;
 }

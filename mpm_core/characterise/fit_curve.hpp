@@ -11,11 +11,14 @@ namespace granulaw {
 /// One dimensionless press (R = E* = rho = 1): virgin loading to `depth`, then complete unloading.
 struct Pressing
 {
-  struct Sample { double x, force, radius; };  ///< overlap/R; F/(4/3 E* R^2); a/R
-  std::vector<Sample> loading;                 ///< ascending x
-  double depth = 0;                            ///< x_m, largest overlap/R
-  double residual = 0;                         ///< overlap/R at which the force ended
-  double work_ratio = 0;                       ///< work given back/work put in, W_u/W_L = e^2
+  struct Sample
+  {
+    double x, force, radius;
+  };                            ///< overlap/R; F/(4/3 E* R^2); a/R
+  std::vector<Sample> loading;  ///< ascending x
+  double depth = 0;             ///< x_m, largest overlap/R
+  double residual = 0;          ///< overlap/R at which the force ended
+  double work_ratio = 0;        ///< work given back/work put in, W_u/W_L = e^2
 };
 
 /// Takes a press of a sphere of unit radius, density and E* apart.
@@ -37,10 +40,10 @@ ElasticCorrection fit_elastic(const Pressing& press);
 /// How well the curve represents the runs it was made from.
 struct FitQuality
 {
-  double scatter = 0;       ///< relative rms of loading samples, over the upper half of each press
-  double table_error = 0;   ///< largest relative difference of F between table and fit
-  double held_out = 0;      ///< largest relative error of e at a turning depth left out of the fit
-  double turning_error = 0; ///< largest relative residual of e at the turning depths of the fit
+  double scatter = 0;        ///< relative rms of loading samples, over the upper half of each press
+  double table_error = 0;    ///< largest relative difference of F between table and fit
+  double held_out = 0;       ///< largest relative error of e at a turning depth left out of the fit
+  double turning_error = 0;  ///< largest relative residual of e at the turning depths of the fit
 };
 
 struct FittedCurve
@@ -54,8 +57,8 @@ struct FittedCurve
 ///     ln(F_L/F_elastic),  ln(a/a_elastic),  -ln(1 - delta_r/delta_m),  -ln(W_u/W_L).
 /// The last two come from the turning points, and n = F_m (delta_m - delta_r)/W_u - 1 from all: then the
 /// unloading work, and so e, is that of the runs by construction.
-/// `onset`: x at which yield begins; the table reaches from 0 to at least `x_end`. Throws Error where the fit is
-/// not admissible (see ContactCurve) or F_L not monotone.
+/// `onset`: x at which yield begins; the table reaches from 0 to at least `x_end`. Throws Error where the fit
+/// is not admissible (see ContactCurve) or F_L not monotone.
 FittedCurve fit_plastic(std::span<const Pressing> presses, const ElasticCorrection& elastic, double onset,
                         double x_end);
 

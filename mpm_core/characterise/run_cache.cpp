@@ -29,8 +29,10 @@ template <class Summary, class Visit>
 void each_number(Summary& s, Visit visit)
 {
   visit(s.restitution), visit(s.restitution_raw), visit(s.restitution_spread), visit(s.force_max);
-  visit(s.delta_max), visit(s.delta_residual), visit(s.contact_time), visit(s.work_load), visit(s.work_unload);
-  visit(s.cpu_s), visit(s.point_updates_per_s), visit(s.error_estimate), visit(s.energy_error), visit(s.ripple);
+  visit(s.delta_max), visit(s.delta_residual), visit(s.contact_time), visit(s.work_load),
+      visit(s.work_unload);
+  visit(s.cpu_s), visit(s.point_updates_per_s), visit(s.error_estimate), visit(s.energy_error),
+      visit(s.ripple);
 }
 
 }  // namespace
@@ -94,7 +96,8 @@ void RunCache::remove() const
   if (folder_.empty()) return;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, ignored))
-    if (entry.path().filename().string().find(extension) != std::string::npos) fs::remove(entry.path(), ignored);
+    if (entry.path().filename().string().find(extension) != std::string::npos)
+      fs::remove(entry.path(), ignored);
   fs::remove(folder_, ignored);  // fails, as it should, if something else lies there
 }
 

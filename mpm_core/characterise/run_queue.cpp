@@ -11,7 +11,9 @@ namespace granulaw {
 
 namespace {
 
-struct Stopped {};  // thrown through the solver once another run has failed
+struct Stopped
+{
+};  // thrown through the solver once another run has failed
 
 }  // namespace
 
@@ -21,7 +23,8 @@ std::vector<RunResult> run_all(const std::vector<RunJob>& jobs, const RunOptions
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return jobs[a].cost > jobs[b].cost; });
-  const double total = std::accumulate(jobs.begin(), jobs.end(), 1e-300, [](double s, const RunJob& j) { return s + j.cost; });
+  const double total =
+      std::accumulate(jobs.begin(), jobs.end(), 1e-300, [](double s, const RunJob& j) { return s + j.cost; });
 
   std::vector<RunResult> results(jobs.size());
   std::vector<double> done(jobs.size(), 0.0);

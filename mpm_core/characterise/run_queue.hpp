@@ -21,8 +21,9 @@ struct RunJob
 /// Told the share of the work that is done, 0..1. May throw to stop.
 using Progress = std::function<void(double done, const std::string& what)>;
 
-/// Runs all jobs on `threads` threads (each run on one), or takes them from the cache; results in the order of
-/// the jobs. The first exception stops the rest and is thrown on. `progress` is called by one thread at a time.
+/// Runs all jobs on `threads` threads (each run on one), or takes them from the cache; results in the order
+/// of the jobs. The first exception stops the rest and is thrown on. `progress` is called by one thread at a
+/// time.
 std::vector<RunResult> run_all(const std::vector<RunJob>& jobs, const RunOptions& options, int threads,
                                const RunCache& cache, const Progress& progress);
 

@@ -41,9 +41,12 @@ SmoothSpline::SmoothSpline(double q_end, int intervals, std::span<const Sample> 
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, unknowns);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(rows);
   const auto add = [&](Eigen::Index row, int coefficient, double factor) {
-    if (coefficient == 0) a(row, 0) += factor;
-    else if (coefficient == 1) a(row, 0) -= 0.5 * factor;
-    else a(row, coefficient - 2) += factor;
+    if (coefficient == 0)
+      a(row, 0) += factor;
+    else if (coefficient == 1)
+      a(row, 0) -= 0.5 * factor;
+    else
+      a(row, coefficient - 2) += factor;
   };
   double mean_square = 0;
   Eigen::Index row = 0;

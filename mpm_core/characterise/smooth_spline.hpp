@@ -12,11 +12,14 @@ namespace granulaw {
 class SmoothSpline
 {
  public:
-  struct Sample { double q, value, weight; };
+  struct Sample
+  {
+    double q, value, weight;
+  };
 
   SmoothSpline() = default;
-  /// `intervals` equal knot intervals. The penalty on the third differences of the coefficients is `stiffness`
-  /// times the mean weight of the data: it bridges knots without data and cannot follow ripple.
+  /// `intervals` equal knot intervals. The penalty on the third differences of the coefficients is
+  /// `stiffness` times the mean weight of the data: it bridges knots without data and cannot follow ripple.
   /// At least 2 samples are needed.
   SmoothSpline(double q_end, int intervals, std::span<const Sample> samples, double stiffness);
 
@@ -25,7 +28,10 @@ class SmoothSpline
   double slope(double q) const { return evaluate(q).slope; }
 
  private:
-  struct Point { double value, slope; };
+  struct Point
+  {
+    double value, slope;
+  };
   Point evaluate(double q) const;
 
   std::vector<double> coefficients_;

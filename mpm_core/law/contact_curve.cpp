@@ -23,7 +23,8 @@ void check_values(const std::vector<double>& values, std::size_t count, double l
                   const std::string& where, const char* name)
 {
   if (values.size() != count)
-    fail(where, fmt::format("'{}' has the wrong length", name), std::to_string(values.size()), std::to_string(count));
+    fail(where, fmt::format("'{}' has the wrong length", name), std::to_string(values.size()),
+         std::to_string(count));
   for (std::size_t k = 0; k < count; ++k)
     if (!(values[k] >= low && values[k] <= high))  // NaN fails as well
       fail(where, fmt::format("'{}' at node {} is out of range", name, k), fmt::format("{:.6g}", values[k]),
@@ -40,7 +41,8 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
     fail(where, "a contact curve has an unusable number of nodes", std::to_string(count), "4 to 65536");
   if (!(table.s_end > 0 && table.s_end <= 2.0))
     fail(where, "'s_end' is out of range", fmt::format("{:.6g}", table.s_end), "over 0, up to 2");
-  if (!(table.onset >= 0)) fail(where, "'onset' is out of range", fmt::format("{:.6g}", table.onset), "0 or more");
+  if (!(table.onset >= 0))
+    fail(where, "'onset' is out of range", fmt::format("{:.6g}", table.onset), "0 or more");
   check_values(table.force_ratio, count, 0.0, 1e3, where, "force_ratio");
   check_values(table.residual_ratio, count, 0.0, 0.99999, where, "residual_ratio");
   check_values(table.exponent, count, 1.0, 10.0, where, "exponent");

@@ -28,16 +28,17 @@ namespace granulaw {
 /// geometric overlap ends. delta >= delta_max: loading. Else unloading and reloading follow the same curve
 /// F = F_L(delta_max) max(0,u)^n. While delta_max is below the onset of yield, F = F_L(delta) both ways.
 ///
-/// Admissible (no closed cycle gains energy) if dW_L/d(delta_m) >= dW_u/d(delta_m): see admissibility_margin().
+/// Admissible (no closed cycle gains energy) if dW_L/d(delta_m) >= dW_u/d(delta_m): see
+/// admissibility_margin().
 class ContactCurve
 {
  public:
   /// Node values as stored in a file. All vectors have the same length, at least 4.
   struct Table
   {
-    double s_end = 0;                    ///< s at the last node; x_end = s_end^4
-    double onset = 0;                    ///< x at which yield begins; infinity: never (elastic)
-    std::vector<double> force_ratio, force_ratio_slope;        ///< value and d/ds
+    double s_end = 0;  ///< s at the last node; x_end = s_end^4
+    double onset = 0;  ///< x at which yield begins; infinity: never (elastic)
+    std::vector<double> force_ratio, force_ratio_slope;  ///< value and d/ds
     std::vector<double> residual_ratio, residual_ratio_slope;
     std::vector<double> exponent, exponent_slope;
     std::vector<double> radius_ratio, radius_ratio_slope;
@@ -54,11 +55,17 @@ class ContactCurve
   const Table& table() const { return table_; }
 
   /// Loading force over Hertz's force at x = 1, that is x^1.5 g(x); its derivative by x; a/R = sqrt(x) ratio.
-  struct Loading { double force, stiffness, radius; };
+  struct Loading
+  {
+    double force, stiffness, radius;
+  };
   Loading loading(double x) const;
 
   /// Turning point of a contact that reached x_m.
-  struct Turning { double force, stiffness, radius, residual, exponent; };
+  struct Turning
+  {
+    double force, stiffness, radius, residual, exponent;
+  };
   Turning turning(double x_m) const;
 
   /// Work of loading to x, and work given back on complete unloading from x_m, in units of
@@ -76,8 +83,15 @@ class ContactCurve
 
  private:
   /// Cubic coefficients in t = (s - s_k)/h of the four functions over one interval: two cache lines.
-  struct Interval { double g[4], a[4], rho[4], n[4]; };
-  struct Position { const Interval* interval; double t, s, root; };
+  struct Interval
+  {
+    double g[4], a[4], rho[4], n[4];
+  };
+  struct Position
+  {
+    const Interval* interval;
+    double t, s, root;
+  };
 
   Position locate(double x) const
   {
@@ -89,14 +103,17 @@ class ContactCurve
   /// Loading work from node k to t_end within its interval.
   double interval_work(std::size_t k, double t_end) const;
   static double cubic(const double (&c)[4], double t) { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
-  static double cubic_slope(const double (&c)[4], double t) { return c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]); }
+  static double cubic_slope(const double (&c)[4], double t)
+  {
+    return c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]);
+  }
 
   std::vector<Interval> intervals_;
   std::vector<double> work_;  // loading work up to each node
   double per_h_ = 0;          // 1/(node spacing in s)
   double x_end_ = 0;
   double onset_ = 0;
-  Loading end_{};             // loading at x_end
+  Loading end_{};  // loading at x_end
   Table table_;
 };
 
@@ -129,14 +146,16 @@ inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff
     return {force_scale * now.force, force_scale * per_length * now.stiffness, radius_scale * now.radius,
             std::max(delta, delta_max)};
   }
-  // turning(x_max) without what is not needed, from one position: this branch is where a dense flow spends its time
+  // turning(x_max) without what is not needed, from one position: this branch is where a dense flow spends
+  // its time
   const Position p = locate(std::min(x_max, x_end_));
   const double residual = cubic(p.interval->rho, p.t), span = 1.0 - residual;  // over delta_max
   const double u = (delta / delta_max - residual) / span;
   if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
   const double top = x_max <= x_end_ ? x_max * p.root * cubic(p.interval->g, p.t)
                                      : end_.force + end_.stiffness * (x_max - x_end_);
-  const double top_radius = p.root * cubic(p.interval->a, p.t) * (x_max <= x_end_ ? 1.0 : std::sqrt(x_max / x_end_));
+  const double top_radius =
+      p.root * cubic(p.interval->a, p.t) * (x_max <= x_end_ ? 1.0 : std::sqrt(x_max / x_end_));
   // F = F_m u^n; dF/dx = n F/(u span); a = a_m u^(n-1), the radius at which dF/dx = 2 E* a keeps its ratio
   const double n = cubic(p.interval->n, p.t), below = fast_pow(u, n - 1.0);
   return {force_scale * top * below * u, force_scale * per_length * n * top * below / (span * x_max),

@@ -37,7 +37,10 @@ std::size_t fixed_text_size(hid_t type, const std::string& file, const char* nam
   return size;
 }
 
-std::string trimmed(const char* begin, std::size_t size) { return {begin, std::find(begin, begin + size, '\0')}; }
+std::string trimmed(const char* begin, std::size_t size)
+{
+  return {begin, std::find(begin, begin + size, '\0')};
+}
 
 void describe(hid_t object, const Field& field, const std::string& file)
 {
@@ -64,7 +67,10 @@ Silence::Silence()
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Silence::~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+Silence::~Silence()
+{
+  H5Eset_auto2(H5E_DEFAULT, function_, data_);
+}
 
 Handle& Handle::operator=(Handle&& other) noexcept
 {
@@ -101,7 +107,8 @@ void write_int_attribute(hid_t object, const char* name, int value, const std::s
 void write_scalar(hid_t group, const Field& field, double value, const std::string& file)
 {
   const Handle space(H5Screate(H5S_SCALAR));
-  const Handle set(H5Dcreate2(group, field.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const Handle set(
+      H5Dcreate2(group, field.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   require(set.ok() && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0, file,
           "cannot write", field.name);
   describe(set, field, file);
@@ -111,13 +118,15 @@ void write_vector(hid_t group, const Field& field, std::span<const double> value
 {
   const hsize_t extent = values.size();
   const Handle space(H5Screate_simple(1, &extent, nullptr));
-  const Handle set(H5Dcreate2(group, field.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  require(set.ok() && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, file,
-          "cannot write", field.name);
+  const Handle set(
+      H5Dcreate2(group, field.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  require(set.ok() && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+          file, "cannot write", field.name);
   describe(set, field, file);
 }
 
-void write_texts(hid_t group, const char* name, const std::vector<std::string>& texts, const std::string& file)
+void write_texts(hid_t group, const char* name, const std::vector<std::string>& texts,
+                 const std::string& file)
 {
   std::size_t size = 1;
   for (const std::string& text : texts) size = std::max(size, text.size());
@@ -126,11 +135,15 @@ void write_texts(hid_t group, const char* name, const std::vector<std::string>& 
   const hsize_t extent = texts.size();
   const Handle type = text_type(size), space(H5Screate_simple(1, &extent, nullptr));
   const Handle set(H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  require(set.ok() && (texts.empty() || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) >= 0),
-          file, "cannot write", name);
+  require(
+      set.ok() && (texts.empty() || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) >= 0),
+      file, "cannot write", name);
 }
 
-bool has_link(hid_t group, const char* name) { return H5Lexists(group, name, H5P_DEFAULT) > 0; }
+bool has_link(hid_t group, const char* name)
+{
+  return H5Lexists(group, name, H5P_DEFAULT) > 0;
+}
 
 Handle open_group(hid_t parent, const char* name, const std::string& file)
 {
@@ -187,8 +200,9 @@ std::vector<double> read_vector(hid_t group, const Field& field, std::size_t mos
     fail(file, fmt::format("'{}' has an unusable number of values", field.name), std::to_string(count),
          fmt::format("up to {}", most));
   std::vector<double> values(static_cast<std::size_t>(count));
-  require(values.empty() || H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
-          file, "cannot read", field.name);
+  require(
+      values.empty() || H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+      file, "cannot read", field.name);
   return values;
 }
 
@@ -201,10 +215,11 @@ std::vector<std::string> read_texts(hid_t group, const char* name, std::size_t m
   const std::size_t size = fixed_text_size(type, file, name);
   require(H5Sget_simple_extent_ndims(space) == 1, file, "a list of texts expected in", name);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  require(count >= 0 && static_cast<std::size_t>(count) <= most && size <= 1024, file, "too much text in", name);
-  std::string block(size * static_cast<std::size_t>(count), '\0');
-  require(count == 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) >= 0, file, "cannot read",
+  require(count >= 0 && static_cast<std::size_t>(count) <= most && size <= 1024, file, "too much text in",
           name);
+  std::string block(size * static_cast<std::size_t>(count), '\0');
+  require(count == 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) >= 0, file,
+          "cannot read", name);
   std::vector<std::string> texts;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
     texts.push_back(trimmed(block.data() + k * size, size));
@@ -215,13 +230,15 @@ std::vector<std::string> link_names(hid_t group, std::size_t most, const std::st
 {
   H5G_info_t info{};
   if (H5Gget_info(group, &info) < 0 || info.nlinks > most)
-    fail(file, "a group has an unusable number of entries", std::to_string(info.nlinks), fmt::format("up to {}", most));
+    fail(file, "a group has an unusable number of entries", std::to_string(info.nlinks),
+         fmt::format("up to {}", most));
   std::vector<std::string> names;
   for (hsize_t k = 0; k < info.nlinks; ++k) {
     char name[256];
     const ssize_t size =
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name, H5P_DEFAULT);
-    if (size <= 0 || size >= static_cast<ssize_t>(sizeof name)) fail(file, "a group has an unusable entry name");
+    if (size <= 0 || size >= static_cast<ssize_t>(sizeof name))
+      fail(file, "a group has an unusable entry name");
     names.emplace_back(name);
   }
   return names;
@@ -238,7 +255,8 @@ std::vector<std::string> attribute_names(hid_t object, std::size_t most, const s
     char name[256];
     const ssize_t size =
         H5Aget_name_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name, H5P_DEFAULT);
-    if (size <= 0 || size >= static_cast<ssize_t>(sizeof name)) fail(file, "an attribute has an unusable name");
+    if (size <= 0 || size >= static_cast<ssize_t>(sizeof name))
+      fail(file, "an attribute has an unusable name");
     names.emplace_back(name);
   }
   return names;

@@ -50,7 +50,8 @@ void write_int_attribute(hid_t object, const char* name, int value, const std::s
 void write_scalar(hid_t group, const Field& field, double value, const std::string& file);
 void write_vector(hid_t group, const Field& field, std::span<const double> values, const std::string& file);
 /// A one-dimensional dataset of fixed-length UTF-8 strings.
-void write_texts(hid_t group, const char* name, const std::vector<std::string>& texts, const std::string& file);
+void write_texts(hid_t group, const char* name, const std::vector<std::string>& texts,
+                 const std::string& file);
 
 // Reading: type and extent are checked before anything is allocated.
 bool has_link(hid_t group, const char* name);

@@ -41,7 +41,8 @@ inline constexpr Field hardening_modulus{"hardening_modulus", "Pa",
                                          "linear hardening d(yield stress)/d(equivalent plastic strain)"};
 
 // bodies/<name>/curve
-inline constexpr Field s_end{"s_end", "1", "s = x^(1/4) at the last node, x = overlap/(lambda R*); nodes uniform in s"};
+inline constexpr Field s_end{"s_end", "1",
+                             "s = x^(1/4) at the last node, x = overlap/(lambda R*); nodes uniform in s"};
 inline constexpr Field onset{"onset", "1", "x at the onset of yield; absent: never"};
 inline constexpr Field force_ratio{"force_ratio", "1", "loading force over Hertz's 4/3 E* R^2 x^1.5"};
 inline constexpr Field force_ratio_slope{"force_ratio_slope", "1", "d(force_ratio)/ds"};
@@ -53,23 +54,27 @@ inline constexpr Field radius_ratio{"radius_ratio", "1", "contact radius over He
 inline constexpr Field radius_ratio_slope{"radius_ratio_slope", "1", "d(radius_ratio)/ds"};
 
 // bodies/<name>/certificate
-inline constexpr Field solver_error_force{"solver_error_force", "1", "relative, two resolutions, treated force"};
-inline constexpr Field solver_error_restitution{"solver_error_restitution", "1", "relative, two resolutions, e"};
+inline constexpr Field solver_error_force{"solver_error_force", "1",
+                                          "relative, two resolutions, treated force"};
+inline constexpr Field solver_error_restitution{"solver_error_restitution", "1",
+                                                "relative, two resolutions, e"};
 inline constexpr Field interpolation_error{"interpolation_error", "1",
                                            "relative, table against the fitted curve it was made from"};
-inline constexpr Field held_out_error{"held_out_error", "1", "largest relative error of e at a press depth left out of the fit"};
+inline constexpr Field held_out_error{"held_out_error", "1",
+                                      "largest relative error of e at a press depth left out of the fit"};
 inline constexpr Field residual_scatter{"residual_scatter", "1", "relative rms of the runs about the fit"};
 inline constexpr Field reload_loop_area{"reload_loop_area", "1",
                                         "largest area of an unload/reload loop over the loading work there"};
-inline constexpr Field slow_press_force{"slow_press_force", "1",
-                                        "force of a slow press over the impact's at its overlap, less 1; signed"};
-inline constexpr Field slow_press_restitution{"slow_press_restitution", "1",
-                                              "e of a slow press over the impact's at its overlap, less 1; signed"};
+inline constexpr Field slow_press_force{
+    "slow_press_force", "1", "force of a slow press over the impact's at its overlap, less 1; signed"};
+inline constexpr Field slow_press_restitution{
+    "slow_press_restitution", "1", "e of a slow press over the impact's at its overlap, less 1; signed"};
 inline constexpr Field verification_error_force{"verification_error_force", "1",
                                                 "largest relative error of F_max, replay against impacts"};
 inline constexpr Field verification_error_restitution{"verification_error_restitution", "1",
                                                       "largest relative error of e, replay against impacts"};
-inline constexpr Field verification_impacts{"verification_impacts", "1", "number of impacts compared; 0: none"};
+inline constexpr Field verification_impacts{"verification_impacts", "1",
+                                            "number of impacts compared; 0: none"};
 inline constexpr Field max_inertia{"max_inertia", "1", "I = rho V^2/Y up to which the rate-free law holds"};
 
 }  // namespace granulaw::h5

@@ -13,8 +13,8 @@ namespace granulaw {
 struct LawMaterial
 {
   std::string name;
-  double density = 0;        ///< kg/m^3
-  double youngs_modulus = 0; ///< Pa
+  double density = 0;         ///< kg/m^3
+  double youngs_modulus = 0;  ///< Pa
   double poisson_ratio = 0;
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
   double hardening_modulus = 0;  ///< Pa, d(yield stress)/d(equivalent plastic strain); 0: perfectly plastic
@@ -32,13 +32,14 @@ struct Certificate
   double held_out_error = 0;            ///< largest error of e at a press depth left out of the fit
   double residual_scatter = 0;          ///< rms of the runs about the fit: what the ripple treatment removed
   double reload_loop_area = 0;          ///< largest area of an unload/reload loop over the loading work there
-  double slow_press_force = 0;          ///< F of a slow press over the impact's at the deepest impact's overlap, less 1
+  double slow_press_force =
+      0;  ///< F of a slow press over the impact's at the deepest impact's overlap, less 1
   double slow_press_restitution = 0;    ///< the same of e: what inertia does at max_inertia (signed)
   double verification_error_force = 0;  ///< largest error of F_max, replay of this law against fresh impacts
   double verification_error_restitution = 0;  ///< the same of e
-  double verification_impacts = 0;      ///< how many impacts were compared
-  double max_inertia = 0;               ///< I = rho V^2/Y up to which the rate-free law holds within its error
-  std::string support = "free";         ///< how the characterising press held the body
+  double verification_impacts = 0;            ///< how many impacts were compared
+  double max_inertia = 0;        ///< I = rho V^2/Y up to which the rate-free law holds within its error
+  std::string support = "free";  ///< how the characterising press held the body
 };
 
 /// The law of one yielding body: its material, its dimensionless curve, its certificate.

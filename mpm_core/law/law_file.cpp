@@ -19,14 +19,26 @@ using Table = ContactCurve::Table;
 
 constexpr std::size_t most_nodes = 65536, most_bodies = 256, most_pairs = 65536, most_notes = 1024;
 
-struct CurveField { const h5::Field& field; std::vector<double> Table::*values; };
-constexpr CurveField curve_fields[] = {
-    {h5::force_ratio, &Table::force_ratio},       {h5::force_ratio_slope, &Table::force_ratio_slope},
-    {h5::residual_ratio, &Table::residual_ratio}, {h5::residual_ratio_slope, &Table::residual_ratio_slope},
-    {h5::exponent, &Table::exponent},             {h5::exponent_slope, &Table::exponent_slope},
-    {h5::radius_ratio, &Table::radius_ratio},     {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
+struct CurveField
+{
+  const h5::Field& field;
+  std::vector<double> Table::*values;
+};
+constexpr CurveField curve_fields[] = {{h5::force_ratio, &Table::force_ratio},
+                                       {h5::force_ratio_slope, &Table::force_ratio_slope},
+                                       {h5::residual_ratio, &Table::residual_ratio},
+                                       {h5::residual_ratio_slope, &Table::residual_ratio_slope},
+                                       {h5::exponent, &Table::exponent},
+                                       {h5::exponent_slope, &Table::exponent_slope},
+                                       {h5::radius_ratio, &Table::radius_ratio},
+                                       {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
 
-struct CertificateField { const h5::Field& field; double Certificate::*value; bool is_signed = false; };
+struct CertificateField
+{
+  const h5::Field& field;
+  double Certificate::*value;
+  bool is_signed = false;
+};
 constexpr CertificateField certificate_fields[] = {
     {h5::solver_error_force, &Certificate::solver_error_force},
     {h5::solver_error_restitution, &Certificate::solver_error_restitution},
@@ -44,7 +56,8 @@ constexpr CertificateField certificate_fields[] = {
 void require_positive(double value, const std::string& where, const h5::Field& field)
 {
   if (!(value > 0 && std::isfinite(value)))
-    fail(where, fmt::format("'{}' is out of range", field.name), fmt::format("{:.6g} {}", value, field.unit), "over 0");
+    fail(where, fmt::format("'{}' is out of range", field.name), fmt::format("{:.6g} {}", value, field.unit),
+         "over 0");
 }
 
 /// What must hold between the numbers of one body, beyond what ContactCurve checks of its own nodes.
@@ -56,9 +69,11 @@ void check_body(const BodyLaw& body, const std::string& where)
   if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.5))
     fail(where, "'poisson_ratio' is out of range", fmt::format("{:.6g}", m.poisson_ratio), "0 to below 0.5");
   if (!(m.yield_stress > 0))
-    fail(where, "'yield_stress' is out of range", fmt::format("{:.6g} Pa", m.yield_stress), "over 0, or absent");
+    fail(where, "'yield_stress' is out of range", fmt::format("{:.6g} Pa", m.yield_stress),
+         "over 0, or absent");
   if (!(m.hardening_modulus >= 0 && std::isfinite(m.hardening_modulus)))
-    fail(where, "'hardening_modulus' is out of range", fmt::format("{:.6g} Pa", m.hardening_modulus), "0 or more");
+    fail(where, "'hardening_modulus' is out of range", fmt::format("{:.6g} Pa", m.hardening_modulus),
+         "0 or more");
   if (m.yields() != std::isfinite(body.curve.onset()))
     fail(where, m.yields() ? "the material yields but its curve has no onset"
                            : "the material is elastic but its curve has an onset of yield");
@@ -72,9 +87,10 @@ void check_body(const BodyLaw& body, const std::string& where)
 /// Names become HDF5 links and parts of "a:b": letters, digits, '_', '-', '.'.
 void check_name(const std::string& name, const std::string& where)
 {
-  const bool usable = !name.empty() && name.size() <= 100 && name.find_first_not_of(".") != std::string::npos &&
-                      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
-                          std::string::npos;
+  const bool usable =
+      !name.empty() && name.size() <= 100 && name.find_first_not_of(".") != std::string::npos &&
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+          std::string::npos;
   if (!usable || name == wall_name)
     fail(where, "unusable material name", fmt::format("'{}'", name),
          fmt::format("letters, digits, '_', '-' and '.', and not '{}'", wall_name));
@@ -148,7 +164,8 @@ h5::Handle open_law(const std::string& path)
   if (!std::filesystem::exists(path, ignored)) fail(path, "no such file");
   if (!std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path).good())
     fail(path, "cannot be read as a file");
-  if (H5Fis_hdf5(path.c_str()) <= 0) fail(path, "is not an HDF5 file, so not a contact law (or it was cut off)");
+  if (H5Fis_hdf5(path.c_str()) <= 0)
+    fail(path, "is not an HDF5 file, so not a contact law (or it was cut off)");
   h5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (!file.ok()) fail(path, "is damaged or cut off: build it again with `mpm table`");
   if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != h5::format_value)

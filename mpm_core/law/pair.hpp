@@ -10,7 +10,7 @@ struct ContactForce
   double force;           ///< N, repulsive positive, never negative
   double stiffness;       ///< dF/d(overlap) on the current branch, N/m
   double contact_radius;  ///< m
-  double delta_max;       ///< m, the new largest overlap since first touch: store it if this call advances time
+  double delta_max;  ///< m, the new largest overlap since first touch: store it if this call advances time
 };
 
 /// The one rule that carries a one-body law (a sphere on a rigid wall) to every pair (DESIGN section 4).
@@ -47,6 +47,9 @@ inline double effective_radius(double radius_i, double radius_j)
 }
 
 /// m* = m_i m_j/(m_i + m_j), kg.
-inline double effective_mass(double mass_i, double mass_j) { return mass_i * mass_j / (mass_i + mass_j); }
+inline double effective_mass(double mass_i, double mass_j)
+{
+  return mass_i * mass_j / (mass_i + mass_j);
+}
 
 }  // namespace granulaw

@@ -6,8 +6,8 @@
 
 namespace granulaw {
 
-Replay replay_collision(const NormalForce& law, double effective_mass, double velocity,
-                        double duration_guess, int steps_per_contact)
+Replay replay_collision(const NormalForce& law, double effective_mass, double velocity, double duration_guess,
+                        int steps_per_contact)
 {
   if (!(velocity > 0 && effective_mass > 0 && duration_guess > 0 && steps_per_contact > 0))
     fail("replay", "velocity, mass, duration and steps must be positive");
@@ -21,8 +21,10 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
     v -= 0.5 * dt * now.force / effective_mass;
     const double before = delta, force_before = now.force;
     delta += dt * v;
-    if (delta <= 0) now = {};
-    else now = law(delta, delta_max);
+    if (delta <= 0)
+      now = {};
+    else
+      now = law(delta, delta_max);
     delta_max = std::max(delta, delta_max);
     v -= 0.5 * dt * now.force / effective_mass;
     time += dt;
@@ -48,9 +50,9 @@ Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass
   const double e_star = pair.mapping.e_star_pair();
   const double duration =
       2.87 * std::pow(effective_mass * effective_mass / (e_star * e_star * r_eff * velocity), 0.2);
-  Replay result = replay_collision(
-      [&](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); },
-      effective_mass, velocity, duration, steps_per_contact);
+  Replay result =
+      replay_collision([&](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); },
+                       effective_mass, velocity, duration, steps_per_contact);
   result.left_range = result.delta_max > pair.max_overlap(r_eff);
   return result;
 }

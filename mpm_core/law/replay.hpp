@@ -10,15 +10,19 @@ namespace granulaw {
 /// One collision as a particle code would compute it.
 struct Replay
 {
-  double restitution = 0;       ///< e = separation speed/approach speed
-  double force_max = 0;         ///< N
-  double delta_max = 0;         ///< m
-  double delta_residual = 0;    ///< m, overlap at which the force ends
-  double contact_time = 0;      ///< s, from first touch until the force ends
-  double work_load = 0;         ///< J, done on the contact up to delta_max
-  double work_unload = 0;       ///< J, given back after it
-  bool left_range = false;      ///< delta_max went past the table
-  struct Sample { double time, delta, force, contact_radius; bool unloading; };
+  double restitution = 0;     ///< e = separation speed/approach speed
+  double force_max = 0;       ///< N
+  double delta_max = 0;       ///< m
+  double delta_residual = 0;  ///< m, overlap at which the force ends
+  double contact_time = 0;    ///< s, from first touch until the force ends
+  double work_load = 0;       ///< J, done on the contact up to delta_max
+  double work_unload = 0;     ///< J, given back after it
+  bool left_range = false;    ///< delta_max went past the table
+  struct Sample
+  {
+    double time, delta, force, contact_radius;
+    bool unloading;
+  };
   std::vector<Sample> samples;  ///< every step
 };
 
@@ -27,8 +31,8 @@ using NormalForce = std::function<ContactForce(double delta, double delta_max)>;
 
 /// Integrates m* d2(delta)/dt2 = -F by velocity Verlet from delta = 0, v = velocity until the force ends.
 /// `duration_guess` (s) sets the step: duration_guess/steps_per_contact. m* in kg, velocity in m/s.
-Replay replay_collision(const NormalForce& law, double effective_mass, double velocity,
-                        double duration_guess, int steps_per_contact = 20000);
+Replay replay_collision(const NormalForce& law, double effective_mass, double velocity, double duration_guess,
+                        int steps_per_contact = 20000);
 
 /// The same for a pair of a Law.
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,

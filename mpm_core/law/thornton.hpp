@@ -17,8 +17,9 @@ namespace granulaw {
 ///                        R_p = (4 E*/(3 F_m)) ((2 F_m + F_y)/(2 pi p_y))^1.5
 struct ThorntonPair
 {
-  double e_star;          ///< Pa, of the pair: 1/E* = 1/E*_i + 1/E*_j (one body's own where the partner is rigid)
-  double yield_pressure;  ///< Pa, p_y = 1.6 Y of the weaker body (eq. 9 with the customary factor); infinity: elastic
+  double e_star;  ///< Pa, of the pair: 1/E* = 1/E*_i + 1/E*_j (one body's own where the partner is rigid)
+  double yield_pressure;  ///< Pa, p_y = 1.6 Y of the weaker body (eq. 9 with the customary factor); infinity:
+                          ///< elastic
 
   /// d_y = (pi p_y/(2 E*))^2 R*, m.
   double yield_overlap(double r_eff) const
@@ -27,7 +28,8 @@ struct ThorntonPair
     return q * q * r_eff;
   }
 
-  /// Force and stiffness at overlap `delta` (m, > 0); see ContactForce for units. No allocation, no exceptions.
+  /// Force and stiffness at overlap `delta` (m, > 0); see ContactForce for units. No allocation, no
+  /// exceptions.
   ContactForce evaluate(double r_eff, double delta, double delta_max) const
   {
     const double hertz = 4.0 / 3.0 * e_star;

@@ -20,12 +20,13 @@ double smooth_step(double t)
   return t * t * (3 - 2 * t);
 }
 
-/// Time without contact after which a body counts as having left: a few crossings of the contact zone would do;
-/// a surface vibration can close the contact again within about one crossing of the sphere (2 R/c).
+/// Time without contact after which a body counts as having left: a few crossings of the contact zone would
+/// do; a surface vibration can close the contact again within about one crossing of the sphere (2 R/c).
 constexpr double leaving_time = 2.0;
 
-/// At a turn of the press the body is held and its vibration (slowest mode: period about 2.6 R/c) damped out at
-/// about critical rate. Without it e at 0.02 R would still depend on the ramp: .5845, .5877, .5890 for 40, 80, 160.
+/// At a turn of the press the body is held and its vibration (slowest mode: period about 2.6 R/c) damped out
+/// at about critical rate. Without it e at 0.02 R would still depend on the ramp: .5845, .5877, .5890 for 40,
+/// 80, 160.
 constexpr double hold_time = 6.0, hold_damping = 1.5;
 
 }  // namespace
@@ -38,9 +39,15 @@ void ImpactDrive::apply(Body& body, double time, double dt, bool touching)
   finished_ = rebounding_ && time_ - last_touch_ > leaving_time;
 }
 
-double ImpactDrive::progress() const { return std::min(1.0, time_ / expected_); }
+double ImpactDrive::progress() const
+{
+  return std::min(1.0, time_ / expected_);
+}
 
-double ImpactDrive::overlap(const Body& body) const { return -mean_displacement(body); }
+double ImpactDrive::overlap(const Body& body) const
+{
+  return -mean_displacement(body);
+}
 
 void PressDrive::start_loading(double time, double overlap)
 {
@@ -77,9 +84,12 @@ double PressDrive::target_velocity(double time) const
       const double way = plan_.stops[stop_] - from_;
       return way * M_PI / (2 * duration_) * std::sin(M_PI * std::clamp(t / duration_, 0.0, 1.0));
     }
-    case Phase::hold: return 0;
-    case Phase::unload: return -speed_ * smooth_step(t / (0.4 * plan_.unload_ramp));
-    case Phase::stop: return -speed_ * (1 - smooth_step(t / (0.2 * plan_.unload_ramp)));
+    case Phase::hold:
+      return 0;
+    case Phase::unload:
+      return -speed_ * smooth_step(t / (0.4 * plan_.unload_ramp));
+    case Phase::stop:
+      return -speed_ * (1 - smooth_step(t / (0.2 * plan_.unload_ramp)));
   }
   return 0;
 }

@@ -30,7 +30,9 @@ class Drive
 class ImpactDrive : public Drive
 {
  public:
-  ImpactDrive(double velocity, double expected_duration) : velocity_(velocity), expected_(expected_duration) {}
+  ImpactDrive(double velocity, double expected_duration) : velocity_(velocity), expected_(expected_duration)
+  {
+  }
   void apply(Body& body, double time, double dt, bool touching) override;
   bool finished() const override { return finished_; }
   Branch branch() const override { return rebounding_ ? Branch::unload : Branch::load; }
@@ -43,19 +45,24 @@ class ImpactDrive : public Drive
   bool rebounding_ = false, finished_ = false;
 };
 
-/// A body pressed along smooth ramps by a uniform body force (free) or by its equator plane (midplane): overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at
-/// first touch); unloading at a speed that grows smoothly to a constant until the force has ended.
+/// A body pressed along smooth ramps by a uniform body force (free) or by its equator plane (midplane):
+/// overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at first touch); unloading at a
+/// speed that grows smoothly to a constant until the force has ended.
 class PressDrive : public Drive
 {
  public:
   struct Plan
   {
-    std::vector<double> stops;  ///< ascending overlaps; after each the body is unloaded; the last is the depth
-    double ramp;                ///< duration of loading from 0 to depth
-    double unload_ramp;         ///< duration of an unloading, about
+    std::vector<double>
+        stops;           ///< ascending overlaps; after each the body is unloaded; the last is the depth
+    double ramp;         ///< duration of loading from 0 to depth
+    double unload_ramp;  ///< duration of an unloading, about
     Support support;
   };
-  PressDrive(const Plan& plan, double e_star_contact) : plan_(plan), e_star_(e_star_contact) { start_loading(0, 0); }
+  PressDrive(const Plan& plan, double e_star_contact) : plan_(plan), e_star_(e_star_contact)
+  {
+    start_loading(0, 0);
+  }
   void apply(Body& body, double time, double dt, bool touching) override;
   bool finished() const override { return finished_; }
   Branch branch() const override;

@@ -9,8 +9,9 @@
 
 namespace granulaw {
 
-std::vector<RunResult> run_phases(int phases, int threads, const std::function<void(double)>& progress,
-                                  const std::function<RunResult(double, const std::function<void(double)>&)>& job)
+std::vector<RunResult> run_phases(
+    int phases, int threads, const std::function<void(double)>& progress,
+    const std::function<RunResult(double, const std::function<void(double)>&)>& job)
 {
   std::vector<RunResult> results(static_cast<std::size_t>(phases));
   std::vector<double> done(results.size(), 0.0);
@@ -23,14 +24,16 @@ std::vector<RunResult> run_phases(int phases, int threads, const std::function<v
     for (int k = next++; k < phases && !stop; k = next++) {
       const auto report = [&, k](double fraction) {
         const std::lock_guard lock(mutex);
-        if (stop) throw std::runtime_error("stopped");  // another run has failed: its error is the one reported
+        if (stop)
+          throw std::runtime_error("stopped");  // another run has failed: its error is the one reported
         done[static_cast<std::size_t>(k)] = fraction;
         double sum = 0;
         for (const double d : done) sum += d;
         if (progress) progress(sum / phases);
       };
       try {
-        results[static_cast<std::size_t>(k)] = job(static_cast<double>(k) / phases - (phases > 1 ? 0.5 : 0.0), report);
+        results[static_cast<std::size_t>(k)] =
+            job(static_cast<double>(k) / phases - (phases > 1 ? 0.5 : 0.0), report);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();

@@ -7,14 +7,17 @@
 
 namespace granulaw {
 
-/// The contact-edge ripple is a periodic function of where the edge stands within its cell. K runs of the same
-/// job on grids whose lines are shifted by k/K of a cell see it at K equally spaced phases: their mean is free of
-/// its first K - 1 harmonics, at K times the cost of a run whose single refinement would need about K^2 times.
+/// The contact-edge ripple is a periodic function of where the edge stands within its cell. K runs of the
+/// same job on grids whose lines are shifted by k/K of a cell see it at K equally spaced phases: their mean
+/// is free of its first K - 1 harmonics, at K times the cost of a run whose single refinement would need
+/// about K^2 times.
 
-/// `job(shift, progress)` at `phases` shifts equally spaced in [-1/2, 1/2), on `threads` threads; results in the
-/// order of the shifts whatever the order of completion. An exception in a job stops the others and is rethrown.
-std::vector<RunResult> run_phases(int phases, int threads, const std::function<void(double)>& progress,
-                                  const std::function<RunResult(double shift, const std::function<void(double)>&)>& job);
+/// `job(shift, progress)` at `phases` shifts equally spaced in [-1/2, 1/2), on `threads` threads; results in
+/// the order of the shifts whatever the order of completion. An exception in a job stops the others and is
+/// rethrown.
+std::vector<RunResult> run_phases(
+    int phases, int threads, const std::function<void(double)>& progress,
+    const std::function<RunResult(double shift, const std::function<void(double)>&)>& job);
 
 /// Sample by sample mean within each segment of the drive, over the samples that all members have.
 std::vector<TraceSample> mean_trace(const std::vector<RunResult>& members);

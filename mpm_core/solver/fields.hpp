@@ -18,15 +18,17 @@ struct FieldFrame
   std::vector<double> vr, vz;  ///< m/s
   // in the cells (one material point each)
   std::vector<double> plastic_strain;  ///< equivalent plastic strain
-  std::vector<double> pressure;        ///< Pa, minus a third of the trace of the Cauchy stress: compression positive
-  std::vector<double> von_mises;       ///< Pa, of the Cauchy stress
+  std::vector<double>
+      pressure;  ///< Pa, minus a third of the trace of the Cauchy stress: compression positive
+  std::vector<double> von_mises;  ///< Pa, of the Cauchy stress
 };
 
-/// Who wants to see the body while a run goes on. Of the shifted grids only one is shown: the one with the shift
-/// nearest to zero (four grids: the unshifted one). The solver knows nothing of files.
+/// Who wants to see the body while a run goes on. Of the shifted grids only one is shown: the one with the
+/// shift nearest to zero (four grids: the unshifted one). The solver knows nothing of files.
 struct FieldObserver
 {
-  int frames = 40;  ///< about so many, equally spaced in time; the first is the undeformed body, the last the end
+  int frames =
+      40;  ///< about so many, equally spaced in time; the first is the undeformed body, the last the end
   /// Called once before the frames of a run: corner nodes of each cell, counter-clockwise in (r, z).
   std::function<void(int nodes, const std::vector<std::array<int, 4>>& cells)> begin;
   std::function<void(const FieldFrame&)> frame;  ///< may throw to stop the run

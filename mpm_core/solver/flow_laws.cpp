@@ -70,8 +70,10 @@ void check_values(const FlowLaw& law, const std::string& where)
     if (!p.list && found->second.size() != 1) fail(where, fmt::format("'{}' must be one number", p.key));
     for (const double value : found->second)
       if (!(value >= p.least && value <= p.most))
-        fail(where, fmt::format("'{}' of the law '{}' is out of range", p.key, law.name), fmt::format("{:g}", value),
-             p.most >= flow::no_limit ? (p.least > 0 ? "over 0" : "0 or more") : fmt::format("{:g} to {:g}", p.least, p.most));
+        fail(where, fmt::format("'{}' of the law '{}' is out of range", p.key, law.name),
+             fmt::format("{:g}", value),
+             p.most >= flow::no_limit ? (p.least > 0 ? "over 0" : "0 or more")
+                                      : fmt::format("{:g} to {:g}", p.least, p.most));
   }
 }
 
@@ -82,10 +84,12 @@ FlowLaw hardening_of(const Material& m)
 }
 
 template <class List>
-void check_name(List list, const std::vector<FlowLawKeys>& known, const FlowLaw& law, const char* kind, const std::string& where)
+void check_name(List list, const std::vector<FlowLawKeys>& known, const FlowLaw& law, const char* kind,
+                const std::string& where)
 {
   if (with_law(list, law.name, [&](auto chosen, int) {
-        if constexpr (!std::is_same_v<decltype(chosen), flow::RateIndependent>) check_values<decltype(chosen)>(law, where);
+        if constexpr (!std::is_same_v<decltype(chosen), flow::RateIndependent>)
+          check_values<decltype(chosen)>(law, where);
       }))
     return;
   std::vector<std::string> names;
@@ -111,7 +115,8 @@ const std::vector<FlowLawKeys>& rate_laws()
 void validate_flow(const Material& m, const std::string& where)
 {
   const bool named = !m.hardening.name.empty();
-  if (!m.yields() && (named || m.rate_dependent())) fail(where, "'hardening' and 'rate' need a 'yield_stress'");
+  if (!m.yields() && (named || m.rate_dependent()))
+    fail(where, "'hardening' and 'rate' need a 'yield_stress'");
   if (m.rate_dependent()) check_name(flow::RateLaws{}, rate_laws(), m.rate, "rate", where);
   if (!named) return;
   check_name(flow::HardeningLaws{}, hardening_laws(), m.hardening, "hardening", where);
@@ -124,7 +129,9 @@ void validate_flow(const Material& m, const std::string& where)
     if (problem) fail(where, fmt::format("hardening law '{}': {}", Law::name, problem));
     const double start = Law::from(m.yield_stress, values)(0.0).value;
     if (!(std::abs(start / m.yield_stress - 1) <= 1e-3))
-      fail(where, fmt::format("the hardening law '{}' starts at {:.6g} Pa, which must be 'yield_stress' to 0.1 %", Law::name, start),
+      fail(where,
+           fmt::format("the hardening law '{}' starts at {:.6g} Pa, which must be 'yield_stress' to 0.1 %",
+                       Law::name, start),
            fmt::format("yield_stress = {:.6g} Pa", m.yield_stress));
   });
 }
@@ -162,9 +169,8 @@ double rate_factor(const Material& m, double rate)
   const flow::Flow laws = flow_of(m, 1, 1);
   double factor = 1;
   if (m.rate_dependent())
-    with_law(flow::RateLaws{}, m.rate.name, [&](auto chosen, int) {
-      factor = decltype(chosen)::from(laws.rate_values)(rate).value;
-    });
+    with_law(flow::RateLaws{}, m.rate.name,
+             [&](auto chosen, int) { factor = decltype(chosen)::from(laws.rate_values)(rate).value; });
   return factor;
 }
 

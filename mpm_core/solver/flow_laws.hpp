@@ -21,7 +21,8 @@ const std::vector<FlowLawKeys>& rate_laws();
 /// Throws Error naming `where` if the material's laws cannot be used or do not start at its yield stress.
 void validate_flow(const Material& material, const std::string& where);
 
-/// The material's laws for the kernels: stresses over `stress` (Pa), rates times `time` (s). Valid materials only.
+/// The material's laws for the kernels: stresses over `stress` (Pa), rates times `time` (s). Valid materials
+/// only.
 flow::Flow flow_of(const Material& material, double stress, double time);
 
 /// Static flow stress, Pa, at equivalent plastic strain `ep`; the material yields.

@@ -12,8 +12,8 @@ struct Kernels
   const char* name;
 
   /// Stress at every material point from the nodal displacements, plastic state updated, and the internal
-  /// nodal forces fr_i, fz_i (force on the node = minus the stress divergence). If `frozen`, the plastic state
-  /// is left as it is and the response is elastic about it (power iteration).
+  /// nodal forces fr_i, fz_i (force on the node = minus the stress divergence). If `frozen`, the plastic
+  /// state is left as it is and the response is elastic about it (power iteration).
   void (*internal_force)(Body& body, bool frozen);
 
   /// v_i += dt f_i / m_i
@@ -25,8 +25,14 @@ struct Kernels
 
 const Kernels& kernels();
 
-namespace isa_generic { extern const Kernels kernels; }
-namespace isa_avx2 { extern const Kernels kernels; }
-namespace isa_avx512 { extern const Kernels kernels; }
+namespace isa_generic {
+extern const Kernels kernels;
+}
+namespace isa_avx2 {
+extern const Kernels kernels;
+}
+namespace isa_avx512 {
+extern const Kernels kernels;
+}
 
 }  // namespace granulaw

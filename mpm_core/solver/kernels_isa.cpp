@@ -1,6 +1,6 @@
-// Compiled once for each instruction set (CMakeLists.txt), with GRANULAW_ISA_NAMESPACE and GRANULAW_ISA_NAME set.
-// Nothing here may come from a shared inline function: the linker would pick one copy for all sets. Hence raw
-// pointers and compiler built-ins only.
+// Compiled once for each instruction set (CMakeLists.txt), with GRANULAW_ISA_NAMESPACE and GRANULAW_ISA_NAME
+// set. Nothing here may come from a shared inline function: the linker would pick one copy for all sets.
+// Hence raw pointers and compiler built-ins only.
 #include <type_traits>
 
 #include "solver/flow/laws.hpp"
@@ -30,7 +30,8 @@ GRANULAW_INLINE double log_1p(double x)
   return 4.0 * s * sum;
 }
 
-/// exp(t) - 1 for the small t of one time step's plastic flow; relative error 1e-16 at |t| = 0.05, 5e-11 at 0.3.
+/// exp(t) - 1 for the small t of one time step's plastic flow; relative error 1e-16 at |t| = 0.05, 5e-11 at
+/// 0.3.
 GRANULAW_INLINE double exp_m1(double t)
 {
   double sum = 1.0 / 362880.0;
@@ -61,7 +62,8 @@ GRANULAW_INLINE void stress_and_corner_forces(Body& body, [[maybe_unused]] const
                                               [[maybe_unused]] const Rate rate_law)
 {
   constexpr bool yields = !std::is_same_v<Hardening, Elastic>;
-  constexpr bool closed_form = std::is_same_v<Hardening, flow::Linear> && std::is_same_v<Rate, flow::RateIndependent>;
+  constexpr bool closed_form =
+      std::is_same_v<Hardening, flow::Linear> && std::is_same_v<Rate, flow::RateIndependent>;
   [[maybe_unused]] const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
   const int count = body.points, n = count;
   const double shear2 = 2.0 * body.moduli.shear, bulk = body.moduli.bulk;
@@ -142,8 +144,8 @@ GRANULAW_INLINE void stress_and_corner_forces(Body& body, [[maybe_unused]] const
         mean_flow = jacobian * (flow + 0.5 * hardening * step);
       } else {
         const double start = jacobian * hardening_law(plastic_strain[p]).value;
-        const flow::PlasticIncrement increment =
-            flow::plastic_increment(hardening_law, rate_law, q, jacobian, 1.5 * shear2, plastic_strain[p], per_dt);
+        const flow::PlasticIncrement increment = flow::plastic_increment(
+            hardening_law, rate_law, q, jacobian, 1.5 * shear2, plastic_strain[p], per_dt);
         step = q > start ? increment.strain : 0.0;
         mean_flow = 0.5 * (start * increment.factor + q - 1.5 * shear2 * step);
       }
@@ -218,8 +220,8 @@ template <class Hardening, class Rate>
 __attribute__((noinline)) void update(Body& body)
 {
   const flow::Flow& laws = body.moduli.flow;
-  stress_and_corner_forces<Hardening, Rate, false>(body, Hardening::from(body.moduli.yield, laws.hardening_values),
-                                                   Rate::from(laws.rate_values));
+  stress_and_corner_forces<Hardening, Rate, false>(
+      body, Hardening::from(body.moduli.yield, laws.hardening_values), Rate::from(laws.rate_values));
 }
 
 template <class Rate, class... Hardening>

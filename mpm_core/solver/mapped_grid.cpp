@@ -8,7 +8,10 @@ namespace granulaw {
 
 namespace {
 
-struct Zeta { double x, y; };  // x along the axis of symmetry, y along the surface
+struct Zeta
+{
+  double x, y;
+};  // x along the axis of symmetry, y along the surface
 
 MappedGrid::Node to_sphere(Zeta q)
 {
@@ -31,8 +34,8 @@ struct Half
 {
   int n;
   std::vector<Zeta> points;
-  std::vector<std::vector<int>> rings;    // [ring][m] -> point
-  std::vector<std::vector<int>> block;    // [i along x][j along y] -> point
+  std::vector<std::vector<int>> rings;  // [ring][m] -> point
+  std::vector<std::vector<int>> block;  // [i along x][j along y] -> point
 
   Half(int cells_across, double block_zeta, double coarsening, double shift) : n(cells_across)
   {
@@ -44,8 +47,8 @@ struct Half
         block[i][j] = add({block_zeta * q.x, block_zeta * q.y});
       }
     std::vector<int> rim;
-    for (int i = 0; i <= n; ++i) rim.push_back(block[i][n]);        // along the outer side, from the surface
-    for (int j = n - 1; j >= 0; --j) rim.push_back(block[n][j]);    // and down to the axis
+    for (int i = 0; i <= n; ++i) rim.push_back(block[i][n]);      // along the outer side, from the surface
+    for (int j = n - 1; j >= 0; --j) rim.push_back(block[n][j]);  // and down to the axis
     rings.push_back(rim);
 
     // Logarithmic spacing: square cells at the rim, twice as long as wide at the mid-plane.

@@ -22,7 +22,10 @@ namespace granulaw {
 ///     ----+----  plane
 struct MappedGrid
 {
-  struct Node { double r, z; };
+  struct Node
+  {
+    double r, z;
+  };
   std::vector<Node> nodes;
   std::vector<std::array<int, 4>> cells;  ///< corner nodes, counter-clockwise in (r, z)
   std::vector<int> surface;               ///< nodes on the lower half's surface, from the pole outwards
@@ -31,8 +34,8 @@ struct MappedGrid
 
   /// `cells_across` N >= 4; `block` = radius the block covers on the surface, in units of R, up to 0.9;
   /// `full` = whole sphere, else the lower half up to the mid-plane.
-  /// `shift` moves the block's grid lines towards the pole by that part of a cell: runs at different shifts meet
-  /// the contact edge at different phases, and their mean is free of the ripple's lower harmonics.
+  /// `shift` moves the block's grid lines towards the pole by that part of a cell: runs at different shifts
+  /// meet the contact edge at different phases, and their mean is free of the ripple's lower harmonics.
   static MappedGrid build(int cells_across, double block, bool full, double shift = 0);
 };
 

@@ -7,8 +7,8 @@
 
 namespace granulaw {
 
-/// A hardening or rate law of solver/flow by its name, with the values of its keys, SI; lists of one for numbers.
-/// An empty name: none.
+/// A hardening or rate law of solver/flow by its name, with the values of its keys, SI; lists of one for
+/// numbers. An empty name: none.
 struct FlowLaw
 {
   std::string name;
@@ -16,17 +16,17 @@ struct FlowLaw
 };
 
 /// An elastic-plastic material, SI. J2 yield on the Cauchy stress, logarithmic elastic strain,
-/// sigma_y = (yield_stress + hardening_modulus * equivalent plastic strain), or the flow stress that `hardening` names,
-/// times the rate factor that `rate` names.
+/// sigma_y = (yield_stress + hardening_modulus * equivalent plastic strain), or the flow stress that
+/// `hardening` names, times the rate factor that `rate` names.
 struct Material
 {
-  double density = 0;         ///< kg/m^3
-  double youngs_modulus = 0;  ///< Pa
-  double poisson_ratio = 0;   ///< 0 <= nu < 0.5
+  double density = 0;                                             ///< kg/m^3
+  double youngs_modulus = 0;                                      ///< Pa
+  double poisson_ratio = 0;                                       ///< 0 <= nu < 0.5
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa; infinity: elastic
   double hardening_modulus = 0;  ///< Pa, linear hardening d(sigma_y)/d(eps_p); 0: perfectly plastic
-  FlowLaw hardening{};  ///< any other hardening law; hardening_modulus is then unused
-  FlowLaw rate{};       ///< rate dependence of the yield stress
+  FlowLaw hardening{};           ///< any other hardening law; hardening_modulus is then unused
+  FlowLaw rate{};                ///< rate dependence of the yield stress
 
   double e_star() const { return youngs_modulus / (1.0 - poisson_ratio * poisson_ratio); }
   /// The result then depends on R/c* against the time scale of the rate law: size invariance is lost.

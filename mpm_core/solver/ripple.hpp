@@ -9,9 +9,10 @@ namespace granulaw {
 
 /// Treatment of the contact-edge ripple.
 ///
-/// The contact radius of a grid grows by whole cells; the force swings about its mean by 0.5 % (elastic) to 3 %
-/// (plastic). The treated loading force is a weighted least-squares polynomial of ln F in ln delta through the
-/// virgin loading samples: it cannot follow the ripple (several periods over the range) but follows the law.
+/// The contact radius of a grid grows by whole cells; the force swings about its mean by 0.5 % (elastic) to 3
+/// % (plastic). The treated loading force is a weighted least-squares polynomial of ln F in ln delta through
+/// the virgin loading samples: it cannot follow the ripple (several periods over the range) but follows the
+/// law.
 class TreatedLoading
 {
  public:

@@ -17,15 +17,17 @@ enum class Support {
 
 struct RunOptions
 {
-  int resolution = 0;        ///< cells across the contact block; 0: the default of the run
-  int phases = 4;            ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
-                             ///< of the first harmonics of the contact-edge ripple (ensemble.hpp); 1: a single run
-  int threads = 1;           ///< threads that share these runs
-  double courant = 0.85;     ///< time step over the stability limit, 0.1 to 1
-  int samples = 800;         ///< trace length aimed at
-  bool estimate_error = false;  ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
-  FieldObserver fields;      ///< who wants to see the body while the run goes on (fields.hpp)
-  std::function<void(double fraction)> progress;  ///< called now and then with 0..1; may throw to stop the run
+  int resolution = 0;  ///< cells across the contact block; 0: the default of the run
+  int phases = 4;   ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
+                    ///< of the first harmonics of the contact-edge ripple (ensemble.hpp); 1: a single run
+  int threads = 1;  ///< threads that share these runs
+  double courant = 0.85;  ///< time step over the stability limit, 0.1 to 1
+  int samples = 800;      ///< trace length aimed at
+  bool estimate_error =
+      false;             ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
+  FieldObserver fields;  ///< who wants to see the body while the run goes on (fields.hpp)
+  std::function<void(double fraction)>
+      progress;  ///< called now and then with 0..1; may throw to stop the run
 };
 
 /// A sphere thrown at a rigid, frictionless plane with `velocity` (m/s, > 0); runs until it has left it.
@@ -33,11 +35,12 @@ RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& op
 
 struct PressPlan
 {
-  double depth = 0;                ///< m, deepest overlap
+  double depth = 0;  ///< m, deepest overlap
   Support support = Support::free;
-  std::vector<double> partial_unloads;  ///< m, ascending overlaps < depth at which the press unloads until the
-                                        ///< force ends, then reloads; each makes an unload and a reload segment
-  double ramp = 0;                 ///< loading time in R/c*; 0: the default of the run
+  std::vector<double>
+      partial_unloads;  ///< m, ascending overlaps < depth at which the press unloads until the
+                        ///< force ends, then reloads; each makes an unload and a reload segment
+  double ramp = 0;      ///< loading time in R/c*; 0: the default of the run
 };
 
 /// A sphere pressed slowly onto a rigid, frictionless plane to plan.depth and taken off completely.

@@ -37,7 +37,8 @@ std::vector<CauchyStress> cauchy_stress(const Body& body)
     const double xhh = 2 * hhh + hhh * hhh + fhh * fhh * body.chh_p[p];
     // principal logarithmic strains, Kirchhoff stress tau = 2 G dev(e) + K tr(e)
     const double mean = 0.5 * (xrr + xzz), half = 0.5 * (xrr - xzz), radius = std::hypot(half, xrz);
-    const double e1 = 0.5 * std::log1p(mean + radius), e2 = 0.5 * std::log1p(mean - radius), e3 = 0.5 * std::log1p(xhh);
+    const double e1 = 0.5 * std::log1p(mean + radius), e2 = 0.5 * std::log1p(mean - radius),
+                 e3 = 0.5 * std::log1p(xhh);
     const double trace = e1 + e2 + e3, shear2 = 2 * body.moduli.shear;
     const double tau1 = shear2 * (e1 - trace / 3) + body.moduli.bulk * trace;
     const double tau2 = shear2 * (e2 - trace / 3) + body.moduli.bulk * trace;

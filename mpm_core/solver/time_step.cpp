@@ -11,12 +11,12 @@ namespace granulaw {
 double advance(Body& body, PlaneContact& contact, Drive& drive, double time, double dt)
 {
   const Kernels& k = kernels();
-  k.internal_force(body, false);                         // points to grid: stresses, internal forces
-  k.accelerate(body, dt);                                // grid update
-  for (const int i : body.axis) body.vr_i[i] = 0;        // symmetry
-  const double impulse = contact.correct(body, dt);      // contact: no node ends below the plane
-  drive.apply(body, time, dt, impulse > 0);              // what holds or throws the body
-  k.move(body, dt);                                      // grid to points: displacements, kept for good
+  k.internal_force(body, false);                     // points to grid: stresses, internal forces
+  k.accelerate(body, dt);                            // grid update
+  for (const int i : body.axis) body.vr_i[i] = 0;    // symmetry
+  const double impulse = contact.correct(body, dt);  // contact: no node ends below the plane
+  drive.apply(body, time, dt, impulse > 0);          // what holds or throws the body
+  k.move(body, dt);                                  // grid to points: displacements, kept for good
   return impulse;
 }
 

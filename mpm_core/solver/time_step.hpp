@@ -16,7 +16,8 @@ class StableStep
  public:
   /// omega_max of the undeformed body by power iteration on M^-1 K. The body must be undeformed and at rest.
   explicit StableStep(Body& body);
-  /// The limit for the body as it is deformed now: omega_max scaled by the largest growth of any cell's own bound.
+  /// The limit for the body as it is deformed now: omega_max scaled by the largest growth of any cell's own
+  /// bound.
   double limit(const Body& body) const;
 
  private:

@@ -16,29 +16,30 @@ struct TraceSample
   double force;           ///< N, mean over the sample's interval, repulsive positive, as computed (raw)
   double contact_radius;  ///< m, radius of the outermost surface point in contact, interpolated to the edge
   Branch branch;
-  int segment;            ///< 0, 1, 2, ...: counts up at every turn of the drive
+  int segment;  ///< 0, 1, 2, ...: counts up at every turn of the drive
 };
 
-/// What one run found. Force and works are the treated ones (contact-edge ripple removed by a fit, ripple.hpp);
-/// the raw ones stand in the trace.
+/// What one run found. Force and works are the treated ones (contact-edge ripple removed by a fit,
+/// ripple.hpp); the raw ones stand in the trace.
 struct RunSummary
 {
-  double restitution = 0;        ///< treated; impact: |v after|/V; press: sqrt(work_unload/work_load)
-  double restitution_raw = 0;    ///< the same without the ripple treatment
-  double restitution_spread = 0; ///< largest deviation of a single shifted grid's e from their mean
-  double force_max = 0;          ///< N
-  double delta_max = 0;          ///< m
-  double delta_residual = 0;     ///< m, delta at which the force has ended for good
-  double contact_time = 0;       ///< s
-  double work_load = 0;          ///< J
-  double work_unload = 0;        ///< J
-  long points = 0;               ///< material points
+  double restitution = 0;         ///< treated; impact: |v after|/V; press: sqrt(work_unload/work_load)
+  double restitution_raw = 0;     ///< the same without the ripple treatment
+  double restitution_spread = 0;  ///< largest deviation of a single shifted grid's e from their mean
+  double force_max = 0;           ///< N
+  double delta_max = 0;           ///< m
+  double delta_residual = 0;      ///< m, delta at which the force has ended for good
+  double contact_time = 0;        ///< s
+  double work_load = 0;           ///< J
+  double work_unload = 0;         ///< J
+  long points = 0;                ///< material points
   long steps = 0;
   double cpu_s = 0;
   double point_updates_per_s = 0;
-  double error_estimate = 0;     ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
-  double energy_error = 0;       ///< |kinetic + elastic + plastic - work|/(energy put in)
-  double ripple = 0;             ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
+  double error_estimate =
+      0;                    ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
+  double energy_error = 0;  ///< |kinetic + elastic + plastic - work|/(energy put in)
+  double ripple = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 
 struct RunResult

@@ -2,7 +2,8 @@
 //
 //   law_benchmark            the built-in curve: an analytic law sampled at as many nodes as mpm table writes
 //
-// `error` is the largest relative difference of the force between table and the analytic law it was sampled from.
+// `error` is the largest relative difference of the force between table and the analytic law it was sampled
+// from.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -20,11 +21,30 @@ using granulaw::PairMapping;
 constexpr double onset = 6.4e-4, s_end = 0.5625;
 
 /// ln(F/F_elastic) and the others as smooth functions of q = ln(s/s_onset), as those that mpm table fits.
-double past(double s) { return std::max(0.0, std::log(std::max(s, 1e-12)) - 0.25 * std::log(onset)); }
-double force_ratio(double s) { const double q = past(s); return (1 + 0.9 * s * s) * std::exp(-1.6 * q * q / (1 + q)); }
-double residual(double s) { const double q = past(s); return 1 - std::exp(-1.1 * q * q); }
-double exponent(double s) { const double q = past(s); return 1.507 - 0.1 * q * q / (1 + q * q); }
-double radius(double s) { const double q = past(s); return 1 + 0.3 * q * q / (1 + q); }
+double past(double s)
+{
+  return std::max(0.0, std::log(std::max(s, 1e-12)) - 0.25 * std::log(onset));
+}
+double force_ratio(double s)
+{
+  const double q = past(s);
+  return (1 + 0.9 * s * s) * std::exp(-1.6 * q * q / (1 + q));
+}
+double residual(double s)
+{
+  const double q = past(s);
+  return 1 - std::exp(-1.1 * q * q);
+}
+double exponent(double s)
+{
+  const double q = past(s);
+  return 1.507 - 0.1 * q * q / (1 + q * q);
+}
+double radius(double s)
+{
+  const double q = past(s);
+  return 1 + 0.3 * q * q / (1 + q);
+}
 
 ContactCurve sampled(int nodes)
 {
@@ -72,7 +92,8 @@ void lookup(benchmark::State& state, bool unloading)
       x[k] = x_m[k] * (r + (1 - r) * part(random));
     }
     const double reached = unloading ? x_m[k] : 0.0;
-    error = std::max(error, std::abs(curve.evaluate(pair, 1.0, x[k], reached).force / exact(x[k], reached) - 1));
+    error =
+        std::max(error, std::abs(curve.evaluate(pair, 1.0, x[k], reached).force / exact(x[k], reached) - 1));
   }
   std::size_t k = 0;
   for (auto _ : state) {
@@ -81,11 +102,18 @@ void lookup(benchmark::State& state, bool unloading)
     k = (k + 1) & 4095;
   }
   state.counters["error"] = error;
-  state.counters["bytes"] = static_cast<double>((state.range(0) - 1) * 16 * sizeof(double));  // the coefficients
+  state.counters["bytes"] =
+      static_cast<double>((state.range(0) - 1) * 16 * sizeof(double));  // the coefficients
 }
 
-void loading(benchmark::State& state) { lookup(state, false); }
-void unloading(benchmark::State& state) { lookup(state, true); }
+void loading(benchmark::State& state)
+{
+  lookup(state, false);
+}
+void unloading(benchmark::State& state)
+{
+  lookup(state, true);
+}
 BENCHMARK(loading)->ArgName("nodes")->Arg(33)->Arg(65)->Arg(126)->Arg(257);
 BENCHMARK(unloading)->ArgName("nodes")->Arg(33)->Arg(65)->Arg(126)->Arg(257);
 

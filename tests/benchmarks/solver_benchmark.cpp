@@ -3,10 +3,11 @@
 //   solver_benchmark                                   all jobs
 //   solver_benchmark --benchmark_filter=Impact_EY100   one of them
 //
-// Counters: cpu_s  CPU seconds of one run (all shifted grids), Mupd_s  million point updates a second on one core,
-// err_F_pct and err_e_pct  deviation of the treated largest force and of e from the reference in percent.
-// References (tests/verification/references.hpp): plastic impact: this solver at 40 cells and 8 grids, which 32 cells
-// change by 0.05 %; elastic impact: three formulations' common result, good to 0.2 %; press: finite elements, 0.4 %.
+// Counters: cpu_s  CPU seconds of one run (all shifted grids), Mupd_s  million point updates a second on one
+// core, err_F_pct and err_e_pct  deviation of the treated largest force and of e from the reference in
+// percent. References (tests/verification/references.hpp): plastic impact: this solver at 40 cells and 8
+// grids, which 32 cells change by 0.05 %; elastic impact: three formulations' common result, good to 0.2 %;
+// press: finite elements, 0.4 %.
 #include <benchmark/benchmark.h>
 
 #include "../verification/references.hpp"
@@ -66,6 +67,12 @@ void Press_EY100_depth002(benchmark::State& state)
 
 }  // namespace
 
-BENCHMARK(Impact_EY100_V100)->ArgsProduct({{12, 16, 24, 32}, {1, 4}})->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(Impact_EY100_V100)
+    ->ArgsProduct({{12, 16, 24, 32}, {1, 4}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 BENCHMARK(Impact_elastic)->ArgsProduct({{12, 16, 24}, {1, 4}})->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK(Press_EY100_depth002)->ArgsProduct({{12, 16, 24}, {1, 4}})->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(Press_EY100_depth002)
+    ->ArgsProduct({{12, 16, 24}, {1, 4}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);

@@ -13,7 +13,8 @@ namespace {
 double worst_force(const ContactCurve& curve, const HotTable& table, double lowest)
 {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> log_x(std::log(lowest), std::log(1.1 * curve.x_end())), part(0.0, 1.3);
+  std::uniform_real_distribution<double> log_x(std::log(lowest), std::log(1.1 * curve.x_end())),
+      part(0.0, 1.3);
   const auto wall = PairMapping::rigid_partner(1.0);
   double worst = 0;
   for (int k = 0; k < 200000; ++k) {
@@ -33,9 +34,9 @@ TEST(HotTable, AgreesWithTheCurve)
     law.onset = onset;
     const ContactCurve curve = law.curve();
     const HotTable table(curve);
-    // An eighth of an octave and cubics: (1/8)^4/400 of a fourth derivative of order one is 1e-6; the steep start
-    // of the residual at the onset (the synthetic law has a jump in curvature there) costs a decade. The law
-    // itself is asked for 1e-3.
+    // An eighth of an octave and cubics: (1/8)^4/400 of a fourth derivative of order one is 1e-6; the steep
+    // start of the residual at the onset (the synthetic law has a jump in curvature there) costs a decade.
+    // The law itself is asked for 1e-3.
     EXPECT_LT(worst_force(curve, table, 1e-13), 2e-5) << onset;
   }
 }

@@ -1,4 +1,5 @@
-// Makes the synthetic law files that the plug-in's tests read, and replays single collisions outside LIGGGHTS.
+// Makes the synthetic law files that the plug-in's tests read, and replays single collisions outside
+// LIGGGHTS.
 //
 //   law_fixture write FILE                                   the synthetic law, all pairs
 //   law_fixture write FILE pairs a:b c:wall ...              only these pairs
@@ -62,8 +63,8 @@ int run(int argc, char** argv)
     const granulaw::ThorntonPair pair{number(2), number(3)};
     const double r_eff = number(4), m_eff = number(5), v = number(6);
     const double duration = 2.87 * std::pow(m_eff * m_eff / (pair.e_star * pair.e_star * r_eff * v), 0.2);
-    print(granulaw::replay_collision([&](double d, double d_max) { return pair.evaluate(r_eff, d, d_max); }, m_eff, v,
-                                     duration));
+    print(granulaw::replay_collision([&](double d, double d_max) { return pair.evaluate(r_eff, d, d_max); },
+                                     m_eff, v, duration));
     return 0;
   }
   std::fprintf(stderr, "law_fixture: see the head of law_fixture.cpp\n");

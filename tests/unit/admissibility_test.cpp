@@ -19,7 +19,8 @@ double work_done(const ContactCurve& curve, double from, double to, double& x_m,
   const double reached = x_m;
   const auto integrand = [&](double s) {
     const double x = s * s * s * s;
-    // x_m only matters on the way down or below it: on the way up beyond it, evaluate() is on the loading curve
+    // x_m only matters on the way down or below it: on the way up beyond it, evaluate() is on the loading
+    // curve
     return 4 * s * s * s * (x > 0 ? curve.evaluate(unit_pair, 1.0, x, reached).force : 0.0);
   };
   for (int k = 0; k < pieces; ++k)

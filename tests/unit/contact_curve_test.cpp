@@ -46,7 +46,8 @@ RC_GTEST_PROP(ContactCurve, StiffnessIsTheDerivativeOfTheForce, ())
   const double up = curve.evaluate(unit_pair, 1.0, x + step, x_m).force;
   const double down = curve.evaluate(unit_pair, 1.0, x - step, x_m).force;
   RC_PRE((up == 0) == (down == 0));
-  // central difference: truncation 1e-12, cancellation 1e-16/1e-6 of F/x; 1e-6 where a node's jump in F'' is crossed
+  // central difference: truncation 1e-12, cancellation 1e-16/1e-6 of F/x; 1e-6 where a node's jump in F'' is
+  // crossed
   RC_ASSERT(std::abs((up - down) / (2 * step) - here.stiffness) <= 1e-6 * (here.stiffness + here.force / x));
 }
 
@@ -60,7 +61,8 @@ RC_GTEST_PROP(ContactCurve, IsHertzForSmallOverlapsOfEveryPair, ())
   const double e_pair = 1.0 / (1.0 / e_s + 1.0 / e_h);
   const ContactForce force = curve.evaluate(pair, r_eff, delta, 0.0);
   // finite-sphere term 0.9 sqrt(x), at most 9e-7 here
-  RC_ASSERT(std::abs(force.force / (4.0 / 3.0 * e_pair * std::sqrt(r_eff) * std::pow(delta, 1.5)) - 1) < 2e-6);
+  RC_ASSERT(std::abs(force.force / (4.0 / 3.0 * e_pair * std::sqrt(r_eff) * std::pow(delta, 1.5)) - 1) <
+            2e-6);
   RC_ASSERT(std::abs(force.stiffness / (2.0 * e_pair * std::sqrt(r_eff * delta)) - 1) < 2e-6);
   RC_ASSERT(std::abs(force.contact_radius / std::sqrt(r_eff * delta) - 1) < 1e-12);
 }
@@ -105,7 +107,8 @@ TEST(ContactCurve, ContinuesLinearlyBeyondItsRangeAndSaysSo)
   EXPECT_FALSE(curve.in_range(end * 1.0001));
   EXPECT_DOUBLE_EQ(beyond.stiffness, at_end.stiffness);
   EXPECT_NEAR(beyond.force, at_end.force + 0.5 * end * at_end.stiffness, 1e-14);
-  EXPECT_NEAR(curve.work_loading(1.5 * end), curve.work_loading(end) + 0.5 * end * 0.5 * (at_end.force + beyond.force), 1e-14);
+  EXPECT_NEAR(curve.work_loading(1.5 * end),
+              curve.work_loading(end) + 0.5 * end * 0.5 * (at_end.force + beyond.force), 1e-14);
   EXPECT_NEAR(curve.turning(1.5 * end).residual / (1.5 * end), curve.turning(end).residual / end, 1e-14);
 }
 

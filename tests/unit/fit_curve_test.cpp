@@ -13,8 +13,8 @@ namespace {
 
 using testing::SyntheticLaw;
 
-/// A press as the solver would give it: the synthetic law with a ripple that is periodic in the contact radius,
-/// `cells` periods up to the largest, its amplitude falling as (1/cells passed)^1.65.
+/// A press as the solver would give it: the synthetic law with a ripple that is periodic in the contact
+/// radius, `cells` periods up to the largest, its amplitude falling as (1/cells passed)^1.65.
 Pressing rippled_press(const ContactCurve& curve, double depth, double ripple, int cells)
 {
   Pressing press;
@@ -26,7 +26,8 @@ Pressing rippled_press(const ContactCurve& curve, double depth, double ripple, i
     const double t = k / 400.0, x = depth * std::pow(std::sin(0.5 * M_PI * t), 2);
     const auto l = curve.loading(x);
     const double passed = cells * l.radius / a_max;
-    const double swing = ripple * std::pow(std::max(1.0, passed) / cells, -1.65) * std::sin(2 * M_PI * passed + depth * 1e4);
+    const double swing =
+        ripple * std::pow(std::max(1.0, passed) / cells, -1.65) * std::sin(2 * M_PI * passed + depth * 1e4);
     press.loading.push_back({x, l.force * (1 + swing), l.radius});
   }
   return press;
@@ -35,14 +36,18 @@ Pressing rippled_press(const ContactCurve& curve, double depth, double ripple, i
 std::vector<Pressing> presses(const ContactCurve& curve, double ripple)
 {
   std::vector<Pressing> all;
-  for (int k = 0; k < 10; ++k) all.push_back(rippled_press(curve, 1e-3 * std::pow(100.0, k / 9.0), ripple, 12));
+  for (int k = 0; k < 10; ++k)
+    all.push_back(rippled_press(curve, 1e-3 * std::pow(100.0, k / 9.0), ripple, 12));
   return all;
 }
 
 const ElasticCorrection finite_sphere{SyntheticLaw::finite_sphere, 0, 0};
 
 /// Largest relative errors of a fitted curve against the law the presses were made from.
-struct Errors { double force = 0, e = 0, residual = 0; };
+struct Errors
+{
+  double force = 0, e = 0, residual = 0;
+};
 Errors compare(const ContactCurve& fitted, const ContactCurve& truth)
 {
   Errors errors;
@@ -53,7 +58,8 @@ Errors compare(const ContactCurve& fitted, const ContactCurve& truth)
     const double e = std::sqrt(fitted.work_unloading(x) / fitted.work_loading(x));
     const double exact = std::sqrt(truth.work_unloading(x) / truth.work_loading(x));
     errors.e = std::max(errors.e, std::abs(e / exact - 1));
-    errors.residual = std::max(errors.residual, std::abs(fitted.turning(x).residual - truth.turning(x).residual) / x);
+    errors.residual =
+        std::max(errors.residual, std::abs(fitted.turning(x).residual - truth.turning(x).residual) / x);
   }
   return errors;
 }

@@ -15,7 +15,8 @@
 namespace granulaw {
 namespace {
 
-// HDF5 1.10 complains at exit ("infinite loop closing library") after it was fed damaged files; nothing is open then.
+// HDF5 1.10 complains at exit ("infinite loop closing library") after it was fed damaged files; nothing is
+// open then.
 [[maybe_unused]] const herr_t no_exit_handler = H5dont_atexit();
 
 namespace fs = std::filesystem;
@@ -27,13 +28,14 @@ class LawFile : public ::testing::Test
   void SetUp() override
   {
     folder_ = fs::temp_directory_path() / ("granulaw_law_file_" + std::to_string(getpid()) + "_" +
-              ::testing::UnitTest::GetInstance()->current_test_info()->name());
+                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
     path_ = (folder_ / "law.h5").string();
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// Writes a good law, changes the file through the raw API, returns the reader's sentence ("" if it accepts).
+  /// Writes a good law, changes the file through the raw API, returns the reader's sentence ("" if it
+  /// accepts).
   std::string after(const std::function<void(hid_t)>& change)
   {
     write_law(SyntheticLaw{}.law(), path_);
@@ -51,7 +53,8 @@ class LawFile : public ::testing::Test
     }
     return "";
   }
-  static void overwrite(hid_t file, const char* dataset, const std::function<void(std::vector<double>&)>& change)
+  static void overwrite(hid_t file, const char* dataset,
+                        const std::function<void(std::vector<double>&)>& change)
   {
     const hid_t set = H5Dopen2(file, dataset, H5P_DEFAULT), space = H5Dget_space(set);
     std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
@@ -103,10 +106,13 @@ TEST_F(LawFile, RoundTripIsBitExact)
     const ContactCurve::Table &a = body.curve.table(), &b = other.curve.table();
     EXPECT_EQ(a.s_end, b.s_end);
     EXPECT_EQ(a.onset, b.onset);
-    EXPECT_TRUE(same_bits(a.force_ratio, b.force_ratio) && same_bits(a.force_ratio_slope, b.force_ratio_slope));
-    EXPECT_TRUE(same_bits(a.residual_ratio, b.residual_ratio) && same_bits(a.residual_ratio_slope, b.residual_ratio_slope));
+    EXPECT_TRUE(same_bits(a.force_ratio, b.force_ratio) &&
+                same_bits(a.force_ratio_slope, b.force_ratio_slope));
+    EXPECT_TRUE(same_bits(a.residual_ratio, b.residual_ratio) &&
+                same_bits(a.residual_ratio_slope, b.residual_ratio_slope));
     EXPECT_TRUE(same_bits(a.exponent, b.exponent) && same_bits(a.exponent_slope, b.exponent_slope));
-    EXPECT_TRUE(same_bits(a.radius_ratio, b.radius_ratio) && same_bits(a.radius_ratio_slope, b.radius_ratio_slope));
+    EXPECT_TRUE(same_bits(a.radius_ratio, b.radius_ratio) &&
+                same_bits(a.radius_ratio_slope, b.radius_ratio_slope));
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "a temporary file was left";
 }
@@ -168,13 +174,17 @@ TEST_F(LawFile, AnotherMajorVersionIsRefusedWithBothNumbers)
 TEST_F(LawFile, UnusableNumbersAreRefused)
 {
   const auto set_first = [](double value) { return [value](std::vector<double>& v) { v[0] = value; }; };
-  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/curve/exponent", set_first(NAN)); }).find("exponent"),
-            std::string::npos);
-  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/material/density", set_first(-1)); }).find("density"),
-            std::string::npos);
-  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/material/poisson_ratio", set_first(0.5)); }), "");
+  EXPECT_NE(
+      after([&](hid_t f) { overwrite(f, "bodies/powder/curve/exponent", set_first(NAN)); }).find("exponent"),
+      std::string::npos);
+  EXPECT_NE(
+      after([&](hid_t f) { overwrite(f, "bodies/powder/material/density", set_first(-1)); }).find("density"),
+      std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/material/poisson_ratio", set_first(0.5)); }),
+            "");
   EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/material/yield_stress", set_first(NAN)); }), "");
-  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/certificate/max_inertia", set_first(NAN)); }), "");
+  EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/certificate/max_inertia", set_first(NAN)); }),
+            "");
   EXPECT_NE(after([&](hid_t f) { overwrite(f, "bodies/powder/curve/s_end", set_first(1e9)); }), "");
   EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies/powder/curve/onset", H5P_DEFAULT); }).find("onset"),
             std::string::npos);
@@ -183,14 +193,17 @@ TEST_F(LawFile, UnusableNumbersAreRefused)
 TEST_F(LawFile, WrongTypesAndSizesAreRefusedWithoutLargeAllocation)
 {
   const char* set = "bodies/powder/curve/force_ratio";
-  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_STD_I32LE, 129); }).find("force_ratio"), std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_STD_I32LE, 129); }).find("force_ratio"),
+            std::string::npos);
   EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_C_S1, 129); }).find("force_ratio"), std::string::npos);
   // 2^50 doubles that are declared but not stored
-  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, hsize_t{1} << 50, true); }).find("up to"), std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, hsize_t{1} << 50, true); }).find("up to"),
+            std::string::npos);
   EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, 7); }).find("length"), std::string::npos);
   EXPECT_NE(after([&](hid_t f) { replace(f, "pairs", H5T_IEEE_F64LE, 3); }).find("pairs"), std::string::npos);
   EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies", H5P_DEFAULT); }).find("bodies"), std::string::npos);
-  EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies/glass", H5P_DEFAULT); }).find("glass"), std::string::npos);
+  EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies/glass", H5P_DEFAULT); }).find("glass"),
+            std::string::npos);
 }
 
 TEST_F(LawFile, AFailedWriteLeavesTheOldFile)

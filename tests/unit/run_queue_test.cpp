@@ -19,7 +19,8 @@ RunResult some_result(double seed)
 {
   RunResult r;
   for (int k = 0; k < 20; ++k)
-    r.trace.push_back({seed * k / 3.0, 1e-7 * k, std::sqrt(2.0) * k, 1e-5, k < 10 ? Branch::load : Branch::unload, k / 10});
+    r.trace.push_back(
+        {seed * k / 3.0, 1e-7 * k, std::sqrt(2.0) * k, 1e-5, k < 10 ? Branch::load : Branch::unload, k / 10});
   r.summary.restitution = seed / 7;
   r.summary.steps = 12345;
   return r;
@@ -56,7 +57,8 @@ TEST_F(Cache, ACutOffFileCountsAsNotThere)
   const fs::path file = fs::directory_iterator(folder_)->path();
   const auto size = fs::file_size(file);
   RunResult read;
-  for (const auto part : {size - 2, size - 4, size / 2, size / 10, size * 0}) {  // the last byte only ends the line
+  for (const auto part :
+       {size - 2, size - 4, size / 2, size / 10, size * 0}) {  // the last byte only ends the line
     fs::resize_file(file, part);
     EXPECT_FALSE(cache.load("one", read)) << part;
   }

@@ -21,7 +21,8 @@ TEST(Scales, YieldVelocityIsTheOneOfTheDesign)
 TEST(Scales, OnsetFollowsThePublishedPressureRatios)
 {
   const double table[][2] = {{0, 1.299}, {.2, 1.499}, {.3, 1.613}, {.45, 1.806}};
-  for (const auto& [nu, c] : table) EXPECT_NEAR(onset_pressure_ratio(nu), c, 0.004 * c);  // quality of the fit
+  for (const auto& [nu, c] : table)
+    EXPECT_NEAR(onset_pressure_ratio(nu), c, 0.004 * c);  // quality of the fit
   // The impact that just reaches the onset overlap in Hertz's contact has the onset velocity.
   const double e_star = 1e10, y = 1e8, rho = 1500, nu = 0.3;
   const double x = onset_overlap(e_star, y, nu);
@@ -33,7 +34,8 @@ TEST(Scales, AreConsistent)
 {
   const Scales scales{0.003, 2e10, 1700};
   EXPECT_DOUBLE_EQ(scales.time() * scales.velocity(), scales.length);
-  EXPECT_NEAR(scales.mass() * scales.velocity() * scales.velocity(), scales.energy(), 1e-12 * scales.energy());
+  EXPECT_NEAR(scales.mass() * scales.velocity() * scales.velocity(), scales.energy(),
+              1e-12 * scales.energy());
   EXPECT_DOUBLE_EQ(scales.force() * scales.length, scales.energy());
 }
 

@@ -18,11 +18,13 @@ inline ContactCurve::Table sample_table(double s_end, double onset, int count,
   ContactCurve::Table table;
   table.s_end = s_end;
   table.onset = onset;
-  const auto fill = [&](const std::function<double(double)>& f, std::vector<double>& value, std::vector<double>& slope) {
+  const auto fill = [&](const std::function<double(double)>& f, std::vector<double>& value,
+                        std::vector<double>& slope) {
     for (int k = 0; k < count; ++k) {
       const double s = s_end * k / (count - 1), step = 1e-5 * s_end;
       value.push_back(f(s));
-      slope.push_back((8.0 * (f(s + step) - f(s - step)) - (f(s + 2 * step) - f(s - 2 * step))) / (12.0 * step));
+      slope.push_back((8.0 * (f(s + step) - f(s - step)) - (f(s + 2 * step) - f(s - 2 * step))) /
+                      (12.0 * step));
     }
   };
   fill(force_ratio, table.force_ratio, table.force_ratio_slope);
@@ -36,11 +38,11 @@ inline ContactCurve::Table sample_table(double s_end, double onset, int count,
 /// F/F_Hertz falls as 1/sqrt(1 + b q^2 ...) towards F ~ x, the residual grows to `depth`, n stays near 1.5.
 struct SyntheticLaw
 {
-  double onset = 6.4e-4;      ///< of E*/Y = 100
+  double onset = 6.4e-4;  ///< of E*/Y = 100
   double x_end = 0.1;
-  double softening = 1.6;     ///< ln(F/F_elastic) = -softening q^2/(1 + q)
-  double depth = 1.1;         ///< residual ratio = 1 - exp(-depth q^2)
-  double bend = 0.05;         ///< exponent = elastic_exponent(s) + bend q^2/(1 + q^2)
+  double softening = 1.6;  ///< ln(F/F_elastic) = -softening q^2/(1 + q)
+  double depth = 1.1;      ///< residual ratio = 1 - exp(-depth q^2)
+  double bend = 0.05;      ///< exponent = elastic_exponent(s) + bend q^2/(1 + q^2)
 
   static constexpr double finite_sphere = 0.9;  ///< F_elastic = F_Hertz (1 + finite_sphere sqrt(x))
 
@@ -52,15 +54,30 @@ struct SyntheticLaw
     return (1 + c) / (0.4 + c / 3) - 1 + 1e-9;
   }
 
-  static double past(double s, double onset) { return std::max(0.0, std::log(std::max(s, 1e-12)) - 0.25 * std::log(onset)); }
+  static double past(double s, double onset)
+  {
+    return std::max(0.0, std::log(std::max(s, 1e-12)) - 0.25 * std::log(onset));
+  }
   ContactCurve::Table table(int count = 129) const
   {
     return sample_table(
         std::pow(x_end, 0.25), onset, count,
-        [&](double s) { const double q = past(s, onset); return (1 + finite_sphere * s * s) * std::exp(-softening * q * q / (1 + q)); },
-        [&](double s) { const double q = past(s, onset); return 1 - std::exp(-depth * q * q); },
-        [&](double s) { const double q = past(s, onset); return elastic_exponent(s) + bend * q * q / (1 + q * q); },
-        [&](double s) { const double q = past(s, onset); return 1 + 0.3 * q * q / (1 + q); });
+        [&](double s) {
+          const double q = past(s, onset);
+          return (1 + finite_sphere * s * s) * std::exp(-softening * q * q / (1 + q));
+        },
+        [&](double s) {
+          const double q = past(s, onset);
+          return 1 - std::exp(-depth * q * q);
+        },
+        [&](double s) {
+          const double q = past(s, onset);
+          return elastic_exponent(s) + bend * q * q / (1 + q * q);
+        },
+        [&](double s) {
+          const double q = past(s, onset);
+          return 1 + 0.3 * q * q / (1 + q);
+        });
   }
   ContactCurve curve(int count = 129) const { return ContactCurve(table(count), "synthetic"); }
 
@@ -75,12 +92,13 @@ struct SyntheticLaw
     law.bodies["powder"] = powder;
     BodyLaw glass;
     glass.material = {"glass", 2500.0, 70e9, 0.2, std::numeric_limits<double>::infinity(), 0.0};
-    ContactCurve::Table t = sample_table(0.5, std::numeric_limits<double>::infinity(), 33,
-        [](double s) { return 1 + 0.9 * s * s; }, [](double) { return 0.0; }, [](double) { return 1.5; },
-        [](double) { return 1.0; });
+    ContactCurve::Table t = sample_table(
+        0.5, std::numeric_limits<double>::infinity(), 33, [](double s) { return 1 + 0.9 * s * s; },
+        [](double) { return 0.0; }, [](double) { return 1.5; }, [](double) { return 1.0; });
     glass.curve = ContactCurve(t, "glass");
     law.bodies["glass"] = glass;
-    law.pairs = {{"powder", "powder"}, {"powder", "glass"}, {"glass", "glass"}, {"powder", "wall"}, {"glass", "wall"}};
+    law.pairs = {
+        {"powder", "powder"}, {"powder", "glass"}, {"glass", "glass"}, {"powder", "wall"}, {"glass", "wall"}};
     law.provenance = {{"version", "0.1.0"}, {"git_hash", "abc"}, {"command", "mpm table x.toml"}};
     return law;
   }

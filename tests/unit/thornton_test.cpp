@@ -11,7 +11,8 @@ namespace {
 
 TEST(Thornton, ClosedFormMatchesThePublishedNumbers)
 {
-  const double table[][2] = {{2, .93063}, {5, .77334}, {10, .65856}, {20, .55711}, {50, .44461}, {100, .37430}, {1000, .21070}};
+  const double table[][2] = {{2, .93063},  {5, .77334},   {10, .65856},  {20, .55711},
+                             {50, .44461}, {100, .37430}, {1000, .21070}};
   for (const auto& [v, e] : table) EXPECT_NEAR(thornton_restitution(v), e, 1e-5);
   EXPECT_EQ(thornton_restitution(0.5), 1.0);
 }
@@ -70,7 +71,8 @@ TEST(Replay, RestitutionIsTheRatioOfTheWorkFunctions)
     const Replay replay = replay_collision(pair, r, mass, v);
     const double x = replay.delta_max / r;
     ASSERT_FALSE(replay.left_range);
-    EXPECT_NEAR(replay.restitution, std::sqrt(pair.curve->work_unloading(x) / pair.curve->work_loading(x)), 2e-4);
+    EXPECT_NEAR(replay.restitution, std::sqrt(pair.curve->work_unloading(x) / pair.curve->work_loading(x)),
+                2e-4);
   }
 }
 

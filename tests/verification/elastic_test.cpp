@@ -14,15 +14,16 @@ namespace {
 TEST(ElasticImpact, ReturnsAllEnergy)
 {
   const RunResult r = run_impact(reference::unit_sphere(0), reference::elastic_impact_velocity());
-  EXPECT_GE(r.summary.restitution, 0.999);  // what stays behind as vibration of the sphere is of order (V/c)^(3/5) 1e-3
+  EXPECT_GE(r.summary.restitution,
+            0.999);  // what stays behind as vibration of the sphere is of order (V/c)^(3/5) 1e-3
   EXPECT_LE(r.summary.restitution, 1.0 + 1e-4);  // no energy from nowhere, beyond the step's own oscillation
   EXPECT_NEAR(r.summary.contact_time, reference::elastic_impact_time, 0.005 * reference::elastic_impact_time);
   EXPECT_NEAR(r.summary.force_max, reference::elastic_impact_force, 0.005 * reference::elastic_impact_force);
   EXPECT_LT(r.summary.energy_error, 1e-4);  // measured 1e-6: leapfrog's bounded oscillation
 }
 
-/// Depth by depth, as a user would who asks for the force at one overlap: 0.5 % is the bound; the reference
-/// itself is good to 0.1 %.
+/// Depth by depth, as a user would who asks for the force at one overlap: 0.5 % is the bound; the
+/// reference itself is good to 0.1 %.
 TEST(ElasticPress, AgreesWithFiniteElements)
 {
   for (const double depth : {0.003, 0.01}) {
@@ -34,7 +35,8 @@ TEST(ElasticPress, AgreesWithFiniteElements)
     ASSERT_TRUE(treated.valid());
     for (const auto& point : reference::elastic_press)
       if (point.delta <= depth && point.delta >= 0.1 * depth) {
-        EXPECT_NEAR(treated.force(point.delta) / point.force, 1.0, 0.005) << "delta/R = " << point.delta << " of a press to " << depth;
+        EXPECT_NEAR(treated.force(point.delta) / point.force, 1.0, 0.005)
+            << "delta/R = " << point.delta << " of a press to " << depth;
       }
     EXPECT_NEAR(r.summary.restitution, 1.0, 1e-3);  // measured 1.0002: vibration at the turn
   }

@@ -11,8 +11,8 @@
 namespace granulaw {
 namespace {
 
-/// A body that has yielded in several steps, after internal_force; no hourglass control, so that the stress is all
-/// there is in forces and energies.
+/// A body that has yielded in several steps, after internal_force; no hourglass control, so that the stress
+/// is all there is in forces and energies.
 Body deformed(const Moduli& m)
 {
   Body b = Body::build(MappedGrid::build(8, 0.3, true), m, 0.0);
@@ -32,8 +32,8 @@ class Stress : public testing::TestWithParam<Moduli>
 {
 };
 
-/// Internal forces summed from the Cauchy stress, f = -V J sigma F^-T b, are the kernel's; so is the stored energy,
-/// V (dev(tau)^2/(4 G) + p_tau^2/(2 K)).
+/// Internal forces summed from the Cauchy stress, f = -V J sigma F^-T b, are the kernel's; so is the stored
+/// energy, V (dev(tau)^2/(4 G) + p_tau^2/(2 K)).
 TEST_P(Stress, GivesTheKernelsForcesAndEnergies)
 {
   const Moduli m = GetParam();
@@ -76,11 +76,14 @@ TEST_P(Stress, GivesTheKernelsForcesAndEnergies)
     EXPECT_NEAR(fz[i], b.fz_i[i], 1e-8 * largest);
   }
   EXPECT_GT(energy, 0);
-  if (m.yields) { EXPECT_GT(b.plastic_work(), 0); }
+  if (m.yields) {
+    EXPECT_GT(b.plastic_work(), 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Moduli, Stress,
-                         testing::Values(Moduli{0.35, 0.76, 0.0, 0.0, false}, Moduli{0.35, 0.76, 0.01, 0.0, true},
+                         testing::Values(Moduli{0.35, 0.76, 0.0, 0.0, false},
+                                         Moduli{0.35, 0.76, 0.01, 0.0, true},
                                          Moduli{0.35, 0.76, 0.01, 0.02, true}));
 
 const Sphere powder{1e-3, {1500, 9.1e9, 0.3, 100e6}};
@@ -94,7 +97,9 @@ TEST(Fields, LookingChangesNothing)
   std::vector<FieldFrame> frames;
   int nodes = 0, cells = 0, begun = 0;
   options.fields.frames = 20;
-  options.fields.begin = [&](int n, const std::vector<std::array<int, 4>>& c) { nodes = n, cells = int(c.size()), ++begun; };
+  options.fields.begin = [&](int n, const std::vector<std::array<int, 4>>& c) {
+    nodes = n, cells = int(c.size()), ++begun;
+  };
   options.fields.frame = [&](const FieldFrame& f) { frames.push_back(f); };
   const RunResult seen = run_impact(powder, 2.6, options);
   ASSERT_EQ(blind.trace.size(), seen.trace.size());
@@ -114,14 +119,15 @@ TEST(Fields, LookingChangesNothing)
     double lowest = 1, hardest = 0;
     for (const double z : f.z) lowest = std::min(lowest, z);
     for (const double q : f.von_mises) hardest = std::max(hardest, q);
-    EXPECT_GT(lowest, -1e-15);       // m: nothing below the plane, to rounding of a radius of 1e-3
+    EXPECT_GT(lowest, -1e-15);               // m: nothing below the plane, to rounding of a radius of 1e-3
     EXPECT_LT(hardest, 100e6 * (1 + 1e-8));  // perfectly plastic: nowhere above the yield stress
   }
   EXPECT_DOUBLE_EQ(frames.front().vz.front(), -2.6);  // to solver units and back: rounding
   double deepest = 0, strain = 0;
   for (const FieldFrame& f : frames) deepest = std::max(deepest, f.delta);
   for (const double e : frames.back().plastic_strain) strain = std::max(strain, e);
-  EXPECT_NEAR(deepest, seen.summary.delta_max, 0.03 * seen.summary.delta_max);  // parabola, 1/20 of its width off
+  EXPECT_NEAR(deepest, seen.summary.delta_max,
+              0.03 * seen.summary.delta_max);  // parabola, 1/20 of its width off
   EXPECT_GT(strain, 0.01);
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include "references.hpp"
 #include "solver/body.hpp"
 #include "solver/kernels.hpp"
-#include "references.hpp"
 
 namespace granulaw {
 namespace {
@@ -14,7 +14,10 @@ namespace {
 constexpr Moduli elastic{0.35, 0.76, 0.0, 0.0, false};
 constexpr Moduli plastic{0.35, 0.76, 0.01, 0.02, true};
 
-Body sphere(const Moduli& m, int cells = 12) { return Body::build(MappedGrid::build(cells, 0.3, true), m, 0.05 * m.shear); }
+Body sphere(const Moduli& m, int cells = 12)
+{
+  return Body::build(MappedGrid::build(cells, 0.3, true), m, 0.05 * m.shear);
+}
 
 TEST(Grid, FillsTheSphere)
 {
@@ -31,15 +34,16 @@ TEST(Grid, FillsTheSphere)
   };
   // chords instead of arcs: the deficit falls with the square of the cell size
   EXPECT_GT(deficit(16), 0);
-  EXPECT_GT(deficit(16) / deficit(32), 3.0);  // 4 but that ring counts are whole numbers: the grids are not similar
+  EXPECT_GT(deficit(16) / deficit(32),
+            3.0);  // 4 but that ring counts are whole numbers: the grids are not similar
   const Body b = Body::build(grid, elastic, 0);
   double mass = 0;
   for (const double m : b.mass_i) mass += m;
   EXPECT_NEAR(mass, 4.0 / 3.0 * M_PI, 1e-12);
 }
 
-/// A linear displacement field gives the same gradient at every point; here through the stored energy, which is
-/// the same function of the strain everywhere.
+/// A linear displacement field gives the same gradient at every point; here through the stored energy, which
+/// is the same function of the strain everywhere.
 TEST(PatchTest, LinearFieldIsExact)
 {
   Body b = sphere(elastic);
@@ -53,7 +57,8 @@ TEST(PatchTest, LinearFieldIsExact)
   const double deviator2 = 2 * (lr - trace / 3) * (lr - trace / 3) + (lz - trace / 3) * (lz - trace / 3);
   const double expected = elastic.shear * deviator2 + 0.5 * elastic.bulk * trace * trace;
   for (int p = 0; p < b.points; ++p)
-    EXPECT_NEAR(b.elastic_energy_p[p] / b.volume_p[p], expected, 1e-12 * expected + 1e-18);  // rounding of u ~ 1e-2
+    EXPECT_NEAR(b.elastic_energy_p[p] / b.volume_p[p], expected,
+                1e-12 * expected + 1e-18);  // rounding of u ~ 1e-2
 }
 
 /// Uniform pressure is in equilibrium at every inner node: the discrete divergence theorem.
@@ -66,7 +71,9 @@ TEST(PatchTest, UniformPressureIsInEquilibrium)
     const double distance = std::hypot(b.r_i[i], b.z_i[i] - 1);
     if (distance > 1 - 1e-9) continue;
     EXPECT_NEAR(b.fz_i[i], 0.0, 1e-13);  // forces are of order pressure x cell face = 1e-2 x 1e-2
-    if (b.r_i[i] > 0) { EXPECT_NEAR(b.fr_i[i], 0.0, 1e-13); }
+    if (b.r_i[i] > 0) {
+      EXPECT_NEAR(b.fr_i[i], 0.0, 1e-13);
+    }
   }
 }
 
@@ -112,7 +119,8 @@ TEST(Energy, ForceIsItsDerivative)
     const double down = b.strain_energy();
     b.uz_i[i] = keep;
     kernels().internal_force(b, false);
-    // central difference: energies ~ 1e-4, so rounding 1e-20/1e-6, truncation step^2 x third derivative ~ 1e-12
+    // central difference: energies ~ 1e-4, so rounding 1e-20/1e-6, truncation step^2 x third derivative ~
+    // 1e-12
     EXPECT_NEAR(b.fz_i[i], -(up - down) / (2 * step), 1e-9);
   }
 }
@@ -133,7 +141,8 @@ TEST(InstructionSets, Agree)
     const auto found = forces(isa_avx2::kernels);
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-14);
   }
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
     const auto found = forces(isa_avx512::kernels);
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-14);
   }

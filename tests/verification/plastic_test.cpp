@@ -22,22 +22,23 @@ TEST_P(PlasticPress, AgreesWithFiniteElements)
   plan.support = Support::midplane;
   RunOptions options;
   options.threads = 2;
-  const RunSummary s = run_press(reference::unit_sphere(ref.e_over_y, ref.nu, ref.hardening_over_e), plan, options).summary;
+  const RunSummary s =
+      run_press(reference::unit_sphere(ref.e_over_y, ref.nu, ref.hardening_over_e), plan, options).summary;
   const double y = 1 / ref.e_over_y;
   // 1 %: the reference's own 0.4 % and the correction for its yield convention, 0.5 %
   EXPECT_NEAR(s.force_max / y, ref.force, 0.01 * ref.force);
   EXPECT_NEAR(s.restitution, ref.e, 0.01 * ref.e);
   EXPECT_NEAR(s.delta_residual / s.delta_max, ref.residual, 0.004);  // +-0.003 and the reference's own 0.001
-  // kinetic + elastic + plastic = work of the drive; what is missing is the work of the kinked force at contacting nodes
+  // kinetic + elastic + plastic = work of the drive; what is missing is the work of the kinked force at
+  // contacting nodes
   EXPECT_LT(s.energy_error, 1e-3);
 }
-INSTANTIATE_TEST_SUITE_P(Reference, PlasticPress, testing::ValuesIn(reference::presses),
-                         [](const auto& p) {
-                           std::string name = p.param.name;
-                           for (char& c : name)
-                             if (c == '.') c = '_';
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Reference, PlasticPress, testing::ValuesIn(reference::presses), [](const auto& p) {
+  std::string name = p.param.name;
+  for (char& c : name)
+    if (c == '.') c = '_';
+  return name;
+});
 
 class FreeImpact : public testing::TestWithParam<reference::Impact>
 {
@@ -51,7 +52,7 @@ TEST_P(FreeImpact, RestitutionAgreesWithThreeFormulations)
   const RunSummary s =
       run_impact(reference::unit_sphere(100), ref.v_over_vy * yield_velocity(1, 0.01, 1), options).summary;
   EXPECT_NEAR(s.restitution, ref.e, ref.tolerance);  // the references' own uncertainty and as much again
-  EXPECT_LT(s.energy_error, 5e-3);                   // measured 1e-3 at V/V_y = 500, 1e-6 at 5: plastic work by steps
+  EXPECT_LT(s.energy_error, 5e-3);  // measured 1e-3 at V/V_y = 500, 1e-6 at 5: plastic work by steps
 }
 INSTANTIATE_TEST_SUITE_P(Reference, FreeImpact, testing::ValuesIn(reference::impacts), [](const auto& p) {
   return "V" + std::to_string(static_cast<int>(p.param.v_over_vy));
@@ -72,7 +73,8 @@ TEST(Similarity, DimensionlessTracesAgree)
     for (auto& t : r.trace) t.delta /= scale.length, t.force /= scale.force();
     return r;
   };
-  const RunResult a = run(1e9, 1e7, 1500, 0.002), b = run(7.3e7, 7.3e5, 911, 0.0113), c = run(1e9, 1.1e7, 1500, 0.002);
+  const RunResult a = run(1e9, 1e7, 1500, 0.002), b = run(7.3e7, 7.3e5, 911, 0.0113),
+                  c = run(1e9, 1.1e7, 1500, 0.002);
   ASSERT_EQ(a.trace.size(), b.trace.size());
   double largest = 0, difference = 0, other = 0;
   for (std::size_t k = 0; k < a.trace.size(); ++k) {

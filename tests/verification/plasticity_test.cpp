@@ -26,21 +26,23 @@ void stretch(Body& b, double lr, double lz)
   kernels().internal_force(b, false);
 }
 
-/// Isochoric compression ln(lz) = -t along fixed principal axes: q = 3 G t while elastic, and with linear hardening
-/// the return gives eps_p = (3 G t - Y)/(3 G + H) exactly, however large t and however many steps.
+/// Isochoric compression ln(lz) = -t along fixed principal axes: q = 3 G t while elastic, and with linear
+/// hardening the return gives eps_p = (3 G t - Y)/(3 G + H) exactly, however large t and however many steps.
 TEST(J2, RadialLoadingIsExact)
 {
   for (const double h : {0.0, hardening}) {
     Body b = ring(h);
     constexpr double last = 1.5;  // strain of 150 %
     constexpr int steps = 600;
-    for (int k = 1; k <= steps; ++k) stretch(b, std::exp(0.5 * last * k / steps), std::exp(-last * k / steps));
-    // the update of the plastic state is exact to rounding for increments of this size (exp_m1 in the kernel);
-    // 600 steps of 1e-16 at strains of order 10 in b
+    for (int k = 1; k <= steps; ++k)
+      stretch(b, std::exp(0.5 * last * k / steps), std::exp(-last * k / steps));
+    // the update of the plastic state is exact to rounding for increments of this size (exp_m1 in the
+    // kernel); 600 steps of 1e-16 at strains of order 10 in b
     EXPECT_NEAR(b.plastic_strain_p[0], (3 * shear * last - yield) / (3 * shear + h), 1e-10);
     const double q = yield + h * b.plastic_strain_p[0];  // J = 1: Kirchhoff = Cauchy
     EXPECT_NEAR(b.elastic_energy_p[0] / b.volume_p[0], q * q / (6 * shear), 1e-11);
-    EXPECT_NEAR(b.plastic_work_p[0] / b.volume_p[0], yield * b.plastic_strain_p[0] + 0.5 * h * b.plastic_strain_p[0] * b.plastic_strain_p[0],
+    EXPECT_NEAR(b.plastic_work_p[0] / b.volume_p[0],
+                yield * b.plastic_strain_p[0] + 0.5 * h * b.plastic_strain_p[0] * b.plastic_strain_p[0],
                 1e-9);  // trapezium of the linear yield stress over each step: exact but for 600 roundings
   }
 }
@@ -54,7 +56,8 @@ TEST(J2, YieldsOnCauchyStress)
   EXPECT_EQ(b.plastic_strain_p[0], 0.0);
   for (int k = 1; k <= 200; ++k) stretch(b, squeeze * std::exp(0.0005 * k), squeeze * std::exp(-0.001 * k));
   const double jacobian = squeeze * squeeze * squeeze;
-  const double deviatoric = b.elastic_energy_p[0] / b.volume_p[0] - 0.5 * bulk * std::pow(std::log(jacobian), 2);
+  const double deviatoric =
+      b.elastic_energy_p[0] / b.volume_p[0] - 0.5 * bulk * std::pow(std::log(jacobian), 2);
   const double q = std::sqrt(6 * shear * deviatoric);
   EXPECT_NEAR(q, jacobian * yield, 1e-10);  // energies of 1e-2 carry 1e-18: q^2 to 1e-18, q to 1e-10 is ample
 }

@@ -23,11 +23,14 @@ inline Sphere unit_sphere(double e_over_y, double nu = 0.3, double hardening_ove
 
 /// Elastic sphere (nu = 0.3) between its driven mid-plane and a rigid plane: axisymmetric finite elements,
 /// 8-node, converged to 0.1 % over these depths (checked against CalculiX to 1e-4).
-struct ElasticPoint { double delta, force; };  // F/(E* R^2)
+struct ElasticPoint
+{
+  double delta, force;
+};  // F/(E* R^2)
 inline constexpr ElasticPoint elastic_press[] = {
-    {1e-3, 4.28016837e-05},   {1.5e-3, 7.89532178e-05}, {2e-3, 1.22038771e-04}, {3e-3, 2.25410866e-04},
-    {4e-3, 3.48801274e-04},   {5e-3, 4.89657638e-04},   {6e-3, 6.46323150e-04}, {7e-3, 8.17716636e-04},
-    {8e-3, 1.00250397e-03},   {9e-3, 1.20029399e-03},   {1e-2, 1.41045668e-03}};
+    {1e-3, 4.28016837e-05}, {1.5e-3, 7.89532178e-05}, {2e-3, 1.22038771e-04}, {3e-3, 2.25410866e-04},
+    {4e-3, 3.48801274e-04}, {5e-3, 4.89657638e-04},   {6e-3, 6.46323150e-04}, {7e-3, 8.17716636e-04},
+    {8e-3, 1.00250397e-03}, {9e-3, 1.20029399e-03},   {1e-2, 1.41045668e-03}};
 
 /// The elastic impact that Hertz's theory would stop at 0.002 R.
 inline double elastic_impact_velocity()
@@ -38,10 +41,10 @@ inline double elastic_impact_velocity()
 inline constexpr double elastic_impact_force = 1.217e-4;  // E* R^2, three formulations agree to 0.2 %
 inline constexpr double elastic_impact_time = 27.2;       // R/c*
 
-/// Midplane presses by the same finite elements, F/(Y R^2) and e = sqrt(W_unload/W_load). Those elements yield on
-/// the Kirchhoff stress; the numbers here carry the measured change to yield on the Cauchy stress, ours:
-/// E*/Y = 100: delta 0.02: F -0.5 %, e -0.0027; 0.1: F -0.46 %, e -0.0014. The hardening case was not measured
-/// apart: it carries the change of its neighbour at the same depth.
+/// Midplane presses by the same finite elements, F/(Y R^2) and e = sqrt(W_unload/W_load). Those elements
+/// yield on the Kirchhoff stress; the numbers here carry the measured change to yield on the Cauchy stress,
+/// ours: E*/Y = 100: delta 0.02: F -0.5 %, e -0.0027; 0.1: F -0.46 %, e -0.0014. The hardening case was not
+/// measured apart: it carries the change of its neighbour at the same depth.
 struct Press
 {
   const char* name;
@@ -55,10 +58,14 @@ inline constexpr Press presses[] = {
 
 /// Free impacts at E*/Y = 100, nu = 0.3: e by three unrelated formulations (mapped grid, B-spline grid,
 /// updated-Lagrangian), converged to +-0.003, the last to +-0.001.
-struct Impact { double v_over_vy, e, tolerance; };
-inline constexpr Impact impacts[] = {{5, 0.899, 0.005}, {20, 0.743, 0.005}, {100, 0.514, 0.005}, {500, 0.248, 0.003}};
+struct Impact
+{
+  double v_over_vy, e, tolerance;
+};
+inline constexpr Impact impacts[] = {
+    {5, 0.899, 0.005}, {20, 0.743, 0.005}, {100, 0.514, 0.005}, {500, 0.248, 0.003}};
 
-inline constexpr double impact_EY100_V100_e = 0.5164;     // this solver, 40 cells, 8 phases; 32 cells: 0.5163
-inline constexpr double impact_EY100_V100_force = 0.3942; // Y R^2, likewise; 32 cells: 0.3940
+inline constexpr double impact_EY100_V100_e = 0.5164;  // this solver, 40 cells, 8 phases; 32 cells: 0.5163
+inline constexpr double impact_EY100_V100_force = 0.3942;  // Y R^2, likewise; 32 cells: 0.3940
 
 }  // namespace granulaw::reference

@@ -31,7 +31,8 @@ bool admissible(const Law& law, const std::string& path)
   bool good = true;
   for (const auto& [name, body] : law.bodies) {
     const double margin = body.curve.admissibility_margin();
-    if (margin < 0) fmt::print("{}: NOT GOOD: a closed cycle would gain energy (margin {:.3g})\n", name, margin);
+    if (margin < 0)
+      fmt::print("{}: NOT GOOD: a closed cycle would gain energy (margin {:.3g})\n", name, margin);
     good = good && margin >= 0;
   }
   for (const auto& [a, b] : law.pairs) resolve_pair(law, a, b, path);
@@ -43,7 +44,9 @@ bool admissible(const Law& law, const std::string& path)
 bool impact_agrees(const std::string& name, const BodyLaw& body, double velocity)
 {
   const LawMaterial& m = body.material;
-  Sphere sphere{1.0, {1.0, m.youngs_modulus / m.e_star(), m.poisson_ratio, m.yield_stress / m.e_star(), m.hardening_modulus / m.e_star()}};
+  Sphere sphere{1.0,
+                {1.0, m.youngs_modulus / m.e_star(), m.poisson_ratio, m.yield_stress / m.e_star(),
+                 m.hardening_modulus / m.e_star()}};
   RunSummary run;
   {
     ProgressBar bar;
@@ -54,13 +57,16 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, double velocity
   const PairLaw wall{&body.curve, PairMapping::rigid_partner(1.0), &body};
   const Replay replay = replay_collision(wall, 1.0, 4.0 / 3.0 * M_PI, velocity);
   const Certificate& c = body.certificate;
-  const double force = std::abs(replay.force_max / run.force_max - 1), e = std::abs(replay.restitution / run.restitution - 1);
+  const double force = std::abs(replay.force_max / run.force_max - 1),
+               e = std::abs(replay.restitution / run.restitution - 1);
   const double claimed_force = c.verification_error_force + c.solver_error_force;
   const double claimed_e = c.verification_error_restitution + c.solver_error_restitution;
   const bool good = force <= 2 * claimed_force && e <= 2 * claimed_e;
-  fmt::print("{}: impact at {:.4g} m/s: F off by {:.2g} % (claimed {:.2g} %), e by {:.2g} % (claimed {:.2g} %): {}\n", name,
-             velocity * std::sqrt(m.e_star() / m.density), 100 * force, 100 * claimed_force, 100 * e, 100 * claimed_e,
-             good ? "good" : "NOT GOOD: more than twice the claim");
+  fmt::print(
+      "{}: impact at {:.4g} m/s: F off by {:.2g} % (claimed {:.2g} %), e by {:.2g} % (claimed {:.2g} %): "
+      "{}\n",
+      name, velocity * std::sqrt(m.e_star() / m.density), 100 * force, 100 * claimed_force, 100 * e,
+      100 * claimed_e, good ? "good" : "NOT GOOD: more than twice the claim");
   return good;
 }
 
@@ -81,8 +87,10 @@ void check(const CheckRequest& r)
     for (int k = 0; k < r.impacts; ++k) good = impact_agrees(name, body, std::exp(logarithm(random))) && good;
   }
   if (!good) fail(r.law, fmt::format("the law fails its check (seed {})", seed));
-  fmt::print("{}: good ({} materials, pairs {}; no closed cycle gains energy; {} fresh impacts a material, seed {})\n", r.law,
-             law.bodies.size(), law.pair_list(), r.impacts, seed);
+  fmt::print(
+      "{}: good ({} materials, pairs {}; no closed cycle gains energy; {} fresh impacts a material, seed "
+      "{})\n",
+      r.law, law.bodies.size(), law.pair_list(), r.impacts, seed);
 }
 
 }  // namespace
@@ -91,11 +99,15 @@ void add_check(CLI::App& app)
 {
   const auto r = std::make_shared<CheckRequest>();
   CLI::App* command = app.add_subcommand(
-      "check", "Is this file a whole, sane, admissible law, and does the solver still agree with it?\n"
-               "Each yielding material is thrown at a wall at random velocities inside the law's range; force and e must\n"
-               "lie within twice the certificate's claim. Example: mpm check law.h5");
+      "check",
+      "Is this file a whole, sane, admissible law, and does the solver still agree with it?\n"
+      "Each yielding material is thrown at a wall at random velocities inside the law's range; force and e "
+      "must\n"
+      "lie within twice the certificate's claim. Example: mpm check law.h5");
   command->add_option("LAW", r->law, "law file of mpm table")->required();
-  command->add_option("--impacts", r->impacts, "fresh impacts for each yielding material (default 2; 0: none)")->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--impacts", r->impacts, "fresh impacts for each yielding material (default 2; 0: none)")
+      ->check(CLI::Range(0, 1000));
   command->add_option("--seed", r->seed, "seed of the velocities (default: a new one each time, printed)");
   command->callback([r] { check(*r); });
 }

@@ -19,21 +19,34 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What a frame's group holds beside its geometry; one table for HDF5 and XDMF.
-struct NodeField { h5::Field field; std::vector<double> FieldFrame::*r; std::vector<double> FieldFrame::*z; };
-struct CellField { h5::Field field; std::vector<double> FieldFrame::*value; };
+struct NodeField
+{
+  h5::Field field;
+  std::vector<double> FieldFrame::*r;
+  std::vector<double> FieldFrame::*z;
+};
+struct CellField
+{
+  h5::Field field;
+  std::vector<double> FieldFrame::*value;
+};
 constexpr h5::Field geometry{"position", "m", "deformed position of the nodes: r, z; the plane is z = 0"};
 constexpr NodeField node_fields[] = {
     {{"displacement", "m", "displacement since first touch: r, z, 0"}, &FieldFrame::ur, &FieldFrame::uz},
     {{"velocity", "m/s", "velocity: r, z, 0"}, &FieldFrame::vr, &FieldFrame::vz}};
 constexpr CellField cell_fields[] = {
     {{"equivalent_plastic_strain", "1", "equivalent plastic strain"}, &FieldFrame::plastic_strain},
-    {{"pressure", "Pa", "minus a third of the trace of the Cauchy stress: compression positive"}, &FieldFrame::pressure},
+    {{"pressure", "Pa", "minus a third of the trace of the Cauchy stress: compression positive"},
+     &FieldFrame::pressure},
     {{"von_mises_stress", "Pa", "von Mises stress of the Cauchy stress"}, &FieldFrame::von_mises}};
 
 class FieldFile
 {
  public:
-  FieldFile(std::string temporary, std::string path) : temporary_(std::move(temporary)), path_(std::move(path)) {}
+  FieldFile(std::string temporary, std::string path)
+      : temporary_(std::move(temporary)), path_(std::move(path))
+  {
+  }
 
   void begin(int nodes, const std::vector<std::array<int, 4>>& cells)
   {
@@ -46,8 +59,8 @@ class FieldFile
     h5::write_text_attribute(file_, h5::format, "granulaw-fields", path_);
     h5::write_text_attribute(file_, "version", version(), path_);
     h5::write_text_attribute(file_, "git_hash", git_hash(), path_);
-    write(file_, {"cells", "1", "nodes of each cell, counter-clockwise in (r, z)"}, H5T_NATIVE_INT, H5T_STD_I32LE,
-          cells.size(), 4, cells.data());
+    write(file_, {"cells", "1", "nodes of each cell, counter-clockwise in (r, z)"}, H5T_NATIVE_INT,
+          H5T_STD_I32LE, cells.size(), 4, cells.data());
   }
 
   void frame(const FieldFrame& f)
@@ -55,10 +68,13 @@ class FieldFile
     const h5::Silence silence;
     const std::string name = fmt::format("frame{:04}", frames_.size());
     const h5::Handle group = h5::create_group(file_, name.c_str(), path_);
-    const auto scalar = [&](const h5::Field& field, double value) { h5::write_scalar(group, field, value, path_); };
+    const auto scalar = [&](const h5::Field& field, double value) {
+      h5::write_scalar(group, field, value, path_);
+    };
     scalar({"time", "s", "time since first touch"}, f.time);
     scalar({"delta", "m", "overlap of this grid"}, f.delta);
-    scalar({"force", "N", "contact force on this grid, mean over a trace sample, repulsive positive"}, f.force);
+    scalar({"force", "N", "contact force on this grid, mean over a trace sample, repulsive positive"},
+           f.force);
     write_pairs(group, geometry, f.r, f.z, 2);
     for (const NodeField& n : node_fields) write_pairs(group, n.field, f.*n.r, f.*n.z, 3);
     for (const CellField& c : cell_fields) {
@@ -79,25 +95,33 @@ class FieldFile
 
   std::string xdmf(const std::string& h5_name) const
   {
-    std::string out = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
-                      "<Grid Name=\"body\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+    std::string out =
+        "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+        "<Grid Name=\"body\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
     const auto item = [&](const char* type, int bytes, const std::string& shape, const std::string& where) {
-      return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>",
-                         shape, type, bytes, h5_name, where);
+      return fmt::format(
+          "<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>",
+          shape, type, bytes, h5_name, where);
     };
-    const auto attribute = [&](const h5::Field& f, const char* type, const char* centre, const std::string& shape, int k) {
-      out += fmt::format("  <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n"
-                         "    <Information Name=\"unit\" Value=\"{}\"/>\n    {}\n  </Attribute>\n",
-                         f.name, type, centre, f.unit, item("Float", 4, shape, fmt::format("frame{:04}/{}", k, f.name)));
+    const auto attribute = [&](const h5::Field& f, const char* type, const char* centre,
+                               const std::string& shape, int k) {
+      out += fmt::format(
+          "  <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n"
+          "    <Information Name=\"unit\" Value=\"{}\"/>\n    {}\n  </Attribute>\n",
+          f.name, type, centre, f.unit, item("Float", 4, shape, fmt::format("frame{:04}/{}", k, f.name)));
     };
     for (std::size_t n = 0; n < frames_.size(); ++n) {
       const int k = static_cast<int>(n);
-      out += fmt::format("<Grid Name=\"frame{:04}\" GridType=\"Uniform\">\n  <Time Value=\"{:.9g}\"/>\n", k, frames_[n]);
-      out += fmt::format("  <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">\n    {}\n  </Topology>\n",
-                         cells_, item("Int", 4, fmt::format("{} 4", cells_), "cells"));
-      out += fmt::format("  <Geometry GeometryType=\"XY\">\n    {}\n  </Geometry>\n",
-                         item("Float", 4, fmt::format("{} 2", nodes_), fmt::format("frame{:04}/position", k)));
-      for (const NodeField& f : node_fields) attribute(f.field, "Vector", "Node", fmt::format("{} 3", nodes_), k);
+      out += fmt::format("<Grid Name=\"frame{:04}\" GridType=\"Uniform\">\n  <Time Value=\"{:.9g}\"/>\n", k,
+                         frames_[n]);
+      out += fmt::format(
+          "  <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">\n    {}\n  </Topology>\n",
+          cells_, item("Int", 4, fmt::format("{} 4", cells_), "cells"));
+      out +=
+          fmt::format("  <Geometry GeometryType=\"XY\">\n    {}\n  </Geometry>\n",
+                      item("Float", 4, fmt::format("{} 2", nodes_), fmt::format("frame{:04}/position", k)));
+      for (const NodeField& f : node_fields)
+        attribute(f.field, "Vector", "Node", fmt::format("{} 3", nodes_), k);
       for (const CellField& f : cell_fields) attribute(f.field, "Scalar", "Cell", std::to_string(cells_), k);
       out += "</Grid>\n";
     }
@@ -106,8 +130,8 @@ class FieldFile
 
  private:
   /// A rows x columns dataset (columns = 1: a vector), with unit and legend as the law file has them.
-  void write(hid_t group, const h5::Field& field, hid_t memory, hid_t disk, std::size_t rows, std::size_t columns,
-             const void* values) const
+  void write(hid_t group, const h5::Field& field, hid_t memory, hid_t disk, std::size_t rows,
+             std::size_t columns, const void* values) const
   {
     const hsize_t extent[2] = {rows, columns};
     const h5::Handle space(H5Screate_simple(columns == 1 ? 1 : 2, extent, nullptr));
@@ -118,8 +142,8 @@ class FieldFile
     h5::write_text_attribute(set, h5::legend, field.legend, path_);
   }
 
-  void write_pairs(hid_t group, const h5::Field& field, const std::vector<double>& r, const std::vector<double>& z,
-                   std::size_t columns) const
+  void write_pairs(hid_t group, const h5::Field& field, const std::vector<double>& r,
+                   const std::vector<double>& z, std::size_t columns) const
   {
     std::vector<double> values(columns * r.size(), 0.0);
     for (std::size_t i = 0; i < r.size(); ++i) values[columns * i] = r[i], values[columns * i + 1] = z[i];
@@ -133,7 +157,10 @@ class FieldFile
   std::size_t cells_ = 0;
 };
 
-std::string h5_beside(const std::string& path) { return fs::path(path).replace_extension(".h5").string(); }
+std::string h5_beside(const std::string& path)
+{
+  return fs::path(path).replace_extension(".h5").string();
+}
 
 }  // namespace
 
@@ -147,7 +174,8 @@ void check_field_output(const std::string& path)
   require_writable(h5_beside(path), "--fields");
 }
 
-RunResult run_with_fields(const std::string& path, int frames, const std::function<RunResult(const FieldObserver&)>& run)
+RunResult run_with_fields(const std::string& path, int frames,
+                          const std::function<RunResult(const FieldObserver&)>& run)
 {
   const std::string h5_path = h5_beside(path);
   RunResult result;
@@ -156,7 +184,9 @@ RunResult run_with_fields(const std::string& path, int frames, const std::functi
     FieldFile file(temporary, h5_path);
     FieldObserver observer;
     observer.frames = frames;
-    observer.begin = [&](int nodes, const std::vector<std::array<int, 4>>& cells) { file.begin(nodes, cells); };
+    observer.begin = [&](int nodes, const std::vector<std::array<int, 4>>& cells) {
+      file.begin(nodes, cells);
+    };
     observer.frame = [&](const FieldFrame& f) { file.frame(f); };
     result = run(observer);
     file.close();

@@ -23,24 +23,26 @@ void print_body(const BodyLaw& body)
   const LawMaterial& m = body.material;
   const Certificate& c = body.certificate;
   fmt::print("material {}\n", m.name);
-  fmt::print("  density              {:.6g} kg/m^3\n  Young's modulus      {:.6g} Pa\n  Poisson's ratio      {:.6g}\n", m.density,
-             m.youngs_modulus, m.poisson_ratio);
+  fmt::print(
+      "  density              {:.6g} kg/m^3\n  Young's modulus      {:.6g} Pa\n  Poisson's ratio      "
+      "{:.6g}\n",
+      m.density, m.youngs_modulus, m.poisson_ratio);
   if (m.yields())
-    fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n  linear hardening     {:.6g} Pa\n", m.yield_stress,
-               m.e_star() / m.yield_stress, m.hardening_modulus);
+    fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n  linear hardening     {:.6g} Pa\n",
+               m.yield_stress, m.e_star() / m.yield_stress, m.hardening_modulus);
   else
     fmt::print("  elastic\n");
-  fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n", body.curve.x_end(),
-             body.curve.table().force_ratio.size(), body.curve.onset());
+  fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
+             body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());
   fmt::print("  support              {}\n", c.support);
   fmt::print("  solver error         {:.2g} % (force and e, two resolutions)\n", 100 * c.solver_error_force);
-  fmt::print("  interpolation error  {:.2g} %;  held-out e {:.2g} %;  scatter of the runs {:.2g} %\n", 100 * c.interpolation_error,
-             100 * c.held_out_error, 100 * c.residual_scatter);
+  fmt::print("  interpolation error  {:.2g} %;  held-out e {:.2g} %;  scatter of the runs {:.2g} %\n",
+             100 * c.interpolation_error, 100 * c.held_out_error, 100 * c.residual_scatter);
   fmt::print("  reload loop          {:.2g} % of the loading work\n", 100 * c.reload_loop_area);
   fmt::print("  against {:.0f} impacts    force within {:.2g} %, e within {:.2g} %\n", c.verification_impacts,
              100 * c.verification_error_force, 100 * c.verification_error_restitution);
-  fmt::print("  slow press instead   force {:+.2g} %, e {:+.2g} % at the deepest impact's overlap\n", 100 * c.slow_press_force,
-             100 * c.slow_press_restitution);
+  fmt::print("  slow press instead   force {:+.2g} %, e {:+.2g} % at the deepest impact's overlap\n",
+             100 * c.slow_press_force, 100 * c.slow_press_restitution);
   fmt::print("  rate-free up to      I = rho V^2/Y = {:.3g}\n", c.max_inertia);
 }
 
@@ -69,12 +71,14 @@ void plot(const std::string& law, const std::string& output)
   const pid_t child = fork();
   if (child < 0) fail("mpm plot", "cannot start /usr/bin/python3");
   if (child == 0) {
-    execl("/usr/bin/python3", "python3", script.c_str(), law.c_str(), output.c_str(), static_cast<char*>(nullptr));
+    execl("/usr/bin/python3", "python3", script.c_str(), law.c_str(), output.c_str(),
+          static_cast<char*>(nullptr));
     _exit(127);
   }
   int status = 0;
   waitpid(child, &status, 0);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) fail("mpm plot", "/usr/bin/python3 is missing (Debian: python3-matplotlib, python3-h5py)");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+    fail("mpm plot", "/usr/bin/python3 is missing (Debian: python3-matplotlib, python3-h5py)");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail("mpm plot", "the plotting script failed");
   fmt::print("wrote {}\n", output);
 }
@@ -84,18 +88,23 @@ void plot(const std::string& law, const std::string& output)
 void add_info(CLI::App& app)
 {
   const auto path = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("info", "What a law holds: materials, pairs, errors, range, origin.\nExample: mpm info law.h5");
+  CLI::App* command = app.add_subcommand(
+      "info", "What a law holds: materials, pairs, errors, range, origin.\nExample: mpm info law.h5");
   command->add_option("LAW", *path, "law file of mpm table")->required();
   command->callback([path] { info(*path); });
 }
 
 void add_plot(CLI::App& app)
 {
-  struct Request { std::string law, output; };
+  struct Request
+  {
+    std::string law, output;
+  };
   const auto r = std::make_shared<Request>();
   CLI::App* command = app.add_subcommand(
-      "plot", "Draws a law: force against overlap with its unloading branches, and e against velocity beside\n"
-              "Thornton's closed form. Example: mpm plot law.h5 -o law.png");
+      "plot",
+      "Draws a law: force against overlap with its unloading branches, and e against velocity beside\n"
+      "Thornton's closed form. Example: mpm plot law.h5 -o law.png");
   command->add_option("LAW", r->law, "law file of mpm table")->required();
   command->add_option("-o,--output", r->output, "picture, NAME.png, .pdf or .svg")->required();
   command->callback([r] { plot(r->law, r->output); });

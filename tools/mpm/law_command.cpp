@@ -31,11 +31,15 @@ std::pair<std::string, std::string> choose_pair(const Law& law, const LawRequest
     fail("--pair", "the law holds several pairs: name one", {}, law.pair_list());
   }
   const auto colon = r.pair.find(':');
-  if (colon == std::string::npos) fail("--pair", "cannot be used", fmt::format("'{}'", r.pair), law.pair_list());
+  if (colon == std::string::npos)
+    fail("--pair", "cannot be used", fmt::format("'{}'", r.pair), law.pair_list());
   return {r.pair.substr(0, colon), r.pair.substr(colon + 1)};
 }
 
-double sphere_mass(const LawMaterial& m, double radius) { return 4.0 / 3.0 * M_PI * m.density * radius * radius * radius; }
+double sphere_mass(const LawMaterial& m, double radius)
+{
+  return 4.0 / 3.0 * M_PI * m.density * radius * radius * radius;
+}
 
 void replay(const LawRequest& r)
 {
@@ -44,11 +48,13 @@ void replay(const LawRequest& r)
   if (a == wall_name) std::swap(a, b);
   const PairLaw pair = resolve_pair(law, a, b, r.law);
   for (const auto& [option, value] : {std::pair("--radius", r.radius), std::pair("--velocity", r.velocity)})
-    if (!(value > 0 && std::isfinite(value))) fail(option, "cannot be used", fmt::format("{:g}", value), "over 0");
+    if (!(value > 0 && std::isfinite(value)))
+      fail(option, "cannot be used", fmt::format("{:g}", value), "over 0");
   const bool wall = b == wall_name;
   if (wall && r.radius2 != 0) fail("--radius2", "a wall has no radius");
   const double radius2 = r.radius2 == 0 ? r.radius : r.radius2;
-  if (!(radius2 > 0 && std::isfinite(radius2))) fail("--radius2", "cannot be used", fmt::format("{:g} m", radius2), "over 0");
+  if (!(radius2 > 0 && std::isfinite(radius2)))
+    fail("--radius2", "cannot be used", fmt::format("{:g} m", radius2), "over 0");
 
   const double mass = sphere_mass(law.bodies.at(a).material, r.radius);
   const double m_eff = wall ? mass : effective_mass(mass, sphere_mass(law.bodies.at(b).material, radius2));
@@ -57,19 +63,23 @@ void replay(const LawRequest& r)
 
   const double limit = pair.max_overlap(r_eff);
   if (result.delta_max > (1 + overlap_margin) * limit)
-    fail(r.law, "the collision leaves the law's range of overlaps by more than 5 %", fmt::format("{:.4g} m", result.delta_max),
+    fail(r.law, "the collision leaves the law's range of overlaps by more than 5 %",
+         fmt::format("{:.4g} m", result.delta_max),
          fmt::format("up to {:.4g} m", (1 + overlap_margin) * limit));
 
-  // A like pair closing at V is, for each body, a wall hit at V/2; in general the yielding body's share of the
-  // approach is V/sqrt(lambda).
+  // A like pair closing at V is, for each body, a wall hit at V/2; in general the yielding body's share of
+  // the approach is V/sqrt(lambda).
   const LawMaterial& m = pair.yielding->material;
   const double share = r.velocity / pair.mapping.sqrt_lambda;
   const double inertia = m.yields() ? m.density * share * share / m.yield_stress : 0.0;
   const double allowed = pair.yielding->certificate.max_inertia;
   const bool needs_axis = inertia > allowed;
   if (needs_axis)
-    fmt::print(stderr, "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: there the rate-free law needs its velocity axis, which "
-                       "this version does not have; e and force are too high\n", inertia, allowed);
+    fmt::print(
+        stderr,
+        "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: there the rate-free law needs its velocity axis, which "
+        "this version does not have; e and force are too high\n",
+        inertia, allowed);
   if (r.json) {
     nlohmann::ordered_json out;
     out["e"] = result.restitution;
@@ -84,10 +94,12 @@ void replay(const LawRequest& r)
     fmt::print("{}\n", out.dump(2));
     return;
   }
-  fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}\n", a, b, r.velocity, r_eff, inertia);
+  fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}\n", a, b, r.velocity, r_eff,
+             inertia);
   fmt::print("coefficient of restitution e   {:.4f}\n", result.restitution);
   fmt::print("largest force                  {:.5g} N\n", result.force_max);
-  fmt::print("largest overlap                {:.5g} m  ({:.3g} of the law's range)\n", result.delta_max, result.delta_max / limit);
+  fmt::print("largest overlap                {:.5g} m  ({:.3g} of the law's range)\n", result.delta_max,
+             result.delta_max / limit);
   fmt::print("residual overlap               {:.5g} m\n", result.delta_residual);
   fmt::print("contact time                   {:.5g} s\n", result.contact_time);
   fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", result.work_load, result.work_unload);
@@ -98,12 +110,14 @@ void replay(const LawRequest& r)
 void add_law(CLI::App& app)
 {
   const auto r = std::make_shared<LawRequest>();
-  CLI::App* command = app.add_subcommand(
-      "law", "One head-on collision by the law, as a particle code computes it; no solver.\n"
-             "Example: mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 0.5 --json");
+  CLI::App* command =
+      app.add_subcommand("law",
+                         "One head-on collision by the law, as a particle code computes it; no solver.\n"
+                         "Example: mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 0.5 --json");
   command->add_option("LAW", r->law, "law file of mpm table")->required();
   command->add_option("--pair", r->pair, "a:b or a:wall; may be left out if the file holds one");
-  command->add_option("--radius", r->radius, "radius of the first body, m (default 1e-3; e depends on no radius)");
+  command->add_option("--radius", r->radius,
+                      "radius of the first body, m (default 1e-3; e depends on no radius)");
   command->add_option("--radius2", r->radius2, "radius of the second body, m (default: the first's)");
   command->add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command->add_flag("--json", r->json, "print one JSON object instead of the summary");

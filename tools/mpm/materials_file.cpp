@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <cmath>
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -95,7 +94,8 @@ class Section
         values.push_back(*value);
       }
     if (values.empty())
-      fail(where(n), fmt::format("'{}' must be a list of numbers{}", key, *unit ? fmt::format(" in {}", unit) : ""));
+      fail(where(n),
+           fmt::format("'{}' must be a list of numbers{}", key, *unit ? fmt::format(" in {}", unit) : ""));
     return values;
   }
   Section table(const char* key, const char* example) const
@@ -124,14 +124,16 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
   for (const FlowLawKeys& entry : known) names.push_back(entry.name);
   const auto found = std::find(names.begin(), names.end(), law.name);
   if (found == names.end())
-    fail(s.where(s.node("law")), fmt::format("no {} law '{}'{}", kind, law.name, did_you_mean(law.name, names)), {},
+    fail(s.where(s.node("law")),
+         fmt::format("no {} law '{}'{}", kind, law.name, did_you_mean(law.name, names)), {},
          fmt::format("{}", fmt::join(names, ", ")));
   const std::vector<flow::Parameter>& parameters = known[found - names.begin()].parameters;
   Words keys{"law"};
   for (const flow::Parameter& p : parameters) keys.push_back(p.key);
   s.check_keys(keys, {}, "");
   for (const flow::Parameter& p : parameters)
-    law.values[p.key] = p.list ? s.numbers(p.key, unit_of(p.quantity)) : std::vector{s.number(p.key, unit_of(p.quantity))};
+    law.values[p.key] =
+        p.list ? s.numbers(p.key, unit_of(p.quantity)) : std::vector{s.number(p.key, unit_of(p.quantity))};
   return law;
 }
 
@@ -143,7 +145,8 @@ Material read_material(const Section& s)
   m.youngs_modulus = s.positive("youngs_modulus", "Pa");
   m.poisson_ratio = s.number("poisson_ratio", "");
   if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.5))
-    fail(s.where(s.node("poisson_ratio")), "'poisson_ratio' is out of range", fmt::format("{:g}", m.poisson_ratio),
+    fail(s.where(s.node("poisson_ratio")), "'poisson_ratio' is out of range",
+         fmt::format("{:g}", m.poisson_ratio),
          "0 to below 0.5 (0.5 is incompressible: the solver needs a finite bulk modulus; 0.49 works)");
   if (s.has("yield_stress")) m.yield_stress = s.positive("yield_stress", "Pa");
   if (!m.yields() && (s.has("hardening") || s.has("rate"))) {
@@ -156,7 +159,8 @@ Material read_material(const Section& s)
     if (law.name == flow::Linear::name) {
       m.hardening_modulus = law.values.at("modulus").front();
       if (!(m.hardening_modulus >= 0 && std::isfinite(m.hardening_modulus)))
-        fail(h.where(h.node("modulus")), "'modulus' is out of range", fmt::format("{:g} Pa", m.hardening_modulus), "0 or more");
+        fail(h.where(h.node("modulus")), "'modulus' is out of range",
+             fmt::format("{:g} Pa", m.hardening_modulus), "0 or more");
     } else {
       m.hardening = law;
       validate_flow(m, h.where());
@@ -173,7 +177,8 @@ Material read_material(const Section& s)
 void check_name(const std::string& name, const std::string& where)
 {
   constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  if (name.empty() || name.size() > 100 || name.find_first_not_of(allowed) != std::string::npos || name == wall_name)
+  if (name.empty() || name.size() > 100 || name.find_first_not_of(allowed) != std::string::npos ||
+      name == wall_name)
     fail(where, "unusable name", fmt::format("'{}'", name),
          fmt::format("letters, digits, '_' and '-', and not '{}' (the rigid partner in pairs)", wall_name));
 }
@@ -185,7 +190,8 @@ void each_section(const std::string& path, const toml::table& root, const char* 
   const toml::node* group = root.get(kind);
   if (!group) return;
   const auto complain = [&](const toml::node& n) {
-    fail(fmt::format("{}:{}", path, n.source().begin.line), fmt::format("'{}' must be written as [{}.NAME]", kind, kind));
+    fail(fmt::format("{}:{}", path, n.source().begin.line),
+         fmt::format("'{}' must be written as [{}.NAME]", kind, kind));
   };
   if (!group->is_table()) complain(*group);
   for (const auto& [key, node] : *group->as_table()) {
@@ -204,7 +210,8 @@ const Material& MaterialsFile::material(const std::string& name) const
   const auto found = materials.find(name);
   if (found != materials.end()) return found->second;
   const Words names = names_of(materials);
-  fail(path, fmt::format("no material '{}'{}", name, did_you_mean(name, names)), {}, fmt::format("{}", fmt::join(names, ", ")));
+  fail(path, fmt::format("no material '{}'{}", name, did_you_mean(name, names)), {},
+       fmt::format("{}", fmt::join(names, ", ")));
 }
 
 Sphere MaterialsFile::sphere(const std::string& particle) const
@@ -212,7 +219,8 @@ Sphere MaterialsFile::sphere(const std::string& particle) const
   const auto found = particles.find(particle);
   if (found == particles.end()) {
     const Words names = names_of(particles);
-    if (names.empty()) fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", particle));
+    if (names.empty())
+      fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", particle));
     fail(path, fmt::format("no particle '{}'{}", particle, did_you_mean(particle, names)), {},
          fmt::format("{}", fmt::join(names, ", ")));
   }
@@ -233,13 +241,16 @@ MaterialsFile read_materials(const std::string& path)
   MaterialsFile file;
   file.path = path;
   Section(path, root, "file").check_keys({"material", "particle"}, {}, "");
-  each_section(path, root, "material", [&](const std::string& name, const Section& s) { file.materials[name] = read_material(s); });
+  each_section(path, root, "material",
+               [&](const std::string& name, const Section& s) { file.materials[name] = read_material(s); });
   each_section(path, root, "particle", [&](const std::string& name, const Section& s) {
-    s.check_keys({"radius", "material"}, {"layers", "inclusions", "profile"}, "this version does homogeneous spheres only");
+    s.check_keys({"radius", "material"}, {"layers", "inclusions", "profile"},
+                 "this version does homogeneous spheres only");
     const std::string material = s.text("material");
     const Words names = names_of(file.materials);
     if (!file.materials.contains(material))
-      fail(s.where(s.node("material")), fmt::format("no material '{}'{}", material, did_you_mean(material, names)), {},
+      fail(s.where(s.node("material")),
+           fmt::format("no material '{}'{}", material, did_you_mean(material, names)), {},
            fmt::format("{}", fmt::join(names, ", ")));
     file.particles[name] = {s.positive("radius", "m"), material};
   });

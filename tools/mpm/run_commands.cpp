@@ -30,16 +30,23 @@ struct RunRequest
 
 void add_common(CLI::App& command, RunRequest& r)
 {
-  command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")->required();
+  command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")
+      ->required();
   command.add_option("--particle", r.particle, "particle of that file")->required();
   command.add_option("--grid", r.grid, "reference grid: mapped (tartan and updated come in a later version)");
   auto* resolution = command.add_option("--resolution", r.resolution,
                                         "cells across the contact block, 6 to 200 (default: the run's own)");
-  command.add_option("--tolerance", r.tolerance, "relative error of force and e to reach, such as 0.01: the resolution is "
-                                                 "doubled until two resolutions agree so well")->excludes(resolution);
+  command
+      .add_option("--tolerance", r.tolerance,
+                  "relative error of force and e to reach, such as 0.01: the resolution is "
+                  "doubled until two resolutions agree so well")
+      ->excludes(resolution);
   command.add_option("-o,--output", r.output, "trace of the run: NAME.csv or NAME.h5");
-  auto* fields = command.add_option("--fields", r.fields, "the deformed body over time for ParaView: NAME.xdmf, and NAME.h5 beside it");
-  command.add_option("--frames", r.frames, "about so many moments in it, 2 to 10000 (default 40)")->check(CLI::Range(2, 10000))->needs(fields);
+  auto* fields = command.add_option(
+      "--fields", r.fields, "the deformed body over time for ParaView: NAME.xdmf, and NAME.h5 beside it");
+  command.add_option("--frames", r.frames, "about so many moments in it, 2 to 10000 (default 40)")
+      ->check(CLI::Range(2, 10000))
+      ->needs(fields);
   command.add_option("--jobs", r.jobs, "threads (default 1)")->check(CLI::Range(1, 256));
   command.add_flag("--json", r.json, "print one JSON object instead of the summary");
 }
@@ -48,25 +55,30 @@ void check(const RunRequest& r)
 {
   if (r.grid == "tartan" || r.grid == "updated")
     fail("--grid", fmt::format("'{}' is not in this version yet", r.grid), {}, "mapped");
-  if (r.grid != "mapped") fail("--grid", "unknown grid", r.grid, "mapped, tartan, updated (this version: mapped)");
+  if (r.grid != "mapped")
+    fail("--grid", "unknown grid", r.grid, "mapped, tartan, updated (this version: mapped)");
   if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
     fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
   check_output(r.output, ".csv, .h5");
   if (r.fields.empty()) return;
   check_field_output(r.fields);
-  if (std::filesystem::weakly_canonical(r.output) == std::filesystem::weakly_canonical(r.fields).replace_extension(".h5"))
+  if (std::filesystem::weakly_canonical(r.output) ==
+      std::filesystem::weakly_canonical(r.fields).replace_extension(".h5"))
     fail("--fields", "its HDF5 file would be the trace's, -o", r.output, "another name");
 }
 
 /// Runs at the resolution asked for, or doubles it until the tolerance is met (at most twice).
-RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields, const std::function<RunResult(const RunOptions&)>& run)
+RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields,
+                           const std::function<RunResult(const RunOptions&)>& run)
 {
   ProgressBar bar;
   RunOptions options;
   options.resolution = r.resolution;
   options.threads = r.jobs;
   options.fields = fields;
-  options.progress = [&](double done) { bar.update(done, options.resolution ? fmt::format("resolution {}", options.resolution) : ""); };
+  options.progress = [&](double done) {
+    bar.update(done, options.resolution ? fmt::format("resolution {}", options.resolution) : "");
+  };
   options.estimate_error = r.tolerance > 0;
   if (r.tolerance <= 0) return run(options);
   RunResult result;
@@ -75,15 +87,16 @@ RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields, con
     result = run(options);
     if (result.summary.error_estimate <= r.tolerance) return result;
   }
-  fmt::print(stderr, "mpm: tolerance {:.2g} not reached: the estimate at resolution 64 is {:.2g}\n", r.tolerance,
-             result.summary.error_estimate);
+  fmt::print(stderr, "mpm: tolerance {:.2g} not reached: the estimate at resolution 64 is {:.2g}\n",
+             r.tolerance, result.summary.error_estimate);
   return result;
 }
 
 RunResult run_as_asked(const RunRequest& r, const std::function<RunResult(const RunOptions&)>& run)
 {
   if (r.fields.empty()) return run_to_tolerance(r, {}, run);
-  return run_with_fields(r.fields, r.frames, [&](const FieldObserver& fields) { return run_to_tolerance(r, fields, run); });
+  return run_with_fields(r.fields, r.frames,
+                         [&](const FieldObserver& fields) { return run_to_tolerance(r, fields, run); });
 }
 
 void print_json(const RunSummary& s)
@@ -100,8 +113,10 @@ void print_json(const RunSummary& s)
   out["steps"] = s.steps;
   out["cpu_s"] = s.cpu_s;
   out["point_updates_per_s"] = s.point_updates_per_s;
-  if (s.error_estimate > 0) out["error_estimate"] = s.error_estimate;
-  else out["error_estimate"] = nullptr;
+  if (s.error_estimate > 0)
+    out["error_estimate"] = s.error_estimate;
+  else
+    out["error_estimate"] = nullptr;
   fmt::print("{}\n", out.dump(2));
 }
 
@@ -112,13 +127,14 @@ void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
   if (r.json) return print_json(s);
   fmt::print("coefficient of restitution e   {:.4f}\n", s.restitution);
   fmt::print("largest force                  {:.5g} N\n", s.force_max);
-  fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max, s.delta_max / sphere.radius);
+  fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max,
+             s.delta_max / sphere.radius);
   fmt::print("residual overlap               {:.5g} m\n", s.delta_residual);
   fmt::print("contact time                   {:.5g} s\n", s.contact_time);
   fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", s.work_load, s.work_unload);
   if (s.error_estimate > 0) fmt::print("error, from two resolutions    {:.2g}\n", s.error_estimate);
-  fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps, s.cpu_s,
-             1e-6 * s.point_updates_per_s);
+  fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
+             s.cpu_s, 1e-6 * s.point_updates_per_s);
   if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
   if (!r.fields.empty()) fmt::print("wrote {}\n", r.fields);
 }
@@ -132,7 +148,8 @@ void print_setting(const RunRequest& r, const Sphere& sphere)
     const double v_y = yield_velocity(m.e_star(), m.yield_stress, m.density);
     fmt::print(", E*/Y = {:.4g}, yield velocity V_y = {:.4g} m/s", m.e_star() / m.yield_stress, v_y);
     if (r.velocity > 0)
-      fmt::print(", V/V_y = {:.4g}, I = rho V^2/Y = {:.3g}", r.velocity / v_y, m.density * r.velocity * r.velocity / m.yield_stress);
+      fmt::print(", V/V_y = {:.4g}, I = rho V^2/Y = {:.3g}", r.velocity / v_y,
+                 m.density * r.velocity * r.velocity / m.yield_stress);
   } else {
     fmt::print(", elastic");
   }
@@ -144,9 +161,10 @@ void print_setting(const RunRequest& r, const Sphere& sphere)
 void add_impact(CLI::App& app)
 {
   const auto r = std::make_shared<RunRequest>();
-  CLI::App* command = app.add_subcommand(
-      "impact", "A sphere hits a rigid wall: e, force, overlap, contact time.\n"
-                "Example: mpm impact materials.toml --particle grain --velocity 1.0 -o trace.csv");
+  CLI::App* command =
+      app.add_subcommand("impact",
+                         "A sphere hits a rigid wall: e, force, overlap, contact time.\n"
+                         "Example: mpm impact materials.toml --particle grain --velocity 1.0 -o trace.csv");
   add_common(*command, *r);
   command->add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command->callback([r] {
@@ -155,7 +173,8 @@ void add_impact(CLI::App& app)
     if (!(r->velocity > 0 && std::isfinite(r->velocity)))
       fail("--velocity", "cannot be used", fmt::format("{:g} m/s", r->velocity), "over 0");
     print_setting(*r, sphere);
-    report(*r, sphere, run_as_asked(*r, [&](const RunOptions& o) { return run_impact(sphere, r->velocity, o); }));
+    report(*r, sphere,
+           run_as_asked(*r, [&](const RunOptions& o) { return run_impact(sphere, r->velocity, o); }));
   });
 }
 
@@ -163,17 +182,21 @@ void add_press(CLI::App& app)
 {
   const auto r = std::make_shared<RunRequest>();
   CLI::App* command = app.add_subcommand(
-      "press", "A sphere is pressed slowly onto a rigid wall and taken off again: the rate-free law.\n"
-               "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv");
+      "press",
+      "A sphere is pressed slowly onto a rigid wall and taken off again: the rate-free law.\n"
+      "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv");
   add_common(*command, *r);
   command->add_option("--depth", r->depth, "deepest overlap, as a share of the radius")->required();
-  command->add_option("--support", r->support, "free (as in a collision) or midplane (as in finite-element references)");
+  command->add_option("--support", r->support,
+                      "free (as in a collision) or midplane (as in finite-element references)");
   command->callback([r] {
     check(*r);
-    if (r->support != "free" && r->support != "midplane") fail("--support", "unknown support", r->support, "free, midplane");
+    if (r->support != "free" && r->support != "midplane")
+      fail("--support", "unknown support", r->support, "free, midplane");
     const Sphere sphere = read_materials(r->materials).sphere(r->particle);
     if (!(r->depth > 0 && r->depth <= 0.8))
-      fail("--depth", "cannot be used", fmt::format("{:g} (a share of the radius)", r->depth), "over 0, up to 0.8");
+      fail("--depth", "cannot be used", fmt::format("{:g} (a share of the radius)", r->depth),
+           "over 0, up to 0.8");
     PressPlan plan;
     plan.depth = r->depth * sphere.radius;
     plan.support = r->support == "free" ? Support::free : Support::midplane;

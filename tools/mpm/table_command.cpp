@@ -38,7 +38,8 @@ Pairs pairs_of(const TableRequest& r, const MaterialsFile& file)
   Pairs pairs;
   for (const std::string& text : r.pairs) {
     const auto colon = text.find(':');
-    if (colon == std::string::npos) fail("--pair", "cannot be used", fmt::format("'{}'", text), "a:b or a:wall, with material names");
+    if (colon == std::string::npos)
+      fail("--pair", "cannot be used", fmt::format("'{}'", text), "a:b or a:wall, with material names");
     std::string a = text.substr(0, colon), b = text.substr(colon + 1);
     if (a == wall_name) std::swap(a, b);
     file.material(a);
@@ -55,8 +56,8 @@ Pairs pairs_of(const TableRequest& r, const MaterialsFile& file)
 
 std::string material_text(const Material& m)
 {
-  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress,
-                     m.hardening_modulus);
+  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus, m.poisson_ratio,
+                     m.yield_stress, m.hardening_modulus);
 }
 
 /// FNV-1a of the five numbers: tells whether a law was made from these very materials.
@@ -80,18 +81,21 @@ std::string now_utc()
 void print_certificate(const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
-  fmt::print("{}: to delta/R = {:.3g}; solver error {:.2g} %, held-out e {:.2g} %, scatter {:.2g} %", body.material.name,
-             body.curve.x_end(), 100 * c.solver_error_force, 100 * c.held_out_error, 100 * c.residual_scatter);
+  fmt::print("{}: to delta/R = {:.3g}; solver error {:.2g} %, held-out e {:.2g} %, scatter {:.2g} %",
+             body.material.name, body.curve.x_end(), 100 * c.solver_error_force, 100 * c.held_out_error,
+             100 * c.residual_scatter);
   if (c.verification_impacts > 0)
-    fmt::print("; {:.0f} impacts not sampled: force within {:.2g} %, e within {:.2g} %", c.verification_impacts,
-               100 * c.verification_error_force, 100 * c.verification_error_restitution);
+    fmt::print("; {:.0f} impacts not sampled: force within {:.2g} %, e within {:.2g} %",
+               c.verification_impacts, 100 * c.verification_error_force,
+               100 * c.verification_error_restitution);
   if (std::isfinite(c.max_inertia)) fmt::print("; rate-free up to I = rho V^2/Y = {:.3g}", c.max_inertia);
   fmt::print("\n");
 }
 
 void build(const TableRequest& r)
 {
-  if (!r.deck.empty()) fail("--deck", "reading decks is not in this version yet: name the pairs with --pair a:b");
+  if (!r.deck.empty())
+    fail("--deck", "reading decks is not in this version yet: name the pairs with --pair a:b");
   if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
     fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
   check_output(r.output, ".h5");
@@ -108,8 +112,10 @@ void build(const TableRequest& r)
     const Material& m = file.material(name);
     const std::string where = fmt::format("{}: [material.{}]", r.materials, name);
     if (m.rate_dependent())
-      fail(where, fmt::format("its yield stress depends on the rate ('{}'): a contact law of such a material needs an axis in V/R, "
-                              "which this version does not have; mpm impact can be used", m.rate.name));
+      fail(where, fmt::format("its yield stress depends on the rate ('{}'): a contact law of such a material "
+                              "needs an axis in V/R, "
+                              "which this version does not have; mpm impact can be used",
+                              m.rate.name));
     if (!m.hardening.name.empty())
       fail(where, fmt::format("a law file cannot hold the hardening law '{}' yet", m.hardening.name), {},
            "'linear' or none; mpm impact and mpm press can be used");
@@ -126,7 +132,8 @@ void build(const TableRequest& r)
     options.progress = [&](double done, const std::string& what) {
       bar.update((finished + done) / static_cast<double>(names.size()), name + ": " + what);
     };
-    LawMaterial material{name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
+    LawMaterial material{name,           m.density,          m.youngs_modulus, m.poisson_ratio,
+                         m.yield_stress, m.hardening_modulus};
     law.bodies[name] = build_law(material, options);
     law.provenance["material_hash." + name] = material_hash(m);
     finished += 1;
@@ -149,15 +156,19 @@ void add_table(CLI::App& app)
 {
   const auto r = std::make_shared<TableRequest>();
   CLI::App* command = app.add_subcommand(
-      "table", "Computes the contact laws of a materials file into one law file for LIGGGHTS.\n"
-               "Finished runs are kept in LAW.h5.runs/ until the law is written: a build that was stopped goes on\n"
-               "where it was when the same command is given again.\n"
-               "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5");
+      "table",
+      "Computes the contact laws of a materials file into one law file for LIGGGHTS.\n"
+      "Finished runs are kept in LAW.h5.runs/ until the law is written: a build that was stopped goes on\n"
+      "where it was when the same command is given again.\n"
+      "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5");
   command->add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
   command->add_option("--deck", r->deck, "LIGGGHTS deck to take the pairs from (a later version)");
-  command->add_option("--pair", r->pairs, "a:b or a:wall (rigid), material names; several times; default: every pair");
-  command->add_option("--tolerance", r->tolerance, "relative error of force and e that two resolutions must agree to, such as 0.005");
-  command->add_option("--jobs", r->jobs, "runs at the same time (default: one for each core)")->check(CLI::Range(1, 1024));
+  command->add_option("--pair", r->pairs,
+                      "a:b or a:wall (rigid), material names; several times; default: every pair");
+  command->add_option("--tolerance", r->tolerance,
+                      "relative error of force and e that two resolutions must agree to, such as 0.005");
+  command->add_option("--jobs", r->jobs, "runs at the same time (default: one for each core)")
+      ->check(CLI::Range(1, 1024));
   command->add_option("-o,--output", r->output, "law file, NAME.h5")->required();
   command->callback([r] { build(*r); });
 }

@@ -12,7 +12,10 @@ namespace granulaw {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-extern "C" void remember_interrupt(int) { interrupted = 1; }
+extern "C" void remember_interrupt(int)
+{
+  interrupted = 1;
+}
 
 }  // namespace
 
@@ -42,8 +45,8 @@ void ProgressBar::update(double done, const std::string& what)
   last_ = now;
   const auto width = static_cast<int>(30 * std::clamp(done, 0.0, 1.0));
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "\r[{:30}] {:3.0f} % {:4.0f} s  {:30.30}", std::string(static_cast<std::size_t>(width), '='),
-             100 * done, seconds, what);
+  fmt::print(stderr, "\r[{:30}] {:3.0f} % {:4.0f} s  {:30.30}",
+             std::string(static_cast<std::size_t>(width), '='), 100 * done, seconds, what);
   std::fflush(stderr);
 }
 

@@ -6,7 +6,9 @@
 namespace granulaw {
 
 /// Thrown where a run stops because of Ctrl-C or SIGTERM.
-struct Interrupted {};
+struct Interrupted
+{
+};
 
 /// Ctrl-C and SIGTERM from now on only set a flag.
 void catch_interrupts();

@@ -24,10 +24,15 @@ const char* name_of(Branch branch)
   return branch == Branch::load ? "load" : branch == Branch::unload ? "unload" : "reload";
 }
 
-struct Column { h5::Field field; double TraceSample::*value; };
+struct Column
+{
+  h5::Field field;
+  double TraceSample::*value;
+};
 constexpr Column columns[] = {
     {{"time_s", "s", "time since first touch"}, &TraceSample::time},
-    {{"delta_m", "m", "overlap: displacement of the centre of mass towards the wall since first touch"}, &TraceSample::delta},
+    {{"delta_m", "m", "overlap: displacement of the centre of mass towards the wall since first touch"},
+     &TraceSample::delta},
     {{"force_N", "N", "contact force, repulsive positive"}, &TraceSample::force},
     {{"contact_radius_m", "m", "radius of the contact"}, &TraceSample::contact_radius}};
 
@@ -36,7 +41,8 @@ void write_csv(const RunResult& result, const std::string& temporary, const std:
   std::ofstream out(temporary);
   out << "time_s,delta_m,force_N,contact_radius_m,branch\n";
   for (const TraceSample& t : result.trace)
-    out << fmt::format("{:.10g},{:.10g},{:.10g},{:.10g},{}\n", t.time, t.delta, t.force, t.contact_radius, name_of(t.branch));
+    out << fmt::format("{:.10g},{:.10g},{:.10g},{:.10g},{}\n", t.time, t.delta, t.force, t.contact_radius,
+                       name_of(t.branch));
   if (!out.flush()) fail(path, "cannot be written (disk full?)");
 }
 
@@ -69,14 +75,17 @@ void check_output(const std::string& path, const std::string& endings)
     fail(path, "the ending of an output name says its format", p.extension().string(), endings);
   const fs::path folder = p.parent_path().empty() ? fs::path(".") : p.parent_path();
   if (!fs::is_directory(folder)) fail(path, fmt::format("the folder '{}' does not exist", folder.string()));
-  if (access(folder.c_str(), W_OK) != 0) fail(path, fmt::format("the folder '{}' cannot be written to", folder.string()));
+  if (access(folder.c_str(), W_OK) != 0)
+    fail(path, fmt::format("the folder '{}' cannot be written to", folder.string()));
 }
 
 void write_trace(const RunResult& result, const std::string& path)
 {
   write_atomically(path, [&](const std::string& temporary) {
-    if (fs::path(path).extension() == ".csv") write_csv(result, temporary, path);
-    else write_h5(result, temporary, path);
+    if (fs::path(path).extension() == ".csv")
+      write_csv(result, temporary, path);
+    else
+      write_h5(result, temporary, path);
   });
 }
 

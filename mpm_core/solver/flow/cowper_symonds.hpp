@@ -20,7 +20,10 @@ struct CowperSymonds
     const double gain = power(some * per_reference, power_of_rate);
     return {1.0 + gain, power_of_rate * gain / some};
   }
-  GRANULAW_MEMBER double rate_at(double excess) const { return power(excess, 1.0 / power_of_rate) / per_reference; }
+  GRANULAW_MEMBER double rate_at(double excess) const
+  {
+    return power(excess, 1.0 / power_of_rate) / per_reference;
+  }
 };
 
 }  // namespace granulaw::flow

@@ -13,14 +13,20 @@ struct JohnsonCook
 
   double yield, strength, exponent;
 
-  static GRANULAW_MEMBER JohnsonCook from(double yield_stress, const double* v) { return {yield_stress, v[0], v[1]}; }
+  static GRANULAW_MEMBER JohnsonCook from(double yield_stress, const double* v)
+  {
+    return {yield_stress, v[0], v[1]};
+  }
   GRANULAW_MEMBER ValueAndSlope operator()(double ep) const
   {
     const double strain = ep + 1e-300;  // the slope at 0 is infinite
     const double gain = strength * power(strain, exponent);
     return {yield + gain, exponent * gain / strain};
   }
-  GRANULAW_MEMBER double strain_at(double stress) const { return power((stress - yield) / strength, 1.0 / exponent); }
+  GRANULAW_MEMBER double strain_at(double stress) const
+  {
+    return power((stress - yield) / strength, 1.0 / exponent);
+  }
 };
 
 /// Johnson and Cook (1983), rate factor: 1 + coefficient ln(rate/reference_rate), 1 below the reference rate.

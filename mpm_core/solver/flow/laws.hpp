@@ -15,13 +15,13 @@ struct LawList
 {
 };
 
-// A new law: one file beside the others, and its name here. Kernels, materials file and checks follow these lists;
-// the first of each is what a material has that names none.
+// A new law: one file beside the others, and its name here. Kernels, materials file and checks follow these
+// lists; the first of each is what a material has that names none.
 using HardeningLaws = LawList<Linear, Swift, Voce, JohnsonCook, Tabulated>;
 using RateLaws = LawList<RateIndependent, JohnsonCookRate, CowperSymonds>;
 
-/// The laws of one material as the kernels read them: places in the lists, parameters in their order (a list of points
-/// as its law wants it), in solver units. Plain data.
+/// The laws of one material as the kernels read them: places in the lists, parameters in their order (a list
+/// of points as its law wants it), in solver units. Plain data.
 struct Flow
 {
   int hardening = 0, rate = 0;

@@ -4,8 +4,8 @@
 
 namespace granulaw::flow {
 
-/// sigma_y = Y + modulus ep; modulus 0: perfectly plastic. Without rate dependence the kernel has its return in
-/// closed form.
+/// sigma_y = Y + modulus ep; modulus 0: perfectly plastic. Without rate dependence the kernel has its return
+/// in closed form.
 struct Linear
 {
   static constexpr const char* name = "linear";
@@ -15,7 +15,8 @@ struct Linear
 
   static GRANULAW_MEMBER Linear from(double yield_stress, const double* v) { return {yield_stress, v[0]}; }
   GRANULAW_MEMBER ValueAndSlope operator()(double ep) const { return {yield + modulus * ep, modulus}; }
-  /// A strain by which `stress`, more than the yield stress, is reached; any large number if that is of no help.
+  /// A strain by which `stress`, more than the yield stress, is reached; any large number if that is of no
+  /// help.
   GRANULAW_MEMBER double strain_at(double) const { return unreached; }
 };
 

@@ -2,21 +2,25 @@
 
 #include <limits>
 
-/// What a flow law is made of. These files are compiled into host code and, once for each instruction set, into the
-/// kernels: every function here must be always_inline, so that no copy is shared between the sets.
+/// What a flow law is made of. These files are compiled into host code and, once for each instruction set,
+/// into the kernels: every function here must be always_inline, so that no copy is shared between the sets.
 #define GRANULAW_INLINE static inline __attribute__((always_inline))
 #define GRANULAW_MEMBER inline __attribute__((always_inline))
 
 namespace granulaw::flow {
 
-/// A function of one variable and its slope: the static flow stress over the equivalent plastic strain, or the rate
-/// factor over the plastic strain rate.
+/// A function of one variable and its slope: the static flow stress over the equivalent plastic strain, or
+/// the rate factor over the plastic strain rate.
 struct ValueAndSlope
 {
   double value, slope;
 };
 
-enum class Quantity { number, stress, rate };  ///< 1, Pa, 1/s: how a parameter is made dimensionless and named
+enum class Quantity {
+  number,
+  stress,
+  rate
+};  ///< 1, Pa, 1/s: how a parameter is made dimensionless and named
 
 /// One key of a law in the materials file.
 struct Parameter

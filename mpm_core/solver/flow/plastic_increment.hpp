@@ -28,10 +28,10 @@ inline constexpr int newton_steps = 8;
 ///
 ///     3 G x + J sigma_y(ep + x) g(x/dt) = q,      q > J sigma_y(ep): the trial stress,
 ///
-/// by a fixed number of Newton steps, for loops that vectorise. Flow stress and rate factor may start with an infinite
-/// slope, like x^m with m down to 0.05. Hence: start from the least of the three values that x would have if elastic
-/// unloading, hardening or rate alone took up the excess (the root lies below each); take u, x = top u^4, as unknown,
-/// in which steep starts are flat or nearly straight; keep the root between bounds.
+/// by a fixed number of Newton steps, for loops that vectorise. Flow stress and rate factor may start with an
+/// infinite slope, like x^m with m down to 0.05. Hence: start from the least of the three values that x would
+/// have if elastic unloading, hardening or rate alone took up the excess (the root lies below each); take u,
+/// x = top u^4, as unknown, in which steep starts are flat or nearly straight; keep the root between bounds.
 template <class Hardening, class Rate>
 GRANULAW_INLINE PlasticIncrement plastic_increment(const Hardening& hardening, const Rate& rate, double trial,
                                                    double jacobian, double shear3, double ep, double per_dt)

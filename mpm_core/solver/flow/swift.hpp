@@ -20,7 +20,10 @@ struct Swift
     const double stress = strength * power(offset + ep, exponent);
     return {stress, exponent * stress / (offset + ep)};
   }
-  GRANULAW_MEMBER double strain_at(double stress) const { return power(stress / strength, 1.0 / exponent) - offset; }
+  GRANULAW_MEMBER double strain_at(double stress) const
+  {
+    return power(stress / strength, 1.0 / exponent) - offset;
+  }
 };
 
 }  // namespace granulaw::flow

@@ -4,7 +4,8 @@
 
 namespace granulaw::flow {
 
-/// Points (strain, stress), straight lines between them, constant beyond the last; the first is (0, yield stress).
+/// Points (strain, stress), straight lines between them, constant beyond the last; the first is (0, yield
+/// stress).
 struct Tabulated
 {
   static constexpr const char* name = "tabulated";
@@ -15,7 +16,8 @@ struct Tabulated
   const double *strain, *stress, *slope;  ///< [room]; unused ones have an infinite strain
 
   /// Fills what `from` reads; a sentence if the lists cannot be used.
-  static const char* pack(const double* strains, int strain_count, const double* stresses, int stress_count, double* out)
+  static const char* pack(const double* strains, int strain_count, const double* stresses, int stress_count,
+                          double* out)
   {
     if (strain_count != stress_count) return "'strain' and 'stress' differ in length";
     if (strain_count < 2 || strain_count > room) return "'strain' must have 2 to 32 points";
@@ -32,7 +34,10 @@ struct Tabulated
     }
     return nullptr;
   }
-  static GRANULAW_MEMBER Tabulated from(double /*yield_stress*/, const double* v) { return {v, v + room, v + 2 * room}; }
+  static GRANULAW_MEMBER Tabulated from(double /*yield_stress*/, const double* v)
+  {
+    return {v, v + room, v + 2 * room};
+  }
   GRANULAW_MEMBER ValueAndSlope operator()(double ep) const
   {
     static_assert(room == 32);

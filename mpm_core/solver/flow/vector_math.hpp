@@ -16,7 +16,8 @@ GRANULAW_INLINE double log(double x)
   constexpr Bits root_half = 0x3fe6a09e667f3bcdull, mantissa = 0x000fffffffffffffull;
   constexpr Bits one = 0x3ff0000000000000ull, shift_to_one = one - root_half;
   const Bits moved = bits + shift_to_one;  // its exponent is 1023 + k
-  const double k = __builtin_bit_cast(double, (moved >> 52) | 0x4330000000000000ull) - (4503599627370496.0 + 1023.0);
+  const double k =
+      __builtin_bit_cast(double, (moved >> 52) | 0x4330000000000000ull) - (4503599627370496.0 + 1023.0);
   const double m = __builtin_bit_cast(double, (moved & mantissa) + root_half);
   const double s = (m - 1.0) / (m + 1.0), q = s * s;
   double sum = 1.0 / 21.0;
@@ -39,7 +40,8 @@ GRANULAW_INLINE double exp(double t)
   using Bits = unsigned long long;
   t = t < -700.0 ? -700.0 : t;
   t = t > 700.0 ? 700.0 : t;
-  constexpr double to_integer = 6755399441055744.0;  // 1.5 2^52: adding it rounds, the integer is in the low bits
+  constexpr double to_integer =
+      6755399441055744.0;  // 1.5 2^52: adding it rounds, the integer is in the low bits
   const double shifted = t * 1.44269504088896341 + to_integer;
   const double k = shifted - to_integer;
   const double r = (t - k * 0.693147180369123816490) - k * 1.90821492927058770002e-10;
@@ -62,6 +64,9 @@ GRANULAW_INLINE double exp(double t)
 }
 
 /// x^n, x > 0 (0 gives about 0).
-GRANULAW_INLINE double power(double x, double n) { return exp(n * log(x)); }
+GRANULAW_INLINE double power(double x, double n)
+{
+  return exp(n * log(x));
+}
 
 }  // namespace granulaw::flow

@@ -15,9 +15,13 @@ struct Voce
 
   static const char* misuse(double yield_stress, const double* v)
   {
-    return v[0] < yield_stress ? "'saturation_stress' is below yield_stress; softening is not supported" : nullptr;
+    return v[0] < yield_stress ? "'saturation_stress' is below yield_stress; softening is not supported"
+                               : nullptr;
   }
-  static GRANULAW_MEMBER Voce from(double yield_stress, const double* v) { return {yield_stress, v[0], 1.0 / v[1]}; }
+  static GRANULAW_MEMBER Voce from(double yield_stress, const double* v)
+  {
+    return {yield_stress, v[0], 1.0 / v[1]};
+  }
   GRANULAW_MEMBER ValueAndSlope operator()(double ep) const
   {
     const double missing = (saturation - yield) * exp(-ep * per_strain);

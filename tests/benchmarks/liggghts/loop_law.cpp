@@ -1,6 +1,6 @@
-// bench_loop_law FILE ONSET: writes the synthetic law with onset of yield at x = ONSET (overlap/R on a rigid wall)
-// and prints the largest error of the contact loop's force against the functions the law was sampled from, over
-// 200,000 random states (loading and unloading), relative to the force at the turning point.
+// bench_loop_law FILE ONSET: writes the synthetic law with onset of yield at x = ONSET (overlap/R on a rigid
+// wall) and prints the largest error of the contact loop's force against the functions the law was sampled
+// from, over 200,000 random states (loading and unloading), relative to the force at the turning point.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +22,8 @@ int main(int argc, char** argv)
   const auto q_of = [&](double s) { return granulaw::testing::SyntheticLaw::past(s, shape.onset); };
   const auto loading = [&](double x) {
     const double s = std::pow(x, 0.25), q = q_of(s);
-    return std::pow(x, 1.5) * (1 + shape.finite_sphere * s * s) * std::exp(-shape.softening * q * q / (1 + q));
+    return std::pow(x, 1.5) * (1 + shape.finite_sphere * s * s) *
+           std::exp(-shape.softening * q * q / (1 + q));
   };
   const auto force = [&](double x, double x_max) {
     if (x >= x_max || x_max <= shape.onset) return loading(x);
