@@ -41,7 +41,7 @@ struct SyntheticLaw
   double onset = 6.4e-4;  ///< of E*/Y = 100
   double x_end = 0.1;
   double softening = 1.6;  ///< ln(F/F_elastic) = -softening q^2/(1 + q)
-  double depth = 1.1;      ///< residual ratio = 1 - exp(-depth q^2)
+  double depth = 1.1;      ///< residual ratio = 0.9999 (1 - exp(-depth q^2))
   double bend = 0.05;      ///< exponent = elastic_exponent(s) + bend q^2/(1 + q^2)
 
   static constexpr double finite_sphere = 0.9;  ///< F_elastic = F_Hertz (1 + finite_sphere sqrt(x))
@@ -68,7 +68,7 @@ struct SyntheticLaw
         },
         [&](double s) {
           const double q = past(s, onset);
-          return 1 - std::exp(-depth * q * q);
+          return 0.9999 * (1 - std::exp(-depth * q * q));  // a law may not come nearer to 1 than 1e-5
         },
         [&](double s) {
           const double q = past(s, onset);
