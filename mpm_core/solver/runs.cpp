@@ -90,8 +90,8 @@ double block_size(double deepest, const Material& m)
 }
 
 /// Loading time, R/c*, of a press that is slow enough for the rate-free law. Elastic: 40 (half as long
-/// changes F by 0.15 %). Plastic: 60 (40 changes e by 0.1 %), and inertia enters with I = rho v^2/Y (DESIGN
-/// section 4: under 1e-3 nothing is seen in e); the top speed pi depth/(2 ramp) keeps I below 4e-4.
+/// changes F by 0.15 %). Plastic: 60 (40 changes e by 0.1 %), and inertia enters with I = rho v^2/Y
+/// (docs/method.md); the top speed pi depth/(2 ramp) keeps I below 4e-4.
 double default_ramp(double depth, const Material& m)
 {
   if (!m.yields()) return 40.0;
@@ -129,26 +129,28 @@ struct Simulation
     double time = 0, dt = courant * stable.limit(body);
     double impulse = 0, overlap_sum = 0, window_start = 0;
     long steps = 0, in_window = 0;
+    double overlap_now = drive.overlap(body);
     while (!drive.finished()) {
-      const double overlap_before = drive.overlap(body);
+      const double overlap_before = overlap_now;
       const Branch branch = drive.branch();
       const int segment = drive.segment();
       const double push = advance(body, contact, drive, time, dt);
+      overlap_now = drive.overlap(body);
       impulse += push;
       overlap_sum += overlap_before;
       ++in_window;
       ++steps;
       time += dt;
-      if (push > 0) last_touch_time = time, last_touch_overlap = drive.overlap(body);
+      if (push > 0) last_touch_time = time, last_touch_overlap = overlap_now;
       const bool turned = drive.segment() != segment;
       if (time - window_start >= window || turned || drive.finished()) {
         const double length = time - window_start;
         // overlaps are taken at the start of each step: shift the mean by half a step's travel
-        const double overlap = overlap_sum / in_window + 0.5 * (drive.overlap(body) - overlap_before);
+        const double overlap = overlap_sum / in_window + 0.5 * (overlap_now - overlap_before);
         result.trace.push_back({window_start + 0.5 * length, overlap, impulse / length,
                                 contact.edge_radius(body), branch, segment});
         observe(result.trace.back());
-        fields.sample(body, time, drive.overlap(body), impulse / length, drive.finished());
+        fields.sample(body, time, overlap_now, impulse / length, drive.finished());
         window_start = time;
         impulse = overlap_sum = 0;
         in_window = 0;
@@ -179,7 +181,7 @@ struct Simulation
   }
 
   /// Raw work of the contact force on loading (true) or unloading, by the trapezium rule over the samples,
-  /// of the last two segments for unloading.
+  /// of the last segment for unloading.
   double result_work(bool load) const
   {
     double work = 0;

@@ -1,9 +1,7 @@
 #include "trace_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -73,10 +71,7 @@ void check_output(const std::string& path, const std::string& endings)
   const fs::path p(path);
   if (p.extension().empty() || endings.find(p.extension().string()) == std::string::npos)
     fail(path, "the ending of an output name says its format", p.extension().string(), endings);
-  const fs::path folder = p.parent_path().empty() ? fs::path(".") : p.parent_path();
-  if (!fs::is_directory(folder)) fail(path, fmt::format("the folder '{}' does not exist", folder.string()));
-  if (access(folder.c_str(), W_OK) != 0)
-    fail(path, fmt::format("the folder '{}' cannot be written to", folder.string()));
+  require_writable(path, path);
 }
 
 void write_trace(const RunResult& result, const std::string& path)
