@@ -22,7 +22,8 @@ namespace {
 /// What both commands take.
 struct RunRequest
 {
-  std::string materials, particle, grid = "mapped", output, fields, support = "free";
+  std::string materials, particle, against, wall, grid = "auto", precision = "double", output, fields,
+                                                  support = "free";
   double velocity = 0, depth = 0, tolerance = 0;
   int resolution = 0, jobs = 1, frames = 40;
   bool json = false;
@@ -33,7 +34,15 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")
       ->required();
   command.add_option("--particle", r.particle, "particle of that file")->required();
-  command.add_option("--grid", r.grid, "reference grid: mapped (tartan and updated come in a later version)");
+  command.add_option("--against", r.against, "a second particle of that file, hit pole against pole");
+  command.add_option("--wall", r.wall,
+                     "a material of that file: a thick deformable wall of it (default: rigid)");
+  command.add_option(
+      "--grid", r.grid,
+      "mapped (fitted to the sphere), tartan (graded Cartesian: any shape, layers, inclusions), "
+      "updated (points move through the grid: the independent check); default: what the particle "
+      "needs");
+  command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   auto* resolution = command.add_option("--resolution", r.resolution,
                                         "cells across the contact block, 6 to 200 (default: the run's own)");
   command
@@ -51,12 +60,21 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_flag("--json", r.json, "print one JSON object instead of the summary");
 }
 
+GridKind grid_of(const std::string& name)
+{
+  if (name == "auto") return GridKind::automatic;
+  if (name == "mapped") return GridKind::mapped;
+  if (name == "tartan") return GridKind::tartan;
+  if (name == "updated") return GridKind::updated;
+  fail("--grid", "unknown grid", name, "auto, mapped, tartan, updated");
+}
+
 void check(const RunRequest& r)
 {
-  if (r.grid == "tartan" || r.grid == "updated")
-    fail("--grid", fmt::format("'{}' is not in this version yet", r.grid), {}, "mapped");
-  if (r.grid != "mapped")
-    fail("--grid", "unknown grid", r.grid, "mapped, tartan, updated (this version: mapped)");
+  grid_of(r.grid);
+  if (r.precision != "double" && r.precision != "single")
+    fail("--precision", "unknown precision", r.precision, "double, single");
+  if (!r.against.empty() && !r.wall.empty()) fail("--wall", "cannot go with --against: one partner only");
   if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
     fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
   check_output(r.output, ".csv, .h5");
@@ -74,6 +92,8 @@ RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields,
   ProgressBar bar;
   RunOptions options;
   options.resolution = r.resolution;
+  options.grid = grid_of(r.grid);
+  options.precision = r.precision == "single" ? Precision::single : Precision::full;
   options.threads = r.jobs;
   options.fields = fields;
   options.progress = [&](double done) {
