@@ -399,7 +399,7 @@ void check_simple(const Profile& profile, const std::string& where)
                             : cross(profile[a], profile[a + 1], profile[b], profile[b + 1]);
       if (meet)
         fail(where, "the profile crosses or touches itself",
-             fmt::format("segments at points {} {} and {} {}", a + 1, text(profile[a]), b + 1,
+             fmt::format("the segments after points {} {} and {} {}", a + 1, text(profile[a]), b + 1,
                          text(profile[b])));
     }
   }

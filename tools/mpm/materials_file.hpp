@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "solver/material.hpp"
+#include "solver/particle.hpp"
 
 namespace granulaw {
 
@@ -25,23 +25,31 @@ namespace granulaw {
 ///         {law = "cowper-symonds", reference_rate = 40, exponent = 5}         # times 1 +
 ///         (rate/reference)^(1/exponent)
 ///
-///     [particle.grain]             # homogeneous spheres
+///     [particle.grain]             # a homogeneous sphere
 ///     radius = 2e-3                # m
 ///     material = "powder"
+///
+///     [particle.coated]            # any of the three keys below, in any combination: docs/particles.md
+///     radius = 2e-3                # m: largest distance from the axis; may be left out with points
+///     material = "powder"          # the body; of a layered one, the core
+///     layers = [{material = "shell", thickness = 20e-6}]          # m; from the surface inwards
+///     inclusions = [{material = "hard", radius = 0.2e-3, z = 1e-3},            # m: a ball on the axis whose
+///                                                      # centre is z above the contact pole
+///                   {pore = true, radius = 0.1e-3, z = 1e-3, r = 0.5e-3}]      # a ring, r from the axis
+///     profile = {shape = "ellipsoid", aspect = 1.5}    # a body of revolution that hits along its axis; the
+///                                                      # shapes and their keys: solver/profiles.hpp; or
+///         {points = [[0, 0], [1e-3, 0.2e-3], ...]}     # m: [r, z] from the contact pole to the far pole
 struct MaterialsFile
 {
   std::string path;
   std::map<std::string, Material> materials;
-  struct Particle
-  {
-    double radius;
-    std::string material;
-  };  // m
-  std::map<std::string, Particle> particles;
+  std::map<std::string, Particle> particles;  ///< checked
 
-  /// Throws Error naming the nearest where there is no such particle or material.
-  Sphere sphere(const std::string& particle) const;
+  /// These throw Error naming the nearest where there is no such particle or material.
+  const Particle& particle(const std::string& name) const;
   const Material& material(const std::string& name) const;
+  /// A particle that is a homogeneous sphere; of any other it says so, as Error.
+  Sphere sphere(const std::string& particle) const;
 };
 
 /// Every problem is one sentence with file, line and key, as Error.
