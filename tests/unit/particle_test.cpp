@@ -74,8 +74,8 @@ TEST(Particle, Ellipsoids)
           << x;  // chord error along z: over the cosine of the slope
     EXPECT_DOUBLE_EQ(p.surface_z(2 * radius), p.surface_z(radius));
     EXPECT_NEAR(p.surface_z(radius), aspect * radius, 1e-12 * radius);
-    // largest ball inside: touches the equator if prolate, the poles if oblate; found to 1e-4
-    EXPECT_NEAR(p.largest_depth() / (radius * std::min(1.0, aspect)), 1, 1.1e-4) << aspect;
+    // largest ball inside: touches the equator if prolate, the poles if oblate; found to 1e-3
+    EXPECT_NEAR(p.largest_depth() / (radius * std::min(1.0, aspect)), 1, 1e-3) << aspect;
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Particle, FlattenedSphere)
   EXPECT_EQ(p.pole_curvature_radius(), std::numeric_limits<double>::infinity());
   EXPECT_EQ(p.surface_z(flat), 0);
   // a fillet of next to nothing: a sphere less a cap
-  const Particle cut = body(radius, flattened_sphere(radius, flat, 1e-5 * radius));
+  const Particle cut = body(radius, flattened_sphere(radius, flat, 1e-4 * radius));
   const double h = radius - std::sqrt(radius * radius - flat * flat);
   EXPECT_NEAR(cut.volume() / (4.0 / 3.0 * pi * std::pow(radius, 3) - pi * h * h * (3 * radius - h) / 3), 1,
               volume_error);
@@ -181,7 +181,7 @@ TEST(Particle, Tablet)
       "tablet");
   EXPECT_NEAR(p.pole_curvature_radius() / cap, 1, 3e-5);  // as for the ellipsoid
   // an edge of next to nothing: a cylinder between two caps
-  const Particle sharp = body(radius, tablet(radius, height, cap, 1e-5 * radius));
+  const Particle sharp = body(radius, tablet(radius, height, cap, 1e-4 * radius));
   const double h = cap - std::sqrt(cap * cap - radius * radius);
   EXPECT_NEAR(sharp.volume() / (pi * radius * radius * (height - 2 * h) + 2 * pi * h * h * (3 * cap - h) / 3),
               1, volume_error);
@@ -366,7 +366,7 @@ RC_GTEST_PROP(Particle, RandomBodies, ())
     const double r = number(0, 1.2), z = number(-0.2, 2.2);
     const double depth = p.depth(r, z), distance = star.distance(r, z);
     RC_ASSERT(std::abs(std::abs(depth) - distance) < 1e-14);  // rounding of numbers about 1
-    RC_ASSERT(depth <= room * (1 + 1e-4));
+    RC_ASSERT(depth <= room * (1 + 1e-3));
     if (distance < 1e-12) continue;  // on the surface rounding decides
     const bool inside = star.inside(r, z);
     RC_ASSERT((depth > 0) == inside);
@@ -379,6 +379,34 @@ RC_GTEST_PROP(Particle, RandomBodies, ())
                                                    : 0;
     RC_ASSERT(p.material_at(r, z) == expected);
   }
+}
+
+RC_GTEST_PROP(Particle, EveryShapeThatIsMadeIsValid, ())
+{
+  const double radius = 2e-3;
+  const ProfileShape& shape = *rc::gen::elementOf(profile_shapes());
+  ProfileShape::Values values;
+  for (const ProfileKey& key : shape.keys) {
+    if (!key.required && *rc::gen::arbitrary<bool>()) continue;
+    // lengths from 1e-4 to 1 radii, those of the body itself from 1 to 100; each decade as likely
+    const std::string name = key.name;
+    const bool length = key.unit == std::string("m"), large = name == "height" || name == "cap_radius";
+    const double least = length ? (large ? 1 : 1e-4) * radius : key.least;
+    const double most = length ? (large ? 100 : 1) * radius : key.most;
+    values[key.name] = least * std::pow(most / least, *rc::gen::inRange(0, 1001) * 1e-3);
+  }
+  Particle p = body(radius);
+  try {
+    p.profile = shape.make(radius, values, "shape");
+  } catch (const Error&) {
+    RC_TAG(shape.name + " refused");
+    return;
+  }
+  RC_TAG(shape.name);
+  // (a tablet of 100 radii and a rounding more)
+  if (p.height() < 100 * radius) validate(p, "shape");
+  RC_ASSERT(p.volume() > 0);
+  RC_ASSERT(p.pole_curvature_radius() > 0);
 }
 
 std::string refusal(const std::function<void()>& act)
@@ -438,6 +466,9 @@ TEST(Particle, RefusesWithASentence)
       {body(1, {{0, 0}, {0.5, 0.5}, {1, 0.2}, {1, 1}, {0.5, 0.5}, {0, 2}}),
        "here: the profile crosses or touches"},
       {body(1, {{0, 0}, {1, 1}, {0.5, 0.5}, {0, 2}}), "here: the profile crosses or touches itself"},
+      {body(1, {{0, 0}, {1, 50}, {0, 101}}),
+       "here: the body is too flat or too slender: its height: found 101 m"},
+      {body(1, {{0, 0}, {1, 4e-3}, {0, 9e-3}}), "here: the body is too flat or too slender"},
       {body(1.01, good), "here: 'radius' is not the profile's largest distance from the axis: found 1.01 m"},
       {layers({{0, 1}}), "here: 'thickness' of layer 1 is out of range: found 0 m, allowed is over 0"},
       {layers({{0.1, 1}, {nan, 1}}), "here: 'thickness' of layer 2 is out of range"},
@@ -477,10 +508,20 @@ TEST(Particle, ShapesRefuseWhatDoesNotFit)
   };
   begins([] { flattened_sphere(1, 0.9, 0.1, "p"); }, "p: 'flat_radius' and 'fillet' leave no sphere");
   begins([] { conical_tip(1, 30, 1, "p"); }, "p: 'tip_radius' must be smaller than the body: found 1 m");
-  begins([] { tablet(1, 1, 0.9, 0.1, "p"); }, "p: 'cap_radius' is too small for the band: found 0.9 m");
+  begins([] { tablet(1, 1, 0.9, 0.1, "p"); }, "p: 'cap_radius' does not fit the band: found 0.9 m");
   begins([] { tablet(1, 1, 2, 1, "p"); }, "p: 'edge_radius' must be smaller than the body: found 1 m");
   begins([] { tablet(1, 0.1, 2, 0.1, "p"); },
          "p: 'height' is too small for the two caps and edges: found 0.1 m");
+  begins([] { tablet(1, 1, 2, 1e-5, "p"); }, "p: 'edge_radius' is too small to be resolved: found 1e-05 m");
+  begins([] { conical_tip(1, 30, 1e-5, "p"); }, "p: 'tip_radius' is too small to be resolved");
+  begins([] { flattened_sphere(1, 1e-5, 0.1, "p"); }, "p: 'flat_radius' is too small to be resolved");
+  begins([] { flattened_sphere(1, 0.1, 1e-5, "p"); }, "p: 'fillet' is too small to be resolved");
+  begins([] { outline({{0, 0}, {NAN, 1}, {0, 2}}, "p"); }, "p: a point is not finite: found [nan, 1] m");
+  begins(
+      [] {
+        outline({{0, 0}, {0, 1}, {0, 2}}, "p");
+      },
+      "p: the points enclose no body: none has an r over 0");
   begins([] { outline({{0, 0}, {1, 1}}, "p"); }, "p: the points enclose no body: found 2 points");
   begins([] { outline({{0.1, 0}, {1, 1}, {0, 2}}, "p"); }, "p: the first point must be the contact pole");
   begins([] { outline({{0, 0}, {1, 1}, {0.1, 2}}, "p"); }, "p: the last point must lie on the axis");
