@@ -486,8 +486,8 @@ TEST(Particle, RefusesWithASentence)
       {inclusion({0, 1, 0.1, -2}, sphere),
        "here: inclusion 2 has a material that the particle does not: found -2"},
       {inclusion({0, 2.5, 0.1, -1}, sphere), "here: inclusion 2 has its centre outside the body"},
-      {inclusion({0, 0.2, 0.2, -1}, sphere),
-       "here: inclusion 2 reaches the surface: its radius: found 0.2 m"},
+      {inclusion({0, 0.25, 0.25, -1}, sphere),
+       "here: inclusion 2 reaches the surface: its radius: found 0.25 m"},
       {inclusion({0.8, 1, 0.2, -1}, profile),
        "here: inclusion 2 reaches the surface: its radius: found 0.2 m"},
   };
