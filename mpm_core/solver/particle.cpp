@@ -238,7 +238,7 @@ double Particle::largest_depth() const
   const double h = std::min(radius, height()) / 2;
   for (double r = h; r - h < radius; r += 2 * h)
     for (double z = h; z - h < height(); z += 2 * h) push(r, z, h);
-  while (!squares.empty() && squares.top().most() > best * (1 + 1e-4)) {
+  while (!squares.empty() && squares.top().most() > best * (1 + 1e-3)) {
     const Square s = squares.top();
     squares.pop();
     for (const double r : {s.r - s.h / 2, s.r + s.h / 2})
@@ -399,7 +399,7 @@ void check_simple(const Profile& profile, const std::string& where)
                             : cross(profile[a], profile[a + 1], profile[b], profile[b + 1]);
       if (meet)
         fail(where, "the profile crosses or touches itself",
-             fmt::format("segments at points {} {} and {} {}", a + 1, text(profile[a]), b + 1,
+             fmt::format("the segments after points {} {} and {} {}", a + 1, text(profile[a]), b + 1,
                          text(profile[b])));
     }
   }
@@ -418,7 +418,7 @@ void check_profile(const Particle& p, const std::string& where)
     if (point.z < 0)
       fail(where, name + " lies below the contact pole, which must be the lowest", text(point),
            "z of 0 or more");
-    if (k > 0 && point.r == profile[k - 1].r && point.z == profile[k - 1].z)
+    if (k > 0 && std::hypot(point.r - profile[k - 1].r, point.z - profile[k - 1].z) <= 1e-10 * p.radius)
       fail(where, name + " repeats the one before", text(point));
     if (k > 0 && k + 1 < profile.size() && point.r == 0)
       fail(where, name + " lies on the axis, which only the two ends may", text(point), "r over 0");
@@ -428,6 +428,9 @@ void check_profile(const Particle& p, const std::string& where)
   if (profile.back().r != 0)
     fail(where, "the profile must end on the axis, at the far pole", text(profile.back()), "r = 0");
   check_simple(profile, where);
+  if (!(p.height() >= 0.01 * p.radius && p.height() <= 100 * p.radius))
+    fail(where, "the body is too flat or too slender: its height", fmt::format("{:g} m", p.height()),
+         fmt::format("{:g} to {:g} m, 0.01 to 100 times its radius", 0.01 * p.radius, 100 * p.radius));
   const double widest = profile[widest_point(profile)].r;
   if (!(std::abs(p.radius / widest - 1) <= 1e-6))
     fail(where, "'radius' is not the profile's largest distance from the axis",

@@ -69,7 +69,7 @@ struct Particle
 
   /// Distance to the surface, m, positive inside. Of a profile: to the polyline, exactly.
   double depth(double r, double z) const;
-  /// Largest depth inside, m, to 1e-4 of it: layers must be thinner together.
+  /// Largest depth inside, m, up to 1e-3 too small: layers must be thinner together.
   double largest_depth() const;
   /// Index into materials, -1: outside the body or in a pore. The surface itself is inside.
   int material_at(double r, double z) const;

@@ -45,6 +45,16 @@ void add_arc(Profile& profile, ProfilePoint centre, double radius, double from, 
   }
 }
 
+/// Share of the radius: no grid tells a smaller rounding from a sharp edge.
+constexpr double least_share = 1e-4;
+
+void check_size(const char* key, double value, double radius, const std::string& where)
+{
+  if (!(value >= least_share * radius))
+    fail(where, fmt::format("'{}' is too small to be resolved", key), fmt::format("{:g} m", value),
+         fmt::format("{:g} m, {:g} of the radius, or more", least_share * radius, least_share));
+}
+
 /// The ends exactly on the axis, the first in the origin: rounding aside, that is where they are.
 Profile closed(Profile profile)
 {
@@ -73,6 +83,8 @@ Profile flattened_sphere(double radius, double flat_radius, double fillet, const
   if (!(flat_radius + fillet < radius))
     fail(where, "'flat_radius' and 'fillet' leave no sphere: their sum is",
          fmt::format("{:g} m", flat_radius + fillet), fmt::format("below the radius, {:g} m", radius));
+  check_size("flat_radius", flat_radius, radius, where);
+  check_size("fillet", fillet, radius, where);
   const double angle = std::asin(flat_radius / (radius - fillet));
   const double centre = fillet + (radius - fillet) * std::cos(angle);
   Profile profile{{0, 0}};
@@ -87,6 +99,7 @@ Profile conical_tip(double radius, double half_angle, double tip_radius, const s
   if (!(tip_radius < radius))
     fail(where, "'tip_radius' must be smaller than the body", fmt::format("{:g} m", tip_radius),
          fmt::format("below the radius, {:g} m", radius));
+  check_size("tip_radius", tip_radius, radius, where);
   const double flank = half_angle * pi / 180;
   const double centre = tip_radius + (radius - tip_radius) / std::sin(flank);
   Profile profile;
@@ -99,12 +112,13 @@ Profile conical_tip(double radius, double half_angle, double tip_radius, const s
 
 Profile tablet(double radius, double height, double cap_radius, double edge_radius, const std::string& where)
 {
-  if (!(cap_radius >= radius))
-    fail(where, "'cap_radius' is too small for the band", fmt::format("{:g} m", cap_radius),
-         fmt::format("the radius, {:g} m, or more", radius));
+  if (!(cap_radius >= radius && cap_radius <= 1000 * radius))
+    fail(where, "'cap_radius' does not fit the band", fmt::format("{:g} m", cap_radius),
+         fmt::format("the radius, {:g} m, to a thousand times it", radius));
   if (!(edge_radius < radius))
     fail(where, "'edge_radius' must be smaller than the body", fmt::format("{:g} m", edge_radius),
          fmt::format("below the radius, {:g} m", radius));
+  check_size("edge_radius", edge_radius, radius, where);
   const double reach = cap_radius - edge_radius, out = radius - edge_radius;
   const double angle = std::asin(out / reach);
   const double band = cap_radius - reach * std::cos(angle);  // where the edge ends and the cylinder begins
@@ -127,16 +141,21 @@ Profile outline(Profile points, const std::string& where)
   if (points.size() < 3)
     fail(where, "the points enclose no body", fmt::format("{} points", points.size()), "3 or more");
   double widest = 0;
-  for (const ProfilePoint& p : points) widest = std::max(widest, p.r);
+  for (const ProfilePoint& p : points) {
+    if (!std::isfinite(p.r) || !std::isfinite(p.z))
+      fail(where, "a point is not finite", fmt::format("[{:g}, {:g}] m", p.r, p.z));
+    widest = std::max(widest, p.r);
+  }
+  if (widest == 0) fail(where, "the points enclose no body: none has an r over 0");
   const double tolerance = 1e-3 * widest;
   ProfilePoint& first = points.front();
   ProfilePoint& last = points.back();
   if (!(std::abs(first.r) <= tolerance && std::abs(first.z) <= tolerance))
     fail(where, "the first point must be the contact pole", fmt::format("[{:g}, {:g}] m", first.r, first.z),
-         fmt::format("[0, 0] to {:g} m", tolerance));
+         fmt::format("[0, 0] within {:g} m", tolerance));
   if (!(std::abs(last.r) <= tolerance))
     fail(where, "the last point must lie on the axis, at the far pole",
-         fmt::format("[{:g}, {:g}] m", last.r, last.z), fmt::format("r = 0 to {:g} m", tolerance));
+         fmt::format("[{:g}, {:g}] m", last.r, last.z), fmt::format("r = 0 within {:g} m", tolerance));
   return closed(std::move(points));
 }
 
@@ -151,7 +170,8 @@ const std::vector<ProfileShape>& profile_shapes()
        {{"flat_radius", "m", over_zero, no_limit}, {"fillet", "m", over_zero, no_limit, false}},
        [](double radius, const Values& v, const std::string& where) {
          const double flat = v.at("flat_radius");
-         return flattened_sphere(radius, flat, v.contains("fillet") ? v.at("fillet") : 0.1 * flat, where);
+         const double default_fillet = std::max(0.1 * flat, least_share * radius);
+         return flattened_sphere(radius, flat, v.contains("fillet") ? v.at("fillet") : default_fillet, where);
        }},
       {"conical-tip",
        {{"half_angle", "degrees", 5, 85}, {"tip_radius", "m", over_zero, no_limit}},

@@ -12,7 +12,7 @@ namespace granulaw {
 // Meridian curves by name, from the contact pole (0, 0) to the far pole; SI. `radius` is the largest distance
 // from the axis. Curved parts are sampled with a chord error below 1e-6 radius, at points that lie on the
 // curve; straight parts have their two ends. Each throws Error "WHERE: ..." where its values do not fit
-// together.
+// together. No length may be below 1e-4 radius.
 
 /// (r/radius)^2 + (z/h - 1)^2 = 1 with the half height h = aspect * radius. Curvature radius at the pole:
 /// radius / aspect.
