@@ -67,6 +67,15 @@ std::vector<PressurePoint> contact_pressure(const PressedSphere& s)
   return profile;
 }
 
+double centre_excess(const PressedSphere& s)
+{
+  double sum = 0;
+  int count = 0;
+  for (const PressurePoint& p : contact_pressure(s))
+    if (p.r_over_a < 0.3) sum += p.pressure / hertz::pressure(p.r_over_a) - 1, ++count;
+  return sum / count;
+}
+
 std::vector<AxisPoint> along_axis(const PressedSphere& s)
 {
   std::vector<AxisPoint> profile;

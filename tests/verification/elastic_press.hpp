@@ -27,6 +27,9 @@ struct PressurePoint
 /// surface by second order in the cell size: where no shear acts, d(sigma_zz)/dz = 0 on the surface.
 std::vector<PressurePoint> contact_pressure(const PressedSphere& s);
 
+/// Pressure over Hertz's, less one: mean over r < 0.3 a.
+double centre_excess(const PressedSphere& s);
+
 struct AxisPoint
 {
   double z_over_a, von_mises, axial;  ///< stresses over p0
