@@ -131,8 +131,8 @@ StressStrain exact(const WrittenLaw& law, double strain, double rate)
                           : root([&](double p) { return law.stress(p) - cauchy(strain - p); }, 0, strain);
     return {strain, cauchy(strain - ep), ep};
   }
-  // ep'(t) by fourth-order Runge-Kutta in steps of 1e-5 of strain: stable, since the relaxation strain of the
-  // laws here, d(stress)/d(rate) rate/E, is above 5e-4
+  // ep'(t) by fourth-order Runge-Kutta in steps of 1e-5 of strain. Too long a step for a stiffer law would
+  // show as a kernel that does not tend to it (uniaxial_test.cpp).
   const auto growth = [&](double t, double p) {
     const double g = cauchy(t - p) / law.stress(std::max(p, 0.0));
     return g > 1 ? law.rate(g) / rate : 0.0;

@@ -52,9 +52,9 @@ void write_uniaxial(const File& open)
   out.print("law,rate,strain,solver,exact\n");
   const auto write = [&](const WrittenLaw& law, double rate, int steps) {
     const auto curve = compress(law.material, 0.6, steps, rate);
-    const std::size_t every = curve.size() / 30;
+    const std::size_t every = curve.size() / 150;
     for (std::size_t k = 0; k < curve.size(); k += every)
-      out.print("{},{},{:.9g},{:.12g},{:.12g}\n", law.name, rate, curve[k].strain, curve[k].stress,
+      out.print("{},{},{:.9g},{:.17g},{:.17g}\n", law.name, rate, curve[k].strain, curve[k].stress,
                 exact(law, curve[k].strain, rate).stress);
   };
   for (const WrittenLaw& law : hardening_laws_written_out()) write(law, 0, 600);
@@ -171,14 +171,14 @@ void write_references(const File& open)
     const Sphere sphere = reference::unit_sphere(p.e_over_y, p.nu, p.hardening_over_e);
     const RunSummary s = run_press(sphere, plan).summary;
     const std::string name =
-        fmt::format("E*/Y = {}, H/E = {} to {} R", p.e_over_y, p.hardening_over_e, p.depth);
+        fmt::format("E*/Y = {} H/E = {} to {} R", p.e_over_y, p.hardening_over_e, p.depth);
     line(name, "force", s.force_max * p.e_over_y, p.force);
     line(name, "e", s.restitution, p.e);
     line(name, "residual", s.delta_residual / s.delta_max, p.residual);
   }
   for (const reference::Impact& i : reference::impacts) {
     const double v = i.v_over_vy * yield_velocity(1, 0.01, 1);
-    line(fmt::format("V/V_y = {}", i.v_over_vy), "impact e",
+    line(fmt::format("E*/Y = 100 at V/V_y = {}", i.v_over_vy), "impact e",
          run_impact(reference::unit_sphere(100), v).summary.restitution, i.e);
   }
 }
