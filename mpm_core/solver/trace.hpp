@@ -37,8 +37,9 @@ struct RunSummary
   double cpu_s = 0;
   double point_updates_per_s = 0;
   double error_estimate =
-      0;                    ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
-  double energy_error = 0;  ///< |kinetic + elastic + plastic - work|/(energy put in)
+      0;  ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
+  double plastic_strain_max = 0;  ///< largest equivalent plastic strain of any material point at the end
+  double energy_error = 0;        ///< |kinetic + elastic + plastic - work|/(energy put in)
   double ripple = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 

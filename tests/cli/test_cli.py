@@ -177,7 +177,15 @@ def case_errors():
     broken("density = 1500", "density = ", ":3:")
     broken('material = "powder"', 'material = "powdr"', "powdr", "did you mean 'powder'")
     broken("radius = 2e-3", "radius = 0", "radius", "over 0")
-    broken("radius = 2e-3", "radius = 2e-3\nlayers = 3", "layers", "homogeneous")
+    broken("radius = 2e-3", "radius = 2e-3\nlayers = 3", ":15:", "layers", "list of tables", "thickness")
+    broken("radius = 2e-3", 'radius = 2e-3\nlayers = [{material = "glas", thickness = 1e-5}]', ":15:", "glas", "did you mean 'glass'")
+    broken("radius = 2e-3", 'radius = 2e-3\nlayers = [{material = "glass", thickness = 2e-3}]', ":13:", "no core", "0.002 m")
+    broken("radius = 2e-3", "radius = 2e-3\ninclusions = [{pore = true, radius = 1e-4, z = 5e-5}]", ":13:", "inclusion 1",
+           "surface", "below 5e-05 m")
+    broken("radius = 2e-3", "radius = 2e-3\ninclusions = [{radius = 1e-4, z = 1e-3}]", ":15:", "material", "pore = true")
+    broken("radius = 2e-3", 'radius = 2e-3\nprofile = {shape = "elipsoid", aspect = 2}', ":15:", "elipsoid", "did you mean 'ellipsoid'")
+    broken("radius = 2e-3", 'radius = 2e-3\nprofile = {shape = "ellipsoid", aspect = -1}', ":15:", "aspect", "0.05 to 20")
+    broken("radius = 2e-3", "radius = 2e-3\nprofile = {points = [[0, 0], [1e-3, 1e-3], [0, 2e-3]]}", ":14:", "radius", "0.001 m")
     broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "vose", modulus = 1}', "vose", "did you mean 'voce'")
     broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "voce", modulus = 1}', ":7:", "modulus", "saturation_stress")
     broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "swift", strength = 1e8, exponent = 0.2, ofset = 0.01}',

@@ -22,7 +22,8 @@ namespace {
 /// What both commands take.
 struct RunRequest
 {
-  std::string materials, particle, grid = "mapped", output, fields, support = "free";
+  std::string materials, particle, against, wall, grid = "auto", precision = "double", output, fields,
+                                                  support = "free";
   double velocity = 0, depth = 0, tolerance = 0;
   int resolution = 0, jobs = 1, frames = 40;
   bool json = false;
@@ -33,7 +34,15 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")
       ->required();
   command.add_option("--particle", r.particle, "particle of that file")->required();
-  command.add_option("--grid", r.grid, "reference grid: mapped (tartan and updated come in a later version)");
+  command.add_option("--against", r.against, "a second particle of that file, hit pole against pole");
+  command.add_option("--wall", r.wall,
+                     "a material of that file: a thick deformable wall of it (default: rigid)");
+  command.add_option(
+      "--grid", r.grid,
+      "mapped (fitted to the sphere), tartan (graded Cartesian: any shape, layers, inclusions), "
+      "updated (points move through the grid: the independent check); default: what the particle "
+      "needs");
+  command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   auto* resolution = command.add_option("--resolution", r.resolution,
                                         "cells across the contact block, 6 to 200 (default: the run's own)");
   command
@@ -51,12 +60,21 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_flag("--json", r.json, "print one JSON object instead of the summary");
 }
 
+GridKind grid_of(const std::string& name)
+{
+  if (name == "auto") return GridKind::automatic;
+  if (name == "mapped") return GridKind::mapped;
+  if (name == "tartan") return GridKind::tartan;
+  if (name == "updated") return GridKind::updated;
+  fail("--grid", "unknown grid", name, "auto, mapped, tartan, updated");
+}
+
 void check(const RunRequest& r)
 {
-  if (r.grid == "tartan" || r.grid == "updated")
-    fail("--grid", fmt::format("'{}' is not in this version yet", r.grid), {}, "mapped");
-  if (r.grid != "mapped")
-    fail("--grid", "unknown grid", r.grid, "mapped, tartan, updated (this version: mapped)");
+  grid_of(r.grid);
+  if (r.precision != "double" && r.precision != "single")
+    fail("--precision", "unknown precision", r.precision, "double, single");
+  if (!r.against.empty() && !r.wall.empty()) fail("--wall", "cannot go with --against: one partner only");
   if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
     fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
   check_output(r.output, ".csv, .h5");
@@ -74,6 +92,8 @@ RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields,
   ProgressBar bar;
   RunOptions options;
   options.resolution = r.resolution;
+  options.grid = grid_of(r.grid);
+  options.precision = r.precision == "single" ? Precision::single : Precision::full;
   options.threads = r.jobs;
   options.fields = fields;
   options.progress = [&](double done) {
@@ -120,7 +140,7 @@ void print_json(const RunSummary& s)
   fmt::print("{}\n", out.dump(2));
 }
 
-void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
+void report(const RunRequest& r, const Particle& particle, const RunResult& result)
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
@@ -128,7 +148,7 @@ void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
   fmt::print("coefficient of restitution e   {:.4f}\n", s.restitution);
   fmt::print("largest force                  {:.5g} N\n", s.force_max);
   fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max,
-             s.delta_max / sphere.radius);
+             s.delta_max / particle.radius);
   fmt::print("residual overlap               {:.5g} m\n", s.delta_residual);
   fmt::print("contact time                   {:.5g} s\n", s.contact_time);
   fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", s.work_load, s.work_unload);
@@ -139,11 +159,12 @@ void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
   if (!r.fields.empty()) fmt::print("wrote {}\n", r.fields);
 }
 
-void print_setting(const RunRequest& r, const Sphere& sphere)
+void print_setting(const RunRequest& r, const Particle& particle)
 {
   if (r.json) return;
-  const Material& m = sphere.material;
-  fmt::print("sphere of {:.4g} m radius, E* = {:.4g} Pa", sphere.radius, m.e_star());
+  const Material& m = particle.materials.front();
+  fmt::print("{} of {:.4g} m radius, E* = {:.4g} Pa", particle.is_sphere() ? "sphere" : "body of revolution",
+             particle.radius, m.e_star());
   if (m.yields()) {
     const double v_y = yield_velocity(m.e_star(), m.yield_stress, m.density);
     fmt::print(", E*/Y = {:.4g}, yield velocity V_y = {:.4g} m/s", m.e_star() / m.yield_stress, v_y);
@@ -153,7 +174,28 @@ void print_setting(const RunRequest& r, const Sphere& sphere)
   } else {
     fmt::print(", elastic");
   }
-  fmt::print("\n");
+  if (r.grid == "auto") {
+    const GridChoice choice = choose_grid(particle);
+    fmt::print("\ngrid: {} ({})\n", choice.grid == GridKind::mapped ? "mapped" : "tartan", choice.reason);
+  } else {
+    fmt::print("\ngrid: {}, as asked\n", r.grid);
+  }
+}
+
+/// The particle and what it meets.
+struct Meeting
+{
+  Particle particle;
+  Partner partner;
+};
+
+Meeting read_meeting(const RunRequest& r)
+{
+  const MaterialsFile file = read_materials(r.materials);
+  Meeting meeting{file.particle(r.particle), {}};
+  if (!r.against.empty()) meeting.partner.particle = file.particle(r.against);
+  if (!r.wall.empty()) meeting.partner.wall = file.material(r.wall);
+  return meeting;
 }
 
 }  // namespace
@@ -163,18 +205,19 @@ void add_impact(CLI::App& app)
   const auto r = std::make_shared<RunRequest>();
   CLI::App* command =
       app.add_subcommand("impact",
-                         "A sphere hits a rigid wall: e, force, overlap, contact time.\n"
+                         "A particle hits a wall, or another particle: e, force, overlap, contact time.\n"
                          "Example: mpm impact materials.toml --particle grain --velocity 1.0 -o trace.csv");
   add_common(*command, *r);
   command->add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command->callback([r] {
     check(*r);
-    const Sphere sphere = read_materials(r->materials).sphere(r->particle);
+    const Meeting m = read_meeting(*r);
     if (!(r->velocity > 0 && std::isfinite(r->velocity)))
       fail("--velocity", "cannot be used", fmt::format("{:g} m/s", r->velocity), "over 0");
-    print_setting(*r, sphere);
-    report(*r, sphere,
-           run_as_asked(*r, [&](const RunOptions& o) { return run_impact(sphere, r->velocity, o); }));
+    print_setting(*r, m.particle);
+    report(*r, m.particle, run_as_asked(*r, [&](const RunOptions& o) {
+      return run_impact(m.particle, r->velocity, o, m.partner);
+    }));
   });
 }
 
@@ -183,7 +226,8 @@ void add_press(CLI::App& app)
   const auto r = std::make_shared<RunRequest>();
   CLI::App* command = app.add_subcommand(
       "press",
-      "A sphere is pressed slowly onto a rigid wall and taken off again: the rate-free law.\n"
+      "A particle is pressed slowly onto a wall, or another particle, and taken off again: the rate-free "
+      "law.\n"
       "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv");
   add_common(*command, *r);
   command->add_option("--depth", r->depth, "deepest overlap, as a share of the radius")->required();
@@ -193,15 +237,16 @@ void add_press(CLI::App& app)
     check(*r);
     if (r->support != "free" && r->support != "midplane")
       fail("--support", "unknown support", r->support, "free, midplane");
-    const Sphere sphere = read_materials(r->materials).sphere(r->particle);
+    const Meeting m = read_meeting(*r);
     if (!(r->depth > 0 && r->depth <= 0.8))
       fail("--depth", "cannot be used", fmt::format("{:g} (a share of the radius)", r->depth),
            "over 0, up to 0.8");
     PressPlan plan;
-    plan.depth = r->depth * sphere.radius;
+    plan.depth = r->depth * m.particle.radius;
     plan.support = r->support == "free" ? Support::free : Support::midplane;
-    print_setting(*r, sphere);
-    report(*r, sphere, run_as_asked(*r, [&](const RunOptions& o) { return run_press(sphere, plan, o); }));
+    print_setting(*r, m.particle);
+    report(*r, m.particle,
+           run_as_asked(*r, [&](const RunOptions& o) { return run_press(m.particle, plan, o, m.partner); }));
   });
 }
 
