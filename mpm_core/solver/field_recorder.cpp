@@ -44,6 +44,7 @@ void FieldRecorder::record(const Body& body, double time, double overlap, double
   for (const CauchyStress& s : now.stress) {
     f.pressure.push_back(s.pressure() * scale_.stress);
     f.von_mises.push_back(s.von_mises() * scale_.stress);
+    f.axial_stress.push_back(s.zz * scale_.stress);
   }
   observer_.frame(f);
 }
