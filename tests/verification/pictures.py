@@ -234,8 +234,17 @@ def convergence(data):
 
 
 def step(data):
-    d = data["step"]
-    figure, (a, b) = panels(2)
+    swing, d = data["swing"], data["step"]
+    figure, (free, a, b) = panels(3, 3.7)
+    free.plot(swing["courant"], swing["swing"], "o", color=COLOURS[0], label="swing of the energy")
+    free.plot(swing["courant"], swing["swing"][-1] * (swing["courant"] / swing["courant"][-1]) ** 2, color="black",
+              linewidth=1, label="second order")
+    free.set(xscale="log", yscale="log", xlabel="Courant number (limit 1)", ylabel="largest deviation of the energy",
+             title="free vibration, 8 cells")
+    free.set_xticks([0.1, 0.2, 0.4, 0.8], ["0.1", "0.2", "0.4", "0.8"])
+    free.minorticks_off()
+    free.legend()
+    print(f"  swing {dict(zip(swing['courant'].tolist(), swing['swing'].tolist()))}")
     for axes, job, scale, text in ((a, "elastic", 1e6, "energy not accounted for, 10⁻⁶"),
                                    (b, "plastic", 1e4, "energy not accounted for, 10⁻⁴")):
         for k, cells in enumerate(np.unique(d["cells"])):
