@@ -130,7 +130,7 @@ def pressure(data):
         b.plot(s["a"], 100 * s["centre_excess"], "o", color=COLOURS[k], label=f"ν = {nu:g}")
         slope = np.polyfit(s["a"], s["centre_excess"], 1)[0]
         print(f"  nu {nu}: excess in the middle {slope:.3f} a/R, predicted {2 / np.pi * (1 - 2 * nu) / (1 - nu):.3f}")
-    b.set(xlabel="a/R", ylabel="pressure in the middle over p₀, less one (%)", title="what Hertz neglects", xlim=(0, 0.07))
+    b.set(xlabel="a/R", ylabel="pressure in the middle / p₀ - 1 (%)", title="what Hertz neglects", xlim=(0, 0.07))
     b.legend(loc="upper left")
 
     series = d[(d["nu"] == 0.3) & (d["depth"] == 2e-3) & (d["r_over_a"] < 0.9)]
