@@ -12,8 +12,10 @@ namespace granulaw {
 /// Where the runs come from: the solver, or a test's own model.
 struct RunSource
 {
-  std::function<RunResult(const Sphere&, const PressPlan&, const RunOptions&)> press = run_press;
-  std::function<RunResult(const Sphere&, double, const RunOptions&)> impact = run_impact;
+  std::function<RunResult(const Sphere&, const PressPlan&, const RunOptions&)> press =
+      [](const Sphere& s, const PressPlan& plan, const RunOptions& o) { return run_press(s, plan, o); };
+  std::function<RunResult(const Sphere&, double, const RunOptions&)> impact =
+      [](const Sphere& s, double velocity, const RunOptions& o) { return run_impact(s, velocity, o); };
 };
 
 struct BuildOptions

@@ -1,116 +1,104 @@
 #include "solver/body.hpp"
 
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <numeric>
-
-#include "base/error.hpp"
 
 namespace granulaw {
 
+void Body::allocate(int node_count, int point_count, int corner_count)
+{
+  nodes = node_count, points = point_count, corners = corner_count;
+  for (auto* field : {&r_i, &z_i, &mass_i, &inverse_mass_i, &ur_i, &uz_i, &vr_i, &vz_i, &fr_i, &fz_i})
+    field->assign(nodes, 0.0);
+  on_axis.assign(nodes, 0);
+  const std::size_t all = std::size_t(corners) * points;
+  for (auto* field : {&br_p, &bz_p, &bh_p}) field->assign(all, 0.0);
+  if (corners == 4) hourglass_p.assign(all, 0.0), stiffness_p.assign(points, 0.0);
+  for (auto* field :
+       {&volume_p, &crr_p, &czz_p, &crz_p, &chh_p, &plastic_strain_p, &plastic_work_p, &elastic_energy_p})
+    field->assign(points, 0.0);
+  corner_fr.assign(all + 1, 0.0), corner_fz.assign(all + 1, 0.0);
+  corner_p.assign(all, 0);
+}
+
+void Body::link()
+{
+  std::vector<int> used(nodes, 0);
+  const int all = corners * points;
+  for (int at = 0; at < all; ++at) ++used[corner_p[at]];
+  slots = (*std::max_element(used.begin(), used.end()) + 3) / 4 * 4;  // the kernels take four at a time
+  node_slots.assign(std::size_t(slots) * nodes, all);
+  std::fill(used.begin(), used.end(), 0);
+  for (int p = 0; p < points; ++p)
+    for (int k = 0; k < corners; ++k) {
+      const int at = k * points + p, node = corner_p[at];
+      node_slots[std::size_t(used[node]++) * nodes + node] = at;
+    }
+  for (const int i : axis) on_axis[i] = 1;
+  for (int i = 0; i < nodes; ++i) inverse_mass_i[i] = mass_i[i] > 0 ? 1 / mass_i[i] : 0;
+  mass = std::accumulate(mass_i.begin(), mass_i.end(), 0.0);
+}
+
 namespace {
 
-constexpr std::array<double, 4> corner_x{-1, 1, 1, -1}, corner_y{-1, -1, 1, 1}, hourglass_sign{1, -1, 1, -1};
-
-/// Exact integrals over one bilinear axisymmetric cell: 2 x 2 Gauss points.
-struct CellIntegrals
+/// Calls copy(from, to) for each array that a point of the other precision needs.
+template <class From, class To, class Copy>
+void for_weights(From& from, To& to, Copy copy)
 {
-  double volume = 0, area = 0;
-  std::array<double, 4> mass{}, br{}, bz{}, bh{}, area_br{}, area_bz{};
-};
-
-CellIntegrals integrate(const std::array<MappedGrid::Node, 4>& x)
-{
-  CellIntegrals c;
-  const double g = 1 / std::sqrt(3.0);
-  for (const double xi : {-g, g})
-    for (const double eta : {-g, g}) {
-      std::array<double, 4> n, dx, dy;
-      double rx = 0, ry = 0, zx = 0, zy = 0, r = 0;
-      for (int k = 0; k < 4; ++k) {
-        n[k] = 0.25 * (1 + xi * corner_x[k]) * (1 + eta * corner_y[k]);
-        dx[k] = 0.25 * corner_x[k] * (1 + eta * corner_y[k]);
-        dy[k] = 0.25 * corner_y[k] * (1 + xi * corner_x[k]);
-        r += n[k] * x[k].r;
-        rx += dx[k] * x[k].r, ry += dy[k] * x[k].r;
-        zx += dx[k] * x[k].z, zy += dy[k] * x[k].z;
-      }
-      const double det = rx * zy - ry * zx;
-      if (!(det > 0)) fail("reference grid", "a cell is folded; use a smaller block or more cells");
-      c.area += det;
-      c.volume += 2 * M_PI * r * det;
-      for (int k = 0; k < 4; ++k) {
-        const double nr = dx[k] * zy - dy[k] * zx, nz = dy[k] * rx - dx[k] * ry;  // gradient times det
-        c.mass[k] += 2 * M_PI * r * det * n[k];
-        c.br[k] += 2 * M_PI * r * nr, c.bz[k] += 2 * M_PI * r * nz, c.bh[k] += 2 * M_PI * det * n[k];
-        c.area_br[k] += nr, c.area_bz[k] += nz;
-      }
-    }
-  for (int k = 0; k < 4; ++k) {
-    c.br[k] /= c.volume, c.bz[k] /= c.volume, c.bh[k] /= c.volume;
-    c.area_br[k] /= c.area, c.area_bz[k] /= c.area;
-  }
-  return c;
+  copy(from.br_p, to.br_p), copy(from.bz_p, to.bz_p), copy(from.bh_p, to.bh_p);
+  copy(from.hourglass_p, to.hourglass_p), copy(from.stiffness_p, to.stiffness_p);
+  copy(from.volume_p, to.volume_p);
+  copy(from.corner_fr, to.corner_fr), copy(from.corner_fz, to.corner_fz);
 }
+
+template <class From, class To, class Copy>
+void for_state(From& from, To& to, Copy copy)
+{
+  copy(from.crr_p, to.crr_p), copy(from.czz_p, to.czz_p), copy(from.crz_p, to.crz_p);
+  copy(from.chh_p, to.chh_p), copy(from.plastic_strain_p, to.plastic_strain_p);
+  copy(from.plastic_work_p, to.plastic_work_p), copy(from.elastic_energy_p, to.elastic_energy_p);
+}
+
+constexpr auto copy_values = [](const auto& from, auto& to) { to.assign(from.begin(), from.end()); };
 
 }  // namespace
 
-Body Body::build(const MappedGrid& grid, const Moduli& moduli, double hourglass_modulus)
+void Body::use_single()
 {
-  Body b;
-  b.moduli = moduli;
-  b.nodes = static_cast<int>(grid.nodes.size());
-  b.points = static_cast<int>(grid.cells.size());
-  b.surface = grid.surface, b.axis = grid.axis, b.equator = grid.equator;
-  const auto nodal = [&] { return std::vector<double>(b.nodes, 0.0); };
-  const auto pointwise = [&] { return std::vector<double>(b.points, 0.0); };
-  const auto cornerwise = [&] { return std::vector<double>(4 * std::size_t(b.points), 0.0); };
-  b.r_i = nodal(), b.z_i = nodal(), b.mass_i = nodal(), b.inverse_mass_i = nodal();
-  b.ur_i = nodal(), b.uz_i = nodal(), b.vr_i = nodal(), b.vz_i = nodal(), b.fr_i = nodal(), b.fz_i = nodal();
-  b.br_p = cornerwise(), b.bz_p = cornerwise(), b.bh_p = cornerwise(), b.hourglass_p = cornerwise();
-  b.corner_p.resize(4 * std::size_t(b.points));
-  b.volume_p = pointwise(), b.stiffness_p = pointwise();
-  b.crr_p = pointwise(), b.czz_p = pointwise(), b.crz_p = pointwise(), b.chh_p = pointwise();
-  b.plastic_strain_p = pointwise(), b.plastic_work_p = pointwise(), b.elastic_energy_p = pointwise();
-  b.corner_fr.assign(4 * std::size_t(b.points) + 1, 0.0), b.corner_fz = b.corner_fr;
+  for_weights(*this, single, copy_values);
+  for_state(*this, single, copy_values);
+}
 
-  for (int i = 0; i < b.nodes; ++i) b.r_i[i] = grid.nodes[i].r, b.z_i[i] = grid.nodes[i].z;
+void Body::fetch_state()
+{
+  if (is_single()) for_state(single, *this, copy_values);
+}
 
-  const int zero_slot = 4 * b.points;
-  b.node_slots.assign(4 * std::size_t(b.nodes), zero_slot);
-  std::vector<int> used(b.nodes, 0);
-  for (int p = 0; p < b.points; ++p) {
-    std::array<MappedGrid::Node, 4> x;
-    for (int k = 0; k < 4; ++k) x[k] = grid.nodes[grid.cells[p][k]];
-    const CellIntegrals c = integrate(x);
-    double h_r = 0, h_z = 0, gradient = 0;
-    for (int k = 0; k < 4; ++k) {
-      h_r += hourglass_sign[k] * x[k].r, h_z += hourglass_sign[k] * x[k].z;
-      gradient += c.br[k] * c.br[k] + c.bz[k] * c.bz[k];
-    }
-    b.volume_p[p] = c.volume;
-    // a modulus of G would come near the stiffness of full integration
-    b.stiffness_p[p] = 0.25 * hourglass_modulus * c.volume * gradient;
-    for (int k = 0; k < 4; ++k) {
-      const int at = k * b.points + p, node = grid.cells[p][k];
-      b.corner_p[at] = node;
-      b.br_p[at] = c.br[k], b.bz_p[at] = c.bz[k], b.bh_p[at] = c.bh[k];
-      b.hourglass_p[at] = hourglass_sign[k] - h_r * c.area_br[k] - h_z * c.area_bz[k];
-      b.mass_i[node] += c.mass[k];
-      b.node_slots[used[node]++ * b.nodes + node] = at;
-    }
-  }
-  // The chords of the surface cells cut a little volume off: keep the sphere's mass exact (half: half of it).
-  const double meshed = std::accumulate(b.mass_i.begin(), b.mass_i.end(), 0.0);
-  double top = 0;
-  for (const double z : b.z_i) top = std::max(top, z);
-  const double exact = (top > 1.5 ? 4.0 : 2.0) / 3.0 * M_PI;
-  for (int i = 0; i < b.nodes; ++i) {
-    b.mass_i[i] *= exact / meshed;
-    b.inverse_mass_i[i] = 1 / b.mass_i[i];
-  }
-  b.mass = exact;
-  return b;
+double Body::strain_energy() const
+{
+  if (is_single())
+    return std::accumulate(single.elastic_energy_p.begin(), single.elastic_energy_p.end(), 0.0);
+  return std::accumulate(elastic_energy_p.begin(), elastic_energy_p.end(), 0.0);
+}
+
+double Body::plastic_work() const
+{
+  if (is_single()) return std::accumulate(single.plastic_work_p.begin(), single.plastic_work_p.end(), 0.0);
+  return std::accumulate(plastic_work_p.begin(), plastic_work_p.end(), 0.0);
+}
+
+double Body::largest_plastic_strain() const
+{
+  const auto largest = [](const auto& x) {
+    return x.empty() ? 0.0 : double(*std::max_element(x.begin(), x.end()));
+  };
+  return is_single() ? largest(single.plastic_strain_p) : largest(plastic_strain_p);
+}
+
+void Body::throw_along(double vz)
+{
+  std::fill(vz_i.begin(), vz_i.end(), vz);
+  if (moving) std::fill(moving->vz.begin(), moving->vz.end(), vz);
 }
 
 double Body::kinetic_energy() const
@@ -118,16 +106,6 @@ double Body::kinetic_energy() const
   double sum = 0;
   for (int i = 0; i < nodes; ++i) sum += 0.5 * mass_i[i] * (vr_i[i] * vr_i[i] + vz_i[i] * vz_i[i]);
   return sum;
-}
-
-double Body::strain_energy() const
-{
-  return std::accumulate(elastic_energy_p.begin(), elastic_energy_p.end(), 0.0);
-}
-
-double Body::plastic_work() const
-{
-  return std::accumulate(plastic_work_p.begin(), plastic_work_p.end(), 0.0);
 }
 
 double Body::mean_velocity() const

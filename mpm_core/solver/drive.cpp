@@ -7,13 +7,6 @@ namespace granulaw {
 
 namespace {
 
-double mean_displacement(const Body& body)
-{
-  double moment = 0;
-  for (int i = 0; i < body.nodes; ++i) moment += body.mass_i[i] * body.uz_i[i];
-  return moment / body.mass;
-}
-
 double smooth_step(double t)
 {
   t = std::clamp(t, 0.0, 1.0);
@@ -31,22 +24,17 @@ constexpr double hold_time = 6.0, hold_damping = 1.5;
 
 }  // namespace
 
-void ImpactDrive::apply(Body& body, double time, double dt, bool touching)
+void ImpactDrive::apply(Scene& scene, double time, double dt, bool touching)
 {
   time_ = time + dt;
   if (touching) last_touch_ = time_;
-  if (body.mean_velocity() > 0) rebounding_ = true;
+  if (scene.separation_velocity() > 0) rebounding_ = true;
   finished_ = rebounding_ && time_ - last_touch_ > leaving_time;
 }
 
 double ImpactDrive::progress() const
 {
   return std::min(1.0, time_ / expected_);
-}
-
-double ImpactDrive::overlap(const Body& body) const
-{
-  return -mean_displacement(body);
 }
 
 void PressDrive::start_loading(double time, double overlap)
@@ -94,30 +82,39 @@ double PressDrive::target_velocity(double time) const
   return 0;
 }
 
-void PressDrive::damp(Body& body, double velocity, double share)
+void PressDrive::damp(Scene& scene, double velocity, double share)
 {
   const double keep = 1 - share;
-  double before = 0, after = 0;
-  for (int i = 0; i < body.nodes; ++i) {
-    const double vr = keep * body.vr_i[i], vz = velocity + keep * (body.vz_i[i] - velocity);
-    before += body.mass_i[i] * (body.vr_i[i] * body.vr_i[i] + body.vz_i[i] * body.vz_i[i]);
-    after += body.mass_i[i] * (vr * vr + vz * vz);
-    body.vr_i[i] = vr, body.vz_i[i] = vz;
+  for (Body& body : scene.bodies) {
+    const double own = velocity * scene.reduced_mass() / body.mass;
+    double before = 0, after = 0;
+    for (int i = 0; i < body.nodes; ++i) {
+      const double vr = keep * body.vr_i[i], vz = own + keep * (body.vz_i[i] - own);
+      before += body.mass_i[i] * (body.vr_i[i] * body.vr_i[i] + body.vz_i[i] * body.vz_i[i]);
+      after += body.mass_i[i] * (vr * vr + vz * vz);
+      body.vr_i[i] = vr, body.vz_i[i] = vz;
+    }
+    work_ += 0.5 * (after - before);
   }
-  work_ += 0.5 * (after - before);
 }
 
-void PressDrive::apply(Body& body, double time, double dt, bool touching)
+void PressDrive::apply(Scene& scene, double time, double dt, bool touching)
 {
   if (touching) last_touch_ = time + dt;
-  const double velocity = -target_velocity(time + 0.5 * dt);  // overlap grows as the body moves down
+  const double velocity = -target_velocity(time + 0.5 * dt);  // overlap grows as the bodies move down
   if (plan_.support == Support::free) {
-    const double shift = velocity - body.mean_velocity();
-    for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += shift;
-    work_ += body.mass * shift * velocity;
+    // equal and opposite body forces: two bodies share the change of velocity as the inverse of their masses
+    const double shift = velocity - scene.separation_velocity(), reduced = scene.reduced_mass();
+    for (Body& body : scene.bodies) {
+      const double own = shift * reduced / body.mass;
+      for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += own;
+      work_ +=
+          body.mass * own * body.mean_velocity();  // over the way of the step, which the new velocity makes
+    }
   } else {
     // A uniform body force carries the bulk along with the equator: without it the accelerating equator would
     // have to push the half sphere's mass through the body, and the force would lag behind the overlap.
+    Body& body = scene.bodies.front();
     const double gain = velocity - velocity_;
     work_ += gain * body.mass * body.mean_velocity();
     for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += gain;
@@ -126,14 +123,15 @@ void PressDrive::apply(Body& body, double time, double dt, bool touching)
       body.vz_i[i] = velocity;
     }
     velocity_ = velocity;
+    driven_ += dt * velocity;
   }
 
-  const double now = time + dt, depth = overlap(body);
+  const double now = time + dt, depth = overlap(scene);
   switch (phase_) {
     case Phase::load:
       if (now - start_ > 0.5 * duration_) {
         const double slowness = 1 - std::sin(M_PI * std::min(1.0, (now - start_) / duration_));
-        damp(body, velocity, hold_damping * slowness * slowness * slowness * slowness * dt);
+        damp(scene, velocity, hold_damping * slowness * slowness * slowness * slowness * dt);
       }
       if (!reached_new_depth_ && depth > deepest_) {
         reached_new_depth_ = true;
@@ -145,7 +143,7 @@ void PressDrive::apply(Body& body, double time, double dt, bool touching)
       }
       break;
     case Phase::hold:
-      damp(body, velocity, hold_damping * dt);
+      damp(scene, velocity, hold_damping * dt);
       if (now - start_ >= hold_time) start_unloading(now);
       break;
     case Phase::unload:
@@ -178,9 +176,9 @@ double PressDrive::progress() const
   return std::min(1.0, (static_cast<double>(stop_) + (phase_ == Phase::load ? 0.3 : 0.7)) / stops);
 }
 
-double PressDrive::overlap(const Body& body) const
+double PressDrive::overlap(const Scene& scene) const
 {
-  return plan_.support == Support::free ? -mean_displacement(body) : -body.uz_i[body.equator.front()];
+  return plan_.support == Support::free ? scene.overlap() : -driven_;
 }
 
 }  // namespace granulaw

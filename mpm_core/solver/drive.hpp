@@ -2,52 +2,49 @@
 
 #include <vector>
 
-#include "solver/body.hpp"
 #include "solver/runs.hpp"
+#include "solver/scene.hpp"
 
 namespace granulaw {
 
-/// What moves the body: sets velocities after the contact impulse of a step (before it, the reported overlap
-/// would drift by the integral of F dt^2/m) and knows when the run is over. Solver units.
+/// What moves the bodies: sets velocities after the contact impulse of a step (before it, the reported
+/// overlap would drift by the integral of F dt^2/m) and knows when the run is over. Solver units.
 class Drive
 {
  public:
   virtual ~Drive() = default;
-  /// Velocities for the step from `time` to `time + dt`; `touching`: the plane pushed in this step.
-  virtual void apply(Body& body, double time, double dt, bool touching) = 0;
+  /// Velocities for the step from `time` to `time + dt`; `touching`: the contact pushed in this step.
+  virtual void apply(Scene& scene, double time, double dt, bool touching) = 0;
   virtual bool finished() const = 0;
   virtual Branch branch() const = 0;
   virtual int segment() const = 0;
   /// 0..1
   virtual double progress() const = 0;
   /// Overlap: displacement towards the plane of what the drive calls the body's position.
-  virtual double overlap(const Body& body) const = 0;
-  /// Work done on the body by the drive so far (impact: none).
+  virtual double overlap(const Scene& scene) const { return scene.overlap(); }
+  /// Work done on the bodies by the drive so far (impact: none).
   virtual double work() const { return 0; }
 };
 
-/// A free sphere; over when it has left the plane for good.
+/// Free bodies; over when they have parted for good.
 class ImpactDrive : public Drive
 {
  public:
-  ImpactDrive(double velocity, double expected_duration) : velocity_(velocity), expected_(expected_duration)
-  {
-  }
-  void apply(Body& body, double time, double dt, bool touching) override;
+  explicit ImpactDrive(double expected_duration) : expected_(expected_duration) {}
+  void apply(Scene& scene, double time, double dt, bool touching) override;
   bool finished() const override { return finished_; }
   Branch branch() const override { return rebounding_ ? Branch::unload : Branch::load; }
   int segment() const override { return rebounding_ ? 1 : 0; }
   double progress() const override;
-  double overlap(const Body& body) const override;
 
  private:
-  double velocity_, expected_, last_touch_ = 0, time_ = 0;
+  double expected_, last_touch_ = 0, time_ = 0;
   bool rebounding_ = false, finished_ = false;
 };
 
-/// A body pressed along smooth ramps by a uniform body force (free) or by its equator plane (midplane):
-/// overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at first touch); unloading at a
-/// speed that grows smoothly to a constant until the force has ended.
+/// Bodies pressed along smooth ramps by uniform body forces (free) or by the equator plane (midplane, one
+/// body): overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at first touch);
+/// unloading at a speed that grows smoothly to a constant until the force has ended.
 class PressDrive : public Drive
 {
  public:
@@ -59,16 +56,17 @@ class PressDrive : public Drive
     double unload_ramp;  ///< duration of an unloading, about
     Support support;
   };
+  /// `e_star_contact`: 1/(1/E*_1 + 1/E*_2), which sets the speed of unloading.
   PressDrive(const Plan& plan, double e_star_contact) : plan_(plan), e_star_(e_star_contact)
   {
     start_loading(0, 0);
   }
-  void apply(Body& body, double time, double dt, bool touching) override;
+  void apply(Scene& scene, double time, double dt, bool touching) override;
   bool finished() const override { return finished_; }
   Branch branch() const override;
   int segment() const override { return segment_; }
   double progress() const override;
-  double overlap(const Body& body) const override;
+  double overlap(const Scene& scene) const override;
   double work() const override { return work_; }
   /// Mean force and contact radius of the last sample: sets the speed of the next unloading.
   void observe(double force, double contact_radius) { force_ = force, radius_ = contact_radius; }
@@ -79,8 +77,8 @@ class PressDrive : public Drive
   void start_holding(double time);
   void start_unloading(double time);
   double target_velocity(double time) const;
-  /// Takes `share` of every velocity relative to the drive's own out of the body.
-  void damp(Body& body, double velocity, double share);
+  /// Takes `share` of every velocity relative to the drive's own out of the bodies.
+  void damp(Scene& scene, double velocity, double share);
 
   Plan plan_;
   double e_star_;
@@ -90,6 +88,7 @@ class PressDrive : public Drive
   double start_ = 0, from_ = 0, duration_ = 1, speed_ = 0;
   double last_touch_ = 0, force_ = 0, radius_ = 1, work_ = 0;
   double velocity_ = 0;  // of the equator in the last step
+  double driven_ = 0;    // displacement of the equator along +z
   bool reached_new_depth_ = false, finished_ = false;
   double deepest_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "solver/stress.hpp"
 
 namespace granulaw {
@@ -15,6 +16,7 @@ FieldRecorder::FieldRecorder(const FieldObserver& observer, const Scales& scale,
 void FieldRecorder::begin(const Body& body)
 {
   if (!observer_) return;
+  if (body.corners != 4) fail("--fields", "this version shows bodies on the grid 'mapped' only");
   if (observer_.begin) {
     std::vector<std::array<int, 4>> cells(static_cast<std::size_t>(body.points));
     for (int k = 0; k < 4; ++k)
@@ -42,6 +44,7 @@ void FieldRecorder::record(const Body& body, double time, double overlap, double
   for (const CauchyStress& s : now.stress) {
     f.pressure.push_back(s.pressure() * scale_.stress);
     f.von_mises.push_back(s.von_mises() * scale_.stress);
+    f.axial_stress.push_back(s.zz * scale_.stress);
   }
   observer_.frame(f);
 }

@@ -13,8 +13,16 @@ struct Kernels
 
   /// Stress at every material point from the nodal displacements, plastic state updated, and the internal
   /// nodal forces fr_i, fz_i (force on the node = minus the stress divergence). If `frozen`, the plastic
-  /// state is left as it is and the response is elastic about it (power iteration).
+  /// state is left as it is and the response is elastic about it (power iteration; always in double).
+  /// On the `updated` grid the displacements are those of the last step, and forces are those of the
+  /// configuration before it: only the power iteration asks for them.
   void (*internal_force)(Body& body, bool frozen);
+
+  /// `updated` grid: stress and state of the points after the displacements of the last step. No forces.
+  void (*update_stress)(Body& body);
+
+  /// `updated` grid: nodal forces of the stresses as they are, with the weights as they are.
+  void (*force_of_stress)(Body& body);
 
   /// v_i += dt f_i / m_i
   void (*accelerate)(Body& body, double dt);

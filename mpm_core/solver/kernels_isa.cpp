@@ -1,6 +1,9 @@
 // Compiled once for each instruction set (CMakeLists.txt), with GRANULAW_ISA_NAMESPACE and GRANULAW_ISA_NAME
 // set. Nothing here may come from a shared inline function: the linker would pick one copy for all sets.
 // Hence raw pointers and compiler built-ins only.
+//
+// A force evaluation goes block by block through each region of the body, in three stages that know nothing
+// of each other: gather (grid: displacement gradients), stress (material), corner_forces (grid).
 #include <type_traits>
 
 #include "solver/flow/laws.hpp"
@@ -10,112 +13,211 @@ namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
 namespace {
 
-/// ln(1 + x) for 1 + x between about 0.2 and 5, relative error below 1e-11 there and 1e-16 for |x| < 0.3:
-/// ln(1+x) = 2 ln sqrt(1+x) = 4 artanh(s), s = x/(2 + 2 sqrt(1+x) + x). Exact to rounding as x -> 0.
-GRANULAW_INLINE double log_1p(double x)
+/// ln(1 + x) for 1 + x between about 0.2 and 5, relative error below 1e-11 there and 1e-16 for |x| < 0.3
+/// (float: rounding): ln(1+x) = 2 ln sqrt(1+x) = 4 artanh(s), s = x/(2 + 2 sqrt(1+x) + x). Exact to rounding
+/// as x -> 0.
+template <class Real>
+GRANULAW_INLINE Real log_1p(Real x)
 {
-  const double root = __builtin_sqrt(1.0 + x);
-  const double s = x / (2.0 + 2.0 * root + x), q = s * s;
-  double sum = 1.0 / 21.0;
-  sum = sum * q + 1.0 / 19.0;
-  sum = sum * q + 1.0 / 17.0;
-  sum = sum * q + 1.0 / 15.0;
-  sum = sum * q + 1.0 / 13.0;
-  sum = sum * q + 1.0 / 11.0;
-  sum = sum * q + 1.0 / 9.0;
-  sum = sum * q + 1.0 / 7.0;
-  sum = sum * q + 1.0 / 5.0;
-  sum = sum * q + 1.0 / 3.0;
-  sum = sum * q + 1.0;
-  return 4.0 * s * sum;
+  const Real root = std::is_same_v<Real, float> ? Real(__builtin_sqrtf(float(Real(1) + x)))
+                                                : Real(__builtin_sqrt(double(Real(1) + x)));
+  const Real s = x / (Real(2) + Real(2) * root + x), q = s * s;
+  Real sum;
+  if constexpr (std::is_same_v<Real, float>) {
+    sum = Real(1.0 / 9.0);
+  } else {
+    sum = 1.0 / 21.0;
+    sum = sum * q + 1.0 / 19.0;
+    sum = sum * q + 1.0 / 17.0;
+    sum = sum * q + 1.0 / 15.0;
+    sum = sum * q + 1.0 / 13.0;
+    sum = sum * q + 1.0 / 11.0;
+    sum = sum * q + 1.0 / 9.0;
+  }
+  sum = sum * q + Real(1.0 / 7.0);
+  sum = sum * q + Real(1.0 / 5.0);
+  sum = sum * q + Real(1.0 / 3.0);
+  sum = sum * q + Real(1);
+  return Real(4) * s * sum;
 }
 
-/// exp(t) - 1 for the small t of one time step's plastic flow; relative error 1e-16 at |t| = 0.05, 5e-11 at
-/// 0.3.
-GRANULAW_INLINE double exp_m1(double t)
+/// exp(t) - 1 for small t, such as one time step's plastic flow or a volume strain; relative error 1e-16 at
+/// |t| = 0.05, 5e-11 at 0.3.
+template <class Real>
+GRANULAW_INLINE Real exp_m1(Real t)
 {
-  double sum = 1.0 / 362880.0;
-  sum = sum * t + 1.0 / 40320.0;
-  sum = sum * t + 1.0 / 5040.0;
-  sum = sum * t + 1.0 / 720.0;
-  sum = sum * t + 1.0 / 120.0;
-  sum = sum * t + 1.0 / 24.0;
-  sum = sum * t + 1.0 / 6.0;
-  sum = sum * t + 0.5;
-  sum = sum * t + 1.0;
+  Real sum;
+  if constexpr (std::is_same_v<Real, float>) {
+    sum = Real(1.0 / 720.0);
+  } else {
+    sum = 1.0 / 362880.0;
+    sum = sum * t + 1.0 / 40320.0;
+    sum = sum * t + 1.0 / 5040.0;
+    sum = sum * t + 1.0 / 720.0;
+  }
+  sum = sum * t + Real(1.0 / 120.0);
+  sum = sum * t + Real(1.0 / 24.0);
+  sum = sum * t + Real(1.0 / 6.0);
+  sum = sum * t + Real(0.5);
+  sum = sum * t + Real(1);
   return t * sum;
 }
 
-/// Hardening law of a body that does not yield.
+template <class Real>
+GRANULAW_INLINE Real root_of(Real x)
+{
+  if constexpr (std::is_same_v<Real, float>)
+    return __builtin_sqrtf(x);
+  else
+    return __builtin_sqrt(x);
+}
+
+constexpr int block_points = 64;
+
+/// What the stages hand on for the points of one block.
+template <class Real>
+struct alignas(64) Block
+{
+  using Values = Real[block_points];
+  Values hrr, hrz, hzr, hzz, hhh;  ///< displacement gradient, F = 1 + h
+  Values prr, prz, pzr, pzz, phh;  ///< first Piola-Kirchhoff stress
+  Values qr, qz;                   ///< four corners: hourglass amplitudes
+};
+
+template <class Real>
+GRANULAW_INLINE PointArrays<Real>& arrays(Body& body)
+{
+  if constexpr (std::is_same_v<Real, float>)
+    return body.single;
+  else
+    return body;
+}
+
+/// Displacement gradients of `count` points from the `corners` nodes of each. Differences to the first node
+/// are taken in double, so that float loses nothing to a common displacement.
+template <int corners, class Real>
+__attribute__((noinline)) void gather(Body& body, int first, int count, Block<Real>& out)
+{
+  const PointArrays<Real>& points = arrays<Real>(body);
+  const int n = body.points;
+  const int* __restrict corner = body.corner_p.data() + first;
+  const Real* __restrict br = points.br_p.data() + first;
+  const Real* __restrict bz = points.bz_p.data() + first;
+  const Real* __restrict bh = points.bh_p.data() + first;
+  const Real* __restrict gamma = corners == 4 ? points.hourglass_p.data() + first : nullptr;
+  const double* __restrict ur = body.ur_i.data();
+  const double* __restrict uz = body.uz_i.data();
+#pragma omp simd
+  for (int p = 0; p < count; ++p) {
+    const double from_r = ur[corner[p]], from_z = uz[corner[p]];
+    Real hrr = 0, hrz = 0, hzr = 0, hzz = 0, hhh = 0, qr = 0, qz = 0;
+#pragma GCC unroll 16
+    for (int k = 0; k < corners; ++k) {
+      const int at = k * n + p, i = corner[at];
+      const Real r = Real(ur[i] - from_r), z = Real(uz[i] - from_z);
+      hrr += br[at] * r, hrz += bz[at] * r;
+      hzr += br[at] * z, hzz += bz[at] * z;
+      hhh += bh[at] * Real(ur[i]);
+      if constexpr (corners == 4) qr += gamma[at] * r, qz += gamma[at] * z;
+    }
+    out.hrr[p] = hrr, out.hrz[p] = hrz, out.hzr[p] = hzr, out.hzz[p] = hzz, out.hhh[p] = hhh;
+    if constexpr (corners == 4) out.qr[p] = qr, out.qz[p] = qz;
+  }
+}
+
+/// Forces on the corners of each point: minus stress times weights, and the hourglass control in total form,
+/// which acts on the non-linear part of the displacement only.
+template <int corners, class Real>
+__attribute__((noinline)) void corner_forces(Body& body, int first, int count, const Block<Real>& in)
+{
+  PointArrays<Real>& points = arrays<Real>(body);
+  const int n = body.points;
+  const Real* __restrict br = points.br_p.data() + first;
+  const Real* __restrict bz = points.bz_p.data() + first;
+  const Real* __restrict bh = points.bh_p.data() + first;
+  const Real* __restrict gamma = corners == 4 ? points.hourglass_p.data() + first : nullptr;
+  const Real* __restrict stiffness = corners == 4 ? points.stiffness_p.data() + first : nullptr;
+  const Real* __restrict volume = points.volume_p.data() + first;
+  Real* __restrict energy = points.elastic_energy_p.data() + first;
+  Real* __restrict corner_fr = points.corner_fr.data() + first;
+  Real* __restrict corner_fz = points.corner_fz.data() + first;
+#pragma omp simd
+  for (int p = 0; p < count; ++p) {
+    const Real v = volume[p];
+    const Real prr = v * in.prr[p], prz = v * in.prz[p], pzr = v * in.pzr[p], pzz = v * in.pzz[p];
+    const Real phh = v * in.phh[p];
+    Real kr = 0, kz = 0;
+    if constexpr (corners == 4) {
+      kr = stiffness[p] * in.qr[p], kz = stiffness[p] * in.qz[p];
+      energy[p] += Real(0.5) * (kr * in.qr[p] + kz * in.qz[p]);
+    }
+#pragma GCC unroll 16
+    for (int k = 0; k < corners; ++k) {
+      const int at = k * n + p;
+      Real fr = -(prr * br[at] + prz * bz[at] + phh * bh[at]);
+      Real fz = -(pzr * br[at] + pzz * bz[at]);
+      if constexpr (corners == 4) fr -= kr * gamma[at], fz -= kz * gamma[at];
+      corner_fr[at] = fr, corner_fz[at] = fz;
+    }
+  }
+}
+
+/// Hardening "laws" of a body that does not yield: with nothing to remember, and with the elastic strain that
+/// an `updated` grid keeps.
 struct Elastic
 {
 };
+struct ElasticWithState
+{
+};
 
-/// Stress update and corner forces of every material point.
+/// Stress update of the points of one block.
 ///
 /// Multiplicative J2 plasticity with logarithmic elastic strain: trial b = F Cp^-1 F^T, its principal
 /// logarithmic strains, radial return, first Piola-Kirchhoff stress P = tau F^-T. Yield is on the Cauchy
-/// stress sigma = tau/J: q(tau) <= J sigma_y. Everything is kept as difference from the identity.
+/// stress sigma = tau/J: q(tau) <= J sigma_y, with J from the trace (plastic flow keeps the volume).
+/// Everything is kept as difference from the identity.
 /// Perfect and linear hardening have their return in closed form; other flow laws take plastic_increment.hpp.
-template <class Hardening, class Rate, bool frozen>
-GRANULAW_INLINE void stress_and_corner_forces(Body& body, [[maybe_unused]] const Hardening hardening_law,
-                                              [[maybe_unused]] const Rate rate_law)
+template <class Real, class Hardening, class Rate>
+GRANULAW_INLINE void stress(Body& body, const Moduli& moduli, int first, int count, Block<Real>& block,
+                            [[maybe_unused]] const Hardening hardening_law,
+                            [[maybe_unused]] const Rate rate_law)
 {
-  constexpr bool yields = !std::is_same_v<Hardening, Elastic>;
+  constexpr bool has_state = !std::is_same_v<Hardening, Elastic>;
+  constexpr bool yields = has_state && !std::is_same_v<Hardening, ElasticWithState>;
   constexpr bool closed_form =
       std::is_same_v<Hardening, flow::Linear> && std::is_same_v<Rate, flow::RateIndependent>;
   [[maybe_unused]] const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
-  const int count = body.points, n = count;
-  const double shear2 = 2.0 * body.moduli.shear, bulk = body.moduli.bulk;
-  const double yield = body.moduli.yield, hardening = body.moduli.hardening;
-  const int* __restrict corner = body.corner_p.data();
-  const double* __restrict br = body.br_p.data();
-  const double* __restrict bz = body.bz_p.data();
-  const double* __restrict bh = body.bh_p.data();
-  const double* __restrict gamma = body.hourglass_p.data();
-  const double* __restrict volume = body.volume_p.data();
-  const double* __restrict stiffness = body.stiffness_p.data();
-  const double* __restrict ur = body.ur_i.data();
-  const double* __restrict uz = body.uz_i.data();
-  double* __restrict crr = body.crr_p.data();
-  double* __restrict czz = body.czz_p.data();
-  double* __restrict crz = body.crz_p.data();
-  double* __restrict chh = body.chh_p.data();
-  double* __restrict plastic_strain = body.plastic_strain_p.data();
-  double* __restrict plastic_work = body.plastic_work_p.data();
-  double* __restrict energy = body.elastic_energy_p.data();
-  double* __restrict corner_fr = body.corner_fr.data();
-  double* __restrict corner_fz = body.corner_fz.data();
-  constexpr double tiny = 1e-300;
+  const Real shear2 = Real(2.0 * moduli.shear), bulk = Real(moduli.bulk);
+  const Real yield = Real(moduli.yield), hardening = Real(moduli.hardening);
+  PointArrays<Real>& points = arrays<Real>(body);
+  const Real* __restrict volume = points.volume_p.data() + first;
+  Real* __restrict crr = points.crr_p.data() + first;
+  Real* __restrict czz = points.czz_p.data() + first;
+  Real* __restrict crz = points.crz_p.data() + first;
+  Real* __restrict chh = points.chh_p.data() + first;
+  Real* __restrict plastic_strain = points.plastic_strain_p.data() + first;
+  Real* __restrict plastic_work = points.plastic_work_p.data() + first;
+  Real* __restrict energy = points.elastic_energy_p.data() + first;
+  constexpr Real one = 1, tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
 
 #pragma omp simd
   for (int p = 0; p < count; ++p) {
-    const int n0 = corner[p], n1 = corner[n + p], n2 = corner[2 * n + p], n3 = corner[3 * n + p];
-    const double r0 = ur[n0], r1 = ur[n1], r2 = ur[n2], r3 = ur[n3];
-    const double z0 = uz[n0], z1 = uz[n1], z2 = uz[n2], z3 = uz[n3];
-    const double br0 = br[p], br1 = br[n + p], br2 = br[2 * n + p], br3 = br[3 * n + p];
-    const double bz0 = bz[p], bz1 = bz[n + p], bz2 = bz[2 * n + p], bz3 = bz[3 * n + p];
-    const double bh0 = bh[p], bh1 = bh[n + p], bh2 = bh[2 * n + p], bh3 = bh[3 * n + p];
-
-    // displacement gradient, F = 1 + h
-    const double hrr = br0 * r0 + br1 * r1 + br2 * r2 + br3 * r3;
-    const double hrz = bz0 * r0 + bz1 * r1 + bz2 * r2 + bz3 * r3;
-    const double hzr = br0 * z0 + br1 * z1 + br2 * z2 + br3 * z3;
-    const double hzz = bz0 * z0 + bz1 * z1 + bz2 * z2 + bz3 * z3;
-    const double hhh = bh0 * r0 + bh1 * r1 + bh2 * r2 + bh3 * r3;
-    const double frr = 1.0 + hrr, fzz = 1.0 + hzz, fhh = 1.0 + hhh;
-    const double det = frr * fzz - hrz * hzr;
-    const double per_det = 1.0 / det, per_fhh = 1.0 / fhh;
+    const Real hrr = block.hrr[p], hrz = block.hrz[p], hzr = block.hzr[p], hzz = block.hzz[p],
+               hhh = block.hhh[p];
+    const Real frr = one + hrr, fzz = one + hzz, fhh = one + hhh;
+    const Real det = frr * fzz - hrz * hzr;
+    const Real per_det = one / det, per_fhh = one / fhh;
 
     // trial elastic left Cauchy-Green tensor minus identity
-    double xrr = 2.0 * hrr + hrr * hrr + hrz * hrz;
-    double xzz = 2.0 * hzz + hzz * hzz + hzr * hzr;
-    double xrz = hrz + hzr + hrr * hzr + hrz * hzz;
-    double xhh = 2.0 * hhh + hhh * hhh;
-    if constexpr (yields) {
-      const double c11 = crr[p], c22 = czz[p], c12 = crz[p];
-      const double g11 = frr * c11 + hrz * c12, g12 = frr * c12 + hrz * c22;
-      const double g21 = hzr * c11 + fzz * c12, g22 = hzr * c12 + fzz * c22;
+    Real xrr = Real(2) * hrr + hrr * hrr + hrz * hrz;
+    Real xzz = Real(2) * hzz + hzz * hzz + hzr * hzr;
+    Real xrz = hrz + hzr + hrr * hzr + hrz * hzz;
+    Real xhh = Real(2) * hhh + hhh * hhh;
+    if constexpr (has_state) {
+      const Real c11 = crr[p], c22 = czz[p], c12 = crz[p];
+      const Real g11 = frr * c11 + hrz * c12, g12 = frr * c12 + hrz * c22;
+      const Real g21 = hzr * c11 + fzz * c12, g22 = hzr * c12 + fzz * c22;
       xrr += g11 * frr + g12 * hrz;
       xrz += g11 * hzr + g12 * fzz;
       xzz += g21 * hzr + g22 * fzz;
@@ -123,25 +225,25 @@ GRANULAW_INLINE void stress_and_corner_forces(Body& body, [[maybe_unused]] const
     }
 
     // principal logarithmic strains; (cosine, sine) of twice the principal angle
-    const double mean = 0.5 * (xrr + xzz), half = 0.5 * (xrr - xzz);
-    const double radius = __builtin_sqrt(half * half + xrz * xrz);
-    const double per_radius = 1.0 / (radius + tiny);
-    const double cosine = half * per_radius, sine = xrz * per_radius;
-    const double x1 = mean + radius, x2 = mean - radius;
-    const double e1 = 0.5 * log_1p(x1), e2 = 0.5 * log_1p(x2), e3 = 0.5 * log_1p(xhh);
-    const double trace = e1 + e2 + e3, third = trace * (1.0 / 3.0);
-    double s1 = e1 - third, s2 = e2 - third, s3 = e3 - third;
+    const Real mean = Real(0.5) * (xrr + xzz), half = Real(0.5) * (xrr - xzz);
+    const Real radius = root_of(half * half + xrz * xrz);
+    const Real per_radius = one / (radius + tiny);
+    const Real cosine = half * per_radius, sine = xrz * per_radius;
+    const Real x1 = mean + radius, x2 = mean - radius;
+    const Real e1 = Real(0.5) * log_1p(x1), e2 = Real(0.5) * log_1p(x2), e3 = Real(0.5) * log_1p(xhh);
+    const Real trace = e1 + e2 + e3, third = trace * Real(1.0 / 3.0);
+    Real s1 = e1 - third, s2 = e2 - third, s3 = e3 - third;
 
     if constexpr (yields) {
-      const double jacobian = det * fhh;
-      const double q = shear2 * __builtin_sqrt(1.5 * (s1 * s1 + s2 * s2 + s3 * s3));
-      double step, mean_flow;
+      const Real jacobian = one + exp_m1(trace);
+      const Real q = shear2 * root_of(Real(1.5) * (s1 * s1 + s2 * s2 + s3 * s3));
+      Real step, mean_flow;
       if constexpr (closed_form) {
         // radial return: q - 3 G dg = J (sigma_y + H dg)
-        const double flow = yield + hardening * plastic_strain[p];
-        const double over = q - jacobian * flow;
-        step = over > 0.0 ? over / (1.5 * shear2 + jacobian * hardening) : 0.0;
-        mean_flow = jacobian * (flow + 0.5 * hardening * step);
+        const Real flow = yield + hardening * plastic_strain[p];
+        const Real over = q - jacobian * flow;
+        step = over > Real(0) ? over / (Real(1.5) * shear2 + jacobian * hardening) : Real(0);
+        mean_flow = jacobian * (flow + Real(0.5) * hardening * step);
       } else {
         const double start = jacobian * hardening_law(plastic_strain[p]).value;
         const flow::PlasticIncrement increment = flow::plastic_increment(
@@ -149,110 +251,216 @@ GRANULAW_INLINE void stress_and_corner_forces(Body& body, [[maybe_unused]] const
         step = q > start ? increment.strain : 0.0;
         mean_flow = 0.5 * (start * increment.factor + q - 1.5 * shear2 * step);
       }
-      const double shrink = 1.5 * shear2 * step / (q + tiny);
-      if constexpr (!frozen) {
-        // plastic state: b_new - b_trial carried back through F
-        const double d1 = (1.0 + x1) * exp_m1(-2.0 * shrink * s1);
-        const double d2 = (1.0 + x2) * exp_m1(-2.0 * shrink * s2);
-        const double d3 = (1.0 + xhh) * exp_m1(-2.0 * shrink * s3);
-        const double dm = 0.5 * (d1 + d2), dd = 0.5 * (d1 - d2);
-        const double drr = dm + dd * cosine, dzz = dm - dd * cosine, drz = dd * sine;
-        const double g11 = fzz * drr - hrz * drz, g12 = fzz * drz - hrz * dzz;
-        const double g21 = -hzr * drr + frr * drz, g22 = -hzr * drz + frr * dzz;
-        const double per_det2 = per_det * per_det;
-        crr[p] += per_det2 * (g11 * fzz - g12 * hrz);
-        crz[p] += per_det2 * (-g11 * hzr + g12 * frr);
-        czz[p] += per_det2 * (-g21 * hzr + g22 * frr);
-        chh[p] += per_fhh * per_fhh * d3;
-        plastic_strain[p] += step;
-        plastic_work[p] += volume[p] * mean_flow * step;
-      }
+      const Real shrink = Real(1.5) * shear2 * step / (q + tiny);
+      // plastic state: b_new - b_trial carried back through F
+      const Real d1 = (one + x1) * exp_m1(Real(-2) * shrink * s1);
+      const Real d2 = (one + x2) * exp_m1(Real(-2) * shrink * s2);
+      const Real d3 = (one + xhh) * exp_m1(Real(-2) * shrink * s3);
+      const Real dm = Real(0.5) * (d1 + d2), dd = Real(0.5) * (d1 - d2);
+      const Real drr = dm + dd * cosine, dzz = dm - dd * cosine, drz = dd * sine;
+      const Real g11 = fzz * drr - hrz * drz, g12 = fzz * drz - hrz * dzz;
+      const Real g21 = -hzr * drr + frr * drz, g22 = -hzr * drz + frr * dzz;
+      const Real per_det2 = per_det * per_det;
+      crr[p] += per_det2 * (g11 * fzz - g12 * hrz);
+      crz[p] += per_det2 * (-g11 * hzr + g12 * frr);
+      czz[p] += per_det2 * (-g21 * hzr + g22 * frr);
+      chh[p] += per_fhh * per_fhh * d3;
+      plastic_strain[p] += step;
+      plastic_work[p] += volume[p] * mean_flow * step;
       s1 -= shrink * s1, s2 -= shrink * s2, s3 -= shrink * s3;
     }
 
     // Kirchhoff stress, then P = tau F^-T
-    const double pressure = bulk * trace;
-    const double t1 = shear2 * s1 + pressure, t2 = shear2 * s2 + pressure, t3 = shear2 * s3 + pressure;
-    const double tm = 0.5 * (t1 + t2), td = 0.5 * (t1 - t2);
-    const double trr = tm + td * cosine, tzz = tm - td * cosine, trz = td * sine;
-    const double prr = (trr * fzz - trz * hrz) * per_det, prz = (trz * frr - trr * hzr) * per_det;
-    const double pzr = (trz * fzz - tzz * hrz) * per_det, pzz = (tzz * frr - trz * hzr) * per_det;
-    const double phh = t3 * per_fhh;
-
-    // hourglass control in total form: acts on the non-linear part of the displacement only
-    const double y0 = gamma[p], y1 = gamma[n + p], y2 = gamma[2 * n + p], y3 = gamma[3 * n + p];
-    const double qr = y0 * r0 + y1 * r1 + y2 * r2 + y3 * r3;
-    const double qz = y0 * z0 + y1 * z1 + y2 * z2 + y3 * z3;
-    const double kr = stiffness[p] * qr, kz = stiffness[p] * qz;
-
-    const double v = volume[p];
-    energy[p] = v * (0.5 * shear2 * (s1 * s1 + s2 * s2 + s3 * s3) + 0.5 * bulk * trace * trace) +
-                0.5 * (kr * qr + kz * qz);
-    corner_fr[p] = -v * (prr * br0 + prz * bz0 + phh * bh0) - kr * y0;
-    corner_fr[n + p] = -v * (prr * br1 + prz * bz1 + phh * bh1) - kr * y1;
-    corner_fr[2 * n + p] = -v * (prr * br2 + prz * bz2 + phh * bh2) - kr * y2;
-    corner_fr[3 * n + p] = -v * (prr * br3 + prz * bz3 + phh * bh3) - kr * y3;
-    corner_fz[p] = -v * (pzr * br0 + pzz * bz0) - kz * y0;
-    corner_fz[n + p] = -v * (pzr * br1 + pzz * bz1) - kz * y1;
-    corner_fz[2 * n + p] = -v * (pzr * br2 + pzz * bz2) - kz * y2;
-    corner_fz[3 * n + p] = -v * (pzr * br3 + pzz * bz3) - kz * y3;
+    const Real pressure = bulk * trace;
+    const Real t1 = shear2 * s1 + pressure, t2 = shear2 * s2 + pressure, t3 = shear2 * s3 + pressure;
+    const Real tm = Real(0.5) * (t1 + t2), td = Real(0.5) * (t1 - t2);
+    const Real trr = tm + td * cosine, tzz = tm - td * cosine, trz = td * sine;
+    block.prr[p] = (trr * fzz - trz * hrz) * per_det, block.prz[p] = (trz * frr - trr * hzr) * per_det;
+    block.pzr[p] = (trz * fzz - tzz * hrz) * per_det, block.pzz[p] = (tzz * frr - trz * hzr) * per_det;
+    block.phh[p] = t3 * per_fhh;
+    energy[p] = volume[p] * Real(0.5) * (shear2 * (s1 * s1 + s2 * s2 + s3 * s3) + bulk * trace * trace);
   }
 }
 
+/// `updated` grid: what the stages found for the displacements of one step becomes the points' own: elastic
+/// left Cauchy-Green tensor and Kirchhoff stress after the step, both pushed forward through it.
+__attribute__((noinline)) void push_forward(Body& body, int first, int count, const Block<double>& block)
+{
+  MovingPoints& m = *body.moving;
+  double* __restrict crr = body.crr_p.data() + first;
+  double* __restrict czz = body.czz_p.data() + first;
+  double* __restrict crz = body.crz_p.data() + first;
+  double* __restrict chh = body.chh_p.data() + first;
+  double* __restrict trr = m.trr.data() + first;
+  double* __restrict tzz = m.tzz.data() + first;
+  double* __restrict trz = m.trz.data() + first;
+  double* __restrict thh = m.thh.data() + first;
+#pragma omp simd
+  for (int p = 0; p < count; ++p) {
+    const double hrr = block.hrr[p], hrz = block.hrz[p], hzr = block.hzr[p], hzz = block.hzz[p];
+    const double hhh = block.hhh[p], frr = 1.0 + hrr, fzz = 1.0 + hzz, fhh = 1.0 + hhh;
+    const double c11 = crr[p], c22 = czz[p], c12 = crz[p];
+    const double g11 = frr * c11 + hrz * c12, g12 = frr * c12 + hrz * c22;
+    const double g21 = hzr * c11 + fzz * c12, g22 = hzr * c12 + fzz * c22;
+    crr[p] = 2.0 * hrr + hrr * hrr + hrz * hrz + g11 * frr + g12 * hrz;
+    crz[p] = hrz + hzr + hrr * hzr + hrz * hzz + g11 * hzr + g12 * fzz;
+    czz[p] = 2.0 * hzz + hzz * hzz + hzr * hzr + g21 * hzr + g22 * fzz;
+    chh[p] = 2.0 * hhh + hhh * hhh + fhh * fhh * chh[p];
+    trr[p] = block.prr[p] * frr + block.prz[p] * hrz;
+    trz[p] = block.prr[p] * hzr + block.prz[p] * fzz;
+    tzz[p] = block.pzr[p] * hzr + block.pzz[p] * fzz;
+    thh[p] = block.phh[p] * fhh;
+  }
+}
+
+template <class Real>
 GRANULAW_INLINE void sum_to_nodes(Body& body)
 {
-  const int nodes = body.nodes;
+  const PointArrays<Real>& points = arrays<Real>(body);
+  const int nodes = body.nodes, slots = body.slots;
   const int* __restrict slot = body.node_slots.data();
-  const double* __restrict corner_fr = body.corner_fr.data();
-  const double* __restrict corner_fz = body.corner_fz.data();
+  const Real* __restrict corner_fr = points.corner_fr.data();
+  const Real* __restrict corner_fz = points.corner_fz.data();
   double* __restrict fr = body.fr_i.data();
   double* __restrict fz = body.fz_i.data();
+  // blocks of nodes keep their sums in the first-level cache while the slots go by
+  constexpr int stride = 256;
+  for (int from = 0; from < nodes; from += stride) {
+    const int until = from + stride < nodes ? from + stride : nodes;
+    for (int i = from; i < until; ++i) fr[i] = fz[i] = 0.0;
+    for (int s = 0; s < slots; s += 4) {  // a multiple of 4, padded with the zero
+      const int* __restrict a = slot + s * nodes;
+      const int* __restrict b = a + nodes;
+      const int* __restrict c = b + nodes;
+      const int* __restrict d = c + nodes;
 #pragma omp simd
-  for (int i = 0; i < nodes; ++i) {
-    const int a = slot[i], b = slot[nodes + i], c = slot[2 * nodes + i], d = slot[3 * nodes + i];
-    fr[i] = (corner_fr[a] + corner_fr[b]) + (corner_fr[c] + corner_fr[d]);
-    fz[i] = (corner_fz[a] + corner_fz[b]) + (corner_fz[c] + corner_fz[d]);
+      for (int i = from; i < until; ++i) {
+        fr[i] += double((corner_fr[a[i]] + corner_fr[b[i]]) + (corner_fr[c[i]] + corner_fr[d[i]]));
+        fz[i] += double((corner_fz[a[i]] + corner_fz[b[i]]) + (corner_fz[c[i]] + corner_fz[d[i]]));
+      }
+    }
   }
 }
 
-// One copy of the loop for each pair of a hardening and a rate law.
-template <class Hardening, class Rate>
-__attribute__((noinline)) void update(Body& body)
+/// What becomes of the stresses.
+enum class Then { forces, push_forward };
+
+template <class Real>
+void gather_block(Body& body, int first, int count, Block<Real>& block)
 {
-  const flow::Flow& laws = body.moduli.flow;
-  stress_and_corner_forces<Hardening, Rate, false>(
-      body, Hardening::from(body.moduli.yield, laws.hardening_values), Rate::from(laws.rate_values));
+  if (body.corners == 4)
+    gather<4, Real>(body, first, count, block);
+  else
+    gather<9, Real>(body, first, count, block);
+}
+
+template <class Real>
+void pass_on(Body& body, int first, int count, const Block<Real>& block, Then then)
+{
+  if constexpr (std::is_same_v<Real, double>)
+    if (then == Then::push_forward) return push_forward(body, first, count, block);
+  if (body.corners == 4)
+    corner_forces<4, Real>(body, first, count, block);
+  else
+    corner_forces<9, Real>(body, first, count, block);
+}
+
+/// One region under one pair of laws, block by block. A function of its own for each pair.
+template <class Real, class Hardening, class Rate>
+__attribute__((noinline)) void update_region(Body& body, const Region& region, Then then,
+                                             const Hardening hardening, const Rate rate)
+{
+  Block<Real> block;
+  for (int first = region.begin; first < region.end; first += block_points) {
+    const int left = region.end - first, count = left < block_points ? left : block_points;
+    gather_block<Real>(body, first, count, block);
+    stress<Real>(body, region.moduli, first, count, block, hardening, rate);
+    pass_on<Real>(body, first, count, block, then);
+  }
 }
 
 template <class Rate, class... Hardening>
-void with_hardening(Body& body, flow::LawList<Hardening...>)
+void with_hardening(Body& body, const Region& region, Then then, flow::LawList<Hardening...>)
 {
+  const flow::Flow& laws = region.moduli.flow;
   int k = 0;
-  ((k++ == body.moduli.flow.hardening ? update<Hardening, Rate>(body) : void()), ...);
+  ((k++ == laws.hardening ? update_region<double>(body, region, then,
+                                                  Hardening::from(region.moduli.yield, laws.hardening_values),
+                                                  Rate::from(laws.rate_values))
+                          : void()),
+   ...);
 }
 
 template <class... Rate>
-void with_rate(Body& body, flow::LawList<Rate...>)
+void with_rate(Body& body, const Region& region, Then then, flow::LawList<Rate...>)
 {
   int k = 0;
-  ((k++ == body.moduli.flow.rate ? with_hardening<Rate>(body, flow::HardeningLaws{}) : void()), ...);
+  ((k++ == region.moduli.flow.rate ? with_hardening<Rate>(body, region, then, flow::HardeningLaws{})
+                                   : void()),
+   ...);
+}
+
+constexpr flow::Linear linear{};
+constexpr flow::RateIndependent no_rate{};
+
+/// Every region under its own laws. Single precision has the closed forms only (see Body::use_single).
+template <class Real>
+void update(Body& body, Then then)
+{
+  for (const Region& region : body.regions) {
+    if (!region.moduli.yields && then == Then::forces)
+      update_region<Real>(body, region, then, Elastic{}, no_rate);
+    else if (!region.moduli.yields)
+      update_region<Real>(body, region, then, ElasticWithState{}, no_rate);
+    else if ((region.moduli.flow.hardening == 0 && region.moduli.flow.rate == 0) ||
+             std::is_same_v<Real, float>)
+      update_region<Real>(body, region, then, linear, no_rate);
+    else
+      with_rate(body, region, then, flow::RateLaws{});
+  }
+  body.elapsed = 0.0;
 }
 
 void internal_force(Body& body, bool frozen)
 {
-  constexpr flow::Linear linear{};
-  constexpr flow::RateIndependent no_rate{};
-  if (!body.moduli.yields) {
-    stress_and_corner_forces<Elastic, flow::RateIndependent, true>(body, {}, no_rate);
-  } else if (frozen) {
-    stress_and_corner_forces<flow::Linear, flow::RateIndependent, true>(body, linear, no_rate);
-  } else if (body.moduli.flow.hardening == 0 && body.moduli.flow.rate == 0) {
-    stress_and_corner_forces<flow::Linear, flow::RateIndependent, false>(body, linear, no_rate);
+  if (frozen) {
+    for (const Region& region : body.regions)
+      update_region<double>(body, region, Then::forces, Elastic{}, no_rate);
+    sum_to_nodes<double>(body);
+  } else if (body.is_single()) {
+    update<float>(body, Then::forces);
+    sum_to_nodes<float>(body);
   } else {
-    with_rate(body, flow::RateLaws{});
+    update<double>(body, Then::forces);
+    sum_to_nodes<double>(body);
   }
-  if (!frozen) body.elapsed = 0.0;
-  sum_to_nodes(body);
+}
+
+void update_stress(Body& body)
+{
+  update<double>(body, Then::push_forward);
+}
+
+void force_of_stress(Body& body)
+{
+  const MovingPoints& m = *body.moving;
+  const double *trr = m.trr.data(), *tzz = m.tzz.data(), *trz = m.trz.data(), *thh = m.thh.data();
+  Block<double> block;
+  for (int first = 0; first < body.points; first += block_points) {
+    const int left = body.points - first, count = left < block_points ? left : block_points;
+    for (int p = 0; p < count; ++p) {
+      const int at = first + p;
+      block.prr[p] = trr[at], block.prz[p] = block.pzr[p] = trz[at];
+      block.pzz[p] = tzz[at], block.phh[p] = thh[at];
+    }
+    corner_forces<9, double>(body, first, count, block);
+  }
+  // corners change from step to step: no list of them by node
+  const int nodes = body.nodes, corners = 9 * body.points;
+  const int* corner = body.corner_p.data();
+  double *fr = body.fr_i.data(), *fz = body.fz_i.data();
+  for (int i = 0; i < nodes; ++i) fr[i] = fz[i] = 0.0;
+  for (int k = 0; k < corners; ++k) fr[corner[k]] += body.corner_fr[k], fz[corner[k]] += body.corner_fz[k];
 }
 
 void accelerate(Body& body, double dt)
@@ -287,6 +495,7 @@ void move(Body& body, double dt)
 
 }  // namespace
 
-extern const Kernels kernels{GRANULAW_ISA_NAME, internal_force, accelerate, move};
+extern const Kernels kernels{GRANULAW_ISA_NAME, internal_force, update_stress,
+                             force_of_stress,   accelerate,     move};
 
 }  // namespace granulaw::GRANULAW_ISA_NAMESPACE

@@ -86,6 +86,49 @@ struct Half
   }
 };
 
+/// Adds the cells of a half to the grid, its points carried to the section by `place`, its outermost ring
+/// glued to the nodes `glue`; returns the nodes of its points.
+template <class Place>
+std::vector<int> append(MappedGrid& grid, const Half& half, bool mirrored, const std::vector<int>* glue,
+                        Place place)
+{
+  std::vector<int> id(half.points.size(), -1);
+  if (glue)
+    for (std::size_t m = 0; m < glue->size(); ++m) id[half.rings.back()[m]] = (*glue)[m];
+  for (std::size_t p = 0; p < half.points.size(); ++p) {
+    if (id[p] >= 0) continue;
+    id[p] = static_cast<int>(grid.nodes.size());
+    grid.nodes.push_back(place(half.points[p]));
+  }
+  const auto quad = [&](int a, int b, int c, int d) {
+    std::array<int, 4> q{id[a], id[b], id[c], id[d]};
+    if (mirrored) std::swap(q[1], q[3]);
+    grid.cells.push_back(q);
+  };
+  const int n = half.n;
+  for (int i = 0; i < n; ++i)  // x grows upwards (z), y outwards (r)
+    for (int j = 0; j < n; ++j)
+      quad(half.block[i][j], half.block[i][j + 1], half.block[i + 1][j + 1], half.block[i + 1][j]);
+  for (std::size_t k = 0; k + 1 < half.rings.size(); ++k)
+    for (int m = 0; m < 2 * n; ++m)
+      quad(half.rings[k][m], half.rings[k + 1][m], half.rings[k + 1][m + 1], half.rings[k][m + 1]);
+  return id;
+}
+
+/// Lists the nodes of the lower surface, the outermost ring and the axis.
+void list_edges(MappedGrid& grid, const Half& near, const std::vector<int>& id)
+{
+  for (int j = 0; j <= near.n; ++j) grid.surface.push_back(id[near.block[0][j]]);
+  for (std::size_t k = 1; k < near.rings.size(); ++k) grid.surface.push_back(id[near.rings[k][0]]);
+  for (const int p : near.rings.back()) grid.equator.push_back(id[p]);
+}
+
+void list_axis(MappedGrid& grid)
+{
+  for (std::size_t p = 0; p < grid.nodes.size(); ++p)
+    if (grid.nodes[p].r == 0.0) grid.axis.push_back(static_cast<int>(p));
+}
+
 }  // namespace
 
 MappedGrid MappedGrid::build(int cells_across, double block, bool full, double shift)
@@ -97,43 +140,37 @@ MappedGrid MappedGrid::build(int cells_across, double block, bool full, double s
   const double shifted = block * (1 - shift / cells_across);
   const double block_zeta = shifted / (1 + std::sqrt(1 - shifted * shifted));
   const Half near(cells_across, block_zeta, 1.25, shift);
-
-  const auto append = [&grid](const Half& half, bool mirrored, const std::vector<int>* glue) {
-    std::vector<int> id(half.points.size(), -1);
-    if (glue)
-      for (std::size_t m = 0; m < glue->size(); ++m) id[half.rings.back()[m]] = (*glue)[m];
-    for (std::size_t p = 0; p < half.points.size(); ++p) {
-      if (id[p] >= 0) continue;
-      Node node = to_sphere(half.points[p]);
-      if (mirrored) node.z = 2 - node.z;
-      id[p] = static_cast<int>(grid.nodes.size());
-      grid.nodes.push_back(node);
-    }
-    const auto quad = [&](int a, int b, int c, int d) {
-      std::array<int, 4> q{id[a], id[b], id[c], id[d]};
-      if (mirrored) std::swap(q[1], q[3]);
-      grid.cells.push_back(q);
-    };
-    const int n = half.n;
-    for (int i = 0; i < n; ++i)  // x grows upwards (z), y outwards (r)
-      for (int j = 0; j < n; ++j)
-        quad(half.block[i][j], half.block[i][j + 1], half.block[i + 1][j + 1], half.block[i + 1][j]);
-    for (std::size_t k = 0; k + 1 < half.rings.size(); ++k)
-      for (int m = 0; m < 2 * n; ++m)
-        quad(half.rings[k][m], half.rings[k + 1][m], half.rings[k + 1][m + 1], half.rings[k][m + 1]);
-    return id;
-  };
-
-  const std::vector<int> id = append(near, false, nullptr);
-  for (int j = 0; j <= cells_across; ++j) grid.surface.push_back(id[near.block[0][j]]);
-  for (std::size_t k = 1; k < near.rings.size(); ++k) grid.surface.push_back(id[near.rings[k][0]]);
-  for (const int p : near.rings.back()) grid.equator.push_back(id[p]);
-
-  if (full) append(Half(cells_across, std::max(0.5, block_zeta), 2.5, 0.0), true, &grid.equator);
-
-  for (std::size_t p = 0; p < grid.nodes.size(); ++p)
-    if (grid.nodes[p].r == 0.0) grid.axis.push_back(static_cast<int>(p));
+  const std::vector<int> id = append(grid, near, false, nullptr, to_sphere);
+  list_edges(grid, near, id);
+  if (full)
+    append(grid, Half(cells_across, std::max(0.5, block_zeta), 2.5, 0.0), true, &grid.equator, [](Zeta q) {
+      Node node = to_sphere(q);
+      node.z = 2 - node.z;
+      return node;
+    });
+  list_axis(grid);
+  grid.volume = (full ? 4.0 : 2.0) / 3.0 * M_PI;
   return grid;
+}
+
+MappedGrid MappedGrid::wall(int cells_across, double block, double extent, double shift)
+{
+  assert(cells_across >= 4 && block > 0 && block < extent && shift > -1 && shift < 1);
+  MappedGrid grid;
+  const Half near(cells_across, block * (1 - shift / cells_across) / extent, 1.25, shift);
+  const std::vector<int> id = append(grid, near, false, nullptr, [&](Zeta q) {
+    return Node{extent * q.y, extent * q.x};
+  });
+  list_edges(grid, near, id);
+  list_axis(grid);
+  grid.volume = 2.0 / 3.0 * M_PI * extent * extent * extent;
+  return grid;
+}
+
+void MappedGrid::scale(double factor)
+{
+  for (Node& node : nodes) node.r *= factor, node.z *= factor;
+  volume *= factor * factor * factor;
 }
 
 }  // namespace granulaw

@@ -31,12 +31,20 @@ struct MappedGrid
   std::vector<int> surface;               ///< nodes on the lower half's surface, from the pole outwards
   std::vector<int> axis;                  ///< nodes with r = 0
   std::vector<int> equator;               ///< nodes of the mid-plane; driven under midplane support
+  double volume = 0;                      ///< exact, full revolution
 
   /// `cells_across` N >= 4; `block` = radius the block covers on the surface, in units of R, up to 0.9;
   /// `full` = whole sphere, else the lower half up to the mid-plane.
   /// `shift` moves the block's grid lines towards the pole by that part of a cell: runs at different shifts
   /// meet the contact edge at different phases, and their mean is free of the ripple's lower harmonics.
   static MappedGrid build(int cells_across, double block, bool full, double shift = 0);
+
+  /// A thick wall: half a ball of radius `extent` with its flat side, z = 0, in contact; the same block and
+  /// rings without the conformal map. Its far side is free: a wave needs 2 extent/c to come back.
+  static MappedGrid wall(int cells_across, double block, double extent, double shift = 0);
+
+  /// The same grid of a body `factor` times as large.
+  void scale(double factor);
 };
 
 }  // namespace granulaw

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "solver/fields.hpp"
 #include "solver/material.hpp"
+#include "solver/particle.hpp"
 #include "solver/trace.hpp"
 
 namespace granulaw {
@@ -15,22 +18,46 @@ enum class Support {
   midplane  ///< half a sphere whose equator plane is driven: as finite-element references do
 };
 
+/// How a body is cut into cells (docs/method.md).
+enum class GridKind {
+  automatic,  ///< what the scene needs: `mapped` for homogeneous spheres, else `tartan`
+  mapped,     ///< fitted to the sphere: fastest and most exact
+  tartan,     ///< graded Cartesian reference grid: any body of revolution, layers, inclusions
+  updated     ///< the points move through a fixed grid: the independent check
+};
+
+/// Precision of the material points; nodes are double always.
+enum class Precision { full, single };
+
+/// What the particle meets; nothing given: the rigid, frictionless plane.
+struct Partner
+{
+  std::optional<Particle> particle{};  ///< a second particle, pole against pole
+  std::optional<Material> wall{};      ///< a thick deformable wall with a flat, frictionless face
+};
+
 struct RunOptions
 {
+  GridKind grid = GridKind::automatic;
+  Precision precision = Precision::full;
   int resolution = 0;  ///< cells across the contact block; 0: the default of the run
   int phases = 4;   ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
                     ///< of the first harmonics of the contact-edge ripple (ensemble.hpp); 1: a single run
   int threads = 1;  ///< threads that share these runs
   double courant = 0.85;  ///< time step over the stability limit, 0.1 to 1
+  double slowness = 1;    ///< press: factor on the ramp
   int samples = 800;      ///< trace length aimed at
   bool estimate_error =
-      false;             ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
+      false;  ///< run a second, coarser resolution and fill error_estimate (accuracy.hpp; costs 1/3 more)
   FieldObserver fields;  ///< who wants to see the body while the run goes on (fields.hpp)
   std::function<void(double fraction)>
       progress;  ///< called now and then with 0..1; may throw to stop the run
 };
 
-/// A sphere thrown at a rigid, frictionless plane with `velocity` (m/s, > 0); runs until it has left it.
+/// A particle thrown along its axis at a partner, with the relative `velocity` (m/s, > 0); runs until they
+/// have parted. Overlap: approach of the centres of mass.
+RunResult run_impact(const Particle& particle, double velocity, const RunOptions& options = {},
+                     const Partner& partner = {});
 RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& options = {});
 
 struct PressPlan
@@ -43,7 +70,17 @@ struct PressPlan
   double ramp = 0;      ///< loading time in R/c*; 0: the default of the run
 };
 
-/// A sphere pressed slowly onto a rigid, frictionless plane to plan.depth and taken off completely.
+/// A particle pressed slowly along its axis onto its partner to plan.depth and taken off completely.
+RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options = {},
+                    const Partner& partner = {});
 RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOptions& options = {});
+
+/// The grid that `GridKind::automatic` takes for a particle, and why, as the end of a sentence.
+struct GridChoice
+{
+  GridKind grid;
+  std::string reason;
+};
+GridChoice choose_grid(const Particle& particle);
 
 }  // namespace granulaw

@@ -4,19 +4,44 @@
 #include <cmath>
 #include <random>
 
+#include "solver/drive.hpp"
 #include "solver/kernels.hpp"
+#include "solver/updated_body.hpp"
 
 namespace granulaw {
 
-double advance(Body& body, PlaneContact& contact, Drive& drive, double time, double dt)
+namespace {
+
+/// On a reference grid (`mapped`, `tartan`) weights, masses and nodal velocities are kept for good; on the
+/// `updated` grid the points bring them anew.
+void points_to_grid(Body& body)
+{
+  if (body.moving)
+    updated_points_to_grid(body);
+  else
+    kernels().internal_force(body, false);
+}
+
+void grid_to_points(Body& body, double dt)
+{
+  body.travel += dt * body.mean_velocity();
+  kernels().move(body, dt);
+  if (body.moving) updated_grid_to_points(body, dt);
+}
+
+}  // namespace
+
+double advance(Scene& scene, Drive& drive, double time, double dt)
 {
   const Kernels& k = kernels();
-  k.internal_force(body, false);                     // points to grid: stresses, internal forces
-  k.accelerate(body, dt);                            // grid update
-  for (const int i : body.axis) body.vr_i[i] = 0;    // symmetry
-  const double impulse = contact.correct(body, dt);  // contact: no node ends below the plane
-  drive.apply(body, time, dt, impulse > 0);          // what holds or throws the body
-  k.move(body, dt);                                  // grid to points: displacements, kept for good
+  for (Body& body : scene.bodies) {
+    points_to_grid(body);                            // stresses become forces on the nodes
+    k.accelerate(body, dt);                          // grid update
+    for (const int i : body.axis) body.vr_i[i] = 0;  // symmetry
+  }
+  const double impulse = scene.contact->correct(scene.bodies, dt);  // no surface point passes the other side
+  drive.apply(scene, time, dt, impulse > 0);                        // what holds or throws the bodies
+  for (Body& body : scene.bodies) grid_to_points(body, dt);         // displacements, and the points with them
   return impulse;
 }
 
@@ -27,17 +52,38 @@ namespace {
 double cell_bound(const Body& body, int p)
 {
   double sum = 0;
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < body.corners; ++k) {
     const std::size_t at = std::size_t(k) * body.points + p;
     sum += body.br_p[at] * body.br_p[at] + body.bz_p[at] * body.bz_p[at];
   }
   return sum;
 }
 
+/// The points come and go among the nodes of an `updated` grid, so its frequencies change all the time.
+/// Inside a uniform grid of quadratic splines with lumped masses omega_max = sqrt(3) c/h in two dimensions,
+/// which allows dt = 1.15 h/c; nodes with little mass near a surface take half of that off.
+double updated_step(const Body& body)
+{
+  const MovingPoints& m = *body.moving;
+  double fastest = 0, finest = 1;
+  for (const Region& region : body.regions)
+    for (int p = region.begin; p < region.end; ++p)
+      fastest = std::max(
+          fastest, (region.moduli.bulk + 4.0 / 3.0 * region.moduli.shear) * body.volume_p[p] / m.mass[p]);
+  for (const SplineAxis* axis : {&m.r_axis, &m.z_axis})
+    for (int c = 0; c < axis->cells(); ++c)
+      finest = std::min(finest, axis->lines()[c + 1] - axis->lines()[c]);
+  return 0.6 * finest / std::sqrt(fastest);
+}
+
 }  // namespace
 
 StableStep::StableStep(Body& body)
 {
+  if (body.moving) {
+    omega_ = 2 / updated_step(body);
+    return;
+  }
   // Displacements of 1e-7 keep the response linear; the vector that converges fastest alternates in sign.
   constexpr double amplitude = 1e-7;
   constexpr int iterations = 80;
@@ -78,16 +124,16 @@ StableStep::StableStep(Body& body)
 
 double StableStep::limit(const Body& body) const
 {
+  if (body.moving) return 2 / omega_;
   double worst = bound_;
   const int n = body.points;
   for (int p = 0; p < n; ++p) {
-    double hrr = 0, hrz = 0, hzr = 0, hzz = 0, hhh = 0;
-    for (int k = 0; k < 4; ++k) {
+    double hrr = 0, hrz = 0, hzr = 0, hzz = 0;
+    for (int k = 0; k < body.corners; ++k) {
       const std::size_t at = std::size_t(k) * n + p;
       const int i = body.corner_p[at];
       hrr += body.br_p[at] * body.ur_i[i], hrz += body.bz_p[at] * body.ur_i[i];
       hzr += body.br_p[at] * body.uz_i[i], hzz += body.bz_p[at] * body.uz_i[i];
-      hhh += body.bh_p[at] * body.ur_i[i];
     }
     // largest eigenvalue of F^-1 F^-T = 1/(smallest of F^T F); 2 x 2
     const double frr = 1 + hrr, fzz = 1 + hzz;

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "solver/body.hpp"
-#include "solver/drive.hpp"
-#include "solver/plane_contact.hpp"
+#include "solver/scene.hpp"
 
 namespace granulaw {
 
-/// One step of the material point method on the reference grid, as verbs in order.
-/// Returns the impulse that the plane gave the body (+z).
-double advance(Body& body, PlaneContact& contact, Drive& drive, double time, double dt);
+class Drive;
+
+/// One step of the material point method, as verbs in order. Returns the impulse of the contact on the first
+/// body (+z).
+double advance(Scene& scene, Drive& drive, double time, double dt);
 
 /// Largest stable step 2/omega_max of the central-difference scheme.
 class StableStep

@@ -32,13 +32,16 @@ struct RunSummary
   double contact_time = 0;        ///< s
   double work_load = 0;           ///< J
   double work_unload = 0;         ///< J
-  long points = 0;                ///< material points
+  int resolution = 0;             ///< cells across the contact block
+  int grids = 1;                  ///< shifted grids whose mean this is
+  long points = 0;                ///< material points of one grid, their mean
   long steps = 0;
   double cpu_s = 0;
   double point_updates_per_s = 0;
   double error_estimate =
-      0;                    ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
-  double energy_error = 0;  ///< |kinetic + elastic + plastic - work|/(energy put in)
+      0;  ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
+  double plastic_strain_max = 0;  ///< largest equivalent plastic strain of any material point at the end
+  double energy_error = 0;        ///< |kinetic + elastic + plastic - work|/(energy put in)
   double ripple = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 

@@ -69,10 +69,10 @@ def refused(words, *wanted, code=1):
 
 
 def case_impact():
-    keys = ["e", "e_raw", "force_max_N", "delta_max_m", "delta_residual_m", "contact_time_s", "work_load_J", "work_unload_J",
-            "energy_error", "ripple", "points", "steps", "cpu_s", "point_updates_per_s", "error_estimate"]
+    keys = ["e", "force_max_N", "delta_max_m", "delta_residual_m", "contact_time_s", "work_load_J", "work_unload_J",
+            "points", "steps", "cpu_s", "point_updates_per_s", "error_estimate"]
     result = Run("impact", materials(), *HIT, "-o", "t.csv", "--json").json()
-    assert list(result) == keys and result["error_estimate"] is None
+    assert list(result)[:len(keys)] == keys and 0 < result["error_estimate"] < 0.1
     assert 0.6 < result["e"] < 0.85 and abs(result["work_unload_J"] / result["work_load_J"] - result["e"] ** 2) < 1e-3
     kinetic = 0.5 * 1500 * 4 / 3 * np.pi * 2e-3**3 * 2.6**2
     assert abs(result["work_load_J"] / kinetic - 1) < 1e-6  # all of the kinetic energy goes into the contact
@@ -164,7 +164,7 @@ def case_errors():
     refused(["impact", name, "--particle", "gran", "--velocity", "1", *out], "m.toml", "gran", "did you mean 'grain'")
     refused(["impact", "none.toml", *HIT, *out], "none.toml", "no such file")
     refused(["impact", name, "--particle", "grain", "--velocity", "-1", *out], "--velocity", "over 0")
-    refused(["impact", name, *HIT, "--grid", "tartan", *out], "tartan", "mapped")
+    refused(["impact", name, *HIT, "--grid", "tartane", *out], "tartane", "mapped")
     refused(["impact", name, *HIT, "--grid", "round", *out], "round", "mapped")
     refused(["impact", name, *HIT, "-o", "out.txt"], "out.txt", ".csv")
     refused(["impact", name, *HIT, "-o", "no/out.csv"], "no/out.csv", "does not exist")
@@ -194,7 +194,15 @@ def case_errors():
     broken("density = 1500", "density = ", ":3:")
     broken('material = "powder"', 'material = "powdr"', "powdr", "did you mean 'powder'")
     broken("radius = 2e-3", "radius = 0", "radius", "over 0")
-    broken("radius = 2e-3", "radius = 2e-3\nlayers = 3", "layers", "homogeneous")
+    broken("radius = 2e-3", "radius = 2e-3\nlayers = 3", ":15:", "layers", "list of tables", "thickness")
+    broken("radius = 2e-3", 'radius = 2e-3\nlayers = [{material = "glas", thickness = 1e-5}]', ":15:", "glas", "did you mean 'glass'")
+    broken("radius = 2e-3", 'radius = 2e-3\nlayers = [{material = "glass", thickness = 2e-3}]', ":13:", "no core", "0.002 m")
+    broken("radius = 2e-3", "radius = 2e-3\ninclusions = [{pore = true, radius = 1e-4, z = 5e-5}]", ":13:", "inclusion 1",
+           "surface", "below 5e-05 m")
+    broken("radius = 2e-3", "radius = 2e-3\ninclusions = [{radius = 1e-4, z = 1e-3}]", ":15:", "material", "pore = true")
+    broken("radius = 2e-3", 'radius = 2e-3\nprofile = {shape = "elipsoid", aspect = 2}', ":15:", "elipsoid", "did you mean 'ellipsoid'")
+    broken("radius = 2e-3", 'radius = 2e-3\nprofile = {shape = "ellipsoid", aspect = -1}', ":15:", "aspect", "0.05 to 20")
+    broken("radius = 2e-3", "radius = 2e-3\nprofile = {points = [[0, 0], [1e-3, 1e-3], [0, 2e-3]]}", ":14:", "radius", "0.001 m")
     broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "vose", modulus = 1}', "vose", "did you mean 'voce'")
     broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "voce", modulus = 1}', ":7:", "modulus", "saturation_stress")
     broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "swift", strength = 1e8, exponent = 0.2, ofset = 0.01}',

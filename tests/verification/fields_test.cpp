@@ -5,6 +5,7 @@
 #include <random>
 
 #include "solver/kernels.hpp"
+#include "solver/mapped_body.hpp"
 #include "solver/runs.hpp"
 #include "solver/stress.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 /// is all there is in forces and energies.
 Body deformed(const Moduli& m)
 {
-  Body b = Body::build(MappedGrid::build(8, 0.3, true), m, 0.0);
+  Body b = mapped_body(MappedGrid::build(8, 0.3, true), {m}, 0.0);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> jitter(-1e-4, 1e-4);
   for (int step = 1; step <= 4; ++step) {

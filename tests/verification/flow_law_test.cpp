@@ -10,10 +10,10 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "solver/body.hpp"
 #include "solver/flow/vector_math.hpp"
 #include "solver/flow_laws.hpp"
 #include "solver/kernels.hpp"
+#include "solver/mapped_body.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {
@@ -106,8 +106,9 @@ Body ring(const Material& m)
   g.nodes = {{1, 0}, {2, 0}, {2, 1}, {1, 1}};
   g.cells = {{0, 1, 2, 3}};
   const flow::Flow laws = flow_of(m, 1, 1);
-  return Body::build(g, {shear, bulk, yield, laws.hardening == 0 ? laws.hardening_values[0] : 0, true, laws},
-                     0.0);
+  g.volume = 3 * M_PI;
+  return mapped_body(
+      g, {{shear, bulk, yield, laws.hardening == 0 ? laws.hardening_values[0] : 0, true, laws}}, 0.0);
 }
 
 /// Isochoric compression to ln(lz) = -t along fixed principal axes, `dt` after the last one: q = 3 G t while

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "references.hpp"
-#include "solver/body.hpp"
 #include "solver/kernels.hpp"
+#include "solver/mapped_body.hpp"
 
 namespace granulaw {
 namespace {
@@ -16,7 +16,7 @@ constexpr Moduli plastic{0.35, 0.76, 0.01, 0.02, true};
 
 Body sphere(const Moduli& m, int cells = 12)
 {
-  return Body::build(MappedGrid::build(cells, 0.3, true), m, 0.05 * m.shear);
+  return mapped_body(MappedGrid::build(cells, 0.3, true), {m}, 0.05 * m.shear);
 }
 
 TEST(Grid, FillsTheSphere)
@@ -27,7 +27,7 @@ TEST(Grid, FillsTheSphere)
     EXPECT_NEAR(n.r * n.r + (n.z - 1) * (n.z - 1), 1.0, 1e-14);  // on the true sphere, to rounding
   }
   const auto deficit = [](int cells) {
-    const Body body = Body::build(MappedGrid::build(cells, 0.3, true), elastic, 0);
+    const Body body = mapped_body(MappedGrid::build(cells, 0.3, true), {elastic}, 0);
     double volume = 0;
     for (const double v : body.volume_p) volume += v;
     return 1 - volume / (4.0 / 3.0 * M_PI);
@@ -36,7 +36,7 @@ TEST(Grid, FillsTheSphere)
   EXPECT_GT(deficit(16), 0);
   EXPECT_GT(deficit(16) / deficit(32),
             3.0);  // 4 but that ring counts are whole numbers: the grids are not similar
-  const Body b = Body::build(grid, elastic, 0);
+  const Body b = mapped_body(grid, {elastic}, 0);
   double mass = 0;
   for (const double m : b.mass_i) mass += m;
   EXPECT_NEAR(mass, 4.0 / 3.0 * M_PI, 1e-12);

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "solver/body.hpp"
 #include "solver/kernels.hpp"
+#include "solver/mapped_body.hpp"
 
 namespace granulaw {
 namespace {
@@ -17,7 +17,8 @@ Body ring(double h)
   MappedGrid g;
   g.nodes = {{1, 0}, {2, 0}, {2, 1}, {1, 1}};
   g.cells = {{0, 1, 2, 3}};
-  return Body::build(g, {shear, bulk, yield, h, true}, 0.0);
+  g.volume = 3 * M_PI;
+  return mapped_body(g, {{shear, bulk, yield, h, true}}, 0.0);
 }
 
 void stretch(Body& b, double lr, double lz)

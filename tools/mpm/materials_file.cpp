@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "base/error.hpp"
 #include "law/law.hpp"
 #include "solver/flow_laws.hpp"
+#include "solver/profiles.hpp"
 
 namespace granulaw {
 
@@ -43,13 +45,10 @@ class Section
   }
   std::string where() const { return where(table_); }
 
-  /// Refuses keys that are not in `known`; those in `later` with a sentence of their own.
-  void check_keys(const Words& known, const Words& later, const char* later_sentence) const
+  void check_keys(const Words& known) const
   {
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
-      if (std::find(later.begin(), later.end(), word) != later.end())
-        fail(where(node), fmt::format("'{}': {}", word, later_sentence));
       if (std::find(known.begin(), known.end(), word) == known.end())
         fail(where(node), fmt::format("unknown key '{}'{}", word, did_you_mean(word, known)), {},
              fmt::format("{}", fmt::join(known, ", ")));
@@ -98,6 +97,45 @@ class Section
            fmt::format("'{}' must be a list of numbers{}", key, *unit ? fmt::format(" in {}", unit) : ""));
     return values;
   }
+  /// Refuses all but `true`.
+  void check_true(const char* key) const
+  {
+    const toml::node& n = node(key);
+    if (!n.is_boolean() || !n.as_boolean()->get())
+      fail(where(n), fmt::format("'{}' cannot be used", key), {},
+           fmt::format("{} = true, or no such key", key));
+  }
+  /// A list of pairs of numbers.
+  std::vector<std::pair<double, double>> pairs(const char* key, const char* example) const
+  {
+    const toml::node& n = node(key);
+    std::vector<std::pair<double, double>> found;
+    if (const toml::array* list = n.as_array())
+      for (const toml::node& entry : *list) {
+        const toml::array* pair = entry.as_array();
+        if (!pair || pair->size() != 2 || !(*pair)[0].is_number() || !(*pair)[1].is_number())
+          fail(where(entry), fmt::format("entry {} of '{}' is not a pair of numbers", found.size() + 1, key),
+               {}, example);
+        found.emplace_back(*(*pair)[0].value<double>(), *(*pair)[1].value<double>());
+      }
+    if (found.empty()) fail(where(n), fmt::format("'{}' must be a list of pairs, such as {}", key, example));
+    return found;
+  }
+  /// A list of tables; each is named "NAME.KEY 2".
+  std::vector<Section> tables(const char* key, const char* example) const
+  {
+    const toml::node& n = node(key);
+    const auto complain = [&](const toml::node& at) {
+      fail(where(at), fmt::format("'{}' must be a list of tables, such as {}", key, example));
+    };
+    if (!n.is_array()) complain(n);
+    std::vector<Section> found;
+    for (const toml::node& entry : *n.as_array()) {
+      if (!entry.is_table()) complain(entry);
+      found.push_back({path_, *entry.as_table(), fmt::format("{}.{} {}", name_, key, found.size() + 1)});
+    }
+    return found;
+  }
   Section table(const char* key, const char* example) const
   {
     const toml::node& n = node(key);
@@ -130,7 +168,7 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
   const std::vector<flow::Parameter>& parameters = known[found - names.begin()].parameters;
   Words keys{"law"};
   for (const flow::Parameter& p : parameters) keys.push_back(p.key);
-  s.check_keys(keys, {}, "");
+  s.check_keys(keys);
   for (const flow::Parameter& p : parameters)
     law.values[p.key] =
         p.list ? s.numbers(p.key, unit_of(p.quantity)) : std::vector{s.number(p.key, unit_of(p.quantity))};
@@ -139,7 +177,7 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
 
 Material read_material(const Section& s)
 {
-  s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate"}, {}, "");
+  s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate"});
   Material m;
   m.density = s.positive("density", "kg/m^3");
   m.youngs_modulus = s.positive("youngs_modulus", "Pa");
@@ -172,6 +210,105 @@ Material read_material(const Section& s)
     validate_flow(m, r.where());
   }
   return m;
+}
+
+double ranged(const Section& s, const ProfileKey& key)
+{
+  const double value = s.number(key.name, key.unit);
+  if (!(value >= key.least && value <= key.most)) {
+    const std::string unit = *key.unit ? fmt::format(" {}", key.unit) : "";
+    fail(s.where(s.node(key.name)), fmt::format("'{}' is out of range", key.name),
+         fmt::format("{:g}{}", value, unit),
+         key.most == std::numeric_limits<double>::max()
+             ? "over 0" + unit
+             : fmt::format("{:g} to {:g}{}", key.least, key.most, unit));
+  }
+  return value;
+}
+
+/// {points = [[r, z], ...]}: also sets the radius, where the file does not.
+void read_outline(const Section& s, const Section& p, Particle& particle)
+{
+  p.check_keys({"points"});
+  std::vector<ProfilePoint> points;
+  for (const auto& [r, z] : p.pairs("points", "[[0, 0], [0.5e-3, 0.1e-3], ..., [0, 2e-3]] in m"))
+    points.push_back({r, z});
+  particle.profile = outline(std::move(points), p.where(p.node("points")));
+  double widest = 0;
+  for (const ProfilePoint& point : particle.profile) widest = std::max(widest, point.r);
+  if (s.has("radius") && !(std::abs(s.positive("radius", "m") / widest - 1) <= 0.01))
+    fail(s.where(s.node("radius")), "'radius' is not the largest r of the points, to 1 %",
+         fmt::format("{:g} m", s.number("radius", "m")), fmt::format("{:g} m, or no radius", widest));
+  particle.radius = widest;
+}
+
+/// {shape = "NAME", key = value, ...} with the keys that the shape has.
+void read_shape(const Section& p, Particle& particle)
+{
+  const std::string name = p.text("shape");
+  Words names;
+  for (const ProfileShape& shape : profile_shapes()) names.push_back(shape.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    fail(p.where(p.node("shape")), fmt::format("no shape '{}'{}", name, did_you_mean(name, names)), {},
+         fmt::format("{}, or points = [[r, z], ...]", fmt::join(names, ", ")));
+  const ProfileShape& shape = profile_shapes()[found - names.begin()];
+  Words keys{"shape"};
+  for (const ProfileKey& key : shape.keys) keys.push_back(key.name);
+  p.check_keys(keys);
+  ProfileShape::Values values;
+  for (const ProfileKey& key : shape.keys)
+    if (key.required || p.has(key.name)) values[key.name] = ranged(p, key);
+  particle.profile = shape.make(particle.radius, values, p.where());
+}
+
+Particle read_particle(const Section& s, const std::map<std::string, Material>& materials)
+{
+  s.check_keys({"radius", "material", "layers", "inclusions", "profile"});
+  Particle particle;
+  std::map<std::string, int> places;
+  const auto place_of = [&](const Section& at) {
+    const std::string name = at.text("material");
+    const auto found = materials.find(name);
+    if (found == materials.end()) {
+      const Words names = names_of(materials);
+      fail(at.where(at.node("material")), fmt::format("no material '{}'{}", name, did_you_mean(name, names)),
+           {}, fmt::format("{}", fmt::join(names, ", ")));
+    }
+    const auto [entry, is_new] = places.emplace(name, static_cast<int>(particle.materials.size()));
+    if (is_new) particle.materials.push_back(found->second);
+    return entry->second;
+  };
+  place_of(s);
+
+  if (s.has("profile")) {
+    const Section p = s.table("profile", "{shape = \"ellipsoid\", aspect = 1.5} or {points = [[r, z], ...]}");
+    if (p.has("points")) {
+      read_outline(s, p, particle);
+    } else {
+      particle.radius = s.positive("radius", "m");
+      read_shape(p, particle);
+    }
+  } else {
+    particle.radius = s.positive("radius", "m");
+  }
+  if (s.has("layers"))
+    for (const Section& layer : s.tables("layers", "[{material = \"shell\", thickness = 20e-6}]")) {
+      layer.check_keys({"material", "thickness"});
+      particle.layers.push_back({layer.positive("thickness", "m"), place_of(layer)});
+    }
+  if (s.has("inclusions"))
+    for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]")) {
+      i.check_keys({"material", "pore", "radius", "z", "r"});
+      if (i.has("pore") == i.has("material"))
+        fail(i.where(), "an inclusion needs one of 'material' and 'pore = true'",
+             i.has("pore") ? "both" : "none");
+      if (i.has("pore")) i.check_true("pore");
+      particle.inclusions.push_back({i.has("r") ? i.number("r", "m") : 0.0, i.number("z", "m"),
+                                     i.positive("radius", "m"), i.has("pore") ? -1 : place_of(i)});
+    }
+  validate(particle, s.where());
+  return particle;
 }
 
 void check_name(const std::string& name, const std::string& where)
@@ -214,17 +351,26 @@ const Material& MaterialsFile::material(const std::string& name) const
        fmt::format("{}", fmt::join(names, ", ")));
 }
 
-Sphere MaterialsFile::sphere(const std::string& particle) const
+const Particle& MaterialsFile::particle(const std::string& name) const
 {
-  const auto found = particles.find(particle);
-  if (found == particles.end()) {
-    const Words names = names_of(particles);
-    if (names.empty())
-      fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", particle));
-    fail(path, fmt::format("no particle '{}'{}", particle, did_you_mean(particle, names)), {},
-         fmt::format("{}", fmt::join(names, ", ")));
-  }
-  return {found->second.radius, material(found->second.material)};
+  const auto found = particles.find(name);
+  if (found != particles.end()) return found->second;
+  const Words names = names_of(particles);
+  if (names.empty())
+    fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", name));
+  fail(path, fmt::format("no particle '{}'{}", name, did_you_mean(name, names)), {},
+       fmt::format("{}", fmt::join(names, ", ")));
+}
+
+Sphere MaterialsFile::sphere(const std::string& name) const
+{
+  const Particle& p = particle(name);
+  if (!p.is_homogeneous_sphere())
+    fail(path, fmt::format("[particle.{}] {}: only homogeneous spheres can be used here so far", name,
+                           !p.is_sphere()      ? "has a profile"
+                           : !p.layers.empty() ? "is layered"
+                                               : "has inclusions"));
+  return {p.radius, p.materials.front()};
 }
 
 MaterialsFile read_materials(const std::string& path)
@@ -240,19 +386,11 @@ MaterialsFile read_materials(const std::string& path)
   }
   MaterialsFile file;
   file.path = path;
-  Section(path, root, "file").check_keys({"material", "particle"}, {}, "");
+  Section(path, root, "file").check_keys({"material", "particle"});
   each_section(path, root, "material",
                [&](const std::string& name, const Section& s) { file.materials[name] = read_material(s); });
   each_section(path, root, "particle", [&](const std::string& name, const Section& s) {
-    s.check_keys({"radius", "material"}, {"layers", "inclusions", "profile"},
-                 "this version does homogeneous spheres only");
-    const std::string material = s.text("material");
-    const Words names = names_of(file.materials);
-    if (!file.materials.contains(material))
-      fail(s.where(s.node("material")),
-           fmt::format("no material '{}'{}", material, did_you_mean(material, names)), {},
-           fmt::format("{}", fmt::join(names, ", ")));
-    file.particles[name] = {s.positive("radius", "m"), material};
+    file.particles[name] = read_particle(s, file.materials);
   });
   if (file.materials.empty()) fail(path, "the file defines no material, as [material.NAME]");
   return file;

@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "field_file.hpp"
 #include "materials_file.hpp"
-#include "solver/runs.hpp"
+#include "solver/accuracy.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
 
@@ -22,11 +22,12 @@ namespace {
 /// What both commands take.
 struct RunRequest
 {
-  std::string materials, particle, grid = "mapped", output, fields, support = "free";
+  std::string materials, particle, against, wall, grid = "auto", precision = "double", output, fields,
+                                                  support = "free";
   double velocity = 0, depth = 0, tolerance = 0, ramp = 0;
   double courant = RunOptions{}.courant;
   int resolution = 0, jobs = 1, frames = 40, phases = RunOptions{}.phases;
-  bool json = false;
+  bool json = false, no_estimate = false;
 };
 
 void add_common(CLI::App& command, RunRequest& r)
@@ -34,13 +35,21 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")
       ->required();
   command.add_option("--particle", r.particle, "particle of that file")->required();
-  command.add_option("--grid", r.grid, "reference grid: mapped (tartan and updated come in a later version)");
+  command.add_option("--against", r.against, "a second particle of that file, hit pole against pole");
+  command.add_option("--wall", r.wall,
+                     "a material of that file: a thick deformable wall of it (default: rigid)");
+  command.add_option(
+      "--grid", r.grid,
+      "mapped (fitted to the sphere), tartan (graded Cartesian: any shape, layers, inclusions), "
+      "updated (points move through the grid: the independent check); default: what the particle "
+      "needs");
+  command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   auto* resolution = command.add_option("--resolution", r.resolution,
                                         "cells across the contact block, 6 to 200 (default: the run's own)");
   command
       .add_option("--tolerance", r.tolerance,
-                  "relative error of force and e to reach, such as 0.01: the resolution is "
-                  "doubled until two resolutions agree so well")
+                  "relative error of F_max and e to reach, such as 0.01: resolution, time step and ramp are "
+                  "refined until the run's own estimate meets it")
       ->excludes(resolution);
   command.add_option("-o,--output", r.output, "trace of the run: NAME.csv or NAME.h5");
   auto* fields = command.add_option(
@@ -56,6 +65,8 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_option("--courant", r.courant,
                      "time step over its stability limit, 0.05 to 1 (default 0.85); above 1 explicit time "
                      "stepping is unstable");
+  command.add_flag("--no-estimate", r.no_estimate,
+                   "leave out the second, coarser run that the error estimate needs (a third of the time)");
   command.add_flag("--json", r.json,
                    "print one JSON object instead of the summary, SI units; in it, e is corrected for the "
                    "contact-edge ripple if there is one grid only, e_raw is not; ripple: rms of raw over "
@@ -63,12 +74,21 @@ void add_common(CLI::App& command, RunRequest& r)
                    "over the energy put in, at the end, the largest of the grids");
 }
 
+GridKind grid_of(const std::string& name)
+{
+  if (name == "auto") return GridKind::automatic;
+  if (name == "mapped") return GridKind::mapped;
+  if (name == "tartan") return GridKind::tartan;
+  if (name == "updated") return GridKind::updated;
+  fail("--grid", "unknown grid", name, "auto, mapped, tartan, updated");
+}
+
 void check(const RunRequest& r)
 {
-  if (r.grid == "tartan" || r.grid == "updated")
-    fail("--grid", fmt::format("'{}' is not in this version yet", r.grid), {}, "mapped");
-  if (r.grid != "mapped")
-    fail("--grid", "unknown grid", r.grid, "mapped, tartan, updated (this version: mapped)");
+  grid_of(r.grid);
+  if (r.precision != "double" && r.precision != "single")
+    fail("--precision", "unknown precision", r.precision, "double, single");
+  if (!r.against.empty() && !r.wall.empty()) fail("--wall", "cannot go with --against: one partner only");
   if (!(r.courant >= 0.05 && r.courant <= 1.0))
     fail("--courant", r.courant > 1 ? "explicit time stepping is unstable above 1" : "cannot be used",
          fmt::format("{:g}", r.courant), "0.05 to 1");
@@ -84,53 +104,49 @@ void check(const RunRequest& r)
     fail("--fields", "its HDF5 file would be the trace's, -o", r.output, "another name");
 }
 
-/// Runs at the resolution asked for, or doubles it until the tolerance is met (at most twice).
-RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields,
-                           const std::function<RunResult(const RunOptions&)>& run)
+/// Runs at the resolution asked for, or to the tolerance.
+RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, const Run& run)
 {
   ProgressBar bar;
   RunOptions options;
   options.resolution = r.resolution;
+  options.grid = grid_of(r.grid);
+  options.precision = r.precision == "single" ? Precision::single : Precision::full;
   options.threads = r.jobs;
   options.phases = r.phases;
   options.courant = r.courant;
   options.fields = fields;
-  options.progress = [&](double done) {
-    bar.update(done, options.resolution ? fmt::format("resolution {}", options.resolution) : "");
-  };
-  options.estimate_error = r.tolerance > 0;
+  options.progress = [&](double done) { bar.update(done, ""); };
+  options.estimate_error = !r.no_estimate;
   if (r.tolerance <= 0) return run(options);
-  RunResult result;
-  for (const int resolution : {16, 32, 64}) {
-    options.resolution = resolution;
-    result = run(options);
-    if (result.summary.error_estimate <= r.tolerance) return result;
-  }
-  fmt::print(stderr, "mpm: tolerance {:.2g} not reached: the estimate at resolution 64 is {:.2g}\n",
-             r.tolerance, result.summary.error_estimate);
-  return result;
+  const ToleranceResult found = run_to_tolerance(r.tolerance, r.depth > 0, options, run);
+  if (!found.reached)
+    fmt::print(
+        stderr,
+        "mpm: tolerance {:.2g} not reached: at {} cells the estimate is {:.2g} (resolution {:.2g}, time "
+        "step {:.2g}, ramp {:.2g})\n",
+        r.tolerance, found.result.summary.resolution, found.result.summary.error_estimate,
+        found.resolution_error, found.step_error, found.ramp_error);
+  return found.result;
 }
 
-RunResult run_as_asked(const RunRequest& r, const std::function<RunResult(const RunOptions&)>& run)
+RunResult run_as_asked(const RunRequest& r, const Run& run)
 {
-  if (r.fields.empty()) return run_to_tolerance(r, {}, run);
+  if (r.fields.empty()) return run_to_request(r, {}, run);
   return run_with_fields(r.fields, r.frames,
-                         [&](const FieldObserver& fields) { return run_to_tolerance(r, fields, run); });
+                         [&](const FieldObserver& fields) { return run_to_request(r, fields, run); });
 }
 
 void print_json(const RunSummary& s)
 {
   nlohmann::ordered_json out;
   out["e"] = s.restitution;
-  out["e_raw"] = s.restitution_raw;
   out["force_max_N"] = s.force_max;
   out["delta_max_m"] = s.delta_max;
   out["delta_residual_m"] = s.delta_residual;
   out["contact_time_s"] = s.contact_time;
   out["work_load_J"] = s.work_load;
   out["work_unload_J"] = s.work_unload;
-  out["energy_error"] = s.energy_error;
-  out["ripple"] = s.ripple;
   out["points"] = s.points;
   out["steps"] = s.steps;
   out["cpu_s"] = s.cpu_s;
@@ -139,10 +155,16 @@ void print_json(const RunSummary& s)
     out["error_estimate"] = s.error_estimate;
   else
     out["error_estimate"] = nullptr;
+  out["resolution"] = s.resolution;
+  out["grids"] = s.grids;
+  out["energy_error"] = s.energy_error;
+  out["ripple"] = s.ripple;
+  out["e_raw"] = s.restitution_raw;
+  out["plastic_strain_max"] = s.plastic_strain_max;
   fmt::print("{}\n", out.dump(2));
 }
 
-void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
+void report(const RunRequest& r, const Particle& particle, const RunResult& result)
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
@@ -150,22 +172,23 @@ void report(const RunRequest& r, const Sphere& sphere, const RunResult& result)
   fmt::print("coefficient of restitution e   {:.4f}\n", s.restitution);
   fmt::print("largest force                  {:.5g} N\n", s.force_max);
   fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max,
-             s.delta_max / sphere.radius);
+             s.delta_max / particle.radius);
   fmt::print("residual overlap               {:.5g} m\n", s.delta_residual);
   fmt::print("contact time                   {:.5g} s\n", s.contact_time);
   fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", s.work_load, s.work_unload);
-  if (s.error_estimate > 0) fmt::print("error, from two resolutions    {:.2g}\n", s.error_estimate);
+  if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
              s.cpu_s, 1e-6 * s.point_updates_per_s);
   if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
   if (!r.fields.empty()) fmt::print("wrote {}\n", r.fields);
 }
 
-void print_setting(const RunRequest& r, const Sphere& sphere)
+void print_setting(const RunRequest& r, const Particle& particle)
 {
   if (r.json) return;
-  const Material& m = sphere.material;
-  fmt::print("sphere of {:.4g} m radius, E* = {:.4g} Pa", sphere.radius, m.e_star());
+  const Material& m = particle.materials.front();
+  fmt::print("{} of {:.4g} m radius, E* = {:.4g} Pa", particle.is_sphere() ? "sphere" : "body of revolution",
+             particle.radius, m.e_star());
   if (m.yields()) {
     const double v_y = yield_velocity(m.e_star(), m.yield_stress, m.density);
     fmt::print(", E*/Y = {:.4g}, yield velocity V_y = {:.4g} m/s", m.e_star() / m.yield_stress, v_y);
@@ -175,7 +198,28 @@ void print_setting(const RunRequest& r, const Sphere& sphere)
   } else {
     fmt::print(", elastic");
   }
-  fmt::print("\n");
+  if (r.grid == "auto") {
+    const GridChoice choice = choose_grid(particle);
+    fmt::print("\ngrid: {} ({})\n", choice.grid == GridKind::mapped ? "mapped" : "tartan", choice.reason);
+  } else {
+    fmt::print("\ngrid: {}, as asked\n", r.grid);
+  }
+}
+
+/// The particle and what it meets.
+struct Meeting
+{
+  Particle particle;
+  Partner partner;
+};
+
+Meeting read_meeting(const RunRequest& r)
+{
+  const MaterialsFile file = read_materials(r.materials);
+  Meeting meeting{file.particle(r.particle), {}};
+  if (!r.against.empty()) meeting.partner.particle = file.particle(r.against);
+  if (!r.wall.empty()) meeting.partner.wall = file.material(r.wall);
+  return meeting;
 }
 
 }  // namespace
@@ -185,18 +229,19 @@ void add_impact(CLI::App& app)
   const auto r = std::make_shared<RunRequest>();
   CLI::App* command =
       app.add_subcommand("impact",
-                         "A sphere hits a rigid wall: e, force, overlap, contact time.\n"
+                         "A particle hits a wall, or another particle: e, force, overlap, contact time.\n"
                          "Example: mpm impact materials.toml --particle grain --velocity 1.0 -o trace.csv");
   add_common(*command, *r);
   command->add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command->callback([r] {
     check(*r);
-    const Sphere sphere = read_materials(r->materials).sphere(r->particle);
+    const Meeting m = read_meeting(*r);
     if (!(r->velocity > 0 && std::isfinite(r->velocity)))
       fail("--velocity", "cannot be used", fmt::format("{:g} m/s", r->velocity), "over 0");
-    print_setting(*r, sphere);
-    report(*r, sphere,
-           run_as_asked(*r, [&](const RunOptions& o) { return run_impact(sphere, r->velocity, o); }));
+    print_setting(*r, m.particle);
+    report(*r, m.particle, run_as_asked(*r, [&](const RunOptions& o) {
+      return run_impact(m.particle, r->velocity, o, m.partner);
+    }));
   });
 }
 
@@ -205,7 +250,8 @@ void add_press(CLI::App& app)
   const auto r = std::make_shared<RunRequest>();
   CLI::App* command = app.add_subcommand(
       "press",
-      "A sphere is pressed slowly onto a rigid wall and taken off again: the rate-free law.\n"
+      "A particle is pressed slowly onto a wall, or another particle, and taken off again: the rate-free "
+      "law.\n"
       "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv");
   add_common(*command, *r);
   command->add_option("--depth", r->depth, "deepest overlap, as a share of the radius")->required();
@@ -218,7 +264,7 @@ void add_press(CLI::App& app)
     check(*r);
     if (r->support != "free" && r->support != "midplane")
       fail("--support", "unknown support", r->support, "free, midplane");
-    const Sphere sphere = read_materials(r->materials).sphere(r->particle);
+    const Meeting m = read_meeting(*r);
     if (!(r->depth > 0 && r->depth <= 0.8))
       fail("--depth", "cannot be used", fmt::format("{:g} (a share of the radius)", r->depth),
            "over 0, up to 0.8");
@@ -226,10 +272,11 @@ void add_press(CLI::App& app)
       fail("--ramp", "cannot be used", fmt::format("{:g} R/c*", r->ramp), "1 to 1e6");
     PressPlan plan;
     plan.ramp = r->ramp;
-    plan.depth = r->depth * sphere.radius;
+    plan.depth = r->depth * m.particle.radius;
     plan.support = r->support == "free" ? Support::free : Support::midplane;
-    print_setting(*r, sphere);
-    report(*r, sphere, run_as_asked(*r, [&](const RunOptions& o) { return run_press(sphere, plan, o); }));
+    print_setting(*r, m.particle);
+    report(*r, m.particle,
+           run_as_asked(*r, [&](const RunOptions& o) { return run_press(m.particle, plan, o, m.partner); }));
   });
 }
 

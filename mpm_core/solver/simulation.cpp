@@ -1,0 +1,135 @@
+#include "solver/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Steps between looks at the stability limit of the deformed grid: often enough that no cell changes much.
+constexpr int limit_interval = 8;
+
+double cpu_seconds()
+{
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double total(const Scene& scene, double (Body::*energy)() const)
+{
+  double sum = 0;
+  for (const Body& body : scene.bodies) sum += (body.*energy)();
+  return sum;
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene s, const RunOptions& options, double expected)
+    : scene(std::move(s)),
+      courant_(options.courant),
+      window_(expected / options.samples),
+      longest_(60 * expected)
+{
+  for (Body& body : scene.bodies) stable_.emplace_back(body);
+}
+
+double Simulation::step_limit() const
+{
+  double limit = stable_.front().limit(scene.bodies.front());
+  for (std::size_t b = 1; b < scene.bodies.size(); ++b)
+    limit = std::min(limit, stable_[b].limit(scene.bodies[b]));
+  return limit;
+}
+
+void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<void(double)>& progress,
+                     const std::function<void(const TraceSample&)>& observe)
+{
+  const double cpu = cpu_seconds();
+  energy_start = total(scene, &Body::kinetic_energy);
+  fields.begin(scene.bodies.front());
+  dt_ = courant_ * step_limit();
+  overlap_ = drive.overlap(scene);
+  while (!drive.finished()) {
+    const double overlap_before = overlap_;
+    const Branch branch = drive.branch();
+    const int segment = drive.segment();
+    const double push = advance(scene, drive, time_, dt_);
+    overlap_ = drive.overlap(scene);
+    impulse_ += push;
+    overlap_sum_ += overlap_before;
+    ++in_window_;
+    ++steps_;
+    time_ += dt_;
+    if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
+    if (time_ - window_start_ >= window_ || drive.segment() != segment || drive.finished()) {
+      end_sample(branch, segment, overlap_before);
+      observe(result.trace.back());
+      fields.sample(scene.bodies.front(), time_, overlap_, result.trace.back().force, drive.finished());
+      if (progress && result.trace.size() % 16 == 0) progress(drive.progress());
+    }
+    if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();
+  }
+  if (progress) progress(1.0);
+  result.summary.cpu_s = cpu_seconds() - cpu;
+  summarise(drive);
+}
+
+void Simulation::end_sample(Branch branch, int segment, double overlap_before)
+{
+  const double length = time_ - window_start_;
+  // overlaps are taken at the start of each step: shift the mean by half a step's travel
+  const double overlap = overlap_sum_ / in_window_ + 0.5 * (overlap_ - overlap_before);
+  const double force = impulse_ / length;
+  if (!std::isfinite(overlap) || !std::isfinite(force))
+    fail("solver", fmt::format("the run became unstable at t = {:.4g} R/c*; lower the Courant number "
+                               "or raise the resolution",
+                               time_));
+  if (time_ > longest_) fail("solver", fmt::format("the contact had not ended after {:.4g} R/c*", time_));
+  result.trace.push_back({window_start_ + 0.5 * length, overlap, force,
+                          scene.contact->edge_radius(scene.bodies), branch, segment});
+  window_start_ = time_;
+  impulse_ = overlap_sum_ = 0;
+  in_window_ = 0;
+}
+
+double Simulation::work(bool load) const
+{
+  double sum = 0;
+  const auto& t = result.trace;
+  const int last = t.empty() ? 0 : t.back().segment;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    if (load ? t[k].branch != Branch::load : (t[k].branch != Branch::unload || t[k].segment != last))
+      continue;
+    sum += 0.5 * (t[k].force + t[k - 1].force) * (t[k].delta - t[k - 1].delta);
+  }
+  return load ? sum : -sum;
+}
+
+void Simulation::summarise(const Drive& drive)
+{
+  RunSummary& s = result.summary;
+  for (Body& body : scene.bodies) {
+    s.points += body.points;
+    body.fetch_state();
+    s.plastic_strain_max = std::max(s.plastic_strain_max, body.largest_plastic_strain());
+  }
+  s.steps = steps_;
+  s.point_updates_per_s = static_cast<double>(s.points) * static_cast<double>(steps_) / s.cpu_s;
+  for (const TraceSample& t : result.trace) s.delta_max = std::max(s.delta_max, t.delta);
+  s.delta_residual = last_touch_overlap_;
+  s.contact_time = last_touch_time_;
+  const double put_in = energy_start + drive.work();
+  const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
+  const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
+                       total(scene, &Body::plastic_work);
+  s.energy_error = std::abs(found - put_in) / peak;
+}
+
+}  // namespace granulaw
