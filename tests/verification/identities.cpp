@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "solver/body.hpp"
 #include "solver/kernels.hpp"
+#include "solver/mapped_body.hpp"
 
 namespace granulaw::verification {
 
@@ -13,7 +13,7 @@ Identities identities(int cells_across)
 {
   const Moduli elastic{0.35, 0.76, 0.0, 0.0, false};
   const Body undeformed =
-      Body::build(MappedGrid::build(cells_across, 0.3, true), elastic, 0.05 * elastic.shear);
+      mapped_body(MappedGrid::build(cells_across, 0.3, true), {elastic}, 0.05 * elastic.shear);
   Identities left{};
 
   Body b = undeformed;

@@ -3,9 +3,9 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
-#include "solver/body.hpp"
 #include "solver/flow_laws.hpp"
 #include "solver/kernels.hpp"
+#include "solver/mapped_body.hpp"
 #include "solver/stress.hpp"
 
 namespace granulaw::verification {
@@ -31,7 +31,8 @@ Body ring(const Material& m)
   const double e = m.youngs_modulus, nu = m.poisson_ratio;
   const flow::Flow laws = flow_of(m, 1, 1);
   const double hardening = laws.hardening == 0 ? laws.hardening_values[0] : 0;
-  return Body::build(g, {e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu)), m.yield_stress, hardening, true, laws},
+  g.volume = 3 * M_PI;
+  return mapped_body(g, {{e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu)), m.yield_stress, hardening, true, laws}},
                      0.0);
 }
 
