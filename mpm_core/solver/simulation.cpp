@@ -54,13 +54,14 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
   const double cpu = cpu_seconds();
   energy_start = total(scene, &Body::kinetic_energy);
   fields.begin(scene);
-  dt_ = courant_ * step_limit();
+  dt_ = last_dt_ = courant_ * step_limit();
   overlap_ = drive.overlap(scene);
   while (!drive.finished()) {
     const double overlap_before = overlap_;
     const Branch branch = drive.branch();
     const int segment = drive.segment();
-    const double push = advance(scene, drive, time_, dt_);
+    const double push = advance(scene, drive, time_, 0.5 * (last_dt_ + dt_), dt_);
+    last_dt_ = dt_;
     overlap_ = drive.overlap(scene);
     impulse_ += push;
     overlap_sum_ += overlap_before;
@@ -128,8 +129,10 @@ void Simulation::summarise(const Drive& drive)
   const double put_in = energy_start + drive.work();
   const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
   const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
-                       total(scene, &Body::plastic_work);
+                       total(scene, &Body::plastic_work) + scene.contact->dissipated();
   s.energy_error = std::abs(found - put_in) / peak;
+  s.contact_loss = scene.contact->dissipated() / peak;
+  s.hourglass = total(scene, &Body::hourglass_energy) / peak;
 }
 
 }  // namespace granulaw

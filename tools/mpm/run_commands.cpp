@@ -67,11 +67,15 @@ void add_common(CLI::App& command, RunRequest& r)
                      "stepping is unstable");
   command.add_flag("--no-estimate", r.no_estimate,
                    "leave out the second, coarser run that the error estimate needs (a third of the time)");
-  command.add_flag("--json", r.json,
-                   "print one JSON object instead of the summary, SI units; in it, e is corrected for the "
-                   "contact-edge ripple if there is one grid only, e_raw is not; ripple: rms of raw over "
-                   "smoothed force, less 1; energy_error: |kinetic + elastic + plastic energy - work put in| "
-                   "over the energy put in, at the end, the largest of the grids");
+  command.add_flag(
+      "--json", r.json,
+      "print one JSON object instead of the summary, SI units; in it, e is corrected for the "
+      "contact-edge ripple if there is one grid only, e_raw is not; ripple: rms of raw over "
+      "smoothed force, less 1; energy_error: |kinetic + elastic + plastic energy + contact loss "
+      "- work put in| over the energy put in, at the end; contact_loss: the part of it that nodes lost "
+      "when they reached the other side and stopped, proportional to the cell size; hourglass: the part "
+      "that the hourglass control holds at the end; plastic_strain_max: largest equivalent plastic "
+      "strain; all four are the largest of the grids");
 }
 
 GridKind grid_of(const std::string& name)
@@ -161,6 +165,8 @@ void print_json(const RunSummary& s)
   out["ripple"] = s.ripple;
   out["e_raw"] = s.restitution_raw;
   out["plastic_strain_max"] = s.plastic_strain_max;
+  out["contact_loss"] = s.contact_loss;
+  out["hourglass"] = s.hourglass;
   fmt::print("{}\n", out.dump(2));
 }
 
