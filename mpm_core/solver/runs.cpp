@@ -77,7 +77,7 @@ void summarise(RunResult& result, const std::vector<RunResult>& members)
   if (!treated.valid()) return;
   s.ripple = treated.ripple();
   if (s.ripple > most_ripple) return;  // no ripple about a smooth law any more: the raw peak stands
-  s.force_max = treated.largest_force();
+  s.force_max = treated.largest_force(s.delta_max);
   if (members.size() > 1) return;
   // A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
   // What is elastic is given back whatever the phase: only the dissipated share is corrected.
