@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/state_archive.hpp"
+
 namespace granulaw {
 
 namespace {
@@ -71,6 +73,17 @@ double PlaneContact::edge_radius(std::span<const Body> bodies) const
   const double closed = point(outermost_).r;
   if (outermost_ + 2 >= body.surface.count) return closed;
   return edge_between(closed, point(outermost_ + 1), point(outermost_ + 2));
+}
+
+void PlaneContact::visit_state(StateArchive& a)
+{
+  a.value(outermost_);
+}
+
+void SurfaceContact::visit_state(StateArchive& a)
+{
+  a.growing(impulse_), a.growing(gap_), a.growing(radius_);  // empty before the first step
+  a.value(outermost_);
 }
 
 void SurfaceContact::make_rows(std::span<Body> bodies, double dt)

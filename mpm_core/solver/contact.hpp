@@ -20,6 +20,7 @@ class Contact
   /// Radius of the contact edge after the last correct(), 0 if open: where the gap, extrapolated from the
   /// first two open surface points as (r - a)^1.5 beside the last closed one, vanishes.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;
+  virtual void visit_state(StateArchive& archive) = 0;
 };
 
 /// Edge of a contact from the last closed surface point and the next two, as above.
@@ -36,6 +37,7 @@ class PlaneContact : public Contact
  public:
   double correct(std::span<Body> bodies, double dt) override;
   double edge_radius(std::span<const Body> bodies) const override;
+  void visit_state(StateArchive& archive) override;
 
  private:
   int outermost_ = -1;  // index into the surface
@@ -49,6 +51,7 @@ class SurfaceContact : public Contact
  public:
   double correct(std::span<Body> bodies, double dt) override;
   double edge_radius(std::span<const Body> bodies) const override;
+  void visit_state(StateArchive& archive) override;
 
  private:
   /// One possible contact: the velocities it depends on and what they must add up to.

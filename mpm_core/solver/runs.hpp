@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/checkpoint.hpp"
 #include "solver/fields.hpp"
 #include "solver/material.hpp"
 #include "solver/particle.hpp"
@@ -47,8 +48,9 @@ struct RunOptions
   double courant = 0.85;  ///< time step over the stability limit, 0.1 to 1
   int samples = 800;      ///< trace length aimed at
   bool estimate_error =
-      false;             ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
-  FieldObserver fields;  ///< who wants to see the body while the run goes on (fields.hpp)
+      false;  ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
+  CheckpointStore checkpoints;  ///< where the runs keep their state (checkpoint.hpp); not with `fields`
+  FieldObserver fields;         ///< who wants to see the body while the run goes on (fields.hpp)
   std::function<void(double fraction)>
       progress;  ///< called now and then with 0..1; may throw to stop the run
 };
