@@ -93,6 +93,9 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double dt)
   const int count = upper.surface.count;
   impulse_.resize(count, 0.0), gap_.resize(count), radius_.resize(count);
   rows_.clear(), entries_.clear();
+  // all that there can be, so that no later step allocates
+  rows_.reserve(count);
+  entries_.reserve(std::size_t(count) * (upper.surface.corners + (lower ? 2 * lower->surface.corners : 0)));
 
   // a surface point of the given body, weighted `share`, seen along the normal (-slope, 1)
   const auto enter = [&](Body& b, int m, double share_r, double share_z) {

@@ -79,7 +79,7 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
     }
     if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();
     if (!sampled) continue;
-    if (checkpoint.due()) {
+    if (!drive.finished() && checkpoint.due()) {  // after the last step the result is kept instead
       cpu_s_ = cpu_seconds() - cpu;
       checkpoint.save(visit);
     }
