@@ -53,7 +53,7 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
                      const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint)
 {
   energy_start = total(scene, &Body::kinetic_energy);
-  fields.begin(scene.bodies.front());
+  fields.begin(scene);
   dt_ = courant_ * step_limit();
   overlap_ = drive.overlap(scene);
   const auto visit = [&](StateArchive& archive) { visit_state(drive, archive); };
@@ -75,7 +75,7 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
     if (sampled) {
       end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
-      fields.sample(scene.bodies.front(), time_, overlap_, result.trace.back().force, drive.finished());
+      fields.sample(scene, time_, overlap_, result.trace.back().force, drive.finished());
     }
     if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();
     if (!sampled) continue;
@@ -110,7 +110,7 @@ void Simulation::end_sample(Branch branch, int segment, double overlap_before)
 
 void Simulation::visit_state(Drive& drive, StateArchive& a)
 {
-  a.value(time_), a.value(dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_), a.value(energy_start);
+  a.value(time_), a.value(dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
   a.value(last_touch_time_), a.value(last_touch_overlap_);
   a.value(impulse_), a.value(overlap_sum_), a.value(window_start_), a.value(in_window_);
   a.growing(result.trace);

@@ -201,6 +201,24 @@ TEST_P(Checkpoint, ManyTimes)
 INSTANTIATE_TEST_SUITE_P(Jobs, Checkpoint, testing::ValuesIn(jobs()),
                          [](const auto& job) { return job.param.name; });
 
+/// At every sample of a press: at each of its turns something else decides what comes next.
+TEST(CheckpointOfAPress, AtEverySample)
+{
+  RunOptions options = small(GridKind::mapped);
+  const auto run = press(Support::midplane);
+  const std::string unbroken = bits(run(options));
+  Memory whole;
+  options.checkpoints = whole.store();
+  run(options);
+  for (long lives = 1; lives <= whole.saved; ++lives) {
+    Memory memory;
+    options.checkpoints = memory.store(lives);
+    EXPECT_THROW(run(options), Killed);
+    options.checkpoints = memory.store();
+    EXPECT_TRUE(bits(run(options)) == unbroken) << "killed after " << lives << " of " << whole.saved;
+  }
+}
+
 TEST(CheckpointOfSeveral, RunsAtTheSameTime)
 {
   RunOptions options = several(4);
