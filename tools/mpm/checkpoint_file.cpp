@@ -108,6 +108,7 @@ void CheckpointFile::read()
 {
   const auto damaged = [&] { fail(path_, "is cut off or damaged; without it the run starts anew"); };
   std::ifstream in(path_, std::ios::binary);
+  if (!in) fail(path_, "is there, but cannot be read");
   std::string head(header_size, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   if (!head.starts_with(title)) fail(path_, "is no checkpoint, and is left as it is");

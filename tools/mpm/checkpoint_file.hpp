@@ -15,7 +15,8 @@ namespace granulaw {
 /// identical trace.
 using RunIdentity = std::vector<std::pair<std::string, std::string>>;
 
-/// Particles, partner, options, program and instruction set; `asked`, the command and its drive, leads.
+/// Program, instruction set, particles, partner and those options that the command line does not name;
+/// `asked` leads: the command, its drive and all options that it was given and that matter.
 RunIdentity identity_of(RunIdentity asked, const Particle& particle, const Partner& partner,
                         const RunOptions& options);
 
