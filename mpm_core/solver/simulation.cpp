@@ -54,7 +54,7 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
 {
   energy_start = total(scene, &Body::kinetic_energy);
   fields.begin(scene);
-  dt_ = courant_ * step_limit();
+  dt_ = last_dt_ = courant_ * step_limit();
   overlap_ = drive.overlap(scene);
   const auto visit = [&](StateArchive& archive) { visit_state(drive, archive); };
   checkpoint.resume(visit);
@@ -63,7 +63,8 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
     const double overlap_before = overlap_;
     const Branch branch = drive.branch();
     const int segment = drive.segment();
-    const double push = advance(scene, drive, time_, dt_);
+    const double push = advance(scene, drive, time_, 0.5 * (last_dt_ + dt_), dt_);
+    last_dt_ = dt_;
     overlap_ = drive.overlap(scene);
     impulse_ += push;
     overlap_sum_ += overlap_before;
@@ -110,7 +111,7 @@ void Simulation::end_sample(Branch branch, int segment, double overlap_before)
 
 void Simulation::visit_state(Drive& drive, StateArchive& a)
 {
-  a.value(time_), a.value(dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
+  a.value(time_), a.value(dt_), a.value(last_dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
   a.value(last_touch_time_), a.value(last_touch_overlap_);
   a.value(impulse_), a.value(overlap_sum_), a.value(window_start_), a.value(in_window_);
   a.growing(result.trace);
@@ -148,8 +149,10 @@ void Simulation::summarise(const Drive& drive)
   const double put_in = energy_start + drive.work();
   const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
   const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
-                       total(scene, &Body::plastic_work);
+                       total(scene, &Body::plastic_work) + scene.contact->dissipated();
   s.energy_error = std::abs(found - put_in) / peak;
+  s.contact_loss = scene.contact->dissipated() / peak;
+  s.hourglass = total(scene, &Body::hourglass_energy) / peak;
 }
 
 }  // namespace granulaw

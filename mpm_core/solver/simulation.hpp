@@ -45,7 +45,7 @@ class Simulation
   double window_;   // sample interval
   double longest_;  // give up
   // where the run is
-  double time_ = 0, dt_ = 0, overlap_ = 0;
+  double time_ = 0, dt_ = 0, last_dt_ = 0, overlap_ = 0;
   long steps_ = 0;
   double cpu_s_ = 0;  // spent by the parts of this run before a restart, and by this one up to a checkpoint
   double last_touch_time_ = 0, last_touch_overlap_ = 0;

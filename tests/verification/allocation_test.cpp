@@ -97,7 +97,7 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
     double dt = 1;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       dt = std::min(dt, 0.85 * stable[b].limit(scene.bodies[b]));
-    const double impulse = advance(scene, drive, time, dt);
+    const double impulse = advance(scene, drive, time, dt, dt);
     const double radius = scene.contact->edge_radius(scene.bodies);
     press.observe(impulse / dt, radius);
     touching += impulse > 0;
