@@ -104,12 +104,12 @@ def case_press():
                      "--resolution", "8", "--json").json()
         assert abs(result["delta_max_m"] / 1e-4 - 1) < 1e-4, result
         assert 0 < result["delta_residual_m"] < result["delta_max_m"] and 0 < result["e"] < 1
-    # half the default ramp (60 R/c*) is nearly the rate-free law: at most, I = rho v^2/Y is
-    # (pi/2 0.05/30)^2 100 = 7e-4, where inertia takes up to 1 % of e (docs/method.md)
+    # three quarters of the default ramp (60 R/c*) is still the rate-free law: at most, I = rho v^2/Y is
+    # (pi/2 0.05/45)^2 100 = 3e-4, where inertia takes less than 0.5 % of e (docs/method.md)
     words = ["press", "m.toml", "--particle", "grain", "--depth", "0.05", "--resolution", "8", "--json"]
-    slow, fast = Run(*words).json(), Run(*words, "--ramp", "30").json()
-    assert 0.3 * slow["steps"] < fast["steps"] < 0.7 * slow["steps"], (fast["steps"], slow["steps"])
-    assert abs(fast["e"] / slow["e"] - 1) < 1e-2, (fast["e"], slow["e"])
+    slow, fast = Run(*words).json(), Run(*words, "--ramp", "45").json()
+    assert 0.6 * slow["steps"] < fast["steps"] < 0.9 * slow["steps"], (fast["steps"], slow["steps"])
+    assert abs(fast["e"] / slow["e"] - 1) < 5e-3, (fast["e"], slow["e"])
 
 
 def case_fields():
