@@ -33,6 +33,7 @@ void each_number(Summary& s, Visit visit)
       visit(s.work_unload);
   visit(s.cpu_s), visit(s.point_updates_per_s), visit(s.error_estimate), visit(s.energy_error),
       visit(s.ripple);
+  visit(s.plastic_strain_max);
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ bool RunCache::load(const std::string& key, RunResult& result) const
   if (!std::getline(in, line) || line != key) return false;
   RunResult read;
   std::size_t count = 0;
-  in >> read.summary.points >> read.summary.steps;
+  in >> read.summary.points >> read.summary.steps >> read.summary.resolution >> read.summary.grids;
   each_number(read.summary, [&](double& value) { in >> value; });
   in >> count;
   if (!in || count > 10'000'000) return false;
@@ -72,7 +73,8 @@ void RunCache::store(const std::string& key, const RunResult& result) const
   if (folder_.empty()) return;
   std::error_code ignored;
   fs::create_directories(folder_, ignored);
-  std::string text = fmt::format("{}\n{} {}", key, result.summary.points, result.summary.steps);
+  const RunSummary& s = result.summary;
+  std::string text = fmt::format("{}\n{} {} {} {}", key, s.points, s.steps, s.resolution, s.grids);
   each_number(result.summary, [&](const double& value) { text += fmt::format(" {:.17g}", value); });
   text += fmt::format("\n{}\n", result.trace.size());
   for (const TraceSample& t : result.trace)

@@ -88,6 +88,8 @@ struct Body : PointArrays<double>
   std::vector<int> axis, equator;  ///< nodes on the axis; nodes of the plane driven under midplane support
   std::vector<char> on_axis;       ///< per node
   Surface surface;
+  Surface
+      outline;  ///< `tartan`: corners of the piece that each point stands for, [4][points]; for looking at
   double mass = 0;
   double travel = 0;  ///< displacement of the centre of mass along +z, integrated from the momentum
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/scales.hpp"
-#include "solver/body.hpp"
 #include "solver/fields.hpp"
+#include "solver/scene.hpp"
 
 namespace granulaw {
 
@@ -13,17 +13,17 @@ class FieldRecorder
   /// `duration`: of the run, about, solver units.
   FieldRecorder(const FieldObserver& observer, const Scales& scale, double duration);
 
-  /// The grid and the body at rest, time 0.
-  void begin(const Body& body);
+  /// The grids and the bodies at rest, time 0.
+  void begin(const Scene& scene);
   /// To be called at every trace sample, at the end of a step; makes a frame when one is due, or if `last`.
   /// Solver units.
-  void sample(const Body& body, double time, double overlap, double force, bool last)
+  void sample(const Scene& scene, double time, double overlap, double force, bool last)
   {
-    if (observer_ && (last || time >= next_)) record(body, time, overlap, force);
+    if (observer_ && (last || time >= next_)) record(scene, time, overlap, force);
   }
 
  private:
-  void record(const Body& body, double time, double overlap, double force);
+  void record(const Scene& scene, double time, double overlap, double force);
 
   FieldObserver observer_;
   Scales scale_;

@@ -20,7 +20,9 @@ struct FieldFrame
   std::vector<double> plastic_strain;  ///< equivalent plastic strain
   std::vector<double>
       pressure;  ///< Pa, minus a third of the trace of the Cauchy stress: compression positive
-  std::vector<double> von_mises;  ///< Pa, of the Cauchy stress
+  std::vector<double> von_mises;     ///< Pa, of the Cauchy stress
+  std::vector<double> axial_stress;  ///< Pa, zz component of the Cauchy stress: tension positive; in the
+                                     ///< cells at the plane it is minus the contact pressure
 };
 
 /// Who wants to see the body while a run goes on. Of the shifted grids only one is shown: the one with the

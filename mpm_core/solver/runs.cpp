@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "solver/accuracy.hpp"
 #include "solver/ensemble.hpp"
 #include "solver/ripple.hpp"
 #include "solver/scene_builder.hpp"
@@ -113,43 +114,25 @@ int resolution_of(const RunOptions& options, double deepest)
 using SingleRun =
     std::function<RunResult(int, double, const FieldObserver&, const std::function<void(double)>&)>;
 
-/// Runs `single` on options.phases shifted grids and, if asked, once more at a coarser resolution for the
-/// error estimate. The fields shown are those of the fine grid whose shift is nearest to zero.
+/// Runs `single` on options.phases shifted grids. The fields shown are those of the grid whose shift is
+/// nearest to zero.
 RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& scale,
                        const SingleRun& single)
 {
-  const int n = resolution_of(options, deepest);
-  const int coarse = std::max(6, static_cast<int>(std::lround(0.7 * n)));
-  const double share = options.estimate_error ? std::pow(n, 3) / (std::pow(n, 3) + std::pow(coarse, 3)) : 1.0;
-  const auto run_all = [&](int cells, double from, double to, const FieldObserver& fields) {
-    const auto progress = [&](double fraction) {
-      if (options.progress) options.progress(from + (to - from) * fraction);
-    };
-    const std::vector<RunResult> members = run_phases(
-        options.phases, options.threads, progress,
-        [&](double shift, const std::function<void(double)>& report) {
-          // shifts are whole multiples of 1/(2 phases): 0 where there is one, else the one just below it
-          const long half_steps = std::lround(2 * options.phases * shift);
-          return single(cells, shift, half_steps == 0 || half_steps == -1 ? fields : FieldObserver{}, report);
-        });
-    RunResult result;
-    result.trace = mean_trace(members);
-    summarise(result, members);
-    return result;
-  };
-  RunResult result = run_all(n, 0.0, share, options.fields);
-  if (options.estimate_error) {
-    const RunSummary other = run_all(coarse, share, 1.0, {}).summary;
-    RunSummary& s = result.summary;
-    // Errors fall at least like h: their difference at 0.7 of the resolution is at least 0.4 of the fine
-    // run's.
-    const double force = std::abs(other.force_max / s.force_max - 1);
-    const double restitution = std::abs(other.restitution / s.restitution - 1);
-    const double scatter = s.restitution_spread / s.restitution / std::max(1, options.phases);
-    s.error_estimate = 2 * std::max({force, restitution, scatter});
-    s.cpu_s += other.cpu_s;
-    s.steps += other.steps;
-  }
+  const int cells = resolution_of(options, deepest);
+  const std::vector<RunResult> members = run_phases(
+      options.phases, options.threads, options.progress,
+      [&](double shift, const std::function<void(double)>& report) {
+        // shifts are whole multiples of 1/(2 phases): 0 where there is one, else the one just below it
+        const long half_steps = std::lround(2 * options.phases * shift);
+        return single(cells, shift, half_steps == 0 || half_steps == -1 ? options.fields : FieldObserver{},
+                      report);
+      });
+  RunResult result;
+  result.trace = mean_trace(members);
+  summarise(result, members);
+  result.summary.resolution = cells;
+  result.summary.grids = options.phases;
   to_si(result, scale);
   return result;
 }
@@ -160,6 +143,9 @@ RunResult run_impact(const Particle& particle, double velocity, const RunOptions
                      const Partner& partner)
 {
   check(options);
+  if (options.estimate_error)
+    return run_with_estimate(options,
+                             [&](const RunOptions& o) { return run_impact(particle, velocity, o, partner); });
   const Collision collision(particle, partner, options, Support::free);
   const Scales scale = scales_of(particle);
   if (!(velocity > 0)) fail("--velocity", "cannot be used", fmt::format("{:g}", velocity), "over 0 (m/s)");
@@ -196,6 +182,9 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
                     const Partner& partner)
 {
   check(options);
+  if (options.estimate_error)
+    return run_with_estimate(options,
+                             [&](const RunOptions& o) { return run_press(particle, plan, o, partner); });
   const Collision collision(particle, partner, options, plan.support);
   const Scales scale = scales_of(particle);
   const double depth = plan.depth / scale.length;
@@ -209,7 +198,8 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
     stops.stops.push_back(x);
   }
   stops.stops.push_back(depth);
-  stops.ramp = plan.ramp > 0 ? plan.ramp : default_ramp(depth, collision.yield_stress() / scale.stress);
+  stops.ramp = options.slowness *
+               (plan.ramp > 0 ? plan.ramp : default_ramp(depth, collision.yield_stress() / scale.stress));
   stops.unload_ramp = 0.4 * stops.ramp;
   stops.support = plan.support;
   const double duration = stops.ramp + stops.unload_ramp;

@@ -45,9 +45,10 @@ struct RunOptions
                     ///< of the first harmonics of the contact-edge ripple (ensemble.hpp); 1: a single run
   int threads = 1;  ///< threads that share these runs
   double courant = 0.85;  ///< time step over the stability limit, 0.1 to 1
+  double slowness = 1;    ///< press: factor on the ramp
   int samples = 800;      ///< trace length aimed at
   bool estimate_error =
-      false;             ///< run a second, coarser resolution and fill error_estimate (costs about 1/3 more)
+      false;  ///< run a second, coarser resolution and fill error_estimate (accuracy.hpp; costs 1/3 more)
   FieldObserver fields;  ///< who wants to see the body while the run goes on (fields.hpp)
   std::function<void(double fraction)>
       progress;  ///< called now and then with 0..1; may throw to stop the run

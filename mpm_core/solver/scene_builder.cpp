@@ -67,6 +67,22 @@ double height_of_largest_radius(const Particle& p)
   return widest->z;
 }
 
+/// A point outside the body is moved towards the middle of its axis until it lies on the surface; over
+/// `length`.
+std::pair<double, double> onto_body(const Particle& p, double r, double z, double length)
+{
+  const double middle = 0.5 * p.height();
+  double inside = 0, outside = 1;
+  if (p.depth(r, z) < 0) {
+    for (int n = 0; n < 40; ++n) {
+      const double t = 0.5 * (inside + outside);
+      (p.depth(t * r, middle + t * (z - middle)) >= 0 ? inside : outside) = t;
+    }
+    r *= inside, z = middle + inside * (z - middle);
+  }
+  return {r / length, z / length};
+}
+
 const char* name_of(GridKind grid)
 {
   return grid == GridKind::mapped ? "mapped" : grid == GridKind::tartan ? "tartan" : "updated";
@@ -200,6 +216,10 @@ Scene Collision::build(double deepest, int cells, double shift) const
     for (const Material& m : p.materials) s.phases.push_back(phase_of(m, scale_));
     s.phase_at = [&](double r, double z) { return p.material_at(r * scale_.length, z * scale_.length); };
     s.surface_z = [&](double r) { return p.surface_z(r * scale_.length) / scale_.length; };
+    if (options_.fields)
+      s.onto_body = [&](double r, double z) {
+        return onto_body(p, r * scale_.length, z * scale_.length, scale_.length);
+      };
     s.radius = radius;
     s.height = (support_ == Support::free ? p.height() : height_of_largest_radius(p)) / scale_.length;
     if (support_ == Support::free) s.mass = mass_of(p) / scale_.mass();

@@ -53,7 +53,7 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
 {
   const double cpu = cpu_seconds();
   energy_start = total(scene, &Body::kinetic_energy);
-  fields.begin(scene.bodies.front());
+  fields.begin(scene);
   dt_ = courant_ * step_limit();
   overlap_ = drive.overlap(scene);
   while (!drive.finished()) {
@@ -71,7 +71,7 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
     if (time_ - window_start_ >= window_ || drive.segment() != segment || drive.finished()) {
       end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
-      fields.sample(scene.bodies.front(), time_, overlap_, result.trace.back().force, drive.finished());
+      fields.sample(scene, time_, overlap_, result.trace.back().force, drive.finished());
       if (progress && result.trace.size() % 16 == 0) progress(drive.progress());
     }
     if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();

@@ -96,7 +96,11 @@ std::vector<Piece> cut_pieces(const Section& s, const SplineAxis& r_axis, const 
             }
         }
         for (const PieceSum& sum : sums)
-          if (!sum.empty()) pieces.push_back(sum.mean(c, d));
+          if (!sum.empty()) {
+            pieces.push_back(sum.mean(c, d));
+            pieces.back().r0 = r0, pieces.back().r1 = r0 + hr;
+            pieces.back().z0 = z0, pieces.back().z1 = z0 + hz;
+          }
       }
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.phase < b.phase; });
@@ -188,13 +192,24 @@ Body tartan_body(const Section& s)
       b.br_p[at] = piece.br[k], b.bz_p[at] = piece.bz[k], b.bh_p[at] = piece.bh[k];
     }
   }
+  const auto renumber = [&](Surface& surface) {
+    weigh_markers(surface, r_axis, z_axis);
+    for (std::size_t k = 0; k < surface.node.size(); ++k) {
+      int& node = surface.node[k];
+      node = id[node];
+      if (node < 0) node = 0, surface.weight[k] = 0;  // a function of no mass: zero there but for rounding
+    }
+  };
   b.surface = section_markers(s, r_axis, 1);
-  weigh_markers(b.surface, r_axis, z_axis);
-  for (std::size_t k = 0; k < b.surface.node.size(); ++k) {
-    int& node = b.surface.node[k];
-    node = id[node];
-    if (node < 0)
-      node = 0, b.surface.weight[k] = 0;  // a function of no mass: zero at the surface but for rounding
+  renumber(b.surface);
+  if (s.onto_body) {
+    for (int k = 0; k < 4; ++k)
+      for (const Piece& piece : pieces) {
+        const auto [r, z] = s.onto_body(k == 0 || k == 3 ? piece.r0 : piece.r1, k < 2 ? piece.z0 : piece.z1);
+        b.outline.r.push_back(r), b.outline.z.push_back(z);
+      }
+    b.outline.count = static_cast<int>(b.outline.r.size());
+    renumber(b.outline);
   }
   b.link();
   return b;

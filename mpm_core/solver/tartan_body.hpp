@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "solver/body.hpp"
@@ -28,7 +29,9 @@ struct Section
   double mass = 0;                            ///< exact, of what lies below `height`; 0: as sampled
   double block = 0.3, depth = 0.3;            ///< extent of the fine steps
   double fine = 0.02;                         ///< the fine step
-  double shift = 0;                           ///< part of a step that all lines r move towards the axis
+  /// nearest place inside the body, or where it is; empty: nothing will be drawn
+  std::function<std::pair<double, double>(double r, double z)> onto_body;
+  double shift = 0;  ///< part of a step that all lines r move towards the axis
 };
 
 /// Total-Lagrangian body on the tartan grid, quadratic B-splines (spline_axis.hpp).
@@ -53,8 +56,9 @@ void weigh_markers(Surface& surface, const SplineAxis& r_axis, const SplineAxis&
 struct Piece
 {
   int phase;
-  double r, z;    ///< centroid
-  double volume;  ///< full revolution
+  double r, z;            ///< centroid
+  double r0, r1, z0, z1;  ///< the quarter
+  double volume;          ///< full revolution
   int r_first, z_first;
   /// means over the piece, [r function * 3 + z function]: N, dN/dr, dN/dz, N/r
   std::array<double, 9> n, br, bz, bh;

@@ -32,7 +32,9 @@ struct RunSummary
   double contact_time = 0;        ///< s
   double work_load = 0;           ///< J
   double work_unload = 0;         ///< J
-  long points = 0;                ///< material points
+  int resolution = 0;             ///< cells across the contact block
+  int grids = 1;                  ///< shifted grids whose mean this is
+  long points = 0;                ///< material points of one grid, their mean
   long steps = 0;
   double cpu_s = 0;
   double point_updates_per_s = 0;

@@ -72,7 +72,7 @@ def case_impact():
     keys = ["e", "force_max_N", "delta_max_m", "delta_residual_m", "contact_time_s", "work_load_J", "work_unload_J",
             "points", "steps", "cpu_s", "point_updates_per_s", "error_estimate"]
     result = Run("impact", materials(), *HIT, "-o", "t.csv", "--json").json()
-    assert list(result) == keys and result["error_estimate"] is None
+    assert list(result)[:len(keys)] == keys and 0 < result["error_estimate"] < 0.1
     assert 0.6 < result["e"] < 0.85 and abs(result["work_unload_J"] / result["work_load_J"] - result["e"] ** 2) < 1e-3
     kinetic = 0.5 * 1500 * 4 / 3 * np.pi * 2e-3**3 * 2.6**2
     assert abs(result["work_load_J"] / kinetic - 1) < 1e-6  # all of the kinetic energy goes into the contact
@@ -152,7 +152,7 @@ def case_errors():
     refused(["impact", name, "--particle", "gran", "--velocity", "1", *out], "m.toml", "gran", "did you mean 'grain'")
     refused(["impact", "none.toml", *HIT, *out], "none.toml", "no such file")
     refused(["impact", name, "--particle", "grain", "--velocity", "-1", *out], "--velocity", "over 0")
-    refused(["impact", name, *HIT, "--grid", "tartan", *out], "tartan", "mapped")
+    refused(["impact", name, *HIT, "--grid", "tartane", *out], "tartane", "mapped")
     refused(["impact", name, *HIT, "--grid", "round", *out], "round", "mapped")
     refused(["impact", name, *HIT, "-o", "out.txt"], "out.txt", ".csv")
     refused(["impact", name, *HIT, "-o", "no/out.csv"], "no/out.csv", "does not exist")

@@ -38,7 +38,9 @@ constexpr CellField cell_fields[] = {
     {{"equivalent_plastic_strain", "1", "equivalent plastic strain"}, &FieldFrame::plastic_strain},
     {{"pressure", "Pa", "minus a third of the trace of the Cauchy stress: compression positive"},
      &FieldFrame::pressure},
-    {{"von_mises_stress", "Pa", "von Mises stress of the Cauchy stress"}, &FieldFrame::von_mises}};
+    {{"von_mises_stress", "Pa", "von Mises stress of the Cauchy stress"}, &FieldFrame::von_mises},
+    {{"axial_stress", "Pa", "zz component of the Cauchy stress: tension positive"},
+     &FieldFrame::axial_stress}};
 
 class FieldFile
 {

@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "field_file.hpp"
 #include "materials_file.hpp"
-#include "solver/runs.hpp"
+#include "solver/accuracy.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
 
@@ -26,7 +26,7 @@ struct RunRequest
                                                   support = "free";
   double velocity = 0, depth = 0, tolerance = 0;
   int resolution = 0, jobs = 1, frames = 40;
-  bool json = false;
+  bool json = false, no_estimate = false;
 };
 
 void add_common(CLI::App& command, RunRequest& r)
@@ -47,8 +47,8 @@ void add_common(CLI::App& command, RunRequest& r)
                                         "cells across the contact block, 6 to 200 (default: the run's own)");
   command
       .add_option("--tolerance", r.tolerance,
-                  "relative error of force and e to reach, such as 0.01: the resolution is "
-                  "doubled until two resolutions agree so well")
+                  "relative error of F_max and e to reach, such as 0.01: resolution, time step and ramp are "
+                  "refined until the run's own estimate meets it")
       ->excludes(resolution);
   command.add_option("-o,--output", r.output, "trace of the run: NAME.csv or NAME.h5");
   auto* fields = command.add_option(
@@ -57,6 +57,8 @@ void add_common(CLI::App& command, RunRequest& r)
       ->check(CLI::Range(2, 10000))
       ->needs(fields);
   command.add_option("--jobs", r.jobs, "threads (default 1)")->check(CLI::Range(1, 256));
+  command.add_flag("--no-estimate", r.no_estimate,
+                   "leave out the second, coarser run that the error estimate needs (a third of the time)");
   command.add_flag("--json", r.json, "print one JSON object instead of the summary");
 }
 
@@ -85,9 +87,8 @@ void check(const RunRequest& r)
     fail("--fields", "its HDF5 file would be the trace's, -o", r.output, "another name");
 }
 
-/// Runs at the resolution asked for, or doubles it until the tolerance is met (at most twice).
-RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields,
-                           const std::function<RunResult(const RunOptions&)>& run)
+/// Runs at the resolution asked for, or to the tolerance.
+RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, const Run& run)
 {
   ProgressBar bar;
   RunOptions options;
@@ -96,27 +97,25 @@ RunResult run_to_tolerance(const RunRequest& r, const FieldObserver& fields,
   options.precision = r.precision == "single" ? Precision::single : Precision::full;
   options.threads = r.jobs;
   options.fields = fields;
-  options.progress = [&](double done) {
-    bar.update(done, options.resolution ? fmt::format("resolution {}", options.resolution) : "");
-  };
-  options.estimate_error = r.tolerance > 0;
+  options.progress = [&](double done) { bar.update(done, ""); };
+  options.estimate_error = !r.no_estimate;
   if (r.tolerance <= 0) return run(options);
-  RunResult result;
-  for (const int resolution : {16, 32, 64}) {
-    options.resolution = resolution;
-    result = run(options);
-    if (result.summary.error_estimate <= r.tolerance) return result;
-  }
-  fmt::print(stderr, "mpm: tolerance {:.2g} not reached: the estimate at resolution 64 is {:.2g}\n",
-             r.tolerance, result.summary.error_estimate);
-  return result;
+  const ToleranceResult found = run_to_tolerance(r.tolerance, r.depth > 0, options, run);
+  if (!found.reached)
+    fmt::print(
+        stderr,
+        "mpm: tolerance {:.2g} not reached: at {} cells the estimate is {:.2g} (resolution {:.2g}, time "
+        "step {:.2g}, ramp {:.2g})\n",
+        r.tolerance, found.result.summary.resolution, found.result.summary.error_estimate,
+        found.resolution_error, found.step_error, found.ramp_error);
+  return found.result;
 }
 
-RunResult run_as_asked(const RunRequest& r, const std::function<RunResult(const RunOptions&)>& run)
+RunResult run_as_asked(const RunRequest& r, const Run& run)
 {
-  if (r.fields.empty()) return run_to_tolerance(r, {}, run);
+  if (r.fields.empty()) return run_to_request(r, {}, run);
   return run_with_fields(r.fields, r.frames,
-                         [&](const FieldObserver& fields) { return run_to_tolerance(r, fields, run); });
+                         [&](const FieldObserver& fields) { return run_to_request(r, fields, run); });
 }
 
 void print_json(const RunSummary& s)
@@ -137,6 +136,12 @@ void print_json(const RunSummary& s)
     out["error_estimate"] = s.error_estimate;
   else
     out["error_estimate"] = nullptr;
+  out["resolution"] = s.resolution;
+  out["grids"] = s.grids;
+  out["energy_error"] = s.energy_error;
+  out["ripple"] = s.ripple;
+  out["e_raw"] = s.restitution_raw;
+  out["plastic_strain_max"] = s.plastic_strain_max;
   fmt::print("{}\n", out.dump(2));
 }
 
@@ -152,7 +157,7 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
   fmt::print("residual overlap               {:.5g} m\n", s.delta_residual);
   fmt::print("contact time                   {:.5g} s\n", s.contact_time);
   fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", s.work_load, s.work_unload);
-  if (s.error_estimate > 0) fmt::print("error, from two resolutions    {:.2g}\n", s.error_estimate);
+  if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
              s.cpu_s, 1e-6 * s.point_updates_per_s);
   if (!r.output.empty()) fmt::print("wrote {}\n", r.output);

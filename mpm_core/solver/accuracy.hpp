@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+
+#include "solver/runs.hpp"
+
+namespace granulaw {
+
+/// A run of one job under given options: run_impact or run_press with everything else bound.
+using Run = std::function<RunResult(const RunOptions&)>;
+
+/// The coarse partner of a resolution: 0.7 of it, at least 6.
+int coarse_partner(int resolution);
+
+/// Error of the finer of two runs of one job at resolutions N and coarse_partner(N), relative, of F_max and
+/// e, the larger. Measured on the cases of tests/verification/error_estimate_study.cpp (docs/method.md).
+double error_between(const RunSummary& fine, const RunSummary& coarse);
+
+/// Runs the job and its coarse partner; error_estimate filled, cost of both counted.
+RunResult run_with_estimate(const RunOptions& options, const Run& run);
+
+/// What run_to_tolerance found.
+struct ToleranceResult
+{
+  RunResult result;
+  double resolution_error = 0;  ///< the three parts of result.summary.error_estimate
+  double step_error = 0, ramp_error = 0;
+  bool reached = false;
+};
+
+/// Raises the resolution, step by step, until two of them agree to within `tolerance` in F_max and e; what
+/// the time step and, for a press (`has_ramp`), the ramp contribute is measured at a coarse resolution, where
+/// it costs little, and both are refined until they take no more than a quarter of the tolerance each.
+/// options.resolution, courant and slowness are where it starts.
+ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run);
+
+}  // namespace granulaw

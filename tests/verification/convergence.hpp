@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/runs.hpp"
+
+/// How results change as cells and time steps shrink. Units R = rho = E* = 1, nu = 0.3.
+namespace granulaw::verification {
+
+struct Job
+{
+  std::string name;
+  Sphere sphere;
+  double velocity;
+};
+Job elastic_impact();  ///< the one that Hertz's theory stops at 0.002 R
+Job plastic_impact();  ///< E*/Y = 100, V/V_y = 100
+
+/// `phases`: shifted grids whose mean is taken; 1: a single grid.
+RunSummary run(const Job& job, int cells_across, int phases, double courant = 0.85);
+
+/// Least squares of ln(error) = ln(c) - p ln(cells).
+struct Order
+{
+  double p, standard_error;
+};
+Order fit_order(const std::vector<int>& cells, const std::vector<double>& errors);
+
+/// Least squares of value = limit + c cells^-p; p by search between 0.5 and 4.
+struct Limit
+{
+  double value, p;
+};
+Limit fit_limit(const std::vector<int>& cells, const std::vector<double>& values);
+
+double root_mean_square(const std::vector<double>& errors);
+
+}  // namespace granulaw::verification

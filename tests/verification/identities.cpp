@@ -1,0 +1,52 @@
+#include "identities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "solver/kernels.hpp"
+#include "solver/mapped_body.hpp"
+
+namespace granulaw::verification {
+
+Identities identities(int cells_across)
+{
+  const Moduli elastic{0.35, 0.76, 0.0, 0.0, false};
+  const Body undeformed =
+      mapped_body(MappedGrid::build(cells_across, 0.3, true), {elastic}, 0.05 * elastic.shear);
+  Identities left{};
+
+  Body b = undeformed;
+  const double er = 0.01, ez = -0.02;
+  for (int i = 0; i < b.nodes; ++i) b.ur_i[i] = er * b.r_i[i], b.uz_i[i] = ez * b.z_i[i];
+  kernels().internal_force(b, false);
+  const double lr = std::log1p(er), lz = std::log1p(ez), trace = 2 * lr + lz;
+  const double deviator2 = 2 * std::pow(lr - trace / 3, 2) + std::pow(lz - trace / 3, 2);
+  const double energy = elastic.shear * deviator2 + 0.5 * elastic.bulk * trace * trace;
+  for (int p = 0; p < b.points; ++p)
+    left.patch = std::max(left.patch, std::abs(b.elastic_energy_p[p] / b.volume_p[p] / energy - 1));
+
+  b = undeformed;
+  for (int i = 0; i < b.nodes; ++i) b.ur_i[i] = -0.01 * b.r_i[i], b.uz_i[i] = -0.01 * b.z_i[i];
+  kernels().internal_force(b, false);
+  double inside = 0, outside = 0;
+  for (int i = 0; i < b.nodes; ++i) {
+    double& largest = std::hypot(b.r_i[i], b.z_i[i] - 1) > 1 - 1e-9 ? outside : inside;
+    largest = std::max(largest, std::abs(b.fz_i[i]));
+    if (b.r_i[i] > 0) largest = std::max(largest, std::abs(b.fr_i[i]));  // the axis carries hoop force
+  }
+  left.equilibrium = inside / outside;
+
+  b = undeformed;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> jitter(-1e-4, 1e-4);
+  for (int i = 0; i < b.nodes; ++i) b.ur_i[i] = b.r_i[i] > 0 ? jitter(random) : 0, b.uz_i[i] = jitter(random);
+  kernels().internal_force(b, false);
+  double sum = 0, magnitudes = 0, mass = 0;
+  for (int i = 0; i < b.nodes; ++i) sum += b.fz_i[i], magnitudes += std::abs(b.fz_i[i]), mass += b.mass_i[i];
+  left.momentum = std::abs(sum) / magnitudes;
+  left.mass = std::abs(mass / (4.0 / 3.0 * M_PI) - 1);
+  return left;
+}
+
+}  // namespace granulaw::verification
