@@ -148,7 +148,7 @@ double StableStep::limit(const Body& body) const
   }
   if (worst > squeezed * squeezed * bound_)
     fail("solver",
-         "a cell has been squeezed to a fiftieth of its size, more than a reference grid can follow (a soft "
+         "a cell has been squeezed to a fiftieth of its size, more than a reference grid can follow (over 0.4 R? a soft "
          "layer on a hard core?); stay below this depth or use --grid updated");
   return 2 / (omega_ * std::sqrt(worst / bound_));
 }

@@ -202,7 +202,7 @@ TEST(Shapes, FlatTipIsAPunch)
 }
 
 /// Beyond its rounded tip a cone is Sneddon's: F = 2/pi E* tan(half angle) delta^2.
-TEST(ShapesSlow, ConeIsSneddons)
+TEST(Shapes, ConeIsSneddons)
 {
   Particle p = sphere(0);
   const double angle = 70 * M_PI / 180, tip = 0.02;
