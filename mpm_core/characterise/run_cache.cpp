@@ -33,7 +33,7 @@ void each_number(Summary& s, Visit visit)
       visit(s.work_unload);
   visit(s.cpu_s), visit(s.point_updates_per_s), visit(s.error_estimate), visit(s.energy_error),
       visit(s.ripple);
-  visit(s.plastic_strain_max);
+  visit(s.plastic_strain_max), visit(s.contact_loss), visit(s.hourglass);
 }
 
 }  // namespace

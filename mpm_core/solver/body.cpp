@@ -81,6 +81,20 @@ double Body::strain_energy() const
   return std::accumulate(elastic_energy_p.begin(), elastic_energy_p.end(), 0.0);
 }
 
+double Body::hourglass_energy() const
+{
+  double sum = 0;
+  for (int p = 0; p < points && corners == 4; ++p) {
+    double qr = 0, qz = 0;
+    for (int k = 0; k < 4; ++k) {
+      const int at = k * points + p;
+      qr += hourglass_p[at] * ur_i[corner_p[at]], qz += hourglass_p[at] * uz_i[corner_p[at]];
+    }
+    sum += 0.5 * stiffness_p[p] * (qr * qr + qz * qz);
+  }
+  return sum;
+}
+
 double Body::plastic_work() const
 {
   if (is_single()) return std::accumulate(single.plastic_work_p.begin(), single.plastic_work_p.end(), 0.0);

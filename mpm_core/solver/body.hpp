@@ -122,6 +122,8 @@ struct Body : PointArrays<double>
 
   double kinetic_energy() const;
   double strain_energy() const;  ///< elastic and hourglass energy at the last stress evaluation
+  /// Part of the strain energy: what the hourglass control holds at the displacements now.
+  double hourglass_energy() const;
   double plastic_work() const;
   double largest_plastic_strain() const;
   /// Velocity of the centre of mass along +z.

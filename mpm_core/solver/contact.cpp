@@ -63,11 +63,21 @@ double edge_between(double closed, EdgePoint first, EdgePoint second)
   return std::clamp((first.r - q * second.r) / (1 - q), closed, std::max(closed, first.r));
 }
 
-double PlaneContact::correct(std::span<Body> bodies, double dt)
+void PlaneContact::push(Body& body, int node, double kick, double least)
+{
+  double& v = body.vz_i[node];
+  const double impulse = body.mass_i[node] * (least - v);
+  pushes_.push_back({node, impulse, v - kick * body.inverse_mass_i[node] * body.fz_i[node]});
+  impulse_ += impulse;
+  v = least;
+}
+
+double PlaneContact::correct(std::span<Body> bodies, double kick, double dt)
 {
   Body& body = bodies.front();
   const std::vector<int>& surface = body.surface.node;
-  double impulse = 0;
+  pushes_.clear();
+  impulse_ = 0;
   outermost_ = -1;
   const int count = body.surface.count;
   for (int k = 0; k < count; ++k) {
@@ -75,12 +85,21 @@ double PlaneContact::correct(std::span<Body> bodies, double dt)
     const double gap = body.z_i[i] + body.uz_i[i];
     const double least = -gap / dt;  // velocity that just reaches the plane
     if (body.vz_i[i] < least) {
-      impulse += body.mass_i[i] * (least - body.vz_i[i]);
-      body.vz_i[i] = least;
+      push(body, i, kick, least);
       outermost_ = k;
     }
   }
-  return impulse;
+  for (int i = 0; i < body.nodes; ++i) {
+    const double gap = body.z_i[i] + body.uz_i[i];
+    // rounding: a surface node that was just put on the plane is not pushed again
+    if (gap + dt * body.vz_i[i] < -1e-15) push(body, i, kick, -gap / dt);
+  }
+  return impulse_;
+}
+
+void PlaneContact::account(std::span<const Body> bodies)
+{
+  for (const Push& p : pushes_) dissipated_ -= 0.5 * p.impulse * (p.before + bodies.front().vz_i[p.node]);
 }
 
 double PlaneContact::edge_radius(std::span<const Body> bodies) const
@@ -96,7 +115,7 @@ double PlaneContact::edge_radius(std::span<const Body> bodies) const
   return edge_between(closed, point(outermost_ + 1), point(outermost_ + 2));
 }
 
-void SurfaceContact::make_rows(std::span<Body> bodies, double dt)
+void SurfaceContact::make_rows(std::span<Body> bodies, double kick, double dt)
 {
   Body& upper = bodies.front();
   Body* lower = bodies.size() > 1 ? &bodies[1] : nullptr;
@@ -104,6 +123,7 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double dt)
   impulse_.resize(count, 0.0), gap_.resize(count), radius_.resize(count);
   rows_.clear(), entries_.clear();
 
+  double before = 0;
   // a surface point of the given body, weighted `share`, seen along the normal (-slope, 1)
   const auto enter = [&](Body& b, int m, double share_r, double share_z) {
     const Surface& s = b.surface;
@@ -111,9 +131,10 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double dt)
       const std::size_t at = std::size_t(k) * s.count + m;
       const int i = s.node[at];
       if (s.weight[at] == 0 || b.inverse_mass_i[i] == 0) continue;
-      const double w = s.weight[at];
-      entries_.push_back(
-          {&b.vr_i[i], &b.vz_i[i], b.on_axis[i] ? 0.0 : share_r * w, share_z * w, b.inverse_mass_i[i]});
+      const double w = s.weight[at], wr = b.on_axis[i] ? 0.0 : share_r * w, wz = share_z * w;
+      const double kicked = kick * b.inverse_mass_i[i];
+      entries_.push_back({&b.vr_i[i], &b.vz_i[i], wr, wz, b.inverse_mass_i[i]});
+      before += wr * (b.vr_i[i] - kicked * b.fr_i[i]) + wz * (b.vz_i[i] - kicked * b.fz_i[i]);
     }
   };
 
@@ -142,6 +163,7 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double dt)
     // a row for each point that would pass, or might once its neighbours are pushed back
     if (gap + dt * approach > 0 && impulse_[m] == 0 && gap > 4 * dt * std::abs(approach)) continue;
     const int begin = static_cast<int>(entries_.size());
+    before = 0;
     enter(upper, m, slope, 1);
     if (lower) {
       enter(*lower, segment, -slope * (1 - t), 1 - t);
@@ -151,7 +173,8 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double dt)
     for (std::size_t e = begin; e < entries_.size(); ++e)
       response +=
           entries_[e].inverse_mass * (entries_[e].wr * entries_[e].wr + entries_[e].wz * entries_[e].wz);
-    if (response > 0) rows_.push_back({m, begin, static_cast<int>(entries_.size()), -gap / dt, response});
+    if (response > 0)
+      rows_.push_back({m, begin, static_cast<int>(entries_.size()), -gap / dt, response, before});
   }
 }
 
@@ -172,10 +195,15 @@ void SurfaceContact::push(const Row& row, double impulse)
   }
 }
 
-double SurfaceContact::correct(std::span<Body> bodies, double dt)
+void SurfaceContact::account(std::span<const Body>)
+{
+  for (const Row& row : rows_) dissipated_ -= 0.5 * impulse_[row.point] * (row.before + separation(row));
+}
+
+double SurfaceContact::correct(std::span<Body> bodies, double kick, double dt)
 {
   for (const Body& body : bodies) check_pores(body);
-  make_rows(bodies, dt);
+  make_rows(bodies, kick, dt);
   for (const Row& row : rows_)
     if (impulse_[row.point] > 0) push(row, impulse_[row.point]);
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {

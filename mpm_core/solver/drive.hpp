@@ -87,7 +87,9 @@ class PressDrive : public Drive
   int segment_ = 0;
   double start_ = 0, from_ = 0, duration_ = 1, speed_ = 0;
   double last_touch_ = 0, force_ = 0, radius_ = 1, work_ = 0;
-  double velocity_ = 0;  // of the equator in the last step
+  // Impulses do work on the mean of the velocities before and after a step: these are those of the last step
+  double velocity_ = 0;  // of the equator, or of separation if free
+  double mean_ = 0;      // midplane: of the centre of mass
   double driven_ = 0;    // displacement of the equator along +z
   bool reached_new_depth_ = false, finished_ = false;
   double deepest_ = 0;

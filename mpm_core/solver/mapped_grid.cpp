@@ -137,6 +137,8 @@ MappedGrid MappedGrid::build(int cells_across, double block, bool full, double s
   MappedGrid grid;
   // Surface radius r of zeta = i y is 2 y/(1 + y^2); invert for the block's edge.
   // The shift takes its part of a cell off the block's edge, so that all lines but the pole move alike.
+  // Blocks that reach farther than 0.95 R fold the cells between their corner and the mid-plane.
+  block = std::min(block, 0.95 / (1 + 0.5 / cells_across));
   const double shifted = block * (1 - shift / cells_across);
   const double block_zeta = shifted / (1 + std::sqrt(1 - shifted * shifted));
   const Half near(cells_across, block_zeta, 1.25, shift);

@@ -37,6 +37,10 @@ double default_ramp(double depth, double yield_over_e_star)
   return std::max(60.0, 0.5 * M_PI * depth * std::sqrt(1 / yield_over_e_star / 4e-4));
 }
 
+/// Ripple, as a share of the force, beyond which the fit does not describe the loading: fast, deep impacts,
+/// where inertia makes the early force the largest.
+constexpr double most_ripple = 0.05;
+
 /// Summary of one or several runs of the same job on shifted grids, whose mean trace is `result.trace`
 /// (ensemble.hpp); solver units. The loading force is treated for the ripple that is left (ripple.hpp).
 void summarise(RunResult& result, const std::vector<RunResult>& members)
@@ -58,6 +62,8 @@ void summarise(RunResult& result, const std::vector<RunResult>& members)
     updates += static_cast<double>(m.points) * static_cast<double>(m.steps);
     s.plastic_strain_max = std::max(s.plastic_strain_max, m.plastic_strain_max);
     s.energy_error = std::max(s.energy_error, m.energy_error);
+    s.contact_loss = std::max(s.contact_loss, m.contact_loss);
+    s.hourglass = std::max(s.hourglass, m.hourglass);
   }
   for (const RunResult& member : members)
     spread = std::max(spread, std::abs(member.summary.restitution_raw - s.restitution_raw));
@@ -70,7 +76,8 @@ void summarise(RunResult& result, const std::vector<RunResult>& members)
   s.restitution = s.restitution_raw;
   if (!treated.valid()) return;
   s.ripple = treated.ripple();
-  s.force_max = treated.force(s.delta_max);
+  if (s.ripple > most_ripple) return;  // no ripple about a smooth law any more: the raw peak stands
+  s.force_max = treated.largest_force();
   if (members.size() > 1) return;
   // A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
   // What is elastic is given back whatever the phase: only the dissipated share is corrected.

@@ -35,6 +35,7 @@ Simulation::Simulation(Scene s, const RunOptions& options, double expected)
     : scene(std::move(s)),
       courant_(options.courant),
       window_(expected / options.samples),
+      window_end_(window_),
       longest_(60 * expected)
 {
   for (Body& body : scene.bodies) stable_.emplace_back(body);
@@ -54,13 +55,14 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
   const double cpu = cpu_seconds();
   energy_start = total(scene, &Body::kinetic_energy);
   fields.begin(scene);
-  dt_ = courant_ * step_limit();
+  dt_ = last_dt_ = courant_ * step_limit();
   overlap_ = drive.overlap(scene);
   while (!drive.finished()) {
     const double overlap_before = overlap_;
     const Branch branch = drive.branch();
     const int segment = drive.segment();
-    const double push = advance(scene, drive, time_, dt_);
+    const double push = advance(scene, drive, time_, 0.5 * (last_dt_ + dt_), dt_);
+    last_dt_ = dt_;
     overlap_ = drive.overlap(scene);
     impulse_ += push;
     overlap_sum_ += overlap_before;
@@ -68,7 +70,10 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
     ++steps_;
     time_ += dt_;
     if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
-    if (time_ - window_start_ >= window_ || drive.segment() != segment || drive.finished()) {
+    const bool turned = drive.segment() != segment || drive.finished();
+    if (time_ >= window_end_ || turned) {
+      // at equal times since the turn, whatever the step: samples of shifted grids are averaged one by one
+      window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
       end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
       fields.sample(scene, time_, overlap_, result.trace.back().force, drive.finished());
@@ -128,8 +133,10 @@ void Simulation::summarise(const Drive& drive)
   const double put_in = energy_start + drive.work();
   const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
   const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
-                       total(scene, &Body::plastic_work);
+                       total(scene, &Body::plastic_work) + scene.contact->dissipated();
   s.energy_error = std::abs(found - put_in) / peak;
+  s.contact_loss = scene.contact->dissipated() / peak;
+  s.hourglass = total(scene, &Body::hourglass_energy) / peak;
 }
 
 }  // namespace granulaw

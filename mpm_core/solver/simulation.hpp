@@ -39,10 +39,11 @@ class Simulation
 
   std::vector<StableStep> stable_;
   double courant_;
-  double window_;   // sample interval
+  double window_;  // sample interval
+  double window_end_;
   double longest_;  // give up
   // where the run is
-  double time_ = 0, dt_ = 0, overlap_ = 0;
+  double time_ = 0, dt_ = 0, last_dt_ = 0, overlap_ = 0;
   long steps_ = 0;
   double last_touch_time_ = 0, last_touch_overlap_ = 0;
   // the sample being taken

@@ -32,17 +32,18 @@ void grid_to_points(Body& body, double dt)
 
 }  // namespace
 
-double advance(Scene& scene, Drive& drive, double time, double dt)
+double advance(Scene& scene, Drive& drive, double time, double kick, double dt)
 {
   const Kernels& k = kernels();
   for (Body& body : scene.bodies) {
     points_to_grid(body);                            // stresses become forces on the nodes
-    k.accelerate(body, dt);                          // grid update
+    k.accelerate(body, kick);                        // grid update
     for (const int i : body.axis) body.vr_i[i] = 0;  // symmetry
   }
-  const double impulse = scene.contact->correct(scene.bodies, dt);  // no surface point passes the other side
-  drive.apply(scene, time, dt, impulse > 0);                        // what holds or throws the bodies
-  for (Body& body : scene.bodies) grid_to_points(body, dt);         // displacements, and the points with them
+  const double impulse = scene.contact->correct(scene.bodies, kick, dt);  // nothing passes the other side
+  drive.apply(scene, time, dt, impulse > 0);                              // what holds or throws the bodies
+  scene.contact->account(scene.bodies);
+  for (Body& body : scene.bodies) grid_to_points(body, dt);  // displacements, and the points with them
   return impulse;
 }
 

@@ -41,7 +41,9 @@ struct RunSummary
   double error_estimate =
       0;  ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
   double plastic_strain_max = 0;  ///< largest equivalent plastic strain of any material point at the end
-  double energy_error = 0;        ///< |kinetic + elastic + plastic - work|/(energy put in)
+  double energy_error = 0;  ///< |kinetic + elastic + plastic + contact_loss - put in|/put in, at the end
+  double contact_loss = 0;  ///< share of the energy put in that was lost in the contact (contact.hpp)
+  double hourglass = 0;     ///< share of it that the hourglass control holds at the end, part of the elastic
   double ripple = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 

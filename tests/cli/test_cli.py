@@ -81,6 +81,12 @@ def case_impact():
     assert {line.split(",")[4] for line in lines[1:]} == {"load", "unload"}
     peak = max(float(line.split(",")[2]) for line in lines[1:])
     assert abs(peak / result["force_max_N"] - 1) < 0.1  # raw against treated on a coarse grid
+    # half the Courant number: twice the steps, the same law; one grid of four: a quarter of the steps
+    half = Run("impact", "m.toml", *HIT, "--courant", "0.425", "--json").json()
+    assert abs(half["steps"] / result["steps"] - 2) < 0.02 and abs(half["e"] / result["e"] - 1) < 2e-3  # 2nd order in dt
+    one = Run("impact", "m.toml", *HIT, "--phases", "1", "--json").json()
+    assert abs(4 * one["steps"] / result["steps"] - 1) < 0.1 and one["e"] != one["e_raw"]
+    assert 0 <= result["energy_error"] < 1e-3  # kinetic, elastic and plastic energy: what was put in
     human = Run("impact", materials(), *HIT, "-o", "t.h5")
     assert human.code == 0 and "coefficient of restitution" in human.out and human.err == ""
     with h5py.File("t.h5") as file:
@@ -98,6 +104,12 @@ def case_press():
                      "--resolution", "8", "--json").json()
         assert abs(result["delta_max_m"] / 1e-4 - 1) < 1e-4, result
         assert 0 < result["delta_residual_m"] < result["delta_max_m"] and 0 < result["e"] < 1
+    # half the default ramp (60 R/c*) is nearly the rate-free law: at most, I = rho v^2/Y is
+    # (pi/2 0.05/30)^2 100 = 7e-4, where inertia takes up to 1 % of e (docs/method.md)
+    words = ["press", "m.toml", "--particle", "grain", "--depth", "0.05", "--resolution", "8", "--json"]
+    slow, fast = Run(*words).json(), Run(*words, "--ramp", "30").json()
+    assert 0.3 * slow["steps"] < fast["steps"] < 0.7 * slow["steps"], (fast["steps"], slow["steps"])
+    assert abs(fast["e"] / slow["e"] - 1) < 1e-2, (fast["e"], slow["e"])
 
 
 def case_fields():
@@ -158,6 +170,11 @@ def case_errors():
     refused(["impact", name, *HIT, "-o", "no/out.csv"], "no/out.csv", "does not exist")
     refused(["press", name, "--particle", "grain", "--depth", "2", *out], "--depth", "0.8")
     refused(["press", name, "--particle", "grain", "--depth", "0.1", "--support", "fre", *out], "fre", "midplane")
+    refused(["impact", name, *HIT, "--courant", "1.1", *out], "--courant", "unstable above 1", "1.1", "0.05 to 1")
+    refused(["impact", name, *HIT, "--courant", "0", *out], "--courant", "0.05 to 1")
+    refused(["impact", name, *HIT, "--courant", "nan", *out], "--courant", "0.05 to 1")
+    refused(["impact", name, *HIT, "--phases", "0", *out], "--phases", "1 to 64")
+    refused(["press", name, "--particle", "grain", "--depth", "0.1", "--ramp", "-5", *out], "--ramp", "1 to 1e6")
     refused(["table", name, "--pair", "powdr:wall", "-o", "out.h5"], "powdr", "did you mean 'powder'")
     refused(["table", name, "--pair", "powder", "-o", "out.h5"], "powder", "a:b")
     refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "--deck", "version")

@@ -69,7 +69,7 @@ TEST_P(TwoBodies, KeepMomentumInEveryStep)
   for (long n = 0; !drive.finished(); ++n) {
     ASSERT_LT(n, 100000);
     const double before0 = momentum(0), before1 = momentum(1);
-    const double impulse = advance(scene, drive, n * dt, dt);
+    const double impulse = advance(scene, drive, n * dt, dt, dt);
     touched += impulse > 0;
     // rounding of some thousand nodes' share
     ASSERT_NEAR(momentum(0) - before0, impulse, 1e-13 * moved);

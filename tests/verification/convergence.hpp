@@ -20,6 +20,12 @@ Job plastic_impact();  ///< E*/Y = 100, V/V_y = 100
 /// `phases`: shifted grids whose mean is taken; 1: a single grid.
 RunSummary run(const Job& job, int cells_across, int phases, double courant = 0.85);
 
+/// A sphere that vibrates freely, without contact: largest deviation of kinetic plus elastic energy during 20
+/// R/c*, some eight periods of the slowest mode, over what it began with. It starts undeformed with the
+/// velocity of a uniform axial strain rate. Kinetic energy at the moments of the displacements, from the mean
+/// of the velocities half a step before and after.
+double energy_swing(double courant);
+
 /// Least squares of ln(error) = ln(c) - p ln(cells).
 struct Order
 {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "references.hpp"
@@ -103,8 +104,9 @@ TEST(Convergence, EnergyAgainstTimeStep)
     std::printf("%d cells: energy error %.2e, %.2e, %.2e at Courant 0.85, 0.425, 0.2125\n", cells, full, half,
                 quarter);
     EXPECT_LT(full, 5e-6);  // measured 1.3e-6 to 1.7e-6
-    EXPECT_LT(half, 0.6 * full);
-    EXPECT_LT(quarter, 0.6 * full);
+    // with the contact loss in the balance, what is left of an elastic impact is rounding and the last half
+    // step
+    EXPECT_LT(std::max({full, half, quarter}), 5e-7);  // measured 1e-8 to 1e-7
   }
 }
 

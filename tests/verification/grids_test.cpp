@@ -183,7 +183,7 @@ TEST(Updated, FliesFreely)
   b.throw_along(v);  // away from the plane
   ImpactDrive drive(1);
   constexpr int steps = 500;  // 0.1: more than a cell
-  for (int n = 0; n < steps; ++n) EXPECT_EQ(advance(scene, drive, n * dt, dt), 0);
+  for (int n = 0; n < steps; ++n) EXPECT_EQ(advance(scene, drive, n * dt, dt, dt), 0);
   const MovingPoints& m = *b.moving;
   double worst = 0, worst_stress = 0, worst_place = 0;
   for (int p = 0; p < b.points; ++p) {

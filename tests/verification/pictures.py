@@ -130,7 +130,7 @@ def pressure(data):
         b.plot(s["a"], 100 * s["centre_excess"], "o", color=COLOURS[k], label=f"ν = {nu:g}")
         slope = np.polyfit(s["a"], s["centre_excess"], 1)[0]
         print(f"  nu {nu}: excess in the middle {slope:.3f} a/R, predicted {2 / np.pi * (1 - 2 * nu) / (1 - nu):.3f}")
-    b.set(xlabel="a/R", ylabel="pressure in the middle over p₀, less one (%)", title="what Hertz neglects", xlim=(0, 0.07))
+    b.set(xlabel="a/R", ylabel="pressure in the middle / p₀ - 1 (%)", title="what Hertz neglects", xlim=(0, 0.07))
     b.legend(loc="upper left")
 
     series = d[(d["nu"] == 0.3) & (d["depth"] == 2e-3) & (d["r_over_a"] < 0.9)]
@@ -234,8 +234,17 @@ def convergence(data):
 
 
 def step(data):
-    d = data["step"]
-    figure, (a, b) = panels(2)
+    swing, d = data["swing"], data["step"]
+    figure, (free, a, b) = panels(3, 3.7)
+    free.plot(swing["courant"], swing["swing"], "o", color=COLOURS[0], label="swing of the energy")
+    free.plot(swing["courant"], swing["swing"][-1] * (swing["courant"] / swing["courant"][-1]) ** 2, color="black",
+              linewidth=1, label="second order")
+    free.set(xscale="log", yscale="log", xlabel="Courant number (limit 1)", ylabel="largest deviation of the energy",
+             title="free vibration, 8 cells")
+    free.set_xticks([0.1, 0.2, 0.4, 0.8], ["0.1", "0.2", "0.4", "0.8"])
+    free.minorticks_off()
+    free.legend()
+    print(f"  swing {dict(zip(swing['courant'].tolist(), swing['swing'].tolist()))}")
     for axes, job, scale, text in ((a, "elastic", 1e6, "energy not accounted for, 10⁻⁶"),
                                    (b, "plastic", 1e4, "energy not accounted for, 10⁻⁴")):
         for k, cells in enumerate(np.unique(d["cells"])):

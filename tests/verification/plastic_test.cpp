@@ -29,9 +29,9 @@ TEST_P(PlasticPress, AgreesWithFiniteElements)
   EXPECT_NEAR(s.force_max / y, ref.force, 0.01 * ref.force);
   EXPECT_NEAR(s.restitution, ref.e, 0.01 * ref.e);
   EXPECT_NEAR(s.delta_residual / s.delta_max, ref.residual, 0.004);  // +-0.003 and the reference's own 0.001
-  // kinetic + elastic + plastic = work of the drive; what is missing is the work of the kinked force at
-  // contacting nodes
-  EXPECT_LT(s.energy_error, 1e-3);
+  // kinetic + elastic + plastic + lost at the contact = work of the drive; measured 1e-6 to 8e-6
+  EXPECT_LT(s.energy_error, 2e-5);
+  EXPECT_LT(s.contact_loss, 1e-3);  // measured 5e-5 and below: a press closes the contact slowly
 }
 INSTANTIATE_TEST_SUITE_P(Reference, PlasticPress, testing::ValuesIn(reference::presses), [](const auto& p) {
   std::string name = p.param.name;
@@ -52,11 +52,36 @@ TEST_P(FreeImpact, RestitutionAgreesWithThreeFormulations)
   const RunSummary s =
       run_impact(reference::unit_sphere(100), ref.v_over_vy * yield_velocity(1, 0.01, 1), options).summary;
   EXPECT_NEAR(s.restitution, ref.e, ref.tolerance);  // the references' own uncertainty and as much again
-  EXPECT_LT(s.energy_error, 5e-3);  // measured 1e-3 at V/V_y = 500, 1e-6 at 5: plastic work by steps
+  EXPECT_LT(s.energy_error, 3e-4);  // measured 1e-4 at V/V_y = 500, 5e-7 at 5: plastic work by steps
 }
 INSTANTIATE_TEST_SUITE_P(Reference, FreeImpact, testing::ValuesIn(reference::impacts), [](const auto& p) {
   return "V" + std::to_string(static_cast<int>(p.param.v_over_vy));
 });
+
+RunSummary deep_impact(int cells, double courant)
+{
+  RunOptions options;
+  options.resolution = cells;
+  options.phases = 1;
+  options.courant = courant;
+  return run_impact(reference::unit_sphere(100), 1500 * yield_velocity(1, 0.01, 1), options).summary;
+}
+
+/// The scheme is of second order although its step shrinks fivefold on the way: half the step, a quarter of
+/// the error (measured: a fifth); a scheme of first order would have half.
+TEST(EnergyBalance, IsOfSecondOrderInTheStep)
+{
+  EXPECT_GT(deep_impact(12, 0.8).energy_error / deep_impact(12, 0.4).energy_error, 3.0);
+}
+
+/// What nodes lose when they reach the plane belongs to the grid: it falls with the cell size, and the step
+/// has nothing to do with it.
+TEST(EnergyBalance, ContactLossFallsWithTheCellSize)
+{
+  const double coarse = deep_impact(12, 0.8).contact_loss;
+  EXPECT_NEAR(coarse / deep_impact(24, 0.8).contact_loss, 2.0, 0.4);  // nodes are few: it falls in steps
+  EXPECT_NEAR(coarse / deep_impact(12, 0.4).contact_loss, 1.0, 0.03);
+}
 
 /// The seed paper's central claim: only E*/Y, nu and V/V_y matter.
 TEST(Similarity, DimensionlessTracesAgree)

@@ -134,6 +134,10 @@ void write_convergence(const File& open)
 
 void write_step(const File& open)
 {
+  fmt::ostream swing = open("swing.csv");
+  swing.print("courant,swing\n");
+  for (const double courant : {0.95, 0.8, 0.6, 0.4, 0.3, 0.2, 0.1})
+    swing.print("{},{:.6g}\n", courant, energy_swing(courant));
   fmt::ostream out = open("step.csv");
   out.print("job,cells,courant,e,energy_error\n");
   for (const Job& job : {elastic_impact(), plastic_impact()})
