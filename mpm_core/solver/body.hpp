@@ -90,6 +90,7 @@ struct Body : PointArrays<double>
   std::vector<int> axis, equator;  ///< nodes on the axis; nodes of the plane driven under midplane support
   std::vector<char> on_axis;       ///< per node
   Surface surface;
+  Surface pore_walls;  ///< `tartan`: pairs of places on opposite walls of a pore, one after the other
   Surface
       outline;  ///< `tartan`: corners of the piece that each point stands for, [4][points]; for looking at
   double mass = 0;

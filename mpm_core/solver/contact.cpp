@@ -1,8 +1,11 @@
 #include "solver/contact.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "solver/state_archive.hpp"
 
 namespace granulaw {
@@ -19,9 +22,8 @@ struct Motion
   double r, z, vr, vz;
 };
 
-Motion motion(const Body& b, int m)
+Motion motion(const Body& b, const Surface& s, int m)
 {
-  const Surface& s = b.surface;
   Motion x{s.r[m], s.z[m], 0, 0};
   for (int k = 0; k < s.corners; ++k) {
     const int i = s.node[std::size_t(k) * s.count + m];
@@ -30,6 +32,26 @@ Motion motion(const Body& b, int m)
     x.vr += w * b.vr_i[i], x.vz += w * b.vz_i[i];
   }
   return x;
+}
+
+Motion motion(const Body& b, int m)
+{
+  return motion(b, b.surface, m);
+}
+
+/// Opposite walls must still be seen from each other in the direction they were in at the start.
+void check_pores(const Body& b)
+{
+  const Surface& s = b.pore_walls;
+  for (int m = 0; m + 1 < s.count; m += 2) {
+    const Motion from = motion(b, s, m), to = motion(b, s, m + 1);
+    const double dr = s.r[m + 1] - s.r[m], dz = s.z[m + 1] - s.z[m];
+    if (!(dr * (to.r - from.r) + dz * (to.z - from.z) > 0))
+      fail("solver",
+           fmt::format("the pore at r = {:.4g}, z = {:.4g} (in radii of the first particle) has closed, and "
+                       "contact of its walls is not computed; stay below this depth or fill the pore",
+                       0.5 * (s.r[m] + s.r[m + 1]), 0.5 * (s.z[m] + s.z[m + 1])));
+  }
 }
 
 }  // namespace
@@ -203,6 +225,7 @@ void SurfaceContact::account(std::span<const Body>)
 
 double SurfaceContact::correct(std::span<Body> bodies, double kick, double dt)
 {
+  for (const Body& body : bodies) check_pores(body);
   make_rows(bodies, kick, dt);
   for (const Row& row : rows_)
     if (impulse_[row.point] > 0) push(row, impulse_[row.point]);

@@ -70,6 +70,7 @@ class PlaneContact : public Contact
 /// Any surface against the plane or against another body's surface (a polyline through its surface points):
 /// non-negative impulses at the first body's surface points, found by Gauss-Seidel sweeps on the condition
 /// that no point ends the step below the other surface. Normals are those of the other surface.
+/// Walls of pores are not kept apart: correct() throws Error once two of them have passed each other.
 class SurfaceContact : public Contact
 {
  public:

@@ -36,6 +36,7 @@ Simulation::Simulation(Scene s, const RunOptions& options, double expected)
     : scene(std::move(s)),
       courant_(options.courant),
       window_(expected / options.samples),
+      window_end_(window_),
       longest_(60 * expected)
 {
   for (Body& body : scene.bodies) stable_.emplace_back(body);
@@ -72,8 +73,11 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
     ++steps_;
     time_ += dt_;
     if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
-    const bool sampled = time_ - window_start_ >= window_ || drive.segment() != segment || drive.finished();
+    const bool turned = drive.segment() != segment || drive.finished();
+    const bool sampled = time_ >= window_end_ || turned;
     if (sampled) {
+      // at equal times since the turn, whatever the step: samples of shifted grids are averaged one by one
+      window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
       end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
       fields.sample(scene, time_, overlap_, result.trace.back().force, drive.finished());
@@ -113,7 +117,8 @@ void Simulation::visit_state(Drive& drive, StateArchive& a)
 {
   a.value(time_), a.value(dt_), a.value(last_dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
   a.value(last_touch_time_), a.value(last_touch_overlap_);
-  a.value(impulse_), a.value(overlap_sum_), a.value(window_start_), a.value(in_window_);
+  a.value(impulse_), a.value(overlap_sum_), a.value(window_start_), a.value(window_end_);
+  a.value(in_window_);
   a.growing(result.trace);
   for (Body& body : scene.bodies) body.visit_state(a);
   scene.contact->visit_state(a);

@@ -202,6 +202,9 @@ Body tartan_body(const Section& s)
   };
   b.surface = section_markers(s, r_axis, 1);
   renumber(b.surface);
+  for (const auto& [r, z] : s.pore_walls) b.pore_walls.r.push_back(r), b.pore_walls.z.push_back(z);
+  b.pore_walls.count = static_cast<int>(s.pore_walls.size());
+  renumber(b.pore_walls);
   if (s.onto_body) {
     for (int k = 0; k < 4; ++k)
       for (const Piece& piece : pieces) {

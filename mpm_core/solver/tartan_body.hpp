@@ -23,12 +23,13 @@ struct Section
   std::vector<Phase> phases;
   /// index of the phase at (r, z), -1: outside, or in a pore
   std::function<int(double r, double z)> phase_at;
-  std::function<double(double r)> surface_z;  ///< height of the lower surface
-  double radius = 1;                          ///< largest distance from the axis
-  double height = 2;                          ///< top; the plane of symmetry under midplane support
-  double mass = 0;                            ///< exact, of what lies below `height`; 0: as sampled
-  double block = 0.3, depth = 0.3;            ///< extent of the fine steps
-  double fine = 0.02;                         ///< the fine step
+  std::function<double(double r)> surface_z;            ///< height of the lower surface
+  double radius = 1;                                    ///< largest distance from the axis
+  double height = 2;                                    ///< top; the plane of symmetry under midplane support
+  double mass = 0;                                      ///< exact, of what lies below `height`; 0: as sampled
+  double block = 0.3, depth = 0.3;                      ///< extent of the fine steps
+  double fine = 0.02;                                   ///< the fine step
+  std::vector<std::pair<double, double>> pore_walls{};  ///< r, z, two opposite ones after each other
   /// nearest place inside the body, or where it is; empty: nothing will be drawn
   std::function<std::pair<double, double>(double r, double z)> onto_body;
   double shift = 0;  ///< part of a step that all lines r move towards the axis

@@ -51,7 +51,7 @@ void updated_points_to_grid(Body& b)
       b.vz_i[i] += share * (m.vz[p] + m.czr[p] * dr + m.czz[p] * dz);
     }
   for (int i = 0; i < b.nodes; ++i) {
-    b.inverse_mass_i[i] = b.mass_i[i] > 1e-14 * b.mass ? 1 / b.mass_i[i] : 0;
+    b.inverse_mass_i[i] = b.mass_i[i] > 1e-20 * b.mass ? 1 / b.mass_i[i] : 0;
     b.vr_i[i] *= b.inverse_mass_i[i], b.vz_i[i] *= b.inverse_mass_i[i];
   }
   kernels().force_of_stress(b);
