@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "solver/state_archive.hpp"
+
 namespace granulaw {
 
 void Body::allocate(int node_count, int point_count, int corner_count)
@@ -72,6 +74,38 @@ void Body::use_single()
 void Body::fetch_state()
 {
   if (is_single()) for_state(single, *this, copy_values);
+}
+
+namespace {
+
+template <class Real>
+void visit_points(PointArrays<Real>& points, StateArchive& a)
+{
+  for_state(points, points, [&](std::vector<Real>& field, const std::vector<Real>&) { a.values(field); });
+}
+
+std::uint64_t checksum_of(const std::vector<double>& values, std::uint64_t start)
+{
+  return checksum({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)}, start);
+}
+
+}  // namespace
+
+void Body::visit_state(StateArchive& a)
+{
+  // the same request makes the same grid, to the last bit, unless the mathematical library is another one
+  a.expect(checksum_of(volume_p, checksum_of(z_i, checksum_of(r_i, corners))), "reference grid");
+  a.value(travel), a.value(elapsed);
+  for (auto* field : {&ur_i, &uz_i, &vr_i, &vz_i}) a.values(*field);
+  if (is_single())
+    visit_points(single, a);
+  else
+    visit_points(*this, a);
+  if (!moving) return;
+  MovingPoints& m = *moving;
+  for (auto* field : {&m.r, &m.z, &m.vr, &m.vz, &m.crr, &m.crz, &m.czr, &m.czz, &m.trr, &m.tzz, &m.trz,
+                      &m.thh, &surface.r, &surface.z})
+    a.values(*field);
 }
 
 double Body::strain_energy() const

@@ -9,6 +9,8 @@
 
 namespace granulaw {
 
+class StateArchive;
+
 /// Elastic-plastic constants in solver units (stress / E*).
 struct Moduli
 {
@@ -128,6 +130,9 @@ struct Body : PointArrays<double>
   double largest_plastic_strain() const;
   /// Velocity of the centre of mass along +z.
   double mean_velocity() const;
+
+  /// What changes from step to step, and the reference grid as a thing to agree upon (state_archive.hpp).
+  void visit_state(StateArchive& archive);
 };
 
 }  // namespace granulaw

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "solver/state_archive.hpp"
 
 namespace granulaw {
 
@@ -76,10 +77,11 @@ double PlaneContact::correct(std::span<Body> bodies, double kick, double dt)
 {
   Body& body = bodies.front();
   const std::vector<int>& surface = body.surface.node;
+  const int count = body.surface.count;
   pushes_.clear();
+  pushes_.reserve(std::size_t(body.nodes) + count);  // all that there can be, so that no later step allocates
   impulse_ = 0;
   outermost_ = -1;
-  const int count = body.surface.count;
   for (int k = 0; k < count; ++k) {
     const int i = surface[k];
     const double gap = body.z_i[i] + body.uz_i[i];
@@ -115,6 +117,24 @@ double PlaneContact::edge_radius(std::span<const Body> bodies) const
   return edge_between(closed, point(outermost_ + 1), point(outermost_ + 2));
 }
 
+void Contact::visit_state(StateArchive& a)
+{
+  a.value(dissipated_);
+}
+
+void PlaneContact::visit_state(StateArchive& a)
+{
+  Contact::visit_state(a);
+  a.value(outermost_);
+}
+
+void SurfaceContact::visit_state(StateArchive& a)
+{
+  Contact::visit_state(a);
+  a.growing(impulse_), a.growing(gap_), a.growing(radius_);  // empty before the first step
+  a.value(outermost_);
+}
+
 void SurfaceContact::make_rows(std::span<Body> bodies, double kick, double dt)
 {
   Body& upper = bodies.front();
@@ -122,6 +142,9 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double kick, double dt)
   const int count = upper.surface.count;
   impulse_.resize(count, 0.0), gap_.resize(count), radius_.resize(count);
   rows_.clear(), entries_.clear();
+  // as above
+  rows_.reserve(count);
+  entries_.reserve(std::size_t(count) * (upper.surface.corners + (lower ? 2 * lower->surface.corners : 0)));
 
   double before = 0;
   // a surface point of the given body, weighted `share`, seen along the normal (-slope, 1)

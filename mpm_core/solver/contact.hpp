@@ -27,6 +27,7 @@ class Contact
   /// Radius of the contact edge after the last correct(), 0 if open: where the gap, extrapolated from the
   /// first two open surface points as (r - a)^1.5 beside the last closed one, vanishes.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;
+  virtual void visit_state(StateArchive& archive);
 
  protected:
   double dissipated_ = 0;
@@ -51,6 +52,7 @@ class PlaneContact : public Contact
   double correct(std::span<Body> bodies, double kick, double dt) override;
   void account(std::span<const Body> bodies) override;
   double edge_radius(std::span<const Body> bodies) const override;
+  void visit_state(StateArchive& archive) override;
 
  private:
   struct Push
@@ -75,6 +77,7 @@ class SurfaceContact : public Contact
   double correct(std::span<Body> bodies, double kick, double dt) override;
   void account(std::span<const Body> bodies) override;
   double edge_radius(std::span<const Body> bodies) const override;
+  void visit_state(StateArchive& archive) override;
 
  private:
   /// One possible contact: the velocities it depends on and what they must add up to.

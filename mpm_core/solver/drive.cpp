@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/state_archive.hpp"
+
 namespace granulaw {
 
 namespace {
@@ -49,6 +51,11 @@ void ImpactDrive::apply(Scene& scene, double time, double dt, bool touching)
 double ImpactDrive::progress() const
 {
   return std::min(1.0, time_ / expected_);
+}
+
+void ImpactDrive::visit_state(StateArchive& a)
+{
+  a.value(last_touch_), a.value(time_), a.value(rebounding_), a.value(finished_);
 }
 
 void PressDrive::start_loading(double time, double overlap)
@@ -190,6 +197,16 @@ double PressDrive::progress() const
 {
   const double stops = static_cast<double>(plan_.stops.size());
   return std::min(1.0, (static_cast<double>(stop_) + (phase_ == Phase::load ? 0.3 : 0.7)) / stops);
+}
+
+void PressDrive::visit_state(StateArchive& a)
+{
+  a.expect(plan_.stops.size(), "stops of the press");
+  a.value(phase_), a.value(stop_), a.value(segment_);
+  for (double* x : {&start_, &from_, &duration_, &speed_, &last_touch_, &force_, &radius_, &work_, &velocity_,
+                    &mean_, &driven_, &deepest_})
+    a.value(*x);
+  a.value(reached_new_depth_), a.value(finished_);
 }
 
 double PressDrive::overlap(const Scene& scene) const

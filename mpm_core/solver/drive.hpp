@@ -24,6 +24,7 @@ class Drive
   virtual double overlap(const Scene& scene) const { return scene.overlap(); }
   /// Work done on the bodies by the drive so far (impact: none).
   virtual double work() const { return 0; }
+  virtual void visit_state(StateArchive& archive) = 0;
 };
 
 /// Free bodies; over when they have parted for good.
@@ -36,6 +37,7 @@ class ImpactDrive : public Drive
   Branch branch() const override { return rebounding_ ? Branch::unload : Branch::load; }
   int segment() const override { return rebounding_ ? 1 : 0; }
   double progress() const override;
+  void visit_state(StateArchive& archive) override;
 
  private:
   double expected_, last_touch_ = 0, time_ = 0;
@@ -68,6 +70,7 @@ class PressDrive : public Drive
   double progress() const override;
   double overlap(const Scene& scene) const override;
   double work() const override { return work_; }
+  void visit_state(StateArchive& archive) override;
   /// Mean force and contact radius of the last sample: sets the speed of the next unloading.
   void observe(double force, double contact_radius) { force_ = force, radius_ = contact_radius; }
 

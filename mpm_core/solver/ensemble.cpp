@@ -67,12 +67,20 @@ std::vector<TraceSample> mean_trace(const std::vector<RunResult>& members)
     const bool any = std::any_of(length.begin(), length.end(), [](std::size_t l) { return l > 0; });
     if (!any) return mean;
     for (std::size_t k = 0; k < common; ++k) {
+      const double place = common > 1 ? static_cast<double>(k) / static_cast<double>(common - 1) : 0.0;
       TraceSample s = members.front().trace[at[0] + k];
       s.time = s.delta = s.force = s.contact_radius = 0;
       for (std::size_t m = 0; m < members.size(); ++m) {
-        const TraceSample& t = members[m].trace[at[m] + k];
-        s.time += weight * t.time, s.delta += weight * t.delta;
-        s.force += weight * t.force, s.contact_radius += weight * t.contact_radius;
+        const double index = place * static_cast<double>(length[m] - 1);
+        const std::size_t below = std::min(static_cast<std::size_t>(index), length[m] - 1);
+        const TraceSample& a = members[m].trace[at[m] + below];
+        const TraceSample& b = members[m].trace[at[m] + std::min(below + 1, length[m] - 1)];
+        const double t = index - static_cast<double>(below);
+        const auto add = [&](double TraceSample::*value) {
+          s.*value += weight * ((1 - t) * a.*value + t * b.*value);
+        };
+        add(&TraceSample::time), add(&TraceSample::delta);
+        add(&TraceSample::force), add(&TraceSample::contact_radius);
       }
       mean.push_back(s);
     }

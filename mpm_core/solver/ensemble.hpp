@@ -19,7 +19,8 @@ std::vector<RunResult> run_phases(
     int phases, int threads, const std::function<void(double)>& progress,
     const std::function<RunResult(double shift, const std::function<void(double)>&)>& job);
 
-/// Sample by sample mean within each segment of the drive, over the samples that all members have.
+/// Mean of the members' traces, segment by segment of the drive, each at the same share of its way through the
+/// segment: the members turn a few steps apart, and none of them loses its turn.
 std::vector<TraceSample> mean_trace(const std::vector<RunResult>& members);
 
 }  // namespace granulaw

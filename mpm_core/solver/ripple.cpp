@@ -15,7 +15,7 @@ TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
   for (const TraceSample& s : trace)
     if (s.branch == Branch::load && s.delta >= from * deepest && s.force > 0) used.push_back(&s);
   if (used.size() < 12) return;
-  from_ = from * deepest, deepest_ = deepest;
+  from_ = from * deepest;
   const double low = std::log(from_), high = std::log(deepest);
   centre_ = 0.5 * (low + high), half_ = 0.5 * (high - low);
 
@@ -49,12 +49,12 @@ TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
   ripple_ = count ? std::sqrt(sum / count) : 0;
 }
 
-double TreatedLoading::largest_force() const
+double TreatedLoading::largest_force(double until) const
 {
   constexpr int steps = 400;
   double largest = 0;
   for (int k = 0; k <= steps; ++k)
-    largest = std::max(largest, force(from_ * std::pow(deepest_ / from_, static_cast<double>(k) / steps)));
+    largest = std::max(largest, force(from_ * std::pow(until / from_, static_cast<double>(k) / steps)));
   return largest;
 }
 

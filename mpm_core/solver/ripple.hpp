@@ -24,15 +24,15 @@ class TreatedLoading
   bool valid() const { return !coefficients_.empty(); }
   /// Treated force at overlap delta (same units as the trace); meaningful within the fitted range.
   double force(double delta) const;
-  /// Largest treated force over the fitted range: at its end, unless the force falls before the turn.
-  double largest_force() const;
+  /// Largest treated force up to the overlap `until`: there, unless the force falls before the turn.
+  double largest_force(double until) const;
   double from() const { return from_; }
   /// rms of raw/treated - 1 over 0.25 to 1 of the largest delta.
   double ripple() const { return ripple_; }
 
  private:
   std::vector<double> coefficients_;
-  double from_ = 0, deepest_ = 0, centre_ = 0, half_ = 1, ripple_ = 0;
+  double from_ = 0, centre_ = 0, half_ = 1, ripple_ = 0;
 };
 
 }  // namespace granulaw

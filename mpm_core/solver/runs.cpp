@@ -26,6 +26,8 @@ void check(const RunOptions& options)
   if (!(options.courant >= 0.05 && options.courant <= 1.0))
     fail("courant", "the explicit step is stable up to 1 only", fmt::format("{:g}", options.courant),
          "0.05 to 1");
+  if (options.checkpoints && options.fields)
+    fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
 }
 
 /// Loading time, R/c*, of a press that is slow enough for the rate-free law. Elastic: 40 (half as long
@@ -77,7 +79,7 @@ void summarise(RunResult& result, const std::vector<RunResult>& members)
   if (!treated.valid()) return;
   s.ripple = treated.ripple();
   if (s.ripple > most_ripple) return;  // no ripple about a smooth law any more: the raw peak stands
-  s.force_max = treated.largest_force();
+  s.force_max = treated.largest_force(s.delta_max);
   if (members.size() > 1) return;
   // A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
   // What is elastic is given back whatever the phase: only the dissipated share is corrected.
@@ -117,9 +119,9 @@ int resolution_of(const RunOptions& options, double deepest)
                             : static_cast<int>(std::lround(20 * (1 + std::min(1.0, deepest / 0.15))));
 }
 
-/// One run: cells across, shift, who wants to see its fields, progress.
-using SingleRun =
-    std::function<RunResult(int, double, const FieldObserver&, const std::function<void(double)>&)>;
+/// One run: cells across, shift, who wants to see its fields, progress, where it keeps its state.
+using SingleRun = std::function<RunResult(int, double, const FieldObserver&,
+                                          const std::function<void(double)>&, const CheckpointSlot&)>;
 
 /// Runs `single` on options.phases shifted grids. The fields shown are those of the grid whose shift is
 /// nearest to zero.
@@ -127,14 +129,23 @@ RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& 
                        const SingleRun& single)
 {
   const int cells = resolution_of(options, deepest);
-  const std::vector<RunResult> members = run_phases(
-      options.phases, options.threads, options.progress,
-      [&](double shift, const std::function<void(double)>& report) {
-        // shifts are whole multiples of 1/(2 phases): 0 where there is one, else the one just below it
-        const long half_steps = std::lround(2 * options.phases * shift);
-        return single(cells, shift, half_steps == 0 || half_steps == -1 ? options.fields : FieldObserver{},
-                      report);
-      });
+  const auto one = [&](double shift, const std::function<void(double)>& report) {
+    // all that tells the runs of one request from each other
+    const CheckpointSlot slot(options.checkpoints,
+                              fmt::format("{} cells, shift {}, courant {}, slowness {}", cells, shift,
+                                          options.courant, options.slowness));
+    if (std::optional<RunResult> kept = slot.finished()) {
+      report(1.0);
+      return *std::move(kept);
+    }
+    // shifts are whole multiples of 1/(2 phases): 0 where there is one, else the one just below it
+    const long half_steps = std::lround(2 * options.phases * shift);
+    const bool shown = half_steps == 0 || half_steps == -1;
+    RunResult made = single(cells, shift, shown ? options.fields : FieldObserver{}, report, slot);
+    slot.keep_finished(made);
+    return made;
+  };
+  const std::vector<RunResult> members = run_phases(options.phases, options.threads, options.progress, one);
   RunResult result;
   result.trace = mean_trace(members);
   summarise(result, members);
@@ -166,12 +177,13 @@ RunResult run_impact(const Particle& particle, double velocity, const RunOptions
 
   return run_ensemble(
       options, deepest, scale,
-      [&](int cells, double shift, const FieldObserver& fields, const std::function<void(double)>& progress) {
+      [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
         Simulation run(collision.build(deepest, cells, shift), options, duration);
         const double reduced = run.scene.reduced_mass();
         for (Body& body : run.scene.bodies) body.throw_along(-v * reduced / body.mass);
         ImpactDrive drive(duration);
-        run.run(drive, {fields, scale, duration}, progress, [](const TraceSample&) {});
+        const auto observe = [](const TraceSample&) {};
+        run.run(drive, {fields, scale, duration}, progress, observe, checkpoint);
         RunSummary& s = run.result.summary;
         s.restitution_raw = run.scene.separation_velocity() / v;
         s.work_load = run.energy_start;
@@ -213,11 +225,11 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
 
   return run_ensemble(
       options, depth, scale,
-      [&](int cells, double shift, const FieldObserver& fields, const std::function<void(double)>& progress) {
+      [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
         Simulation run(collision.build(depth, cells, shift), options, duration);
         PressDrive drive(stops, collision.e_star());
-        run.run(drive, {fields, scale, duration}, progress,
-                [&](const TraceSample& t) { drive.observe(t.force, t.contact_radius); });
+        const auto observe = [&](const TraceSample& t) { drive.observe(t.force, t.contact_radius); };
+        run.run(drive, {fields, scale, duration}, progress, observe, checkpoint);
         RunSummary& s = run.result.summary;
         s.work_load = run.loading_work();
         s.work_unload = run.unloading_work();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/checkpoint.hpp"
 #include "solver/fields.hpp"
 #include "solver/material.hpp"
 #include "solver/particle.hpp"
@@ -51,7 +52,8 @@ struct RunOptions
       false;  ///< run a second, coarser resolution and fill error_estimate (accuracy.hpp; costs 1/3 more)
   FieldObserver fields;  ///< who wants to see the body while the run goes on (fields.hpp)
   std::function<void(double fraction)>
-      progress;  ///< called now and then with 0..1; may throw to stop the run
+      progress;                   ///< called now and then with 0..1; may throw to stop the run
+  CheckpointStore checkpoints{};  ///< where the runs keep their state (checkpoint.hpp); not with `fields`
 };
 
 /// A particle thrown along its axis at a partner, with the relative `velocity` (m/s, > 0); runs until they

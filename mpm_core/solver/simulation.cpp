@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "base/error.hpp"
+#include "solver/state_archive.hpp"
 
 namespace granulaw {
 
@@ -35,7 +36,6 @@ Simulation::Simulation(Scene s, const RunOptions& options, double expected)
     : scene(std::move(s)),
       courant_(options.courant),
       window_(expected / options.samples),
-      window_end_(window_),
       longest_(60 * expected)
 {
   for (Body& body : scene.bodies) stable_.emplace_back(body);
@@ -50,13 +50,15 @@ double Simulation::step_limit() const
 }
 
 void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<void(double)>& progress,
-                     const std::function<void(const TraceSample&)>& observe)
+                     const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint)
 {
-  const double cpu = cpu_seconds();
   energy_start = total(scene, &Body::kinetic_energy);
   fields.begin(scene);
   dt_ = last_dt_ = courant_ * step_limit();
   overlap_ = drive.overlap(scene);
+  const auto visit = [&](StateArchive& archive) { visit_state(drive, archive); };
+  checkpoint.resume(visit);
+  const double cpu = cpu_seconds() - cpu_s_;
   while (!drive.finished()) {
     const double overlap_before = overlap_;
     const Branch branch = drive.branch();
@@ -70,16 +72,19 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
     ++steps_;
     time_ += dt_;
     if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
-    const bool turned = drive.segment() != segment || drive.finished();
-    if (time_ >= window_end_ || turned) {
-      // at equal times since the turn, whatever the step: samples of shifted grids are averaged one by one
-      window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
+    const bool sampled = time_ - window_start_ >= window_ || drive.segment() != segment || drive.finished();
+    if (sampled) {
       end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
       fields.sample(scene, time_, overlap_, result.trace.back().force, drive.finished());
-      if (progress && result.trace.size() % 16 == 0) progress(drive.progress());
     }
     if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();
+    if (!sampled) continue;
+    if (!drive.finished() && checkpoint.due()) {  // after the last step the result is kept instead
+      cpu_s_ = cpu_seconds() - cpu;
+      checkpoint.save(visit);
+    }
+    if (progress && result.trace.size() % 16 == 0) progress(drive.progress());
   }
   if (progress) progress(1.0);
   result.summary.cpu_s = cpu_seconds() - cpu;
@@ -102,6 +107,17 @@ void Simulation::end_sample(Branch branch, int segment, double overlap_before)
   window_start_ = time_;
   impulse_ = overlap_sum_ = 0;
   in_window_ = 0;
+}
+
+void Simulation::visit_state(Drive& drive, StateArchive& a)
+{
+  a.value(time_), a.value(dt_), a.value(last_dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
+  a.value(last_touch_time_), a.value(last_touch_overlap_);
+  a.value(impulse_), a.value(overlap_sum_), a.value(window_start_), a.value(in_window_);
+  a.growing(result.trace);
+  for (Body& body : scene.bodies) body.visit_state(a);
+  scene.contact->visit_state(a);
+  drive.visit_state(a);
 }
 
 double Simulation::work(bool load) const

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "solver/checkpoint.hpp"
 #include "solver/drive.hpp"
 #include "solver/field_recorder.hpp"
 #include "solver/runs.hpp"
@@ -18,9 +19,10 @@ class Simulation
   /// `expected`: duration of the run, about, R/c*.
   Simulation(Scene scene, const RunOptions& options, double expected);
 
-  /// Steps until the drive has finished. `observe` sees every sample of the trace.
+  /// Steps until the drive has finished, on from where `checkpoint` stands if that holds a state. `observe`
+  /// sees every sample of the trace. Bodies and drive must be as at the start of the run.
   void run(Drive& drive, FieldRecorder fields, const std::function<void(double)>& progress,
-           const std::function<void(const TraceSample&)>& observe);
+           const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint = {});
 
   Scene scene;
   RunResult result;         // what is known at the end stands in result.summary
@@ -36,15 +38,16 @@ class Simulation
   double work(bool load) const;
   void end_sample(Branch branch, int segment, double overlap_before);
   void summarise(const Drive& drive);
+  void visit_state(Drive& drive, StateArchive& archive);
 
   std::vector<StableStep> stable_;
   double courant_;
-  double window_;  // sample interval
-  double window_end_;
+  double window_;   // sample interval
   double longest_;  // give up
   // where the run is
   double time_ = 0, dt_ = 0, last_dt_ = 0, overlap_ = 0;
   long steps_ = 0;
+  double cpu_s_ = 0;  // spent by the parts of this run before a restart, and by this one up to a checkpoint
   double last_touch_time_ = 0, last_touch_overlap_ = 0;
   // the sample being taken
   double impulse_ = 0, overlap_sum_ = 0, window_start_ = 0;

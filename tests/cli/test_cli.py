@@ -360,6 +360,100 @@ def case_resume():
             assert np.array_equal(a[f"bodies/powder/curve/{list_name}"][()], b[f"bodies/powder/curve/{list_name}"][()]), list_name
 
 
+def signals_caught(pid):
+    """Signals that a process has handlers for."""
+    mask = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{pid}/status").read_text())[1]
+    return {s for s in signal.Signals if int(mask, 16) >> (s - 1) & 1}
+
+
+def killed(words, file, states=1):
+    """Starts the command and kills it once it has written that many new states."""
+    def written():
+        return file.stat().st_mtime_ns if file.exists() else 0
+
+    run = subprocess.Popen([MPM, *map(str, words), "--checkpoint", file, "--checkpoint-every", "0"],
+                           stdout=subprocess.DEVNULL)
+    for _ in range(states):
+        before = written()
+        while written() == before:
+            assert run.poll() is None, "the run ended before it could be killed"
+            time.sleep(0.001)
+    run.kill()
+    assert run.wait() == -signal.SIGKILL
+
+
+def case_checkpoint():
+    """kill -9 in the middle, several times over; the same command goes on and ends with the identical outputs."""
+    times = ("cpu_s", "point_updates_per_s")
+
+    def outputs(name, result):
+        return Path(name).read_bytes(), {key: value for key, value in result.items() if key not in times}
+
+    name, file, copy = materials(), Path("run.checkpoint"), Path("copy.checkpoint")
+    jobs = {"impact": ["impact", name, *HIT[:4], "--resolution", "20"],
+            "press": ["press", name, "--particle", "grain", "--depth", "0.02", "--resolution", "12"]}
+    for job, words in jobs.items():
+        unbroken = outputs("a.csv", Run(*words, "-o", "a.csv", "--json").json())
+        for states in (2, 20, 60):
+            killed([*words, "-o", "b.csv"], file, states)
+            assert not Path("b.csv").exists()
+        copy.write_bytes(file.read_bytes())
+        resumed = Run(*words, "-o", "b.csv", "--json", "--checkpoint", file).json()
+        assert outputs("b.csv", resumed) == unbroken, job
+        assert not file.exists()  # the run is finished
+        human = Run(*words, "-o", "b.csv", "--jobs", "2", "--checkpoint", copy)  # the threads are no matter
+        assert human.code == 0 and f"goes on from {copy}\n" in human.out, human.out
+        assert Path("b.csv").read_bytes() == unbroken[0] and not copy.exists()
+        fresh = Run(*words, "-o", "b.csv", "--checkpoint", copy)
+        assert fresh.code == 0 and "goes on" not in fresh.out and not copy.exists()
+        Path("b.csv").unlink()
+
+    # Ctrl-C: the state is kept at once, however long the interval
+    words = ["impact", name, "--particle", "grain", "--velocity", "0.3", "--resolution", "64"]
+    stopped = subprocess.Popen([MPM, *words, "--checkpoint", file, "--checkpoint-every", "86400"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    while signal.SIGINT not in signals_caught(stopped.pid):
+        time.sleep(0.001)
+    stopped.send_signal(signal.SIGINT)
+    assert stopped.communicate(timeout=300)[1] == "mpm: stopped\n" and stopped.returncode == 130
+    assert file.exists()
+
+    # what is refused is left as it is
+    kept = ["--checkpoint", file]
+    refused([*words[:5], "0.4", *words[6:], *kept], str(file), "another run", "--velocity", "0.3", "0.4")
+    refused([*words[:7], "63", *kept], str(file), "another run", "--resolution")
+    refused([*words, *kept, "--precision", "single"], str(file), "another run", "--precision")
+    refused([*words, *kept, "--grid", "tartan"], str(file), "another run", "--grid")
+    refused([*words, *kept, "--no-estimate"], str(file), "another run", "--no-estimate")
+    refused([*words[:6], "--tolerance", "0.1", *kept], str(file), "another run")
+    refused([*words, *kept, "--wall", "glass"], str(file), "another run", "partner")
+    refused(["press", name, "--particle", "grain", "--depth", "0.02", *kept], str(file), "another run", "press")
+    refused([*words, *kept, "--courant", "0.8"], str(file), "another run", "courant")
+    refused([*words, *kept, "--phases", "2"], str(file), "another run", "shifted grids")
+    os.environ["GRANULAW_ISA"] = "generic"
+    if "avx" in Path("/proc/cpuinfo").read_text():
+        refused([*words, *kept], str(file), "another run", "instruction set")
+    del os.environ["GRANULAW_ISA"]
+    materials(GOOD.replace("100e6", "101e6"))
+    refused([*words, *kept], str(file), "another run", "materials")
+    materials("# a remark changes nothing\n" + GOOD)
+    whole = file.read_bytes()
+    for damaged in (whole[:-1], whole + b"x", whole[:len(whole) // 2], whole[:40], whole[:-9] + b"\0" + whole[-8:]):
+        file.write_bytes(damaged)
+        refused([*words, *kept], str(file), "cut off or damaged")
+    for other in (b"", b"no checkpoint"):
+        file.write_bytes(other)
+        refused([*words, *kept], str(file), "is no checkpoint")
+    file.unlink()
+    refused([*words, "--checkpoint", name], name, "is no checkpoint")
+    refused([*words, "--checkpoint", "none/x"], "--checkpoint", "'none' does not exist")
+    refused([*words, "--checkpoint", "."], "--checkpoint", "folder")
+    refused([*words, "--checkpoint", "t.csv", "-o", "t.csv"], "--checkpoint", "t.csv")
+    refused([*words, *kept, "--fields", "f.xdmf"], "--checkpoint", "--fields")
+    refused([*words, "--checkpoint-every", "5"], "--checkpoint", code=2)
+    refused([*words, *kept, "--checkpoint-every", "-1"], "--checkpoint-every", code=2)
+
+
 def case_predict():
     """Five velocities that were not sampled, I up to 0.002: e and F_max of the law within 1 % of fresh impacts."""
     name = materials()

@@ -6,8 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "checkpoint_file.hpp"
 #include "commands.hpp"
 #include "field_file.hpp"
 #include "materials_file.hpp"
@@ -23,8 +25,8 @@ namespace {
 struct RunRequest
 {
   std::string materials, particle, against, wall, grid = "auto", precision = "double", output, fields,
-                                                  support = "free";
-  double velocity = 0, depth = 0, tolerance = 0, ramp = 0;
+                                                  checkpoint, support = "free";
+  double velocity = 0, depth = 0, tolerance = 0, ramp = 0, checkpoint_every = 30;
   double courant = RunOptions{}.courant;
   int resolution = 0, jobs = 1, frames = 40, phases = RunOptions{}.phases;
   bool json = false, no_estimate = false;
@@ -57,6 +59,16 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_option("--frames", r.frames, "about so many moments in it, 2 to 10000 (default 40)")
       ->check(CLI::Range(2, 10000))
       ->needs(fields);
+  auto* checkpoint = command.add_option(
+      "--checkpoint", r.checkpoint,
+      "keeps the state of the run in this file; the same command goes on from there after it was stopped or "
+      "killed, with the identical trace. The file is removed when the run is finished and its outputs are "
+      "written");
+  command
+      .add_option("--checkpoint-every", r.checkpoint_every,
+                  "seconds between two states (default 30; 0: at every sample of the trace)")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->needs(checkpoint);
   command.add_option("--jobs", r.jobs, "threads (default 1)")->check(CLI::Range(1, 256));
   command.add_option(
       "--phases", r.phases,
@@ -87,6 +99,11 @@ GridKind grid_of(const std::string& name)
   fail("--grid", "unknown grid", name, "auto, mapped, tartan, updated");
 }
 
+bool same_file(const std::string& a, const std::filesystem::path& b)
+{
+  return std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
+}
+
 void check(const RunRequest& r)
 {
   grid_of(r.grid);
@@ -101,10 +118,16 @@ void check(const RunRequest& r)
   if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
     fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
   check_output(r.output, ".csv, .h5");
+  if (!r.checkpoint.empty()) {
+    require_writable(r.checkpoint, "--checkpoint");
+    if (!r.fields.empty())
+      fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
+    if (!r.output.empty() && same_file(r.checkpoint, r.output))
+      fail("--checkpoint", "would be the file of the trace, -o", r.output, "another name");
+  }
   if (r.fields.empty()) return;
   check_field_output(r.fields);
-  if (std::filesystem::weakly_canonical(r.output) ==
-      std::filesystem::weakly_canonical(r.fields).replace_extension(".h5"))
+  if (same_file(r.output, std::filesystem::path(r.fields).replace_extension(".h5")))
     fail("--fields", "its HDF5 file would be the trace's, -o", r.output, "another name");
 }
 
@@ -219,6 +242,29 @@ struct Meeting
   Partner partner;
 };
 
+/// Runs and reports. `drive`: the command and what it is told beyond RunRequest's common part.
+void run_and_report(const RunRequest& r, const Meeting& m, const RunIdentity& drive, const Run& run)
+{
+  std::optional<CheckpointFile> checkpoint;
+  const auto run_on = [&](RunOptions options) {
+    if (!checkpoint && !r.checkpoint.empty()) {
+      RunIdentity asked = drive;
+      asked.insert(asked.end(), {{"--grid", r.grid},
+                                 {"--precision", r.precision},
+                                 {"--resolution", fmt::format("{}", r.resolution)},
+                                 {"--tolerance", fmt::format("{}", r.tolerance)},
+                                 {"--no-estimate", r.no_estimate ? "yes" : "no"}});
+      checkpoint.emplace(r.checkpoint, r.checkpoint_every,
+                         identity_of(std::move(asked), m.particle, m.partner, options));
+      if (checkpoint->was_found() && !r.json) fmt::print("goes on from {}\n", r.checkpoint);
+    }
+    if (checkpoint) options.checkpoints = checkpoint->store();
+    return run(options);
+  };
+  report(r, m.particle, run_as_asked(r, run_on));
+  if (checkpoint) checkpoint->remove();
+}
+
 Meeting read_meeting(const RunRequest& r)
 {
   const MaterialsFile file = read_materials(r.materials);
@@ -245,9 +291,9 @@ void add_impact(CLI::App& app)
     if (!(r->velocity > 0 && std::isfinite(r->velocity)))
       fail("--velocity", "cannot be used", fmt::format("{:g} m/s", r->velocity), "over 0");
     print_setting(*r, m.particle);
-    report(*r, m.particle, run_as_asked(*r, [&](const RunOptions& o) {
-      return run_impact(m.particle, r->velocity, o, m.partner);
-    }));
+    const RunIdentity drive{{"command", "impact"}, {"--velocity", fmt::format("{}", r->velocity)}};
+    run_and_report(*r, m, drive,
+                   [&](const RunOptions& o) { return run_impact(m.particle, r->velocity, o, m.partner); });
   });
 }
 
@@ -281,8 +327,12 @@ void add_press(CLI::App& app)
     plan.depth = r->depth * m.particle.radius;
     plan.support = r->support == "free" ? Support::free : Support::midplane;
     print_setting(*r, m.particle);
-    report(*r, m.particle,
-           run_as_asked(*r, [&](const RunOptions& o) { return run_press(m.particle, plan, o, m.partner); }));
+    const RunIdentity drive{{"command", "press"},
+                            {"--depth", fmt::format("{}", r->depth)},
+                            {"--support", r->support},
+                            {"--ramp", fmt::format("{}", r->ramp)}};
+    run_and_report(*r, m, drive,
+                   [&](const RunOptions& o) { return run_press(m.particle, plan, o, m.partner); });
   });
 }
 

@@ -25,6 +25,11 @@ void catch_interrupts()
   std::signal(SIGTERM, remember_interrupt);
 }
 
+bool is_interrupted()
+{
+  return interrupted != 0;
+}
+
 void stop_if_interrupted()
 {
   if (interrupted) throw Interrupted{};

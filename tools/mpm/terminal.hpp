@@ -12,6 +12,7 @@ struct Interrupted
 
 /// Ctrl-C and SIGTERM from now on only set a flag.
 void catch_interrupts();
+bool is_interrupted();
 /// Throws Interrupted once the flag is set.
 void stop_if_interrupted();
 

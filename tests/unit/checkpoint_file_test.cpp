@@ -1,0 +1,218 @@
+// Checkpoints on disk: what comes back, and every file that is refused and left as it is.
+#include "checkpoint_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const std::string& path)
+{
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// A file of its own for each test: they may run at the same time.
+class CheckpointFileTest : public testing::Test
+{
+ protected:
+  void SetUp() override { fs::remove(path_); }
+  void TearDown() override { fs::remove(path_); }
+
+  /// A file with two states, as a killed run leaves it.
+  std::string written()
+  {
+    CheckpointFile file(path_, 0, asked_);
+    EXPECT_FALSE(file.was_found());
+    file.store().save("a", "state of a");
+    file.store().save("b", std::string("b\0\n", 3));
+    return contents(path_);
+  }
+  /// What is said about a file of these bytes; it must not be touched.
+  std::string said_about(const std::string& bytes, const RunIdentity& asked)
+  {
+    std::ofstream(path_, std::ios::binary) << bytes;
+    std::string said;
+    try {
+      const CheckpointFile file(path_, 0, asked);
+    } catch (const Error& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(contents(path_), bytes);
+    return said;
+  }
+
+  const std::string path_ = testing::TempDir() + "granulaw_" +
+                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".checkpoint";
+  const RunIdentity asked_{
+      {"command", "impact"}, {"--velocity", "1"}, {"particle's materials", std::string(50, 'x')}};
+};
+
+TEST_F(CheckpointFileTest, GivesBackWhatWasSaved)
+{
+  written();
+  CheckpointFile file(path_, 30, asked_);
+  EXPECT_TRUE(file.was_found());
+  const CheckpointStore store = file.store();
+  EXPECT_EQ(store.name, path_);
+  EXPECT_EQ(store.load("a"), "state of a");
+  EXPECT_EQ(store.load("b"), std::string("b\0\n", 3));
+  EXPECT_EQ(store.load("c"), "");
+  store.save("a", "later");
+  EXPECT_EQ(CheckpointFile(path_, 30, asked_).store().load("a"), "later");
+  file.remove();
+  EXPECT_FALSE(fs::exists(path_));
+  file.remove();  // a run that was shorter than the interval
+}
+
+TEST_F(CheckpointFileTest, IsDue)
+{
+  CheckpointFile always(path_, 0, asked_), seldom(path_, 86400, asked_);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(always.store().due("a"));
+    EXPECT_FALSE(seldom.store().due("a"));
+  }
+}
+
+TEST_F(CheckpointFileTest, LeavesNothingElseBehind)
+{
+  written();
+  int beside = 0;
+  for (const auto& entry : fs::directory_iterator(testing::TempDir()))
+    beside += entry.path().filename().string().find("LeavesNothingElseBehind") != std::string::npos;
+  EXPECT_EQ(beside, 1);
+}
+
+TEST_F(CheckpointFileTest, RefusesEveryFlippedByte)
+{
+  const std::string whole = written();
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    for (const char flip : {'\x01', '\x80'}) {
+      std::string bytes = whole;
+      bytes[k] = static_cast<char>(bytes[k] ^ flip);
+      const std::string said = said_about(bytes, asked_);
+      EXPECT_EQ(said.find(path_ + ": is "), 0u) << "byte " << k << ": " << said;
+    }
+}
+
+TEST_F(CheckpointFileTest, RefusesEveryTruncation)
+{
+  const std::string whole = written();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::string said = said_about(whole.substr(0, size), asked_);
+    EXPECT_EQ(said.find(path_ + ": is "), 0u) << "size " << size << ": " << said;
+  }
+  EXPECT_NE(said_about(whole.substr(0, whole.size() - 1), asked_).find("is cut off or damaged"),
+            std::string::npos);
+  EXPECT_NE(said_about(whole + "x", asked_).find("is cut off or damaged"), std::string::npos);
+  EXPECT_EQ(said_about(whole, asked_), "");
+}
+
+TEST_F(CheckpointFileTest, RefusesWhatIsNoCheckpoint)
+{
+  for (const std::string& bytes : {std::string(), std::string("[material.powder]\n"), std::string(5000, 'x')})
+    EXPECT_EQ(said_about(bytes, asked_), path_ + ": is no checkpoint, and is left as it is");
+  EXPECT_EQ(said_about("granulaw checkpoint 2\n" + std::string(100, 'x'), asked_),
+            path_ + ": is a checkpoint of another version of the program");
+}
+
+TEST_F(CheckpointFileTest, SaysWhatIsOtherThanAsked)
+{
+  const std::string whole = written();
+  RunIdentity other = asked_;
+  other[1].second = "2";
+  EXPECT_EQ(said_about(whole, other),
+            path_ + ": is the checkpoint of another run (--velocity): found 1, allowed is 2");
+  other = asked_;
+  other[2].second += "y";  // too long to be shown
+  EXPECT_EQ(said_about(whole, other), path_ + ": is the checkpoint of another run (particle's materials)");
+  other = asked_;
+  other[1].first = "--depth";
+  EXPECT_EQ(said_about(whole, other), path_ + ": is the checkpoint of another run (--depth)");
+  other = asked_;
+  other.pop_back();
+  EXPECT_EQ(said_about(whole, other), path_ + ": is the checkpoint of another run");
+  other = asked_;
+  other.emplace_back("more", "");
+  EXPECT_EQ(said_about(whole, other), path_ + ": is the checkpoint of another run (more)");
+}
+
+/// Everything that a trace depends on is in the identity, to the last bit.
+TEST(RunIdentity, TellsRunsApart)
+{
+  Particle base;
+  base.radius = 2e-3;
+  base.materials = {{1500, 9.1e9, 0.3, 100e6}, {2500, 70e9, 0.22}};
+  base.profile = {{0, 0}, {2e-3, 2e-3}, {0, 4e-3}};
+  base.layers = {{1e-4, 1}};
+  base.inclusions = {{0, 2e-3, 3e-4, -1}};
+  const auto of = [](const Particle& p, const Partner& partner = {}, const RunOptions& o = {}) {
+    return identity_of({{"command", "impact"}}, p, partner, o);
+  };
+  const RunIdentity own = of(base);
+  EXPECT_EQ(of(base), own);
+
+  const std::vector<std::function<double&(Particle&)>> numbers{
+      [](Particle& p) -> double& { return p.radius; },
+      [](Particle& p) -> double& { return p.materials[0].density; },
+      [](Particle& p) -> double& { return p.materials[1].youngs_modulus; },
+      [](Particle& p) -> double& { return p.materials[0].poisson_ratio; },
+      [](Particle& p) -> double& { return p.materials[0].yield_stress; },
+      [](Particle& p) -> double& { return p.materials[0].hardening_modulus; },
+      [](Particle& p) -> double& { return p.profile[1].z; },
+      [](Particle& p) -> double& { return p.layers[0].thickness; },
+      [](Particle& p) -> double& { return p.inclusions[0].r; },
+      [](Particle& p) -> double& { return p.inclusions[0].z; },
+      [](Particle& p) -> double& { return p.inclusions[0].radius; }};
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    Particle p = base;
+    numbers[k](p) = std::nextafter(numbers[k](p), 1e300);
+    EXPECT_NE(of(p), own) << "number " << k;
+    EXPECT_NE(of(base, {p, {}}), of(base, {base, {}})) << "number " << k;
+  }
+  const std::vector<std::function<void(Particle&)>> changes{
+      [](Particle& p) { p.materials[0].yield_stress = INFINITY; },
+      [](Particle& p) {
+        p.materials[0].hardening = {"voce", {{"strain", {0.1}}}};
+      },
+      [](Particle& p) {
+        p.materials[0].rate = {"johnson-cook", {{"coefficient", {0.1}}}};
+      },
+      [](Particle& p) { p.layers[0].material = 0; },
+      [](Particle& p) { p.inclusions[0].material = 1; },
+      [](Particle& p) { p.inclusions.clear(); }};
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    Particle p = base;
+    changes[k](p);
+    EXPECT_NE(of(p), own) << "change " << k;
+  }
+  const Partner particle{base, {}}, wall{{}, base.materials[0]}, other_wall{{}, base.materials[1]};
+  EXPECT_NE(of(base, particle), own);
+  EXPECT_NE(of(base, wall), own);
+  EXPECT_NE(of(base, wall), of(base, other_wall));
+
+  RunOptions o;
+  o.threads = 7;  // no matter
+  EXPECT_EQ(of(base, {}, o), own);
+  const std::vector<std::function<void(RunOptions&)>> options{
+      [](RunOptions& x) { x.courant = 0.84; }, [](RunOptions& x) { x.slowness = 2; },
+      [](RunOptions& x) { x.phases = 2; }, [](RunOptions& x) { x.samples = 100; }};
+  for (std::size_t k = 0; k < options.size(); ++k) {
+    RunOptions changed;
+    options[k](changed);
+    EXPECT_NE(of(base, {}, changed), own) << "option " << k;
+  }
+}
+
+}  // namespace
+}  // namespace granulaw

@@ -1,0 +1,133 @@
+// No allocation inside the step. An executable of its own: it replaces operator new.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "references.hpp"
+#include "solver/drive.hpp"
+#include "solver/scene_builder.hpp"
+#include "solver/time_step.hpp"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment = alignof(std::max_align_t))
+{
+  ++allocations;
+  void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+// the forms for arrays and those that do not throw come back to these
+void* operator new(std::size_t size)
+{
+  return counted(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment)
+{
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept
+{
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept
+{
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept
+{
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+{
+  std::free(memory);
+}
+
+namespace granulaw {
+namespace {
+
+struct Job
+{
+  const char* name;
+  GridKind grid;
+  Precision precision;
+  bool partner = false;
+  bool pressed = false;
+  friend void PrintTo(const Job& job, std::ostream* out) { *out << job.name; }
+};
+
+class Allocations : public testing::TestWithParam<Job>
+{
+};
+
+/// A whole impact or press, over which the contact grows from one surface point to all that it ever covers.
+/// The first step alone may allocate, what is kept for all others.
+TEST_P(Allocations, NoneAfterTheFirstStep)
+{
+  RunOptions options;
+  options.grid = GetParam().grid;
+  options.precision = GetParam().precision;
+  const Particle particle = Particle::from(reference::unit_sphere(100));
+  Partner partner;
+  if (GetParam().partner) partner.particle = Particle::from(reference::unit_sphere(80)).scaled(1.5);
+  constexpr double velocity = 0.02, depth = 0.02;
+  const bool pressed = GetParam().pressed;
+  const Collision collision(particle, partner, options, Support::free);
+  Scene scene = collision.build(pressed ? depth : collision.expected_overlap(velocity), 8, 0.0);
+  const double reduced = scene.reduced_mass();
+  std::vector<StableStep> stable;
+  for (Body& body : scene.bodies) {
+    stable.emplace_back(body);
+    if (!pressed) body.throw_along(-velocity * reduced / body.mass);
+  }
+  ImpactDrive impact(20);
+  PressDrive press({{0.5 * depth, depth}, 10, 4, Support::free}, collision.e_star());
+  Drive& drive = pressed ? static_cast<Drive&>(press) : impact;
+
+  long first = 0, steps = 0, touching = 0;
+  double time = 0, widest = 0;
+  while (!drive.finished()) {
+    double dt = 1;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      dt = std::min(dt, 0.85 * stable[b].limit(scene.bodies[b]));
+    const double impulse = advance(scene, drive, time, dt, dt);
+    const double radius = scene.contact->edge_radius(scene.bodies);
+    press.observe(impulse / dt, radius);
+    touching += impulse > 0;
+    widest = std::max(widest, radius);
+    time += dt;
+    if (++steps == 1) first = allocations;
+    ASSERT_EQ(allocations, first) << "in step " << steps;
+    ASSERT_LT(steps, 100000);
+  }
+  EXPECT_GT(touching, 200);
+  EXPECT_GT(widest, 0.1);  // over several of the 8 cells of the block
+}
+
+TEST(Allocations, AreCounted)
+{
+  const long before = allocations;
+  std::vector<double> some(10);
+  EXPECT_EQ(allocations, before + 1) << some.size();
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, Allocations,
+                         testing::Values(Job{"mapped", GridKind::mapped, Precision::full},
+                                         Job{"tartan", GridKind::tartan, Precision::full},
+                                         Job{"updated", GridKind::updated, Precision::full},
+                                         Job{"two_mapped", GridKind::mapped, Precision::full, true},
+                                         Job{"two_tartan", GridKind::tartan, Precision::full, true},
+                                         Job{"single_precision", GridKind::tartan, Precision::single},
+                                         Job{"press", GridKind::mapped, Precision::full, false, true},
+                                         Job{"press_two", GridKind::tartan, Precision::full, true, true}),
+                         [](const auto& job) { return job.param.name; });
+
+}  // namespace
+}  // namespace granulaw

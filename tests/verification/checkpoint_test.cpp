@@ -1,0 +1,326 @@
+// A run that is stopped anywhere and goes on from its checkpoint has the identical trace, bit for bit.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "references.hpp"
+#include "solver/accuracy.hpp"
+#include "solver/runs.hpp"
+
+namespace granulaw {
+namespace {
+
+/// The process is "killed": thrown out of the run by the store itself.
+struct Killed
+{
+};
+
+/// States in memory. Dies after `lives` of them.
+class Memory
+{
+ public:
+  CheckpointStore store(long lives = -1)
+  {
+    left_ = lives;
+    CheckpointStore s;
+    s.name = "memory";
+    s.load = [this](const std::string& key) {
+      const std::lock_guard lock(mutex);
+      const auto state = states.find(key);
+      return state == states.end() ? std::string() : state->second;
+    };
+    s.save = [this](const std::string& key, std::string state) {
+      const std::lock_guard lock(mutex);
+      if (left_ == 0) throw Killed{};
+      states[key] = std::move(state);
+      ++saved;
+      if (--left_ == 0) throw Killed{};
+    };
+    s.due = [](const std::string&) { return true; };
+    return s;
+  }
+  std::map<std::string, std::string> states;
+  long saved = 0;
+
+ private:
+  std::mutex mutex;
+  long left_ = -1;
+};
+
+/// Everything of a result but the time it took, every bit of it.
+std::string bits(const RunResult& result)
+{
+  std::ostringstream out;
+  const auto number = [&](double x) { out << std::hex << std::bit_cast<std::uint64_t>(x) << ' '; };
+  for (const TraceSample& t : result.trace) {
+    number(t.time), number(t.delta), number(t.force), number(t.contact_radius);
+    out << static_cast<int>(t.branch) << ' ' << t.segment << '\n';
+  }
+  const RunSummary& s = result.summary;
+  for (const double x : {s.restitution, s.restitution_raw, s.restitution_spread, s.force_max, s.delta_max,
+                         s.delta_residual, s.contact_time, s.work_load, s.work_unload, s.error_estimate,
+                         s.plastic_strain_max, s.energy_error, s.contact_loss, s.hourglass, s.ripple})
+    number(x);
+  out << s.points << ' ' << s.steps;
+  return out.str();
+}
+
+struct Job
+{
+  std::string name;
+  Run run;
+  RunOptions options{};
+  friend void PrintTo(const Job& job, std::ostream* out) { *out << job.name; }
+};
+
+/// Coarse and short, one grid: what is tested does not depend on it.
+RunOptions small(GridKind grid, Precision precision = Precision::full)
+{
+  RunOptions o;
+  o.grid = grid;
+  o.precision = precision;
+  o.resolution = 6;
+  o.phases = 1;
+  o.samples = 60;
+  return o;
+}
+
+/// The mean of several shifted grids, and a coarse partner (accuracy.hpp) whose shifted cells are not folded.
+RunOptions several(int grids)
+{
+  RunOptions o = small(GridKind::mapped);
+  o.phases = grids;
+  o.resolution = 16;
+  return o;
+}
+
+Sphere soft()
+{
+  return reference::unit_sphere(100);
+}
+
+/// A material that remembers how long its last step was.
+Sphere rate_dependent()
+{
+  Sphere s = soft();
+  s.material.rate = {"johnson-cook", {{"coefficient", {0.1}}, {"reference_rate", {1e-4}}}};
+  return s;
+}
+
+Run impact(const Sphere& sphere, const Partner& partner = {}, double velocity = 0.05)
+{
+  return [=](const RunOptions& o) { return run_impact(Particle::from(sphere), velocity, o, partner); };
+}
+
+Run press(Support support, const Partner& partner = {})
+{
+  PressPlan plan;
+  plan.depth = 0.03;
+  plan.support = support;
+  plan.partial_unloads = {0.01, 0.02};
+  plan.ramp = 10;
+  return [=](const RunOptions& o) { return run_press(Particle::from(soft()), plan, o, partner); };
+}
+
+std::vector<Job> jobs()
+{
+  Sphere other = reference::unit_sphere(60);
+  other.radius = 1.3;
+  const Partner particle{Particle::from(other), {}}, wall{{}, soft().material};
+  std::vector<Job> all{
+      {"mapped", impact(soft()), small(GridKind::mapped)},
+      {"tartan", impact(soft()), small(GridKind::tartan)},
+      {"updated", impact(soft()), small(GridKind::updated)},
+      {"single_precision", impact(soft()), small(GridKind::mapped, Precision::single)},
+      {"single_precision_tartan", impact(soft()), small(GridKind::tartan, Precision::single)},
+      {"rate_dependent", impact(rate_dependent()), small(GridKind::mapped)},
+      {"two_mapped", impact(soft(), particle), small(GridKind::mapped)},
+      {"two_tartan", impact(soft(), particle), small(GridKind::tartan)},
+      {"wall", impact(soft(), wall), small(GridKind::mapped)},
+      {"press_free", press(Support::free), small(GridKind::mapped)},
+      {"press_midplane", press(Support::midplane), small(GridKind::mapped)},
+      {"press_tartan", press(Support::midplane), small(GridKind::tartan)},
+      {"press_two", press(Support::free, particle), small(GridKind::mapped)},
+  };
+  RunOptions ensemble = several(2);
+  ensemble.estimate_error = true;
+  all.push_back({"ensemble_with_estimate", impact(soft()), ensemble});
+  return all;
+}
+
+class Checkpoint : public testing::TestWithParam<Job>
+{
+};
+
+TEST_P(Checkpoint, GoesOnWithTheIdenticalTrace)
+{
+  const Job& job = GetParam();
+  const std::string unbroken = bits(job.run(job.options));
+  Memory whole;
+  RunOptions options = job.options;
+  options.checkpoints = whole.store();
+  EXPECT_TRUE(bits(job.run(options)) == unbroken);  // keeping states changes nothing
+  ASSERT_GT(whole.saved, 30);
+
+  for (const double share : {0.0, 0.15, 0.4, 0.65, 0.9, 1.0}) {
+    const long lives = std::max(1L, std::lround(share * static_cast<double>(whole.saved - 1)));
+    Memory memory;
+    options.checkpoints = memory.store(lives);
+    EXPECT_THROW(job.run(options), Killed);
+    ASSERT_EQ(memory.saved, lives);
+    options.checkpoints = memory.store();
+    EXPECT_TRUE(bits(job.run(options)) == unbroken) << "killed after " << lives << " of " << whole.saved;
+    EXPECT_EQ(memory.saved, whole.saved);  // it went on, and did nothing twice
+  }
+}
+
+/// Killed again and again.
+TEST_P(Checkpoint, ManyTimes)
+{
+  const Job& job = GetParam();
+  const std::string unbroken = bits(job.run(job.options));
+  RunOptions options = job.options;
+  Memory memory;
+  for (int parts = 1;; ++parts) {
+    options.checkpoints = memory.store(20);
+    try {
+      EXPECT_TRUE(bits(job.run(options)) == unbroken);
+      EXPECT_GT(parts, 2);
+      break;
+    } catch (const Killed&) {
+    }
+    ASSERT_LT(parts, 1000);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Jobs, Checkpoint, testing::ValuesIn(jobs()),
+                         [](const auto& job) { return job.param.name; });
+
+/// At every sample of a press: at each of its turns something else decides what comes next.
+TEST(CheckpointOfAPress, AtEverySample)
+{
+  RunOptions options = small(GridKind::mapped);
+  const auto run = press(Support::midplane);
+  const std::string unbroken = bits(run(options));
+  Memory whole;
+  options.checkpoints = whole.store();
+  run(options);
+  for (long lives = 1; lives <= whole.saved; ++lives) {
+    Memory memory;
+    options.checkpoints = memory.store(lives);
+    EXPECT_THROW(run(options), Killed);
+    options.checkpoints = memory.store();
+    EXPECT_TRUE(bits(run(options)) == unbroken) << "killed after " << lives << " of " << whole.saved;
+  }
+}
+
+TEST(CheckpointOfSeveral, RunsAtTheSameTime)
+{
+  RunOptions options = several(4);
+  const std::string unbroken = bits(impact(soft())(options));
+  options.threads = 3;  // nor need they be as many as before
+  for (const long lives : {5L, 90L, 170L}) {
+    Memory memory;
+    options.checkpoints = memory.store(lives);
+    EXPECT_THROW(impact(soft())(options), Killed);
+    options.threads = 2;
+    options.checkpoints = memory.store();
+    EXPECT_TRUE(bits(impact(soft())(options)) == unbroken);
+  }
+}
+
+/// The search for a tolerance runs the same job under many options: none may be taken for another.
+TEST(CheckpointOfSeveral, RunsToATolerance)
+{
+  const auto to_tolerance = [](const RunOptions& o) {
+    return run_to_tolerance(0.2, true, o, press(Support::midplane)).result;
+  };
+  RunOptions options = small(GridKind::mapped);
+  options.resolution = 0;
+  const std::string unbroken = bits(to_tolerance(options));
+  Memory whole;
+  options.checkpoints = whole.store();
+  EXPECT_TRUE(bits(to_tolerance(options)) == unbroken);
+  ASSERT_GE(whole.states.size(), 5u);  // probes: base, step, ramp; then two resolutions
+  Memory memory;
+  options.checkpoints = memory.store(whole.saved / 2);
+  EXPECT_THROW(to_tolerance(options), Killed);
+  options.checkpoints = memory.store();
+  EXPECT_TRUE(bits(to_tolerance(options)) == unbroken);
+}
+
+/// CPU time counts all parts: what is spent on a part is never lost.
+TEST(CheckpointTime, AddsUp)
+{
+  RunOptions options = small(GridKind::mapped);
+  Memory memory;
+  options.checkpoints = memory.store(40);
+  EXPECT_THROW(impact(soft())(options), Killed);
+  const std::map<std::string, std::string> kept = memory.states;
+  options.checkpoints = memory.store();
+  const double once = impact(soft())(options).summary.cpu_s;
+  // finished already: the same result, the time it took included
+  EXPECT_EQ(impact(soft())(options).summary.cpu_s, once);
+  EXPECT_GT(once, 0);
+}
+
+std::string sentence(const std::function<void()>& act)
+{
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+class CheckpointRefusals : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    options.checkpoints = memory.store(30);
+    EXPECT_THROW(impact(soft())(options), Killed);
+    options.checkpoints = memory.store();
+  }
+  std::string& state() { return memory.states.begin()->second; }
+  std::string resumed()
+  {
+    return sentence([&] { impact(soft())(options); });
+  }
+  RunOptions options = small(GridKind::mapped);
+  Memory memory;
+};
+
+TEST_F(CheckpointRefusals, AnotherGrid)
+{
+  // the same keys; the expected overlap, and with it the block, is another one
+  const std::string said = sentence([&] { impact(soft(), {}, 0.02)(options); });
+  EXPECT_NE(said.find("memory: its state does not fit this run (reference grid)"), std::string::npos) << said;
+}
+
+TEST_F(CheckpointRefusals, CutOff)
+{
+  state().pop_back();
+  EXPECT_EQ(resumed(), "memory: its state of the run ends too early");
+}
+
+TEST_F(CheckpointRefusals, TooLong)
+{
+  state().push_back('x');
+  EXPECT_EQ(resumed(), "memory: its state of the run is followed by something else");
+}
+
+TEST_F(CheckpointRefusals, Fields)
+{
+  options.fields.frame = [](const FieldFrame&) {};
+  EXPECT_NE(resumed().find("--checkpoint: cannot go with --fields"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace granulaw
