@@ -42,8 +42,7 @@ class Simulation
 
   std::vector<StableStep> stable_;
   double courant_;
-  double window_;  // sample interval
-  double window_end_;
+  double window_;   // sample interval
   double longest_;  // give up
   // where the run is
   double time_ = 0, dt_ = 0, last_dt_ = 0, overlap_ = 0;
