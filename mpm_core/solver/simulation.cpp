@@ -36,10 +36,12 @@ Simulation::Simulation(Scene s, const RunOptions& options, double expected)
     : scene(std::move(s)),
       courant_(options.courant),
       window_(expected / options.samples),
-      window_end_(window_),
       longest_(60 * expected)
 {
   for (Body& body : scene.bodies) stable_.emplace_back(body);
+  // Samples of one or two steps would swing with every node that closes.
+  while (window_ < 3 * courant_ * step_limit()) window_ *= 2;
+  window_end_ = window_;
 }
 
 double Simulation::step_limit() const

@@ -42,7 +42,8 @@ class Simulation
 
   std::vector<StableStep> stable_;
   double courant_;
-  double window_;   // sample interval
+  double window_;  // sample interval
+  double window_end_ = 0;
   double longest_;  // give up
   // where the run is
   double time_ = 0, dt_ = 0, last_dt_ = 0, overlap_ = 0;
