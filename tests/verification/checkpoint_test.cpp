@@ -187,7 +187,7 @@ TEST_P(Checkpoint, ManyTimes)
   RunOptions options = job.options;
   Memory memory;
   for (int parts = 1;; ++parts) {
-    options.checkpoints = memory.store(20);
+    options.checkpoints = memory.store(12);
     try {
       EXPECT_TRUE(bits(job.run(options)) == unbroken);
       EXPECT_GT(parts, 2);
