@@ -55,6 +55,15 @@ struct JobMaker
   /// % of F, 0.02 % of e (m)), and the steps are many: two grids do.
   int phases_at(double depth) const { return depth < 5 * onset ? 2 : RunOptions{}.phases; }
 
+  RunOptions own(RunOptions options, bool estimate, int phases) const
+  {
+    options.resolution = resolution;
+    options.estimate_error = estimate;
+    options.phases = phases;
+    options.precision = Precision::single;  // changes e and F by less than 1e-6, takes two thirds of the time
+    return options;
+  }
+
   // Costs like the number of steps: duration/(cell size), where the cells scale with the contact radius.
   RunJob press(const Sphere& sphere, double depth, std::vector<double> unloads, bool estimate,
                int phases) const
@@ -68,13 +77,7 @@ struct JobMaker
             fmt::format("press free depth={:.17g}{} estimate={} phases={}", depth, stops, estimate, phases)),
         (1 + 0.65 * static_cast<double>(unloads.size())) * (estimate ? 1.4 : 1.0) * phases / std::sqrt(depth),
         [this, sphere, plan, estimate, phases](const RunOptions& options) {
-          RunOptions own = options;
-          own.resolution = resolution;
-          own.estimate_error = estimate;
-          own.phases = phases;
-          own.precision =
-              Precision::single;  // changes e and F by less than 1e-6, takes two thirds of the time
-          return source.press(sphere, plan, own);
+          return source.press(sphere, plan, own(options, estimate, phases));
         }};
   }
   RunJob impact(const Sphere& sphere, double velocity, double expected_depth, bool estimate = false) const
@@ -85,13 +88,7 @@ struct JobMaker
         key(sphere, fmt::format("impact velocity={:.17g} estimate={} phases={}", velocity, estimate, phases)),
         0.25 * (estimate ? 1.4 : 1.0) * phases / std::sqrt(expected_depth),
         [this, sphere, velocity, estimate, phases](const RunOptions& options) {
-          RunOptions own = options;
-          own.resolution = resolution;
-          own.estimate_error = estimate;
-          own.phases = phases;
-          own.precision =
-              Precision::single;  // changes e and F by less than 1e-6, takes two thirds of the time
-          return source.impact(sphere, velocity, own);
+          return source.impact(sphere, velocity, own(options, estimate, phases));
         }};
   }
 };

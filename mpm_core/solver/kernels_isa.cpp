@@ -13,14 +13,22 @@ namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
 namespace {
 
+template <class Real>
+GRANULAW_INLINE Real root_of(Real x)
+{
+  if constexpr (std::is_same_v<Real, float>)
+    return __builtin_sqrtf(x);
+  else
+    return __builtin_sqrt(x);
+}
+
 /// ln(1 + x) for 1 + x between about 0.2 and 5, relative error below 1e-11 there and 1e-16 for |x| < 0.3
 /// (float: rounding): ln(1+x) = 2 ln sqrt(1+x) = 4 artanh(s), s = x/(2 + 2 sqrt(1+x) + x). Exact to rounding
 /// as x -> 0.
 template <class Real>
 GRANULAW_INLINE Real log_1p(Real x)
 {
-  const Real root = std::is_same_v<Real, float> ? Real(__builtin_sqrtf(float(Real(1) + x)))
-                                                : Real(__builtin_sqrt(double(Real(1) + x)));
+  const Real root = root_of(Real(1) + x);
   const Real s = x / (Real(2) + Real(2) * root + x), q = s * s;
   Real sum;
   if constexpr (std::is_same_v<Real, float>) {
@@ -61,15 +69,6 @@ GRANULAW_INLINE Real exp_m1(Real t)
   sum = sum * t + Real(0.5);
   sum = sum * t + Real(1);
   return t * sum;
-}
-
-template <class Real>
-GRANULAW_INLINE Real root_of(Real x)
-{
-  if constexpr (std::is_same_v<Real, float>)
-    return __builtin_sqrtf(x);
-  else
-    return __builtin_sqrt(x);
 }
 
 constexpr int block_points = 64;

@@ -31,12 +31,15 @@ void check(const RunOptions& options)
 }
 
 /// Loading time, R/c*, of a press that is slow enough for the rate-free law. Elastic: 40 (half as long
-/// changes F by 0.15 %). Plastic: 60 (40 changes e by 0.1 %), and inertia enters with I = rho v^2/Y
-/// (docs/method.md); the top speed pi depth/(2 ramp) keeps I below 4e-4.
+/// changes F by 0.15 %). Plastic: 60 at E*/Y = 100 (40 changes e by 0.1 %), and the longer the less is given
+/// back (E*/Y = 1000 to 0.02 R: 60, 90, 120, 240 give e .1980, .1991, .1995, .1996); and inertia enters with
+/// I = rho v^2/Y (docs/method.md): the top speed pi depth/(2 ramp) keeps I below 4e-4.
 double default_ramp(double depth, double yield_over_e_star)
 {
   if (!std::isfinite(yield_over_e_star)) return 40.0;
-  return std::max(60.0, 0.5 * M_PI * depth * std::sqrt(1 / yield_over_e_star / 4e-4));
+  const double stiffness = 1 / yield_over_e_star;
+  return std::max(
+      {60.0, 60.0 * std::pow(stiffness / 100, 0.25), 0.5 * M_PI * depth * std::sqrt(stiffness / 4e-4)});
 }
 
 /// Ripple, as a share of the force, beyond which the fit does not describe the loading: fast, deep impacts,

@@ -262,8 +262,8 @@ Scene Collision::build(double deepest, int cells, double shift) const
     if (support_ == Support::free) s.mass = mass_of(p) / scale_.mass();
     s.block = block, s.depth = 0.8 * block;
     s.fine = block / cells;
-    for (const Particle::Layer& layer :
-         p.layers)  // two cells in a layer, as far as four times the cost allows
+    // two cells in a layer, as far as four times the cost allows
+    for (const Particle::Layer& layer : p.layers)
       s.fine = std::min(s.fine, std::max(0.5 * layer.thickness / scale_.length, 0.5 * block / cells));
     s.shift = shift;
     return grid == GridKind::updated ? updated_body(s) : tartan_body(s);
@@ -274,9 +274,8 @@ Scene Collision::build(double deepest, int cells, double shift) const
   if (partner_.particle) scene.bodies.push_back(body_of(*partner_.particle));
   if (partner_.wall) {
     const Phase phase = phase_of(*partner_.wall, scale_);
-    const double extent = wall_extent;
-    scene.bodies.push_back(mapped_body(MappedGrid::wall(cells, block_for(particle_), extent, shift), phase,
-                                       hourglass_modulus(phase.moduli)));
+    scene.bodies.push_back(mapped_body(MappedGrid::wall(cells, block_for(particle_), wall_extent, shift),
+                                       phase, hourglass_modulus(phase.moduli)));
   }
   if (options_.precision == Precision::single)
     for (Body& body : scene.bodies) {

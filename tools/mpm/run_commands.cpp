@@ -164,7 +164,14 @@ RunResult run_as_asked(const RunRequest& r, const Run& run)
                          [&](const FieldObserver& fields) { return run_to_request(r, fields, run); });
 }
 
-void print_json(const RunSummary& s)
+/// The grid of the (first) particle.
+std::string grid_name(const RunRequest& r, const Particle& particle)
+{
+  if (r.grid != "auto") return r.grid;
+  return choose_grid(particle).grid == GridKind::mapped ? "mapped" : "tartan";
+}
+
+void print_json(const RunRequest& r, const Particle& particle, const RunSummary& s)
 {
   nlohmann::ordered_json out;
   out["e"] = s.restitution;
@@ -182,6 +189,7 @@ void print_json(const RunSummary& s)
     out["error_estimate"] = s.error_estimate;
   else
     out["error_estimate"] = nullptr;
+  out["grid"] = grid_name(r, particle);
   out["resolution"] = s.resolution;
   out["grids"] = s.grids;
   out["energy_error"] = s.energy_error;
@@ -197,7 +205,7 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
-  if (r.json) return print_json(s);
+  if (r.json) return print_json(r, particle, s);
   fmt::print("coefficient of restitution e   {:.4f}\n", s.restitution);
   fmt::print("largest force                  {:.5g} N\n", s.force_max);
   fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max,
@@ -228,8 +236,7 @@ void print_setting(const RunRequest& r, const Particle& particle)
     fmt::print(", elastic");
   }
   if (r.grid == "auto") {
-    const GridChoice choice = choose_grid(particle);
-    fmt::print("\ngrid: {} ({})\n", choice.grid == GridKind::mapped ? "mapped" : "tartan", choice.reason);
+    fmt::print("\ngrid: {} ({})\n", grid_name(r, particle), choose_grid(particle).reason);
   } else {
     fmt::print("\ngrid: {}, as asked\n", r.grid);
   }
