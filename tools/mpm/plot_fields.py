@@ -2,7 +2,8 @@
 """Draws the deformed body of a field series (mpm impact|press --fields NAME.xdmf): plot_fields.py NAME.h5 PICTURE.png
 
 The section through the axis, mirrored to a whole body: equivalent plastic strain on the right, von Mises stress on
-the left, at some moments between first touch and the end; under them the same near the contact.
+the left, at some moments between first touch and the end; under them the same near the contact. A second body or a
+wall is drawn below, where it is. Lengths are in units of the first particle's largest radius.
 """
 import argparse
 
@@ -43,8 +44,11 @@ def main():
         wanted = [int(np.abs(delta[:deepest + 1] - share * delta[deepest]).argmin())
                   for share in np.linspace(0, 1, count)[1:]] + [len(frames) - 1]
         start = frames[0]["position"][:]
-        radius = start[:, 0].max()
+        upper = start[:, 1] > 0
+        radius = start[upper, 0].max()  # the first body lies above, a second one below
+        two = start[:, 1].min() < 0
         reach = 3.0 * np.sqrt(delta[deepest] / radius)  # about twice the contact radius
+        bottom = max(start[:, 1].min() / radius, -2.0) - 0.1
         strain = max(f["equivalent_plastic_strain"][:].max() for f in frames)
         stress = max(f["von_mises_stress"][:].max() for f in frames) * 1e-6
 
@@ -55,13 +59,14 @@ def main():
                 a = axes[row, column]
                 left = draw(a, frame, cells, "von_mises_stress", -1, radius, factor=1e-6, cmap="cividis", clim=(0, stress))
                 right = draw(a, frame, cells, "equivalent_plastic_strain", 1, radius, cmap="magma_r", clim=(0, strain))
-                a.axhline(0, color="black", linewidth=1.2)
+                if not two:
+                    a.axhline(0, color="black", linewidth=1.2)
                 a.set_aspect("equal")
                 if row == 0:
-                    a.set(xlim=(-1.1, 1.1), ylim=(-0.1, start[:, 1].max() / radius + 0.1))
+                    a.set(xlim=(-1.1, 1.1), ylim=(bottom, start[:, 1].max() / radius + 0.1))
                     a.set_title(f"t = {frame['time'][()] * 1e6:.3g} µs, δ = {delta[k] / radius:.3g} R", fontsize=9)
                 else:
-                    a.set(xlim=(-reach, reach), ylim=(-0.04 * reach, 1.2 * reach))
+                    a.set(xlim=(-reach, reach), ylim=((-1.2 if two else -0.04) * reach, 1.2 * reach))
                 a.tick_params(labelsize=7)
         axes[1, 0].set_xlabel("r/R", fontsize=8)
         axes[1, 0].set_ylabel("z/R", fontsize=8)
