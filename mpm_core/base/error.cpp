@@ -34,6 +34,9 @@ void fail(std::string_view where, std::string_view what, std::string_view found,
   std::string sentence = where.empty() ? std::string(what) : fmt::format("{}: {}", where, what);
   if (!found.empty()) sentence += fmt::format(": found {}", found);
   if (!allowed.empty()) sentence += fmt::format("{} allowed is {}", found.empty() ? ":" : ",", allowed);
+  // What was found may come from a hostile file: no line breaks, no commands to the terminal.
+  for (char& c : sentence)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   throw Error(sentence);
 }
 

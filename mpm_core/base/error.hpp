@@ -16,7 +16,7 @@ class Error : public std::runtime_error
 };
 
 /// Throws Error "WHERE: WHAT: found FOUND, allowed is ALLOWED". Empty parts are left out.
-/// WHERE is a file and line, a key or an option; it always leads.
+/// WHERE is a file and line, a key or an option; it always leads. Control characters become '?'.
 [[noreturn]] void fail(std::string_view where, std::string_view what, std::string_view found = {},
                        std::string_view allowed = {});
 

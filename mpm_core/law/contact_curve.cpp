@@ -31,41 +31,63 @@ void check_values(const std::vector<double>& values, std::size_t count, double l
            fmt::format("{:.6g} to {:.6g}", low, high));
 }
 
+/// The nodes may be sane and the cubics between them not, where a slope is wild: both turning points count.
+void check_between(const double (&c)[4], double low, double high, const std::string& where, const char* name,
+                   std::size_t node)
+{
+  const auto check = [&](double t) {
+    const double value = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    if (!(value >= low && value <= high))
+      fail(where, fmt::format("'{}' between nodes {} and {} is out of range", name, node, node + 1),
+           fmt::format("{:.6g}", value), fmt::format("{:.6g} to {:.6g}", low, high));
+  };
+  // c1 + 2 c2 t + 3 c3 t^2 = 0, with q so that neither root cancels
+  const double root = c[2] * c[2] - 3.0 * c[1] * c[3];
+  if (!(root >= 0)) return;
+  const double q = -(c[2] + std::copysign(std::sqrt(root), c[2]));
+  for (const double t : {q / (3.0 * c[3]), c[1] / q})
+    if (t > 0 && t < 1) check(t);
+}
+
 }  // namespace
 
 ContactCurve::ContactCurve(const Table& table, const std::string& where) : table_(table)
 {
   const std::size_t count = table.force_ratio.size();
-  constexpr double big = 1e12;
   if (count < 4 || count > 65536)
     fail(where, "a contact curve has an unusable number of nodes", std::to_string(count), "4 to 65536");
-  if (!(table.s_end > 0 && table.s_end <= 2.0))
-    fail(where, "'s_end' is out of range", fmt::format("{:.6g}", table.s_end), "over 0, up to 2");
+  if (!(table.s_end >= 1e-6 && table.s_end <= 2.0))  // below, x_end = s_end^4 and its powers underflow
+    fail(where, "'s_end' is out of range", fmt::format("{:.6g}", table.s_end), "1e-06 to 2");
   if (!(table.onset >= 0))
     fail(where, "'onset' is out of range", fmt::format("{:.6g}", table.onset), "0 or more");
-  check_values(table.force_ratio, count, 0.0, 1e3, where, "force_ratio");
-  check_values(table.residual_ratio, count, 0.0, 0.99999, where, "residual_ratio");
-  check_values(table.exponent, count, 1.0, 10.0, where, "exponent");
-  check_values(table.radius_ratio, count, 0.0, 1e3, where, "radius_ratio");
-  check_values(table.force_ratio_slope, count, -big, big, where, "force_ratio_slope");
-  check_values(table.residual_ratio_slope, count, -big, big, where, "residual_ratio_slope");
-  check_values(table.exponent_slope, count, -big, big, where, "exponent_slope");
-  check_values(table.radius_ratio_slope, count, -big, big, where, "radius_ratio_slope");
 
   const double h = table.s_end / static_cast<double>(count - 1);
   per_h_ = 1.0 / h;
   onset_ = table.onset;
   intervals_.resize(count - 1);
-  for (std::size_t k = 0; k + 1 < count; ++k) {
-    Interval& i = intervals_[k];
-    hermite(i.g, table.force_ratio[k], table.force_ratio[k + 1], h * table.force_ratio_slope[k],
-            h * table.force_ratio_slope[k + 1]);
-    hermite(i.rho, table.residual_ratio[k], table.residual_ratio[k + 1], h * table.residual_ratio_slope[k],
-            h * table.residual_ratio_slope[k + 1]);
-    hermite(i.n, table.exponent[k], table.exponent[k + 1], h * table.exponent_slope[k],
-            h * table.exponent_slope[k + 1]);
-    hermite(i.a, table.radius_ratio[k], table.radius_ratio[k + 1], h * table.radius_ratio_slope[k],
-            h * table.radius_ratio_slope[k + 1]);
+  // Between nodes a cubic may overshoot a little (residual_ratio and exponent do about the onset), but not so
+  // far that a force could turn negative or infinite.
+  struct Function
+  {
+    const char* name;
+    const std::vector<double>&value, &slope;
+    double low, high, low_between, high_between;
+    double (Interval::*cubic)[4];
+  };
+  const Function functions[] = {
+      {"force_ratio", table.force_ratio, table.force_ratio_slope, 1e-5, 1e3, 1e-6, 2e3, &Interval::g},
+      {"residual_ratio", table.residual_ratio, table.residual_ratio_slope, 0, 0.99999, -0.1, 0.999995,
+       &Interval::rho},
+      {"exponent", table.exponent, table.exponent_slope, 1, 10, 0.9, 12, &Interval::n},
+      {"radius_ratio", table.radius_ratio, table.radius_ratio_slope, 0, 1e3, 0, 2e3, &Interval::a}};
+  for (const Function& f : functions) {
+    constexpr double big = 1e12;
+    check_values(f.value, count, f.low, f.high, where, f.name);
+    check_values(f.slope, count, -big, big, where, fmt::format("{}_slope", f.name).c_str());
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      hermite(intervals_[k].*f.cubic, f.value[k], f.value[k + 1], h * f.slope[k], h * f.slope[k + 1]);
+      check_between(intervals_[k].*f.cubic, f.low_between, f.high_between, where, f.name, k);
+    }
   }
   x_end_ = table.s_end * table.s_end * table.s_end * table.s_end;
 
@@ -76,6 +98,8 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
   const Position p{&intervals_.back(), 1.0, table.s_end, table.s_end * table.s_end};
   const double g = cubic(p.interval->g, 1.0), dg = cubic_slope(p.interval->g, 1.0) * per_h_;
   end_ = {x_end_ * p.root * g, p.root * (1.5 * g + 0.25 * p.s * dg), p.root * cubic(p.interval->a, 1.0)};
+  if (!(end_.stiffness >= 0))
+    fail(where, "the force falls at the last overlap, and beyond it would turn negative");
 }
 
 double ContactCurve::work_loading(double x) const

@@ -45,7 +45,8 @@ class ContactCurve
   };
 
   ContactCurve() = default;
-  /// Throws Error naming `where` if a vector's length, finiteness or range is wrong.
+  /// Throws Error naming `where` if a length, a value at a node or a cubic between nodes is out of range,
+  /// or if the force falls at the end. What is accepted evaluates to finite, never negative forces.
   ContactCurve(const Table& table, const std::string& where);
 
   /// Largest dimensionless overlap of the table.

@@ -11,7 +11,10 @@ namespace granulaw::h5 {
 
 namespace {
 
-constexpr std::size_t longest_text = 65536;  // bytes; a hostile size must not be allocated
+// A hostile size must not be allocated.
+constexpr std::size_t longest_text = 65536;          // bytes
+constexpr std::size_t longest_text_list = 8u << 20;  // bytes, all entries together
+constexpr std::size_t widest_number = 16;            // bytes
 
 Handle text_type(std::size_t size)
 {
@@ -48,14 +51,46 @@ void describe(hid_t object, const Field& field, const std::string& file)
   write_text_attribute(object, legend, field.legend, file);
 }
 
+/// Fails unless `name` is an entry that lives in this file: a soft link may run in circles, and an external
+/// one would open (and wait for) any other file that the law's author chose.
+void require_own(hid_t group, const char* name, const std::string& file, const char* missing)
+{
+  require(has_link(group, name), file, missing, name);
+  H5L_info_t link{};
+  require(H5Lget_info(group, name, &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD, file,
+          "a law file holds its own data, but there is a link in place of", name);
+}
+
+Handle open_dataset(hid_t group, const char* name, const std::string& file)
+{
+  require_own(group, name, file, "the law file lacks");
+  Handle set(H5Dopen2(group, name, H5P_DEFAULT));
+  require(set.ok(), file, "cannot read", name);
+  return set;
+}
+
+/// Fails unless the values stand in the file itself, written and plain. Compressed, they could unpack to
+/// gigabytes; external and virtual ones are read from other files; those declared but never written would
+/// come back as zeros. Ask after the extent was checked, before reading.
+void require_stored(hid_t set, const std::string& file, const char* name)
+{
+  const Handle list(H5Dget_create_plist(set));
+  const H5D_layout_t layout = H5Pget_layout(list);
+  require(list.ok() && (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT) && H5Pget_nfilters(list) == 0 &&
+              H5Pget_external_count(list) == 0,
+          file, "values stored plain, in the file itself, expected in", name);
+  H5D_space_status_t status{};
+  require(H5Dget_space_status(set, &status) >= 0 && status == H5D_SPACE_STATUS_ALLOCATED, file,
+          "values are declared but not stored in", name);
+}
+
 /// Opens a dataset of numbers and checks its type.
 Handle open_numbers(hid_t group, const char* name, const std::string& file)
 {
-  require(has_link(group, name), file, "the law file lacks", name);
-  Handle set(H5Dopen2(group, name, H5P_DEFAULT));
-  require(set.ok(), file, "cannot read", name);
+  Handle set = open_dataset(group, name, file);
   const Handle type(H5Dget_type(set));
-  require(type.ok() && H5Tget_class(type) == H5T_FLOAT, file, "floating-point numbers expected in", name);
+  require(type.ok() && H5Tget_class(type) == H5T_FLOAT && H5Tget_size(type) <= widest_number, file,
+          "floating-point numbers expected in", name);
   return set;
 }
 
@@ -147,7 +182,7 @@ bool has_link(hid_t group, const char* name)
 
 Handle open_group(hid_t parent, const char* name, const std::string& file)
 {
-  require(has_link(parent, name), file, "the law file lacks the group", name);
+  require_own(parent, name, file, "the law file lacks the group");
   Handle group(H5Gopen2(parent, name, H5P_DEFAULT));
   require(group.ok(), file, "cannot read the group", name);
   return group;
@@ -173,8 +208,9 @@ int read_int_attribute(hid_t object, const char* name, const std::string& file)
   require(attribute.ok(), file, "cannot read the attribute", name);
   const Handle type(H5Aget_type(attribute)), space(H5Aget_space(attribute));
   int value = 0;
-  require(H5Tget_class(type) == H5T_INTEGER && H5Sget_simple_extent_npoints(space) == 1, file,
-          "one integer expected in", name);
+  require(H5Tget_class(type) == H5T_INTEGER && H5Tget_size(type) <= widest_number &&
+              H5Sget_simple_extent_npoints(space) == 1,
+          file, "one integer expected in", name);
   require(H5Aread(attribute, H5T_NATIVE_INT, &value) >= 0, file, "cannot read the attribute", name);
   return value;
 }
@@ -185,6 +221,7 @@ double read_scalar(hid_t group, const Field& field, const std::string& file)
   const Handle space(H5Dget_space(set));
   double value = 0;
   require(H5Sget_simple_extent_npoints(space) == 1, file, "one number expected in", field.name);
+  require_stored(set, file, field.name);
   require(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0, file, "cannot read",
           field.name);
   return value;
@@ -199,6 +236,7 @@ std::vector<double> read_vector(hid_t group, const Field& field, std::size_t mos
   if (count < 0 || static_cast<std::size_t>(count) > most)
     fail(file, fmt::format("'{}' has an unusable number of values", field.name), std::to_string(count),
          fmt::format("up to {}", most));
+  require_stored(set, file, field.name);
   std::vector<double> values(static_cast<std::size_t>(count));
   require(
       values.empty() || H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
@@ -208,15 +246,15 @@ std::vector<double> read_vector(hid_t group, const Field& field, std::size_t mos
 
 std::vector<std::string> read_texts(hid_t group, const char* name, std::size_t most, const std::string& file)
 {
-  require(has_link(group, name), file, "the law file lacks", name);
-  const Handle set(H5Dopen2(group, name, H5P_DEFAULT));
-  require(set.ok(), file, "cannot read", name);
+  const Handle set = open_dataset(group, name, file);
   const Handle type(H5Dget_type(set)), space(H5Dget_space(set));
   const std::size_t size = fixed_text_size(type, file, name);
   require(H5Sget_simple_extent_ndims(space) == 1, file, "a list of texts expected in", name);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  require(count >= 0 && static_cast<std::size_t>(count) <= most && size <= 1024, file, "too much text in",
-          name);
+  require(count >= 0 && static_cast<std::size_t>(count) <= most &&
+              size * static_cast<std::size_t>(count) <= longest_text_list,
+          file, "too much text in", name);
+  if (count > 0) require_stored(set, file, name);
   std::string block(size * static_cast<std::size_t>(count), '\0');
   require(count == 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) >= 0, file,
           "cannot read", name);

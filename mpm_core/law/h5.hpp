@@ -53,7 +53,8 @@ void write_vector(hid_t group, const Field& field, std::span<const double> value
 void write_texts(hid_t group, const char* name, const std::vector<std::string>& texts,
                  const std::string& file);
 
-// Reading: type and extent are checked before anything is allocated.
+// Reading: type and extent are checked before anything is allocated; what is not stored plainly in this file
+// itself (links, external, virtual, compressed or unwritten data) is refused.
 bool has_link(hid_t group, const char* name);
 Handle open_group(hid_t parent, const char* name, const std::string& file);
 std::string read_text_attribute(hid_t object, const char* name, const std::string& file);

@@ -17,7 +17,17 @@ namespace {
 
 using Table = ContactCurve::Table;
 
+// A file may be hostile: what it can make the reader allocate ends at some tens of megabytes. A node costs
+// some 200 bytes (its values and its interval's coefficients).
 constexpr std::size_t most_nodes = 65536, most_bodies = 256, most_pairs = 65536, most_notes = 1024;
+constexpr std::size_t most_nodes_together = 2 * most_nodes, most_note_bytes = 1u << 20;
+
+/// Text of a file within a sentence: its beginning.
+std::string shortened(const std::string& text)
+{
+  constexpr std::size_t most = 80;
+  return text.size() <= most ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, most));
+}
 
 struct CurveField
 {
@@ -53,11 +63,12 @@ constexpr CertificateField certificate_fields[] = {
     {h5::verification_impacts, &Certificate::verification_impacts},
     {h5::max_inertia, &Certificate::max_inertia}};
 
+/// Material constants in any units, but such that no product or ratio of them overflows.
 void require_positive(double value, const std::string& where, const h5::Field& field)
 {
-  if (!(value > 0 && std::isfinite(value)))
+  if (!(value >= 1e-20 && value <= 1e20))
     fail(where, fmt::format("'{}' is out of range", field.name), fmt::format("{:.6g} {}", value, field.unit),
-         "over 0");
+         "1e-20 to 1e20");
 }
 
 /// What must hold between the numbers of one body, beyond what ContactCurve checks of its own nodes.
@@ -68,18 +79,20 @@ void check_body(const BodyLaw& body, const std::string& where)
   require_positive(m.youngs_modulus, where, h5::youngs_modulus);
   if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.5))
     fail(where, "'poisson_ratio' is out of range", fmt::format("{:.6g}", m.poisson_ratio), "0 to below 0.5");
-  if (!(m.yield_stress > 0))
-    fail(where, "'yield_stress' is out of range", fmt::format("{:.6g} Pa", m.yield_stress),
-         "over 0, or absent");
-  if (!(m.hardening_modulus >= 0 && std::isfinite(m.hardening_modulus)))
-    fail(where, "'hardening_modulus' is out of range", fmt::format("{:.6g} Pa", m.hardening_modulus),
-         "0 or more");
+  if (m.yields() || !(m.yield_stress > 0)) require_positive(m.yield_stress, where, h5::yield_stress);
+  if (m.hardening_modulus != 0) require_positive(m.hardening_modulus, where, h5::hardening_modulus);
   if (m.yields() != std::isfinite(body.curve.onset()))
     fail(where, m.yields() ? "the material yields but its curve has no onset"
                            : "the material is elastic but its curve has an onset of yield");
+  // g(0) = 1 by definition (docs/law-format.md); a fit may round
+  if (const double first = body.curve.table().force_ratio.front(); !(std::abs(first - 1) <= 1e-3))
+    fail(where, "the force does not begin as Hertz's: 'force_ratio' at node 0 is out of range",
+         fmt::format("{:.6g}", first), "1");
   for (const CertificateField& c : certificate_fields)
-    if (const double value = body.certificate.*c.value; !(value >= (c.is_signed ? -1.0 : 0.0)))
-      // NaN fails as well; max_inertia may be infinite (elastic)
+    if (const double value = body.certificate.*c.value;
+        !(value >= (c.is_signed ? -1.0 : 0.0)) ||
+        (!std::isfinite(value) && c.value != &Certificate::max_inertia))
+      // NaN fails as well; max_inertia alone may be infinite (elastic)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
 }
@@ -92,17 +105,21 @@ void check_name(const std::string& name, const std::string& where)
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
           std::string::npos;
   if (!usable || name == wall_name)
-    fail(where, "unusable material name", fmt::format("'{}'", name),
+    fail(where, "unusable material name", shortened(name),
          fmt::format("letters, digits, '_', '-' and '.', and not '{}'", wall_name));
 }
 
 void check_pairs(const Law& law, const std::string& where)
 {
   if (law.bodies.empty()) fail(where, "the law has no material");
-  for (const auto& [a, b] : law.pairs)
+  if (law.pairs.empty()) fail(where, "the law names no pair");
+  for (const auto& [a, b] : law.pairs) {
+    if (a == wall_name && b == wall_name) fail(where, "unusable pair", "'wall:wall'", "a:b or a:wall");
     for (const std::string& name : {a, b})
       if (name != wall_name && !law.bodies.contains(name))
-        fail(where, fmt::format("the pair '{}:{}' names a material that the file does not hold", a, b));
+        fail(where,
+             fmt::format("the pair {} names a material that the file does not hold", shortened(a + ':' + b)));
+  }
 }
 
 BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
@@ -186,20 +203,32 @@ Law read_law(const std::string& path)
   Law law;
 
   const h5::Handle bodies = h5::open_group(file, h5::bodies, path);
+  std::size_t nodes = 0;
   for (const std::string& name : h5::link_names(bodies, most_bodies, path)) {
     check_name(name, path);
-    law.bodies.emplace(name, read_body(h5::open_group(bodies, name.c_str(), path), name, path));
+    const BodyLaw& body =
+        law.bodies.emplace(name, read_body(h5::open_group(bodies, name.c_str(), path), name, path))
+            .first->second;
+    nodes += body.curve.table().force_ratio.size();
+    if (nodes > most_nodes_together)
+      fail(path, "the curves have too many nodes together", std::to_string(nodes),
+           fmt::format("up to {}", most_nodes_together));
   }
 
   for (const std::string& pair : h5::read_texts(file, h5::pairs, most_pairs, path)) {
     const auto colon = pair.find(':');
-    if (colon == std::string::npos) fail(path, "unusable pair", fmt::format("'{}'", pair), "a:b or a:wall");
+    if (colon == std::string::npos) fail(path, "unusable pair", shortened(pair), "a:b or a:wall");
     law.pairs.emplace_back(pair.substr(0, colon), pair.substr(colon + 1));
   }
 
   const h5::Handle notes = h5::open_group(file, h5::provenance, path);
-  for (const std::string& name : h5::attribute_names(notes, most_notes, path))
-    law.provenance[name] = h5::read_text_attribute(notes, name.c_str(), path);
+  std::size_t bytes = 0;
+  for (const std::string& name : h5::attribute_names(notes, most_notes, path)) {
+    const std::string& text = law.provenance[name] = h5::read_text_attribute(notes, name.c_str(), path);
+    bytes += text.size();
+    if (bytes > most_note_bytes)
+      fail(path, "the provenance holds too much text", {}, fmt::format("up to {} bytes", most_note_bytes));
+  }
 
   check_pairs(law, path);
   return law;

@@ -314,12 +314,19 @@ def case_law():
 
 
 def case_format():
-    """The h5py lines of docs/law-format.md run, and agree with mpm law's first overlap."""
+    """The h5py lines of docs/law-format.md run and give the library's force (mpm export); every name is documented."""
     text = (SOURCE / "docs/law-format.md").read_text()
     code = re.search(r"```python\n(.*?)```", text, re.S).group(1)
+    assert len(code.splitlines()) <= 12
     os.symlink(LAW, "law.h5")
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert done.returncode == 0 and re.fullmatch(r"powder: [\d.e+-]+ N\n", done.stdout), (done.stdout, done.stderr)
+    assert Run("export", "law.h5", "-o", "law.csv", "--pair", "powder:wall").code == 0
+    rows = [line.split(",") for line in Path("law.csv").read_text().splitlines() if line[0] != "#"][1:]
+    for row in (rows[3], rows[150], rows[301], rows[400]):
+        done = subprocess.run([sys.executable, "-c", code.replace("1e-3, 2e-6", f"1e-3, {row[1]}")],
+                              capture_output=True, text=True)
+        assert done.returncode == 0 and re.fullmatch(r"powder [\d.e+-]+ N\n", done.stdout), (done.stdout, done.stderr)
+        # 12 digits of the column, times the exponent 1.5 of the overlap's own rounding, and some operations
+        assert abs(float(done.stdout.split()[1]) / float(row[2]) - 1) < 1e-10, (done.stdout, row)
     names = set()
     with h5py.File("law.h5") as file:
         def visit(name, item):
@@ -330,6 +337,44 @@ def case_format():
     undocumented = {n for n in names - {"powder"} if n.replace("_slope", "") not in text and not n.startswith(
         ("solver_error", "verification_", "slow_press"))}
     assert not undocumented, undocumented
+
+
+def case_export():
+    def columns(name):
+        lines = Path(name).read_text().splitlines()
+        table = [line.split(",") for line in lines if line[0] != "#"]
+        return {key: [row[k] if k == 0 else float(row[k]) for row in table[1:]] for k, key in enumerate(table[0])}
+
+    assert Run("export", LAW, "-o", "all.csv").code == 0
+    assert Run("export", LAW, "-o", "si.csv", "--pair", "powder:wall", "--effective-radius", "2e-3").code == 0
+    assert Run("export", LAW, "-o", "pure.csv", "--pair", "powder:wall", "--dimensionless").code == 0
+    every, si, pure = columns("all.csv"), columns("si.csv"), columns("pure.csv")
+    assert set(every["pair"]) == {"powder:wall", "powder:powder"} and len(si["pair"]) == 401
+    e_star = 2.73e9 / (1 - 0.09)  # CHEAP
+    units = {"overlap_m": ("overlap", 2e-3), "force_N": ("force", 4 / 3 * e_star * 4e-6),
+             "stiffness_N_per_m": ("stiffness", 4 / 3 * e_star * 2e-3), "contact_radius_m": ("contact_radius", 2e-3),
+             "residual_overlap_m": ("residual_overlap", 2e-3)}
+    for key, (plain, unit) in units.items():
+        assert np.allclose(si[key], np.array(pure[plain]) * unit, rtol=1e-10, atol=0), key  # 12 digits
+    # the stiffness is the force's derivative: central differences over rows 1/400 of s apart, of order (ds/s)^2
+    x, force, stiffness = (np.array(pure[key]) for key in ("overlap", "force", "stiffness"))
+    middle = slice(200, 399)
+    slope = (force[2:] - force[:-2]) / (x[2:] - x[:-2])
+    assert np.allclose(slope[middle], stiffness[1:-1][middle], rtol=2e-3)
+    # the columns replay a collision as mpm law does: W_u/W_L = e^2 after a turn at a row (trapezia: 1e-3)
+    replay = Run("law", LAW, "--pair", "powder:wall", "--velocity", "3", "--radius", "2e-3", "--json").json()
+    d, f = np.array(si["overlap_m"]), np.array(si["force_N"])
+    k = int(np.searchsorted(d, replay["delta_max_m"]))
+    loading = np.sum((f[1:k + 1] + f[:k]) / 2 * np.diff(d[:k + 1]))
+    unloading = f[k] * (d[k] - si["residual_overlap_m"][k]) / (si["exponent"][k] + 1)
+    # e falls as V^-1/4 to some V^-1/2 and d grows as V: a row 1 % deeper gives 0.5 % of e
+    assert abs(np.sqrt(unloading / loading) / replay["e"] - 1) < 1e-2, (unloading / loading, replay["e"])
+    assert {0.0, 1.0} == set(si["yielded"]) and all(r == 0 for r, y in zip(si["residual_overlap_m"], si["yielded"]) if not y)
+    refused(["export", LAW, "-o", "x.txt"], "x.txt", ".csv")
+    refused(["export", LAW, "-o", "none/x.csv"], "'none' does not exist")
+    refused(["export", LAW, "-o", "x.csv", "--pair", "powdr:wall"], "did you mean 'powder'")
+    refused(["export", LAW, "-o", "x.csv", "--effective-radius", "0"], "--effective-radius", "over 0")
+    refused(["export", LAW, "-o", "x.csv", "--dimensionless", "--effective-radius", "1"], "--effective-radius", code=2)
 
 
 def case_resume():

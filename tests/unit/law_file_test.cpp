@@ -199,7 +199,13 @@ TEST_F(LawFile, WrongTypesAndSizesAreRefusedWithoutLargeAllocation)
   // 2^50 doubles that are declared but not stored
   EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, hsize_t{1} << 50, true); }).find("up to"),
             std::string::npos);
-  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, 7); }).find("length"), std::string::npos);
+  EXPECT_NE(after([&](hid_t f) { replace(f, set, H5T_IEEE_F64LE, 7); }).find("not stored"),
+            std::string::npos);
+  EXPECT_NE(after([&](hid_t f) {
+              replace(f, set, H5T_IEEE_F64LE, 7);
+              overwrite(f, set, [](std::vector<double>& v) { v.assign(7, 1.0); });
+            }).find("length"),
+            std::string::npos);
   EXPECT_NE(after([&](hid_t f) { replace(f, "pairs", H5T_IEEE_F64LE, 3); }).find("pairs"), std::string::npos);
   EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies", H5P_DEFAULT); }).find("bodies"), std::string::npos);
   EXPECT_NE(after([](hid_t f) { H5Ldelete(f, "bodies/glass", H5P_DEFAULT); }).find("glass"),

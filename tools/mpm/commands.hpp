@@ -13,6 +13,7 @@ void add_law(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);
 void add_plot(CLI::App& app);
+void add_export(CLI::App& app);
 void add_plan(CLI::App& app);
 
 /// The command line as typed, for provenance; set by main.

@@ -46,6 +46,7 @@ int main(int argc, char** argv)
   add_check(app);
   add_info(app);
   add_plot(app);
+  add_export(app);
   add_plan(app);
 
   catch_interrupts();

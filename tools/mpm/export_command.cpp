@@ -1,0 +1,131 @@
+// mpm export: a law as plain columns, for codes that do not read the law file.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "commands.hpp"
+#include "law/law_file.hpp"
+#include "trace_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+struct ExportRequest
+{
+  std::string law, output, pair;
+  double r_eff = 1e-3;  // m
+  bool dimensionless = false;
+  int points = 400;
+};
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+Pairs wanted_pairs(const Law& law, const ExportRequest& r)
+{
+  if (r.pair.empty()) return law.pairs;
+  const auto colon = r.pair.find(':');
+  if (colon == std::string::npos)
+    fail("--pair", "cannot be used", fmt::format("'{}'", r.pair), law.pair_list());
+  return {{r.pair.substr(0, colon), r.pair.substr(colon + 1)}};
+}
+
+void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
+{
+  out << fmt::format("# contact law, exported from {}; formulas: docs/law-format.md of granulaw\n", r.law);
+  for (const char* note : {"version", "git_hash"})
+    if (const auto found = law.provenance.find(note); found != law.provenance.end())
+      out << fmt::format("# {} = {}\n", note, found->second.substr(0, found->second.find('\n')));
+  out << "# one row: loading for the first time up to this overlap, and what follows if the contact turns "
+         "there\n"
+         "# loading (overlap d not below the largest so far, d_m): force, stiffness, contact_radius of the "
+         "row "
+         "at d\n"
+         "# unloading and reloading (d < d_m): F = force(d_m) u^n, u = (d - d_r)/(d_m - d_r), 0 where u < "
+         "0;\n"
+         "#   n = exponent, d_r = residual_overlap of the row at d_m; contact radius a(d_m) u^(n-1)\n"
+         "# while yielded = 0 at d_m the contact is elastic: loading, unloading and reloading are one curve\n"
+         "# d_m is forgotten when the overlap ends; rows are uniform in overlap^(1/4): interpolate in that\n";
+  if (r.dimensionless)
+    out << "# x = d/(lambda R*); force in 4/3 E* lambda R*^2, stiffness in 4/3 E* R*, radius in sqrt(lambda) "
+           "R*\n";
+  else
+    out << fmt::format("# SI units, for R* = R_i R_j/(R_i + R_j) = {:.10g} m (R* = R_i on a wall)\n",
+                       r.r_eff);
+}
+
+void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name, const ExportRequest& r)
+{
+  const PairMapping& m = pair.mapping;
+  const ContactCurve& curve = *pair.curve;
+  const double lambda = m.sqrt_lambda * m.sqrt_lambda;
+  const double length = r.dimensionless ? 1 : m.length(r.r_eff),
+               force = r.dimensionless ? 1 : m.force(r.r_eff),
+               radius = r.dimensionless ? 1 : m.radius(r.r_eff);
+  out << fmt::format("# {}: {} yields, E* = {:.10g} Pa (its own), lambda = {:.10g}, ", name,
+                     pair.yielding->material.name, m.e_star, lambda);
+  out << (std::isfinite(curve.onset())
+              ? fmt::format("onset of yield at overlap {:.10g}\n", curve.onset() * length)
+              : std::string("elastic\n"));
+  for (int k = 0; k <= r.points; ++k) {
+    const double s = curve.table().s_end * k / r.points, x = std::min(s * s * s * s, curve.x_end());
+    const ContactCurve::Turning t = curve.turning(x);
+    const bool yielded = x > curve.onset();
+    out << fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{}\n", name, length * x,
+                       force * t.force, force / length * t.stiffness, radius * t.radius,
+                       yielded ? length * t.residual : 0.0, t.exponent, yielded ? 1 : 0);
+  }
+}
+
+void export_law(const ExportRequest& r)
+{
+  check_output(r.output, ".csv");
+  const Law law = read_law(r.law);
+  if (!(r.r_eff > 0 && std::isfinite(r.r_eff)))
+    fail("--effective-radius", "cannot be used", fmt::format("{:g} m", r.r_eff), "over 0");
+  const Pairs pairs = wanted_pairs(law, r);
+  for (const auto& [a, b] : pairs) resolve_pair(law, a, b, r.law);  // before anything is written
+  write_atomically(r.output, [&](const std::string& temporary) {
+    std::ofstream out(temporary);
+    write_heading(out, law, r);
+    out << (r.dimensionless
+                ? "pair,overlap,force,stiffness,contact_radius,residual_overlap,exponent,yielded\n"
+                : "pair,overlap_m,force_N,stiffness_N_per_m,contact_radius_m,residual_overlap_m,"
+                  "exponent,yielded\n");
+    for (const auto& [a, b] : pairs) write_pair(out, resolve_pair(law, a, b, r.law), a + ":" + b, r);
+    if (!out.flush()) fail(r.output, "cannot be written (disk full?)");
+  });
+  fmt::print("wrote {}: {} pairs of {} rows\n", r.output, pairs.size(), r.points + 1);
+}
+
+}  // namespace
+
+void add_export(CLI::App& app)
+{
+  const auto r = std::make_shared<ExportRequest>();
+  CLI::App* command = app.add_subcommand(
+      "export",
+      "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
+      "overlap, residual overlap and unloading exponent after a turn there. Lines that begin with # state "
+      "the\n"
+      "units and the formulas. Example: mpm export law.h5 -o law.csv --pair powder:wall --effective-radius "
+      "2e-3");
+  command->add_option("LAW", r->law, "law file of mpm table")->required();
+  command->add_option("-o,--output", r->output, "NAME.csv")->required();
+  command->add_option("--pair", r->pair, "a:b or a:wall (default: every pair of the file)");
+  CLI::Option* radius = command->add_option("--effective-radius", r->r_eff,
+                                            "R* = R_i R_j/(R_i + R_j), on a wall R_i, m (default 1e-3)");
+  command
+      ->add_flag("--dimensionless", r->dimensionless,
+                 "overlap in lambda R*, force in 4/3 E* lambda R*^2, and so on")
+      ->excludes(radius);
+  command->add_option("--points", r->points, "intervals, uniform in overlap^(1/4) (default 400)")
+      ->check(CLI::Range(10, 100000));
+  command->callback([r] { export_law(*r); });
+}
+
+}  // namespace granulaw
