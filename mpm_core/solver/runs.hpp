@@ -27,6 +27,9 @@ enum class GridKind {
   updated     ///< the points move through a fixed grid: the independent check
 };
 
+/// "auto", "mapped", "tartan" or "updated", as the command line has it.
+const char* name_of(GridKind grid);
+
 /// Precision of the material points; nodes are double always.
 enum class Precision { full, single };
 

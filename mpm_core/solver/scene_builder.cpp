@@ -108,11 +108,6 @@ std::vector<std::pair<double, double>> pore_walls(const Particle& p, double leng
   return walls;
 }
 
-const char* name_of(GridKind grid)
-{
-  return grid == GridKind::mapped ? "mapped" : grid == GridKind::tartan ? "tartan" : "updated";
-}
-
 void check_particle(const Particle& p, const char* where)
 {
   for (const Material& m : p.materials) validate(m, where);
@@ -120,6 +115,12 @@ void check_particle(const Particle& p, const char* where)
 }
 
 }  // namespace
+
+const char* name_of(GridKind grid)
+{
+  constexpr const char* names[] = {"auto", "mapped", "tartan", "updated"};
+  return names[static_cast<int>(grid)];
+}
 
 GridChoice choose_grid(const Particle& p)
 {

@@ -40,11 +40,6 @@ double distance(const RunResult& found, const RunResult& reference)
   return std::sqrt(difference / norm);
 }
 
-const char* name_of(GridKind grid)
-{
-  return grid == GridKind::mapped ? "mapped" : grid == GridKind::tartan ? "tartan" : "updated";
-}
-
 std::string line(const std::string& job, const RunOptions& o, const RunResult& r, const RunResult& reference)
 {
   const RunSummary& s = r.summary;

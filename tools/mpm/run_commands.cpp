@@ -92,10 +92,8 @@ void add_common(CLI::App& command, RunRequest& r)
 
 GridKind grid_of(const std::string& name)
 {
-  if (name == "auto") return GridKind::automatic;
-  if (name == "mapped") return GridKind::mapped;
-  if (name == "tartan") return GridKind::tartan;
-  if (name == "updated") return GridKind::updated;
+  for (const GridKind grid : {GridKind::automatic, GridKind::mapped, GridKind::tartan, GridKind::updated})
+    if (name == name_of(grid)) return grid;
   fail("--grid", "unknown grid", name, "auto, mapped, tartan, updated");
 }
 
@@ -168,7 +166,7 @@ RunResult run_as_asked(const RunRequest& r, const Run& run)
 std::string grid_name(const RunRequest& r, const Particle& particle)
 {
   if (r.grid != "auto") return r.grid;
-  return choose_grid(particle).grid == GridKind::mapped ? "mapped" : "tartan";
+  return name_of(choose_grid(particle).grid);
 }
 
 void print_json(const RunRequest& r, const Particle& particle, const RunSummary& s)
