@@ -35,13 +35,14 @@ LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 
 void reduce(ContactLedger::Side& side, MPI_Comm world)
 {
-  double sums[] = {side.dissipated, side.touches, side.ended, side.beyond};
+  double sums[] = {side.dissipated, side.touches, side.ended, side.beyond, side.too_fast};
   double largest[] = {side.speed_max, side.overlap_max, side.inertia_max};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, side.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, side.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
   side.dissipated = sums[0], side.touches = sums[1], side.ended = sums[2], side.beyond = sums[3];
+  side.too_fast = sums[4];
   side.speed_max = largest[0], side.overlap_max = largest[1], side.inertia_max = largest[2];
 }
 
@@ -89,12 +90,18 @@ double FixStats::compute_scalar()
 double FixStats::compute_vector(int n)
 {
   const ContactLedger::Side &p = session_->ledger.pair, &w = session_->ledger.wall;
-  const double own[vector_length] = {p.dissipated,        w.dissipated,
-                                     p.touches,           w.touches,
-                                     p.speed_max,         w.speed_max,
-                                     p.overlap_max,       w.overlap_max,
-                                     p.beyond + w.beyond, std::max(p.inertia_max, w.inertia_max)};
-  const bool is_sum = n < 4 || n == 8;
+  const double own[vector_length] = {p.dissipated,
+                                     w.dissipated,
+                                     p.touches,
+                                     w.touches,
+                                     p.speed_max,
+                                     w.speed_max,
+                                     p.overlap_max,
+                                     w.overlap_max,
+                                     p.beyond + w.beyond,
+                                     std::max(p.inertia_max, w.inertia_max),
+                                     p.too_fast + w.too_fast};
+  const bool is_sum = n < 4 || n == 8 || n == 10;
   double result = 0;
   MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
   return result;
@@ -112,6 +119,8 @@ void FixStats::post_run()
       sum.wall.overlap_max, sum.pair.dissipated + sum.wall.dissipated);
   if (const double beyond = sum.pair.beyond + sum.wall.beyond; beyond > 0)
     line += fmt::format("; {:.0f} contact-steps beyond the law's table", beyond);
+  if (const double too_fast = sum.pair.too_fast + sum.wall.too_fast; too_fast > 0)
+    line += fmt::format("; {:.0f} contacts began faster than the law's inertia axis goes", too_fast);
   const double inertia = std::max(sum.pair.inertia_max, sum.wall.inertia_max);
   if (session_->inertia_limit > 0 && inertia > session_->inertia_limit)
     line += fmt::format(

@@ -21,7 +21,7 @@ namespace granulaw::plugin {
 class FixStats : public LAMMPS_NS::Fix
 {
  public:
-  static constexpr int vector_length = 10;
+  static constexpr int vector_length = 11;
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 

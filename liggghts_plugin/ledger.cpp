@@ -33,10 +33,11 @@ std::string side_json(const ContactLedger::Side& s)
       "    \"overlap_over_radius_max\": {:.8g},\n"
       "    \"inertia_number_max\": {:.8g},\n"
       "    \"contact_steps_beyond_table\": {:.10g},\n"
+      "    \"contacts_beyond_speed_axis\": {:.10g},\n"
       "    \"impact_speed\": {},\n"
       "    \"largest_overlap_over_radius\": {}\n"
       "  }}",
-      s.dissipated, s.touches, s.ended, s.speed_max, s.overlap_max, s.inertia_max, s.beyond,
+      s.dissipated, s.touches, s.ended, s.speed_max, s.overlap_max, s.inertia_max, s.beyond, s.too_fast,
       histogram_json(s.speed, "approach speed at first touch, m/s"),
       histogram_json(s.overlap, "largest overlap/R* of each contact that ended"));
 }

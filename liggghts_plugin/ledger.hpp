@@ -40,6 +40,7 @@ struct ContactLedger
     double overlap_max = 0;    ///< largest overlap/R*
     double inertia_max = 0;    ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
     double beyond = 0;         ///< contact-steps beyond the law's table
+    double too_fast = 0;       ///< contacts that began faster than the law's inertia axis goes
     LogHistogram speed{1e-6};  ///< approach speed at first touch, m/s
     LogHistogram overlap{1e-10};  ///< largest overlap/R* of each contact that ended
   };

@@ -14,7 +14,7 @@ std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::str
   try {
     loaded->path = path;
     loaded->law = read_law(path);
-    for (const auto& [name, body] : loaded->law.bodies) loaded->tables.emplace(name, HotTable(body.curve));
+    for (const auto& [name, body] : loaded->law.bodies) loaded->curves.emplace(name, FastCurve(body.curve));
   } catch (const std::exception& error) {
     message = error.what();
   }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "law/fast_curve.hpp"
 #include "law/law.hpp"
-#include "liggghts_plugin/hot_table.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -13,12 +13,12 @@ class LAMMPS;
 
 namespace granulaw::plugin {
 
-/// A law file in memory, with the tables that the contact loop reads.
+/// A law file in memory, with the curves that the contact loop reads.
 struct LoadedLaw
 {
   std::string path;
   Law law;
-  std::map<std::string, HotTable> tables;  ///< by material; they point into `law`
+  std::map<std::string, FastCurve> curves;  ///< by material; they point into `law`
 };
 
 /// Reads `path` on every rank. Throws the same Error on all ranks if any rank cannot read it, so that an MPI

@@ -32,12 +32,15 @@ void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 
 /// The history policy that `mpm` and `thornton` share, and everything else that is not the law itself.
 ///
-/// State: one scalar per contact, delta_max, the largest overlap since first touch. It has newton flag "0"
-/// (the same number seen from either particle), advances only when the step does (computeflag and
-/// shearupdate), and returns to zero when the geometric overlap ends.
+/// State: one scalar per contact, delta_max, the largest overlap since first touch (m), and, where the
+/// physics latches it, a second one, the impact overlap X of the law's inertia axis (over lambda R*), set in
+/// the first step from the approach speed. Both have newton flag "0" (the same number seen from either
+/// particle), advance only when the step does (computeflag and shearupdate), and return to zero when the
+/// geometric overlap ends.
 ///
 /// Physics is a value type without virtual calls:
 ///   name                                             "mpm", "thornton"
+///   latches_impact                                   whether contacts keep X
 ///   Contact                                          law of one pair of types: force, dissipated, ...
 ///   prepare(lmp, registry, setup, types)             checks of the deck against the law
 ///   resolve(i, j, rigid, where) -> Contact           throws Error where there is no law for the pair
@@ -50,6 +53,10 @@ class PlasticModel : public NormalModelBase
   {
     history_offset_ = hsetup->add_history_value("delta_max", "0");
     cmb->add_history_offset("delta_max", history_offset_);
+    if constexpr (Physics::latches_impact) {
+      impact_offset_ = hsetup->add_history_value("impact_overlap", "0");
+      cmb->add_history_offset("impact_overlap", impact_offset_);
+    }
   }
 
   void registerSettings(Settings& settings)
@@ -98,9 +105,15 @@ class PlasticModel : public NormalModelBase
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
 
-    const double normal_force = entry.contact.force(r_eff, delta, delta_max);
-    if (delta > delta_max && sidata.computeflag && sidata.shearupdate)
-      advance(sidata, entry, r_eff, delta_max);
+    double impact_overlap = 0.0;
+    if constexpr (Physics::latches_impact)
+      impact_overlap = delta_max == 0.0 ? entry.contact.impact_overlap(r_eff, -sidata.vn)
+                                        : sidata.contact_history[impact_offset_];
+    const double normal_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap);
+    if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
+      if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
+      advance(sidata, entry, r_eff, impact_overlap, delta_max);
+    }
 
     const double root = std::sqrt(r_eff * delta);
     sidata.Fn = normal_force;
@@ -129,6 +142,7 @@ class PlasticModel : public NormalModelBase
     side.ended += weight;
     side.overlap.add(delta_max / r_eff, weight);
     delta_max = 0.0;
+    if constexpr (Physics::latches_impact) scdata.contact_history[impact_offset_] = 0.0;
   }
 
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
@@ -172,7 +186,8 @@ class PlasticModel : public NormalModelBase
   }
 
   /// A step that takes the contact deeper than it ever was: ledger, then history.
-  void advance(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double& delta_max)
+  void advance(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double impact_overlap,
+               double& delta_max)
   {
     ContactLedger::Side& side = sidata.is_wall ? ledger_->wall : ledger_->pair;
     const double weight = sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
@@ -182,12 +197,11 @@ class PlasticModel : public NormalModelBase
       side.speed.add(speed, weight);
       side.speed_max = std::max(side.speed_max, speed);
       side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
+      if (speed > entry.contact.max_speed(r_eff)) side.too_fast += weight;
     }
     const double delta = sidata.deltan;
     if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
-    const double dissipated = entry.contact.dissipated(r_eff, delta);
-    if (dissipated > 0.0)
-      side.dissipated += weight * (dissipated - entry.contact.dissipated(r_eff, delta_max));
+    side.dissipated += weight * entry.contact.dissipated(r_eff, delta_max, delta, impact_overlap);
     delta_max = delta;
   }
 
@@ -228,7 +242,7 @@ class PlasticModel : public NormalModelBase
   const Setup* setup_ = nullptr;
   std::vector<Entry> entries_;
   int stride_ = 0;
-  int history_offset_ = -1;
+  int history_offset_ = -1, impact_offset_ = -1;
   double damping_ = 0.0;
   ContactLedger* ledger_ = nullptr;
   bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false,

@@ -12,11 +12,17 @@ struct ThorntonContact
 {
   ThorntonPair law{};
 
-  double force(double r_eff, double delta, double delta_max) const
+  double force(double r_eff, double delta, double delta_max, double) const
   {
     return law.evaluate(r_eff, delta, delta_max).force;
   }
+  /// J, spent on plastic strain up to the largest overlap delta_max (m).
   double dissipated(double r_eff, double delta_max) const;
+  double dissipated(double r_eff, double from, double to, double) const
+  {
+    return dissipated(r_eff, to) - dissipated(r_eff, from);
+  }
+  double max_speed(double) const { return std::numeric_limits<double>::infinity(); }
   double largest_overlap() const
   {
     return std::numeric_limits<double>::max();
@@ -29,6 +35,7 @@ class ThorntonPhysics
 {
  public:
   static constexpr const char* name = "thornton";
+  static constexpr bool latches_impact = false;
   using Contact = ThorntonContact;
 
   void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);

@@ -5,51 +5,9 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "law/table_checks.hpp"
 
 namespace granulaw {
-
-namespace {
-
-/// Cubic Hermite coefficients in t on [0,1] from end values and end slopes d/dt.
-void hermite(double (&c)[4], double v0, double v1, double m0, double m1)
-{
-  c[0] = v0;
-  c[1] = m0;
-  c[2] = 3.0 * (v1 - v0) - 2.0 * m0 - m1;
-  c[3] = 2.0 * (v0 - v1) + m0 + m1;
-}
-
-void check_values(const std::vector<double>& values, std::size_t count, double low, double high,
-                  const std::string& where, const char* name)
-{
-  if (values.size() != count)
-    fail(where, fmt::format("'{}' has the wrong length", name), std::to_string(values.size()),
-         std::to_string(count));
-  for (std::size_t k = 0; k < count; ++k)
-    if (!(values[k] >= low && values[k] <= high))  // NaN fails as well
-      fail(where, fmt::format("'{}' at node {} is out of range", name, k), fmt::format("{:.6g}", values[k]),
-           fmt::format("{:.6g} to {:.6g}", low, high));
-}
-
-/// The nodes may be sane and the cubics between them not, where a slope is wild: both turning points count.
-void check_between(const double (&c)[4], double low, double high, const std::string& where, const char* name,
-                   std::size_t node)
-{
-  const auto check = [&](double t) {
-    const double value = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-    if (!(value >= low && value <= high))
-      fail(where, fmt::format("'{}' between nodes {} and {} is out of range", name, node, node + 1),
-           fmt::format("{:.6g}", value), fmt::format("{:.6g} to {:.6g}", low, high));
-  };
-  // c1 + 2 c2 t + 3 c3 t^2 = 0, with q so that neither root cancels
-  const double root = c[2] * c[2] - 3.0 * c[1] * c[3];
-  if (!(root >= 0)) return;
-  const double q = -(c[2] + std::copysign(std::sqrt(root), c[2]));
-  for (const double t : {q / (3.0 * c[3]), c[1] / q})
-    if (t > 0 && t < 1) check(t);
-}
-
-}  // namespace
 
 ContactCurve::ContactCurve(const Table& table, const std::string& where) : table_(table)
 {
@@ -83,7 +41,7 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
   for (const Function& f : functions) {
     constexpr double big = 1e12;
     check_values(f.value, count, f.low, f.high, where, f.name);
-    check_values(f.slope, count, -big, big, where, fmt::format("{}_slope", f.name).c_str());
+    check_values(f.slope, count, -big, big, where, fmt::format("{}_slope", f.name));
     for (std::size_t k = 0; k + 1 < count; ++k) {
       hermite(intervals_[k].*f.cubic, f.value[k], f.value[k + 1], h * f.slope[k], h * f.slope[k + 1]);
       check_between(intervals_[k].*f.cubic, f.low_between, f.high_between, where, f.name, k);
@@ -102,54 +60,146 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
     fail(where, "the force falls at the last overlap, and beyond it would turn negative");
 }
 
-double ContactCurve::work_loading(double x) const
+ContactCurve::ContactCurve(const Table& table, const InertiaAxis::Table& axis, const std::string& where)
+    : ContactCurve(table, where)
 {
-  if (x > x_end_) {
-    const double beyond = x - x_end_;
-    return work_.back() + beyond * (end_.force + 0.5 * end_.stiffness * beyond);
-  }
-  const Position p = locate(x);
-  const auto k = static_cast<std::size_t>(p.interval - intervals_.data());
-  return work_[k] + interval_work(k, p.t);
+  axis_.emplace(axis, where);
+  check_axis(where);
 }
 
-double ContactCurve::interval_work(std::size_t k, double t_end) const
+void ContactCurve::check_axis(const std::string& where) const
 {
-  // integral of F dx = x^1.5 g dx = 4 s^9 g ds: 7-point Gauss-Legendre is exact (degree 12 of 13).
+  const double end = axis_->overlap_end();
+  if (end > 1.05 * x_end_)  // 5 %: so far the linear continuation is still within about a percent
+    fail(where, "the inertia axis goes deeper than the curve: 'impact_overlap' at the last node",
+         fmt::format("{:.6g}", end), fmt::format("up to {:.6g}", 1.05 * x_end_));
+  const auto rows = 2 * axis_->table().slices, columns = 8 * (axis_->table().ratio_nodes() - 1);
+  for (std::size_t k = 1; k <= rows; ++k)
+    for (std::size_t l = 1; l <= columns; ++l) {
+      const double overlap = end * static_cast<double>(k) / static_cast<double>(rows);
+      const double ratio = axis_->table().ratio_end * static_cast<double>(l) / static_cast<double>(columns);
+      const double x = ratio * overlap;
+      const auto here = [&](const char* what) {
+        return fmt::format("with the inertia axis {} at overlap {:.4g} after an impact to {:.4g}", what, x,
+                           overlap);
+      };
+      const Loading now = loading(x, overlap);
+      if (!(now.stiffness >= -1e-9 * now.force / x))  // 1e-9: rounding of a force that stands still
+        fail(where, here("the loading force falls"));
+      if (x <= onset_ || x > x_end_) continue;
+      const Position p = locate(x);
+      const InertiaAxis::TurnCorrection turn = axis_->turn(x, overlap);
+      const double residual = cubic(p.interval->rho, p.t) + turn.residual,
+                   n = cubic(p.interval->n, p.t) + turn.exponent;
+      if (!(residual >= -0.1 && residual <= 0.999995))  // between nodes, as the quasi-static ratio's
+        fail(where, here("the residual ratio is out of range"), fmt::format("{:.6g}", residual),
+             "-0.1 to 0.999995");
+      if (!(n >= 0.9 && n <= 12))
+        fail(where, here("the exponent is out of range"), fmt::format("{:.6g}", n), "0.9 to 12");
+    }
+}
+
+namespace {
+
+/// Integral of f from `begin` to `end` by 7-point Gauss-Legendre: exact to degree 13.
+template <class Function>
+double gauss(double begin, double end, const Function& f)
+{
   static constexpr double node[7] = {-0.9491079123427585, -0.7415311855993945, -0.4058451513773972, 0.0,
                                      0.4058451513773972,  0.7415311855993945,  0.9491079123427585};
   static constexpr double weight[7] = {0.1294849661688697, 0.2797053914892766, 0.3818300505051189,
                                        0.4179591836734694, 0.3818300505051189, 0.2797053914892766,
                                        0.1294849661688697};
   double sum = 0;
-  for (int q = 0; q < 7; ++q) {
-    const double t = 0.5 * t_end * (1.0 + node[q]);
-    const double s = (static_cast<double>(k) + t) / per_h_;
-    sum += 0.5 * weight[q] * 4.0 * std::pow(s, 9) * cubic(intervals_[k].g, t);
-  }
-  return sum * t_end / per_h_;
+  for (int q = 0; q < 7; ++q) sum += 0.5 * weight[q] * f(begin + 0.5 * (end - begin) * (1.0 + node[q]));
+  return sum * (end - begin);
 }
 
-double ContactCurve::work_unloading(double x_m) const
+}  // namespace
+
+double ContactCurve::work_loading(double x, double impact_overlap) const
 {
-  if (x_m <= onset_) return work_loading(x_m);
-  const Turning top = turning(x_m);
+  const double correction = corrected(impact_overlap) ? correction_work(x, impact_overlap) : 0.0;
+  if (x > x_end_) {
+    const double beyond = x - x_end_;
+    return work_.back() + beyond * (end_.force + 0.5 * end_.stiffness * beyond) + correction;
+  }
+  const Position p = locate(x);
+  const auto k = static_cast<std::size_t>(p.interval - intervals_.data());
+  return work_[k] + interval_work(k, p.t) + correction;
+}
+
+double ContactCurve::correction_work(double x, double impact_overlap) const
+{
+  // integral of F_qs A dx over s = x^(1/4), piece by piece between the nodes of curve and axis, where the
+  // integrand is a polynomial (of degree 24: 7 points leave 1e-12 on so short pieces)
+  const double ratio_end = axis_->table().ratio_end;
+  const double per_ratio = static_cast<double>(axis_->table().ratio_nodes() - 1) / ratio_end;
+  const double s_stop = std::pow(std::min(x, ratio_end * impact_overlap), 0.25);
+  double sum = 0, s = 0;
+  std::size_t curve_node = 1, axis_node = 1;
+  while (s < s_stop) {
+    const double s_curve = curve_node < intervals_.size() ? static_cast<double>(curve_node) / per_h_
+                           : s < table_.s_end             ? table_.s_end
+                                                          : s_stop;
+    const double s_axis = std::pow(static_cast<double>(axis_node) / per_ratio * impact_overlap, 0.25);
+    const double next = std::min({s_curve, s_axis, s_stop});
+    if (next > s)
+      sum += gauss(s, next, [&](double at) {
+        const double here = at * at * at * at;
+        return 4.0 * at * at * at * quasi_static(here).force * axis_->force(here, impact_overlap).value;
+      });
+    if (s_curve <= next) ++curve_node;
+    if (s_axis <= next) ++axis_node;
+    s = next;
+  }
+  return sum;
+}
+
+double ContactCurve::interval_work(std::size_t k, double t_end) const
+{
+  // integral of F dx = x^1.5 g dx = 4 s^9 g ds: of degree 12
+  return gauss(0.0, t_end,
+               [&](double t) {
+                 return 4.0 * std::pow((static_cast<double>(k) + t) / per_h_, 9) * cubic(intervals_[k].g, t);
+               }) /
+         per_h_;
+}
+
+double ContactCurve::work_unloading(double x_m, double impact_overlap) const
+{
+  if (x_m <= onset_) return work_loading(x_m, impact_overlap);
+  const Turning top = turning(x_m, impact_overlap);
   return top.force * (x_m - top.residual) / (top.exponent + 1.0);
 }
 
 double ContactCurve::admissibility_margin() const
 {
+  double margin = admissibility_margin(0.0);
+  if (!axis_) return margin;
+  const auto rows = 2 * axis_->table().slices;
+  for (std::size_t k = 1; k <= rows; ++k)
+    margin = std::min(margin, admissibility_margin(axis_->overlap_end() * static_cast<double>(k) /
+                                                   static_cast<double>(rows)));
+  return margin;
+}
+
+double ContactCurve::admissibility_margin(double impact_overlap) const
+{
   double margin = std::numeric_limits<double>::infinity();
   // A turn just past the onset must not give back more than was put in.
   if (const double first = onset_ * (1.0 + 1e-9); onset_ > 0 && first < x_end_)
-    margin = 1.0 - work_unloading(first) / work_loading(first);
-  const std::size_t samples = 4 * intervals_.size();
+    margin = 1.0 - work_unloading(first, impact_overlap) / work_loading(first, impact_overlap);
+  // an axis bends the curve on a scale of its own: at least 512
+  const std::size_t samples =
+      corrected(impact_overlap) ? std::max<std::size_t>(4 * intervals_.size(), 512) : 4 * intervals_.size();
   for (std::size_t k = 1; k < samples; ++k) {
     const double s = table_.s_end * static_cast<double>(k) / static_cast<double>(samples);
     const double x = s * s * s * s, step = 1e-4 * x;
     if (x - step <= onset_ || x + step >= x_end_) continue;
-    const double slope = (work_unloading(x + step) - work_unloading(x - step)) / (2.0 * step);
-    const double force = loading(x).force;
+    const double slope =
+        (work_unloading(x + step, impact_overlap) - work_unloading(x - step, impact_overlap)) / (2.0 * step);
+    const double force = loading(x, impact_overlap).force;
     margin = std::min(margin, (force - slope) / force);
   }
   return margin;

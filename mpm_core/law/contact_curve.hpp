@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "law/cubic.hpp"
 #include "law/fast_pow.hpp"
+#include "law/inertia_axis.hpp"
 #include "law/pair.hpp"
 
 namespace granulaw {
@@ -24,9 +27,14 @@ namespace granulaw {
 /// Half-open range 0 <= x < x_end = s_end^4. Beyond it the force goes on with the last stiffness, the other
 /// three keep their last value, and `in_range` says false: the caller counts and decides.
 ///
-/// State of a contact: delta_max, the largest overlap since first touch; the caller zeroes it when the
-/// geometric overlap ends. delta >= delta_max: loading. Else unloading and reloading follow the same curve
-/// F = F_L(delta_max) max(0,u)^n. While delta_max is below the onset of yield, F = F_L(delta) both ways.
+/// State of a contact: delta_max, the largest overlap since first touch, and, where the curve has an inertia
+/// axis, the impact overlap X latched at first touch (inertia_axis.hpp; dimensionless as x). The caller
+/// zeroes both when the geometric overlap ends. delta >= delta_max: loading. Else unloading and reloading
+/// follow the same curve F = F_L(delta_max) max(0,u)^n. While delta_max is below the onset of yield, F =
+/// F_L(delta) both ways.
+///
+/// X = 0, which every function takes for the argument left out, is the quasi-static law, to the bit the law
+/// of a curve without an axis. Else F_L, rho and n have the corrections of x/X and X.
 ///
 /// Admissible (no closed cycle gains energy) if dW_L/d(delta_m) >= dW_u/d(delta_m): see
 /// admissibility_margin().
@@ -48,39 +56,48 @@ class ContactCurve
   /// Throws Error naming `where` if a length, a value at a node or a cubic between nodes is out of range,
   /// or if the force falls at the end. What is accepted evaluates to finite, never negative forces.
   ContactCurve(const Table& table, const std::string& where);
+  /// With an inertia axis. Further refused: an axis whose X_end lies over 5 % beyond x_end, and, at its
+  /// slices and half-way between them (sampled eight times an interval), a loading force that falls or a
+  /// corrected residual ratio or exponent as no curve may have.
+  ContactCurve(const Table& table, const InertiaAxis::Table& axis, const std::string& where);
 
   /// Largest dimensionless overlap of the table.
   double x_end() const { return x_end_; }
   bool in_range(double x) const { return x <= x_end_; }
   double onset() const { return onset_; }
   const Table& table() const { return table_; }
+  /// Null: the law is quasi-static.
+  const InertiaAxis* axis() const { return axis_ ? &*axis_ : nullptr; }
 
   /// Loading force over Hertz's force at x = 1, that is x^1.5 g(x); its derivative by x; a/R = sqrt(x) ratio.
   struct Loading
   {
     double force, stiffness, radius;
   };
-  Loading loading(double x) const;
+  Loading loading(double x, double impact_overlap = 0) const;
 
   /// Turning point of a contact that reached x_m.
   struct Turning
   {
     double force, stiffness, radius, residual, exponent;
   };
-  Turning turning(double x_m) const;
+  Turning turning(double x_m, double impact_overlap = 0) const;
 
   /// Work of loading to x, and work given back on complete unloading from x_m, in units of
-  /// (Hertz force at x = 1) * length.
-  double work_loading(double x) const;
-  double work_unloading(double x_m) const;
+  /// (Hertz force at x = 1) * length. With X > 0 the loading work is integrated anew: microseconds.
+  double work_loading(double x, double impact_overlap = 0) const;
+  double work_unloading(double x_m, double impact_overlap = 0) const;
 
   /// min over the table of (F_L - dW_u/d x_m)/F_L, and of (W_L - W_u)/W_L just past the onset; negative: some
-  /// closed cycle would gain energy. Infinity: the table ends before the onset.
+  /// closed cycle would gain energy. Infinity: the table ends before the onset. Without an argument: the
+  /// least of the quasi-static law, every slice of the axis and half-way between slices.
   double admissibility_margin() const;
+  double admissibility_margin(double impact_overlap) const;
 
   /// The law: force, stiffness and contact radius of a pair at overlap `delta` (m, > 0) whose largest overlap
   /// so far is `delta_max` (m). No allocation, no branch on strings, no exceptions.
-  ContactForce evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max) const;
+  ContactForce evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
+                        double impact_overlap = 0) const;
 
  private:
   /// Cubic coefficients in t = (s - s_k)/h of the four functions over one interval: two cache lines.
@@ -101,13 +118,13 @@ class ContactCurve
     const auto k = std::min(static_cast<std::size_t>(position), intervals_.size() - 1);
     return {&intervals_[k], position - static_cast<double>(k), s, root};
   }
+  bool corrected(double impact_overlap) const { return axis_ && impact_overlap > InertiaAxis::negligible; }
+  Loading quasi_static(double x) const;
   /// Loading work from node k to t_end within its interval.
   double interval_work(std::size_t k, double t_end) const;
-  static double cubic(const double (&c)[4], double t) { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
-  static double cubic_slope(const double (&c)[4], double t)
-  {
-    return c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]);
-  }
+  /// Work of the axis's part of the loading force up to x.
+  double correction_work(double x, double impact_overlap) const;
+  void check_axis(const std::string& where) const;
 
   std::vector<Interval> intervals_;
   std::vector<double> work_;  // loading work up to each node
@@ -116,9 +133,10 @@ class ContactCurve
   double onset_ = 0;
   Loading end_{};  // loading at x_end
   Table table_;
+  std::optional<InertiaAxis> axis_;
 };
 
-inline ContactCurve::Loading ContactCurve::loading(double x) const
+inline ContactCurve::Loading ContactCurve::quasi_static(double x) const
 {
   if (x > x_end_) [[unlikely]]
     return {end_.force + end_.stiffness * (x - x_end_), end_.stiffness, end_.radius * std::sqrt(x / x_end_)};
@@ -129,36 +147,57 @@ inline ContactCurve::Loading ContactCurve::loading(double x) const
   return {x * p.root * g, p.root * (1.5 * g + 0.25 * p.s * dg), p.root * cubic(p.interval->a, p.t)};
 }
 
-inline ContactCurve::Turning ContactCurve::turning(double x_m) const
+inline ContactCurve::Loading ContactCurve::loading(double x, double impact_overlap) const
 {
-  const Loading top = loading(x_m);
+  const Loading slow = quasi_static(x);
+  if (!corrected(impact_overlap)) return slow;
+  // F = F_qs (1 + A): dF/dx = F_qs' (1 + A) + F_qs dA/dx
+  const InertiaAxis::ForceCorrection a = axis_->force(x, impact_overlap);
+  return {slow.force * (1.0 + a.value), slow.stiffness * (1.0 + a.value) + slow.force * a.slope, slow.radius};
+}
+
+inline ContactCurve::Turning ContactCurve::turning(double x_m, double impact_overlap) const
+{
+  const Loading top = loading(x_m, impact_overlap);
   const Position p = locate(std::min(x_m, x_end_));
-  return {top.force, top.stiffness, top.radius, x_m * cubic(p.interval->rho, p.t), cubic(p.interval->n, p.t)};
+  double ratio = cubic(p.interval->rho, p.t), n = cubic(p.interval->n, p.t);
+  if (corrected(impact_overlap)) {
+    const InertiaAxis::TurnCorrection turn = axis_->turn(x_m, impact_overlap);
+    ratio = turn.corrected_residual(ratio);
+    n = turn.corrected_exponent(n);
+  }
+  return {top.force, top.stiffness, top.radius, x_m * ratio, n};
 }
 
 inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff, double delta,
-                                           double delta_max) const
+                                           double delta_max, double impact_overlap) const
 {
   const double length = pair.length(r_eff), per_length = 1.0 / length;
   const double force_scale = pair.force(r_eff), radius_scale = pair.radius(r_eff);
   const double x = delta * per_length, x_max = delta_max * per_length;
   if (x >= x_max || x_max <= onset_) {
-    const Loading now = loading(x);
+    const Loading now = loading(x, impact_overlap);
     return {force_scale * now.force, force_scale * per_length * now.stiffness, radius_scale * now.radius,
             std::max(delta, delta_max)};
   }
   // turning(x_max) without what is not needed, from one position: this branch is where a dense flow spends
   // its time
   const Position p = locate(std::min(x_max, x_end_));
-  const double residual = cubic(p.interval->rho, p.t), span = 1.0 - residual;  // over delta_max
-  const double u = (delta / delta_max - residual) / span;
+  double residual = cubic(p.interval->rho, p.t), n = cubic(p.interval->n, p.t);  // residual: over delta_max
+  double top = x_max <= x_end_ ? x_max * p.root * cubic(p.interval->g, p.t)
+                               : end_.force + end_.stiffness * (x_max - x_end_);
+  if (corrected(impact_overlap)) {
+    const InertiaAxis::TurnCorrection turn = axis_->turn(x_max, impact_overlap);
+    top *= 1.0 + turn.force;
+    residual = turn.corrected_residual(residual);
+    n = turn.corrected_exponent(n);
+  }
+  const double span = 1.0 - residual, u = (delta / delta_max - residual) / span;
   if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
-  const double top = x_max <= x_end_ ? x_max * p.root * cubic(p.interval->g, p.t)
-                                     : end_.force + end_.stiffness * (x_max - x_end_);
   const double top_radius =
       p.root * cubic(p.interval->a, p.t) * (x_max <= x_end_ ? 1.0 : std::sqrt(x_max / x_end_));
   // F = F_m u^n; dF/dx = n F/(u span); a = a_m u^(n-1), the radius at which dF/dx = 2 E* a keeps its ratio
-  const double n = cubic(p.interval->n, p.t), below = fast_pow(u, n - 1.0);
+  const double below = fast_pow(u, n - 1.0);
   return {force_scale * top * below * u, force_scale * per_length * n * top * below / (span * x_max),
           radius_scale * top_radius * below, delta_max};
 }

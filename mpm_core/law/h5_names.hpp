@@ -17,7 +17,7 @@ inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
 inline constexpr int major = 1;  ///< counts up where an old reader would misread the file
-inline constexpr int minor = 0;  ///< counts up where something is only added
+inline constexpr int minor = 1;  ///< counts up where something is only added
 
 // Attributes of every dataset.
 inline constexpr const char* unit = "unit";
@@ -31,6 +31,23 @@ inline constexpr const char* material = "material";        ///< bodies/<name>/ma
 inline constexpr const char* curve = "curve";              ///< bodies/<name>/curve, nodes
 inline constexpr const char* certificate = "certificate";  ///< bodies/<name>/certificate, scalars
 inline constexpr const char* support = "support";          ///< string attribute of certificate
+inline constexpr const char* origin = "origin";            ///< the same, since minor 1: "runs" or "atlas"
+inline constexpr const char* body = "body";  ///< string attribute of bodies/<name>, since minor 1
+inline constexpr const char* inertia_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, since minor 1
+inline constexpr const char* kind = "kind";                  ///< string attribute of it
+inline constexpr const char* kind_inertia = "inertia";
+inline constexpr const char* kind_rate = "rate";
+
+// Beside `pairs`, in its order, since minor 1.
+inline constexpr Field pair_reduction_error_force{
+    "pair_reduction_error_force", "1", "relative error of F_max by the pair rule, for each of pairs"};
+inline constexpr Field pair_reduction_error_restitution{
+    "pair_reduction_error_restitution", "1", "relative error of e by the pair rule, for each of pairs"};
+
+// bodies/<name>, since minor 1
+inline constexpr Field pole_radius{"pole_radius", "m",
+                                   "radius of curvature at the pole, as computed; 0: any (spheres)"};
+inline constexpr Field mass_ratio{"mass_ratio", "1", "mass over density 4/3 pi R^3, R at the pole"};
 
 // bodies/<name>/material
 inline constexpr Field density{"density", "kg/m^3", "mass density"};
@@ -52,6 +69,23 @@ inline constexpr Field exponent{"exponent", "1", "n of the unloading F = F_m u^n
 inline constexpr Field exponent_slope{"exponent_slope", "1", "d(exponent)/ds"};
 inline constexpr Field radius_ratio{"radius_ratio", "1", "contact radius over Hertz's R sqrt(x)"};
 inline constexpr Field radius_ratio_slope{"radius_ratio_slope", "1", "d(radius_ratio)/ds"};
+
+// bodies/<name>/inertia_axis
+inline constexpr Field reference_radius{"reference_radius", "m", "R_ref of v; absent: kind inertia"};
+inline constexpr Field speed_end{"speed_end", "1",
+                                 "v at the last node of impact_overlap; nodes uniform in v"};
+inline constexpr Field impact_overlap{"impact_overlap", "1",
+                                      "X = overlap/(lambda R*) at which an impact at v turns"};
+inline constexpr Field impact_overlap_slope{"impact_overlap_slope", "1", "d(impact_overlap)/dv"};
+inline constexpr Field slices{"slices", "1", "number K of slices, at X_k = k X_end/K, k = 1..K"};
+inline constexpr Field ratio_end{"ratio_end", "1", "xi = x/X at the last node; nodes uniform in xi"};
+inline constexpr Field force_correction{"force_correction", "1",
+                                        "A: loading force over the curve's, less 1; slice after slice"};
+inline constexpr Field force_correction_slope{"force_correction_slope", "1", "dA/dxi"};
+inline constexpr Field residual_correction{"residual_correction", "1", "B: added to residual_ratio"};
+inline constexpr Field residual_correction_slope{"residual_correction_slope", "1", "dB/dxi"};
+inline constexpr Field exponent_correction{"exponent_correction", "1", "N: added to exponent"};
+inline constexpr Field exponent_correction_slope{"exponent_correction_slope", "1", "dN/dxi"};
 
 // bodies/<name>/certificate
 inline constexpr Field solver_error_force{"solver_error_force", "1",
@@ -75,6 +109,15 @@ inline constexpr Field verification_error_restitution{"verification_error_restit
                                                       "largest relative error of e, replay against impacts"};
 inline constexpr Field verification_impacts{"verification_impacts", "1",
                                             "number of impacts compared; 0: none"};
-inline constexpr Field max_inertia{"max_inertia", "1", "I = rho V^2/Y up to which the rate-free law holds"};
+inline constexpr Field max_inertia{"max_inertia", "1", "I = rho V^2/Y up to which the law holds"};
+// since minor 1
+inline constexpr Field axis_cost_force{
+    "axis_cost_force", "1", "F_max without the inertia axis over F_max with it, less 1, at its end; signed"};
+inline constexpr Field axis_cost_restitution{
+    "axis_cost_restitution", "1", "e without the inertia axis over e with it, less 1, at its end; signed"};
+inline constexpr Field atlas_error_force{"atlas_error_force", "1",
+                                         "relative, of an interpolated law; 0: computed by runs"};
+inline constexpr Field atlas_error_restitution{"atlas_error_restitution", "1",
+                                               "absolute in e, of an interpolated law; 0: computed by runs"};
 
 }  // namespace granulaw::h5

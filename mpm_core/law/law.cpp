@@ -23,18 +23,41 @@ const BodyLaw& body(const Law& law, const std::string& name, const std::string& 
 
 }  // namespace
 
-bool Law::has_pair(const std::string& a, const std::string& b) const
+const LawPair* Law::find_pair(const std::string& a, const std::string& b) const
 {
-  for (const auto& [i, j] : pairs)
-    if ((i == a && j == b) || (i == b && j == a)) return true;
-  return false;
+  for (const LawPair& pair : pairs)
+    if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return &pair;
+  return nullptr;
 }
 
 std::string Law::pair_list() const
 {
   std::vector<std::string> names;
-  for (const auto& [i, j] : pairs) names.push_back(i + ":" + j);
+  for (const LawPair& pair : pairs) names.push_back(pair.a + ":" + pair.b);
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where)
+{
+  if (a.material.name == b.material.name) return;
+  for (const BodyLaw* body : {&a, &b})
+    if (!body->is_sphere())
+      fail(where,
+           fmt::format(
+               "the law of '{}' is that of a body '{}', no homogeneous sphere: it holds only against the "
+               "rigid wall and its like",
+               body->material.name, body->body),
+           fmt::format("'{}:{}'", a.material.name, b.material.name),
+           fmt::format("{0}:{0}, {0}:{1}", body->material.name, wall_name));
+}
+
+double PairLaw::speed_coordinate(double r_eff) const
+{
+  const LawMaterial& m = yielding->material;
+  const double root = std::sqrt(m.density / m.yield_stress);
+  return curve->axis()->kind() == InertiaAxis::Kind::inertia
+             ? root / mapping.sqrt_lambda
+             : root * curve->axis()->table().reference_radius / mapping.length(r_eff);
 }
 
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where)
@@ -42,8 +65,9 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
   if (a == wall_name && b != wall_name) return resolve_pair(law, b, a, where);
   const BodyLaw& first = body(law, a, where);
   const BodyLaw* second = b == wall_name ? nullptr : &body(law, b, where);
-  if (!law.has_pair(a, b))
+  if (!law.find_pair(a, b))
     fail(where, fmt::format("the law was not built for the pair '{}:{}'", a, b), {}, law.pair_list());
+  if (second) check_partners(first, *second, where);
 
   if (!second) return {&first.curve, PairMapping::rigid_partner(first.material.e_star()), &first};
   const auto rank = [](const BodyLaw& l) {

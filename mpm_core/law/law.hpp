@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
@@ -38,9 +39,18 @@ struct Certificate
   double verification_error_force = 0;  ///< largest error of F_max, replay of this law against fresh impacts
   double verification_error_restitution = 0;  ///< the same of e
   double verification_impacts = 0;            ///< how many impacts were compared
-  double max_inertia = 0;        ///< I = rho V^2/Y up to which the rate-free law holds within its error
-  std::string support = "free";  ///< how the characterising press held the body
+  double max_inertia = 0;  ///< I = rho V^2/Y up to which the law, with its axis, holds within its error
+  double axis_cost_force =
+      0;  ///< F_max without the inertia axis over F_max with it, less 1, at its end; 0: none
+  double axis_cost_restitution = 0;    ///< the same of e (both signed)
+  double atlas_error_force = 0;        ///< of an interpolated law, relative; 0: computed by runs
+  double atlas_error_restitution = 0;  ///< the same, absolute in e
+  std::string support = "free";        ///< how the characterising press held the body
+  std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas
 };
+
+/// `BodyLaw::body` of a homogeneous sphere.
+inline constexpr const char* sphere_name = "sphere";
 
 /// The law of one yielding body: its material, its dimensionless curve, its certificate.
 struct BodyLaw
@@ -48,23 +58,42 @@ struct BodyLaw
   LawMaterial material;
   ContactCurve curve;
   Certificate certificate;
+  std::string body = sphere_name;  ///< else the name of a layered or shaped particle: wall and like pair only
+  double pole_radius = 0;          ///< m, radius of curvature at the pole, as computed; 0: any (spheres)
+  double mass_ratio = 1;           ///< mass over rho 4/3 pi R^3, R the radius of curvature at the pole
+
+  bool is_sphere() const { return body == sphere_name; }
 };
 
 /// Name of the rigid partner in pair names: "steel:wall".
 inline constexpr const char* wall_name = "wall";
 
+/// A pair that a law may be used for, and what the pair rule (PairMapping) costs there: 0 where it is exact.
+struct LawPair
+{
+  std::string a, b;                        ///< material names; b may be "wall"
+  double reduction_error_force = 0;        ///< relative, against two-body runs
+  double reduction_error_restitution = 0;  ///< relative
+
+  bool operator==(const LawPair&) const = default;
+};
+
 /// A contact law file in memory: bodies, and the pairs that it may be used for ("a:b", "a:wall").
 struct Law
 {
   std::map<std::string, BodyLaw> bodies;  ///< by material name
-  std::vector<std::pair<std::string, std::string>> pairs;
+  std::vector<LawPair> pairs;
   std::map<std::string, std::string> provenance;  ///< version, git_hash, created, command, material_hash, ...
 
-  /// True if the file was built for this pair, in either order.
-  bool has_pair(const std::string& a, const std::string& b) const;
+  /// The file's entry for this pair, in either order; null: it was not built for it.
+  const LawPair* find_pair(const std::string& a, const std::string& b) const;
   /// "a:b, a:wall, ..." for messages.
   std::string pair_list() const;
 };
+
+/// Throws Error naming `where` if one of two different bodies is no homogeneous sphere: pairs are mapped by
+/// the radius of curvature alone, which is exact for the rigid wall and like pairs only.
+void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where);
 
 /// A pair's law, resolved: which curve, which mapping. What a particle code keeps for each pair of types.
 struct PairLaw
@@ -73,17 +102,36 @@ struct PairLaw
   PairMapping mapping;
   const BodyLaw* yielding = nullptr;
 
-  ContactForce evaluate(double r_eff, double delta, double delta_max) const
+  /// See ContactCurve::evaluate; X of impact_overlap(), latched at first touch.
+  ContactForce evaluate(double r_eff, double delta, double delta_max, double impact_overlap = 0) const
   {
-    return curve->evaluate(mapping, r_eff, delta, delta_max);
+    return curve->evaluate(mapping, r_eff, delta, delta_max, impact_overlap);
   }
   /// Largest overlap the table answers for, m.
   double max_overlap(double r_eff) const { return curve->x_end() * mapping.length(r_eff); }
+
+  /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
+  /// approach positive): 0 without an inertia axis or approach, clamped beyond max_speed().
+  double impact_overlap(double r_eff, double speed) const
+  {
+    return curve->axis() ? curve->axis()->impact_overlap(speed_coordinate(r_eff) * speed) : 0.0;
+  }
+  /// Largest approach speed the inertia axis answers for, m/s; infinity: there is no axis.
+  double max_speed(double r_eff) const
+  {
+    return curve->axis() ? curve->axis()->speed_end() / speed_coordinate(r_eff)
+                         : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  /// v of the inertia axis over the relative normal speed, s/m (inertia_axis.hpp).
+  double speed_coordinate(double r_eff) const;
 };
 
 /// Resolves materials `a` and `b` (b may be "wall": rigid). The body with the lower yield stress yields;
 /// of two equally strong or elastic ones the softer, then the first by name. Throws Error naming `where`
-/// where the law has no such material or was not built for the pair.
+/// where the law has no such material or was not built for the pair, or where a body that is no homogeneous
+/// sphere would meet another body than its like or the rigid wall.
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where);
 
 }  // namespace granulaw

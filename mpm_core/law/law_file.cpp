@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -43,11 +44,27 @@ constexpr CurveField curve_fields[] = {{h5::force_ratio, &Table::force_ratio},
                                        {h5::radius_ratio, &Table::radius_ratio},
                                        {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
 
+struct AxisField
+{
+  const h5::Field& field;
+  std::vector<double> InertiaAxis::Table::*values;
+};
+constexpr AxisField axis_fields[] = {
+    {h5::impact_overlap, &InertiaAxis::Table::impact_overlap},
+    {h5::impact_overlap_slope, &InertiaAxis::Table::impact_overlap_slope},
+    {h5::force_correction, &InertiaAxis::Table::force_correction},
+    {h5::force_correction_slope, &InertiaAxis::Table::force_correction_slope},
+    {h5::residual_correction, &InertiaAxis::Table::residual_correction},
+    {h5::residual_correction_slope, &InertiaAxis::Table::residual_correction_slope},
+    {h5::exponent_correction, &InertiaAxis::Table::exponent_correction},
+    {h5::exponent_correction_slope, &InertiaAxis::Table::exponent_correction_slope}};
+
 struct CertificateField
 {
   const h5::Field& field;
   double Certificate::*value;
   bool is_signed = false;
+  int since_minor = 0;  // a file older than that has its default
 };
 constexpr CertificateField certificate_fields[] = {
     {h5::solver_error_force, &Certificate::solver_error_force},
@@ -61,7 +78,30 @@ constexpr CertificateField certificate_fields[] = {
     {h5::verification_error_force, &Certificate::verification_error_force},
     {h5::verification_error_restitution, &Certificate::verification_error_restitution},
     {h5::verification_impacts, &Certificate::verification_impacts},
-    {h5::max_inertia, &Certificate::max_inertia}};
+    {h5::max_inertia, &Certificate::max_inertia},
+    {h5::axis_cost_force, &Certificate::axis_cost_force, true, 1},
+    {h5::axis_cost_restitution, &Certificate::axis_cost_restitution, true, 1},
+    {h5::atlas_error_force, &Certificate::atlas_error_force, false, 1},
+    {h5::atlas_error_restitution, &Certificate::atlas_error_restitution, false, 1}};
+constexpr const char* origins[] = {"runs", "atlas"};
+
+struct PairField
+{
+  const h5::Field& field;
+  double LawPair::*error;
+};
+constexpr PairField pair_fields[] = {
+    {h5::pair_reduction_error_force, &LawPair::reduction_error_force},
+    {h5::pair_reduction_error_restitution, &LawPair::reduction_error_restitution}};
+
+/// Of the curve and its axis: each costs about the same.
+std::size_t node_count(const ContactCurve& curve)
+{
+  const std::size_t own = curve.table().force_ratio.size();
+  return curve.axis() ? own + curve.axis()->table().force_correction.size() +
+                            curve.axis()->table().impact_overlap.size()
+                      : own;
+}
 
 /// Material constants in any units, but such that no product or ratio of them overflows.
 void require_positive(double value, const std::string& where, const h5::Field& field)
@@ -69,6 +109,22 @@ void require_positive(double value, const std::string& where, const h5::Field& f
   if (!(value >= 1e-20 && value <= 1e20))
     fail(where, fmt::format("'{}' is out of range", field.name), fmt::format("{:.6g} {}", value, field.unit),
          "1e-20 to 1e20");
+}
+
+/// Names become HDF5 links and parts of "a:b".
+constexpr const char* name_rule = "letters, digits, '_', '-' and '.'";
+bool usable_name(const std::string& name)
+{
+  return !name.empty() && name.size() <= 100 && name.find_first_not_of(".") != std::string::npos &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+             std::string::npos;
+}
+
+void check_name(const std::string& name, const std::string& where)
+{
+  if (!usable_name(name) || name == wall_name)
+    fail(where, "unusable material name", shortened(name),
+         fmt::format("{}, and not '{}'", name_rule, wall_name));
 }
 
 /// What must hold between the numbers of one body, beyond what ContactCurve checks of its own nodes.
@@ -95,31 +151,70 @@ void check_body(const BodyLaw& body, const std::string& where)
       // NaN fails as well; max_inertia alone may be infinite (elastic)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
-}
-
-/// Names become HDF5 links and parts of "a:b": letters, digits, '_', '-', '.'.
-void check_name(const std::string& name, const std::string& where)
-{
-  const bool usable =
-      !name.empty() && name.size() <= 100 && name.find_first_not_of(".") != std::string::npos &&
-      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
-          std::string::npos;
-  if (!usable || name == wall_name)
-    fail(where, "unusable material name", shortened(name),
-         fmt::format("letters, digits, '_', '-' and '.', and not '{}'", wall_name));
+  if (std::find(std::begin(origins), std::end(origins), body.certificate.origin) == std::end(origins))
+    fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin), "runs, atlas");
+  if (body.curve.axis() && !m.yields())
+    fail(where, "the material is elastic but its curve has an inertia axis");
+  if (!usable_name(body.body)) fail(where, "unusable name of a body", shortened(body.body), name_rule);
+  if (body.pole_radius != 0) require_positive(body.pole_radius, where, h5::pole_radius);
+  require_positive(body.mass_ratio, where, h5::mass_ratio);
+  if (body.is_sphere() && body.mass_ratio != 1)
+    fail(where, "'mass_ratio' of a homogeneous sphere", fmt::format("{:.6g}", body.mass_ratio), "1");
+  if (!body.is_sphere() && body.pole_radius == 0)
+    fail(where, fmt::format("'pole_radius' of the body {} is missing", shortened(body.body)));
 }
 
 void check_pairs(const Law& law, const std::string& where)
 {
   if (law.bodies.empty()) fail(where, "the law has no material");
   if (law.pairs.empty()) fail(where, "the law names no pair");
-  for (const auto& [a, b] : law.pairs) {
-    if (a == wall_name && b == wall_name) fail(where, "unusable pair", "'wall:wall'", "a:b or a:wall");
-    for (const std::string& name : {a, b})
+  for (const LawPair& pair : law.pairs) {
+    const std::string text = shortened(pair.a + ':' + pair.b);
+    if (pair.a == wall_name && pair.b == wall_name) fail(where, "unusable pair", text, "a:b or a:wall");
+    for (const std::string& name : {pair.a, pair.b})
       if (name != wall_name && !law.bodies.contains(name))
-        fail(where,
-             fmt::format("the pair {} names a material that the file does not hold", shortened(a + ':' + b)));
+        fail(where, fmt::format("the pair {} names a material that the file does not hold", text));
+    for (const double error : {pair.reduction_error_force, pair.reduction_error_restitution})
+      if (!(error >= 0 && std::isfinite(error)))
+        fail(where, fmt::format("the reduction error of the pair {} is out of range", text),
+             fmt::format("{:.6g}", error), "0 or more");
+    if (pair.a != wall_name && pair.b != wall_name)
+      check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), where);
   }
+}
+
+InertiaAxis::Table read_axis(hid_t body, const std::string& where)
+{
+  const h5::Handle group = h5::open_group(body, h5::inertia_axis, where);
+  InertiaAxis::Table axis;
+  const std::string kind = h5::read_text_attribute(group, h5::kind, where);
+  if (kind != h5::kind_inertia && kind != h5::kind_rate)
+    fail(where, "unknown 'kind' of the inertia axis", shortened(kind),
+         fmt::format("{}, {}", h5::kind_inertia, h5::kind_rate));
+  if (kind == h5::kind_rate) {
+    axis.kind = InertiaAxis::Kind::rate;
+    axis.reference_radius = h5::read_scalar(group, h5::reference_radius, where);
+  }
+  axis.speed_end = h5::read_scalar(group, h5::speed_end, where);
+  axis.ratio_end = h5::read_scalar(group, h5::ratio_end, where);
+  const double slices = h5::read_scalar(group, h5::slices, where);
+  if (!(slices >= 1 && slices <= 256 && slices == std::floor(slices)))
+    fail(where, "'slices' is out of range", fmt::format("{:.6g}", slices), "a whole number from 1 to 256");
+  axis.slices = static_cast<std::size_t>(slices);
+  for (const AxisField& f : axis_fields) axis.*f.values = h5::read_vector(group, f.field, most_nodes, where);
+  return axis;
+}
+
+void write_axis(hid_t body, const InertiaAxis::Table& axis, const std::string& path)
+{
+  const h5::Handle group = h5::create_group(body, h5::inertia_axis, path);
+  const bool rate = axis.kind == InertiaAxis::Kind::rate;
+  h5::write_text_attribute(group, h5::kind, rate ? h5::kind_rate : h5::kind_inertia, path);
+  if (rate) h5::write_scalar(group, h5::reference_radius, axis.reference_radius, path);
+  h5::write_scalar(group, h5::speed_end, axis.speed_end, path);
+  h5::write_scalar(group, h5::ratio_end, axis.ratio_end, path);
+  h5::write_scalar(group, h5::slices, static_cast<double>(axis.slices), path);
+  for (const AxisField& f : axis_fields) h5::write_vector(group, f.field, axis.*f.values, path);
 }
 
 BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
@@ -142,12 +237,21 @@ BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
   table.onset = h5::has_link(c, h5::onset.name) ? h5::read_scalar(c, h5::onset, where)
                                                 : std::numeric_limits<double>::infinity();
   for (const CurveField& f : curve_fields) table.*f.values = h5::read_vector(c, f.field, most_nodes, where);
-  body.curve = ContactCurve(table, where);
+  body.curve = h5::has_link(group, h5::inertia_axis) ? ContactCurve(table, read_axis(group, where), where)
+                                                     : ContactCurve(table, where);
 
   const h5::Handle k = h5::open_group(group, h5::certificate, where);
   for (const CertificateField& f : certificate_fields)
-    body.certificate.*f.value = h5::read_scalar(k, f.field, where);
+    if (f.since_minor == 0 || h5::has_link(k, f.field.name))
+      body.certificate.*f.value = h5::read_scalar(k, f.field, where);
   body.certificate.support = h5::read_text_attribute(k, h5::support, where);
+  if (H5Aexists(k, h5::origin) > 0) body.certificate.origin = h5::read_text_attribute(k, h5::origin, where);
+
+  if (H5Aexists(group, h5::body) > 0) body.body = h5::read_text_attribute(group, h5::body, where);
+  if (h5::has_link(group, h5::pole_radius.name))
+    body.pole_radius = h5::read_scalar(group, h5::pole_radius, where);
+  if (h5::has_link(group, h5::mass_ratio.name))
+    body.mass_ratio = h5::read_scalar(group, h5::mass_ratio, where);
 
   check_body(body, where);
   return body;
@@ -167,11 +271,17 @@ void write_body(hid_t group, const BodyLaw& body, const std::string& path)
   h5::write_scalar(c, h5::s_end, table.s_end, path);
   if (std::isfinite(table.onset)) h5::write_scalar(c, h5::onset, table.onset, path);
   for (const CurveField& f : curve_fields) h5::write_vector(c, f.field, table.*f.values, path);
+  if (body.curve.axis()) write_axis(group, body.curve.axis()->table(), path);
 
   const h5::Handle k = h5::create_group(group, h5::certificate, path);
   for (const CertificateField& f : certificate_fields)
     h5::write_scalar(k, f.field, body.certificate.*f.value, path);
   h5::write_text_attribute(k, h5::support, body.certificate.support, path);
+  h5::write_text_attribute(k, h5::origin, body.certificate.origin, path);
+
+  h5::write_text_attribute(group, h5::body, body.body, path);
+  h5::write_scalar(group, h5::pole_radius, body.pole_radius, path);
+  h5::write_scalar(group, h5::mass_ratio, body.mass_ratio, path);
 }
 
 /// Refuses what is not a law file of this major version, each case with its own sentence.
@@ -209,7 +319,7 @@ Law read_law(const std::string& path)
     const BodyLaw& body =
         law.bodies.emplace(name, read_body(h5::open_group(bodies, name.c_str(), path), name, path))
             .first->second;
-    nodes += body.curve.table().force_ratio.size();
+    nodes += node_count(body.curve);
     if (nodes > most_nodes_together)
       fail(path, "the curves have too many nodes together", std::to_string(nodes),
            fmt::format("up to {}", most_nodes_together));
@@ -218,7 +328,15 @@ Law read_law(const std::string& path)
   for (const std::string& pair : h5::read_texts(file, h5::pairs, most_pairs, path)) {
     const auto colon = pair.find(':');
     if (colon == std::string::npos) fail(path, "unusable pair", shortened(pair), "a:b or a:wall");
-    law.pairs.emplace_back(pair.substr(0, colon), pair.substr(colon + 1));
+    law.pairs.push_back({pair.substr(0, colon), pair.substr(colon + 1)});
+  }
+  for (const PairField& f : pair_fields) {
+    if (!h5::has_link(file, f.field.name)) continue;
+    const std::vector<double> errors = h5::read_vector(file, f.field, most_pairs, path);
+    if (errors.size() != law.pairs.size())
+      fail(path, fmt::format("'{}' has the wrong length", f.field.name), std::to_string(errors.size()),
+           std::to_string(law.pairs.size()));
+    for (std::size_t k = 0; k < errors.size(); ++k) law.pairs[k].*f.error = errors[k];
   }
 
   const h5::Handle notes = h5::open_group(file, h5::provenance, path);
@@ -254,8 +372,13 @@ void write_law(const Law& law, const std::string& path)
     for (const auto& [name, text] : law.provenance) h5::write_text_attribute(notes, name.c_str(), text, path);
 
     std::vector<std::string> pairs;
-    for (const auto& [a, b] : law.pairs) pairs.push_back(a + ":" + b);
+    for (const LawPair& pair : law.pairs) pairs.push_back(pair.a + ":" + pair.b);
     h5::write_texts(file, h5::pairs, pairs, path);
+    for (const PairField& f : pair_fields) {
+      std::vector<double> errors;
+      for (const LawPair& pair : law.pairs) errors.push_back(pair.*f.error);
+      h5::write_vector(file, f.field, errors, path);
+    }
 
     const h5::Handle bodies = h5::create_group(file, h5::bodies, path);
     for (const auto& [name, body] : law.bodies)

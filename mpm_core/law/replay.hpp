@@ -18,6 +18,7 @@ struct Replay
   double work_load = 0;       ///< J, done on the contact up to delta_max
   double work_unload = 0;     ///< J, given back after it
   bool left_range = false;    ///< delta_max went past the table
+  bool left_speeds = false;   ///< the approach was faster than the inertia axis goes
   struct Sample
   {
     double time, delta, force, contact_radius;
@@ -34,7 +35,7 @@ using NormalForce = std::function<ContactForce(double delta, double delta_max)>;
 Replay replay_collision(const NormalForce& law, double effective_mass, double velocity, double duration_guess,
                         int steps_per_contact = 20000);
 
-/// The same for a pair of a Law.
+/// The same for a pair of a Law: latches the impact overlap X of `velocity` at first touch.
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
                         int steps_per_contact = 20000);
 

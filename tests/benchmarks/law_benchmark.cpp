@@ -1,24 +1,32 @@
-// Law lookup: nanoseconds and interpolation error on one line, with the size of what is kept in memory.
+// Law lookup for a million contacts a step: force, stiffness and contact radius, in nanoseconds, with the
+// error and the size of what is read on the same line.
 //
-//   law_benchmark            the built-in curve: an analytic law sampled at as many nodes as mpm table writes
+//   law_benchmark       1-D: quasi-static; 2-D: with an inertia axis, each contact with an X of its own;
+//                       load: at its largest overlap; unload: below it; Hertz's formulas as yardstick
 //
-// `error` is the largest relative difference of the force between table and the analytic law it was sampled
-// from.
+// `error_F`, `error_k`, `error_a`: largest relative difference of force, stiffness and contact radius from
+// the ContactCurve (fast, force) or, for the ContactCurve itself, of the force from the analytic law that it
+// was sampled from.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <random>
 #include <vector>
 
-#include "law/contact_curve.hpp"
+#include "law/fast_curve.hpp"
 
 namespace {
 
 using granulaw::ContactCurve;
 using granulaw::ContactForce;
+using granulaw::FastCurve;
+using granulaw::InertiaAxis;
 using granulaw::PairMapping;
 
-constexpr double onset = 6.4e-4, s_end = 0.5625;
+constexpr double onset = 6.4e-4, s_end = 0.5625, x_end = s_end * s_end * s_end * s_end;
+constexpr int nodes = 126;                   // as many as mpm table writes
+constexpr int slices = 8, ratio_nodes = 25;  // of the axis
+constexpr std::size_t contacts = 4096;
 
 /// ln(F/F_elastic) and the others as smooth functions of q = ln(s/s_onset), as those that mpm table fits.
 double past(double s)
@@ -46,7 +54,7 @@ double radius(double s)
   return 1 + 0.3 * q * q / (1 + q);
 }
 
-ContactCurve sampled(int nodes)
+ContactCurve::Table sampled()
 {
   ContactCurve::Table t;
   t.s_end = s_end;
@@ -62,8 +70,35 @@ ContactCurve sampled(int nodes)
   fill(residual, t.residual_ratio, t.residual_ratio_slope);
   fill(exponent, t.exponent, t.exponent_slope);
   fill(radius, t.radius_ratio, t.radius_ratio_slope);
-  return {t, "benchmark"};
+  return t;
 }
+
+/// Corrections of the size and shape that impacts at I = 0.06 show.
+InertiaAxis::Table sampled_axis()
+{
+  InertiaAxis::Table t;
+  t.speed_end = 0.245;
+  t.ratio_end = 1.5;
+  t.slices = slices;
+  t.impact_overlap = {0, x_end};
+  t.impact_overlap_slope = {x_end / t.speed_end, x_end / t.speed_end};
+  for (int k = 1; k <= slices; ++k)
+    for (int l = 0; l < ratio_nodes; ++l) {
+      const double part = static_cast<double>(k) / slices, xi = t.ratio_end * l / (ratio_nodes - 1);
+      const double rest = 1 - xi / t.ratio_end, cross = 1 - xi / 0.65;
+      t.force_correction.push_back(0.5 * part * rest * rest * cross);
+      t.force_correction_slope.push_back(0.5 * part * rest * (-2 / t.ratio_end * cross - rest / 0.65));
+      t.residual_correction.push_back(-0.01 * part * xi * xi);
+      t.residual_correction_slope.push_back(-0.02 * part * xi);
+      t.exponent_correction.push_back(0.1 * part * xi * xi);
+      t.exponent_correction_slope.push_back(0.2 * part * xi);
+    }
+  return t;
+}
+
+const ContactCurve quasi_static{sampled(), "benchmark"};
+const ContactCurve with_axis{sampled(), sampled_axis(), "benchmark"};
+const FastCurve fast_quasi_static{quasi_static}, fast_with_axis{with_axis};
 
 /// Exact force of the analytic law in units of 4/3 E* R^2.
 double exact(double x, double x_m)
@@ -75,46 +110,118 @@ double exact(double x, double x_m)
   return u <= 0 ? 0 : f * std::pow(u, exponent(s));
 }
 
-/// Contacts as a flow has them: overlaps spread over decades, `unloading`: all below their largest overlap.
-void lookup(benchmark::State& state, bool unloading)
+/// Contacts as a flow has them: overlaps spread over decades, the largest of them a tenth to 1.3 of X.
+struct Contact
 {
-  const ContactCurve curve = sampled(static_cast<int>(state.range(0)));
-  const PairMapping pair = PairMapping::rigid_partner(0.75);
+  double x, x_max, impact_overlap;
+};
+std::vector<Contact> flow(bool unloading, bool axis)
+{
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> decade(-5, -1), part(0.9, 1.0);
-  std::vector<double> x(4096), x_m(4096);
-  double error = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    x_m[k] = std::pow(10.0, decade(random));
-    x[k] = x_m[k];
-    if (unloading) {
-      const double r = residual(std::pow(x_m[k], 0.25));
-      x[k] = x_m[k] * (r + (1 - r) * part(random));
-    }
-    const double reached = unloading ? x_m[k] : 0.0;
-    error =
-        std::max(error, std::abs(curve.evaluate(pair, 1.0, x[k], reached).force / exact(x[k], reached) - 1));
+  std::uniform_real_distribution<double> decade(-5, -1), part(0.9, 1.0), ratio(0.1, 1.3);
+  std::vector<Contact> all(contacts);
+  for (Contact& c : all) {
+    c.x = c.x_max = std::pow(10.0, decade(random));
+    const double r = residual(std::pow(c.x_max, 0.25));
+    if (unloading) c.x = c.x_max * (r + (1 - r) * part(random));
+    if (!unloading) c.x_max = 0;
+    c.impact_overlap = axis ? std::min(x_end, std::max(c.x, c.x_max) / ratio(random)) : 0.0;
   }
-  std::size_t k = 0;
-  for (auto _ : state) {
-    const ContactForce f = curve.evaluate(pair, 1.0, x[k], unloading ? x_m[k] : 0.0);
-    benchmark::DoNotOptimize(f);
-    k = (k + 1) & 4095;
-  }
-  state.counters["error"] = error;
-  state.counters["bytes"] =
-      static_cast<double>((state.range(0) - 1) * 16 * sizeof(double));  // the coefficients
+  return all;
 }
 
-void loading(benchmark::State& state)
+const PairMapping pair_mapping = PairMapping::rigid_partner(0.75);
+
+template <class Evaluate>
+void time(benchmark::State& state, const std::vector<Contact>& flow, const Evaluate& evaluate)
 {
-  lookup(state, false);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const auto f = evaluate(flow[k]);
+    benchmark::DoNotOptimize(f);
+    k = (k + 1) & (contacts - 1);
+  }
 }
-void unloading(benchmark::State& state)
+
+double off(double found, double expected)
 {
-  lookup(state, true);
+  return expected == 0 ? std::abs(found) : std::abs(found / expected - 1);
 }
-BENCHMARK(loading)->ArgName("nodes")->Arg(33)->Arg(65)->Arg(126)->Arg(257);
-BENCHMARK(unloading)->ArgName("nodes")->Arg(33)->Arg(65)->Arg(126)->Arg(257);
+
+/// Force, stiffness and contact radius by FastCurve.
+void fast(benchmark::State& state, bool unloading, bool axis)
+{
+  const ContactCurve& curve = axis ? with_axis : quasi_static;
+  const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
+  const std::vector<Contact> all = flow(unloading, axis);
+  double force = 0, stiffness = 0, radius = 0;
+  for (const Contact& c : all) {
+    const ContactForce expected = curve.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap),
+                       found = table.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap);
+    force = std::max(force, off(found.force, expected.force));
+    stiffness = std::max(stiffness, off(found.stiffness, expected.stiffness));
+    radius = std::max(radius, off(found.contact_radius, expected.contact_radius));
+  }
+  time(state, all,
+       [&](const Contact& c) { return table.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap); });
+  state.counters["error_F"] = force;
+  state.counters["error_k"] = stiffness;
+  state.counters["error_a"] = radius;
+  state.counters["bytes"] = static_cast<double>(table.bytes());
+}
+
+/// The force alone, as the plug-in asks for it.
+void force(benchmark::State& state, bool unloading, bool axis)
+{
+  const ContactCurve& curve = axis ? with_axis : quasi_static;
+  const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
+  const std::vector<Contact> all = flow(unloading, axis);
+  const auto evaluate = [&](const Contact& c) {
+    return table.force(c.x, c.x_max, c.x < c.x_max ? c.x / c.x_max : 1.0, c.impact_overlap);
+  };
+  double error = 0;
+  for (const Contact& c : all)
+    error = std::max(
+        error, off(evaluate(c), curve.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap).force));
+  time(state, all, evaluate);
+  state.counters["error_F"] = error;
+  state.counters["bytes"] = static_cast<double>(table.bytes());
+}
+
+/// The curve itself, against the analytic law (1-D only: the analytic law has no axis).
+void reference(benchmark::State& state, bool unloading)
+{
+  const std::vector<Contact> all = flow(unloading, false);
+  double error = 0;
+  for (const Contact& c : all)
+    error = std::max(error,
+                     off(quasi_static.evaluate(pair_mapping, 1.0, c.x, c.x_max).force, exact(c.x, c.x_max)));
+  time(state, all, [&](const Contact& c) { return quasi_static.evaluate(pair_mapping, 1.0, c.x, c.x_max); });
+  state.counters["error_F"] = error;
+  state.counters["bytes"] = (nodes - 1) * 16.0 * sizeof(double);  // the coefficients
+}
+
+/// Hertz: F = 4/3 E* sqrt(R*) d^1.5, dF/dd = 2 E* a, a = sqrt(R* d).
+void hertz(benchmark::State& state)
+{
+  time(state, flow(false, false), [](const Contact& c) {
+    const double e_star = pair_mapping.e_star_pair(), a = std::sqrt(c.x);
+    return ContactForce{4.0 / 3.0 * e_star * a * c.x, 2.0 * e_star * a, a, c.x};
+  });
+  state.counters["error_F"] = 0;
+  state.counters["bytes"] = 0;
+}
+
+BENCHMARK(hertz)->Name("Hertz");
+BENCHMARK_CAPTURE(fast, 1D_load, false, false);
+BENCHMARK_CAPTURE(fast, 1D_unload, true, false);
+BENCHMARK_CAPTURE(fast, 2D_load, false, true);
+BENCHMARK_CAPTURE(fast, 2D_unload, true, true);
+BENCHMARK_CAPTURE(force, 1D_load, false, false);
+BENCHMARK_CAPTURE(force, 1D_unload, true, false);
+BENCHMARK_CAPTURE(force, 2D_load, false, true);
+BENCHMARK_CAPTURE(force, 2D_unload, true, true);
+BENCHMARK_CAPTURE(reference, 1D_load, false);
+BENCHMARK_CAPTURE(reference, 1D_unload, true);
 
 }  // namespace

@@ -18,7 +18,12 @@ using Values = std::vector<double>;
 const std::vector<std::string> material = {"density", "youngs_modulus", "poisson_ratio", "yield_stress",
                                            "hardening_modulus"};
 const std::vector<std::string> lists = {"force_ratio", "residual_ratio", "exponent", "radius_ratio"};
-const std::vector<std::string> certificate = {"held_out_error", "slow_press_force", "max_inertia"};
+const std::vector<std::string> certificate = {"held_out_error", "slow_press_force", "max_inertia",
+                                              "axis_cost_force", "atlas_error_restitution"};
+const std::vector<std::string> axis = {
+    "speed_end",           "impact_overlap",           "slices",
+    "ratio_end",           "force_correction",         "force_correction_slope",
+    "residual_correction", "exponent_correction_slope"};
 
 std::string parent_of(const std::string& path)
 {
@@ -472,6 +477,10 @@ std::vector<Damage> hostile_damages(const std::string& folder)
   for (const std::string& name : {std::string("s_end"), std::string("onset")})
     sets.push_back("bodies/powder/curve/" + name);
   for (const std::string& name : certificate) sets.push_back("bodies/powder/certificate/" + name);
+  for (const std::string& name : axis) sets.push_back("bodies/powder/inertia_axis/" + name);
+  for (const std::string& name : {std::string("pole_radius"), std::string("mass_ratio")})
+    sets.push_back("bodies/powder/" + name);
+  sets.push_back("pair_reduction_error_force");
   for (const std::string& name : lists) {
     sets.push_back("bodies/powder/curve/" + name);
     sets.push_back("bodies/powder/curve/" + name + "_slope");
@@ -483,13 +492,17 @@ std::vector<Damage> hostile_damages(const std::string& folder)
     collect.entry(path);
   }
   collect.storage("pairs");
-  for (const char* path : {"pairs", "provenance", "bodies", "bodies/glass", "bodies/powder",
-                           "bodies/powder/material", "bodies/powder/curve", "bodies/powder/certificate"})
+  for (const char* path :
+       {"pairs", "provenance", "bodies", "bodies/glass", "bodies/powder", "bodies/powder/material",
+        "bodies/powder/curve", "bodies/powder/certificate", "bodies/powder/inertia_axis"})
     collect.entry(path);
   collect.texts();
   collect.names();
   for (const char* name : {"format", "version_major", "version_minor"}) collect.attribute("/", name);
   collect.attribute("bodies/powder/certificate", "support");
+  collect.attribute("bodies/powder/certificate", "origin");
+  collect.attribute("bodies/powder/inertia_axis", "kind");
+  collect.attribute("bodies/powder", "body");
   collect.attribute("provenance", "command");
   return all;
 }

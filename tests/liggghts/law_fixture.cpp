@@ -4,6 +4,7 @@
 //   law_fixture write FILE                                   the synthetic law, all pairs
 //   law_fixture write FILE pairs a:b c:wall ...              only these pairs
 //   law_fixture write FILE major N                           claims to be of major version N
+//   law_fixture write FILE axis                              the powder has an inertia axis
 //   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
 //   law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
 // The last two print "restitution duration(s) delta_max(m)".
@@ -41,12 +42,13 @@ int run(int argc, char** argv)
   const auto word = [&](int k) { return std::string(k < argc ? argv[k] : ""); };
   const auto number = [&](int k) { return std::strtod(word(k).c_str(), nullptr); };
   if (word(1) == "write") {
-    granulaw::Law law = granulaw::testing::SyntheticLaw{}.law();
+    const granulaw::testing::SyntheticLaw synthetic;
+    granulaw::Law law = word(3) == "axis" ? synthetic.law_with_axis() : synthetic.law();
     if (word(3) == "pairs") {
       law.pairs.clear();
       for (int k = 4; k < argc; ++k) {
         const std::string pair = word(k);
-        law.pairs.emplace_back(pair.substr(0, pair.find(':')), pair.substr(pair.find(':') + 1));
+        law.pairs.push_back({pair.substr(0, pair.find(':')), pair.substr(pair.find(':') + 1)});
       }
     }
     granulaw::write_law(law, word(2));

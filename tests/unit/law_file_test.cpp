@@ -36,9 +36,9 @@ class LawFile : public ::testing::Test
 
   /// Writes a good law, changes the file through the raw API, returns the reader's sentence ("" if it
   /// accepts).
-  std::string after(const std::function<void(hid_t)>& change)
+  std::string after(const std::function<void(hid_t)>& change, const Law& law = SyntheticLaw{}.law())
   {
-    write_law(SyntheticLaw{}.law(), path_);
+    write_law(law, path_);
     const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     change(file);
     H5Fclose(file);
@@ -115,6 +115,121 @@ TEST_F(LawFile, RoundTripIsBitExact)
                 same_bits(a.radius_ratio_slope, b.radius_ratio_slope));
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "a temporary file was left";
+}
+
+TEST_F(LawFile, TheAxisTheBodyAndThePairErrorsComeBackBitExact)
+{
+  Law law = SyntheticLaw{}.law_with_axis();
+  BodyLaw& powder = law.bodies.at("powder");
+  powder.certificate.atlas_error_force = 0.004;
+  powder.certificate.atlas_error_restitution = 0.003;
+  powder.certificate.origin = "atlas";
+  law.pairs[1].reduction_error_force = 0.012;
+  law.pairs[1].reduction_error_restitution = 0.034;
+  BodyLaw grain = powder;
+  grain.material.name = "grain";
+  grain.curve = ContactCurve(SyntheticLaw{}.table(), SyntheticLaw{}.rate_axis(2.5e-3), "test");
+  grain.body = "core-shell";
+  grain.pole_radius = 2.5e-3;
+  grain.mass_ratio = 0.87;
+  law.bodies["grain"] = grain;
+  law.pairs.push_back({"grain", "grain"});
+  law.pairs.push_back({"grain", "wall"});
+  write_law(law, path_);
+  const Law read = read_law(path_);
+  EXPECT_EQ(read.pairs, law.pairs);
+  for (const char* name : {"powder", "grain"}) {
+    const BodyLaw &a = law.bodies.at(name), &b = read.bodies.at(name);
+    ASSERT_NE(b.curve.axis(), nullptr);
+    const InertiaAxis::Table &s = a.curve.axis()->table(), &t = b.curve.axis()->table();
+    EXPECT_EQ(s.kind, t.kind);
+    EXPECT_EQ(s.reference_radius, t.reference_radius);
+    EXPECT_EQ(s.speed_end, t.speed_end);
+    EXPECT_EQ(s.ratio_end, t.ratio_end);
+    EXPECT_EQ(s.slices, t.slices);
+    using Values = std::vector<double> InertiaAxis::Table::*;
+    using T = InertiaAxis::Table;
+    for (const Values v : {&T::impact_overlap, &T::impact_overlap_slope, &T::force_correction,
+                           &T::force_correction_slope, &T::residual_correction, &T::residual_correction_slope,
+                           &T::exponent_correction, &T::exponent_correction_slope})
+      EXPECT_TRUE(same_bits(s.*v, t.*v));
+    EXPECT_EQ(a.certificate.axis_cost_force, b.certificate.axis_cost_force);
+    EXPECT_EQ(a.certificate.axis_cost_restitution, b.certificate.axis_cost_restitution);
+    EXPECT_EQ(a.certificate.atlas_error_force, b.certificate.atlas_error_force);
+    EXPECT_EQ(a.certificate.atlas_error_restitution, b.certificate.atlas_error_restitution);
+    EXPECT_EQ(a.certificate.origin, b.certificate.origin);
+    EXPECT_EQ(a.body, b.body);
+    EXPECT_EQ(a.pole_radius, b.pole_radius);
+    EXPECT_EQ(a.mass_ratio, b.mass_ratio);
+  }
+}
+
+TEST_F(LawFile, AFileOfMinorVersionZeroStillReads)
+{
+  const std::string sentence = after([](hid_t f) {
+    const char* sets[] = {"pair_reduction_error_force",
+                          "pair_reduction_error_restitution",
+                          "bodies/powder/pole_radius",
+                          "bodies/powder/mass_ratio",
+                          "bodies/powder/certificate/axis_cost_force",
+                          "bodies/powder/certificate/axis_cost_restitution",
+                          "bodies/powder/certificate/atlas_error_force",
+                          "bodies/powder/certificate/atlas_error_restitution"};
+    for (const char* set : sets) ASSERT_GE(H5Ldelete(f, set, H5P_DEFAULT), 0) << set;
+    ASSERT_GE(H5Adelete_by_name(f, "bodies/powder", "body", H5P_DEFAULT), 0);
+    ASSERT_GE(H5Adelete_by_name(f, "bodies/powder/certificate", "origin", H5P_DEFAULT), 0);
+  });
+  ASSERT_EQ(sentence, "");
+  const BodyLaw powder = read_law(path_).bodies.at("powder");
+  EXPECT_TRUE(powder.is_sphere());
+  EXPECT_EQ(powder.mass_ratio, 1.0);
+  EXPECT_EQ(powder.certificate.origin, "runs");
+  EXPECT_EQ(powder.curve.axis(), nullptr);
+}
+
+TEST_F(LawFile, UnusableAdditionsAreRefused)
+{
+  const Law law = SyntheticLaw{}.law_with_axis();
+  const auto says = [&](const std::function<void(hid_t)>& change, const char* what) {
+    const std::string sentence = after(change, law);
+    EXPECT_NE(sentence.find(what), std::string::npos) << "wanted '" << what << "', got: " << sentence;
+  };
+  const std::string axis = "bodies/powder/inertia_axis/";
+  const auto set_all = [](double value) {
+    return [value](std::vector<double>& v) { std::fill(v.begin(), v.end(), value); };
+  };
+  says([&](hid_t f) { overwrite(f, (axis + "slices").c_str(), set_all(2.5)); }, "slices");
+  says([&](hid_t f) { overwrite(f, (axis + "slices").c_str(), set_all(1e300)); }, "slices");
+  says([&](hid_t f) { overwrite(f, (axis + "force_correction").c_str(), set_all(NAN)); }, "force_correction");
+  says([&](hid_t f) { overwrite(f, (axis + "impact_overlap").c_str(), set_all(0)); }, "impact_overlap");
+  says([&](hid_t f) { H5Ldelete(f, (axis + "ratio_end").c_str(), H5P_DEFAULT); }, "ratio_end");
+  says([&](hid_t f) { H5Adelete_by_name(f, axis.c_str(), "kind", H5P_DEFAULT); }, "kind");
+  says(
+      [&](hid_t f) {
+        replace(f, (axis + "residual_correction").c_str(), H5T_IEEE_F64LE, hsize_t{1} << 50, true);
+      },
+      "up to");
+  says([&](hid_t f) { overwrite(f, "pair_reduction_error_force", set_all(-1)); }, "reduction error");
+  says([&](hid_t f) { overwrite(f, "bodies/powder/mass_ratio", set_all(0.5)); }, "mass_ratio");
+  says([&](hid_t f) { overwrite(f, "bodies/powder/certificate/atlas_error_force", set_all(NAN)); },
+       "atlas_error_force");
+
+  const auto refuses = [&](const std::function<void(Law&)>& change, const char* what) {
+    Law bad = law;
+    change(bad);
+    try {
+      write_law(bad, path_);
+      ADD_FAILURE() << "accepted, wanted '" << what << "'";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  refuses([](Law& l) { l.bodies["powder"].certificate.origin = "thin air"; }, "origin");
+  refuses([](Law& l) { l.bodies["powder"].body = "a\nb"; }, "body");
+  refuses([](Law& l) { l.bodies["powder"].body = "shell"; }, "pole_radius");
+  refuses([](Law& l) { l.bodies["powder"].body = "shell", l.bodies["powder"].pole_radius = 1e-3; },
+          "only against the rigid wall and its like");
+  refuses([](Law& l) { l.bodies["glass"].curve = l.bodies["powder"].curve; }, "elastic");
 }
 
 TEST_F(LawFile, EveryTruncationIsRefused)
@@ -240,6 +355,19 @@ TEST(Law, ResolvesPairsByTheWeakerBody)
   Law fewer = law;
   fewer.pairs = {{"powder", "wall"}};
   EXPECT_THROW(resolve_pair(fewer, "powder", "powder", "deck"), Error);
+
+  Law shaped = law;
+  shaped.bodies["powder"].body = "core-shell";
+  EXPECT_NO_THROW(resolve_pair(shaped, "powder", "powder", "deck"));
+  EXPECT_NO_THROW(resolve_pair(shaped, "powder", "wall", "deck"));
+  try {
+    resolve_pair(shaped, "glass", "powder", "deck");
+    FAIL();
+  } catch (const Error& error) {
+    const std::string sentence = error.what();
+    EXPECT_NE(sentence.find("'powder' is that of a body 'core-shell'"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("powder:powder, powder:wall"), std::string::npos) << sentence;
+  }
 }
 
 }  // namespace

@@ -81,6 +81,56 @@ struct SyntheticLaw
   }
   ContactCurve curve(int count = 129) const { return ContactCurve(table(count), "synthetic"); }
 
+  /// An inertia axis with the features of a real one: the impact's force exceeds the slow press's early in
+  /// the contact, crosses it at xi = 0.65 and ends a little below; it leaves a little less residual, rebounds
+  /// a little more steeply, and all that grows in proportion to X.
+  InertiaAxis::Table axis(int slices = 8, int nodes = 25) const
+  {
+    InertiaAxis::Table table;
+    table.speed_end = 0.245;  // I = 0.06
+    table.ratio_end = 1.5;
+    table.slices = static_cast<std::size_t>(slices);
+    for (int j = 0; j <= 16; ++j) {
+      const double r = j / 16.0;
+      table.impact_overlap.push_back(x_end * r * (0.6 + 0.4 * r));
+      table.impact_overlap_slope.push_back(x_end * (0.6 + 0.8 * r) / table.speed_end);
+    }
+    for (int k = 1; k <= slices; ++k)
+      for (int l = 0; l < nodes; ++l) {
+        const double part = static_cast<double>(k) / slices, xi = table.ratio_end * l / (nodes - 1);
+        const double rest = 1 - xi / table.ratio_end, cross = 1 - xi / 0.65, bottom = 1 + xi * xi;
+        table.force_correction.push_back(0.5 * part * rest * rest * cross);
+        table.force_correction_slope.push_back(0.5 * part * rest *
+                                               (-2 / table.ratio_end * cross - rest / 0.65));
+        table.residual_correction.push_back(-0.002 * part * xi * xi / bottom);
+        table.residual_correction_slope.push_back(-0.004 * part * xi / (bottom * bottom));
+        table.exponent_correction.push_back(0.1 * part * xi * xi / bottom);
+        table.exponent_correction_slope.push_back(0.2 * part * xi / (bottom * bottom));
+      }
+    return table;
+  }
+  /// The same for a rate-dependent material.
+  InertiaAxis::Table rate_axis(double reference_radius) const
+  {
+    InertiaAxis::Table table = axis();
+    table.kind = InertiaAxis::Kind::rate;
+    table.reference_radius = reference_radius;
+    return table;
+  }
+  ContactCurve curve_with_axis(int count = 129) const { return {table(count), axis(), "synthetic"}; }
+
+  /// law() with an inertia axis for the powder.
+  Law law_with_axis() const
+  {
+    Law result = law();
+    BodyLaw& powder = result.bodies.at("powder");
+    powder.curve = curve_with_axis();
+    powder.certificate.max_inertia = 0.06;
+    powder.certificate.axis_cost_force = 0.031;
+    powder.certificate.axis_cost_restitution = 0.08;
+    return result;
+  }
+
   /// A law file's worth: one plastic material "powder" and an elastic one "glass", every pair.
   Law law() const
   {

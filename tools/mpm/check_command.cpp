@@ -35,7 +35,7 @@ bool admissible(const Law& law, const std::string& path)
       fmt::print("{}: NOT GOOD: a closed cycle would gain energy (margin {:.3g})\n", name, margin);
     good = good && margin >= 0;
   }
-  for (const auto& [a, b] : law.pairs) resolve_pair(law, a, b, path);
+  for (const LawPair& pair : law.pairs) resolve_pair(law, pair.a, pair.b, path);
   return good;
 }
 

@@ -19,6 +19,7 @@ struct ExportRequest
 {
   std::string law, output, pair;
   double r_eff = 1e-3;  // m
+  double speed = 0;     // m/s at first touch; 0: quasi-static
   bool dimensionless = false;
   int points = 400;
 };
@@ -27,7 +28,11 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 Pairs wanted_pairs(const Law& law, const ExportRequest& r)
 {
-  if (r.pair.empty()) return law.pairs;
+  if (r.pair.empty()) {
+    Pairs all;
+    for (const LawPair& pair : law.pairs) all.emplace_back(pair.a, pair.b);
+    return all;
+  }
   const auto colon = r.pair.find(':');
   if (colon == std::string::npos)
     fail("--pair", "cannot be used", fmt::format("'{}'", r.pair), law.pair_list());
@@ -71,9 +76,15 @@ void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name,
   out << (std::isfinite(curve.onset())
               ? fmt::format("onset of yield at overlap {:.10g}\n", curve.onset() * length)
               : std::string("elastic\n"));
+  const double impact_overlap = pair.impact_overlap(r.r_eff, r.speed);
+  if (r.speed > 0)
+    out << (curve.axis()
+                ? fmt::format("# {}: first touch at {:.10g} m/s, impact overlap X = {:.10g}\n", name, r.speed,
+                              impact_overlap * length)
+                : fmt::format("# {}: the law has no inertia axis: quasi-static at any speed\n", name));
   for (int k = 0; k <= r.points; ++k) {
     const double s = curve.table().s_end * k / r.points, x = std::min(s * s * s * s, curve.x_end());
-    const ContactCurve::Turning t = curve.turning(x);
+    const ContactCurve::Turning t = curve.turning(x, impact_overlap);
     const bool yielded = x > curve.onset();
     out << fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{}\n", name, length * x,
                        force * t.force, force / length * t.stiffness, radius * t.radius,
@@ -88,7 +99,14 @@ void export_law(const ExportRequest& r)
   if (!(r.r_eff > 0 && std::isfinite(r.r_eff)))
     fail("--effective-radius", "cannot be used", fmt::format("{:g} m", r.r_eff), "over 0");
   const Pairs pairs = wanted_pairs(law, r);
-  for (const auto& [a, b] : pairs) resolve_pair(law, a, b, r.law);  // before anything is written
+  if (!(r.speed >= 0 && std::isfinite(r.speed)))
+    fail("--speed", "cannot be used", fmt::format("{:g} m/s", r.speed), "0 or more");
+  for (const auto& [a, b] : pairs) {  // before anything is written
+    const PairLaw pair = resolve_pair(law, a, b, r.law);
+    if (r.speed > pair.max_speed(r.r_eff))
+      fail("--speed", fmt::format("the law's inertia axis for {}:{} ends below it", a, b),
+           fmt::format("{:g} m/s", r.speed), fmt::format("up to {:g} m/s", pair.max_speed(r.r_eff)));
+  }
   write_atomically(r.output, [&](const std::string& temporary) {
     std::ofstream out(temporary);
     write_heading(out, law, r);
@@ -123,6 +141,9 @@ void add_export(CLI::App& app)
       ->add_flag("--dimensionless", r->dimensionless,
                  "overlap in lambda R*, force in 4/3 E* lambda R*^2, and so on")
       ->excludes(radius);
+  command->add_option("--speed", r->speed,
+                      "relative normal speed at first touch, m/s, for laws with an inertia axis (default 0: "
+                      "quasi-static)");
   command->add_option("--points", r->points, "intervals, uniform in overlap^(1/4) (default 400)")
       ->check(CLI::Range(10, 100000));
   command->callback([r] { export_law(*r); });

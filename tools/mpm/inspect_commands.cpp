@@ -23,6 +23,12 @@ void print_body(const BodyLaw& body)
   const LawMaterial& m = body.material;
   const Certificate& c = body.certificate;
   fmt::print("material {}\n", m.name);
+  if (!body.is_sphere())
+    fmt::print(
+        "  body                 {}, radius of curvature {:.6g} m, mass {:.4g} rho 4/3 pi R^3: rigid wall and "
+        "like "
+        "pair only\n",
+        body.body, body.pole_radius, body.mass_ratio);
   fmt::print(
       "  density              {:.6g} kg/m^3\n  Young's modulus      {:.6g} Pa\n  Poisson's ratio      "
       "{:.6g}\n",
@@ -34,7 +40,21 @@ void print_body(const BodyLaw& body)
     fmt::print("  elastic\n");
   fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
              body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());
-  fmt::print("  support              {}\n", c.support);
+  if (const InertiaAxis* axis = body.curve.axis()) {
+    const InertiaAxis::Table& t = axis->table();
+    if (axis->kind() == InertiaAxis::Kind::inertia)
+      fmt::print("  inertia axis         to I = rho V^2/Y = {:.3g}", t.speed_end * t.speed_end);
+    else
+      fmt::print("  rate axis            to V sqrt(rho/Y) = {:.3g} at R = {:.4g} m", t.speed_end,
+                 t.reference_radius);
+    fmt::print(", {} slices of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.slices,
+               t.ratio_nodes(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
+  }
+  fmt::print("  origin               {}", c.origin);
+  if (c.atlas_error_force > 0 || c.atlas_error_restitution > 0)
+    fmt::print(" (force within {:.2g} %, e within {:.2g})", 100 * c.atlas_error_force,
+               c.atlas_error_restitution);
+  fmt::print("\n  support              {}\n", c.support);
   fmt::print("  solver error         {:.2g} % (force and e, two resolutions)\n", 100 * c.solver_error_force);
   fmt::print("  interpolation error  {:.2g} %;  held-out e {:.2g} %;  scatter of the runs {:.2g} %\n",
              100 * c.interpolation_error, 100 * c.held_out_error, 100 * c.residual_scatter);
@@ -43,7 +63,7 @@ void print_body(const BodyLaw& body)
              100 * c.verification_error_force, 100 * c.verification_error_restitution);
   fmt::print("  slow press instead   force {:+.2g} %, e {:+.2g} % at the deepest impact's overlap\n",
              100 * c.slow_press_force, 100 * c.slow_press_restitution);
-  fmt::print("  rate-free up to      I = rho V^2/Y = {:.3g}\n", c.max_inertia);
+  fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.max_inertia);
 }
 
 void info(const std::string& path)
@@ -51,6 +71,10 @@ void info(const std::string& path)
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
   for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", name, text);
+  for (const LawPair& pair : law.pairs)
+    if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
+      fmt::print("  pair {}:{} by the pair rule: force within {:.2g} %, e within {:.2g} %\n", pair.a, pair.b,
+                 100 * pair.reduction_error_force, 100 * pair.reduction_error_restitution);
   for (const auto& entry : law.bodies) print_body(entry.second);
 }
 

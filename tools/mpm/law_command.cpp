@@ -27,7 +27,7 @@ constexpr double overlap_margin = 0.05;
 std::pair<std::string, std::string> choose_pair(const Law& law, const LawRequest& r)
 {
   if (r.pair.empty()) {
-    if (law.pairs.size() == 1) return law.pairs.front();
+    if (law.pairs.size() == 1) return {law.pairs.front().a, law.pairs.front().b};
     fail("--pair", "the law holds several pairs: name one", {}, law.pair_list());
   }
   const auto colon = r.pair.find(':');
@@ -36,9 +36,10 @@ std::pair<std::string, std::string> choose_pair(const Law& law, const LawRequest
   return {r.pair.substr(0, colon), r.pair.substr(colon + 1)};
 }
 
-double sphere_mass(const LawMaterial& m, double radius)
+/// kg, of a body whose radius (of curvature at the pole) is `radius`.
+double body_mass(const BodyLaw& body, double radius)
 {
-  return 4.0 / 3.0 * M_PI * m.density * radius * radius * radius;
+  return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
 }
 
 void replay(const LawRequest& r)
@@ -56,8 +57,8 @@ void replay(const LawRequest& r)
   if (!(radius2 > 0 && std::isfinite(radius2)))
     fail("--radius2", "cannot be used", fmt::format("{:g} m", radius2), "over 0");
 
-  const double mass = sphere_mass(law.bodies.at(a).material, r.radius);
-  const double m_eff = wall ? mass : effective_mass(mass, sphere_mass(law.bodies.at(b).material, radius2));
+  const double mass = body_mass(law.bodies.at(a), r.radius);
+  const double m_eff = wall ? mass : effective_mass(mass, body_mass(law.bodies.at(b), radius2));
   const double r_eff = wall ? r.radius : effective_radius(r.radius, radius2);
   const Replay result = replay_collision(pair, r_eff, m_eff, r.velocity);
 
@@ -73,13 +74,18 @@ void replay(const LawRequest& r)
   const double share = r.velocity / pair.mapping.sqrt_lambda;
   const double inertia = m.yields() ? m.density * share * share / m.yield_stress : 0.0;
   const double allowed = pair.yielding->certificate.max_inertia;
-  const bool needs_axis = inertia > allowed;
+  const bool needs_axis = inertia > allowed && !pair.curve->axis();
   if (needs_axis)
+    fmt::print(stderr,
+               "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: there the law would need a velocity axis, which "
+               "this file does not have; e and force are too high\n",
+               inertia, allowed);
+  if (result.left_speeds)
     fmt::print(
         stderr,
-        "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: there the rate-free law needs its velocity axis, which "
-        "this version does not have; e and force are too high\n",
-        inertia, allowed);
+        "mpm: {:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: it answers with the "
+        "corrections of that speed\n",
+        r.velocity, pair.max_speed(r_eff));
   if (r.json) {
     nlohmann::ordered_json out;
     out["e"] = result.restitution;
@@ -91,6 +97,7 @@ void replay(const LawRequest& r)
     out["work_unload_J"] = result.work_unload;
     out["inertia"] = inertia;
     out["needs_velocity_axis"] = needs_axis;
+    out["beyond_velocity_axis"] = result.left_speeds;
     fmt::print("{}\n", out.dump(2));
     return;
   }

@@ -142,9 +142,9 @@ void build(const TableRequest& r)
   check_output(r.output, ".h5");
   const MaterialsFile file = read_materials(r.materials);
   Law law;
-  law.pairs = pairs_of(r, file);
   std::set<std::string> names;
-  for (const auto& [a, b] : law.pairs) {
+  for (const auto& [a, b] : pairs_of(r, file)) {
+    law.pairs.push_back({a, b});
     names.insert(a);
     if (b != wall_name) names.insert(b);
   }

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <random>
 
+#include "law/fast_curve.hpp"
 #include "law/law_file.hpp"
-#include "liggghts_plugin/hot_table.hpp"
 #include "synthetic_law.hpp"
 
 int main(int argc, char** argv)
@@ -35,7 +35,7 @@ int main(int argc, char** argv)
   };
 
   const granulaw::ContactCurve& curve = law.bodies.at("powder").curve;
-  const granulaw::plugin::HotTable table(curve);
+  const granulaw::FastCurve table(curve);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> log_x(std::log(1e-7), std::log(shape.x_end)), part(0.0, 1.2);
   double worst = 0;

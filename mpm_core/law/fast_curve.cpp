@@ -1,0 +1,99 @@
+#include "law/fast_curve.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Coefficients in t of the cubic through v[k] at t = width k/3.
+void fit(const double (&v)[4], double width, double (&c)[4])
+{
+  c[0] = v[0];
+  c[1] = 0.5 * (-11.0 * v[0] + 18.0 * v[1] - 9.0 * v[2] + 2.0 * v[3]);
+  c[2] = 4.5 * (2.0 * v[0] - 5.0 * v[1] + 4.0 * v[2] - v[3]);
+  c[3] = 4.5 * (-v[0] + 3.0 * v[1] - 3.0 * v[2] + v[3]);
+  for (int power = 1; power < 4; ++power) c[power] /= std::pow(width, power);
+}
+
+}  // namespace
+
+FastCurve::FastCurve(const ContactCurve& curve)
+    : curve_(&curve),
+      axis_(curve.axis()),
+      lowest_(std::ldexp(1.0, lowest_exponent)),
+      x_end_(curve.x_end()),
+      onset_(curve.onset())
+{
+  if (x_end_ < lowest_) return;  // the curve answers alone
+  const std::size_t count = index(x_end_) + 1;
+  intervals_.resize(count);
+  work_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double low = std::bit_cast<double>(first_bits + (static_cast<std::uint64_t>(k) << shift));
+    const double high = std::bit_cast<double>(first_bits + (static_cast<std::uint64_t>(k + 1) << shift));
+    // the last interval is sampled up to x_end only: beyond, the curve's residual ratio and exponent stand
+    // still
+    const double width = std::min(high, x_end_) > low ? (std::min(high, x_end_) - low) / (high - low) : 1.0;
+    double radius[4], steepness[4], exponent[4], work[4];
+    for (int p = 0; p < 4; ++p) {
+      const double x = low + width * (high - low) * p / 3.0;
+      const ContactCurve::Turning turning = curve.turning(x);
+      radius[p] = turning.radius;
+      steepness[p] = 1.0 / (1.0 - turning.residual / x);
+      exponent[p] = turning.exponent;
+      work[p] = curve.work_loading(x) - curve.work_unloading(x);
+    }
+    fit(radius, width, intervals_[k].radius);
+    fit(steepness, width, intervals_[k].steepness);
+    fit(exponent, width, intervals_[k].exponent);
+    fit(work, width, work_[k].cubic);
+
+    double(&force)[4] = intervals_[k].force;
+    const double h = width * (high - low);
+    const ContactCurve::Loading begin = curve.loading(low), end = curve.loading(low + h);
+    hermite(force, begin.force, end.force, h * begin.stiffness, h * end.stiffness);
+    for (int power = 1; power < 4; ++power) force[power] /= std::pow(width, power);
+  }
+}
+
+std::size_t FastCurve::bytes() const
+{
+  return intervals_.size() * sizeof(Interval) + work_.size() * sizeof(Work) + (axis_ ? axis_->bytes() : 0);
+}
+
+double FastCurve::work(double x) const
+{
+  return cubic(work_[index(x)].cubic, position(x));
+}
+
+double FastCurve::dissipated(double from, double to, double impact_overlap) const
+{
+  if (!corrected(impact_overlap)) return dissipated(to) - dissipated(from);
+  if (to <= onset_) return 0.0;
+  const double returned = curve_->work_unloading(to, impact_overlap);
+  if (from <= onset_) return curve_->work_loading(to, impact_overlap) - returned;
+  const auto force = [&](double x) { return loading(x, impact_overlap).force; };
+  const double put_in =
+      to > 1.25 * from ? curve_->work_loading(to, impact_overlap) - curve_->work_loading(from, impact_overlap)
+                       : (to - from) / 6.0 * (force(from) + 4.0 * force(0.5 * (from + to)) + force(to));
+  return put_in - (returned - curve_->work_unloading(from, impact_overlap));
+}
+
+ContactCurve::Loading FastCurve::far_loading(double x, double impact_overlap) const
+{
+  return curve_->loading(x, impact_overlap);
+}
+
+ContactForce FastCurve::far_evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
+                                     double impact_overlap) const
+{
+  return curve_->evaluate(pair, r_eff, delta, delta_max, impact_overlap);
+}
+
+double FastCurve::far_unloading(double x_max, double ratio, double impact_overlap) const
+{
+  const ContactCurve::Turning turning = curve_->turning(x_max, impact_overlap);
+  const double residual = turning.residual / x_max, u = (ratio - residual) / (1.0 - residual);
+  return u <= 0.0 ? 0.0 : turning.force * std::pow(u, turning.exponent);
+}
+
+}  // namespace granulaw

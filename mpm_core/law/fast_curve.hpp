@@ -1,0 +1,171 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "law/contact_curve.hpp"
+#include "law/fast_pow.hpp"
+
+namespace granulaw {
+
+/// A ContactCurve re-tabulated for the contact loop of a particle code: no square root on the way to the
+/// interval.
+///
+/// Nodes divide each octave of x = overlap/(lambda R*) into 8 equal parts from 2^-40 up to x_end, so that the
+/// bits of x give the interval and the position t in it. In each interval cubics in t, in the curve's units
+/// (Hertz force at x = 1):
+///     force     F_L(x)           Hermite with the curve's stiffness: the stiffness is its derivative,
+///                                exactly, and continuous
+///     radius    a(x)             this and the following: equal to the curve at four equidistant points
+///     steepness 1/(1 - rho), rho = delta_r/delta_m: u = 1 - (1 - delta/delta_m) steepness, no division
+///     exponent  n
+///     work      W_load - W_unload: spent on plastic strain (quasi-static)
+/// One cache line for the loading branch, two for unloading. An inertia axis is uniform as it is: the curve's
+/// own is read. Below 2^-40 and beyond x_end the curve itself answers.
+/// Errors against the curve: tests/unit/fast_curve_test.cpp; speed: tests/benchmarks/law_benchmark.cpp.
+///
+/// The arguments x, x_max and impact_overlap (X; 0: quasi-static) are ContactCurve's.
+class FastCurve
+{
+ public:
+  FastCurve() = default;
+  /// Keeps a pointer to `curve`, which must outlive this and stay where it is.
+  explicit FastCurve(const ContactCurve& curve);
+
+  const ContactCurve& curve() const { return *curve_; }
+  /// Bytes of what evaluation reads, axis included.
+  std::size_t bytes() const;
+
+  /// Force alone, in the curve's units; ratio = x/x_max.
+  double force(double x, double x_max, double ratio, double impact_overlap = 0) const
+  {
+    if (x >= x_max || x_max <= onset_) {
+      if (!in_table(x)) [[unlikely]]
+        return far_loading(x, impact_overlap).force;
+      const double slow = at(x).force();
+      return corrected(impact_overlap) ? slow * (1.0 + axis_->force(x, impact_overlap).value) : slow;
+    }
+    if (!in_table(x_max)) [[unlikely]]
+      return far_unloading(x_max, ratio, impact_overlap);
+    const Turn turn = turn_at(at(x_max), x_max, impact_overlap);
+    const double u = 1.0 - (1.0 - ratio) * turn.steepness;
+    return u <= 0.0 ? 0.0 : turn.force * fast_pow(u, turn.exponent);
+  }
+
+  /// As ContactCurve::evaluate.
+  ContactForce evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
+                        double impact_overlap = 0) const
+  {
+    const double length = pair.length(r_eff), per_length = 1.0 / length;
+    const double force_scale = pair.force(r_eff), radius_scale = pair.radius(r_eff);
+    const double x = delta * per_length, x_max = delta_max * per_length;
+    if (x >= x_max || x_max <= onset_) {
+      const ContactCurve::Loading now = loading(x, impact_overlap);
+      return {force_scale * now.force, force_scale * per_length * now.stiffness, radius_scale * now.radius,
+              std::max(delta, delta_max)};
+    }
+    if (!in_table(x_max)) [[unlikely]]
+      return far_evaluate(pair, r_eff, delta, delta_max, impact_overlap);
+    const Place p = at(x_max);
+    const Turn turn = turn_at(p, x_max, impact_overlap);
+    const double per_delta_max = 1.0 / delta_max;
+    const double u = 1.0 - (1.0 - delta * per_delta_max) * turn.steepness;
+    if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+    // F = F_m u^n; du/d(delta) = steepness/delta_max; a = a_m u^(n-1), as ContactCurve
+    const double below = fast_pow(u, turn.exponent - 1.0), force = force_scale * turn.force * below;
+    return {force * u, force * turn.exponent * turn.steepness * per_delta_max,
+            radius_scale * p.radius() * below, delta_max};
+  }
+
+  /// Work spent on plastic strain by a quasi-static contact whose largest overlap is x_max: a function of
+  /// x_max alone, because unloading and reloading share a curve.
+  double dissipated(double x_max) const
+  {
+    if (x_max <= onset_) return 0.0;
+    return in_table(x_max) ? work(x_max) : curve_->work_loading(x_max) - curve_->work_unloading(x_max);
+  }
+  /// Work spent on plastic strain while the largest overlap grew from `from` to `to`. With X > 0 the loading
+  /// work between is Simpson's rule, exact to 1e-4 of itself for steps of up to a quarter; longer ones, and
+  /// the one across the onset, are integrated.
+  double dissipated(double from, double to, double impact_overlap) const;
+
+ private:
+  static constexpr int bits_per_octave = 3, lowest_exponent = -40;
+  static constexpr int shift = 52 - bits_per_octave;
+  static constexpr std::uint64_t exponent_bits = 0x7ff0000000000000ULL;
+  struct alignas(64) Interval
+  {
+    double force[4], radius[4], steepness[4], exponent[4];
+  };
+
+  struct Place
+  {
+    const Interval& i;
+    double t;
+    double cubic(const double (&c)[4]) const { return (c[0] + t * c[1]) + t * t * (c[2] + t * c[3]); }
+    double force() const { return cubic(i.force); }
+    double radius() const { return cubic(i.radius); }
+    double steepness() const { return cubic(i.steepness); }
+    double exponent() const { return cubic(i.exponent); }
+  };
+  struct Turn
+  {
+    double force, steepness, exponent;
+  };
+
+  static constexpr std::uint64_t first_bits = static_cast<std::uint64_t>(1023 + lowest_exponent) << 52;
+  static std::size_t index(double x) { return (std::bit_cast<std::uint64_t>(x) - first_bits) >> shift; }
+  static double position(double x)
+  {
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) << bits_per_octave;
+    return std::bit_cast<double>((bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL) - 1.0;
+  }
+  /// 1/(width of x's interval): 8/2^e for x = m 2^e, 1 <= m < 2.
+  static double per_width(double x)
+  {
+    constexpr std::uint64_t top = static_cast<std::uint64_t>(2046 + bits_per_octave) << 52;
+    return std::bit_cast<double>(top - (std::bit_cast<std::uint64_t>(x) & exponent_bits));
+  }
+
+  bool in_table(double x) const { return x >= lowest_ && x <= x_end_; }
+  bool corrected(double impact_overlap) const { return axis_ && impact_overlap > InertiaAxis::negligible; }
+  Place at(double x) const { return {intervals_[index(x)], position(x)}; }
+  double work(double x) const;
+
+  ContactCurve::Loading loading(double x, double impact_overlap) const
+  {
+    if (!in_table(x)) [[unlikely]]
+      return far_loading(x, impact_overlap);
+    const Place p = at(x);
+    const double force = p.force(), stiffness = cubic_slope(p.i.force, p.t) * per_width(x);
+    if (!corrected(impact_overlap)) return {force, stiffness, p.radius()};
+    const InertiaAxis::ForceCorrection a = axis_->force(x, impact_overlap);
+    return {force * (1.0 + a.value), stiffness * (1.0 + a.value) + force * a.slope, p.radius()};
+  }
+  Turn turn_at(const Place& p, double x_max, double impact_overlap) const
+  {
+    if (!corrected(impact_overlap)) return {p.force(), p.steepness(), p.exponent()};
+    const InertiaAxis::TurnCorrection c = axis_->turn(x_max, impact_overlap);
+    return {p.force() * (1.0 + c.force), c.corrected_steepness(p.steepness()),
+            c.corrected_exponent(p.exponent())};
+  }
+  // Beyond the table, out of line: the loop stays small.
+  ContactCurve::Loading far_loading(double x, double impact_overlap) const;
+  double far_unloading(double x_max, double ratio, double impact_overlap) const;
+  ContactForce far_evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
+                            double impact_overlap) const;
+
+  std::vector<Interval> intervals_;
+  struct Work
+  {
+    double cubic[4];
+  };
+  std::vector<Work> work_;  // read by ledgers only: apart
+  const ContactCurve* curve_ = nullptr;
+  const InertiaAxis* axis_ = nullptr;  // the curve's
+  double lowest_ = 0, x_end_ = 0, onset_ = 0;
+};
+
+}  // namespace granulaw

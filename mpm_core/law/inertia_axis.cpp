@@ -1,0 +1,129 @@
+#include "law/inertia_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "law/table_checks.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double big = 1e12;  // of a slope: its products stay finite
+
+void check_number(double value, double low, double high, const std::string& where, const char* name)
+{
+  if (!(value >= low && value <= high))
+    fail(where, fmt::format("'{}' is out of range", name), fmt::format("{:.6g}", value),
+         fmt::format("{:.6g} to {:.6g}", low, high));
+}
+
+/// The Hermite cubic of X over the interval after node j, in t.
+void overlap_cubic(const InertiaAxis::Table& table, std::size_t j, double (&c)[4])
+{
+  const double h = table.speed_end / static_cast<double>(table.impact_overlap.size() - 1);
+  hermite(c, table.impact_overlap[j], table.impact_overlap[j + 1], h * table.impact_overlap_slope[j],
+          h * table.impact_overlap_slope[j + 1]);
+}
+
+void check_speeds(const InertiaAxis::Table& table, const std::string& where)
+{
+  const std::size_t count = table.impact_overlap.size();
+  if (count < 2 || count > 4096)
+    fail(where, "'impact_overlap' has an unusable number of nodes", std::to_string(count), "2 to 4096");
+  check_number(table.speed_end, 1e-9, 1e6, where, "speed_end");
+  if (table.kind == InertiaAxis::Kind::rate)
+    check_number(table.reference_radius, 1e-20, 1e20, where, "reference_radius");
+  else
+    check_number(table.reference_radius, 0, 0, where, "reference_radius");
+  check_values(table.impact_overlap, count, 0, 16, where, "impact_overlap");
+  check_values(table.impact_overlap_slope, count, 0, big, where, "impact_overlap_slope");
+  if (table.impact_overlap.front() != 0)
+    fail(where, "'impact_overlap' does not begin at 0", fmt::format("{:.6g}", table.impact_overlap.front()));
+  const double end = table.impact_overlap.back();
+  check_number(end, 1e-24, 16, where, "impact_overlap at the last node");
+  for (std::size_t j = 0; j + 1 < count; ++j) {
+    double c[4];
+    overlap_cubic(table, j, c);
+    // rising at its ends, a cubic falls between them only where its slope has a minimum below 0 there
+    const double vertex = c[3] > 0 ? -c[2] / (3.0 * c[3]) : 0.0;
+    const double least = vertex > 0 && vertex < 1 ? cubic_slope(c, vertex) : 0.0;
+    if (table.impact_overlap[j + 1] < table.impact_overlap[j] || least < -1e-9 * end)  // 1e-9: rounding
+      fail(where, fmt::format("'impact_overlap' falls between nodes {} and {}", j, j + 1));
+  }
+}
+
+}  // namespace
+
+InertiaAxis::InertiaAxis(const Table& table, const std::string& where) : table_(table)
+{
+  check_speeds(table, where);
+  overlap_end_ = table.impact_overlap.back();
+
+  const std::size_t slices = table.slices, nodes = table.ratio_nodes();
+  if (slices < 1 || slices > 256)
+    fail(where, "an inertia axis has an unusable number of slices", std::to_string(slices), "1 to 256");
+  if (nodes < 2 || slices * nodes > 65536)
+    fail(where, "an inertia axis has an unusable number of nodes a slice", std::to_string(nodes),
+         fmt::format("2 to {}", 65536 / slices));
+  check_number(table.ratio_end, 1e-3, 1e3, where, "ratio_end");
+
+  const double h = table.ratio_end / static_cast<double>(nodes - 1);
+  per_spacing_ = 1.0 / h;
+  columns_ = static_cast<double>(nodes - 1);
+  cells_a_slice_ = static_cast<int>(nodes);
+  rows_ = static_cast<double>(slices);
+  per_slice_ = rows_ / overlap_end_;
+  last_row_ = static_cast<int>(slices) - 1;
+  cells_.assign((slices + 1) * nodes, Cell{});
+
+  // Bounds between nodes hold for every X as well: a mean of two slices lies between them.
+  struct Function
+  {
+    const char* name;
+    const std::vector<double>&value, &slope;
+    double low, high, low_between, high_between;
+    double (Cell::*cubic)[4];
+  };
+  const Function functions[] = {{"force_correction", table.force_correction, table.force_correction_slope,
+                                 -0.9, 10, -0.95, 20, &Cell::force},
+                                {"residual_correction", table.residual_correction,
+                                 table.residual_correction_slope, -1, 1, -2, 2, &Cell::residual},
+                                {"exponent_correction", table.exponent_correction,
+                                 table.exponent_correction_slope, -10, 10, -20, 20, &Cell::exponent}};
+  for (const Function& f : functions) {
+    check_values(f.value, slices * nodes, f.low, f.high, where, f.name);
+    check_values(f.slope, slices * nodes, -big, big, where, fmt::format("{}_slope", f.name));
+    for (std::size_t k = 0; k < slices; ++k) {
+      for (std::size_t l = 0; l + 1 < nodes; ++l) {
+        const std::size_t at = k * nodes + l;
+        double(&c)[4] = cells_[(k + 1) * nodes + l].*f.cubic;
+        hermite(c, f.value[at], f.value[at + 1], h * f.slope[at], h * f.slope[at + 1]);
+        check_between(c, f.low_between, f.high_between, where, f.name, at);
+      }
+      (cells_[(k + 1) * nodes + nodes - 1].*f.cubic)[0] = f.value[k * nodes + nodes - 1];
+    }
+  }
+  for (std::size_t k = 1; k <= slices; ++k)
+    if (const std::size_t last = k * nodes - 1;
+        table.force_correction[last] != 0 || table.force_correction_slope[last] != 0)
+      fail(where, fmt::format("'force_correction' of slice {} does not end at 0 with slope 0", k),
+           fmt::format("{:.6g}, slope {:.6g}", table.force_correction[last],
+                       table.force_correction_slope[last]));
+}
+
+double InertiaAxis::impact_overlap(double v) const
+{
+  if (!(v > 0)) return 0.0;
+  if (v >= table_.speed_end) return overlap_end_;
+  const double intervals = static_cast<double>(table_.impact_overlap.size() - 1);
+  const double position = std::min(v / table_.speed_end * intervals, intervals);
+  const auto j = std::min(static_cast<std::size_t>(position), table_.impact_overlap.size() - 2);
+  double c[4];
+  overlap_cubic(table_, j, c);
+  return std::clamp(cubic(c, position - static_cast<double>(j)), 0.0, overlap_end_);
+}
+
+}  // namespace granulaw
