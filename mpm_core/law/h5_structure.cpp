@@ -63,7 +63,14 @@ class Walk
   {
     if (!ok)
       fail(path_, fmt::format("is damaged or cut off, or not stored as a law file is: {}{} at byte {}",
-                              object_.empty() ? "" : fmt::format("'{}', ", object_), what, at));
+                              object_.empty() ? "" : place() + ", ", what, at));
+  }
+  /// Names may be many and long: the end of the path says most.
+  std::string place() const
+  {
+    constexpr std::size_t most = 80;
+    return object_.size() <= most ? fmt::format("'{}'", object_)
+                                  : fmt::format("'...{}'", object_.substr(object_.size() - most));
   }
   /// `size` bytes from `at`.
   Bytes bytes(Address at, std::uint64_t size) const
@@ -307,8 +314,9 @@ std::uint64_t Walk::value_count(const Part& space) const
     require(flags == 0 || number(space.at + 8 + 8 * (rank + k), 8) == extent, "an extent that may grow",
             space.at);
     if (extent > most_values || count * extent > most_values)
-      fail(path_, fmt::format("'{}' has an unusable number of values", object_), std::to_string(extent),
-           fmt::format("up to {}", most_values));
+      fail(path_,
+           fmt::format("{} has an unusable number of values", object_.empty() ? "an attribute" : place()),
+           std::to_string(extent), fmt::format("up to {}", most_values));
     count *= extent;
   }
   return count;
@@ -351,6 +359,7 @@ std::string Walk::name(const Part& heap, std::uint64_t offset) const
   const Bytes text = bytes(heap.at + offset, heap.size - offset);
   const std::size_t end = text.find('\0');
   require(end != Bytes::npos, "a name without an end", heap.at + offset);
+  require(end < 256, "a name that is too long", heap.at + offset);
   return std::string(text.substr(0, end));
 }
 
