@@ -34,7 +34,7 @@ void print_body(const BodyLaw& body)
     fmt::print("  elastic\n");
   fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
              body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());
-  fmt::print("  support              {}\n", c.support);
+  fmt::print("  support              {}\n", printable(c.support));
   fmt::print("  solver error         {:.2g} % (force and e, two resolutions)\n", 100 * c.solver_error_force);
   fmt::print("  interpolation error  {:.2g} %;  held-out e {:.2g} %;  scatter of the runs {:.2g} %\n",
              100 * c.interpolation_error, 100 * c.held_out_error, 100 * c.residual_scatter);
@@ -50,7 +50,7 @@ void info(const std::string& path)
 {
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
-  for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", name, text);
+  for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
   for (const auto& entry : law.bodies) print_body(entry.second);
 }
 
