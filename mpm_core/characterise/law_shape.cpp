@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 #include <cmath>
 #include <limits>
@@ -162,7 +163,7 @@ ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_e
     table.radius_ratio_slope.push_back(
         a * (el.radius_ratio_slope(s) / el.radius_ratio(s) + widening.slope(q) * per_s));
     const double kept = std::exp(-residual.value(q));
-    table.residual_ratio.push_back(1 - kept);
+    table.residual_ratio.push_back(std::max(0.0, 1 - kept));
     table.residual_ratio_slope.push_back(kept * residual.slope(q) * per_s);
   }
   // n needs the loading work of this very table: build it once with any exponent.
@@ -170,14 +171,21 @@ ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_e
   table.exponent.assign(count, 1.5);
   table.exponent_slope.assign(count, 0.0);
   const ContactCurve loading(table, "fitted curve");
+  double lost_at_onset = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double s = nodes[k], x = s * s * s * s;
-    if (k <= at_onset) {
-      table.exponent[k] = elastic_exponent(el, s);
-      continue;
-    }
-    const double given_back = loading.work_loading(x) * std::exp(-dissipation.value(std::log(s / s_onset)));
-    table.exponent[k] = loading.loading(x).force * x * (1 - table.residual_ratio[k]) / given_back - 1;
+    table.exponent[k] = elastic_exponent(el, s);
+    if (k < at_onset) continue;
+    const ContactCurve::Loading top = loading.loading(x);
+    const double kept = 1 - table.residual_ratio[k], put_in = loading.work_loading(x);
+    // At its turn a contact unloads at least as stiffly as it loads, n >= x F'/F at the onset. A power of u cannot
+    // have both the elastic curve's work and its slope, so it gives a little less back, e by up to 0.2 %, which
+    // fades with the overlap: faster than exp(-10 q) a contact turned later would give back more than was put in.
+    if (k == at_onset)
+      lost_at_onset = 1.2 * std::log(put_in * (x * top.stiffness / top.force + 1) / (top.force * x));
+    const double q = k == at_onset ? 0.0 : std::log(s / s_onset);
+    const double returned = put_in * std::exp(-dissipation.value(q) - lost_at_onset * std::exp(-8 * q));
+    table.exponent[k] = std::max(1.0, top.force * x * kept / returned - 1);
   }
   fill_slopes(table.exponent, 0, at_onset, h, table.exponent_slope);
   // From the onset on: the onset's own slope must be the one of the plastic side.

@@ -133,11 +133,58 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
     const double kept = std::pow(1 - top.residual / x, more_residual);
     slice.residual.push_back((1 - kept) - top.residual / x);
     const double returned = std::pow(std::min(1.0, slow.work_unloading(x) / slow.work_loading(x)), more_dissipation);
-    const double n = top.force * (1 + correction(xi)) * kept * x / (work * returned) - 1;
-    slice.exponent.push_back(n - top.exponent);
+    const double share = 1 + correction(xi), share_slope = (correction(xi + 1e-4) - correction(xi - 1e-4)) / 2e-4;
+    const double n = top.force * share * kept * x / (work * returned) - 1;
+    // as in tabulate(): unloading at least as stiff as loading
+    const double stiff = kept * (x * top.stiffness / top.force + xi * share_slope / share);
+    slice.exponent.push_back(std::max({n, stiff, 1.0}) - top.exponent);
   }
   slice.exponent[0] = slice.exponent[1];
   return slice;
+}
+
+/// Where a contact is turned at a small share of its X the table's nodes in xi are too far apart to follow the
+/// onset of yield. Raises the exponents there until no closed cycle gains energy in any slice or half-way between
+/// two: that only takes more energy from contacts turned so early.
+void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
+{
+  const std::size_t columns = axis.ratio_nodes();
+  constexpr int most_rounds = 40, samples = 600;
+  constexpr double fading_nodes = 8;
+  for (int round = 0; round < most_rounds; ++round) {
+    const ContactCurve curve(slow.table(), axis, "fitted curve");
+    if (curve.admissibility_margin() >= 0) return;
+    std::vector<double> raise(axis.exponent_correction.size(), 0.0);
+    for (std::size_t half = 1; half <= 2 * axis.slices; ++half) {
+      const double reach = axis.impact_overlap.back() * static_cast<double>(half) / static_cast<double>(2 * axis.slices);
+      for (int k = 1; k < samples; ++k) {
+        const double x = k == 1 ? slow.onset() * (1 + 1e-9) : std::pow(slow.table().s_end * k / samples, 4);
+        const double step = k == 1 ? 0 : 1e-4 * x;
+        if (x - step < slow.onset() || x + step > slow.x_end()) continue;
+        double lacking = curve.work_unloading(x, reach) / curve.work_loading(x, reach) - 1;
+        if (step > 0) {
+          const double slope = (curve.work_unloading(x + step, reach) - curve.work_unloading(x - step, reach)) / (2 * step);
+          lacking = std::max(lacking, slope / curve.loading(x, reach).force - 1);
+        }
+        if (lacking <= -1e-6) continue;
+        const auto column = std::min(static_cast<std::size_t>(x / reach / share_spacing) + 1, columns - 1);
+        const double more = 1.2 * (lacking + 1e-5) * (curve.turning(x, reach).exponent + 1);
+        for (const std::size_t row : {(half + 1) / 2, half / 2})
+          for (std::size_t l = 0; row > 0 && l < columns; ++l) {
+            // fading out slowly: where the exponent falls, more comes back
+            const double share = l <= column ? 1.0 : 1 - static_cast<double>(l - column) / fading_nodes;
+            double& there = raise[(row - 1) * columns + l];
+            there = std::max(there, more * share);
+          }
+      }
+    }
+    for (std::size_t k = 0; k < raise.size(); ++k) axis.exponent_correction[k] += raise[k];
+    for (std::size_t row = 0; row < axis.slices; ++row) {
+      const auto first = axis.exponent_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);
+      const std::vector<double> slope = slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, share_spacing);
+      std::copy(slope.begin(), slope.end(), axis.exponent_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
+    }
+  }
 }
 
 }  // namespace
@@ -169,6 +216,7 @@ InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& s
     append(slice.residual, table.residual_correction, table.residual_correction_slope, false);
     append(slice.exponent, table.exponent_correction, table.exponent_correction_slope, false);
   }
+  raise_exponents(table, slow);
   return table;
 }
 
