@@ -7,8 +7,8 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "base/version.hpp"
 #include "law/replay.hpp"
+#include "solver/solver_id.hpp"
 
 namespace granulaw {
 
@@ -47,9 +47,9 @@ struct JobMaker
 
   std::string key(const Sphere& s, const std::string& what) const
   {
-    return fmt::format("{} nu={:.17g} yield={:.17g} hardening={:.17g} resolution={} granulaw={} {}", what,
+    return fmt::format("{} nu={:.17g} yield={:.17g} hardening={:.17g} resolution={} solver={}", what,
                        s.material.poisson_ratio, s.material.yield_stress, s.material.hardening_modulus,
-                       resolution, version(), git_hash());
+                       resolution, solver_id());
   }
   /// Shifted grids of which the mean is taken. Near the onset little is plastic and the ripple is small (0.02
   /// % of F, 0.02 % of e (m)), and the steps are many: two grids do.
@@ -137,11 +137,11 @@ double loop_area(const RunResult& run)
 std::vector<RunResult> run_share(const std::vector<RunJob>& jobs, const BuildOptions& options, double from,
                                  double to)
 {
-  const RunCache cache(options.cache_folder);
   const Progress progress = [&](double done, const std::string& what) {
     if (options.progress) options.progress(from + (to - from) * done, what);
   };
-  return run_all(jobs, RunOptions{}, options.jobs, cache, progress);
+  ThreadFarm alone(1);
+  return (options.farm ? options.farm : &alone)->run_all(jobs, progress);
 }
 
 /// Resolution whose two-resolution estimate meets the tolerance; `reached` gets the estimate. `job` makes the

@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
+#include "characterise/farm.hpp"
 #include "characterise/fit_curve.hpp"
-#include "characterise/run_queue.hpp"
 #include "law/law.hpp"
 
 namespace granulaw {
@@ -21,11 +21,10 @@ struct RunSource
 struct BuildOptions
 {
   double depth = 0.1;  ///< overlap/R that the law must reach; beyond 0.1 no single pair law exists (DESIGN 4)
-  double tolerance = 0;      ///< of force and e, relative; the resolution is raised until the two-resolution
-                             ///< estimate of a press meets it; 0: the default resolution
-  int jobs = 1;              ///< threads
-  std::string cache_folder;  ///< finished runs are kept here until remove(); empty: nowhere
-  Progress progress;         ///< may throw to stop
+  double tolerance = 0;  ///< of force and e, relative; the resolution is raised until the two-resolution
+                         ///< estimate of a press meets it; 0: the default resolution
+  Farm* farm = nullptr;  ///< makes the runs; none: this thread
+  Progress progress;     ///< may throw to stop
 };
 
 /// Law of one material on a rigid wall, by the material point method. Everything runs in R = rho = E* = 1.

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
+
+#include "base/error.hpp"
+#include "solver/state_archive.hpp"
 
 namespace granulaw {
 
@@ -14,93 +17,85 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* extension = ".run";
+constexpr const char* magic = "granulaw run 2";
 
-/// FNV-1a, 64 bit: only names a file; equality is decided by the key inside.
-std::uint64_t hash(const std::string& text)
+/// The file's bytes before the outcome's, and what must follow.
+std::string header_of(const std::string& key, double cost, double cpu_s, const std::string& body)
 {
-  std::uint64_t h = 14695981039346656037ull;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return h;
+  return fmt::format("{}\nkey {}\ncost {:.6g}\ncpu_s {:.6g}\noutcome {} {:016x}\n", magic, key, cost, cpu_s,
+                     body.size(), checksum(body));
 }
 
-/// The numbers of a summary in one fixed order, for reading and writing.
-template <class Summary, class Visit>
-void each_number(Summary& s, Visit visit)
+/// True, and the rest of the line, if the next line begins with `word`.
+bool next_line(std::istream& in, const std::string& word, std::string& rest)
 {
-  visit(s.restitution), visit(s.restitution_raw), visit(s.restitution_spread), visit(s.force_max);
-  visit(s.delta_max), visit(s.delta_residual), visit(s.contact_time), visit(s.work_load),
-      visit(s.work_unload);
-  visit(s.cpu_s), visit(s.point_updates_per_s), visit(s.error_estimate), visit(s.energy_error),
-      visit(s.ripple);
-  visit(s.plastic_strain_max), visit(s.contact_loss), visit(s.hourglass);
+  if (!std::getline(in, rest) || !rest.starts_with(word)) return false;
+  rest.erase(0, word.size());
+  return true;
 }
 
 }  // namespace
 
 std::string RunCache::file_of(const std::string& key) const
 {
-  return fmt::format("{}/{:016x}{}", folder_, hash(key), extension);
+  return fmt::format("{}/{:016x}.run", folder_, checksum(key));
 }
 
-bool RunCache::load(const std::string& key, RunResult& result) const
+bool RunCache::load(const std::string& key, RunOutcome& outcome) const
 {
   if (folder_.empty()) return false;
-  std::ifstream in(file_of(key));
-  std::string line;
-  if (!std::getline(in, line) || line != key) return false;
-  RunResult read;
-  std::size_t count = 0;
-  in >> read.summary.points >> read.summary.steps >> read.summary.resolution >> read.summary.grids;
-  each_number(read.summary, [&](double& value) { in >> value; });
-  in >> count;
-  if (!in || count > 10'000'000) return false;
-  for (std::size_t k = 0; k < count && in; ++k) {
-    TraceSample t{};
-    int branch = 0;
-    in >> t.time >> t.delta >> t.force >> t.contact_radius >> branch >> t.segment;
-    t.branch = static_cast<Branch>(branch);
-    read.trace.push_back(t);
+  std::ifstream in(file_of(key), std::ios::binary);
+  std::string found_key, line;
+  if (!next_line(in, magic, line) || !next_line(in, "key ", found_key) || found_key != key) return false;
+  if (!next_line(in, "cost ", line) || !next_line(in, "cpu_s ", line) || !next_line(in, "outcome ", line))
+    return false;
+  const std::string body{std::istreambuf_iterator<char>(in), {}};
+  if (line != fmt::format("{} {:016x}", body.size(), checksum(body))) return false;
+  try {
+    RunOutcome read;
+    StateArchive archive(body, "cache");
+    visit_state(archive, read);
+    archive.finish();
+    outcome = std::move(read);
+  } catch (const Error&) {  // whole, but of another program: the key lacks something
+    return false;
   }
-  std::string end;
-  if (!(in >> end) || end != "end") return false;
-  result = std::move(read);
+  outcome.from_cache = true;
   return true;
 }
 
-void RunCache::store(const std::string& key, const RunResult& result) const
+void RunCache::store(const std::string& key, double cost, const RunOutcome& outcome) const
 {
   if (folder_.empty()) return;
   std::error_code ignored;
   fs::create_directories(folder_, ignored);
-  const RunSummary& s = result.summary;
-  std::string text = fmt::format("{}\n{} {} {} {}", key, s.points, s.steps, s.resolution, s.grids);
-  each_number(result.summary, [&](const double& value) { text += fmt::format(" {:.17g}", value); });
-  text += fmt::format("\n{}\n", result.trace.size());
-  for (const TraceSample& t : result.trace)
-    text += fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {} {}\n", t.time, t.delta, t.force, t.contact_radius,
-                        static_cast<int>(t.branch), t.segment);
-  text += "end\n";
-  const std::string file = file_of(key), temporary = fmt::format("{}.tmp.{}", file, getpid());
-  {
-    std::ofstream out(temporary);
-    out << text;
-    if (!out.flush()) {  // a cache that cannot be written only costs time later
-      fs::remove(temporary, ignored);
-      return;
-    }
+  RunOutcome copy = outcome;
+  StateArchive archive;
+  visit_state(archive, copy);
+  const std::string body = archive.take();
+  const std::string text = header_of(key, cost, outcome.cpu_s, body) + body;
+
+  std::string temporary = folder_ + "/.run.XXXXXX";  // a name of its own on every machine of the cluster
+  const int file = mkstemp(temporary.data());
+  if (file < 0) return;
+  bool written = true;
+  for (std::size_t at = 0; written && at < text.size();) {
+    const ssize_t count = write(file, text.data() + at, text.size() - at);
+    written = count > 0;
+    if (written) at += static_cast<std::size_t>(count);
   }
-  fs::rename(temporary, file, ignored);
+  written = close(file) == 0 && written;
+  if (written) fs::rename(temporary, file_of(key), ignored);
+  if (!written || ignored) fs::remove(temporary, ignored);
 }
 
-void RunCache::remove() const
+std::string default_cache_folder()
 {
-  if (folder_.empty()) return;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, ignored))
-    if (entry.path().filename().string().find(extension) != std::string::npos)
-      fs::remove(entry.path(), ignored);
-  fs::remove(folder_, ignored);  // fails, as it should, if something else lies there
+  const char* xdg = std::getenv("XDG_CACHE_HOME");
+  if (xdg && *xdg) return std::string(xdg) + "/granulaw/runs";
+  const char* home = std::getenv("HOME");
+  if (home && *home) return std::string(home) + "/.cache/granulaw/runs";
+  return {};
 }
 
 }  // namespace granulaw

@@ -53,6 +53,7 @@ RunResult run_with_estimate(const RunOptions& options, const Run& run)
   };
   RunResult fine = run(own);
   own.resolution = coarse_partner(fine.summary.resolution);
+  own.refine = 1;  // it is in the fine run's resolution
   own.fields = {};
   from = 0.7, to = 1.0;
   const RunSummary coarse = run(own).summary;

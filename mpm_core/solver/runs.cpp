@@ -118,8 +118,9 @@ void to_si(RunResult& result, const Scales& scale)
 /// Cells across the block: 20, and more for deep contacts, where steps are few and strains large.
 int resolution_of(const RunOptions& options, double deepest)
 {
-  return options.resolution ? options.resolution
-                            : static_cast<int>(std::lround(20 * (1 + std::min(1.0, deepest / 0.15))));
+  const double cells =
+      options.resolution ? options.resolution : std::round(20 * (1 + std::min(1.0, deepest / 0.15)));
+  return static_cast<int>(std::lround(options.refine * cells));
 }
 
 /// One run: cells across, shift, who wants to see its fields, progress, where it keeps its state.

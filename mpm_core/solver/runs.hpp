@@ -45,6 +45,7 @@ struct RunOptions
   GridKind grid = GridKind::automatic;
   Precision precision = Precision::full;
   int resolution = 0;  ///< cells across the contact block; 0: the default of the run
+  double refine = 1;   ///< factor on the resolution, given or default: a run that failed is tried again finer
   int phases = 4;   ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
                     ///< of the first harmonics of the contact-edge ripple (ensemble.hpp); 1: a single run
   int threads = 1;  ///< threads that share these runs

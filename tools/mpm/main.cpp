@@ -1,7 +1,7 @@
 // mpm: contact laws by the material point method. One command a file; this one parses, reports and exits.
 //
 // Exit codes: 0 done; 1 the input cannot be used (one sentence on stderr); 2 the command line cannot be
-// understood; 130 stopped by Ctrl-C.
+// understood; 130 stopped by Ctrl-C. Under mpirun all ranks end with the largest of theirs.
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -10,15 +10,20 @@
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "commands.hpp"
+#include "ranks.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {
 std::string command_line;
 }
 
-int main(int argc, char** argv)
+namespace {
+
+using namespace granulaw;
+
+/// Carries out the command line. Returns the exit code; `sentence` says why it is not 0.
+int run(int argc, char** argv, std::string& sentence)
 {
-  using namespace granulaw;
   // HDF5 prints at exit after it was fed a damaged file; every file is closed by its owner anyway.
   H5dont_atexit();
   for (int k = 0; k < argc; ++k) command_line += (k ? " " : "") + std::string(k ? argv[k] : "mpm");
@@ -36,9 +41,6 @@ int main(int argc, char** argv)
       "mpm"};
   app.set_version_flag("--version", fmt::format("mpm {} ({})", version(), git_hash()));
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("mpm: {} (mpm --help and mpm COMMAND --help list what is possible)\n", error.what());
-  });
   add_impact(app);
   add_press(app);
   add_table(app);
@@ -51,22 +53,30 @@ int main(int argc, char** argv)
 
   catch_interrupts();
   try {
+    if (argc > 1) join_ranks(argv[1]);
     app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    sentence = fmt::format("{} (mpm --help and mpm COMMAND --help list what is possible)", error.what());
+    return 2;
   } catch (const Interrupted&) {
-    fmt::print(stderr, "mpm: stopped\n");
+    sentence = "stopped";
     return 130;
-  } catch (const Error& error) {
-    fmt::print(stderr, "mpm: {}\n", error.what());
-    return 1;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "mpm: not enough memory\n");
-    return 1;
+    sentence = "not enough memory";
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mpm: {}\n", error.what());
-    return 1;
+    sentence = error.what();
   }
-  return 0;
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  std::string sentence;
+  const int code = run(argc, argv, sentence);
+  return leave_ranks(code, sentence);
 }

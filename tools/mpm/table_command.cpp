@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <thread>
@@ -15,6 +17,7 @@
 #include "commands.hpp"
 #include "law/law_file.hpp"
 #include "materials_file.hpp"
+#include "ranks.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
 
@@ -27,7 +30,9 @@ struct TableRequest
   std::string materials, deck, output;
   std::vector<std::string> pairs;
   double tolerance = 0;
-  int jobs = std::max(1u, std::thread::hardware_concurrency());
+  int jobs = 0;  // 0: one for each core, on several ranks one for each
+  std::string cache = default_cache_folder();
+  bool no_cache = false;
 };
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -92,6 +97,42 @@ void print_certificate(const BodyLaw& body)
   fmt::print("\n");
 }
 
+int threads_of(const TableRequest& r)
+{
+  if (r.jobs > 0) return r.jobs;
+  return ranks() > 1 ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+RunCache cache_of(const TableRequest& r)
+{
+  if (r.no_cache || r.cache.empty() || rank() != 0) return RunCache{};
+  std::error_code problem;
+  std::filesystem::create_directories(r.cache, problem);
+  if (problem)
+    fail("--cache", fmt::format("the folder '{}' cannot be made ({})", r.cache, problem.message()));
+  return RunCache(r.cache);
+}
+
+void note(const FarmCount& c, std::map<std::string, std::string>& provenance)
+{
+  provenance["runs_made"] = fmt::format("{}", c.made);
+  provenance["runs_from_cache"] = fmt::format("{}", c.from_cache);
+  provenance["runs_retried"] = fmt::format("{}", c.retried);
+  provenance["runs_failed"] = fmt::format("{}", c.failed);
+  provenance["cpu_s"] = fmt::format("{:.1f}", c.cpu_s);
+  provenance["ranks"] = fmt::format("{}", ranks());
+}
+
+void print_count(const FarmCount& c)
+{
+  fmt::print("{} runs made in {:.1f} CPU s", c.made, c.cpu_s);
+  if (ranks() > 1) fmt::print(" on {} ranks", ranks());
+  if (c.from_cache) fmt::print(", {} taken from the cache ({:.1f} CPU s saved)", c.from_cache, c.cpu_s_saved);
+  if (c.retried)
+    fmt::print("; {} of them failed at first, {} at a higher resolution too", c.retried, c.failed);
+  fmt::print("\n");
+}
+
 void build(const TableRequest& r)
 {
   if (!r.deck.empty())
@@ -122,10 +163,10 @@ void build(const TableRequest& r)
   }
 
   BuildOptions options;
-  options.jobs = r.jobs;
   options.tolerance = r.tolerance;
-  options.cache_folder = r.output + ".runs";
-  ProgressBar bar;
+  const std::unique_ptr<Farm> farm = make_farm(threads_of(r), cache_of(r));
+  options.farm = farm.get();
+  ProgressBar bar(rank() == 0);
   double finished = 0;
   for (const std::string& name : names) {
     const Material& m = file.material(name);
@@ -142,12 +183,14 @@ void build(const TableRequest& r)
   law.provenance["git_hash"] = git_hash();
   law.provenance["created"] = now_utc();
   law.provenance["command"] = command_line;
+  note(farm->count(), law.provenance);
+  if (rank() != 0) return;
   write_law(law, r.output);
-  RunCache(options.cache_folder).remove();
 
   bar.clear();
   fmt::print("wrote {}: pairs {}\n", r.output, law.pair_list());
   for (const auto& entry : law.bodies) print_certificate(entry.second);
+  print_count(farm->count());
 }
 
 }  // namespace
@@ -158,8 +201,9 @@ void add_table(CLI::App& app)
   CLI::App* command = app.add_subcommand(
       "table",
       "Computes the contact laws of a materials file into one law file for LIGGGHTS.\n"
-      "Finished runs are kept in LAW.h5.runs/ until the law is written: a build that was stopped goes on\n"
-      "where it was when the same command is given again.\n"
+      "Finished runs are kept in a folder (--cache): a build that was stopped goes on where it was, and one\n"
+      "with a wider range reuses them. The folder may be removed at any time.\n"
+      "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
       "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5");
   command->add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
   command->add_option("--deck", r->deck, "LIGGGHTS deck to take the pairs from (a later version)");
@@ -167,8 +211,13 @@ void add_table(CLI::App& app)
                       "a:b or a:wall (rigid), material names; several times; default: every pair");
   command->add_option("--tolerance", r->tolerance,
                       "relative error of force and e that two resolutions must agree to, such as 0.005");
-  command->add_option("--jobs", r->jobs, "runs at the same time (default: one for each core)")
+  command
+      ->add_option("--jobs", r->jobs,
+                   "runs at the same time in each process (default: one for each core; under mpirun: one)")
       ->check(CLI::Range(1, 1024));
+  CLI::Option* cache =
+      command->add_option("--cache", r->cache, "folder for finished runs")->capture_default_str();
+  command->add_flag("--no-cache", r->no_cache, "keep no finished run and reuse none")->excludes(cache);
   command->add_option("-o,--output", r->output, "law file, NAME.h5")->required();
   command->callback([r] { build(*r); });
 }

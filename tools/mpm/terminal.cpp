@@ -35,7 +35,10 @@ void stop_if_interrupted()
   if (interrupted) throw Interrupted{};
 }
 
-ProgressBar::ProgressBar() : visible_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+ProgressBar::ProgressBar(bool visible)
+    : visible_(visible && isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now())
+{
+}
 
 void ProgressBar::clear()
 {

@@ -16,11 +16,12 @@ bool is_interrupted();
 /// Throws Interrupted once the flag is set.
 void stop_if_interrupted();
 
-/// A bar on stderr, drawn only when stderr is a terminal; every update also looks for Ctrl-C.
+/// A bar on stderr, drawn only when it is asked to be visible and stderr is a terminal; every update also
+/// looks for Ctrl-C.
 class ProgressBar
 {
  public:
-  ProgressBar();
+  explicit ProgressBar(bool visible = true);
   ~ProgressBar() { clear(); }
   void update(double done, const std::string& what);
   void clear();  ///< wipes the bar's line, before something else is printed

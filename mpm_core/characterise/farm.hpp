@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "characterise/run_cache.hpp"
+#include "characterise/run_queue.hpp"
+
+namespace granulaw {
+
+/// Told the share of a batch that is done, 0..1, and which run goes on; some ten times a second, by the
+/// thread that called Farm::run. May throw to stop.
+using Progress = std::function<void(double done, const std::string& what)>;
+
+/// What a farm has spent and saved since it was made.
+struct FarmCount
+{
+  long made = 0;           ///< runs, whether they failed or not
+  long from_cache = 0;     ///< runs that were not necessary
+  long retried = 0;        ///< of those made: failed at first, tried again on a finer grid
+  long failed = 0;         ///< of those made: failed then too
+  double cpu_s = 0;        ///< of the runs made
+  double cpu_s_saved = 0;  ///< of the runs taken from the cache, when they were made
+};
+
+/// Makes batches of independent runs. The outcomes depend on neither the number of workers nor the order in
+/// which they end: each run is made by one thread, and the outcomes are in the order of the jobs.
+class Farm
+{
+ public:
+  virtual ~Farm() = default;
+
+  /// All outcomes of a batch. A run that fails is tried again on a finer grid; if that fails too its outcome
+  /// says why, and the caller decides what to do without it. Whatever `progress` throws stops the batch and
+  /// goes through; what is finished by then is in the cache.
+  std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, const Progress& progress = {});
+
+  /// The same where no run is dispensable: throws Error with the sentence of the first that failed.
+  std::vector<RunResult> run_all(const std::vector<RunJob>& jobs, const Progress& progress = {});
+
+  const FarmCount& count() const { return count_; }
+
+ private:
+  virtual std::vector<RunOutcome> make(const std::vector<RunJob>& jobs, const Progress& progress) = 0;
+  FarmCount count_;
+};
+
+/// On threads of this process.
+class ThreadFarm : public Farm
+{
+ public:
+  explicit ThreadFarm(int threads, RunCache cache = RunCache{}) : threads_(threads), cache_(std::move(cache))
+  {
+  }
+
+ private:
+  std::vector<RunOutcome> make(const std::vector<RunJob>& jobs, const Progress& progress) override;
+  int threads_;
+  RunCache cache_;
+};
+
+}  // namespace granulaw

@@ -1,0 +1,20 @@
+# cmake -DROOT=mpm_core -DBUILD="compiler and flags" -DOUTPUT=FILE -P hash_sources.cmake
+# Writes a header with one hash of all files in base and solver and of BUILD. The file is left alone if the
+# hash is the same, so that nothing is compiled again.
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/base/* ${ROOT}/solver/*)
+list(SORT files)
+set(all "${BUILD}")
+foreach(file IN LISTS files)
+  file(SHA256 ${ROOT}/${file} hash)
+  string(APPEND all "\n${hash} ${file}")
+endforeach()
+string(SHA256 hash "${all}")
+string(SUBSTRING ${hash} 0 16 hash)
+set(text "// generated: see hash_sources.cmake\n#pragma once\n\nnamespace granulaw {\ninline constexpr char solver_sources[] = \"${hash}\";\n}\n")
+set(old "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUTPUT} "${text}")
+endif()

@@ -1,0 +1,123 @@
+#include "characterise/run_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <thread>
+#include <vector>
+
+#include "some_runs.hpp"
+
+namespace granulaw {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(const fs::path& file, const std::string& bytes)
+{
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST(RunCache, RoundTripIsExactAndKeysDecide)
+{
+  const Scratch scratch;
+  const RunCache cache(scratch.folder.string());
+  RunOutcome found;
+  EXPECT_FALSE(cache.load("one", found));
+  cache.store("one", 2.5, some_outcome(1.1));
+  ASSERT_TRUE(cache.load("one", found));
+  EXPECT_TRUE(found.from_cache);
+  EXPECT_EQ(bytes_of(found), bytes_of(some_outcome(1.1)));
+  EXPECT_EQ(found.result.trace[13].force, some_result(1.1).trace[13].force);
+  EXPECT_FALSE(cache.load("two", found));
+  const fs::path file = fs::directory_iterator(scratch.folder)->path();
+  EXPECT_TRUE(read(file).starts_with("granulaw run 2\nkey one\ncost 2.5\ncpu_s 0.366667\noutcome "));
+  // the file of another key under this one's name
+  cache.store("two", 1, some_outcome(2));
+  for (const fs::directory_entry& other : fs::directory_iterator(scratch.folder))
+    if (other.path() != file) fs::rename(other.path(), file);
+  EXPECT_FALSE(cache.load("one", found));
+}
+
+TEST(RunCache, ADamagedFileCountsAsNotThere)
+{
+  const Scratch scratch;
+  const RunCache cache(scratch.folder.string());
+  cache.store("one", 2.5, some_outcome(1.1));
+  const fs::path file = fs::directory_iterator(scratch.folder)->path();
+  const std::string whole = read(file), result = bytes_of(some_outcome(1.1));
+  RunOutcome found;
+  for (std::size_t size = 0; size < whole.size(); size += size < 150 ? 1 : 7) {
+    write(file, whole.substr(0, size));
+    EXPECT_FALSE(cache.load("one", found)) << size;
+  }
+  write(file, whole.substr(0, whole.size() - 1));
+  EXPECT_FALSE(cache.load("one", found));
+  write(file, whole + "x");
+  EXPECT_FALSE(cache.load("one", found));
+  const std::size_t outcome = whole.find("outcome ");
+  for (std::size_t at = 0; at < whole.size(); at += at < 150 ? 1 : 7) {
+    std::string damaged = whole;
+    damaged[at] ^= 0x10;
+    write(file, damaged);
+    // only what is there for people, cost and CPU time, may be wrong unnoticed
+    if (!cache.load("one", found)) continue;
+    EXPECT_LT(at, outcome);
+    EXPECT_EQ(bytes_of(found), result) << at;
+  }
+}
+
+TEST(RunCache, WritersOfOneFolderLeaveWholeFiles)
+{
+  const Scratch scratch;
+  const RunCache cache(scratch.folder.string());
+  const auto work = [&] {
+    for (int k = 0; k < 200; ++k) {
+      const std::string key = std::to_string(k % 3);
+      cache.store(key, 1, some_outcome(k % 3));
+      RunOutcome found;
+      EXPECT_TRUE(cache.load(key, found));
+      EXPECT_EQ(bytes_of(found), bytes_of(some_outcome(k % 3)));
+    }
+  };
+  {
+    std::vector<std::jthread> writers;
+    for (int k = 0; k < 4; ++k) writers.emplace_back(work);
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder), {}), 3) << "nothing temporary is left";
+}
+
+TEST(RunCache, AFolderThatCannotBeWrittenIsNoCache)
+{
+  const Scratch scratch;
+  write(scratch.folder, "a file, not a folder");
+  const RunCache cache(scratch.folder.string());
+  cache.store("one", 1, some_outcome(1));
+  RunOutcome found;
+  EXPECT_FALSE(cache.load("one", found));
+  const RunCache none;
+  none.store("one", 1, some_outcome(1));
+  EXPECT_FALSE(none.load("one", found));
+}
+
+TEST(RunCache, DefaultFolder)
+{
+  setenv("XDG_CACHE_HOME", "/somewhere", 1);
+  EXPECT_EQ(default_cache_folder(), "/somewhere/granulaw/runs");
+  unsetenv("XDG_CACHE_HOME");
+  setenv("HOME", "/home/me", 1);
+  EXPECT_EQ(default_cache_folder(), "/home/me/.cache/granulaw/runs");
+  unsetenv("HOME");
+  EXPECT_EQ(default_cache_folder(), "");
+}
+
+}  // namespace
+}  // namespace granulaw
