@@ -29,15 +29,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
 
 }  // namespace
 
+std::string printable(std::string_view text)
+{
+  std::string result(text);
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const auto c = static_cast<unsigned char>(result[k]);
+    // 0x80 to 0x9f: as UTF-8, C2 80 to C2 9F, terminals take them for escapes as well (CSI is U+009B)
+    const bool c1 = c == 0xc2 && k + 1 < result.size() && static_cast<unsigned char>(result[k + 1]) < 0xa0;
+    const bool alone = c >= 0x80 && c < 0xa0 && (k == 0 || static_cast<unsigned char>(result[k - 1]) < 0x80);
+    if (c < 0x20 || c == 0x7f || alone) result[k] = '?';
+    if (c1) result[k] = result[k + 1] = '?';
+  }
+  return result;
+}
+
 void fail(std::string_view where, std::string_view what, std::string_view found, std::string_view allowed)
 {
   std::string sentence = where.empty() ? std::string(what) : fmt::format("{}: {}", where, what);
   if (!found.empty()) sentence += fmt::format(": found {}", found);
   if (!allowed.empty()) sentence += fmt::format("{} allowed is {}", found.empty() ? ":" : ",", allowed);
-  // What was found may come from a hostile file: no line breaks, no commands to the terminal.
-  for (char& c : sentence)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  throw Error(sentence);
+  throw Error(printable(sentence));  // what was found may come from a hostile file
 }
 
 std::string nearest(std::string_view word, std::span<const std::string> candidates)

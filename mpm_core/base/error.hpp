@@ -15,8 +15,12 @@ class Error : public std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/// `text` as it may go to a terminal: control characters (line breaks, escape sequences) become '?'. For
+/// whatever comes from a file.
+std::string printable(std::string_view text);
+
 /// Throws Error "WHERE: WHAT: found FOUND, allowed is ALLOWED". Empty parts are left out.
-/// WHERE is a file and line, a key or an option; it always leads. Control characters become '?'.
+/// WHERE is a file and line, a key or an option; it always leads. The sentence is printable().
 [[noreturn]] void fail(std::string_view where, std::string_view what, std::string_view found = {},
                        std::string_view allowed = {});
 

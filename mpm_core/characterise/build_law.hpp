@@ -1,44 +1,48 @@
 #pragma once
 
-#include <functional>
-#include <string>
-
+#include "characterise/atlas.hpp"
 #include "characterise/farm.hpp"
-#include "characterise/fit_curve.hpp"
+#include "characterise/survey.hpp"
 #include "law/law.hpp"
 
 namespace granulaw {
 
-/// Where the runs come from: the solver, or a test's own model.
-struct RunSource
-{
-  std::function<RunResult(const Sphere&, const PressPlan&, const RunOptions&)> press =
-      [](const Sphere& s, const PressPlan& plan, const RunOptions& o) { return run_press(s, plan, o); };
-  std::function<RunResult(const Sphere&, double, const RunOptions&)> impact =
-      [](const Sphere& s, double velocity, const RunOptions& o) { return run_impact(s, velocity, o); };
-};
-
 struct BuildOptions
 {
-  double depth = 0.1;  ///< overlap/R that the law must reach; beyond 0.1 no single pair law exists (DESIGN 4)
-  double tolerance = 0;  ///< of force and e, relative; the resolution is raised until the two-resolution
-                         ///< estimate of a press meets it; 0: the default resolution
-  Farm* farm = nullptr;  ///< makes the runs; none: this thread
-  Progress progress;     ///< may throw to stop
+  double depth = 0.2;       ///< overlap/length that the law must reach, up to 0.5; beyond 0.1 no single pair law
+                            ///< exists: the support matters (the certificate says how much)
+  double fastest = 0.25;    ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
+  double tolerance = 0.01;  ///< of force and e, relative: sampling is refined until it adds no more than this, the
+                            ///< resolution until two of them agree to this
+  Farm* farm = nullptr;     ///< makes the runs; none: this thread
+  Progress progress;        ///< may throw to stop
 };
 
-/// Law of one material on a rigid wall, by the material point method. Everything runs in R = rho = E* = 1.
-///
-/// Free impacts from the onset of yield to I = rho V^2/Y = largest_inertia give loading force, residual
-/// overlap and e up to their own overlaps; slow presses with free support carry on from there to `depth`,
-/// keeping their ratio to the deepest impact; one elastic press gives the finite-sphere correction. The fit
-/// is fit_curve.hpp's. Impacts between the sampled ones check it. Why impacts and not presses where both
-/// exist: at I = 0.002 a slow press has 1 % more force and 1.7 % more e than the impact that reaches the same
-/// overlap (E*/Y = 100, measured; 0.05 % at I = 2e-5), and free collisions are what the law is for. The
-/// certificate states the difference. Throws Error if the law is not admissible.
-BodyLaw build_law(const LawMaterial& material, const BuildOptions& options, const RunSource& source = {});
+/// A law, and what it took.
+struct BuiltLaw
+{
+  BodyLaw law;
+  std::vector<std::string> holes;  ///< runs that failed twice, each with its sentence: the law has no sample there
+  std::size_t runs = 0;            ///< that the adaptive survey asked for
+  std::size_t runs_full = 0;       ///< that the densest one would have
+};
 
-/// Largest I = rho V^2/Y that a rate-free law is used for: above it e would be over 1 % too high (DESIGN 4).
-inline constexpr double largest_inertia = 0.002;
+/// The law of one body on a rigid wall, by the material point method.
+///
+/// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-free law; fast
+/// impacts give what inertia changes. The survey starts coarse. Each new turning point or impact shows by how
+/// much the law fitted without it was wrong; where that was more than the tolerance its neighbourhood is
+/// halved. Impacts that took no part check the law in the end. Throws Error if it is not admissible, or if the
+/// tolerance is not reached.
+BuiltLaw build_law(const LawMaterial& material, const Subject& subject, const BuildOptions& options,
+                   const RunSource& source = {});
+
+/// The law of a homogeneous, rate-independent, linearly hardening or elastic sphere out of the atlas; options:
+/// depth and fastest. Needs atlas.why_not() empty for a material that yields.
+BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOptions& options);
+
+/// Force of a free sphere over that of one whose equator plane is driven, at this overlap/R, at E*/Y = 100: why
+/// there is no single pair law at large overlaps (docs/method.md).
+double support_ratio(double overlap);
 
 }  // namespace granulaw

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "law/h5.hpp"
 #include "law/h5_names.hpp"
+#include "law/h5_structure.hpp"
 
 namespace granulaw {
 
@@ -293,6 +294,7 @@ h5::Handle open_law(const std::string& path)
     fail(path, "cannot be read as a file");
   if (H5Fis_hdf5(path.c_str()) <= 0)
     fail(path, "is not an HDF5 file, so not a contact law (or it was cut off)");
+  h5::check_structure(path);
   h5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (!file.ok()) fail(path, "is damaged or cut off: build it again with `mpm table`");
   if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != h5::format_value)

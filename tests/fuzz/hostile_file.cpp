@@ -183,7 +183,8 @@ void Collector::values(const std::string& path)
 void Collector::storage(const std::string& path)
 {
   for (const auto& [name, make] : types())
-    add(path + ": " + name, [=](hid_t f) { replace(f, path, make(), {count_of(f, path.c_str())}); });
+    add(path + ": " + name,
+        [=, make = make](hid_t f) { replace(f, path, make(), {count_of(f, path.c_str())}); });
   for (const hsize_t extent : {hsize_t{0}, hsize_t{1}, hsize_t{2}, hsize_t{3}, hsize_t{128}, hsize_t{65536},
                                hsize_t{65537}, hsize_t{1} << 40}) {
     add(path + ": declared extent " + std::to_string(extent), [=](hid_t f) {

@@ -44,7 +44,7 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
   out << fmt::format("# contact law, exported from {}; formulas: docs/law-format.md of granulaw\n", r.law);
   for (const char* note : {"version", "git_hash"})
     if (const auto found = law.provenance.find(note); found != law.provenance.end())
-      out << fmt::format("# {} = {}\n", note, found->second.substr(0, found->second.find('\n')));
+      out << fmt::format("# {} = {}\n", note, printable(found->second));
   out << "# one row: loading for the first time up to this overlap, and what follows if the contact turns "
          "there\n"
          "# loading (overlap d not below the largest so far, d_m): force, stiffness, contact_radius of the "

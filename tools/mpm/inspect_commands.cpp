@@ -50,11 +50,11 @@ void print_body(const BodyLaw& body)
     fmt::print(", {} slices of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.slices,
                t.ratio_nodes(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
   }
-  fmt::print("  origin               {}", c.origin);
+  fmt::print("  origin               {}", printable(c.origin));
   if (c.atlas_error_force > 0 || c.atlas_error_restitution > 0)
     fmt::print(" (force within {:.2g} %, e within {:.2g})", 100 * c.atlas_error_force,
                c.atlas_error_restitution);
-  fmt::print("\n  support              {}\n", c.support);
+  fmt::print("\n  support              {}\n", printable(c.support));
   fmt::print("  solver error         {:.2g} % (force and e, two resolutions)\n", 100 * c.solver_error_force);
   fmt::print("  interpolation error  {:.2g} %;  held-out e {:.2g} %;  scatter of the runs {:.2g} %\n",
              100 * c.interpolation_error, 100 * c.held_out_error, 100 * c.residual_scatter);
@@ -70,7 +70,7 @@ void info(const std::string& path)
 {
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
-  for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", name, text);
+  for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
   for (const LawPair& pair : law.pairs)
     if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
       fmt::print("  pair {}:{} by the pair rule: force within {:.2g} %, e within {:.2g} %\n", pair.a, pair.b,

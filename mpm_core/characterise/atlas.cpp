@@ -1,0 +1,173 @@
+#include "characterise/atlas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "characterise/interpolation.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Below this product of H/E and E*/Y a hardening adds less than a tenth of Y at a strain of one.
+constexpr double weakest_seen = 0.1;
+
+/// Node values that are wanted at the main Poisson's ratio as well.
+std::vector<double> with(std::vector<double> values, double another)
+{
+  values.push_back(another);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+std::vector<double> logarithms(const std::vector<double>& values)
+{
+  std::vector<double> logs;
+  for (const double v : values) logs.push_back(std::log(v));
+  return logs;
+}
+
+std::vector<double> coordinates(double stiffness, const std::vector<double>& hardenings)
+{
+  std::vector<double> z;
+  for (const double h : hardenings) z.push_back(hardening_coordinate(stiffness, h));
+  return z;
+}
+
+/// The value that 95 of 100 do not exceed; 0 of none.
+double percentile95(std::vector<double> values)
+{
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto k = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size()))) - 1;
+  return values[k];
+}
+
+bool same(const MaterialRatios& a, const MaterialRatios& b)
+{
+  return a.stiffness == b.stiffness && a.poisson_ratio == b.poisson_ratio && a.hardening == b.hardening;
+}
+
+}  // namespace
+
+MaterialRatios MaterialRatios::of(const LawMaterial& m)
+{
+  return {m.e_star() / m.yield_stress, m.poisson_ratio, m.hardening_modulus / m.youngs_modulus};
+}
+
+double hardening_coordinate(double stiffness, double hardening)
+{
+  return std::log1p(2 * hardening * stiffness);
+}
+
+std::vector<double> AtlasGrid::hardenings_at(double stiffness) const
+{
+  std::vector<double> seen;
+  for (const double h : hardenings)
+    if (h == 0 || h * stiffness >= weakest_seen) seen.push_back(h);
+  return seen;
+}
+
+std::vector<MaterialRatios> AtlasGrid::main_plane() const
+{
+  std::vector<MaterialRatios> materials;
+  for (const double k : stiffnesses)
+    for (const double h : hardenings_at(k)) materials.push_back({k, main_poisson_ratio, h});
+  return materials;
+}
+
+std::vector<MaterialRatios> AtlasGrid::block() const
+{
+  std::vector<MaterialRatios> materials;
+  for (const double k : block_stiffnesses)
+    for (const double h : block_hardenings)
+      for (const double nu : block_poisson_ratios) materials.push_back({k, nu, h});
+  return materials;
+}
+
+Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<AtlasCheck> checks)
+    : grid_(std::move(grid)), nodes_(std::move(nodes)), checks_(std::move(checks))
+{
+  std::vector<MaterialRatios> expected = grid_.main_plane();
+  const std::vector<MaterialRatios> block = grid_.block();
+  expected.insert(expected.end(), block.begin(), block.end());
+  if (expected.size() != nodes_.size())
+    fail("atlas", "has the wrong number of materials", std::to_string(nodes_.size()), std::to_string(expected.size()));
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (!same(nodes_[k].material, expected[k])) fail("atlas", fmt::format("material {} is not the grid's", k));
+  std::vector<double> force, restitution;
+  for (const AtlasCheck& c : checks_) {
+    force.push_back(std::abs(c.error_force));
+    restitution.push_back(std::abs(c.error_restitution));
+  }
+  claimed_force_ = percentile95(std::move(force));
+  claimed_restitution_ = percentile95(std::move(restitution));
+}
+
+std::string Atlas::why_not(const MaterialRatios& m) const
+{
+  const auto outside = [](const char* name, double value, double low, double high) {
+    return fmt::format("{} = {:.4g} lies outside {:.4g} to {:.4g}", name, value, low, high);
+  };
+  const double soft = grid_.stiffnesses.front(), stiff = grid_.stiffnesses.back(),
+               flat = grid_.hardenings.front(), steep = grid_.hardenings.back();
+  const auto ratios = with(grid_.block_poisson_ratios, grid_.main_poisson_ratio);
+  if (!(m.stiffness >= soft && m.stiffness <= stiff)) return outside("E*/Y", m.stiffness, soft, stiff);
+  if (!(m.poisson_ratio >= ratios.front() && m.poisson_ratio <= ratios.back()))
+    return outside("nu", m.poisson_ratio, ratios.front(), ratios.back());
+  if (!(m.hardening >= flat && m.hardening <= steep)) return outside("H/E", m.hardening, flat, steep);
+  return {};
+}
+
+ElasticCorrection Atlas::elastic(double poisson_ratio) const
+{
+  return shape({grid_.stiffnesses.front(), poisson_ratio, grid_.hardenings.front()}).elastic;
+}
+
+LawShape Atlas::shape(const MaterialRatios& m) const
+{
+  LawShape result = LawShape::zero();
+  std::size_t next = 0;
+  // shape of a node of the main plane that the block also needs
+  const auto main_node = [&](double stiffness, double hardening) -> const LawShape& {
+    for (const Node& node : nodes_)
+      if (same(node.material, {stiffness, grid_.main_poisson_ratio, hardening})) return node.shape;
+    fail("atlas", "the block holds a material whose partner in the main plane is missing");
+  };
+
+  const std::vector<double> along = interpolation_weights(logarithms(grid_.stiffnesses), std::log(m.stiffness));
+  for (std::size_t i = 0; i < grid_.stiffnesses.size(); ++i) {
+    const double k = grid_.stiffnesses[i];
+    const std::vector<double> hardenings = grid_.hardenings_at(k);
+    const auto across = interpolation_weights(coordinates(k, hardenings), hardening_coordinate(k, m.hardening));
+    for (const double weight : across) {
+      if (along[i] != 0 && weight != 0) result.add(along[i] * weight, nodes_[next].shape);
+      ++next;
+    }
+  }
+
+  const std::vector<double> ratios = with(grid_.block_poisson_ratios, grid_.main_poisson_ratio);
+  const std::vector<double> by_ratio = interpolation_weights(ratios, m.poisson_ratio);
+  const std::vector<double> block_along =
+      interpolation_weights(logarithms(grid_.block_stiffnesses), std::log(m.stiffness));
+  for (std::size_t i = 0; i < grid_.block_stiffnesses.size(); ++i) {
+    const double k = grid_.block_stiffnesses[i];
+    const auto across =
+        interpolation_weights(coordinates(k, grid_.block_hardenings), hardening_coordinate(k, m.hardening));
+    for (std::size_t j = 0; j < grid_.block_hardenings.size(); ++j)
+      for (std::size_t r = 0; r < ratios.size(); ++r) {
+        if (ratios[r] == grid_.main_poisson_ratio) continue;
+        const Node& node = nodes_[next++];
+        const double weight = block_along[i] * across[j] * by_ratio[r];
+        if (weight == 0) continue;
+        result.add(weight, node.shape);
+        result.add(-weight, main_node(k, grid_.block_hardenings[j]));
+      }
+  }
+  return result;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "characterise/law_shape.hpp"
+#include "law/law.hpp"
+
+namespace granulaw {
+
+/// A homogeneous, rate-independent, linearly hardening material without dimensions.
+struct MaterialRatios
+{
+  double stiffness = 0;      ///< E*/Y
+  double poisson_ratio = 0;  ///< nu
+  double hardening = 0;      ///< H/E
+
+  static MaterialRatios of(const LawMaterial& material);
+};
+
+/// The materials that an atlas holds shapes of. A main plane at one Poisson's ratio, every stiffness with its
+/// hardenings; and a coarser block that tells what another Poisson's ratio changes, which is little and smooth.
+struct AtlasGrid
+{
+  double main_poisson_ratio = 0.3;
+  std::vector<double> stiffnesses{20, 35, 60, 110, 200, 400, 900, 2000, 5000};
+  /// H/E; what is too weak to be seen at a stiffness is left out there.
+  std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.3};
+
+  std::vector<double> block_stiffnesses{20, 110, 900};
+  std::vector<double> block_hardenings{0, 0.02, 0.3};
+  std::vector<double> block_poisson_ratios{0, 0.42, 0.49};  ///< besides the main one
+
+  std::vector<double> hardenings_at(double stiffness) const;
+  std::vector<MaterialRatios> main_plane() const;  ///< ascending stiffness, then hardening
+  std::vector<MaterialRatios> block() const;       ///< ascending stiffness, hardening, Poisson's ratio
+};
+
+/// A fresh impact of a material between the atlas's own, and what the atlas said.
+struct AtlasCheck
+{
+  MaterialRatios material;
+  double speed = 0;              ///< sqrt(I)
+  double error_force = 0;        ///< relative, of F_max, signed
+  double error_restitution = 0;  ///< absolute, of e, signed
+};
+
+/// Dimensionless laws of all homogeneous materials within its range: shapes of few, interpolated.
+///
+/// Along ln(E*/Y) and along ln(1 + 2 (H/E)(E*/Y)), in which a law changes evenly from perfectly plastic to
+/// dominated by hardening: cubic through the four nearest; the change with Poisson's ratio by one cubic
+/// through all of its nodes, times quadratics of the block's stiffnesses and hardenings. Beyond the block's
+/// last stiffness that change keeps its value.
+class Atlas
+{
+ public:
+  struct Node
+  {
+    MaterialRatios material;
+    LawShape shape;
+  };
+
+  /// Nodes of grid.main_plane(), then grid.block(). Throws Error if they are not.
+  Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<AtlasCheck> checks = {});
+
+  static constexpr double depth = 0.5;  ///< overlap/R where every law ends
+
+  const AtlasGrid& grid() const { return grid_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<AtlasCheck>& checks() const { return checks_; }
+
+  /// Why this material's law is not in the atlas, as the end of a sentence; empty: it is.
+  std::string why_not(const MaterialRatios& m) const;
+  /// The finite-sphere correction of an elastic sphere.
+  ElasticCorrection elastic(double poisson_ratio) const;
+  /// Its shape. Needs why_not() empty.
+  LawShape shape(const MaterialRatios& m) const;
+
+  /// Errors that the atlas claims for its laws: 95 % of its checks lie within.
+  double claimed_force() const { return claimed_force_; }
+  double claimed_restitution() const { return claimed_restitution_; }
+
+ private:
+  AtlasGrid grid_;
+  std::vector<Node> nodes_;
+  std::vector<AtlasCheck> checks_;
+  double claimed_force_ = 0, claimed_restitution_ = 0;
+};
+
+/// Reads and writes the atlas's file (HDF5; layout: docs/atlas.md). Throws Error.
+Atlas read_atlas(const std::string& path);
+void write_atlas(const Atlas& atlas, const std::string& path);
+
+/// ln(1 + 2 (H/E)(E*/Y)): the coordinate along hardening.
+double hardening_coordinate(double stiffness, double hardening);
+
+}  // namespace granulaw

@@ -1,0 +1,142 @@
+#include "characterise/atlas_build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/scales.hpp"
+#include "characterise/fit_curve.hpp"
+#include "characterise/interpolation.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double elastic_depth = 0.03;  // overlap/R of the presses that tell the finite-sphere correction
+
+std::vector<MaterialRatios> all_materials(const AtlasGrid& grid)
+{
+  std::vector<MaterialRatios> all = grid.main_plane();
+  const std::vector<MaterialRatios> block = grid.block();
+  all.insert(all.end(), block.begin(), block.end());
+  return all;
+}
+
+std::vector<double> all_poisson_ratios(const AtlasGrid& grid)
+{
+  std::vector<double> all = grid.block_poisson_ratios;
+  all.push_back(grid.main_poisson_ratio);
+  return all;
+}
+
+Subject sphere_of(const MaterialRatios& m)
+{
+  return subject_of(m.stiffness, m.poisson_ratio, m.hardening);
+}
+
+double onset_of(const MaterialRatios& m)
+{
+  return sphere_of(m).onset;
+}
+
+/// A slow press without yield, for the finite-sphere correction.
+RunJob elastic_job(double poisson_ratio, const RunSource& source)
+{
+  return press_job(subject_of(1.0, poisson_ratio, 0.0).elastic(), {elastic_depth, {}, 24, 2}, source);
+}
+
+/// Functions of u are brought to the same delta/delta_onset in another material's range.
+LawShape at_range_of(const MaterialRatios& to, const MaterialRatios& from, const LawShape& shape)
+{
+  const double share = std::log(Atlas::depth / onset_of(to)) / std::log(Atlas::depth / onset_of(from));
+  return shape.stretched(share);
+}
+
+}  // namespace
+
+std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source)
+{
+  std::vector<RunJob> jobs;
+  for (const double nu : all_poisson_ratios(grid)) jobs.push_back(elastic_job(nu, source));
+  for (const MaterialRatios& m : all_materials(grid))
+    for (RunJob& job : survey_jobs(sphere_of(m), plan_survey(sphere_of(m), {}), source)) {
+      job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening, job.label);
+      jobs.push_back(std::move(job));
+    }
+  return jobs;
+}
+
+Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
+{
+  std::size_t next = 0;
+  std::vector<ElasticCorrection> elastic;
+  const std::vector<double> ratios = all_poisson_ratios(grid);
+  for (std::size_t k = 0; k < ratios.size(); ++k) elastic.push_back(fit_elastic(pressing_from(outcomes[next++].result)));
+  const auto elastic_at = [&](double nu) {
+    return elastic[static_cast<std::size_t>(std::find(ratios.begin(), ratios.end(), nu) - ratios.begin())];
+  };
+
+  std::vector<Atlas::Node> nodes;
+  /// Shape of a material from the nodes made so far at one stiffness of the main plane.
+  const auto main_shape = [&](double stiffness, double hardening) {
+    std::vector<double> z;
+    std::vector<const LawShape*> shapes;
+    for (const Atlas::Node& node : nodes)
+      if (node.material.stiffness == stiffness && node.material.poisson_ratio == grid.main_poisson_ratio) {
+        z.push_back(hardening_coordinate(stiffness, node.material.hardening));
+        shapes.push_back(&node.shape);
+      }
+    const auto weights = interpolation_weights(z, hardening_coordinate(stiffness, hardening));
+    LawShape sum = LawShape::zero();
+    for (std::size_t k = 0; k < shapes.size(); ++k)
+      if (weights[k] != 0) sum.add(weights[k], *shapes[k]);
+    return sum;
+  };
+
+  const auto shallow_guide = [&](const MaterialRatios& m) -> LawShape {
+    LawShape guide = LawShape::zero();
+    const auto add_main = [&](double weight, double stiffness) {
+      const MaterialRatios from{stiffness, grid.main_poisson_ratio, m.hardening};
+      guide.add(weight, at_range_of(m, from, main_shape(stiffness, m.hardening)));
+    };
+    if (m.poisson_ratio == grid.main_poisson_ratio) {
+      // linear in Y/E* through the two next less stiff
+      const auto at = std::find(grid.stiffnesses.begin(), grid.stiffnesses.end(), m.stiffness);
+      if (at - grid.stiffnesses.begin() < 2) fail("atlas", "its two least stiff materials must yield above the shallowest runs");
+      const double k1 = at[-1], k2 = at[-2];
+      const double slope = (1 / m.stiffness - 1 / k1) / (1 / k1 - 1 / k2);
+      add_main(1 + slope, k1);
+      add_main(-slope, k2);
+    } else {
+      // the same stiffness in the main plane, and what Poisson's ratio changes at the block's next less stiff
+      const auto at = std::find(grid.block_stiffnesses.begin(), grid.block_stiffnesses.end(), m.stiffness);
+      if (at == grid.block_stiffnesses.begin()) fail("atlas", "its block's least stiff material must yield above the shallowest runs");
+      const double below = at[-1];
+      add_main(1, m.stiffness);
+      add_main(-1, below);
+      for (const Atlas::Node& node : nodes)
+        if (node.material.stiffness == below && node.material.poisson_ratio == m.poisson_ratio &&
+            node.material.hardening == m.hardening)
+          guide.add(1, at_range_of(m, node.material, node.shape));
+    }
+    return guide;
+  };
+
+  for (const MaterialRatios& m : all_materials(grid)) {
+    const SurveyPlan plan = plan_survey(sphere_of(m), {});
+    const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
+    Survey survey;
+    add_to(survey, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
+    next += plan.runs();
+    const bool begins_late = survey.slow.front().depth > 2 * onset_of(m);
+    const LawShape guide = begins_late ? shallow_guide(m) : LawShape::zero();
+    nodes.push_back({m, fit_shape(survey, elastic_at(m.poisson_ratio), onset_of(m), Atlas::depth,
+                                  begins_late ? &guide : nullptr)
+                            .shape});
+  }
+  return Atlas(grid, std::move(nodes));
+}
+
+}  // namespace granulaw

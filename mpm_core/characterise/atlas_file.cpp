@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "characterise/atlas.hpp"
+#include "law/h5.hpp"
+#include "law/h5_names.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr const char* format_value = "granulaw-atlas";
+constexpr int major = 1;
+constexpr std::size_t most = 1u << 20;  // numbers in one dataset
+
+using h5::Field;
+constexpr Field main_poisson_ratio{"main_poisson_ratio", "1", "Poisson's ratio of the main plane"};
+constexpr Field stiffnesses{"stiffnesses", "1", "E*/Y of the main plane"};
+constexpr Field hardenings{"hardenings", "1", "H/E of the main plane; weak ones are left out at low E*/Y"};
+constexpr Field block_stiffnesses{"block_stiffnesses", "1", "E*/Y of the block"};
+constexpr Field block_hardenings{"block_hardenings", "1", "H/E of the block"};
+constexpr Field block_poisson_ratios{"block_poisson_ratios", "1", "Poisson's ratios of the block"};
+
+constexpr Field stiffness{"stiffness", "1", "E*/Y of each material"};
+constexpr Field poisson_ratio{"poisson_ratio", "1", "Poisson's ratio of each material"};
+constexpr Field hardening{"hardening", "1", "H/E of each material"};
+constexpr Field elastic{"elastic", "1", "c1, c2, d1 of each material"};
+constexpr Field softening{"softening", "1", "-ln(F/F_elastic) at the nodes of each material"};
+constexpr Field widening{"widening", "1", "ln(a/a_elastic) at the nodes of each material"};
+constexpr Field residual{"residual", "1", "-ln(1 - delta_r/delta_m) at the nodes of each material"};
+constexpr Field dissipation{"dissipation", "1", "-ln(W_u/W_L) at the nodes of each material"};
+constexpr Field reach{"impact_reach", "1", "ln(X/v) at the speeds of each material"};
+constexpr Field impact_dissipation{"impact_dissipation", "1", "dissipation over the slow press's, less 1"};
+constexpr Field impact_residual{"impact_residual", "1", "residual over the slow press's, less 1"};
+constexpr Field impact_force{"impact_force", "1", "ln(F/F_press) at shares of X, at the speeds of each material"};
+
+constexpr Field checks{"checks", "1",
+                       "rows of E*/Y, nu, H/E, sqrt(I), relative error of F_max, error of e: fresh impacts"};
+
+struct Curve
+{
+  const Field& field;
+  std::vector<double> LawShape::*values;
+};
+constexpr Curve curves[] = {{softening, &LawShape::softening},
+                            {widening, &LawShape::widening},
+                            {residual, &LawShape::residual},
+                            {dissipation, &LawShape::dissipation}};
+struct ImpactNumber
+{
+  const Field& field;
+  double LawShape::Inertia::*value;
+};
+constexpr ImpactNumber impact_numbers[] = {{reach, &LawShape::Inertia::reach},
+                                           {impact_dissipation, &LawShape::Inertia::dissipation},
+                                           {impact_residual, &LawShape::Inertia::residual}};
+
+/// A dataset of exactly `count` finite numbers.
+std::vector<double> read_numbers(hid_t group, const Field& field, std::size_t count, const std::string& path)
+{
+  std::vector<double> values = h5::read_vector(group, field, most, path);
+  if (values.size() != count)
+    fail(path, fmt::format("'{}' has the wrong length", field.name), std::to_string(values.size()),
+         std::to_string(count));
+  for (const double v : values)
+    if (!std::isfinite(v)) fail(path, fmt::format("'{}' holds a number that is not finite", field.name));
+  return values;
+}
+
+}  // namespace
+
+void write_atlas(const Atlas& atlas, const std::string& path)
+{
+  const h5::Silence silence;
+  write_atomically(path, [&](const std::string& temporary) {
+    h5::Handle file(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+    if (!file.ok()) fail(path, "cannot write here (no such folder, or no permission)");
+    h5::write_text_attribute(file, h5::format, format_value, path);
+    h5::write_int_attribute(file, h5::version_major, major, path);
+    const AtlasGrid& grid = atlas.grid();
+    h5::write_scalar(file, main_poisson_ratio, grid.main_poisson_ratio, path);
+    h5::write_vector(file, stiffnesses, grid.stiffnesses, path);
+    h5::write_vector(file, hardenings, grid.hardenings, path);
+    h5::write_vector(file, block_stiffnesses, grid.block_stiffnesses, path);
+    h5::write_vector(file, block_hardenings, grid.block_hardenings, path);
+    h5::write_vector(file, block_poisson_ratios, grid.block_poisson_ratios, path);
+
+    const auto gather = [&](const Field& field, auto&& append) {
+      std::vector<double> values;
+      for (const Atlas::Node& node : atlas.nodes()) append(node, values);
+      h5::write_vector(file, field, values, path);
+    };
+    gather(stiffness, [](const auto& node, auto& v) { v.push_back(node.material.stiffness); });
+    gather(poisson_ratio, [](const auto& node, auto& v) { v.push_back(node.material.poisson_ratio); });
+    gather(hardening, [](const auto& node, auto& v) { v.push_back(node.material.hardening); });
+    gather(elastic, [](const auto& node, auto& v) {
+      for (const double c : {node.shape.elastic.c1, node.shape.elastic.c2, node.shape.elastic.d1}) v.push_back(c);
+    });
+    for (const Curve& c : curves)
+      gather(c.field, [&](const auto& node, auto& v) {
+        v.insert(v.end(), (node.shape.*c.values).begin(), (node.shape.*c.values).end());
+      });
+    for (const ImpactNumber& n : impact_numbers)
+      gather(n.field, [&](const auto& node, auto& v) {
+        for (const LawShape::Inertia& i : node.shape.inertia) v.push_back(i.*n.value);
+      });
+    gather(impact_force, [](const auto& node, auto& v) {
+      for (const LawShape::Inertia& i : node.shape.inertia) v.insert(v.end(), i.force.begin(), i.force.end());
+    });
+    std::vector<double> rows;
+    for (const AtlasCheck& c : atlas.checks())
+      for (const double v : {c.material.stiffness, c.material.poisson_ratio, c.material.hardening, c.speed,
+                             c.error_force, c.error_restitution})
+        rows.push_back(v);
+    if (!rows.empty()) h5::write_vector(file, checks, rows, path);
+    if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
+  });
+}
+
+Atlas read_atlas(const std::string& path)
+{
+  const h5::Silence silence;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) fail(path, "no such file");
+  h5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (!file.ok()) fail(path, "is not an HDF5 file, so not an atlas (or it was cut off)");
+  if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != format_value)
+    fail(path, "is an HDF5 file but not an atlas of granulaw");
+  if (const int found = h5::read_int_attribute(file, h5::version_major, path); found != major)
+    fail(path, "the atlas's major version is not the one this program reads", std::to_string(found),
+         std::to_string(major));
+
+  AtlasGrid grid;
+  grid.main_poisson_ratio = h5::read_scalar(file, main_poisson_ratio, path);
+  grid.stiffnesses = h5::read_vector(file, stiffnesses, most, path);
+  grid.hardenings = h5::read_vector(file, hardenings, most, path);
+  grid.block_stiffnesses = h5::read_vector(file, block_stiffnesses, most, path);
+  grid.block_hardenings = h5::read_vector(file, block_hardenings, most, path);
+  grid.block_poisson_ratios = h5::read_vector(file, block_poisson_ratios, most, path);
+
+  const std::vector<double> k = h5::read_vector(file, stiffness, most, path);
+  const std::size_t count = k.size(), speeds = std::size(inertia_speeds);
+  const std::vector<double> nu = read_numbers(file, poisson_ratio, count, path);
+  const std::vector<double> h = read_numbers(file, hardening, count, path);
+  const std::vector<double> e = read_numbers(file, elastic, 3 * count, path);
+  std::vector<Atlas::Node> nodes;
+  for (std::size_t i = 0; i < count; ++i) {
+    nodes.push_back({{k[i], nu[i], h[i]}, LawShape::zero()});
+    nodes[i].shape.elastic = {e[3 * i], e[3 * i + 1], e[3 * i + 2]};
+  }
+  for (const Curve& c : curves) {
+    const std::vector<double> all = read_numbers(file, c.field, count * LawShape::nodes, path);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      (nodes[i / LawShape::nodes].shape.*c.values)[i % LawShape::nodes] = all[i];
+  }
+  for (const ImpactNumber& n : impact_numbers) {
+    const std::vector<double> all = read_numbers(file, n.field, count * speeds, path);
+    for (std::size_t i = 0; i < all.size(); ++i) nodes[i / speeds].shape.inertia[i % speeds].*n.value = all[i];
+  }
+  constexpr std::size_t shares = LawShape::Inertia::shares;
+  const std::vector<double> forces = read_numbers(file, impact_force, count * speeds * shares, path);
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    nodes[i / (speeds * shares)].shape.inertia[i / shares % speeds].force[i % shares] = forces[i];
+
+  std::vector<AtlasCheck> made;
+  if (h5::has_link(file, checks.name)) {
+    const std::vector<double> rows = h5::read_vector(file, checks, most, path);
+    for (std::size_t i = 0; i + 6 <= rows.size(); i += 6)
+      made.push_back({{rows[i], rows[i + 1], rows[i + 2]}, rows[i + 3], rows[i + 4], rows[i + 5]});
+  }
+  return Atlas(std::move(grid), std::move(nodes), std::move(made));
+}
+
+}  // namespace granulaw

@@ -1,0 +1,209 @@
+#include "characterise/law_shape.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double target_spacing = 0.0045;  // of table nodes in s: about 128 nodes to x = 0.1
+
+/// One function of a shape between its nodes, in q = ln(s/s_onset).
+class ShapeFunction
+{
+ public:
+  ShapeFunction(const std::vector<double>& values, double q_end)
+      : spline_(values.begin(), values.end(), 0.0, q_end / static_cast<double>(values.size() - 1), 0.0), q_end_(q_end)
+  {
+  }
+  double value(double q) const { return q > 0 ? spline_(std::min(q, q_end_)) : 0.0; }
+  double slope(double q) const { return q > 0 ? spline_.prime(std::min(q, q_end_)) : 0.0; }
+
+ private:
+  boost::math::interpolators::cardinal_cubic_b_spline<double> spline_;
+  double q_end_;
+};
+
+/// Nodes uniform in s, the onset on a node: everything is smooth on either side of it.
+ContactCurve::Table empty_table(double s_onset, double x_end, std::vector<double>& nodes)
+{
+  const double wanted = std::pow(x_end, 0.25);
+  double spacing = target_spacing;
+  if (std::isfinite(s_onset) && s_onset < wanted)
+    spacing = s_onset / std::max(4.0, std::round(s_onset / target_spacing));
+  const auto intervals = static_cast<std::size_t>(std::ceil(wanted / spacing - 1e-9));
+  for (std::size_t k = 0; k <= intervals; ++k) nodes.push_back(spacing * static_cast<double>(k));
+  ContactCurve::Table table;
+  table.s_end = nodes.back();
+  return table;
+}
+
+/// n of an elastic body: F x/W - 1, which makes the work of F_m u^n the work of loading.
+double elastic_exponent(const ElasticCorrection& e, double s)
+{
+  const double y = s * s;  // integral of x^1.5 (1 + c1 x^.5 + c2 x) = x^2.5 (1/2.5 + c1 x^.5/3 + c2 x/3.5)
+  return e.force_ratio(s) / (0.4 + e.c1 * y / 3 + e.c2 * y * y / 3.5) - 1;
+}
+
+/// Slopes of a smooth function given at uniform nodes from `first` on: fourth-order differences inside,
+/// one-sided second order at the ends.
+void fill_slopes(const std::vector<double>& value, std::size_t first, std::size_t last, double h,
+                 std::vector<double>& slope)
+{
+  const auto v = [&](std::size_t k) { return value[k]; };
+  for (std::size_t k = first; k <= last; ++k) {
+    if (k == first)
+      slope[k] = (-3 * v(k) + 4 * v(k + 1) - v(k + 2)) / (2 * h);
+    else if (k == last)
+      slope[k] = (3 * v(k) - 4 * v(k - 1) + v(k - 2)) / (2 * h);
+    else if (k == first + 1 || k + 1 == last)
+      slope[k] = (v(k + 1) - v(k - 1)) / (2 * h);
+    else
+      slope[k] = (8 * (v(k + 1) - v(k - 1)) - (v(k + 2) - v(k - 2))) / (12 * h);
+  }
+}
+
+void add_to(std::vector<double>& sum, double weight, const std::vector<double>& values)
+{
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * values[k];
+}
+
+}  // namespace
+
+LawShape LawShape::zero()
+{
+  const std::vector<double> none(nodes, 0.0);
+  LawShape shape{{}, none, none, none, none, {}};
+  for (const double v : inertia_speeds)
+    shape.inertia.push_back({v, 0, 0, 0, std::vector<double>(Inertia::shares, 0.0)});
+  return shape;
+}
+
+void LawShape::add(double weight, const LawShape& other)
+{
+  elastic.c1 += weight * other.elastic.c1;
+  elastic.c2 += weight * other.elastic.c2;
+  elastic.d1 += weight * other.elastic.d1;
+  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation})
+    add_to(this->*member, weight, other.*member);
+  for (std::size_t k = 0; k < inertia.size(); ++k) {
+    inertia[k].reach += weight * other.inertia[k].reach;
+    inertia[k].dissipation += weight * other.inertia[k].dissipation;
+    inertia[k].residual += weight * other.inertia[k].residual;
+    add_to(inertia[k].force, weight, other.inertia[k].force);
+  }
+}
+
+LawShape LawShape::stretched(double share) const
+{
+  LawShape result = zero();
+  result.elastic = elastic;
+  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation}) {
+    const ShapeFunction function(this->*member, 1.0);
+    for (int k = 0; k < nodes; ++k)
+      (result.*member)[static_cast<std::size_t>(k)] = function.value(share * k / (nodes - 1));
+  }
+  return result;
+}
+
+void require_admissible(const ContactCurve& curve)
+{
+  for (int k = 1; k <= 1000; ++k) {
+    const double x = std::pow(curve.table().s_end * k / 1000, 4);
+    if (curve.loading(x).stiffness <= 0)
+      fail("fit", fmt::format("the loading force does not rise at delta/R = {:.4g}: the runs are too coarse", x));
+  }
+  if (const double margin = curve.admissibility_margin(); margin < 0)
+    fail("fit", fmt::format("the law would gain energy in a closed cycle (margin {:.3g}): the runs are too coarse",
+                            margin));
+}
+
+double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve)
+{
+  const double s_onset = std::pow(onset, 0.25);
+  const ShapeFunction softening(shape.softening, 0.25 * std::log(shape_end / onset));
+  double worst = 0;
+  for (int k = 1; k < 2000; ++k) {
+    const double s = curve.table().s_end * k / 2000, x = s * s * s * s;
+    if (x > shape_end) break;
+    const double q = s > s_onset ? std::log(s / s_onset) : 0.0;
+    const double exact = std::pow(x, 1.5) * shape.elastic.force_ratio(s) * std::exp(-softening.value(q));
+    worst = std::max(worst, std::abs(curve.loading(x).force / exact - 1));
+  }
+  return worst;
+}
+
+ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end)
+{
+  const double s_onset = std::pow(onset, 0.25), q_end = 0.25 * std::log(shape_end / onset);
+  const ShapeFunction softening(shape.softening, q_end), widening(shape.widening, q_end),
+      residual(shape.residual, q_end), dissipation(shape.dissipation, q_end);
+  std::vector<double> nodes;
+  ContactCurve::Table table = empty_table(s_onset, x_end, nodes);
+  table.onset = onset;
+  const ElasticCorrection& el = shape.elastic;
+  const double h = nodes[1];
+  const auto at_onset = static_cast<std::size_t>(std::lround(s_onset / h));
+  for (const double s : nodes) {
+    const double q = s > s_onset ? std::log(s / s_onset) : 0.0;
+    const double per_s = s > 0 ? 1.0 / s : 0.0;  // dq/ds; 0 below the onset anyway
+    const double g = el.force_ratio(s) * std::exp(-softening.value(q));
+    const double a = el.radius_ratio(s) * std::exp(widening.value(q));
+    table.force_ratio.push_back(g);
+    table.force_ratio_slope.push_back(
+        g * (el.force_ratio_slope(s) / el.force_ratio(s) - softening.slope(q) * per_s));
+    table.radius_ratio.push_back(a);
+    table.radius_ratio_slope.push_back(
+        a * (el.radius_ratio_slope(s) / el.radius_ratio(s) + widening.slope(q) * per_s));
+    const double kept = std::exp(-residual.value(q));
+    table.residual_ratio.push_back(1 - kept);
+    table.residual_ratio_slope.push_back(kept * residual.slope(q) * per_s);
+  }
+  // n needs the loading work of this very table: build it once with any exponent.
+  const std::size_t count = nodes.size();
+  table.exponent.assign(count, 1.5);
+  table.exponent_slope.assign(count, 0.0);
+  const ContactCurve loading(table, "fitted curve");
+  for (std::size_t k = 0; k < count; ++k) {
+    const double s = nodes[k], x = s * s * s * s;
+    if (k <= at_onset) {
+      table.exponent[k] = elastic_exponent(el, s);
+      continue;
+    }
+    const double given_back = loading.work_loading(x) * std::exp(-dissipation.value(std::log(s / s_onset)));
+    table.exponent[k] = loading.loading(x).force * x * (1 - table.residual_ratio[k]) / given_back - 1;
+  }
+  fill_slopes(table.exponent, 0, at_onset, h, table.exponent_slope);
+  // From the onset on: the onset's own slope must be the one of the plastic side.
+  fill_slopes(table.exponent, at_onset, count - 1, h, table.exponent_slope);
+  // 1e-7: returned work must not exceed the work put in just past the onset, not even by rounding.
+  for (double& n : table.exponent) n += 1e-7;
+  require_admissible(ContactCurve(table, "fitted curve"));
+  return table;
+}
+
+ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_end)
+{
+  std::vector<double> nodes;
+  ContactCurve::Table table = empty_table(std::numeric_limits<double>::infinity(), x_end, nodes);
+  table.onset = std::numeric_limits<double>::infinity();
+  for (const double s : nodes) {
+    table.force_ratio.push_back(elastic.force_ratio(s));
+    table.force_ratio_slope.push_back(elastic.force_ratio_slope(s));
+    table.radius_ratio.push_back(elastic.radius_ratio(s));
+    table.radius_ratio_slope.push_back(elastic.radius_ratio_slope(s));
+    table.exponent.push_back(elastic_exponent(elastic, s));
+  }
+  table.residual_ratio.assign(nodes.size(), 0.0);
+  table.residual_ratio_slope = table.residual_ratio;
+  table.exponent_slope.assign(nodes.size(), 0.0);
+  return table;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <vector>
+
+#include "law/contact_curve.hpp"
+#include "law/inertia_axis.hpp"
+
+namespace granulaw {
+
+/// F/F_Hertz = 1 + c1 sqrt(x) + c2 x and a/a_Hertz = 1 + d1 sqrt(x) of the elastic body: the finite sphere.
+struct ElasticCorrection
+{
+  double c1 = 0, c2 = 0, d1 = 0;
+  double force_ratio(double s) const { return 1 + s * s * (c1 + c2 * s * s); }
+  double force_ratio_slope(double s) const { return s * (2 * c1 + 4 * c2 * s * s); }
+  double radius_ratio(double s) const { return 1 + d1 * s * s; }
+  double radius_ratio_slope(double s) const { return 2 * d1 * s; }
+};
+
+/// The law of a yielding body in the coordinates in which materials resemble each other: what the runs are
+/// fitted to, what the atlas keeps and interpolates, and what a ContactCurve is tabulated from.
+///
+/// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero slope
+/// at the onset:
+///     softening    -ln(F_L/F_elastic)               residual     -ln(1 - delta_r/delta_m)
+///     widening      ln(a/a_elastic)                 dissipation  -ln(W_u/W_L) = -2 ln e
+/// Differences and means of shapes are shapes again: that is how they are interpolated between materials.
+struct LawShape
+{
+  static constexpr int nodes = 49;
+
+  /// What an impact at speed v = sqrt(rho V^2/Y) changes, against the slow press to the same overlap.
+  struct Inertia
+  {
+    static constexpr int shares = 12;  ///< xi = x/X = 0, 1/11, ..., 1
+
+    double speed = 0;                ///< v
+    double reach = 0;                ///< ln(X/v), X the overlap/R reached
+    double dissipation = 0;          ///< (-ln W_u/W_L of the impact)/(that of the press) - 1
+    double residual = 0;             ///< the same of -ln(1 - delta_r/delta_m)
+    std::vector<double> force;       ///< ln(F_impact/F_press) at the shares
+  };
+
+  ElasticCorrection elastic;
+  std::vector<double> softening, widening, residual, dissipation;
+  std::vector<Inertia> inertia;  ///< ascending speed
+
+  /// this += weight * other, whose speeds are the same.
+  void add(double weight, const LawShape& other);
+  /// Its functions of u as functions of u/share: of the same delta/delta_onset in a range of overlaps whose
+  /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is dropped.
+  LawShape stretched(double share) const;
+  /// All zero at all inertia_speeds, ready for add().
+  static LawShape zero();
+};
+
+/// Speeds sqrt(I) at which the atlas knows the effect of inertia.
+inline constexpr double inertia_speeds[] = {0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3};
+
+/// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
+/// `x_end`, at most there. Throws Error where the loading force would not rise or a closed cycle would gain
+/// energy.
+ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
+
+/// Largest relative error of the loading force of `curve` against the shape it was tabulated from.
+double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve);
+
+/// Throws Error where a loading force, with or without inertia, does not rise or a closed cycle gains energy.
+void require_admissible(const ContactCurve& curve);
+
+/// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at most the
+/// shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches the force goes over to the press's within
+/// half of it; residual and dissipation keep their ratio to the press's at any overlap.
+InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
+                                    double mass, double fastest);
+
+/// The law of a body that never yields.
+ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_end);
+
+}  // namespace granulaw

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/trace.hpp"
+
+namespace granulaw {
+
+/// One dimensionless collision (R = E* = rho = 1): virgin loading to `depth`, then unloading until the force
+/// ends. A press, an impact, or a partial unloading of a press (which has no loading of its own).
+struct Pressing
+{
+  struct Sample
+  {
+    double x, force, radius;
+  };                            ///< overlap/R; F/(4/3 E* R^2); a/R
+  std::vector<Sample> loading;  ///< ascending x
+  double depth = 0;             ///< x_m, largest overlap/R
+  double residual = 0;          ///< overlap/R at which the force ended
+  double work_ratio = 0;        ///< work given back/work put in, W_u/W_L = e^2
+  double turn_force = 0;        ///< as computed just before the turn, F/(4/3 E* R^2); 0: not known
+};
+
+/// Takes a run of a sphere of unit radius, density and E* apart: its loading and its last unloading.
+Pressing pressing_from(const RunResult& result);
+
+/// The partial unloadings of such a press, in order; without its last. `loop` is raised to the largest area
+/// between a partial unloading and its reloading over the work put in until then.
+std::vector<Pressing> partial_unloadings(const RunResult& result, double& loop);
+
+}  // namespace granulaw

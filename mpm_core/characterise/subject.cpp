@@ -1,0 +1,168 @@
+#include "characterise/subject.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+std::string text_of(const char* what, const FlowLaw& law)
+{
+  if (law.name.empty()) return {};
+  std::string text = fmt::format(" {}={}", what, law.name);
+  for (const auto& [key, values] : law.values) {
+    text += fmt::format(" {}", key);
+    for (const double v : values) text += fmt::format(",{:.17g}", v);
+  }
+  return text;
+}
+
+std::string text_of(const Material& m)
+{
+  return fmt::format("[{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}{}{}]", m.density, m.youngs_modulus, m.poisson_ratio,
+                     m.yield_stress, m.hardening_modulus, text_of("hardening", m.hardening), text_of("rate", m.rate));
+}
+
+std::string text_of(const Particle& p)
+{
+  std::string text = fmt::format("radius={:.17g}", p.radius);
+  for (const Material& m : p.materials) text += text_of(m);
+  for (const Particle::Layer& l : p.layers) text += fmt::format(" layer {:.17g} {}", l.thickness, l.material);
+  for (const Particle::Inclusion& i : p.inclusions)
+    text += fmt::format(" inclusion {:.17g} {:.17g} {:.17g} {}", i.r, i.z, i.radius, i.material);
+  for (const ProfilePoint& q : p.profile) text += fmt::format(" {:.17g},{:.17g}", q.r, q.z);
+  return text;
+}
+
+/// Mass, by the volumes that a fine raster of the meridian finds of each material; a homogeneous body's is exact.
+double mass_of(const Particle& p)
+{
+  if (p.layers.empty() && p.inclusions.empty()) return p.materials[0].density * p.volume();
+  constexpr int cells = 400;
+  const double height = p.height(), dz = height / cells, dr = p.radius / cells;
+  double mass = 0, volume = 0;
+  for (int i = 0; i < cells; ++i)
+    for (int k = 0; k < cells; ++k) {
+      const double r = (i + 0.5) * dr, z = (k + 0.5) * dz;
+      if (p.depth(r, z) < 0) continue;
+      const double ring = 2 * M_PI * r * dr * dz;
+      const int at = p.material_at(r, z);
+      volume += ring;
+      if (at >= 0) mass += ring * p.materials[static_cast<std::size_t>(at)].density;
+    }
+  return mass * p.volume() / volume;  // what the raster misses at the surface
+}
+
+void fill_yield(Subject& s)
+{
+  s.yield = s.onset = never;
+  for (const Material& m : s.particle.materials)
+    if (m.yields()) {
+      s.yield = std::min(s.yield, m.yield_stress / s.scale.stress);
+      s.onset = std::min(s.onset, onset_overlap(1.0, m.yield_stress / s.scale.stress, m.poisson_ratio));
+    }
+}
+
+void fill_plain(Subject& s)
+{
+  const Material& m = s.particle.materials[0];
+  s.description = fmt::format("nu={:.17g} yield={:.17g} hardening={:.17g}", m.poisson_ratio, m.yield_stress,
+                              m.hardening_modulus);
+}
+
+}  // namespace
+
+bool Subject::rate_dependent() const
+{
+  return std::any_of(particle.materials.begin(), particle.materials.end(),
+                     [](const Material& m) { return m.rate_dependent(); });
+}
+
+Subject Subject::elastic() const
+{
+  Subject other = *this;
+  for (Material& m : other.particle.materials) {
+    m.yield_stress = never;
+    m.hardening_modulus = 0;
+    m.hardening = m.rate = {};
+  }
+  other.yield = other.onset = never;
+  if (other.particle.is_homogeneous_sphere() && is_plain())
+    fill_plain(other);
+  else
+    other.description = text_of(other.particle);
+  return other;
+}
+
+Subject Subject::rate_free() const
+{
+  Particle other = particle;
+  for (Material& m : other.materials) m.rate = {};
+  return subject_of(other);
+}
+
+Subject subject_of(const Particle& particle)
+{
+  if (particle.is_homogeneous_sphere() && !particle.materials[0].rate_dependent() &&
+      particle.materials[0].hardening.name.empty())
+    return subject_of(particle.materials[0]);
+  Subject s;
+  s.particle = particle;
+  const double pole = particle.pole_curvature_radius();
+  if (!(pole > 1e-3 * particle.radius && pole < 1e3 * particle.radius))
+    fail("contact law", "a body needs a rounded contact pole", fmt::format("radius of curvature {:.3g} m", pole),
+         fmt::format("0.001 to 1000 times its radius {:.3g} m", particle.radius));
+  const int skin = particle.material_at(0.0, 1e-9 * pole);
+  const Material& m = particle.materials[static_cast<std::size_t>(std::max(0, skin))];
+  s.scale = {pole, m.e_star(), m.density};
+  s.poisson_ratio = m.poisson_ratio;
+  s.mass = mass_of(particle) / s.scale.mass();
+  s.description = text_of(particle);
+  fill_yield(s);
+  return s;
+}
+
+Subject subject_of(const Material& material)
+{
+  if (material.rate_dependent()) fail("contact law", "a rate-dependent material's law needs a particle of a certain size");
+  if (material.hardening.name.empty()) {
+    Subject s = subject_of(material.e_star() / material.yield_stress, material.poisson_ratio,
+                           material.hardening_modulus / material.youngs_modulus);
+    return material.yields() ? s : s.elastic();
+  }
+  Subject s;
+  s.particle = Particle::from(Sphere{1.0, material});
+  s.scale = {1.0, material.e_star(), material.density};
+  s.poisson_ratio = material.poisson_ratio;
+  s.mass = 4.0 / 3.0 * M_PI;
+  s.description = text_of(s.particle);
+  fill_yield(s);
+  return s;
+}
+
+Subject subject_of(double e_star_over_yield, double poisson_ratio, double hardening_over_e)
+{
+  Material m;
+  m.density = 1;
+  m.poisson_ratio = poisson_ratio;
+  m.youngs_modulus = 1 - poisson_ratio * poisson_ratio;
+  m.yield_stress = 1 / e_star_over_yield;
+  m.hardening_modulus = hardening_over_e * m.youngs_modulus;
+  Subject s;
+  s.particle = Particle::from(Sphere{1.0, m});
+  s.poisson_ratio = poisson_ratio;
+  s.mass = 4.0 / 3.0 * M_PI;
+  fill_yield(s);
+  fill_plain(s);
+  return s;
+}
+
+}  // namespace granulaw

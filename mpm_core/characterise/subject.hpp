@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "base/scales.hpp"
+#include "solver/particle.hpp"
+
+namespace granulaw {
+
+/// One body whose law is wanted, and the units in which the law has no dimensions.
+struct Subject
+{
+  Particle particle;
+  Scales scale;              ///< radius of curvature at the contact pole; E* and density of the material there
+  double yield = 0;          ///< smallest yield stress in it over E*; infinity: elastic
+  double poisson_ratio = 0;  ///< of the material at the pole
+  double onset = 0;          ///< overlap/length below which nothing in it yields
+  double mass = 0;           ///< over density length^3; 4/3 pi: a sphere
+  std::string description;   ///< everything about it that determines a run, on one line
+
+  bool yields() const { return onset < std::numeric_limits<double>::infinity(); }
+  /// The sphere of a material that hardens linearly and knows no rate is its own unit: R = rho = E* = 1.
+  bool is_plain() const { return particle.is_homogeneous_sphere() && particle.materials[0].hardening.name.empty() &&
+                                 particle.materials[0].rate.name.empty(); }
+  /// Some material of it depends on the rate: its law holds for this size.
+  bool rate_dependent() const;
+  /// The same body, none of whose materials yields, or whose yield stresses are those at no rate.
+  Subject elastic() const;
+  Subject rate_free() const;
+};
+
+Subject subject_of(const Particle& particle);
+/// A homogeneous sphere; of unit radius where the law knows no size.
+Subject subject_of(const Material& material);
+/// The same of dimensionless numbers: E*/Y, nu, H/E.
+Subject subject_of(double e_star_over_yield, double poisson_ratio, double hardening_over_e);
+
+}  // namespace granulaw

@@ -1,0 +1,170 @@
+#include "characterise/survey.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/solver_id.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double slowest_press = 1e-3;   // overlap: below, slow impacts are cheaper than presses
+constexpr double first_yielded = 1.25;   // over the onset's overlap: nearer to it nothing can be told from elastic
+
+/// Ends of the presses: each a quarter of the next, so that the contact of its shallowest partial unloading
+/// still spans about half the cells.
+constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
+
+std::string key(const Subject& s, int resolution, int phases, const std::string& what)
+{
+  return fmt::format("{} {} resolution={} phases={} single solver={}", what, s.description, resolution, phases,
+                     solver_id());
+}
+
+RunOptions own(RunOptions options, int resolution, int phases)
+{
+  options.resolution = resolution;
+  options.phases = phases;
+  options.precision = Precision::single;  // changes e and F by less than 1e-6, takes two thirds of the time
+  return options;
+}
+
+/// CPU seconds, about: cells are a share of the contact radius, steps a share of a cell over the wave speed,
+/// which grows towards nu = 1/2.
+double cost_of(const Subject& s, double depth, double duration, int resolution, int phases)
+{
+  const double nu = s.poisson_ratio;
+  const double wave = std::sqrt((1 - nu) * (1 - nu) / (1 - 2 * nu));  // dilatational, over c*
+  const double cell = std::sqrt(2 * depth) / resolution;
+  const double tartan = s.particle.is_homogeneous_sphere() ? 1.0 : 3.0;
+  return 1.1e-4 * tartan * duration * wave / cell * resolution * resolution / 576.0 * phases;
+}
+
+/// `count` overlaps from `low` on, by equal factors, the next of which would be `high`.
+std::vector<double> between(double low, double high, int count)
+{
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k) values.push_back(low * std::pow(high / low, static_cast<double>(k) / count));
+  return values;
+}
+
+/// A run's numbers over the subject's scales.
+RunResult dimensionless(RunResult run, const Scales& scale)
+{
+  for (TraceSample& t : run.trace) {
+    t.time /= scale.time();
+    t.delta /= scale.length;
+    t.force /= scale.force();
+    t.contact_radius /= scale.length;
+  }
+  RunSummary& s = run.summary;
+  s.force_max /= scale.force();
+  s.delta_max /= scale.length, s.delta_residual /= scale.length;
+  s.contact_time /= scale.time();
+  s.work_load /= scale.energy(), s.work_unload /= scale.energy();
+  return run;
+}
+
+}  // namespace
+
+double expected_depth(double velocity, const Subject& s)
+{
+  const double hertz = std::pow(15.0 / 16.0 * s.mass * velocity * velocity, 0.4);
+  return s.yields() ? std::max(hertz, velocity * std::sqrt(s.mass / (5.6 * M_PI * s.yield))) : hertz;
+}
+
+double velocity_to(double x, const Subject& s)
+{
+  return std::min(std::sqrt(std::pow(x, 2.5) * 16.0 / (15.0 * s.mass)),
+                  x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
+}
+
+RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const RunSource& source)
+{
+  std::string stops;
+  for (const double stop : press.stops) stops += fmt::format(" unload={:.17g}", stop);
+  const double ramp = subject.yields() ? std::max(60.0, 60.0 * std::pow(0.01 / subject.yield, 0.25)) : 40.0;
+  return {fmt::format("press to {:.3g} R", press.depth),
+          key(subject, press.resolution, press.phases, fmt::format("press free depth={:.17g}{}", press.depth, stops)),
+          cost_of(subject, press.depth, 1.4 * ramp, press.resolution, press.phases),
+          [subject, press, &source](const RunOptions& options) {
+            PressPlan plan{press.depth * subject.scale.length, Support::free, press.stops, 0};
+            for (double& stop : plan.partial_unloads) stop *= subject.scale.length;
+            return dimensionless(
+                source.press(subject.particle, plan, own(options, press.resolution, press.phases)), subject.scale);
+          }};
+}
+
+RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases, const RunSource& source)
+{
+  const double depth = expected_depth(velocity, subject);
+  return {fmt::format("impact at {:.3g} c*", velocity),
+          key(subject, resolution, phases, fmt::format("impact velocity={:.17g}", velocity)),
+          cost_of(subject, depth, 2 * depth / velocity, resolution, phases),
+          [subject, velocity, resolution, phases, &source](const RunOptions& options) {
+            return dimensionless(source.impact(subject.particle, velocity * subject.scale.velocity(),
+                                               own(options, resolution, phases)),
+                                 subject.scale);
+          }};
+}
+
+SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
+{
+  SurveyPlan plan;
+  const double first = std::max(range.shallowest, first_yielded * subject.onset);
+  double done = std::max(slowest_press, first);
+  for (double depth : press_depths) {
+    depth = std::min(depth, range.depth);
+    if (depth < 1.3 * done) continue;
+    SurveyPlan::Press press{depth, between(done, depth, range.stops), 24, 2};
+    if (depth > 0.2) press.resolution = 20, press.phases = 1;  // no pair law is exact there anyway
+    plan.presses.push_back(press);
+    done = depth;
+  }
+  if (first < slowest_press) {
+    const double factor = range.stops > 2 ? 1.8 : 3.0;
+    const int count =
+        std::max(1, static_cast<int>(std::lround(std::log(slowest_press / first) / std::log(factor))));
+    for (const double x : between(first, slowest_press, count)) plan.slow_impacts.push_back(velocity_to(x, subject));
+  }
+  for (std::size_t k = 0; k < std::size(inertia_speeds); ++k)
+    if (inertia_speeds[k] <= range.fastest * 1.0001 && (k + 1) % static_cast<std::size_t>(range.every) == 0)
+      plan.fast_speeds.push_back(inertia_speeds[k]);
+  return plan;
+}
+
+std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, const RunSource& source)
+{
+  std::vector<RunJob> jobs;
+  for (const SurveyPlan::Press& press : plan.presses) jobs.push_back(press_job(subject, press, source));
+  for (const double v : plan.slow_impacts)
+    jobs.push_back(impact_job(subject, v, plan.resolution, plan.phases, source));
+  for (const double v : plan.fast_speeds)
+    jobs.push_back(impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, plan.phases, source));
+  return jobs;
+}
+
+void add_to(Survey& survey, const SurveyPlan& plan, const std::vector<RunOutcome>& outcomes)
+{
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < plan.presses.size(); ++k) {
+    const RunOutcome& run = outcomes[next++];
+    if (run.failed()) continue;
+    for (Pressing& turn : partial_unloadings(run.result, survey.reload_loop)) survey.slow.push_back(std::move(turn));
+    survey.slow.push_back(pressing_from(run.result));
+  }
+  for (std::size_t k = 0; k < plan.slow_impacts.size(); ++k)
+    if (const RunOutcome& run = outcomes[next++]; !run.failed()) survey.slow.push_back(pressing_from(run.result));
+  for (const double speed : plan.fast_speeds)
+    if (const RunOutcome& run = outcomes[next++]; !run.failed())
+      survey.fast.push_back({speed, pressing_from(run.result)});
+  std::sort(survey.slow.begin(), survey.slow.end(),
+            [](const Pressing& a, const Pressing& b) { return a.depth < b.depth; });
+  std::sort(survey.fast.begin(), survey.fast.end(),
+            [](const Survey::Impact& a, const Survey::Impact& b) { return a.speed < b.speed; });
+}
+
+}  // namespace granulaw

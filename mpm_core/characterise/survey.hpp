@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "characterise/law_shape.hpp"
+#include "characterise/pressing.hpp"
+#include "characterise/run_queue.hpp"
+#include "characterise/subject.hpp"
+
+namespace granulaw {
+
+/// Where the runs come from: the solver, or a test's own model.
+struct RunSource
+{
+  std::function<RunResult(const Particle&, const PressPlan&, const RunOptions&)> press =
+      [](const Particle& p, const PressPlan& plan, const RunOptions& o) { return run_press(p, plan, o); };
+  std::function<RunResult(const Particle&, double, const RunOptions&)> impact =
+      [](const Particle& p, double velocity, const RunOptions& o) { return run_impact(p, velocity, o); };
+};
+
+/// Which runs make a law. Lengths over the subject's scale, velocities over sqrt(E*/rho).
+///
+/// Slow presses, each with partial unloadings on its way, cover a factor of four in overlap each: a grid made
+/// for the deepest contact still resolves one of half its radius. Below the first press slow impacts take
+/// their place (they cost less there, and their inertia is nothing). Fast impacts show what inertia changes.
+struct SurveyPlan
+{
+  struct Press
+  {
+    double depth = 0;
+    std::vector<double> stops;  ///< overlaps of partial unloadings, ascending, below depth
+    int resolution = 24, phases = 2;
+  };
+  std::vector<Press> presses;
+  std::vector<double> slow_impacts;  ///< velocities whose inertia does not count
+  std::vector<double> fast_speeds;   ///< sqrt(I), I = rho V^2/Y
+  int resolution = 24, phases = 2;   ///< of the impacts
+
+  std::size_t runs() const { return presses.size() + slow_impacts.size() + fast_speeds.size(); }
+};
+
+/// How far a law must reach, and how densely it is sampled.
+struct SurveyRange
+{
+  double depth = 0.5;        ///< overlap of the deepest press, up to 0.5
+  double fastest = 0.3;      ///< sqrt(I) of the fastest impact, up to 0.3
+  double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset tells
+  int stops = 3;             ///< turning points a press, its end among them
+  int every = 1;             ///< of inertia_speeds, each so many-th
+};
+
+SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range);
+
+/// A slow impact that reaches about this overlap.
+double velocity_to(double overlap, const Subject& subject);
+
+/// The plan's runs, in the order: presses, slow impacts, fast impacts. Results are dimensionless. `source`
+/// outlives them.
+std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, const RunSource& source);
+RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const RunSource& source);
+RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases, const RunSource& source);
+
+/// What the runs found.
+struct Survey
+{
+  struct Impact
+  {
+    double speed = 0;  ///< sqrt(I)
+    Pressing path;
+  };
+  std::vector<Pressing> slow;  ///< rate-free: presses (a partial unloading has no loading of its own) and slow
+                               ///< impacts; ascending depth
+  std::vector<Impact> fast;    ///< ascending speed
+  double reload_loop = 0;      ///< largest area between a partial unloading and its reloading, over the work
+};
+
+/// Adds what the runs of a plan found; a failed run adds nothing.
+void add_to(Survey& survey, const SurveyPlan& plan, const std::vector<RunOutcome>& outcomes);
+
+/// Overlap that an impact is expected to reach: Hertz's, or that of a mean pressure of 2.8 Y over the area
+/// 2 pi R delta, whichever is deeper. Only costs and the choice of runs depend on it.
+double expected_depth(double velocity, const Subject& subject);
+
+}  // namespace granulaw

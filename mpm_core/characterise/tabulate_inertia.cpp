@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "characterise/interpolation.hpp"
+#include "characterise/law_shape.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double speed_spacing = 0.02;   // of the nodes of X(v)
+constexpr double slice_spacing = 0.02;   // of X, about
+constexpr double share_spacing = 0.05;   // of xi = x/X
+constexpr double ratio_end = 1.5;        // xi where the force is the press's again
+
+/// y(x) = 0 by bracketing.
+template <class F>
+double root_of(const F& y, double low, double high)
+{
+  std::uintmax_t steps = 200;
+  const auto [a, b] = boost::math::tools::toms748_solve(y, low, high, boost::math::tools::eps_tolerance<double>(48), steps);
+  return 0.5 * (a + b);
+}
+
+/// The shape's table over speed, with the standstill before it.
+class Speeds
+{
+ public:
+  Speeds(const LawShape& shape, const ContactCurve& slow, double energy_unit) : slow_(slow), energy_unit_(energy_unit)
+  {
+    nodes_ = {0.0};
+    log_reach_ = {0.0};
+    for (const LawShape::Inertia& i : shape.inertia) {
+      const double v = i.speed;
+      nodes_.push_back(v);
+      log_reach_.push_back(std::log(v * std::exp(i.reach) / slow_reach(v)));
+    }
+  }
+
+  /// X: the overlap/R that an impact reaches.
+  double reach(double v) const
+  {
+    return v > 0 ? slow_reach(v) * std::exp(mix(v, [&](std::size_t j) { return log_reach_[j + 1]; })) : 0.0;
+  }
+  /// A quantity of LawShape::Inertia at speed v; 0 at standstill.
+  template <class Of>
+  double mix(double v, const Of& of) const
+  {
+    const std::vector<double> weights = interpolation_weights(nodes_, v);
+    double sum = 0;
+    for (std::size_t j = 1; j < weights.size(); ++j)
+      if (weights[j] != 0) sum += weights[j] * of(j - 1);
+    return sum;
+  }
+
+ private:
+  /// Where the rate-free law's work is the kinetic energy.
+  double slow_reach(double v) const
+  {
+    const double energy = energy_unit_ * v * v;
+    return root_of([&](double x) { return slow_.work_loading(x) - energy; }, 0.0, 4.0);
+  }
+
+  const ContactCurve& slow_;
+  double energy_unit_;  // kinetic energy at v = 1 over 4/3 E* R^3, the unit of ContactCurve's work
+  std::vector<double> nodes_, log_reach_;
+};
+
+/// d/dx of values at equal spacings: three-point differences.
+std::vector<double> slopes_of(const std::vector<double>& y, double h)
+{
+  const std::size_t last = y.size() - 1;
+  std::vector<double> slope(y.size());
+  slope[0] = (-3 * y[0] + 4 * y[1] - y[2]) / (2 * h);
+  for (std::size_t k = 1; k < last; ++k) slope[k] = (y[k + 1] - y[k - 1]) / (2 * h);
+  slope[last] = (3 * y[last] - 4 * y[last - 1] + y[last - 2]) / (2 * h);
+  return slope;
+}
+
+/// One slice: the corrections of a contact that latched X.
+struct Slice
+{
+  std::vector<double> force, residual, exponent;
+};
+
+Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& slow, double x_reach, double fastest)
+{
+  const double v = root_of([&](double speed) { return speeds.reach(speed) - x_reach; }, 0.0, 1.001 * fastest);
+  std::vector<double> log_force;
+  for (std::size_t n = 0; n < LawShape::Inertia::shares; ++n)
+    log_force.push_back(speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].force[n]; }));
+  const double more_dissipation = 1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].dissipation; });
+  const double more_residual = 1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].residual; });
+
+  const boost::math::interpolators::cardinal_cubic_b_spline<double> within(
+      log_force.begin(), log_force.end(), 0.0, 1.0 / (LawShape::Inertia::shares - 1));
+  // From the impact's own overlap on: the cubic with its value and slope there, and none at ratio_end.
+  const double end = within(1.0), end_slope = within.prime(1.0) * (ratio_end - 1);
+  const auto correction = [&](double xi) {
+    if (xi >= ratio_end) return 0.0;
+    if (xi <= 1) return std::expm1(within(xi));
+    const double t = (xi - 1) / (ratio_end - 1);
+    return std::expm1((1 - t) * (1 - t) * (end * (1 + 2 * t) + end_slope * t));
+  };
+
+  Slice slice;
+  const auto count = static_cast<int>(std::lround(ratio_end / share_spacing));
+  double work = 0;  // of loading from 0 to the node
+  for (int l = 0; l <= count; ++l) {
+    const double xi = share_spacing * l;
+    if (l > 0) {
+      // 4-point Gauss-Legendre over the share, twice: F goes as xi^1.5 near 0
+      constexpr double node[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
+      constexpr double weight[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+      for (int half = 0; half < 2; ++half)
+        for (int g = 0; g < 4; ++g) {
+          const double at = xi - share_spacing * (1 - 0.25 * (2 * half + 1 + node[g]));
+          work += weight[g] * share_spacing / 4 * x_reach * slow.loading(at * x_reach).force * (1 + correction(at));
+        }
+    }
+    slice.force.push_back(correction(xi));
+    if (l == 0) {
+      slice.residual.push_back(0), slice.exponent.push_back(0);
+      continue;
+    }
+    const double x = std::min(xi * x_reach, slow.x_end());
+    const ContactCurve::Turning top = slow.turning(x);
+    const double kept = std::pow(1 - top.residual / x, more_residual);
+    slice.residual.push_back((1 - kept) - top.residual / x);
+    const double returned = std::pow(std::min(1.0, slow.work_unloading(x) / slow.work_loading(x)), more_dissipation);
+    const double n = top.force * (1 + correction(xi)) * kept * x / (work * returned) - 1;
+    slice.exponent.push_back(n - top.exponent);
+  }
+  slice.exponent[0] = slice.exponent[1];
+  return slice;
+}
+
+}  // namespace
+
+InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
+                                    double mass, double fastest)
+{
+  const double last = shape.inertia.empty() ? 0 : shape.inertia.back().speed;
+  if (!(fastest > 0 && fastest <= last * 1.0001))
+    fail("fit", "no impact was as fast", fmt::format("sqrt(I) = {:.4g}", fastest), fmt::format("up to {:.4g}", last));
+  const Speeds speeds(shape, slow, 0.375 * mass / e_star_over_yield);  // 1/2 m Y v^2 over 4/3 E* R^3
+  InertiaAxis::Table table;
+  table.speed_end = fastest;
+  const auto steps = std::max(3, static_cast<int>(std::ceil(fastest / speed_spacing - 1e-9)));
+  for (int k = 0; k <= steps; ++k) table.impact_overlap.push_back(speeds.reach(fastest * k / steps));
+  table.impact_overlap_slope = slopes_of(table.impact_overlap, fastest / steps);
+  const double reach = table.impact_overlap.back();
+  table.slices = static_cast<std::size_t>(std::max(2.0, std::round(reach / slice_spacing)));
+  table.ratio_end = ratio_end;
+  for (std::size_t k = 1; k <= table.slices; ++k) {
+    const Slice slice = slice_at(speeds, shape, slow, reach * static_cast<double>(k) / static_cast<double>(table.slices), fastest);
+    const auto append = [&](const std::vector<double>& values, std::vector<double>& all, std::vector<double>& slopes, bool ends_flat) {
+      std::vector<double> slope = slopes_of(values, share_spacing);
+      if (ends_flat) slope.back() = 0;
+      all.insert(all.end(), values.begin(), values.end());
+      slopes.insert(slopes.end(), slope.begin(), slope.end());
+    };
+    append(slice.force, table.force_correction, table.force_correction_slope, true);
+    append(slice.residual, table.residual_correction, table.residual_correction_slope, false);
+    append(slice.exponent, table.exponent_correction, table.exponent_correction_slope, false);
+  }
+  return table;
+}
+
+}  // namespace granulaw

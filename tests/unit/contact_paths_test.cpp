@@ -1,0 +1,289 @@
+// What holds for every law the library accepts, on any path of a contact: RapidCheck draws the law and the
+// path.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <numeric>
+#include <random>
+
+#include "synthetic_law.hpp"
+
+namespace granulaw {
+namespace {
+
+using testing::SyntheticLaw;
+
+/// One contact, driven by hand: overlaps in units of the law's length, forces so that loading() is the force.
+/// The one place that knows what the state of a contact is.
+class Contact
+{
+ public:
+  Contact(const ContactCurve& curve, const PairMapping& pair, double r_eff)
+      : curve_(&curve), pair_(pair), r_eff_(r_eff)
+  {
+  }
+  /// First touch. `inertia`, I = rho V^2/Y at touch, is not used by today's rate-free law.
+  void touch(double /*inertia*/ = 0) { delta_max_ = 0; }
+  void part() { delta_max_ = 0; }
+  ContactForce move(double delta)
+  {
+    const ContactForce f = probe(delta);
+    delta_max_ = f.delta_max;
+    return f;
+  }
+  /// What move() would return; the state stays.
+  ContactForce probe(double delta) const { return curve_->evaluate(pair_, r_eff_, delta, delta_max_); }
+  double reached() const { return delta_max_; }
+
+ private:
+  const ContactCurve* curve_;
+  PairMapping pair_;
+  double r_eff_, delta_max_ = 0;
+};
+
+/// Unit length and unit force: 4/3 E* = 1, R* = 1, a rigid partner.
+const PairMapping unit_pair = PairMapping::rigid_partner(0.75);
+
+/// Uniform on 1/parts, 2/parts .. 1 (RapidCheck alone would begin with the smallest).
+double fraction(int parts = 100000)
+{
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, parts + 1)) / static_cast<double>(parts);
+}
+
+/// A law with random features, among those that an admissible build can give.
+SyntheticLaw any_law()
+{
+  SyntheticLaw law;
+  law.softening = 0.5 + 1.5 * fraction();
+  law.depth = 0.2 + 1.3 * fraction();
+  law.bend = -0.1 + 0.3 * fraction();
+  law.onset = std::pow(10.0, -6 + 4 * fraction());
+  law.x_end = std::pow(10.0, -1.5 + 1.2 * fraction());
+  return law;
+}
+ContactCurve any_admissible_curve()
+{
+  const ContactCurve curve = any_law().curve();
+  RC_PRE(curve.admissibility_margin() >= 0);
+  return curve;
+}
+
+/// An overlap between `least` and beyond the table's end, uniform in overlap^(1/4).
+double any_overlap(const ContactCurve& curve)
+{
+  const double s = 1.1 * curve.table().s_end * fraction();
+  return s * s * s * s;
+}
+
+/// Work that the contact does on its partners along [from, to] at fixed delta_max >= both, exact but for
+/// rounding: F_m u^n integrates to F_m span u^(n+1)/(n+1); below the onset the loading work.
+double work_below(const ContactCurve& curve, double from, double to, double reached)
+{
+  if (reached <= curve.onset()) return curve.work_loading(to) - curve.work_loading(from);
+  const ContactCurve::Turning t = curve.turning(reached);
+  const double span = reached - t.residual;
+  const auto stored = [&](double x) {
+    const double u = std::max(0.0, (x - t.residual) / span);
+    return t.force * span / (t.exponent + 1) * std::pow(u, t.exponent + 1);
+  };
+  return stored(to) - stored(from);
+}
+
+/// Work put into a contact moved from `from` to `to`.
+double work_put_in(const ContactCurve& curve, double from, double to, double reached)
+{
+  if (to <= reached) return work_below(curve, from, to, reached);
+  return work_below(curve, from, std::max(from, reached), reached) + curve.work_loading(to) -
+         curve.work_loading(std::max(from, reached));
+}
+
+/// The exact work functions are those of evaluate(): Simpson's rule on one path agrees.
+TEST(ContactPaths, WorkIsTheIntegralOfTheForce)
+{
+  const ContactCurve curve = SyntheticLaw{}.curve();
+  const auto integral = [&](double from, double to, double reached) {
+    const int pieces = 20000;
+    const double h = (to - from) / pieces;
+    double sum = 0;
+    for (int k = 0; k < pieces; ++k)
+      for (const auto& [t, weight] : {std::pair{0.0, 1.0}, {0.5, 4.0}, {1.0, 1.0}})
+        sum += weight * h / 6 * curve.evaluate(unit_pair, 1, from + (k + t) * h, reached).force;
+    return sum;
+  };
+  const double top = 0.05, scale = curve.work_loading(top);
+  // 2e-6: fast_pow, and the kink at u = 0 within one piece of 1/20000
+  EXPECT_NEAR(integral(1e-3, top, 1e-3), work_put_in(curve, 1e-3, top, 1e-3), 2e-6 * scale);
+  EXPECT_NEAR(integral(0.001, top, top), work_put_in(curve, 0.001, top, top), 2e-6 * scale);
+  EXPECT_NEAR(integral(0.048, 0.049, top), work_put_in(curve, 0.048, 0.049, top), 2e-6 * scale);
+}
+
+/// A path as a contact of a dense flow has it: loading, partial unloading, reloading, separation, re-impact.
+void follow_a_path(const ContactCurve& curve)
+{
+  Contact contact(curve, unit_pair, 1.0);
+  contact.touch();
+  double at = 0, work = 0, deepest = 0;
+  const int moves = 1 + static_cast<int>(60 * fraction());
+  for (int k = 0; k < moves; ++k) {
+    const bool parts = fraction(8) == 1;
+    const double next = parts ? 0 : any_overlap(curve);
+    work += work_put_in(curve, at, next, contact.reached());
+    if (parts) {
+      contact.part();
+      contact.touch();
+    } else {
+      const ContactForce f = contact.move(next);
+      RC_ASSERT(f.force >= 0 && std::isfinite(f.force));
+      RC_ASSERT(f.contact_radius >= 0 && f.stiffness >= 0);
+      RC_ASSERT(f.delta_max == contact.reached());
+      deepest = std::max(deepest, next);
+    }
+    at = next;
+    // Closed here by complete unloading: what comes back is not more than was put in. 1e-9 a move: rounding
+    const double comes_back = -work_put_in(curve, at, 0, contact.reached());
+    RC_ASSERT(work - comes_back >= -1e-9 * moves * curve.work_loading(deepest));
+  }
+}
+
+RC_GTEST_PROP(ContactPaths, NoPathGainsEnergyAndNoForceIsNegative, ())
+{
+  const ContactCurve curve = any_admissible_curve();
+  for (int path = 0; path < 20; ++path) follow_a_path(curve);  // of 100 laws: 2,000 paths
+}
+
+/// The check itself can fail: a law whose exponent falls with depth gives back more than it took.
+TEST(ContactPaths, AGainOfEnergyIsSeen)
+{
+  ContactCurve::Table table = SyntheticLaw{}.table();
+  for (std::size_t k = 0; k < table.exponent.size(); ++k) {
+    table.exponent[k] = k > 100 ? 1.0 : 3.0;
+    table.exponent_slope[k] = table.residual_ratio[k] = table.residual_ratio_slope[k] = 0;
+  }
+  const ContactCurve curve(table, "test");
+  const double node = curve.table().s_end / 128, low = std::pow(100 * node, 4),
+               high = std::pow(101 * node, 4);
+  const double first = work_put_in(curve, 0, low, 0) + work_put_in(curve, low, 0, low);
+  const double second = work_put_in(curve, 0, high, low) + work_put_in(curve, high, 0, high);
+  EXPECT_GT(first, 0.3 * curve.work_loading(low));
+  EXPECT_LT(second, -0.1 * curve.work_loading(high));
+}
+
+/// The force jumps nowhere: at a turn, on reaching delta_max again, at the onset, at a node, at the end.
+RC_GTEST_PROP(ContactPaths, ForceIsContinuous, ())
+{
+  const ContactCurve curve = any_admissible_curve();
+  const double reached = any_overlap(curve), step = 1e-9;  // relative
+  // Moving by 2 steps changes F by at most 2 step x times the larger stiffness there; 1e-12: rounding.
+  const auto jump_free = [&](double x, double largest) {
+    const ContactForce a = curve.evaluate(unit_pair, 1, x * (1 - step), largest),
+                       b = curve.evaluate(unit_pair, 1, x * (1 + step), largest);
+    const double slope = std::max({a.stiffness, b.stiffness, b.force / x});
+    // fast_pow is a polynomial in pieces: 1e-8 of F_m (fast_pow_test.cpp)
+    return std::abs(b.force - a.force) <= 4 * step * x * slope + 2e-8 * std::max(a.force, b.force);
+  };
+  RC_ASSERT(jump_free(reached, reached));                    // the turn, and the way back through it
+  RC_ASSERT(jump_free(curve.x_end(), 0));                    // the end of the table, loading
+  RC_ASSERT(jump_free(curve.x_end(), 1.5 * curve.x_end()));  // and below a turn beyond it
+  RC_ASSERT(jump_free(any_overlap(curve), reached));         // anywhere
+  const int count = static_cast<int>(curve.table().exponent.size());
+  const double node = curve.table().s_end * fraction(count - 1);
+  RC_ASSERT(jump_free(std::pow(node, 4), 0));
+}
+
+/// Loading more never gives less force.
+RC_GTEST_PROP(ContactPaths, LoadingIsMonotone, ())
+{
+  const ContactCurve curve = any_admissible_curve();
+  double last = 0;
+  for (int k = 1; k <= 2000; ++k) {
+    const double s = 1.1 * curve.table().s_end * k / 2000;
+    const double force = curve.loading(s * s * s * s).force;
+    RC_ASSERT(force >= last);
+    last = force;
+  }
+}
+
+/// stiffness = dF/d(overlap), against a central difference that states its own error: the difference of two
+/// steps h and h/2, whose h^2 terms cancel by Richardson's rule, and rounding.
+RC_GTEST_PROP(ContactPaths, StiffnessIsTheDerivative, ())
+{
+  const ContactCurve curve = any_admissible_curve();
+  const double reached = any_overlap(curve), x = reached * fraction();
+  for (const double largest : {0.0, reached}) {
+    const ContactForce f = curve.evaluate(unit_pair, 1, x, largest);
+    if (f.force == 0) continue;
+    const double h = 1e-4 * x;
+    const auto force = [&](double at) { return curve.evaluate(unit_pair, 1, at, largest).force; };
+    const auto central = [&](double step) { return (force(x + step) - force(x - step)) / (2 * step); };
+    const double coarse = central(h), fine = central(h / 2), best = (4 * fine - coarse) / 3;
+    // a kink (u = 0, the turn, the onset, a node: g is C1 only) within h makes the two steps disagree
+    const double own_error = std::abs(fine - coarse) + 2e-15 * f.force / h;
+    RC_PRE(own_error < 1e-6 * f.stiffness);
+    RC_ASSERT(std::abs(best - f.stiffness) <= 1e-6 * f.stiffness + own_error);
+  }
+}
+
+/// i meets j or j meets i, in whatever order contacts are evaluated: the same bits.
+RC_GTEST_PROP(ContactPaths, SameBitsForEitherSideAndAnyOrder, ())
+{
+  Law law = SyntheticLaw{}.law();
+  const double r_i = 1e-3 * fraction(), r_j = 1e-3 * fraction();
+  std::vector<std::pair<const char*, const char*>> names = {
+      {"powder", "powder"}, {"powder", "glass"}, {"glass", "glass"}};
+  struct Pair
+  {
+    Contact one, other;
+    std::vector<double> path;
+  };
+  std::vector<Pair> contacts;
+  for (const auto& [a, b] : names)
+    for (int copy = 0; copy < 10; ++copy) {
+      const PairLaw ab = resolve_pair(law, a, b, "test"), ba = resolve_pair(law, b, a, "test");
+      Pair pair{{*ab.curve, ab.mapping, effective_radius(r_i, r_j)},
+                {*ba.curve, ba.mapping, effective_radius(r_j, r_i)},
+                {}};
+      for (int k = 0; k < 20; ++k) pair.path.push_back(ab.max_overlap(1e-4) * fraction());
+      contacts.push_back(pair);
+    }
+  const auto bits = [](const ContactForce& f) {
+    return std::array{std::bit_cast<std::uint64_t>(f.force), std::bit_cast<std::uint64_t>(f.stiffness),
+                      std::bit_cast<std::uint64_t>(f.contact_radius),
+                      std::bit_cast<std::uint64_t>(f.delta_max)};
+  };
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::mt19937 draw(*rc::gen::arbitrary<unsigned>());
+  for (std::size_t step = 0; step < 20; ++step) {
+    std::vector<std::array<std::uint64_t, 4>> first(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      first[k] = bits(contacts[k].one.move(contacts[k].path[step]));
+    std::shuffle(order.begin(), order.end(), draw);
+    for (const std::size_t k : order)
+      RC_ASSERT(bits(contacts[k].other.move(contacts[k].path[step])) == first[k]);
+  }
+}
+
+/// At a turn unloading is not softer than loading: exactly so from 1.2 of the onset on. Nearer to it the
+/// exponent that gives the elastic work back, n = (1 + c)/(0.4 + c/3) - 1, lies below the elastic power
+/// x F'/F = 1.5 + c/(2 (1 + c)), c = finite_sphere sqrt(x): a power u^n cannot have the work and the slope of
+/// a curve that is no power itself. Their gap, 0.0556 c of the slope to first order, is the tolerance. (A law
+/// whose n is at least (1 - rho) x F'/F would meet it exactly, and give back 0.033 c less energy there.)
+RC_GTEST_PROP(ContactPaths, UnloadingIsNotSofterThanLoading, ())
+{
+  const SyntheticLaw law = any_law();
+  const ContactCurve curve = law.curve();
+  RC_PRE(curve.admissibility_margin() >= 0 && curve.onset() < 0.8 * curve.x_end());
+  for (const double x : {curve.onset() * (1 + std::pow(10.0, -6 * fraction())), any_overlap(curve)}) {
+    if (x <= curve.onset() || x >= curve.x_end()) continue;
+    const ContactCurve::Turning t = curve.turning(x);
+    const double unloading = t.exponent * t.force / (x - t.residual);
+    const double gap = x < 1.2 * curve.onset() ? 0.0556 * SyntheticLaw::finite_sphere * std::sqrt(x) : 0;
+    RC_ASSERT(unloading >= t.stiffness * (1 - gap));
+  }
+}
+
+}  // namespace
+}  // namespace granulaw
