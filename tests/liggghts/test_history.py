@@ -11,18 +11,21 @@ class History(Deck):
     def setUp(self):
         super().setUp()
         gas.data_file(self.folder / "gas.data")
+        self.axis_law = self.folder / "axis.h5"
+        self.fixture("write", self.axis_law, "axis")
 
     def energy(self, model, extra="", neigh="delay 0", run=f"run {STEPS}\n"):
         # damping off: a split run of a damped contact differs for stock reasons (LIGGGHTS's set-up forces use
         # full-step velocities)
-        words = "tangentialDampingRatio 0" + (f" law {self.law} materials powder" if model == "mpm" else "")
-        text = self.run_deck(gas.start(extra, neigh) + gas.model(words, name=model) + gas.MOVE + gas.OUTPUT + run +
+        words = "tangentialDampingRatio 0" + {"mpm": f" law {self.law} materials powder", "thornton": "",
+                                               "mpm with axis": f" law {self.axis_law} materials powder"}[model]
+        text = self.run_deck(gas.start(extra, neigh) + gas.model(words, name=model.split()[0]) + gas.MOVE + gas.OUTPUT + run +
                              gas.PRINT)
         return self.result(text, "GAS")
 
     def test_invariance(self):
         """Kinetic energy, dissipation, number of contacts and largest overlap for five ways to run one case."""
-        for model in ("mpm", "thornton"):
+        for model in ("mpm", "mpm with axis", "thornton"):
             reference = self.energy(model, extra="sort 0 0.0")
             start = self.energy(model, run="run 0\n")
             self.assertLess(reference[0], 0.7 * start[0])  # plastic contacts took part

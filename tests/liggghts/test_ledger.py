@@ -11,6 +11,9 @@ RADIUS = 1.7e-3
 
 class Ledger(Deck):
     def words(self, model):
+        if model == "mpm with axis":
+            self.fixture("write", self.folder / "axis.h5", "axis")
+            return f"law {self.folder / 'axis.h5'} materials powder"
         return f"law {self.law} materials powder" if model == "mpm" else ""
 
     def test_one_collision(self):
@@ -18,15 +21,16 @@ class Ledger(Deck):
         m = sphere_mass(RADIUS, POWDER.density)
         out = '\nvariable d equal f_granulaw\nvariable a equal f_granulaw[{}]\nvariable b equal f_granulaw[{}]\n' \
               'variable c equal f_granulaw[{}]\nprint "LEDGER ${{d}} ${{a}} ${{b}} ${{c}}"\n'
-        for model in ("mpm", "thornton"):
+        for case in ("mpm", "mpm with axis", "thornton"):
+            model = case.split()[0]
             for kind, m_eff, radius_ratio in (("wall", m, 1.0), ("pair", m / 2, 0.5)):
                 speed = 1.0
                 # 500 steps a contact: the discrete work is good to 1e-5
                 args = (speed, 1.2e-8 if model == "mpm" else 1.2e-8)
                 if kind == "wall":
-                    deck = wall_deck(model, self.words(model), POWDER, RADIUS, *args).replace("run 120", "run 2500")
+                    deck = wall_deck(model, self.words(case), POWDER, RADIUS, *args).replace("run 120", "run 2500")
                 else:
-                    deck = pair_deck(model, self.words(model), (POWDER, POWDER), (RADIUS, RADIUS), *args,
+                    deck = pair_deck(model, self.words(case), (POWDER, POWDER), (RADIUS, RADIUS), *args,
                                      run="run 2500")
                 vector = (4, 6, 8) if kind == "wall" else (3, 5, 7)
                 text = self.run_deck(deck + out.format(*vector))
@@ -35,10 +39,10 @@ class Ledger(Deck):
                 self.assertLess(e, 0.95)
                 # 2e-4 of the loss: the step's own error in e at this resolution
                 self.assertAlmostEqual(dissipated / (0.5 * m_eff * speed**2 * (1 - e * e)), 1.0, delta=2e-4,
-                                       msg=f"{model} {kind}")
+                                       msg=f"{case} {kind}")
                 self.assertEqual(begun, 1)
                 self.assertAlmostEqual(impact / speed, 1.0, delta=1e-6)  # nothing acts before first touch
-                if model == "mpm":
+                if case == "mpm":
                     other = "wall" if kind == "wall" else "powder"
                     _, _, delta = self.fixture("mpm", self.law, "powder", other, RADIUS * radius_ratio, m_eff, speed)
                     self.assertAlmostEqual(overlap / (delta / (RADIUS * radius_ratio)), 1.0, delta=1e-4)

@@ -9,11 +9,14 @@ class Parallel(Deck):
     def setUp(self):
         super().setUp()
         gas.data_file(self.folder / "gas.data")
+        self.axis_law = self.folder / "axis.h5"
+        self.fixture("write", self.axis_law, "axis")
 
     def test_gas_on_two_ranks(self):
-        for model in ("mpm", "thornton"):
-            words = f"law {self.law} materials powder" if model == "mpm" else ""
-            deck = gas.start() + gas.model(words, name=model) + gas.MOVE + gas.OUTPUT + "run 5000\n" + gas.PRINT
+        for model in ("mpm", "mpm with axis", "thornton"):
+            law = {"mpm": self.law, "mpm with axis": self.axis_law}.get(model)
+            words = f"law {law} materials powder" if law else ""
+            deck = gas.start() + gas.model(words, name=model.split()[0]) + gas.MOVE + gas.OUTPUT + "run 5000\n" + gas.PRINT
             one = self.result(self.run_deck(deck), "GAS")
             two = self.result(self.run_deck(deck, ranks=2), "GAS")
             for value, expected in zip(two, one):

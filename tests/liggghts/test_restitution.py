@@ -43,8 +43,13 @@ class Thornton(Deck):
 
 
 class Mpm(Deck):
+    variant = ()  # of the law
     # from below the onset of yield (0.06 m/s on the wall) to an overlap of 7 % of R
     SPEEDS = (0.03, 0.2, 1.0, 5.0, 12.0)
+
+    def setUp(self):
+        super().setUp()
+        self.fixture("write", self.law, *self.variant)
 
     def check(self, a, b, r_eff, m_eff, deck):
         for speed in self.SPEEDS:
@@ -75,6 +80,32 @@ class Mpm(Deck):
             self.check("powder", "glass", RADIUS / 2, masses[0] * masses[1] / sum(masses),
                        lambda v, dt: pair_deck("mpm", f"law {self.law} materials {order[0].name} {order[1].name}",
                                                order, (RADIUS, RADIUS), v, dt))
+
+
+class MpmWithInertiaAxis(Mpm):
+    """The same collisions under a law that latches the approach speed; the axis ends at 17 m/s on the wall."""
+    variant = ("axis",)
+    SPEEDS = (0.03, 1.0, 5.0, 12.0)
+
+    def test_the_axis_is_felt(self):
+        """Else the other tests would pass without one: 12 m/s on the wall, e by either law and by LIGGGHTS."""
+        mass, speed = sphere_mass(RADIUS, POWDER.density), 12.0
+        plain = self.folder / "plain.h5"
+        self.fixture("write", plain)
+        e, duration, _ = self.fixture("mpm", self.law, "powder", "wall", RADIUS, mass, speed)
+        without, _, _ = self.fixture("mpm", plain, "powder", "wall", RADIUS, mass, speed)
+        text = self.run_deck(wall_deck("mpm", f"law {self.law} materials powder", POWDER, RADIUS, speed, duration / STEPS))
+        found = self.result(text, "SPEED")[0] / speed
+        self.assertGreater(abs(without / e - 1), 0.01)
+        self.assertLess(abs(found - e), 0.2 * abs(found - without))
+        self.assertNotIn("inertia axis goes", text)
+
+    def test_speeds_beyond_the_axis_are_counted(self):
+        deck = wall_deck("mpm", f"law {self.law} materials powder beyondRange continue", POWDER, RADIUS, 20.0, 1e-8)
+        out = '\nvariable d equal f_granulaw[11]\nprint "FAST ${d}"\n'
+        text = self.run_deck(deck + out)
+        self.assertIn("1 contacts began faster than the law's inertia axis goes", text)
+        self.assertEqual(self.result(text, "FAST")[0], 1)
 
 
 if __name__ == "__main__":

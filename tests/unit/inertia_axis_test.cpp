@@ -197,14 +197,14 @@ TEST(InertiaAxis, SpeedsOfPairs)
   const PairLaw wall = resolve_pair(law, "powder", "wall", "test"),
                 like = resolve_pair(law, "powder", "powder", "test");
   const double R = 2e-3, unit = std::sqrt(1e8 / 1500.0);  // sqrt(Y/rho), m/s
-  for (const double v : {0.01, 0.1, 0.2}) {
+  for (const double v : {0.003, 0.03, 0.06}) {
     const double X = wall.curve->axis()->impact_overlap(v);
     EXPECT_NEAR(wall.impact_overlap(R, v * unit), X, 1e-12 * X);
     EXPECT_NEAR(wall.impact_overlap(10 * R, v * unit), X, 1e-12 * X);  // size does not matter
     EXPECT_NEAR(like.impact_overlap(R / 2, 2 * v * unit), X, 1e-12 * X);
   }
-  EXPECT_NEAR(wall.max_speed(R), 0.245 * unit, 1e-9);
-  EXPECT_NEAR(like.max_speed(R), 2 * 0.245 * unit, 1e-9);
+  EXPECT_NEAR(wall.max_speed(R), 0.066 * unit, 1e-9);
+  EXPECT_NEAR(like.max_speed(R), 2 * 0.066 * unit, 1e-9);
   const PairLaw glass = resolve_pair(law, "glass", "wall", "test");
   EXPECT_EQ(glass.impact_overlap(R, 100), 0.0);
   EXPECT_EQ(glass.max_speed(R), HUGE_VAL);
@@ -213,7 +213,7 @@ TEST(InertiaAxis, SpeedsOfPairs)
   rate.bodies["powder"].curve = ContactCurve(SyntheticLaw{}.table(), SyntheticLaw{}.rate_axis(R), "test");
   const PairLaw rate_wall = resolve_pair(rate, "powder", "wall", "test");
   const PairLaw rate_like = resolve_pair(rate, "powder", "powder", "test");
-  const double v = 0.1, X = wall.curve->axis()->impact_overlap(v);
+  const double v = 0.03, X = wall.curve->axis()->impact_overlap(v);
   EXPECT_NEAR(rate_wall.impact_overlap(R, v * unit), X, 1e-12 * X);
   EXPECT_NEAR(rate_wall.impact_overlap(2 * R, 2 * v * unit), X, 1e-12 * X);  // the same strain rate
   EXPECT_NEAR(rate_like.impact_overlap(R / 2, 2 * v * unit), X, 1e-12 * X);  // two walls at half the speed

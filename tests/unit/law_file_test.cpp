@@ -226,7 +226,7 @@ TEST_F(LawFile, UnusableAdditionsAreRefused)
   };
   refuses([](Law& l) { l.bodies["powder"].certificate.origin = "thin air"; }, "origin");
   refuses([](Law& l) { l.bodies["powder"].body = "a\nb"; }, "body");
-  refuses([](Law& l) { l.bodies["powder"].body = "shell"; }, "pole_radius");
+  refuses([](Law& l) { l.bodies["powder"].body = "shell", l.pairs = {{"powder", "wall"}}; }, "pole_radius");
   refuses([](Law& l) { l.bodies["powder"].body = "shell", l.bodies["powder"].pole_radius = 1e-3; },
           "only against the rigid wall and its like");
   refuses([](Law& l) { l.bodies["glass"].curve = l.bodies["powder"].curve; }, "elastic");
