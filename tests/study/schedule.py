@@ -2,6 +2,7 @@
 """Parallel efficiency of the run farm on 1 to 1024 ranks, simulated from measured run times.
 
     schedule.py RUNS [--threads T] [--batch N] [--measured RANKS:SECONDS ...]
+    schedule.py RUNS --rehearse FARM_RANKS [--up-to 32] [--scale 0.02]     the farm itself, with runs that only sleep
     schedule.py --measure DIR -- MPM table ...      measures 1 and 2 ranks, and simulates their runs
 
 RUNS is a cache folder (~/.cache/granulaw/runs: its files hold the expected cost and the CPU seconds of each run) or a
@@ -9,7 +10,7 @@ CSV file with columns cost and cpu_s, and batch where runs were made in several.
 
 The farm's policy (mpm_core/characterise/run_queue.hpp, mpm_core/farm_mpi): within a batch the runs start in the order
 of their EXPECTED cost, the most expensive first, each on the next free thread; a batch starts when the one before it
-has ended. Each hand-out costs 2 ms on a rank other than 0 (both sides look for messages every 1 ms), and the outcomes
+has ended. Each hand-out costs 4 ms on a rank other than 0 (both sides look for messages every 2 ms), and the outcomes
 of a batch go to all ranks at 1 GB/s, 30 kB each. Not modelled: what lies between batches (fits; seconds at most), and
 cores that share memory bandwidth or clock.
 
@@ -22,11 +23,12 @@ import heapq
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from itertools import groupby
 from pathlib import Path
 
-HAND_OUT = 2e-3          # s
+HAND_OUT = 4e-3          # s
 BYTES, BANDWIDTH = 30e3, 1e9  # of an outcome; of a broadcast, bytes/s
 
 
@@ -83,7 +85,7 @@ def report(runs, threads, batch, measured):
     batches = list(batches_of(runs, batch))
     times = [cpu for _, _, cpu in runs]
     total = sum(times)
-    print(f"{len(runs)} runs in {len(batches)} batches, {total:.1f} CPU s; one run {min(times):.3g} to {max(times):.3g} s, "
+    print(f"{len(runs)} runs in {len(batches)} batch(es), {total:.1f} CPU s; one run {min(times):.3g} to {max(times):.3g} s, "
           f"mean {total / len(runs):.3g} s; {threads} thread(s) a rank")
     print("ranks      time/s   efficiency   limit   measured time/s   efficiency")
     for ranks in [2**k for k in range(11)]:
@@ -93,6 +95,22 @@ def report(runs, threads, batch, measured):
         if ranks in measured:
             line += f" {measured[ranks]:17.3f} {share / measured[ranks]:12.3f}"
         print(line)
+
+
+def rehearse(program, batches, scale, most):
+    """Times of the real farm (tests/farm/farm_ranks) for the first batch, its runs replaced by sleeps of `scale` of
+    their times: hand-outs and messages as they are, without the cores."""
+    found = {}
+    with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+        file.writelines(f"{cost} {cpu * scale}\n" for cost, cpu in batches[0])
+        file.flush()
+        ranks = 1
+        while ranks <= most:
+            done = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks), program, "sleep",
+                                   "--output", file.name], check=True, capture_output=True, text=True)
+            found[ranks] = float(done.stdout)
+            ranks *= 2
+    return found
 
 
 def measure(folder, command):
@@ -124,12 +142,19 @@ def main():
     parser.add_argument("--threads", type=int, default=1, help="threads of each rank")
     parser.add_argument("--batch", type=int, default=0, help="cut batches to this many runs (default: not)")
     parser.add_argument("--measured", nargs="*", default=[], metavar="RANKS:SECONDS")
+    parser.add_argument("--rehearse", metavar="FARM_RANKS")
+    parser.add_argument("--up-to", type=int, default=32, help="ranks of the rehearsal")
+    parser.add_argument("--scale", type=float, default=0.02, help="of the run times in it")
     parser.add_argument("--measure", type=Path, metavar="DIR")
     options = parser.parse_args(words[:words.index("--")] if command else words)
     measured = {int(r): float(s) for r, s in (m.split(":") for m in options.measured)}
     if options.measure:
         measured = measure(options.measure, command)
         report(read(options.measure / "cache1"), 1, options.batch, measured)
+    elif options.rehearse:
+        first = list(batches_of(read(options.runs), options.batch))[0]
+        scaled = [(0, cost, cpu * options.scale) for cost, cpu in first]
+        report(scaled, 1, 0, rehearse(options.rehearse, [first], options.scale, options.up_to))
     elif options.runs:
         report(read(options.runs), options.threads, options.batch, measured)
     else:
