@@ -18,7 +18,7 @@ namespace granulaw {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto look_every = std::chrono::milliseconds(1);
+constexpr auto look_every = std::chrono::milliseconds(2);
 constexpr auto report_every = std::chrono::milliseconds(100);
 /// Time for the runs under way to notice that they shall stop, before the rest goes on without them.
 constexpr auto stop_patience = std::chrono::seconds(30);
