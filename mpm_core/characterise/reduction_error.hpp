@@ -1,5 +1,6 @@
 #pragma once
 
+#include "characterise/fit_curve.hpp"
 #include "law/law.hpp"
 #include "solver/runs.hpp"
 
@@ -67,6 +68,13 @@ MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocit
 /// held against. Both in units of the yielding body: R_s = E*_s = rho_s = 1; `velocity` in sqrt(E*_s/rho_s).
 RunSummary run_as_one_body(const UnlikePair& pair, double velocity, const RunOptions& options);
 RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOptions& options);
+
+RunResult two_body_impact(const UnlikePair& pair, double velocity, const RunOptions& options);
+
+/// A two-body impact in the pair's own coordinates: overlap/(lambda R*), F/(4/3 E*_s lambda R*^2),
+/// a/(sqrt(lambda) R*). From several of them, and an elastic one, fit_curve.hpp makes a two-body law: a curve
+/// that goes with this pair's mapping, and is valid for this pair, radius ratio and density ratio only.
+Pressing two_body_pressing(const UnlikePair& pair, double velocity, const RunOptions& options);
 
 /// The same two of a slow press to `depth`, an overlap over lambda R*: no waves. The ramps, `ramp` in R/c* of
 /// the larger body, are the same for both. Not for walls.
