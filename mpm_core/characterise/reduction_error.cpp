@@ -1,0 +1,206 @@
+#include "characterise/reduction_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/scales.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double unit_mass = 4.0 / 3.0 * M_PI;
+
+/// `m` in units of the yielding body's E* and density.
+Material scaled(const LawMaterial& m, const LawMaterial& unit)
+{
+  Material material;
+  material.density = m.density / unit.density;
+  material.youngs_modulus = m.youngs_modulus / unit.e_star();
+  material.poisson_ratio = m.poisson_ratio;
+  if (m.yields()) {
+    material.yield_stress = m.yield_stress / unit.e_star();
+    material.hardening_modulus = m.hardening_modulus / unit.e_star();
+  }
+  return material;
+}
+
+}  // namespace
+
+double UnlikePair::m_eff() const
+{
+  const double inverse_partner = 1.0 / (std::pow(radius_ratio, 3) * partner.density / yielding.density);
+  return unit_mass / (1.0 + inverse_partner);
+}
+
+double UnlikePair::one_body_density() const
+{
+  // lambda m* = rho 4/3 pi (lambda R*)^3
+  const double lambda = mapping().length(1.0);
+  return m_eff() / (unit_mass * lambda * lambda * std::pow(r_eff(), 3));
+}
+
+double UnlikePair::yield_velocity() const
+{
+  return granulaw::yield_velocity(yielding.e_star(), yielding.yield_stress,
+                                  yielding.density * one_body_density());
+}
+
+namespace {
+
+/// sqrt(E*_s/rho_s), m/s: velocities of the runs are over this.
+double wave_speed(const UnlikePair& pair)
+{
+  return std::sqrt(pair.yielding.e_star() / pair.yielding.density);
+}
+
+Sphere one_body(const UnlikePair& pair)
+{
+  Sphere sphere{pair.mapping().length(pair.r_eff()), scaled(pair.yielding, pair.yielding)};
+  sphere.material.density = pair.one_body_density();
+  return sphere;
+}
+
+/// F of the pair is that of the one body over lambda.
+RunSummary of_pair(RunSummary s, const UnlikePair& pair)
+{
+  const double lambda = pair.mapping().length(1.0);
+  s.force_max /= lambda, s.work_load /= lambda, s.work_unload /= lambda;
+  return s;
+}
+
+/// The smaller body first: impulses act at its surface points, the finer ones.
+struct TwoBodies
+{
+  Particle first;
+  Partner partner;
+
+  explicit TwoBodies(const UnlikePair& pair)
+      : first(Particle::from({1.0, scaled(pair.yielding, pair.yielding)}))
+  {
+    if (!std::isfinite(pair.radius_ratio)) {
+      partner.wall = scaled(pair.partner, pair.yielding);
+      return;
+    }
+    partner.particle = Particle::from({pair.radius_ratio, scaled(pair.partner, pair.yielding)});
+    if (pair.radius_ratio < 1) std::swap(first, *partner.particle);
+  }
+};
+
+}  // namespace
+
+RunSummary run_as_one_body(const UnlikePair& pair, double velocity, const RunOptions& options)
+{
+  return of_pair(run_impact(one_body(pair), velocity / wave_speed(pair), options).summary, pair);
+}
+
+RunResult two_body_impact(const UnlikePair& pair, double velocity, const RunOptions& options)
+{
+  const TwoBodies bodies(pair);
+  return run_impact(bodies.first, velocity / wave_speed(pair), options, bodies.partner);
+}
+
+RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOptions& options)
+{
+  return two_body_impact(pair, velocity, options).summary;
+}
+
+Pressing two_body_pressing(const UnlikePair& pair, double velocity, const RunOptions& options)
+{
+  const RunResult result = two_body_impact(pair, velocity, options);
+  const PairMapping unit =
+      PairMapping::deformable_partner(1.0, pair.partner.e_star() / pair.yielding.e_star());
+  const double length = unit.length(pair.r_eff()), force = unit.force(pair.r_eff());
+  const double radius = unit.radius(pair.r_eff());
+  Pressing press;
+  press.depth = result.summary.delta_max / length;
+  press.residual = std::max(0.0, result.summary.delta_residual / length);
+  press.work_ratio = result.summary.work_unload / result.summary.work_load;
+  for (const TraceSample& t : result.trace)
+    if (t.branch == Branch::load && t.delta / length > (press.loading.empty() ? 0.0 : press.loading.back().x))
+      press.loading.push_back({t.delta / length, t.force / force, t.contact_radius / radius});
+  return press;
+}
+
+RunSummary press_as_one_body(const UnlikePair& pair, double depth, double ramp, const RunOptions& options)
+{
+  const Sphere sphere = one_body(pair);
+  PressPlan plan;
+  plan.depth = depth * sphere.radius, plan.ramp = ramp;
+  return of_pair(run_press(sphere, plan, options).summary, pair);
+}
+
+RunSummary press_two_bodies(const UnlikePair& pair, double depth, double ramp, const RunOptions& options)
+{
+  const TwoBodies bodies(pair);
+  PressPlan plan;
+  plan.depth = depth * pair.mapping().length(pair.r_eff());
+  plan.ramp = ramp * std::max(1.0, pair.radius_ratio) / bodies.first.radius;
+  return run_press(bodies.first, plan, options, bodies.partner).summary;
+}
+
+double fastest_of_law(const UnlikePair& pair, double inertia)
+{
+  const double density = pair.yielding.density * pair.one_body_density();
+  return std::sqrt(inertia * pair.yielding.yield_stress / density);
+}
+
+ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
+{
+  const LawMaterial &s = pair.yielding, &h = pair.partner;
+  const double stiffness = h.e_star() / s.e_star(), yield = s.yield_stress / s.e_star();
+  const double mapping = pair.mapping().sqrt_lambda, r = pair.r_eff();
+  // The one body's impact in its own units: overlap, Hertz's or at a mean pressure of 2.8 Y; and about its
+  // e (5 % high near the onset, up to 16 % low at E*/Y = 1000: low is the safe side).
+  const double v_over_c = velocity / wave_speed(pair);
+  const double v = v_over_c * std::sqrt(pair.one_body_density());
+  const double hertz = std::pow(15.0 / 16.0 * unit_mass * v * v, 0.4);
+  const double depth = std::max(hertz, v * std::sqrt(unit_mass / (5.6 * M_PI * yield)));
+  const double e = std::min(1.0, 1.3 * std::pow(velocity / pair.yield_velocity(), -0.2));
+
+  // 1. Elastic partner: the share of the overlap that is the partner's. Partly where it yields soon after:
+  // at Y_h/Y_s = 1.1 the error is 0.4 of an elastic partner's, from 1.5 on all of it.
+  const double share = 1 - 1 / mapping;
+  const double unshared = std::min(1.0, std::sqrt(std::max(0.0, h.yield_stress / s.yield_stress - 1) / 0.5));
+  // 2. Each centre comes nearer by k F/(E* R) less, k = 0.45; the rule has k F/(E*_s R*). Over the overlap:
+  const double force_per_overlap = std::min(17.6 * yield, 4.0 / 3.0 * std::sqrt(depth));
+  const double finite = 0.45 * force_per_overlap * std::abs(1 - r - r / (pair.radius_ratio * stiffness));
+  // 3. The smaller body's contact is larger against its radius; it matters as far as the other gives way.
+  const double unlike = (1 - 1 / pair.radius_ratio) / (1 + 1 / pair.radius_ratio);
+  const double uneven = unlike * unlike * depth * std::min(1.0, 2 * share);
+  // 4. A half-space takes 1.25 (V/c)^0.6 of the energy of a like sphere (docs/method.md; Hunter 1957), and as
+  // 1/(E c) of the larger body.
+  const double radiating =
+      pair.radius_ratio >= 1 ? std::pow(stiffness, -1.5) * std::sqrt(h.density / s.density) : 1.0;
+  const double waves = 1.3 * unlike * unlike * std::pow(v_over_c, 0.6) * radiating / (2 * e * e);
+
+  // Coefficients: bounds of what docs/pairs.md shows, cause by cause.
+  ReductionError error;
+  error.force = 0.002 + 0.10 * share * unshared + 0.65 * finite + 5 * uneven + 0.25 * waves;
+  error.restitution =
+      0.002 + 0.11 * std::pow(share, 0.7) * unshared + 3.2 * finite * (1 - e * e) + 4 * uneven + waves;
+  const bool radii =
+      !std::isfinite(pair.radius_ratio) || (pair.radius_ratio >= 0.1 && pair.radius_ratio <= 10);
+  error.within_measured = radii && stiffness >= 0.3 && h.yield_stress >= s.yield_stress &&
+                          v * v / yield <= 0.003 && hertz * mapping * mapping <= 0.13;
+  return error;
+}
+
+MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocity)
+{
+  RunOptions options;
+  options.precision = Precision::single;
+  options.phases = 2;
+  const auto error_at = [&](int cells) {
+    options.resolution = cells;
+    const RunSummary rule = run_as_one_body(pair, velocity, options);
+    const RunSummary truth = run_two_bodies(pair, velocity, options);
+    return ReductionError{rule.force_max / truth.force_max - 1, rule.restitution / truth.restitution - 1};
+  };
+  const ReductionError fine = error_at(14), coarse = error_at(10);
+  // twice the change from 0.7 of the resolution, as in solver/accuracy.hpp
+  return {fine, 2 * std::abs(fine.force - coarse.force), 2 * std::abs(fine.restitution - coarse.restitution)};
+}
+
+}  // namespace granulaw

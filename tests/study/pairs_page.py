@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""docs/pairs.md and docs/pairs.png from the CSV of granulaw_pairs_study: pairs_page.py PAIRS.csv DOCS_FOLDER [LAW.h5 ...]
+
+Law files of single materials (nu = 0.3, mpm table ... --pair NAME:wall) add what a composed rule would give."""
+import csv
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from pairs_compose import rule_over_composed
+
+GROUPS = {
+    "radius": "One material, unlike radii",
+    "stiffness": "Elastic partner, equal radii",
+    "strength": "Partner of higher yield stress, equal radii and E*",
+    "wall": "Deformable wall",
+    "mixture": "Random materials and radii",
+    "press": "Slow presses to one overlap: F there, e from the works; no waves",
+}
+
+
+def text_file(name):
+    return (Path(__file__).parent / name).read_text()
+
+
+def percent(value, uncertainty):
+    return f"{100 * value:+.2f} +- {100 * uncertainty:.2f}"
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit("pairs_page.py PAIRS.csv DOCS_FOLDER [LAW.h5 ...]")
+    rows = [{k: v if k == "group" else float(v) for k, v in row.items()} for row in csv.DictReader(open(sys.argv[1]))]
+    docs, laws = Path(sys.argv[2]), sys.argv[3:]
+    for row in rows:
+        row["composed"] = rule_over_composed(row, laws)
+
+    figure, axes = plt.subplots(1, 3, figsize=(13, 4.2))
+    colours = {5: "tab:blue", 20: "tab:orange", 100: "tab:red"}
+
+    def series(axis, group, column, pick):
+        for speed, colour in colours.items():
+            own = sorted((r for r in rows if r["group"] == group and r["E_over_Y"] == 100 and r["V_over_Vy"] == speed
+                          and pick(r)), key=lambda r: r[column])
+            x = [r[column] for r in own]
+            axis.errorbar(x, [100 * r["error_e"] for r in own], [100 * r["unc_e"] for r in own], color=colour,
+                          marker="o", label=f"e, V/V_y = {speed}")
+            axis.errorbar(x, [100 * r["error_force"] for r in own], [100 * r["unc_force"] for r in own],
+                          color=colour, marker="s", mfc="w", ls="--", label=f"F_max, V/V_y = {speed}")
+            known = [r for r in own if r["composed"]]
+            axis.plot([r[column] for r in known], [100 * (r["error_e"] - r["composed"][1]) for r in known],
+                      "x", color=colour, label=f"e left by composing, {speed}")
+        axis.set_xscale("log")
+        axis.axhline(0, color="k", lw=0.6)
+        axis.grid(True, which="both", alpha=0.2)
+
+    series(axes[0], "radius", "radius_ratio", lambda r: True)
+    axes[0].set_xlabel("radius ratio, one material")
+    axes[0].set_ylabel("rule over two bodies, less 1, %")
+    series(axes[1], "stiffness", "stiffness_ratio", lambda r: r["stiffness_ratio"] >= 0.3)
+    axes[1].set_xlabel("E* of the elastic partner over the yielding body's")
+    for row in rows:
+        row["strength"] = row["stiffness_ratio"] * row["E_over_Y"] / row["partner_E_over_Y"] if row["partner_E_over_Y"] else 0
+    series(axes[2], "strength", "strength", lambda r: True)
+    axes[2].set_xlabel("yield stress of the partner over the yielding body's")
+    axes[0].legend(fontsize=6)
+    figure.suptitle("What the pair rule costs, E*/Y = 100")
+    figure.tight_layout()
+    figure.savefig(docs / "pairs.png", dpi=110)
+
+    text = [text_file("pairs_intro.md")]
+    for group, title in GROUPS.items():
+        text += [f"## {title}", "",
+                 "| E*/Y | radius ratio | E* ratio | Y ratio | V/V_y | d/(lambda R*) | I | e | F_max % | e % | time % | composed leaves: F, e % |",
+                 "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+        for r in (r for r in rows if r["group"] == group):
+            left = "" if r["composed"] is None else (f"{100 * (r['error_force'] - r['composed'][0]):+.1f}, "
+                                                     f"{100 * (r['error_e'] - r['composed'][1]):+.1f}")
+            time = "" if group == "press" else percent(r["error_time"], r["unc_time"])
+            text.append("| " + " | ".join([
+                f"{r['E_over_Y']:.0f}", f"{r['radius_ratio']:.3g}", f"{r['stiffness_ratio']:.3g}",
+                f"{r['strength']:.2f}" if r["partner_E_over_Y"] else "elastic", f"{r['V_over_Vy']:.3g}",
+                f"{r['depth']:.2g}", f"{r['inertia']:.1e}", f"{r['e']:.3f}",
+                percent(r["error_force"], r["unc_force"]), percent(r["error_e"], r["unc_e"]), time, left]) + " |")
+        text.append("")
+    (docs / "pairs.md").write_text("\n".join(text))
+
+
+if __name__ == "__main__":
+    main()
