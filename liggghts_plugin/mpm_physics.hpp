@@ -26,9 +26,12 @@ struct MpmContact
   }
 
   /// X of a contact that begins at this approach speed (m/s); 0: quasi-static.
-  double impact_overlap(double r_eff, double speed) const { return law.impact_overlap(r_eff, speed); }
+  double impact_overlap(double r_eff, double m_eff, double speed) const
+  {
+    return law.impact_overlap(r_eff, m_eff, speed);
+  }
   /// m/s, where the law's inertia axis ends; infinity without one.
-  double max_speed(double r_eff) const { return law.max_speed(r_eff); }
+  double max_speed(double r_eff, double m_eff) const { return law.max_speed(r_eff, m_eff); }
   /// N, at overlap delta (m) of a contact whose largest overlap so far is delta_max (m) and which latched X.
   double force(double r_eff, double delta, double delta_max, double impact_overlap) const
   {

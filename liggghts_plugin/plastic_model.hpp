@@ -107,7 +107,7 @@ class PlasticModel : public NormalModelBase
 
     double impact_overlap = 0.0;
     if constexpr (Physics::latches_impact)
-      impact_overlap = delta_max == 0.0 ? entry.contact.impact_overlap(r_eff, -sidata.vn)
+      impact_overlap = delta_max == 0.0 ? entry.contact.impact_overlap(r_eff, sidata.meff, -sidata.vn)
                                         : sidata.contact_history[impact_offset_];
     const double normal_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
@@ -197,7 +197,7 @@ class PlasticModel : public NormalModelBase
       side.speed.add(speed, weight);
       side.speed_max = std::max(side.speed_max, speed);
       side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
-      if (speed > entry.contact.max_speed(r_eff)) side.too_fast += weight;
+      if (speed > entry.contact.max_speed(r_eff, sidata.meff)) side.too_fast += weight;
     }
     const double delta = sidata.deltan;
     if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;

@@ -22,7 +22,7 @@ struct ThorntonContact
   {
     return dissipated(r_eff, to) - dissipated(r_eff, from);
   }
-  double max_speed(double) const { return std::numeric_limits<double>::infinity(); }
+  double max_speed(double, double) const { return std::numeric_limits<double>::infinity(); }
   double largest_overlap() const
   {
     return std::numeric_limits<double>::max();

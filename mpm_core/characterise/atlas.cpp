@@ -98,13 +98,15 @@ Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<AtlasCheck> ch
     fail("atlas", "has the wrong number of materials", std::to_string(nodes_.size()), std::to_string(expected.size()));
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (!same(nodes_[k].material, expected[k])) fail("atlas", fmt::format("material {} is not the grid's", k));
-  std::vector<double> force, restitution;
+  std::vector<double> force, restitution, solver;
   for (const AtlasCheck& c : checks_) {
     force.push_back(std::abs(c.error_force));
     restitution.push_back(std::abs(c.error_restitution));
+    solver.push_back(c.solver_estimate);
   }
   claimed_force_ = percentile95(std::move(force));
   claimed_restitution_ = percentile95(std::move(restitution));
+  solver_error_ = percentile95(std::move(solver));
 }
 
 std::string Atlas::why_not(const MaterialRatios& m) const

@@ -27,9 +27,9 @@ struct AtlasGrid
   /// H/E; what is too weak to be seen at a stiffness is left out there.
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.3};
 
-  std::vector<double> block_stiffnesses{20, 110, 900};
-  std::vector<double> block_hardenings{0, 0.02, 0.3};
-  std::vector<double> block_poisson_ratios{0, 0.42, 0.49};  ///< besides the main one
+  std::vector<double> block_stiffnesses{20, 35, 60, 110, 400, 900};
+  std::vector<double> block_hardenings{0, 0.005, 0.02, 0.3};
+  std::vector<double> block_poisson_ratios{0, 0.15, 0.42, 0.49};  ///< besides the main one
 
   std::vector<double> hardenings_at(double stiffness) const;
   std::vector<MaterialRatios> main_plane() const;  ///< ascending stiffness, then hardening
@@ -43,6 +43,7 @@ struct AtlasCheck
   double speed = 0;              ///< sqrt(I)
   double error_force = 0;        ///< relative, of F_max, signed
   double error_restitution = 0;  ///< absolute, of e, signed
+  double solver_estimate = 0;    ///< the impact's own, by two resolutions; relative
 };
 
 /// Dimensionless laws of all homogeneous materials within its range: shapes of few, interpolated.
@@ -79,12 +80,14 @@ class Atlas
   /// Errors that the atlas claims for its laws: 95 % of its checks lie within.
   double claimed_force() const { return claimed_force_; }
   double claimed_restitution() const { return claimed_restitution_; }
+  /// The solver's own error, by the checks' estimates, of force and e: 95 % lie within.
+  double solver_error() const { return solver_error_; }
 
  private:
   AtlasGrid grid_;
   std::vector<Node> nodes_;
   std::vector<AtlasCheck> checks_;
-  double claimed_force_ = 0, claimed_restitution_ = 0;
+  double claimed_force_ = 0, claimed_restitution_ = 0, solver_error_ = 0;
 };
 
 /// Reads and writes the atlas's file (HDF5; layout: docs/atlas.md). Throws Error.

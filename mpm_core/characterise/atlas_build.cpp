@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "characterise/build_law.hpp"
 #include "characterise/fit_curve.hpp"
 #include "characterise/interpolation.hpp"
+#include "law/replay.hpp"
 
 namespace granulaw {
 
@@ -137,6 +140,59 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
                             .shape});
   }
   return Atlas(grid, std::move(nodes));
+}
+
+std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, unsigned seed,
+                                    const Progress& progress)
+{
+  constexpr double least_overlap = 3e-4, fastest = 0.245;
+  std::mt19937 random(seed);
+  const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0; };
+  const auto between = [&](double low, double high) { return low * std::pow(high / low, uniform()); };
+  const AtlasGrid& grid = atlas.grid();
+  const RunSource source;
+
+  std::vector<AtlasCheck> checks;
+  std::vector<Replay> said;
+  std::vector<RunJob> jobs;
+  while (static_cast<int>(checks.size()) < count) {
+    AtlasCheck c;
+    c.material.stiffness = between(grid.stiffnesses.front(), grid.stiffnesses.back());
+    c.material.poisson_ratio = grid.block_poisson_ratios.back() * uniform();
+    c.material.hardening = uniform() < 0.25 ? 0.0 : between(1e-3, grid.hardenings.back());
+    const Subject subject = sphere_of(c.material);
+    const double onset = onset_velocity(1.0, subject.yield, 1.0, subject.poisson_ratio) / std::sqrt(subject.yield);
+    c.speed = between(1.5 * onset, fastest);
+    const double velocity = c.speed * std::sqrt(subject.yield);
+    const Material& m = subject.particle.materials[0];
+    BuildOptions options;
+    options.depth = Atlas::depth;
+    const BodyLaw law = law_from(
+        atlas, {"check", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus}, options);
+    const PairLaw wall{&law.curve, PairMapping::rigid_partner(1.0), &law};
+    const Replay replay = replay_collision(wall, 1.0, subject.mass, velocity);
+    if (replay.delta_max < least_overlap) continue;
+    checks.push_back(c);
+    said.push_back(replay);
+    RunJob job = impact_job(subject, velocity, 0, RunOptions{}.phases, source);
+    job.key += " estimated";
+    const auto plain = job.run;
+    job.run = [plain](const RunOptions& o) {
+      RunOptions both = o;
+      both.estimate_error = true;
+      return plain(both);
+    };
+    job.cost = 3;
+    jobs.push_back(std::move(job));
+  }
+  const std::vector<RunResult> results = farm.run_all(jobs, progress);
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    const RunSummary& run = results[k].summary;
+    checks[k].error_force = said[k].force_max / run.force_max - 1;
+    checks[k].error_restitution = said[k].restitution - run.restitution;
+    checks[k].solver_estimate = run.error_estimate;
+  }
+  return checks;
 }
 
 }  // namespace granulaw

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "characterise/atlas.hpp"
+#include "characterise/farm.hpp"
 #include "characterise/survey.hpp"
 
 namespace granulaw {
@@ -12,5 +13,12 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source);
 /// where no run is affordable: there the law of a less stiff one at the same delta/delta_onset holds, but for a
 /// term that goes as sqrt(delta/R), that is as Y/E*: two less stiff shapes tell it.
 Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes);
+
+/// Fresh impacts, each run as `mpm impact` would, of random materials and speeds, evenly in the logarithms of E*/Y
+/// and of the speed from 1.5 times the onset's to I = 0.06, evenly in nu, a quarter of them perfectly plastic and
+/// the others evenly in ln(H/E) from 0.001: what the atlas says of them against what they do. Overlaps below
+/// 3e-4 R are drawn again: such an impact takes minutes.
+std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, unsigned seed,
+                                    const Progress& progress);
 
 }  // namespace granulaw

@@ -39,7 +39,7 @@ constexpr Field impact_residual{"impact_residual", "1", "residual over the slow 
 constexpr Field impact_force{"impact_force", "1", "ln(F/F_press) at shares of X, at the speeds of each material"};
 
 constexpr Field checks{"checks", "1",
-                       "rows of E*/Y, nu, H/E, sqrt(I), relative error of F_max, error of e: fresh impacts"};
+                       "rows of E*/Y, nu, H/E, sqrt(I), relative error of F_max, error of e, the impact's own estimate"};
 
 struct Curve
 {
@@ -114,7 +114,7 @@ void write_atlas(const Atlas& atlas, const std::string& path)
     std::vector<double> rows;
     for (const AtlasCheck& c : atlas.checks())
       for (const double v : {c.material.stiffness, c.material.poisson_ratio, c.material.hardening, c.speed,
-                             c.error_force, c.error_restitution})
+                             c.error_force, c.error_restitution, c.solver_estimate})
         rows.push_back(v);
     if (!rows.empty()) h5::write_vector(file, checks, rows, path);
     if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
@@ -169,8 +169,8 @@ Atlas read_atlas(const std::string& path)
   std::vector<AtlasCheck> made;
   if (h5::has_link(file, checks.name)) {
     const std::vector<double> rows = h5::read_vector(file, checks, most, path);
-    for (std::size_t i = 0; i + 6 <= rows.size(); i += 6)
-      made.push_back({{rows[i], rows[i + 1], rows[i + 2]}, rows[i + 3], rows[i + 4], rows[i + 5]});
+    for (std::size_t i = 0; i + 7 <= rows.size(); i += 7)
+      made.push_back({{rows[i], rows[i + 1], rows[i + 2]}, rows[i + 3], rows[i + 4], rows[i + 5], rows[i + 6]});
   }
   return Atlas(std::move(grid), std::move(nodes), std::move(made));
 }

@@ -41,7 +41,14 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
     law.curve = slow;
     return error;
   }
-  InertiaAxis::Table axis = tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, options.fastest);
+  // An impact at the end of the axis must turn within the table.
+  double fastest = options.fastest;
+  InertiaAxis::Table axis = tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, fastest);
+  while (axis.impact_overlap.back() > slow.x_end()) {
+    fastest *= std::min(0.98, std::sqrt(slow.x_end() / axis.impact_overlap.back()));
+    axis = tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, fastest);
+  }
+  law.certificate.max_inertia = fastest * fastest;
   if (subject.rate_dependent()) {
     axis.kind = InertiaAxis::Kind::rate;
     axis.reference_radius = subject.scale.length;
@@ -50,7 +57,7 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
   require_admissible(law.curve);
 
   const Scales unit{subject.scale.length, law.material.e_star(), law.material.density};
-  const double mass = subject.mass * unit.mass(), speed = options.fastest * std::sqrt(subject.yield) * unit.velocity();
+  const double mass = subject.mass * unit.mass(), speed = fastest * std::sqrt(subject.yield) * unit.velocity();
   const auto replay = [&](const ContactCurve& curve) {
     BodyLaw body = law;
     body.curve = curve;
@@ -60,6 +67,10 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
   const Replay with = replay(law.curve), without = replay(slow);
   law.certificate.axis_cost_force = without.force_max / with.force_max - 1;
   law.certificate.axis_cost_restitution = without.restitution / with.restitution - 1;
+  // Model only what the scene needs.
+  if (std::max(std::abs(law.certificate.axis_cost_force), std::abs(law.certificate.axis_cost_restitution)) <=
+      options.tolerance)
+    law.curve = slow;
   return error;
 }
 
@@ -372,6 +383,7 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOpt
   c.interpolation_error = finish_curve(law, atlas.shape(ratios), subject, options, Atlas::depth);
   c.atlas_error_force = atlas.claimed_force();
   c.atlas_error_restitution = atlas.claimed_restitution();
+  c.solver_error_force = c.solver_error_restitution = atlas.solver_error();
   return law;
 }
 

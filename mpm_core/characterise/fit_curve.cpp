@@ -219,4 +219,15 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   return fitted;
 }
 
+FittedCurve fit_plastic(const std::vector<Pressing>& presses, const ElasticCorrection& elastic, double onset,
+                        double x_end)
+{
+  Survey survey;
+  survey.slow = presses;
+  const FittedShape fitted = fit_shape(survey, elastic, onset, x_end);
+  FittedCurve curve{tabulate(fitted.shape, onset, x_end, x_end), fitted.quality, 0};
+  curve.table_error = table_error(fitted.shape, onset, x_end, ContactCurve(curve.table, "fitted curve"));
+  return curve;
+}
+
 }  // namespace granulaw

@@ -30,4 +30,14 @@ struct FittedShape
 FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,
                       const LawShape* shallow = nullptr);
 
+/// The same from presses alone, tabulated: a rate-free curve to x_end.
+struct FittedCurve
+{
+  ContactCurve::Table table;
+  FitQuality quality;
+  double table_error = 0;  ///< largest relative difference of F between table and fit
+};
+FittedCurve fit_plastic(const std::vector<Pressing>& presses, const ElasticCorrection& elastic, double onset,
+                        double x_end);
+
 }  // namespace granulaw

@@ -31,6 +31,14 @@ class ShapeFunction
   double q_end_;
 };
 
+/// What is lost never falls with the overlap of the turn; where little is, the scatter of the runs may say so.
+std::vector<double> rising(std::vector<double> values)
+{
+  double most = 0;
+  for (double& v : values) v = most = std::max(most, v);
+  return values;
+}
+
 /// Nodes uniform in s, the onset on a node: everything is smooth on either side of it.
 ContactCurve::Table empty_table(double s_onset, double x_end, std::vector<double>& nodes)
 {
@@ -50,24 +58,6 @@ double elastic_exponent(const ElasticCorrection& e, double s)
 {
   const double y = s * s;  // integral of x^1.5 (1 + c1 x^.5 + c2 x) = x^2.5 (1/2.5 + c1 x^.5/3 + c2 x/3.5)
   return e.force_ratio(s) / (0.4 + e.c1 * y / 3 + e.c2 * y * y / 3.5) - 1;
-}
-
-/// Slopes of a smooth function given at uniform nodes from `first` on: fourth-order differences inside,
-/// one-sided second order at the ends.
-void fill_slopes(const std::vector<double>& value, std::size_t first, std::size_t last, double h,
-                 std::vector<double>& slope)
-{
-  const auto v = [&](std::size_t k) { return value[k]; };
-  for (std::size_t k = first; k <= last; ++k) {
-    if (k == first)
-      slope[k] = (-3 * v(k) + 4 * v(k + 1) - v(k + 2)) / (2 * h);
-    else if (k == last)
-      slope[k] = (3 * v(k) - 4 * v(k - 1) + v(k - 2)) / (2 * h);
-    else if (k == first + 1 || k + 1 == last)
-      slope[k] = (v(k + 1) - v(k - 1)) / (2 * h);
-    else
-      slope[k] = (8 * (v(k + 1) - v(k - 1)) - (v(k + 2) - v(k - 2))) / (12 * h);
-  }
 }
 
 void add_to(std::vector<double>& sum, double weight, const std::vector<double>& values)
@@ -144,7 +134,7 @@ ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_e
 {
   const double s_onset = std::pow(onset, 0.25), q_end = 0.25 * std::log(shape_end / onset);
   const ShapeFunction softening(shape.softening, q_end), widening(shape.widening, q_end),
-      residual(shape.residual, q_end), dissipation(shape.dissipation, q_end);
+      residual(rising(shape.residual), q_end), dissipation(rising(shape.dissipation), q_end);
   std::vector<double> nodes;
   ContactCurve::Table table = empty_table(s_onset, x_end, nodes);
   table.onset = onset;
@@ -171,25 +161,33 @@ ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_e
   table.exponent.assign(count, 1.5);
   table.exponent_slope.assign(count, 0.0);
   const ContactCurve loading(table, "fitted curve");
-  double lost_at_onset = 0;
+  // At its turn a contact unloads at least as stiffly as it loads, n >= x F'/F at the onset. A power of u cannot
+  // have both the elastic curve's work and its slope, so it gives a little less back, e by up to 0.2 %, which
+  // fades with the overlap: faster than exp(-10 q) a contact turned later would give back more than was put in.
+  const ContactCurve::Loading first = loading.loading(onset);
+  const double lost_at_onset =
+      1.2 * std::log(loading.work_loading(onset) * (onset * first.stiffness / first.force + 1) / (first.force * onset));
+  const auto yielded_exponent = [&](double s) {
+    const double x = s * s * s * s, q = std::log(s / s_onset);
+    const double returned =
+        loading.work_loading(x) * std::exp(-dissipation.value(q) - lost_at_onset * std::exp(-8 * q));
+    return std::max(1.0, loading.loading(x).force * x * std::exp(-residual.value(q)) / returned - 1);
+  };
+  const auto elastic = [&](double s) { return elastic_exponent(el, s); };
   for (std::size_t k = 0; k < count; ++k) {
-    const double s = nodes[k], x = s * s * s * s;
-    table.exponent[k] = elastic_exponent(el, s);
-    if (k < at_onset) continue;
-    const ContactCurve::Loading top = loading.loading(x);
-    const double kept = 1 - table.residual_ratio[k], put_in = loading.work_loading(x);
-    // At its turn a contact unloads at least as stiffly as it loads, n >= x F'/F at the onset. A power of u cannot
-    // have both the elastic curve's work and its slope, so it gives a little less back, e by up to 0.2 %, which
-    // fades with the overlap: faster than exp(-10 q) a contact turned later would give back more than was put in.
-    if (k == at_onset)
-      lost_at_onset = 1.2 * std::log(put_in * (x * top.stiffness / top.force + 1) / (top.force * x));
-    const double q = k == at_onset ? 0.0 : std::log(s / s_onset);
-    const double returned = put_in * std::exp(-dissipation.value(q) - lost_at_onset * std::exp(-8 * q));
-    table.exponent[k] = std::max(1.0, top.force * x * kept / returned - 1);
+    const double s = nodes[k], step = 0.02 * h;
+    // one-sided at the ends; the onset's own slope must be the one of the plastic side
+    const auto fill = [&](const auto& n, bool begins, bool ends) {
+      table.exponent[k] = n(s);
+      table.exponent_slope[k] = begins ? (-3 * n(s) + 4 * n(s + step) - n(s + 2 * step)) / (2 * step)
+                                : ends ? (3 * n(s) - 4 * n(s - step) + n(s - 2 * step)) / (2 * step)
+                                       : (n(s + step) - n(s - step)) / (2 * step);
+    };
+    if (k < at_onset)
+      fill(elastic, k == 0, false);
+    else
+      fill(yielded_exponent, k == at_onset, k + 1 == count);
   }
-  fill_slopes(table.exponent, 0, at_onset, h, table.exponent_slope);
-  // From the onset on: the onset's own slope must be the one of the plastic side.
-  fill_slopes(table.exponent, at_onset, count - 1, h, table.exponent_slope);
   // 1e-7: returned work must not exceed the work put in just past the onset, not even by rounding.
   for (double& n : table.exponent) n += 1e-7;
   require_admissible(ContactCurve(table, "fitted curve"));

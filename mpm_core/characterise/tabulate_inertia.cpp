@@ -149,26 +149,30 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
 void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
 {
   const std::size_t columns = axis.ratio_nodes();
-  constexpr int most_rounds = 40, samples = 600;
+  constexpr int most_rounds = 40;
   constexpr double fading_nodes = 8;
+  constexpr double spare = 1e-3;  // of the work: what may hide between the samples
+  std::vector<double> overlaps{slow.onset() * (1 + 1e-9)};  // densely past the onset, then evenly in s
+  for (int k = 1; k <= 60; ++k) overlaps.push_back(slow.onset() * (1 + 3e-4 * std::pow(1.13, k)));
+  for (int k = 1; k < 400; ++k) overlaps.push_back(std::pow(slow.table().s_end * k / 400, 4));
   for (int round = 0; round < most_rounds; ++round) {
     const ContactCurve curve(slow.table(), axis, "fitted curve");
-    if (curve.admissibility_margin() >= 0) return;
     std::vector<double> raise(axis.exponent_correction.size(), 0.0);
+    bool lacks = false;
     for (std::size_t half = 1; half <= 2 * axis.slices; ++half) {
       const double reach = axis.impact_overlap.back() * static_cast<double>(half) / static_cast<double>(2 * axis.slices);
-      for (int k = 1; k < samples; ++k) {
-        const double x = k == 1 ? slow.onset() * (1 + 1e-9) : std::pow(slow.table().s_end * k / samples, 4);
-        const double step = k == 1 ? 0 : 1e-4 * x;
+      for (const double x : overlaps) {
+        const double step = x == overlaps.front() ? 0 : 1e-4 * x;
         if (x - step < slow.onset() || x + step > slow.x_end()) continue;
         double lacking = curve.work_unloading(x, reach) / curve.work_loading(x, reach) - 1;
         if (step > 0) {
           const double slope = (curve.work_unloading(x + step, reach) - curve.work_unloading(x - step, reach)) / (2 * step);
           lacking = std::max(lacking, slope / curve.loading(x, reach).force - 1);
         }
-        if (lacking <= -1e-6) continue;
+        if (lacking <= -spare) continue;
+        lacks = lacks || lacking > -0.2 * spare;
         const auto column = std::min(static_cast<std::size_t>(x / reach / share_spacing) + 1, columns - 1);
-        const double more = 1.2 * (lacking + 1e-5) * (curve.turning(x, reach).exponent + 1);
+        const double more = 1.2 * (lacking + 1.5 * spare) * (curve.turning(x, reach).exponent + 1);
         for (const std::size_t row : {(half + 1) / 2, half / 2})
           for (std::size_t l = 0; row > 0 && l < columns; ++l) {
             // fading out slowly: where the exponent falls, more comes back
@@ -178,6 +182,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
           }
       }
     }
+    if (!lacks) return;
     for (std::size_t k = 0; k < raise.size(); ++k) axis.exponent_correction[k] += raise[k];
     for (std::size_t row = 0; row < axis.slices; ++row) {
       const auto first = axis.exponent_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);

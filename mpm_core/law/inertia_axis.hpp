@@ -22,8 +22,9 @@ namespace granulaw {
 /// X. X = 0 is the quasi-static law.
 ///
 /// Speed coordinate, V the relative normal speed of the pair at first touch, PairMapping's lambda and R*:
-///     inertia   v = (V/sqrt(lambda)) sqrt(rho_s/Y_s), that is I = v^2; a like pair's spheres each see a
-///               wall at V/2
+///     inertia   v = V sqrt(m_1/(4/3 pi R_1^3 c Y_s)), that is v^2 = I = rho V^2/Y of the one body that moves
+///               like the pair: radius R_1 = lambda R*, mass m_1 = lambda m*; c the body's mass_ratio. On a
+///               rigid wall this is rho_s V^2/Y_s; a like pair's spheres each see a wall at V/2
 ///     rate      v = V R_ref/(lambda R*) sqrt(rho_s/Y_s): the strain rate goes as V/(lambda R*); at the
 ///               reference radius on a rigid wall the same number as above
 ///

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <tuple>
 
 #include "base/error.hpp"
@@ -51,13 +52,27 @@ void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where
            fmt::format("{0}:{0}, {0}:{1}", body->material.name, wall_name));
 }
 
-double PairLaw::speed_coordinate(double r_eff) const
+double PairLaw::usual_mass(double r_eff) const
 {
+  const bool rigid = mapping.sqrt_lambda == 1.0;
+  const double radius = rigid ? r_eff : 2 * r_eff;
+  const double mass = yielding->mass_ratio * yielding->material.density * 4.0 / 3.0 * M_PI * radius * radius * radius;
+  return rigid ? mass : 0.5 * mass;
+}
+
+double PairLaw::inertia_speed(double r_eff, double m_eff, double speed) const
+{
+  // A pair moves like one body of radius lambda R* and mass lambda m* against the rigid wall.
+  const double length = mapping.length(r_eff), volume = 4.0 / 3.0 * M_PI * length * length * length;
+  return speed * std::sqrt(mapping.sqrt_lambda * mapping.sqrt_lambda * m_eff /
+                           (yielding->mass_ratio * volume * yielding->material.yield_stress));
+}
+
+double PairLaw::speed_coordinate(double r_eff, double m_eff) const
+{
+  if (curve->axis()->kind() == InertiaAxis::Kind::inertia) return inertia_speed(r_eff, m_eff, 1.0);
   const LawMaterial& m = yielding->material;
-  const double root = std::sqrt(m.density / m.yield_stress);
-  return curve->axis()->kind() == InertiaAxis::Kind::inertia
-             ? root / mapping.sqrt_lambda
-             : root * curve->axis()->table().reference_radius / mapping.length(r_eff);
+  return std::sqrt(m.density / m.yield_stress) * curve->axis()->table().reference_radius / mapping.length(r_eff);
 }
 
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where)

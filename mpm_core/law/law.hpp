@@ -110,22 +110,28 @@ struct PairLaw
   /// Largest overlap the table answers for, m.
   double max_overlap(double r_eff) const { return curve->x_end() * mapping.length(r_eff); }
 
+  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see inertia_axis.hpp. The yielding body yields.
+  double inertia_speed(double r_eff, double m_eff, double speed) const;
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without an inertia axis or approach, clamped beyond max_speed().
-  double impact_overlap(double r_eff, double speed) const
+  double impact_overlap(double r_eff, double m_eff, double speed) const
   {
-    return curve->axis() ? curve->axis()->impact_overlap(speed_coordinate(r_eff) * speed) : 0.0;
+    return curve->axis() ? curve->axis()->impact_overlap(speed_coordinate(r_eff, m_eff) * speed) : 0.0;
   }
   /// Largest approach speed the inertia axis answers for, m/s; infinity: there is no axis.
-  double max_speed(double r_eff) const
+  double max_speed(double r_eff, double m_eff) const
   {
-    return curve->axis() ? curve->axis()->speed_end() / speed_coordinate(r_eff)
+    return curve->axis() ? curve->axis()->speed_end() / speed_coordinate(r_eff, m_eff)
                          : std::numeric_limits<double>::infinity();
   }
 
+  /// Effective mass, kg, of a usual pair with this R*: the yielding body and its like, each of radius 2 R*; with a
+  /// rigid partner the body alone. For tables and examples; a particle code knows better.
+  double usual_mass(double r_eff) const;
+
  private:
   /// v of the inertia axis over the relative normal speed, s/m (inertia_axis.hpp).
-  double speed_coordinate(double r_eff) const;
+  double speed_coordinate(double r_eff, double m_eff) const;
 };
 
 /// Resolves materials `a` and `b` (b may be "wall": rigid). The body with the lower yield stress yields;

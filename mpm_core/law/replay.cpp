@@ -50,11 +50,11 @@ Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass
   const double e_star = pair.mapping.e_star_pair();
   const double duration =
       2.87 * std::pow(effective_mass * effective_mass / (e_star * e_star * r_eff * velocity), 0.2);
-  const double impact_overlap = pair.impact_overlap(r_eff, velocity);
+  const double impact_overlap = pair.impact_overlap(r_eff, effective_mass, velocity);
   Replay result = replay_collision(
       [&](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max, impact_overlap); },
       effective_mass, velocity, duration, steps_per_contact);
-  result.left_speeds = velocity > pair.max_speed(r_eff);
+  result.left_speeds = velocity > pair.max_speed(r_eff, effective_mass);
   result.left_range = result.delta_max > pair.max_overlap(r_eff);
   return result;
 }

@@ -18,13 +18,13 @@ inline std::string unusable(const Law& law)
   const auto sane = [](double value) { return value >= 0 && std::isfinite(value); };
   for (const auto& [a, b, force_error, restitution_error] : law.pairs) {
     const PairLaw pair = resolve_pair(law, a, b, "test");
-    const double end = pair.max_overlap(r_eff);
+    const double end = pair.max_overlap(r_eff), mass = pair.usual_mass(r_eff);
     for (int k = 0; k <= 60; ++k) {
       const double largest = 3 * end * std::pow(10.0, -9.0 * k / 60);
       for (const double part : {1e-6, 0.1, 0.5, 0.9, 0.999999, 1.0}) {
         for (const double speed : {0.0, 1e-9, 0.3, 0.77, 1.0, 1e3}) {
           if (speed > 0 && !pair.curve->axis()) break;
-          const double latched = speed > 0 ? pair.impact_overlap(r_eff, speed * pair.max_speed(r_eff)) : 0.0;
+          const double latched = speed > 0 ? pair.impact_overlap(r_eff, mass, speed * pair.max_speed(r_eff, mass)) : 0.0;
           const ContactForce f = pair.evaluate(r_eff, part * largest, largest, latched);
           if (!sane(f.force) || !sane(f.contact_radius) || !std::isfinite(f.stiffness) ||
               f.delta_max != largest)

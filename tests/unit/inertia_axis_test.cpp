@@ -199,24 +199,27 @@ TEST(InertiaAxis, SpeedsOfPairs)
   const double R = 2e-3, unit = std::sqrt(1e8 / 1500.0);  // sqrt(Y/rho), m/s
   for (const double v : {0.003, 0.03, 0.06}) {
     const double X = wall.curve->axis()->impact_overlap(v);
-    EXPECT_NEAR(wall.impact_overlap(R, v * unit), X, 1e-12 * X);
-    EXPECT_NEAR(wall.impact_overlap(10 * R, v * unit), X, 1e-12 * X);  // size does not matter
-    EXPECT_NEAR(like.impact_overlap(R / 2, 2 * v * unit), X, 1e-12 * X);
+    EXPECT_NEAR(wall.impact_overlap(R, wall.usual_mass(R), v * unit), X, 1e-12 * X);
+    EXPECT_NEAR(wall.impact_overlap(10 * R, wall.usual_mass(10 * R), v * unit), X, 1e-12 * X);  // size does not matter
+    EXPECT_NEAR(like.impact_overlap(R / 2, like.usual_mass(R / 2), 2 * v * unit), X, 1e-12 * X);
   }
-  EXPECT_NEAR(wall.max_speed(R), 0.066 * unit, 1e-9);
-  EXPECT_NEAR(like.max_speed(R), 2 * 0.066 * unit, 1e-9);
+  // Against a partner that hardly moves the same body is twice as heavy in m*: the one body's I doubles.
+  EXPECT_NEAR(like.impact_overlap(R / 2, 2 * like.usual_mass(R / 2), 0.06 / std::sqrt(2.0) * unit),
+              wall.curve->axis()->impact_overlap(0.03), 1e-9);
+  EXPECT_NEAR(wall.max_speed(R, wall.usual_mass(R)), 0.066 * unit, 1e-9);
+  EXPECT_NEAR(like.max_speed(R, like.usual_mass(R)), 2 * 0.066 * unit, 1e-9);
   const PairLaw glass = resolve_pair(law, "glass", "wall", "test");
-  EXPECT_EQ(glass.impact_overlap(R, 100), 0.0);
-  EXPECT_EQ(glass.max_speed(R), HUGE_VAL);
+  EXPECT_EQ(glass.impact_overlap(R, glass.usual_mass(R), 100), 0.0);
+  EXPECT_EQ(glass.max_speed(R, glass.usual_mass(R)), HUGE_VAL);
 
   Law rate = law;
   rate.bodies["powder"].curve = ContactCurve(SyntheticLaw{}.table(), SyntheticLaw{}.rate_axis(R), "test");
   const PairLaw rate_wall = resolve_pair(rate, "powder", "wall", "test");
   const PairLaw rate_like = resolve_pair(rate, "powder", "powder", "test");
   const double v = 0.03, X = wall.curve->axis()->impact_overlap(v);
-  EXPECT_NEAR(rate_wall.impact_overlap(R, v * unit), X, 1e-12 * X);
-  EXPECT_NEAR(rate_wall.impact_overlap(2 * R, 2 * v * unit), X, 1e-12 * X);  // the same strain rate
-  EXPECT_NEAR(rate_like.impact_overlap(R / 2, 2 * v * unit), X, 1e-12 * X);  // two walls at half the speed
+  EXPECT_NEAR(rate_wall.impact_overlap(R, rate_wall.usual_mass(R), v * unit), X, 1e-12 * X);
+  EXPECT_NEAR(rate_wall.impact_overlap(2 * R, rate_wall.usual_mass(2 * R), 2 * v * unit), X, 1e-12 * X);  // the same strain rate
+  EXPECT_NEAR(rate_like.impact_overlap(R / 2, rate_like.usual_mass(R / 2), 2 * v * unit), X, 1e-12 * X);  // two walls at half the speed
 }
 
 TEST(InertiaAxis, AReplayLatchesItsOwnSpeed)
@@ -224,7 +227,7 @@ TEST(InertiaAxis, AReplayLatchesItsOwnSpeed)
   const Law law = SyntheticLaw{}.law_with_axis();
   const PairLaw wall = resolve_pair(law, "powder", "wall", "test");
   const double R = 1e-3, mass = 4.0 / 3.0 * M_PI * 1500 * R * R * R;
-  const double speed = 0.5 * wall.max_speed(R), X = wall.impact_overlap(R, speed);
+  const double speed = 0.5 * wall.max_speed(R, wall.usual_mass(R)), X = wall.impact_overlap(R, wall.usual_mass(R), speed);
   const Replay replay = replay_collision(wall, R, mass, speed);
   // e^2 is the ratio of the work functions of that X; 1e-4: the replay's step
   const double x_m = replay.delta_max / R;

@@ -9,6 +9,7 @@ namespace granulaw {
 void add_impact(CLI::App& app);
 void add_press(CLI::App& app);
 void add_table(CLI::App& app);
+void add_atlas(CLI::App& app);
 void add_law(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);

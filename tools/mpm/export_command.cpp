@@ -76,7 +76,7 @@ void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name,
   out << (std::isfinite(curve.onset())
               ? fmt::format("onset of yield at overlap {:.10g}\n", curve.onset() * length)
               : std::string("elastic\n"));
-  const double impact_overlap = pair.impact_overlap(r.r_eff, r.speed);
+  const double impact_overlap = pair.impact_overlap(r.r_eff, pair.usual_mass(r.r_eff), r.speed);
   if (r.speed > 0)
     out << (curve.axis()
                 ? fmt::format("# {}: first touch at {:.10g} m/s, impact overlap X = {:.10g}\n", name, r.speed,
@@ -103,9 +103,9 @@ void export_law(const ExportRequest& r)
     fail("--speed", "cannot be used", fmt::format("{:g} m/s", r.speed), "0 or more");
   for (const auto& [a, b] : pairs) {  // before anything is written
     const PairLaw pair = resolve_pair(law, a, b, r.law);
-    if (r.speed > pair.max_speed(r.r_eff))
+    if (r.speed > pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff)))
       fail("--speed", fmt::format("the law's inertia axis for {}:{} ends below it", a, b),
-           fmt::format("{:g} m/s", r.speed), fmt::format("up to {:g} m/s", pair.max_speed(r.r_eff)));
+           fmt::format("{:g} m/s", r.speed), fmt::format("up to {:g} m/s", pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff))));
   }
   write_atomically(r.output, [&](const std::string& temporary) {
     std::ofstream out(temporary);

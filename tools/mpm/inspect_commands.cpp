@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
+#include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "law/law_file.hpp"
@@ -15,8 +15,6 @@
 namespace granulaw {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 void print_body(const BodyLaw& body)
 {
@@ -78,20 +76,12 @@ void info(const std::string& path)
   for (const auto& entry : law.bodies) print_body(entry.second);
 }
 
-/// The script beside this program, or where cmake --install puts it.
-std::string plot_script()
-{
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& candidate : {here / "plot_law.py", here / "../share/granulaw/plot_law.py"})
-    if (fs::exists(candidate)) return candidate.string();
-  fail("mpm plot", fmt::format("plot_law.py is not beside {}", here.string()));
-}
-
 void plot(const std::string& law, const std::string& output)
 {
   check_output(output, ".png, .pdf, .svg");
   read_law(law);  // its sentence is better than Python's
-  const std::string script = plot_script();
+  const std::string script = own_file("plot_law.py");
+  if (script.empty()) fail("mpm plot", "plot_law.py is not beside the program");
   const pid_t child = fork();
   if (child < 0) fail("mpm plot", "cannot start /usr/bin/python3");
   if (child == 0) {

@@ -68,11 +68,8 @@ void replay(const LawRequest& r)
          fmt::format("{:.4g} m", result.delta_max),
          fmt::format("up to {:.4g} m", (1 + overlap_margin) * limit));
 
-  // A like pair closing at V is, for each body, a wall hit at V/2; in general the yielding body's share of
-  // the approach is V/sqrt(lambda).
   const LawMaterial& m = pair.yielding->material;
-  const double share = r.velocity / pair.mapping.sqrt_lambda;
-  const double inertia = m.yields() ? m.density * share * share / m.yield_stress : 0.0;
+  const double speed = m.yields() ? pair.inertia_speed(r_eff, m_eff, r.velocity) : 0.0, inertia = speed * speed;
   const double allowed = pair.yielding->certificate.max_inertia;
   const bool needs_axis = inertia > allowed && !pair.curve->axis();
   if (needs_axis)
@@ -85,7 +82,7 @@ void replay(const LawRequest& r)
         stderr,
         "mpm: {:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: it answers with the "
         "corrections of that speed\n",
-        r.velocity, pair.max_speed(r_eff));
+        r.velocity, pair.max_speed(r_eff, m_eff));
   if (r.json) {
     nlohmann::ordered_json out;
     out["e"] = result.restitution;

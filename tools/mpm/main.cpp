@@ -44,6 +44,7 @@ int run(int argc, char** argv, std::string& sentence)
   add_impact(app);
   add_press(app);
   add_table(app);
+  add_atlas(app);
   add_law(app);
   add_check(app);
   add_info(app);

@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
-#include <map>
 #include <memory>
+#include <optional>
 #include <set>
-#include <thread>
 
+#include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "characterise/build_law.hpp"
+#include "characterise/reduction_error.hpp"
 #include "commands.hpp"
+#include "farm_options.hpp"
 #include "law/law_file.hpp"
 #include "materials_file.hpp"
 #include "ranks.hpp"
@@ -29,11 +30,62 @@ struct TableRequest
 {
   std::string materials, deck, output;
   std::vector<std::string> pairs;
-  double tolerance = 0;
-  int jobs = 0;  // 0: one for each core, on several ranks one for each
-  std::string cache = default_cache_folder();
-  bool no_cache = false;
+  BuildOptions range;
+  double inertia = 0.0625, radius_ratio = 1;
+  bool no_atlas = false;
+  FarmOptions farm;
 };
+
+/// One body of the law file: a material of the materials file, or a particle whose law is its own.
+struct Entry
+{
+  LawMaterial material;  ///< its name is the entry's
+  Subject subject;
+  std::string body = sphere_name;
+  std::string hash;  ///< of all that determines it
+};
+
+LawMaterial law_material(const std::string& name, const Material& m)
+{
+  return {name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
+}
+
+/// FNV-1a: tells whether a law was made from these very materials.
+std::string hash_of(const std::string& text)
+{
+  std::uint64_t h = 14695981039346656037ull;
+  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return fmt::format("{:016x}", h);
+}
+
+std::string hash_of(const Material& m)
+{
+  return hash_of(fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus, m.poisson_ratio,
+                             m.yield_stress, m.hardening_modulus));
+}
+
+/// The entry that a name of --pair means: a material; else a particle, whose law is its material's if it is a
+/// homogeneous sphere and the law knows no size.
+Entry entry_of(const std::string& name, const MaterialsFile& file)
+{
+  if (!file.materials.contains(name) && file.particles.contains(name)) {
+    const Particle& p = file.particle(name);
+    const Subject subject = subject_of(p);
+    const int skin = p.material_at(0.0, 1e-9 * subject.scale.length);
+    const Material& m = p.materials[static_cast<std::size_t>(std::max(0, p.is_homogeneous_sphere() ? 0 : skin))];
+    LawMaterial material = law_material(name, m);
+    if (subject.yields()) material.yield_stress = subject.yield * subject.scale.stress;
+    return {material, subject, p.is_homogeneous_sphere() ? sphere_name : name, hash_of(subject.description)};
+  }
+  const Material& m = file.material(name);
+  if (m.rate_dependent())
+    fail(fmt::format("{}: [material.{}]", file.path, name),
+         fmt::format("its yield stress depends on the rate ('{}'), so its law depends on the particle's size: name a "
+                     "particle of it, --pair PARTICLE:wall",
+                     m.rate.name));
+  const Subject subject = subject_of(m);
+  return {law_material(name, m), subject, sphere_name, subject.is_plain() ? hash_of(m) : hash_of(subject.description)};
+}
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
@@ -41,14 +93,17 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 Pairs pairs_of(const TableRequest& r, const MaterialsFile& file)
 {
   Pairs pairs;
+  const auto check = [&](const std::string& name) {
+    if (!file.particles.contains(name)) file.material(name);
+  };
   for (const std::string& text : r.pairs) {
     const auto colon = text.find(':');
     if (colon == std::string::npos)
-      fail("--pair", "cannot be used", fmt::format("'{}'", text), "a:b or a:wall, with material names");
+      fail("--pair", "cannot be used", fmt::format("'{}'", text), "a:b or a:wall, with names of materials or particles");
     std::string a = text.substr(0, colon), b = text.substr(colon + 1);
     if (a == wall_name) std::swap(a, b);
-    file.material(a);
-    if (b != wall_name) file.material(b);
+    check(a);
+    if (b != wall_name) check(b);
     pairs.emplace_back(a, b);
   }
   if (!pairs.empty()) return pairs;
@@ -57,20 +112,6 @@ Pairs pairs_of(const TableRequest& r, const MaterialsFile& file)
     pairs.emplace_back(a->first, wall_name);
   }
   return pairs;
-}
-
-std::string material_text(const Material& m)
-{
-  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus, m.poisson_ratio,
-                     m.yield_stress, m.hardening_modulus);
-}
-
-/// FNV-1a of the five numbers: tells whether a law was made from these very materials.
-std::string material_hash(const Material& m)
-{
-  std::uint64_t h = 14695981039346656037ull;
-  for (const char c : material_text(m)) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return fmt::format("{:016x}", h);
 }
 
 std::string now_utc()
@@ -86,111 +127,113 @@ std::string now_utc()
 void print_certificate(const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
-  fmt::print("{}: to delta/R = {:.3g}; solver error {:.2g} %, held-out e {:.2g} %, scatter {:.2g} %",
-             body.material.name, body.curve.x_end(), 100 * c.solver_error_force, 100 * c.held_out_error,
-             100 * c.residual_scatter);
+  fmt::print("{}: to delta/R = {:.3g}", body.material.name, body.curve.x_end());
+  if (body.curve.axis()) fmt::print(" and I = rho V^2/Y = {:.3g}", c.max_inertia);
+  if (c.origin == "atlas")
+    fmt::print("; from the atlas: force within {:.2g} %, e within {:.2g}", 100 * c.atlas_error_force,
+               c.atlas_error_restitution);
+  else
+    fmt::print("; held-out e {:.2g} %, scatter {:.2g} %", 100 * c.held_out_error, 100 * c.residual_scatter);
+  fmt::print("; solver error {:.2g} %", 100 * c.solver_error_force);
   if (c.verification_impacts > 0)
-    fmt::print("; {:.0f} impacts not sampled: force within {:.2g} %, e within {:.2g} %",
-               c.verification_impacts, 100 * c.verification_error_force,
-               100 * c.verification_error_restitution);
-  if (std::isfinite(c.max_inertia)) fmt::print("; rate-free up to I = rho V^2/Y = {:.3g}", c.max_inertia);
+    fmt::print("; {:.0f} impacts not sampled: force within {:.2g} %, e within {:.2g} %", c.verification_impacts,
+               100 * c.verification_error_force, 100 * c.verification_error_restitution);
+  if (!body.curve.axis() && std::isfinite(c.max_inertia)) fmt::print("; rate-free up to I = {:.3g}", c.max_inertia);
   fmt::print("\n");
 }
 
-int threads_of(const TableRequest& r)
+/// What the pair rule costs, at the end of the range that it was measured in.
+void state_reduction(LawPair& pair, const Law& law, double radius_ratio)
 {
-  if (r.jobs > 0) return r.jobs;
-  return ranks() > 1 ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-RunCache cache_of(const TableRequest& r)
-{
-  if (r.no_cache || r.cache.empty() || rank() != 0) return RunCache{};
-  std::error_code problem;
-  std::filesystem::create_directories(r.cache, problem);
-  if (problem)
-    fail("--cache", fmt::format("the folder '{}' cannot be made ({})", r.cache, problem.message()));
-  return RunCache(r.cache);
-}
-
-void note(const FarmCount& c, std::map<std::string, std::string>& provenance)
-{
-  provenance["runs_made"] = fmt::format("{}", c.made);
-  provenance["runs_from_cache"] = fmt::format("{}", c.from_cache);
-  provenance["runs_retried"] = fmt::format("{}", c.retried);
-  provenance["runs_failed"] = fmt::format("{}", c.failed);
-  provenance["cpu_s"] = fmt::format("{:.1f}", c.cpu_s);
-  provenance["ranks"] = fmt::format("{}", ranks());
-}
-
-void print_count(const FarmCount& c)
-{
-  fmt::print("{} runs made in {:.1f} CPU s", c.made, c.cpu_s);
-  if (ranks() > 1) fmt::print(" on {} ranks", ranks());
-  if (c.from_cache) fmt::print(", {} taken from the cache ({:.1f} CPU s saved)", c.from_cache, c.cpu_s_saved);
-  if (c.retried)
-    fmt::print("; {} of them failed at first, {} at a higher resolution too", c.retried, c.failed);
-  fmt::print("\n");
+  constexpr double inertia = 0.002;
+  if (pair.b == wall_name || (pair.a == pair.b && radius_ratio == 1)) return;
+  const LawMaterial &a = law.bodies.at(pair.a).material, &b = law.bodies.at(pair.b).material;
+  const bool a_yields = a.yield_stress <= b.yield_stress;
+  for (const double ratio : {radius_ratio, 1 / radius_ratio}) {
+    const UnlikePair unlike{a_yields ? a : b, a_yields ? b : a, ratio};
+    if (!unlike.yielding.yields()) return;
+    const ReductionError error = estimate_reduction_error(unlike, fastest_of_law(unlike, inertia));
+    pair.reduction_error_force = std::max(pair.reduction_error_force, error.force);
+    pair.reduction_error_restitution = std::max(pair.reduction_error_restitution, error.restitution);
+    if (!error.within_measured && rank() == 0)
+      fmt::print(stderr, "mpm: what the pair rule costs {}:{} is extrapolated: the partner is softer than was measured "
+                         "(docs/pairs.md)\n", pair.a, pair.b);
+  }
 }
 
 void build(const TableRequest& r)
 {
   if (!r.deck.empty())
     fail("--deck", "reading decks is not in this version yet: name the pairs with --pair a:b");
-  if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
-    fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
   check_output(r.output, ".h5");
   const MaterialsFile file = read_materials(r.materials);
   Law law;
-  std::set<std::string> names;
+  std::map<std::string, Entry> entries;
   for (const auto& [a, b] : pairs_of(r, file)) {
     law.pairs.push_back({a, b});
-    names.insert(a);
-    if (b != wall_name) names.insert(b);
+    for (const std::string& name : {a, b})
+      if (name != wall_name && !entries.contains(name)) entries[name] = entry_of(name, file);
   }
 
-  for (const std::string& name : names) {
-    const Material& m = file.material(name);
-    const std::string where = fmt::format("{}: [material.{}]", r.materials, name);
-    if (m.rate_dependent())
-      fail(where, fmt::format("its yield stress depends on the rate ('{}'): a contact law of such a material "
-                              "needs an axis in V/R, "
-                              "which this version does not have; mpm impact can be used",
-                              m.rate.name));
-    if (!m.hardening.name.empty())
-      fail(where, fmt::format("a law file cannot hold the hardening law '{}' yet", m.hardening.name), {},
-           "'linear' or none; mpm impact and mpm press can be used");
-  }
-
-  BuildOptions options;
-  options.tolerance = r.tolerance;
-  const std::unique_ptr<Farm> farm = make_farm(threads_of(r), cache_of(r));
-  options.farm = farm.get();
+  BuildOptions options = r.range;
+  options.fastest = std::sqrt(r.inertia);
+  std::optional<Atlas> atlas;
+  if (const std::string path = atlas_path(); !r.no_atlas && !path.empty()) atlas = read_atlas(path);
+  std::unique_ptr<Farm> farm;  // made when the first run is needed
   ProgressBar bar(rank() == 0);
+  std::vector<std::string> remarks;
   double finished = 0;
-  for (const std::string& name : names) {
-    const Material& m = file.material(name);
-    options.progress = [&](double done, const std::string& what) {
-      bar.update((finished + done) / static_cast<double>(names.size()), name + ": " + what);
-    };
-    LawMaterial material{name,           m.density,          m.youngs_modulus, m.poisson_ratio,
-                         m.yield_stress, m.hardening_modulus};
-    law.bodies[name] = build_law(material, options);
-    law.provenance["material_hash." + name] = material_hash(m);
+  for (const auto& [name, entry] : entries) {
+    const bool plain = entry.subject.is_plain();
+    const std::string why = !plain ? "its law is its own"
+                            : r.no_atlas ? "--no-atlas"
+                            : !atlas     ? "there is no atlas beside the program"
+                            : entry.subject.yields() ? atlas->why_not(MaterialRatios::of(entry.material))
+                                                     : std::string();
+    if (why.empty()) {
+      law.bodies[name] = law_from(*atlas, entry.material, options);
+      remarks.push_back(name + ": from the atlas");
+    } else {
+      if (!farm) farm = r.farm.farm();
+      options.farm = farm.get();
+      options.progress = [&](double done, const std::string& what) {
+        bar.update((finished + done) / static_cast<double>(entries.size()), name + ": " + what);
+      };
+      BuiltLaw built = build_law(entry.material, entry.subject, options);
+      law.bodies[name] = std::move(built.law);
+      remarks.push_back(fmt::format("{}: by {} runs, {} of the densest survey ({})", name, built.runs, built.runs_full, why));
+      for (std::size_t k = 0; k < built.holes.size(); ++k)
+        law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
+      law.provenance["survey." + name] = fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
+    }
+    BodyLaw& body = law.bodies[name];
+    body.body = entry.body;
+    if (entry.body != sphere_name) {
+      body.pole_radius = entry.subject.scale.length;
+      body.mass_ratio = entry.subject.mass / (4.0 / 3.0 * M_PI);
+    }
+    law.provenance["material_hash." + name] = entry.hash;
     finished += 1;
+  }
+  for (LawPair& pair : law.pairs) {
+    if (pair.b != wall_name && pair.a != pair.b)
+      check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), fmt::format("--pair {}:{}", pair.a, pair.b));
+    state_reduction(pair, law, r.radius_ratio);
   }
   law.provenance["version"] = version();
   law.provenance["git_hash"] = git_hash();
   law.provenance["created"] = now_utc();
   law.provenance["command"] = command_line;
-  note(farm->count(), law.provenance);
+  law.provenance["reduction_radius_ratio"] = fmt::format("{:g}", r.radius_ratio);
+  if (farm) note(farm->count(), law.provenance);
   if (rank() != 0) return;
   write_law(law, r.output);
 
   bar.clear();
   fmt::print("wrote {}: pairs {}\n", r.output, law.pair_list());
+  for (const std::string& remark : remarks) fmt::print("{}\n", remark);
   for (const auto& entry : law.bodies) print_certificate(entry.second);
-  print_count(farm->count());
+  if (farm) print_count(farm->count());
 }
 
 }  // namespace
@@ -200,7 +243,9 @@ void add_table(CLI::App& app)
   const auto r = std::make_shared<TableRequest>();
   CLI::App* command = app.add_subcommand(
       "table",
-      "Computes the contact laws of a materials file into one law file for LIGGGHTS.\n"
+      "Makes the contact laws of a materials file, one law file for LIGGGHTS. A homogeneous sphere that hardens\n"
+      "linearly or not at all comes from the atlas at once (--no-atlas: computed anew); other hardening laws,\n"
+      "rate dependence, layers, inclusions and profiles are computed by the solver: name the particle in --pair.\n"
       "Finished runs are kept in a folder (--cache): a build that was stopped goes on where it was, and one\n"
       "with a wider range reuses them. The folder may be removed at any time.\n"
       "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
@@ -208,16 +253,23 @@ void add_table(CLI::App& app)
   command->add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
   command->add_option("--deck", r->deck, "LIGGGHTS deck to take the pairs from (a later version)");
   command->add_option("--pair", r->pairs,
-                      "a:b or a:wall (rigid), material names; several times; default: every pair");
-  command->add_option("--tolerance", r->tolerance,
-                      "relative error of force and e that two resolutions must agree to, such as 0.005");
+                      "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
+                      "materials");
   command
-      ->add_option("--jobs", r->jobs,
-                   "runs at the same time in each process (default: one for each core; under mpirun: one)")
-      ->check(CLI::Range(1, 1024));
-  CLI::Option* cache =
-      command->add_option("--cache", r->cache, "folder for finished runs")->capture_default_str();
-  command->add_flag("--no-cache", r->no_cache, "keep no finished run and reuse none")->excludes(cache);
+      ->add_option("--tolerance", r->range.tolerance,
+                   "relative error of force and e: of sampling, of the resolution, and below which an axis is left out")
+      ->check(CLI::Range(1e-4, 0.5))
+      ->capture_default_str();
+  command->add_option("--depth", r->range.depth, "largest overlap over the radius, up to 0.5")->capture_default_str();
+  command->add_option("--inertia", r->inertia, "largest I = rho V^2/Y, up to 0.09; 0: a rate-free law")
+      ->check(CLI::Range(0.0, 0.09))
+      ->capture_default_str();
+  command->add_option("--radius-ratio", r->radius_ratio,
+                      "largest ratio of two radii in the scene: the pair rule's error is stated for it")
+      ->check(CLI::Range(1.0, 10.0))
+      ->capture_default_str();
+  command->add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");
+  r->farm.add_to(command);
   command->add_option("-o,--output", r->output, "law file, NAME.h5")->required();
   command->callback([r] { build(*r); });
 }

@@ -1,0 +1,67 @@
+// mpm atlas: computes the atlas of homogeneous materials that mpm table answers from.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "base/error.hpp"
+#include "characterise/atlas_build.hpp"
+#include "commands.hpp"
+#include "farm_options.hpp"
+#include "ranks.hpp"
+#include "terminal.hpp"
+#include "trace_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+struct AtlasRequest
+{
+  std::string output;
+  int checks = 100;
+  unsigned seed = 1;
+  FarmOptions farm;
+};
+
+void build(const AtlasRequest& r)
+{
+  check_output(r.output, ".h5");
+  const std::unique_ptr<Farm> farm = r.farm.farm();
+  ProgressBar bar(rank() == 0);
+  const auto share = [&](double from, double to) {
+    return [&bar, from, to](double done, const std::string& what) { bar.update(from + (to - from) * done, what); };
+  };
+  const AtlasGrid grid;
+  const RunSource source;
+  const Atlas bare = atlas_from(grid, farm->run(atlas_jobs(grid, source), share(0, 0.8)));
+  const Atlas atlas(grid, bare.nodes(), check_atlas(bare, *farm, r.checks, r.seed, share(0.8, 1)));
+  if (rank() != 0) return;
+  write_atlas(atlas, r.output);
+  bar.clear();
+  fmt::print("wrote {}: {} materials; {} fresh impacts: 95 % within {:.2g} % of force and {:.2g} of e\n", r.output,
+             atlas.nodes().size(), atlas.checks().size(), 100 * atlas.claimed_force(), atlas.claimed_restitution());
+  print_count(farm->count());
+}
+
+}  // namespace
+
+void add_atlas(CLI::App& app)
+{
+  const auto r = std::make_shared<AtlasRequest>();
+  CLI::App* command = app.add_subcommand(
+      "atlas",
+      "Computes the atlas: dimensionless laws over E*/Y, Poisson's ratio, linear hardening, overlap and inertia, from\n"
+      "which mpm table answers any homogeneous material at once. One comes with the program; this makes it anew, in\n"
+      "about two CPU hours. Finished runs are kept (--cache): a build that was stopped goes on where it was.\n"
+      "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
+  command->add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
+  command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
+      ->check(CLI::Range(20, 100000))
+      ->capture_default_str();
+  command->add_option("--seed", r->seed, "seed of the random materials")->capture_default_str();
+  r->farm.add_to(command);
+  command->callback([r] { build(*r); });
+}
+
+}  // namespace granulaw

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace granulaw {
+
+/// The atlas that came with the program: $GRANULAW_ATLAS, else atlas.h5 beside the program or where
+/// cmake --install puts it; empty if there is none.
+std::string atlas_path();
+
+/// A data file or script that belongs to the program, beside it or installed; empty: not found.
+std::string own_file(const std::string& name);
+
+}  // namespace granulaw

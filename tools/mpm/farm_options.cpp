@@ -1,0 +1,57 @@
+#include "farm_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "base/error.hpp"
+#include "ranks.hpp"
+
+namespace granulaw {
+
+void FarmOptions::add_to(CLI::App* command)
+{
+  command
+      ->add_option("--jobs", jobs,
+                   "runs at the same time in each process (default: one for each core; under mpirun: one)")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* folder =
+      command->add_option("--cache", cache, "folder for finished runs")->capture_default_str();
+  command->add_flag("--no-cache", no_cache, "keep no finished run and reuse none")->excludes(folder);
+}
+
+std::unique_ptr<Farm> FarmOptions::farm() const
+{
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = jobs > 0 ? jobs : ranks() > 1 ? 1 : cores;
+  if (no_cache || cache.empty() || rank() != 0) return make_farm(threads, RunCache{});
+  std::error_code problem;
+  std::filesystem::create_directories(cache, problem);
+  if (problem)
+    fail("--cache", fmt::format("the folder '{}' cannot be made ({})", cache, problem.message()));
+  return make_farm(threads, RunCache(cache));
+}
+
+void note(const FarmCount& c, std::map<std::string, std::string>& provenance)
+{
+  provenance["runs_made"] = fmt::format("{}", c.made);
+  provenance["runs_from_cache"] = fmt::format("{}", c.from_cache);
+  provenance["runs_retried"] = fmt::format("{}", c.retried);
+  provenance["runs_failed"] = fmt::format("{}", c.failed);
+  provenance["cpu_s"] = fmt::format("{:.1f}", c.cpu_s);
+  provenance["ranks"] = fmt::format("{}", ranks());
+}
+
+void print_count(const FarmCount& c)
+{
+  fmt::print("{} runs made in {:.1f} CPU s", c.made, c.cpu_s);
+  if (ranks() > 1) fmt::print(" on {} ranks", ranks());
+  if (c.from_cache) fmt::print(", {} taken from the cache ({:.1f} CPU s saved)", c.from_cache, c.cpu_s_saved);
+  if (c.retried)
+    fmt::print("; {} of them failed at first, {} at a higher resolution too", c.retried, c.failed);
+  fmt::print("\n");
+}
+
+}  // namespace granulaw

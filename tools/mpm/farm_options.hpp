@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "characterise/farm.hpp"
+
+namespace granulaw {
+
+/// The options of every command that makes many runs: where, how many at once, which are kept.
+struct FarmOptions
+{
+  int jobs = 0;  ///< 0: one for each core, on several ranks one for each
+  std::string cache = default_cache_folder();
+  bool no_cache = false;
+
+  void add_to(CLI::App* command);
+  std::unique_ptr<Farm> farm() const;
+};
+
+/// What the farm spent and saved, into a file's provenance and as one line.
+void note(const FarmCount& count, std::map<std::string, std::string>& provenance);
+void print_count(const FarmCount& count);
+
+}  // namespace granulaw
