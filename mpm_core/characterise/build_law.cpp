@@ -373,6 +373,7 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOpt
   if (!material.yields()) {
     law.curve = ContactCurve(tabulate_elastic(atlas.elastic(material.poisson_ratio), options.depth), material.name);
     c.max_inertia = std::numeric_limits<double>::infinity();
+    c.solver_error_force = c.solver_error_restitution = atlas.solver_error();
     return law;
   }
   const MaterialRatios ratios = MaterialRatios::of(material);

@@ -106,7 +106,7 @@ TEST(FitCurve, ElasticFitRecoversItsCoefficients)
   EXPECT_NEAR(fit.c1, 0.87, 1e-9);  // exact least squares
   EXPECT_NEAR(fit.c2, 0.4, 1e-8);
   EXPECT_NEAR(fit.d1, -0.2, 1e-9);
-  const ContactCurve curve(table_elastic(fit, 0.1).table, "test");
+  const ContactCurve curve(tabulate_elastic(fit, 0.1), "test");
   for (const double x : {1e-6, 1e-3, 0.03})
     EXPECT_NEAR(curve.loading(x).force / (std::pow(x, 1.5) * (1 + 0.87 * std::sqrt(x) + 0.4 * x)), 1, 1e-7);
 }
