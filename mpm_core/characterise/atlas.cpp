@@ -95,9 +95,11 @@ Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<AtlasCheck> ch
   const std::vector<MaterialRatios> block = grid_.block();
   expected.insert(expected.end(), block.begin(), block.end());
   if (expected.size() != nodes_.size())
-    fail("atlas", "has the wrong number of materials", std::to_string(nodes_.size()), std::to_string(expected.size()));
+    fail("atlas", "has the wrong number of materials", std::to_string(nodes_.size()),
+         std::to_string(expected.size()));
   for (std::size_t k = 0; k < nodes_.size(); ++k)
-    if (!same(nodes_[k].material, expected[k])) fail("atlas", fmt::format("material {} is not the grid's", k));
+    if (!same(nodes_[k].material, expected[k]))
+      fail("atlas", fmt::format("material {} is not the grid's", k));
   std::vector<double> force, restitution, solver;
   for (const AtlasCheck& c : checks_) {
     force.push_back(std::abs(c.error_force));
@@ -140,11 +142,13 @@ LawShape Atlas::shape(const MaterialRatios& m) const
     fail("atlas", "the block holds a material whose partner in the main plane is missing");
   };
 
-  const std::vector<double> along = interpolation_weights(logarithms(grid_.stiffnesses), std::log(m.stiffness));
+  const std::vector<double> along =
+      interpolation_weights(logarithms(grid_.stiffnesses), std::log(m.stiffness));
   for (std::size_t i = 0; i < grid_.stiffnesses.size(); ++i) {
     const double k = grid_.stiffnesses[i];
     const std::vector<double> hardenings = grid_.hardenings_at(k);
-    const auto across = interpolation_weights(coordinates(k, hardenings), hardening_coordinate(k, m.hardening));
+    const auto across =
+        interpolation_weights(coordinates(k, hardenings), hardening_coordinate(k, m.hardening));
     for (const double weight : across) {
       if (along[i] != 0 && weight != 0) result.add(along[i] * weight, nodes_[next].shape);
       ++next;

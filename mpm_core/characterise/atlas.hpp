@@ -19,7 +19,8 @@ struct MaterialRatios
 };
 
 /// The materials that an atlas holds shapes of. A main plane at one Poisson's ratio, every stiffness with its
-/// hardenings; and a coarser block that tells what another Poisson's ratio changes, which is little and smooth.
+/// hardenings; and a coarser block that tells what another Poisson's ratio changes, which is little and
+/// smooth.
 struct AtlasGrid
 {
   double main_poisson_ratio = 0.3;
@@ -27,8 +28,8 @@ struct AtlasGrid
   /// H/E; what is too weak to be seen at a stiffness is left out there.
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.3};
 
-  std::vector<double> block_stiffnesses{20, 35, 60, 110, 400, 900};
-  std::vector<double> block_hardenings{0, 0.005, 0.02, 0.3};
+  std::vector<double> block_stiffnesses{20, 60, 110, 400, 900};
+  std::vector<double> block_hardenings{0, 0.02, 0.3};
   std::vector<double> block_poisson_ratios{0, 0.15, 0.42, 0.49};  ///< besides the main one
 
   std::vector<double> hardenings_at(double stiffness) const;

@@ -65,7 +65,8 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source)
   for (const double nu : all_poisson_ratios(grid)) jobs.push_back(elastic_job(nu, source));
   for (const MaterialRatios& m : all_materials(grid))
     for (RunJob& job : survey_jobs(sphere_of(m), plan_survey(sphere_of(m), {}), source)) {
-      job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening, job.label);
+      job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
+                              job.label);
       jobs.push_back(std::move(job));
     }
   return jobs;
@@ -76,7 +77,8 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
   std::size_t next = 0;
   std::vector<ElasticCorrection> elastic;
   const std::vector<double> ratios = all_poisson_ratios(grid);
-  for (std::size_t k = 0; k < ratios.size(); ++k) elastic.push_back(fit_elastic(pressing_from(outcomes[next++].result)));
+  for (std::size_t k = 0; k < ratios.size(); ++k)
+    elastic.push_back(fit_elastic(pressing_from(outcomes[next++].result)));
   const auto elastic_at = [&](double nu) {
     return elastic[static_cast<std::size_t>(std::find(ratios.begin(), ratios.end(), nu) - ratios.begin())];
   };
@@ -107,7 +109,8 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
     if (m.poisson_ratio == grid.main_poisson_ratio) {
       // linear in Y/E* through the two next less stiff
       const auto at = std::find(grid.stiffnesses.begin(), grid.stiffnesses.end(), m.stiffness);
-      if (at - grid.stiffnesses.begin() < 2) fail("atlas", "its two least stiff materials must yield above the shallowest runs");
+      if (at - grid.stiffnesses.begin() < 2)
+        fail("atlas", "its two least stiff materials must yield above the shallowest runs");
       const double k1 = at[-1], k2 = at[-2];
       const double slope = (1 / m.stiffness - 1 / k1) / (1 / k1 - 1 / k2);
       add_main(1 + slope, k1);
@@ -115,7 +118,8 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
     } else {
       // the same stiffness in the main plane, and what Poisson's ratio changes at the block's next less stiff
       const auto at = std::find(grid.block_stiffnesses.begin(), grid.block_stiffnesses.end(), m.stiffness);
-      if (at == grid.block_stiffnesses.begin()) fail("atlas", "its block's least stiff material must yield above the shallowest runs");
+      if (at == grid.block_stiffnesses.begin())
+        fail("atlas", "its block's least stiff material must yield above the shallowest runs");
       const double below = at[-1];
       add_main(1, m.stiffness);
       add_main(-1, below);
@@ -161,14 +165,16 @@ std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, u
     c.material.poisson_ratio = grid.block_poisson_ratios.back() * uniform();
     c.material.hardening = uniform() < 0.25 ? 0.0 : between(1e-3, grid.hardenings.back());
     const Subject subject = sphere_of(c.material);
-    const double onset = onset_velocity(1.0, subject.yield, 1.0, subject.poisson_ratio) / std::sqrt(subject.yield);
+    const double onset =
+        onset_velocity(1.0, subject.yield, 1.0, subject.poisson_ratio) / std::sqrt(subject.yield);
     c.speed = between(1.5 * onset, fastest);
     const double velocity = c.speed * std::sqrt(subject.yield);
     const Material& m = subject.particle.materials[0];
     BuildOptions options;
     options.depth = Atlas::depth;
     const BodyLaw law = law_from(
-        atlas, {"check", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus}, options);
+        atlas, {"check", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus},
+        options);
     const PairLaw wall{&law.curve, PairMapping::rigid_partner(1.0), &law};
     const Replay replay = replay_collision(wall, 1.0, subject.mass, velocity);
     if (replay.delta_max < least_overlap) continue;

@@ -10,14 +10,14 @@ namespace granulaw {
 std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source);
 
 /// The atlas from these runs' results, in the order of atlas_jobs(). Very stiff materials yield at overlaps
-/// where no run is affordable: there the law of a less stiff one at the same delta/delta_onset holds, but for a
-/// term that goes as sqrt(delta/R), that is as Y/E*: two less stiff shapes tell it.
+/// where no run is affordable: there the law of a less stiff one at the same delta/delta_onset holds, but for
+/// a term that goes as sqrt(delta/R), that is as Y/E*: two less stiff shapes tell it.
 Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes);
 
-/// Fresh impacts, each run as `mpm impact` would, of random materials and speeds, evenly in the logarithms of E*/Y
-/// and of the speed from 1.5 times the onset's to I = 0.06, evenly in nu, a quarter of them perfectly plastic and
-/// the others evenly in ln(H/E) from 0.001: what the atlas says of them against what they do. Overlaps below
-/// 3e-4 R are drawn again: such an impact takes minutes.
+/// Fresh impacts, each run as `mpm impact` would, of random materials and speeds, evenly in the logarithms of
+/// E*/Y and of the speed from 1.5 times the onset's to I = 0.06, evenly in nu, a quarter of them perfectly
+/// plastic and the others evenly in ln(H/E) from 0.001: what the atlas says of them against what they do.
+/// Overlaps below 3e-4 R are drawn again: such an impact takes minutes.
 std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, unsigned seed,
                                     const Progress& progress);
 

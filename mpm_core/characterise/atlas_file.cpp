@@ -36,10 +36,12 @@ constexpr Field dissipation{"dissipation", "1", "-ln(W_u/W_L) at the nodes of ea
 constexpr Field reach{"impact_reach", "1", "ln(X/v) at the speeds of each material"};
 constexpr Field impact_dissipation{"impact_dissipation", "1", "dissipation over the slow press's, less 1"};
 constexpr Field impact_residual{"impact_residual", "1", "residual over the slow press's, less 1"};
-constexpr Field impact_force{"impact_force", "1", "ln(F/F_press) at shares of X, at the speeds of each material"};
+constexpr Field impact_force{"impact_force", "1",
+                             "ln(F/F_press) at shares of X, at the speeds of each material"};
 
-constexpr Field checks{"checks", "1",
-                       "rows of E*/Y, nu, H/E, sqrt(I), relative error of F_max, error of e, the impact's own estimate"};
+constexpr Field checks{
+    "checks", "1",
+    "rows of E*/Y, nu, H/E, sqrt(I), relative error of F_max, error of e, the impact's own estimate"};
 
 struct Curve
 {
@@ -98,7 +100,8 @@ void write_atlas(const Atlas& atlas, const std::string& path)
     gather(poisson_ratio, [](const auto& node, auto& v) { v.push_back(node.material.poisson_ratio); });
     gather(hardening, [](const auto& node, auto& v) { v.push_back(node.material.hardening); });
     gather(elastic, [](const auto& node, auto& v) {
-      for (const double c : {node.shape.elastic.c1, node.shape.elastic.c2, node.shape.elastic.d1}) v.push_back(c);
+      for (const double c : {node.shape.elastic.c1, node.shape.elastic.c2, node.shape.elastic.d1})
+        v.push_back(c);
     });
     for (const Curve& c : curves)
       gather(c.field, [&](const auto& node, auto& v) {
@@ -159,7 +162,8 @@ Atlas read_atlas(const std::string& path)
   }
   for (const ImpactNumber& n : impact_numbers) {
     const std::vector<double> all = read_numbers(file, n.field, count * speeds, path);
-    for (std::size_t i = 0; i < all.size(); ++i) nodes[i / speeds].shape.inertia[i % speeds].*n.value = all[i];
+    for (std::size_t i = 0; i < all.size(); ++i)
+      nodes[i / speeds].shape.inertia[i % speeds].*n.value = all[i];
   }
   constexpr std::size_t shares = LawShape::Inertia::shares;
   const std::vector<double> forces = read_numbers(file, impact_force, count * speeds * shares, path);
@@ -170,7 +174,8 @@ Atlas read_atlas(const std::string& path)
   if (h5::has_link(file, checks.name)) {
     const std::vector<double> rows = h5::read_vector(file, checks, most, path);
     for (std::size_t i = 0; i + 7 <= rows.size(); i += 7)
-      made.push_back({{rows[i], rows[i + 1], rows[i + 2]}, rows[i + 3], rows[i + 4], rows[i + 5], rows[i + 6]});
+      made.push_back(
+          {{rows[i], rows[i + 1], rows[i + 2]}, rows[i + 3], rows[i + 4], rows[i + 5], rows[i + 6]});
   }
   return Atlas(std::move(grid), std::move(nodes), std::move(made));
 }

@@ -25,8 +25,8 @@ void check(const BuildOptions& o)
     fail("depth of the law", "cannot be used", fmt::format("{:g} R", o.depth), "over 0, up to 0.5 R");
   const double most = inertia_speeds[std::size(inertia_speeds) - 1];
   if (!(o.fastest >= 0 && o.fastest <= most))
-    fail("fastest impact of the law", "cannot be used", fmt::format("I = rho V^2/Y = {:g}", o.fastest * o.fastest),
-         fmt::format("0 to {:g}", most * most));
+    fail("fastest impact of the law", "cannot be used",
+         fmt::format("I = rho V^2/Y = {:g}", o.fastest * o.fastest), fmt::format("0 to {:g}", most * most));
 }
 
 /// The law's curve and axis from its shape, which ends at `shape_end`. Returns the largest relative error of
@@ -57,7 +57,8 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
   require_admissible(law.curve);
 
   const Scales unit{subject.scale.length, law.material.e_star(), law.material.density};
-  const double mass = subject.mass * unit.mass(), speed = fastest * std::sqrt(subject.yield) * unit.velocity();
+  const double mass = subject.mass * unit.mass(),
+               speed = fastest * std::sqrt(subject.yield) * unit.velocity();
   const auto replay = [&](const ContactCurve& curve) {
     BodyLaw body = law;
     body.curve = curve;
@@ -78,7 +79,8 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
 class Build
 {
  public:
-  Build(const LawMaterial& material, const Subject& subject, const BuildOptions& options, const RunSource& source)
+  Build(const LawMaterial& material, const Subject& subject, const BuildOptions& options,
+        const RunSource& source)
       : subject_(subject), options_(options), source_(source)
   {
     built_.law.material = material;
@@ -95,7 +97,8 @@ class Build
   LawShape shallow_guide(const ElasticCorrection& elastic, const SurveyPlan& plan);
   void survey_more(Survey& survey, const SurveyPlan& plan, const Subject& subject, double until);
   FittedShape fit(const Survey& survey, const LawShape* shallow) const;
-  SurveyPlan refinement(const FittedShape& fitted, const Survey& survey, const std::vector<double>& tried) const;
+  SurveyPlan refinement(const FittedShape& fitted, const Survey& survey,
+                        const std::vector<double>& tried) const;
   void verify(const std::vector<double>& speeds);
 
   BuiltLaw built_;
@@ -171,8 +174,9 @@ LawShape Build::shallow_guide(const ElasticCorrection& elastic, const SurveyPlan
 {
   const Material& m = subject_.particle.materials[0];
   if (!subject_.is_plain())
-    fail("contact law", "yields at overlaps too small to be run, and only a homogeneous, linearly hardening "
-                        "sphere can be told from a less stiff one",
+    fail("contact law",
+         "yields at overlaps too small to be run, and only a homogeneous, linearly hardening "
+         "sphere can be told from a less stiff one",
          fmt::format("onset at delta/R = {:.2g}", subject_.onset), "about 1e-4 or more");
   const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
                                                  : expected_depth(plan.slow_impacts.front(), subject_);
@@ -197,9 +201,10 @@ LawShape Build::shallow_guide(const ElasticCorrection& elastic, const SurveyPlan
   return guide;
 }
 
-/// Halves the neighbourhood of what the law fitted without it was wrong about. `tried` overlaps and speeds are
-/// not asked for again.
-SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey, const std::vector<double>& tried) const
+/// Halves the neighbourhood of what the law fitted without it was wrong about. `tried` overlaps and speeds
+/// are not asked for again.
+SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey,
+                             const std::vector<double>& tried) const
 {
   SurveyPlan more;
   more.resolution = resolution_;
@@ -235,11 +240,13 @@ SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey, co
     const auto weights = interpolation_weights(nodes, speeds[k].speed);
     double told = 0;
     for (std::size_t j = 0; j < values.size(); ++j) told += weights[j] * values[j];
-    const double lost = -std::log(std::max(1e-6, speeds[k].path.work_ratio)) / (1 + fitted.shape.inertia[k].dissipation);
+    const double lost =
+        -std::log(std::max(1e-6, speeds[k].path.work_ratio)) / (1 + fitted.shape.inertia[k].dissipation);
     if (0.5 * lost * std::abs(told - fitted.shape.inertia[k].dissipation) <= options_.tolerance) continue;
     if (k + 1 == speeds.size()) continue;  // that was extrapolation
     const double before = k ? speeds[k - 1].speed : 0.0;
-    for (const double middle : {0.5 * (before + speeds[k].speed), 0.5 * (speeds[k].speed + speeds[k + 1].speed)})
+    for (const double middle :
+         {0.5 * (before + speeds[k].speed), 0.5 * (speeds[k].speed + speeds[k + 1].speed)})
       if (middle > 0.01 && is_new(middle)) more.fast_speeds.push_back(middle);
   }
   return more;
@@ -272,8 +279,11 @@ void Build::verify(const std::vector<double>& speeds)
 void Build::elastic()
 {
   Certificate& c = law_.certificate;
-  resolution_ = choose_resolution([&](int r) { return press_job(subject_, {options_.depth, {}, r, 2}, source_); });
-  const RunOutcome outcome = run({press_job(subject_, {options_.depth, {}, resolution_, 2}, source_)}, 1.0)[0];
+  resolution_ = choose_resolution([&](int r) {
+    return press_job(subject_, {options_.depth, {}, r, 2}, source_);
+  });
+  const RunOutcome outcome =
+      run({press_job(subject_, {options_.depth, {}, resolution_, 2}, source_)}, 1.0)[0];
   if (outcome.failed()) fail("mpm table", "the elastic press fails: " + outcome.error);
   const Pressing press = pressing_from(outcome.result);
   law_.curve = ContactCurve(tabulate_elastic(fit_elastic(press), options_.depth), law_.material.name);
@@ -289,14 +299,17 @@ void Build::elastic()
 void Build::plastic()
 {
   if (subject_.onset > 0.2 * options_.depth)
-    fail(fmt::format("material '{}'", law_.material.name), "yields too late in the overlaps that a law covers",
-         fmt::format("onset at delta/R = {:.3g}", subject_.onset), fmt::format("up to {:.3g}", 0.2 * options_.depth));
+    fail(fmt::format("material '{}'", law_.material.name),
+         "yields too late in the overlaps that a law covers",
+         fmt::format("onset at delta/R = {:.3g}", subject_.onset),
+         fmt::format("up to {:.3g}", 0.2 * options_.depth));
   // The rate-free law of a rate-dependent material is the one at no rate; the speed axis brings the rate in.
   const Subject slow = subject_.rate_dependent() ? subject_.rate_free() : subject_;
 
   resolution_ = choose_resolution([&](int r) {
-    return impact_job(subject_, std::min(0.1, options_.fastest > 0 ? options_.fastest : 0.1) * std::sqrt(subject_.yield), r, 2,
-                      source_);
+    return impact_job(
+        subject_, std::min(0.1, options_.fastest > 0 ? options_.fastest : 0.1) * std::sqrt(subject_.yield), r,
+        2, source_);
   });
   elastic_ = elastic_correction(std::clamp(1.5 * subject_.onset, 0.02, 0.04), resolution_);
 
@@ -371,7 +384,8 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOpt
   Certificate& c = law.certificate;
   c.origin = "atlas";
   if (!material.yields()) {
-    law.curve = ContactCurve(tabulate_elastic(atlas.elastic(material.poisson_ratio), options.depth), material.name);
+    law.curve =
+        ContactCurve(tabulate_elastic(atlas.elastic(material.poisson_ratio), options.depth), material.name);
     c.max_inertia = std::numeric_limits<double>::infinity();
     c.solver_error_force = c.solver_error_restitution = atlas.solver_error();
     return law;

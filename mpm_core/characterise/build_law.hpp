@@ -9,22 +9,23 @@ namespace granulaw {
 
 struct BuildOptions
 {
-  double depth = 0.2;       ///< overlap/length that the law must reach, up to 0.5; beyond 0.1 no single pair law
-                            ///< exists: the support matters (the certificate says how much)
+  double depth = 0.2;  ///< overlap/length that the law must reach, up to 0.5; beyond 0.1 no single pair law
+                       ///< exists: the support matters (the certificate says how much)
   double fastest = 0.25;    ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
-  double tolerance = 0.01;  ///< of force and e, relative: sampling is refined until it adds no more than this, the
-                            ///< resolution until two of them agree to this
-  Farm* farm = nullptr;     ///< makes the runs; none: this thread
-  Progress progress;        ///< may throw to stop
+  double tolerance = 0.01;  ///< of force and e, relative: sampling is refined until it adds no more than
+                            ///< this, the resolution until two of them agree to this
+  Farm* farm = nullptr;  ///< makes the runs; none: this thread
+  Progress progress;     ///< may throw to stop
 };
 
 /// A law, and what it took.
 struct BuiltLaw
 {
   BodyLaw law;
-  std::vector<std::string> holes;  ///< runs that failed twice, each with its sentence: the law has no sample there
-  std::size_t runs = 0;            ///< that the adaptive survey asked for
-  std::size_t runs_full = 0;       ///< that the densest one would have
+  std::vector<std::string>
+      holes;                  ///< runs that failed twice, each with its sentence: the law has no sample there
+  std::size_t runs = 0;       ///< that the adaptive survey asked for
+  std::size_t runs_full = 0;  ///< that the densest one would have
 };
 
 /// The law of one body on a rigid wall, by the material point method.
@@ -32,17 +33,17 @@ struct BuiltLaw
 /// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-free law; fast
 /// impacts give what inertia changes. The survey starts coarse. Each new turning point or impact shows by how
 /// much the law fitted without it was wrong; where that was more than the tolerance its neighbourhood is
-/// halved. Impacts that took no part check the law in the end. Throws Error if it is not admissible, or if the
-/// tolerance is not reached.
+/// halved. Impacts that took no part check the law in the end. Throws Error if it is not admissible, or if
+/// the tolerance is not reached.
 BuiltLaw build_law(const LawMaterial& material, const Subject& subject, const BuildOptions& options,
                    const RunSource& source = {});
 
-/// The law of a homogeneous, rate-independent, linearly hardening or elastic sphere out of the atlas; options:
-/// depth and fastest. Needs atlas.why_not() empty for a material that yields.
+/// The law of a homogeneous, rate-independent, linearly hardening or elastic sphere out of the atlas;
+/// options: depth and fastest. Needs atlas.why_not() empty for a material that yields.
 BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOptions& options);
 
-/// Force of a free sphere over that of one whose equator plane is driven, at this overlap/R, at E*/Y = 100: why
-/// there is no single pair law at large overlaps (docs/method.md).
+/// Force of a free sphere over that of one whose equator plane is driven, at this overlap/R, at E*/Y = 100:
+/// why there is no single pair law at large overlaps (docs/method.md).
 double support_ratio(double overlap);
 
 }  // namespace granulaw

@@ -47,7 +47,8 @@ double dissipation_measure(const Pressing& p)
 using Samples = std::vector<SmoothSpline::Sample>;
 
 /// What a shape over the same range says at shares of q below the first run.
-void add_shallow(Samples& samples, const std::vector<double>* values, double q_first, double q_end, double weight)
+void add_shallow(Samples& samples, const std::vector<double>* values, double q_first, double q_end,
+                 double weight)
 {
   if (!values) return;
   const auto last = static_cast<double>(values->size() - 1);
@@ -88,7 +89,8 @@ std::vector<double> inertia_force(const Pressing& impact, const auto& press_forc
   std::vector<const Pressing::Sample*> used;
   for (const Pressing::Sample& s : impact.loading)
     if (s.x >= first * impact.depth && s.force > 0) used.push_back(&s);
-  if (used.size() < 3 * terms) fail("fit", "too few samples in an impact", std::to_string(used.size()), "18 or more");
+  if (used.size() < 3 * terms)
+    fail("fit", "too few samples in an impact", std::to_string(used.size()), "18 or more");
   Eigen::MatrixXd a(used.size(), terms);
   Eigen::VectorXd b(used.size());
   for (Eigen::Index row = 0; row < a.rows(); ++row) {
@@ -135,7 +137,8 @@ ElasticCorrection fit_elastic(const Pressing& press)
 FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,
                       const LawShape* shallow)
 {
-  if (survey.slow.size() < 3) fail("fit", "too few turning points", std::to_string(survey.slow.size()), "3 or more");
+  if (survey.slow.size() < 3)
+    fail("fit", "too few turning points", std::to_string(survey.slow.size()), "3 or more");
   const double q_end = q_of(x_end, onset);
   FittedShape fitted{LawShape::zero(), {}};
   LawShape& shape = fitted.shape;
@@ -163,18 +166,20 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
   const SmoothSpline softening(q_end, intervals, force, 0.02), widening(q_end, intervals, radius, 0.05);
   const auto press_force = [&](double x) {
-    return hertz_force(x) * elastic.force_ratio(std::pow(x, 0.25)) * std::exp(-softening.value(q_of(x, onset)));
+    return hertz_force(x) * elastic.force_ratio(std::pow(x, 0.25)) *
+           std::exp(-softening.value(q_of(x, onset)));
   };
 
-  // What is given back follows the force at the turn, and that swings with the contact edge about the law: only
-  // the share that is lost depends on it.
+  // What is given back follows the force at the turn, and that swings with the contact edge about the law:
+  // only the share that is lost depends on it.
   std::vector<Pressing> turns = survey.slow;
   for (Pressing& p : turns)
     if (p.turn_force > 0) p.work_ratio *= 1 + (press_force(p.depth) / p.turn_force - 1) * (1 - p.work_ratio);
   const auto* shallow_residual = shallow ? &shallow->residual : nullptr;
   const auto* shallow_dissipation = shallow ? &shallow->dissipation : nullptr;
   const SmoothSpline residual = turning_spline(turns, onset, q_end, residual_measure, shallow_residual);
-  const SmoothSpline dissipation = turning_spline(turns, onset, q_end, dissipation_measure, shallow_dissipation);
+  const SmoothSpline dissipation =
+      turning_spline(turns, onset, q_end, dissipation_measure, shallow_dissipation);
 
   shape.softening = sampled(softening, q_end);
   shape.widening = sampled(widening, q_end);
@@ -183,12 +188,14 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   shape.inertia.clear();
   for (const auto& [speed, impact] : survey.fast) {
     const double q = q_of(impact.depth, onset);
-    LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0, inertia_force(impact, press_force)};
+    LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
+                              inertia_force(impact, press_force)};
     // Where next to nothing is lost the ratios mean nothing.
     constexpr double least = 0.02;
     if (const double slow = dissipation.value(q); slow > least)
       inertia.dissipation = dissipation_measure(impact) / slow - 1;
-    if (const double slow = residual.value(q); slow > least) inertia.residual = residual_measure(impact) / slow - 1;
+    if (const double slow = residual.value(q); slow > least)
+      inertia.residual = residual_measure(impact) / slow - 1;
     shape.inertia.push_back(std::move(inertia));
   }
 
@@ -204,7 +211,8 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   quality.scatter = count ? std::sqrt(sum / count) : 0;
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const auto error_of_e = [&](const SmoothSpline& d) {
-      return std::abs(std::exp(-0.5 * (d.value(q_of(turns[k].depth, onset)) - dissipation_measure(turns[k]))) - 1);
+      return std::abs(
+          std::exp(-0.5 * (d.value(q_of(turns[k].depth, onset)) - dissipation_measure(turns[k]))) - 1);
     };
     quality.turning_error = std::max(quality.turning_error, error_of_e(dissipation));
     double held_out = 0;
@@ -216,6 +224,12 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
     quality.held_out_each.push_back(held_out);
     quality.held_out = std::max(quality.held_out, held_out);
   }
+  // Smoothing differs from a run by a per cent at most; what differs by more contradicts its neighbours.
+  constexpr double contradiction = 0.05;
+  if (quality.turning_error > contradiction)
+    fail("fit", "the runs contradict each other: e of one differs from the smooth law of all",
+         fmt::format("by {:.2g} %", 100 * quality.turning_error),
+         fmt::format("up to {:.0f} %", 100 * contradiction));
   return fitted;
 }
 

@@ -11,10 +11,10 @@ ElasticCorrection fit_elastic(const Pressing& press);
 /// How well a shape represents the runs it was fitted to; relative numbers.
 struct FitQuality
 {
-  double scatter = 0;        ///< rms of loading samples of the presses, over the upper half of each
-  double held_out = 0;       ///< largest error of e at a turning depth left out of the fit
+  double scatter = 0;                 ///< rms of loading samples of the presses, over the upper half of each
+  double held_out = 0;                ///< largest error of e at a turning depth left out of the fit
   std::vector<double> held_out_each;  ///< the same at each; 0 at the last, where it would be extrapolation
-  double turning_error = 0;  ///< largest residual of e at the turning depths of the fit
+  double turning_error = 0;           ///< largest residual of e at the turning depths of the fit
 };
 
 struct FittedShape
@@ -23,10 +23,10 @@ struct FittedShape
   FitQuality quality;
 };
 
-/// The law of a yielding sphere from its survey, by smooth splines that start with zero value and slope at the
-/// onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends.
-/// `shallow`: a shape over the same range that tells what the runs are too shallow for (similarity); may be
-/// null where the survey begins near the onset.
+/// The law of a yielding sphere from its survey, by smooth splines that start with zero value and slope at
+/// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `shallow`: a
+/// shape over the same range that tells what the runs are too shallow for (similarity); may be null where the
+/// survey begins near the onset.
 FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,
                       const LawShape* shallow = nullptr);
 

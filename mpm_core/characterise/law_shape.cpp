@@ -20,10 +20,16 @@ class ShapeFunction
 {
  public:
   ShapeFunction(const std::vector<double>& values, double q_end)
-      : spline_(values.begin(), values.end(), 0.0, q_end / static_cast<double>(values.size() - 1), 0.0), q_end_(q_end)
+      : spline_(values.begin(), values.end(), 0.0, q_end / static_cast<double>(values.size() - 1), 0.0),
+        q_end_(q_end)
   {
   }
-  double value(double q) const { return q > 0 ? spline_(std::min(q, q_end_)) : 0.0; }
+  /// Beyond its end, where the last node of a table may lie, it goes on straight.
+  double value(double q) const
+  {
+    if (q > q_end_) return spline_(q_end_) + (q - q_end_) * spline_.prime(q_end_);
+    return q > 0 ? spline_(q) : 0.0;
+  }
   double slope(double q) const { return q > 0 ? spline_.prime(std::min(q, q_end_)) : 0.0; }
 
  private:
@@ -31,7 +37,8 @@ class ShapeFunction
   double q_end_;
 };
 
-/// What is lost never falls with the overlap of the turn; where little is, the scatter of the runs may say so.
+/// What is lost never falls with the overlap of the turn; where little is, the scatter of the runs may say
+/// so.
 std::vector<double> rising(std::vector<double> values)
 {
   double most = 0;
@@ -95,10 +102,11 @@ LawShape LawShape::stretched(double share) const
 {
   LawShape result = zero();
   result.elastic = elastic;
-  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation}) {
+  for (auto member :
+       {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation}) {
     const ShapeFunction function(this->*member, 1.0);
     for (int k = 0; k < nodes; ++k)
-      (result.*member)[static_cast<std::size_t>(k)] = function.value(share * k / (nodes - 1));
+      (result.*member)[static_cast<std::size_t>(k)] = function.value(std::min(1.0, share * k / (nodes - 1)));
   }
   return result;
 }
@@ -108,11 +116,13 @@ void require_admissible(const ContactCurve& curve)
   for (int k = 1; k <= 1000; ++k) {
     const double x = std::pow(curve.table().s_end * k / 1000, 4);
     if (curve.loading(x).stiffness <= 0)
-      fail("fit", fmt::format("the loading force does not rise at delta/R = {:.4g}: the runs are too coarse", x));
+      fail("fit",
+           fmt::format("the loading force does not rise at delta/R = {:.4g}: the runs are too coarse", x));
   }
   if (const double margin = curve.admissibility_margin(); margin < 0)
-    fail("fit", fmt::format("the law would gain energy in a closed cycle (margin {:.3g}): the runs are too coarse",
-                            margin));
+    fail("fit",
+         fmt::format("the law would gain energy in a closed cycle (margin {:.3g}): the runs are too coarse",
+                     margin));
 }
 
 double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve)
@@ -161,12 +171,14 @@ ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_e
   table.exponent.assign(count, 1.5);
   table.exponent_slope.assign(count, 0.0);
   const ContactCurve loading(table, "fitted curve");
-  // At its turn a contact unloads at least as stiffly as it loads, n >= x F'/F at the onset. A power of u cannot
-  // have both the elastic curve's work and its slope, so it gives a little less back, e by up to 0.2 %, which
-  // fades with the overlap: faster than exp(-10 q) a contact turned later would give back more than was put in.
+  // At its turn a contact unloads at least as stiffly as it loads, n >= x F'/F at the onset. A power of u
+  // cannot have both the elastic curve's work and its slope, so it gives a little less back, e by up to 0.2
+  // %, which fades with the overlap: faster than exp(-10 q) a contact turned later would give back more than
+  // was put in.
   const ContactCurve::Loading first = loading.loading(onset);
   const double lost_at_onset =
-      1.2 * std::log(loading.work_loading(onset) * (onset * first.stiffness / first.force + 1) / (first.force * onset));
+      1.2 * std::log(loading.work_loading(onset) * (onset * first.stiffness / first.force + 1) /
+                     (first.force * onset));
   const auto yielded_exponent = [&](double s) {
     const double x = s * s * s * s, q = std::log(s / s_onset);
     const double returned =

@@ -20,8 +20,8 @@ struct ElasticCorrection
 /// The law of a yielding body in the coordinates in which materials resemble each other: what the runs are
 /// fitted to, what the atlas keeps and interpolates, and what a ContactCurve is tabulated from.
 ///
-/// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero slope
-/// at the onset:
+/// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero
+/// slope at the onset:
 ///     softening    -ln(F_L/F_elastic)               residual     -ln(1 - delta_r/delta_m)
 ///     widening      ln(a/a_elastic)                 dissipation  -ln(W_u/W_L) = -2 ln e
 /// Differences and means of shapes are shapes again: that is how they are interpolated between materials.
@@ -34,11 +34,11 @@ struct LawShape
   {
     static constexpr int shares = 12;  ///< xi = x/X = 0, 1/11, ..., 1
 
-    double speed = 0;                ///< v
-    double reach = 0;                ///< ln(X/v), X the overlap/R reached
-    double dissipation = 0;          ///< (-ln W_u/W_L of the impact)/(that of the press) - 1
-    double residual = 0;             ///< the same of -ln(1 - delta_r/delta_m)
-    std::vector<double> force;       ///< ln(F_impact/F_press) at the shares
+    double speed = 0;           ///< v
+    double reach = 0;           ///< ln(X/v), X the overlap/R reached
+    double dissipation = 0;     ///< (-ln W_u/W_L of the impact)/(that of the press) - 1
+    double residual = 0;        ///< the same of -ln(1 - delta_r/delta_m)
+    std::vector<double> force;  ///< ln(F_impact/F_press) at the shares
   };
 
   ElasticCorrection elastic;
@@ -48,7 +48,8 @@ struct LawShape
   /// this += weight * other, whose speeds are the same.
   void add(double weight, const LawShape& other);
   /// Its functions of u as functions of u/share: of the same delta/delta_onset in a range of overlaps whose
-  /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is dropped.
+  /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is
+  /// dropped.
   LawShape stretched(double share) const;
   /// All zero at all inertia_speeds, ready for add().
   static LawShape zero();
@@ -68,9 +69,10 @@ double table_error(const LawShape& shape, double onset, double shape_end, const 
 /// Throws Error where a loading force, with or without inertia, does not rise or a closed cycle gains energy.
 void require_admissible(const ContactCurve& curve);
 
-/// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at most the
-/// shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches the force goes over to the press's within
-/// half of it; residual and dissipation keep their ratio to the press's at any overlap.
+/// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at
+/// most the shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches
+/// the force goes over to the press's within half of it; residual and dissipation keep their ratio to the
+/// press's at any overlap.
 InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                     double mass, double fastest);
 

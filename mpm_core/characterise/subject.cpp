@@ -27,8 +27,9 @@ std::string text_of(const char* what, const FlowLaw& law)
 
 std::string text_of(const Material& m)
 {
-  return fmt::format("[{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}{}{}]", m.density, m.youngs_modulus, m.poisson_ratio,
-                     m.yield_stress, m.hardening_modulus, text_of("hardening", m.hardening), text_of("rate", m.rate));
+  return fmt::format("[{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}{}{}]", m.density, m.youngs_modulus,
+                     m.poisson_ratio, m.yield_stress, m.hardening_modulus, text_of("hardening", m.hardening),
+                     text_of("rate", m.rate));
 }
 
 std::string text_of(const Particle& p)
@@ -42,7 +43,8 @@ std::string text_of(const Particle& p)
   return text;
 }
 
-/// Mass, by the volumes that a fine raster of the meridian finds of each material; a homogeneous body's is exact.
+/// Mass, by the volumes that a fine raster of the meridian finds of each material; a homogeneous body's is
+/// exact.
 double mass_of(const Particle& p)
 {
   if (p.layers.empty() && p.inclusions.empty()) return p.materials[0].density * p.volume();
@@ -118,7 +120,8 @@ Subject subject_of(const Particle& particle)
   s.particle = particle;
   const double pole = particle.pole_curvature_radius();
   if (!(pole > 1e-3 * particle.radius && pole < 1e3 * particle.radius))
-    fail("contact law", "a body needs a rounded contact pole", fmt::format("radius of curvature {:.3g} m", pole),
+    fail("contact law", "a body needs a rounded contact pole",
+         fmt::format("radius of curvature {:.3g} m", pole),
          fmt::format("0.001 to 1000 times its radius {:.3g} m", particle.radius));
   const int skin = particle.material_at(0.0, 1e-9 * pole);
   const Material& m = particle.materials[static_cast<std::size_t>(std::max(0, skin))];
@@ -132,7 +135,8 @@ Subject subject_of(const Particle& particle)
 
 Subject subject_of(const Material& material)
 {
-  if (material.rate_dependent()) fail("contact law", "a rate-dependent material's law needs a particle of a certain size");
+  if (material.rate_dependent())
+    fail("contact law", "a rate-dependent material's law needs a particle of a certain size");
   if (material.hardening.name.empty()) {
     Subject s = subject_of(material.e_star() / material.yield_stress, material.poisson_ratio,
                            material.hardening_modulus / material.youngs_modulus);

@@ -11,8 +11,8 @@ namespace granulaw {
 struct Subject
 {
   Particle particle;
-  Scales scale;              ///< radius of curvature at the contact pole; E* and density of the material there
-  double yield = 0;          ///< smallest yield stress in it over E*; infinity: elastic
+  Scales scale;      ///< radius of curvature at the contact pole; E* and density of the material there
+  double yield = 0;  ///< smallest yield stress in it over E*; infinity: elastic
   double poisson_ratio = 0;  ///< of the material at the pole
   double onset = 0;          ///< overlap/length below which nothing in it yields
   double mass = 0;           ///< over density length^3; 4/3 pi: a sphere
@@ -20,8 +20,11 @@ struct Subject
 
   bool yields() const { return onset < std::numeric_limits<double>::infinity(); }
   /// The sphere of a material that hardens linearly and knows no rate is its own unit: R = rho = E* = 1.
-  bool is_plain() const { return particle.is_homogeneous_sphere() && particle.materials[0].hardening.name.empty() &&
-                                 particle.materials[0].rate.name.empty(); }
+  bool is_plain() const
+  {
+    return particle.is_homogeneous_sphere() && particle.materials[0].hardening.name.empty() &&
+           particle.materials[0].rate.name.empty();
+  }
   /// Some material of it depends on the rate: its law holds for this size.
   bool rate_dependent() const;
   /// The same body, none of whose materials yields, or whose yield stresses are those at no rate.

@@ -11,24 +11,35 @@ namespace granulaw {
 
 namespace {
 
-constexpr double slowest_press = 1e-3;   // overlap: below, slow impacts are cheaper than presses
-constexpr double first_yielded = 1.25;   // over the onset's overlap: nearer to it nothing can be told from elastic
+constexpr double slowest_press = 1e-3;  // overlap: below, slow impacts are cheaper than presses
+constexpr double first_yielded =
+    1.25;  // over the onset's overlap: nearer to it nothing can be told from elastic
 
 /// Ends of the presses: each a quarter of the next, so that the contact of its shallowest partial unloading
 /// still spans about half the cells.
 constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
 
-std::string key(const Subject& s, int resolution, int phases, const std::string& what)
+/// Single precision changes e and F by less than 1e-6 and takes two thirds of the time; not every flow law
+/// has it.
+Precision precision_of(const Subject& s)
 {
-  return fmt::format("{} {} resolution={} phases={} single solver={}", what, s.description, resolution, phases,
-                     solver_id());
+  return std::all_of(s.particle.materials.begin(), s.particle.materials.end(),
+                     [](const Material& m) { return m.hardening.name.empty() && m.rate.name.empty(); })
+             ? Precision::single
+             : Precision::full;
 }
 
-RunOptions own(RunOptions options, int resolution, int phases)
+std::string key(const Subject& s, int resolution, int phases, const std::string& what)
+{
+  return fmt::format("{} {} resolution={} phases={} {} solver={}", what, s.description, resolution, phases,
+                     precision_of(s) == Precision::single ? "single" : "full", solver_id());
+}
+
+RunOptions own(RunOptions options, const Subject& subject, int resolution, int phases)
 {
   options.resolution = resolution;
   options.phases = phases;
-  options.precision = Precision::single;  // changes e and F by less than 1e-6, takes two thirds of the time
+  options.precision = precision_of(subject);
   return options;
 }
 
@@ -47,7 +58,8 @@ double cost_of(const Subject& s, double depth, double duration, int resolution, 
 std::vector<double> between(double low, double high, int count)
 {
   std::vector<double> values;
-  for (int k = 0; k < count; ++k) values.push_back(low * std::pow(high / low, static_cast<double>(k) / count));
+  for (int k = 0; k < count; ++k)
+    values.push_back(low * std::pow(high / low, static_cast<double>(k) / count));
   return values;
 }
 
@@ -88,17 +100,20 @@ RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const R
   for (const double stop : press.stops) stops += fmt::format(" unload={:.17g}", stop);
   const double ramp = subject.yields() ? std::max(60.0, 60.0 * std::pow(0.01 / subject.yield, 0.25)) : 40.0;
   return {fmt::format("press to {:.3g} R", press.depth),
-          key(subject, press.resolution, press.phases, fmt::format("press free depth={:.17g}{}", press.depth, stops)),
+          key(subject, press.resolution, press.phases,
+              fmt::format("press free depth={:.17g}{}", press.depth, stops)),
           cost_of(subject, press.depth, 1.4 * ramp, press.resolution, press.phases),
           [subject, press, &source](const RunOptions& options) {
             PressPlan plan{press.depth * subject.scale.length, Support::free, press.stops, 0};
             for (double& stop : plan.partial_unloads) stop *= subject.scale.length;
             return dimensionless(
-                source.press(subject.particle, plan, own(options, press.resolution, press.phases)), subject.scale);
+                source.press(subject.particle, plan, own(options, subject, press.resolution, press.phases)),
+                subject.scale);
           }};
 }
 
-RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases, const RunSource& source)
+RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases,
+                  const RunSource& source)
 {
   const double depth = expected_depth(velocity, subject);
   return {fmt::format("impact at {:.3g} c*", velocity),
@@ -106,7 +121,7 @@ RunJob impact_job(const Subject& subject, double velocity, int resolution, int p
           cost_of(subject, depth, 2 * depth / velocity, resolution, phases),
           [subject, velocity, resolution, phases, &source](const RunOptions& options) {
             return dimensionless(source.impact(subject.particle, velocity * subject.scale.velocity(),
-                                               own(options, resolution, phases)),
+                                               own(options, subject, resolution, phases)),
                                  subject.scale);
           }};
 }
@@ -128,7 +143,8 @@ SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
     const double factor = range.stops > 2 ? 1.8 : 3.0;
     const int count =
         std::max(1, static_cast<int>(std::lround(std::log(slowest_press / first) / std::log(factor))));
-    for (const double x : between(first, slowest_press, count)) plan.slow_impacts.push_back(velocity_to(x, subject));
+    for (const double x : between(first, slowest_press, count))
+      plan.slow_impacts.push_back(velocity_to(x, subject));
   }
   for (std::size_t k = 0; k < std::size(inertia_speeds); ++k)
     if (inertia_speeds[k] <= range.fastest * 1.0001 && (k + 1) % static_cast<std::size_t>(range.every) == 0)
@@ -153,11 +169,13 @@ void add_to(Survey& survey, const SurveyPlan& plan, const std::vector<RunOutcome
   for (std::size_t k = 0; k < plan.presses.size(); ++k) {
     const RunOutcome& run = outcomes[next++];
     if (run.failed()) continue;
-    for (Pressing& turn : partial_unloadings(run.result, survey.reload_loop)) survey.slow.push_back(std::move(turn));
+    for (Pressing& turn : partial_unloadings(run.result, survey.reload_loop))
+      survey.slow.push_back(std::move(turn));
     survey.slow.push_back(pressing_from(run.result));
   }
   for (std::size_t k = 0; k < plan.slow_impacts.size(); ++k)
-    if (const RunOutcome& run = outcomes[next++]; !run.failed()) survey.slow.push_back(pressing_from(run.result));
+    if (const RunOutcome& run = outcomes[next++]; !run.failed())
+      survey.slow.push_back(pressing_from(run.result));
   for (const double speed : plan.fast_speeds)
     if (const RunOutcome& run = outcomes[next++]; !run.failed())
       survey.fast.push_back({speed, pressing_from(run.result)});

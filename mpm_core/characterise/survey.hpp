@@ -60,7 +60,8 @@ double velocity_to(double overlap, const Subject& subject);
 /// outlives them.
 std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, const RunSource& source);
 RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const RunSource& source);
-RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases, const RunSource& source);
+RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases,
+                  const RunSource& source);
 
 /// What the runs found.
 struct Survey
@@ -70,10 +71,10 @@ struct Survey
     double speed = 0;  ///< sqrt(I)
     Pressing path;
   };
-  std::vector<Pressing> slow;  ///< rate-free: presses (a partial unloading has no loading of its own) and slow
-                               ///< impacts; ascending depth
-  std::vector<Impact> fast;    ///< ascending speed
-  double reload_loop = 0;      ///< largest area between a partial unloading and its reloading, over the work
+  std::vector<Pressing> slow;  ///< rate-free: presses (a partial unloading has no loading of its own) and
+                               ///< slow impacts; ascending depth
+  std::vector<Impact> fast;  ///< ascending speed
+  double reload_loop = 0;    ///< largest area between a partial unloading and its reloading, over the work
 };
 
 /// Adds what the runs of a plan found; a failed run adds nothing.

@@ -13,17 +13,18 @@ namespace granulaw {
 
 namespace {
 
-constexpr double speed_spacing = 0.02;   // of the nodes of X(v)
-constexpr double slice_spacing = 0.02;   // of X, about
-constexpr double share_spacing = 0.05;   // of xi = x/X
-constexpr double ratio_end = 1.5;        // xi where the force is the press's again
+constexpr double speed_spacing = 0.02;  // of the nodes of X(v)
+constexpr double slice_spacing = 0.02;  // of X, about
+constexpr double share_spacing = 0.05;  // of xi = x/X
+constexpr double ratio_end = 1.5;       // xi where the force is the press's again
 
 /// y(x) = 0 by bracketing.
 template <class F>
 double root_of(const F& y, double low, double high)
 {
   std::uintmax_t steps = 200;
-  const auto [a, b] = boost::math::tools::toms748_solve(y, low, high, boost::math::tools::eps_tolerance<double>(48), steps);
+  const auto [a, b] =
+      boost::math::tools::toms748_solve(y, low, high, boost::math::tools::eps_tolerance<double>(48), steps);
   return 0.5 * (a + b);
 }
 
@@ -31,7 +32,8 @@ double root_of(const F& y, double low, double high)
 class Speeds
 {
  public:
-  Speeds(const LawShape& shape, const ContactCurve& slow, double energy_unit) : slow_(slow), energy_unit_(energy_unit)
+  Speeds(const LawShape& shape, const ContactCurve& slow, double energy_unit)
+      : slow_(slow), energy_unit_(energy_unit)
   {
     nodes_ = {0.0};
     log_reach_ = {0.0};
@@ -88,13 +90,15 @@ struct Slice
   std::vector<double> force, residual, exponent;
 };
 
-Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& slow, double x_reach, double fastest)
+Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& slow, double x_reach,
+               double fastest)
 {
   const double v = root_of([&](double speed) { return speeds.reach(speed) - x_reach; }, 0.0, 1.001 * fastest);
   std::vector<double> log_force;
   for (std::size_t n = 0; n < LawShape::Inertia::shares; ++n)
     log_force.push_back(speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].force[n]; }));
-  const double more_dissipation = 1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].dissipation; });
+  const double more_dissipation =
+      1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].dissipation; });
   const double more_residual = 1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].residual; });
 
   const boost::math::interpolators::cardinal_cubic_b_spline<double> within(
@@ -115,12 +119,15 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
     const double xi = share_spacing * l;
     if (l > 0) {
       // 4-point Gauss-Legendre over the share, twice: F goes as xi^1.5 near 0
-      constexpr double node[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
-      constexpr double weight[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+      constexpr double node[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                  0.8611363115940526};
+      constexpr double weight[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                    0.3478548451374538};
       for (int half = 0; half < 2; ++half)
         for (int g = 0; g < 4; ++g) {
           const double at = xi - share_spacing * (1 - 0.25 * (2 * half + 1 + node[g]));
-          work += weight[g] * share_spacing / 4 * x_reach * slow.loading(at * x_reach).force * (1 + correction(at));
+          work += weight[g] * share_spacing / 4 * x_reach * slow.loading(at * x_reach).force *
+                  (1 + correction(at));
         }
     }
     slice.force.push_back(correction(xi));
@@ -132,8 +139,10 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
     const ContactCurve::Turning top = slow.turning(x);
     const double kept = std::pow(1 - top.residual / x, more_residual);
     slice.residual.push_back((1 - kept) - top.residual / x);
-    const double returned = std::pow(std::min(1.0, slow.work_unloading(x) / slow.work_loading(x)), more_dissipation);
-    const double share = 1 + correction(xi), share_slope = (correction(xi + 1e-4) - correction(xi - 1e-4)) / 2e-4;
+    const double returned =
+        std::pow(std::min(1.0, slow.work_unloading(x) / slow.work_loading(x)), more_dissipation);
+    const double share = 1 + correction(xi),
+                 share_slope = (correction(xi + 1e-4) - correction(xi - 1e-4)) / 2e-4;
     const double n = top.force * share * kept * x / (work * returned) - 1;
     // as in tabulate(): unloading at least as stiff as loading
     const double stiff = kept * (x * top.stiffness / top.force + xi * share_slope / share);
@@ -143,15 +152,15 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
   return slice;
 }
 
-/// Where a contact is turned at a small share of its X the table's nodes in xi are too far apart to follow the
-/// onset of yield. Raises the exponents there until no closed cycle gains energy in any slice or half-way between
-/// two: that only takes more energy from contacts turned so early.
+/// Where a contact is turned at a small share of its X the table's nodes in xi are too far apart to follow
+/// the onset of yield. Raises the exponents there until no closed cycle gains energy in any slice or half-way
+/// between two: that only takes more energy from contacts turned so early.
 void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
 {
   const std::size_t columns = axis.ratio_nodes();
   constexpr int most_rounds = 40;
   constexpr double fading_nodes = 8;
-  constexpr double spare = 1e-3;  // of the work: what may hide between the samples
+  constexpr double spare = 1e-3;                            // of the work: what may hide between the samples
   std::vector<double> overlaps{slow.onset() * (1 + 1e-9)};  // densely past the onset, then evenly in s
   for (int k = 1; k <= 60; ++k) overlaps.push_back(slow.onset() * (1 + 3e-4 * std::pow(1.13, k)));
   for (int k = 1; k < 400; ++k) overlaps.push_back(std::pow(slow.table().s_end * k / 400, 4));
@@ -160,13 +169,15 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
     std::vector<double> raise(axis.exponent_correction.size(), 0.0);
     bool lacks = false;
     for (std::size_t half = 1; half <= 2 * axis.slices; ++half) {
-      const double reach = axis.impact_overlap.back() * static_cast<double>(half) / static_cast<double>(2 * axis.slices);
+      const double reach =
+          axis.impact_overlap.back() * static_cast<double>(half) / static_cast<double>(2 * axis.slices);
       for (const double x : overlaps) {
         const double step = x == overlaps.front() ? 0 : 1e-4 * x;
         if (x - step < slow.onset() || x + step > slow.x_end()) continue;
         double lacking = curve.work_unloading(x, reach) / curve.work_loading(x, reach) - 1;
         if (step > 0) {
-          const double slope = (curve.work_unloading(x + step, reach) - curve.work_unloading(x - step, reach)) / (2 * step);
+          const double slope =
+              (curve.work_unloading(x + step, reach) - curve.work_unloading(x - step, reach)) / (2 * step);
           lacking = std::max(lacking, slope / curve.loading(x, reach).force - 1);
         }
         if (lacking <= -spare) continue;
@@ -186,8 +197,10 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
     for (std::size_t k = 0; k < raise.size(); ++k) axis.exponent_correction[k] += raise[k];
     for (std::size_t row = 0; row < axis.slices; ++row) {
       const auto first = axis.exponent_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);
-      const std::vector<double> slope = slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, share_spacing);
-      std::copy(slope.begin(), slope.end(), axis.exponent_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
+      const std::vector<double> slope =
+          slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, share_spacing);
+      std::copy(slope.begin(), slope.end(),
+                axis.exponent_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
     }
   }
 }
@@ -199,7 +212,8 @@ InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& s
 {
   const double last = shape.inertia.empty() ? 0 : shape.inertia.back().speed;
   if (!(fastest > 0 && fastest <= last * 1.0001))
-    fail("fit", "no impact was as fast", fmt::format("sqrt(I) = {:.4g}", fastest), fmt::format("up to {:.4g}", last));
+    fail("fit", "no impact was as fast", fmt::format("sqrt(I) = {:.4g}", fastest),
+         fmt::format("up to {:.4g}", last));
   const Speeds speeds(shape, slow, 0.375 * mass / e_star_over_yield);  // 1/2 m Y v^2 over 4/3 E* R^3
   InertiaAxis::Table table;
   table.speed_end = fastest;
@@ -210,8 +224,10 @@ InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& s
   table.slices = static_cast<std::size_t>(std::max(2.0, std::round(reach / slice_spacing)));
   table.ratio_end = ratio_end;
   for (std::size_t k = 1; k <= table.slices; ++k) {
-    const Slice slice = slice_at(speeds, shape, slow, reach * static_cast<double>(k) / static_cast<double>(table.slices), fastest);
-    const auto append = [&](const std::vector<double>& values, std::vector<double>& all, std::vector<double>& slopes, bool ends_flat) {
+    const Slice slice = slice_at(speeds, shape, slow,
+                                 reach * static_cast<double>(k) / static_cast<double>(table.slices), fastest);
+    const auto append = [&](const std::vector<double>& values, std::vector<double>& all,
+                            std::vector<double>& slopes, bool ends_flat) {
       std::vector<double> slope = slopes_of(values, share_spacing);
       if (ends_flat) slope.back() = 0;
       all.insert(all.end(), values.begin(), values.end());

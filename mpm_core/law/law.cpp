@@ -56,7 +56,8 @@ double PairLaw::usual_mass(double r_eff) const
 {
   const bool rigid = mapping.sqrt_lambda == 1.0;
   const double radius = rigid ? r_eff : 2 * r_eff;
-  const double mass = yielding->mass_ratio * yielding->material.density * 4.0 / 3.0 * M_PI * radius * radius * radius;
+  const double mass =
+      yielding->mass_ratio * yielding->material.density * 4.0 / 3.0 * M_PI * radius * radius * radius;
   return rigid ? mass : 0.5 * mass;
 }
 
@@ -72,7 +73,8 @@ double PairLaw::speed_coordinate(double r_eff, double m_eff) const
 {
   if (curve->axis()->kind() == InertiaAxis::Kind::inertia) return inertia_speed(r_eff, m_eff, 1.0);
   const LawMaterial& m = yielding->material;
-  return std::sqrt(m.density / m.yield_stress) * curve->axis()->table().reference_radius / mapping.length(r_eff);
+  return std::sqrt(m.density / m.yield_stress) * curve->axis()->table().reference_radius /
+         mapping.length(r_eff);
 }
 
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where)

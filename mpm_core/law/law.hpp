@@ -110,7 +110,8 @@ struct PairLaw
   /// Largest overlap the table answers for, m.
   double max_overlap(double r_eff) const { return curve->x_end() * mapping.length(r_eff); }
 
-  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see inertia_axis.hpp. The yielding body yields.
+  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see inertia_axis.hpp. The yielding body
+  /// yields.
   double inertia_speed(double r_eff, double m_eff, double speed) const;
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without an inertia axis or approach, clamped beyond max_speed().
@@ -125,8 +126,8 @@ struct PairLaw
                          : std::numeric_limits<double>::infinity();
   }
 
-  /// Effective mass, kg, of a usual pair with this R*: the yielding body and its like, each of radius 2 R*; with a
-  /// rigid partner the body alone. For tables and examples; a particle code knows better.
+  /// Effective mass, kg, of a usual pair with this R*: the yielding body and its like, each of radius 2 R*;
+  /// with a rigid partner the body alone. For tables and examples; a particle code knows better.
   double usual_mass(double r_eff) const;
 
  private:

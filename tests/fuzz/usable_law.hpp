@@ -24,7 +24,8 @@ inline std::string unusable(const Law& law)
       for (const double part : {1e-6, 0.1, 0.5, 0.9, 0.999999, 1.0}) {
         for (const double speed : {0.0, 1e-9, 0.3, 0.77, 1.0, 1e3}) {
           if (speed > 0 && !pair.curve->axis()) break;
-          const double latched = speed > 0 ? pair.impact_overlap(r_eff, mass, speed * pair.max_speed(r_eff, mass)) : 0.0;
+          const double latched =
+              speed > 0 ? pair.impact_overlap(r_eff, mass, speed * pair.max_speed(r_eff, mass)) : 0.0;
           const ContactForce f = pair.evaluate(r_eff, part * largest, largest, latched);
           if (!sane(f.force) || !sane(f.contact_radius) || !std::isfinite(f.stiffness) ||
               f.delta_max != largest)

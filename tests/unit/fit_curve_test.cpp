@@ -72,7 +72,8 @@ TEST(FitCurve, RecoversALawFromSmoothPresses)
   const Errors errors = compare(curve, truth);
   // What ten turning points a factor 1.67 apart resolve; the issue asks for 1 %.
   EXPECT_LT(errors.force, 1e-3);
-  EXPECT_LT(errors.e, 1e-3);
+  // and up to 0.2 % near the onset, where unloading is made as stiff as loading (law_shape.cpp)
+  EXPECT_LT(errors.e, 2.5e-3);
   EXPECT_LT(errors.residual, 3e-3);
   EXPECT_GE(curve.admissibility_margin(), 0);
 }
@@ -111,7 +112,7 @@ TEST(FitCurve, ElasticFitRecoversItsCoefficients)
     EXPECT_NEAR(curve.loading(x).force / (std::pow(x, 1.5) * (1 + 0.87 * std::sqrt(x) + 0.4 * x)), 1, 1e-7);
 }
 
-TEST(FitCurve, RefusesALawThatWouldGainEnergy)
+TEST(FitCurve, RefusesRunsThatContradictEachOther)
 {
   const ContactCurve truth = SyntheticLaw{}.curve();
   std::vector<Pressing> all = presses(truth, 0.0);

@@ -200,7 +200,8 @@ TEST(InertiaAxis, SpeedsOfPairs)
   for (const double v : {0.003, 0.03, 0.06}) {
     const double X = wall.curve->axis()->impact_overlap(v);
     EXPECT_NEAR(wall.impact_overlap(R, wall.usual_mass(R), v * unit), X, 1e-12 * X);
-    EXPECT_NEAR(wall.impact_overlap(10 * R, wall.usual_mass(10 * R), v * unit), X, 1e-12 * X);  // size does not matter
+    EXPECT_NEAR(wall.impact_overlap(10 * R, wall.usual_mass(10 * R), v * unit), X,
+                1e-12 * X);  // size does not matter
     EXPECT_NEAR(like.impact_overlap(R / 2, like.usual_mass(R / 2), 2 * v * unit), X, 1e-12 * X);
   }
   // Against a partner that hardly moves the same body is twice as heavy in m*: the one body's I doubles.
@@ -218,8 +219,10 @@ TEST(InertiaAxis, SpeedsOfPairs)
   const PairLaw rate_like = resolve_pair(rate, "powder", "powder", "test");
   const double v = 0.03, X = wall.curve->axis()->impact_overlap(v);
   EXPECT_NEAR(rate_wall.impact_overlap(R, rate_wall.usual_mass(R), v * unit), X, 1e-12 * X);
-  EXPECT_NEAR(rate_wall.impact_overlap(2 * R, rate_wall.usual_mass(2 * R), 2 * v * unit), X, 1e-12 * X);  // the same strain rate
-  EXPECT_NEAR(rate_like.impact_overlap(R / 2, rate_like.usual_mass(R / 2), 2 * v * unit), X, 1e-12 * X);  // two walls at half the speed
+  EXPECT_NEAR(rate_wall.impact_overlap(2 * R, rate_wall.usual_mass(2 * R), 2 * v * unit), X,
+              1e-12 * X);  // the same strain rate
+  EXPECT_NEAR(rate_like.impact_overlap(R / 2, rate_like.usual_mass(R / 2), 2 * v * unit), X,
+              1e-12 * X);  // two walls at half the speed
 }
 
 TEST(InertiaAxis, AReplayLatchesItsOwnSpeed)
@@ -227,7 +230,8 @@ TEST(InertiaAxis, AReplayLatchesItsOwnSpeed)
   const Law law = SyntheticLaw{}.law_with_axis();
   const PairLaw wall = resolve_pair(law, "powder", "wall", "test");
   const double R = 1e-3, mass = 4.0 / 3.0 * M_PI * 1500 * R * R * R;
-  const double speed = 0.5 * wall.max_speed(R, wall.usual_mass(R)), X = wall.impact_overlap(R, wall.usual_mass(R), speed);
+  const double speed = 0.5 * wall.max_speed(R, wall.usual_mass(R)),
+               X = wall.impact_overlap(R, wall.usual_mass(R), speed);
   const Replay replay = replay_collision(wall, R, mass, speed);
   // e^2 is the ratio of the work functions of that X; 1e-4: the replay's step
   const double x_m = replay.delta_max / R;

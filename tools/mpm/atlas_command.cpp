@@ -30,7 +30,9 @@ void build(const AtlasRequest& r)
   const std::unique_ptr<Farm> farm = r.farm.farm();
   ProgressBar bar(rank() == 0);
   const auto share = [&](double from, double to) {
-    return [&bar, from, to](double done, const std::string& what) { bar.update(from + (to - from) * done, what); };
+    return [&bar, from, to](double done, const std::string& what) {
+      bar.update(from + (to - from) * done, what);
+    };
   };
   const AtlasGrid grid;
   const RunSource source;
@@ -39,8 +41,9 @@ void build(const AtlasRequest& r)
   if (rank() != 0) return;
   write_atlas(atlas, r.output);
   bar.clear();
-  fmt::print("wrote {}: {} materials; {} fresh impacts: 95 % within {:.2g} % of force and {:.2g} of e\n", r.output,
-             atlas.nodes().size(), atlas.checks().size(), 100 * atlas.claimed_force(), atlas.claimed_restitution());
+  fmt::print("wrote {}: {} materials; {} fresh impacts: 95 % within {:.2g} % of force and {:.2g} of e\n",
+             r.output, atlas.nodes().size(), atlas.checks().size(), 100 * atlas.claimed_force(),
+             atlas.claimed_restitution());
   print_count(farm->count());
 }
 
@@ -51,9 +54,12 @@ void add_atlas(CLI::App& app)
   const auto r = std::make_shared<AtlasRequest>();
   CLI::App* command = app.add_subcommand(
       "atlas",
-      "Computes the atlas: dimensionless laws over E*/Y, Poisson's ratio, linear hardening, overlap and inertia, from\n"
-      "which mpm table answers any homogeneous material at once. One comes with the program; this makes it anew, in\n"
-      "about two CPU hours. Finished runs are kept (--cache): a build that was stopped goes on where it was.\n"
+      "Computes the atlas: dimensionless laws over E*/Y, Poisson's ratio, linear hardening, overlap and "
+      "inertia, from\n"
+      "which mpm table answers any homogeneous material at once. One comes with the program; this makes it "
+      "anew, in\n"
+      "about two CPU hours. Finished runs are kept (--cache): a build that was stopped goes on where it "
+      "was.\n"
       "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
   command->add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
   command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")

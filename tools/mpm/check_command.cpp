@@ -56,7 +56,8 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, double velocity
   }
   const Scales unit{1.0, m.e_star(), m.density};
   const PairLaw wall{&body.curve, PairMapping::rigid_partner(m.e_star()), &body};
-  const Replay replay = replay_collision(wall, unit.length, 4.0 / 3.0 * M_PI * unit.mass(), velocity * unit.velocity());
+  const Replay replay =
+      replay_collision(wall, unit.length, 4.0 / 3.0 * M_PI * unit.mass(), velocity * unit.velocity());
   const Certificate& c = body.certificate;
   const double force = std::abs(replay.force_max / unit.force() / run.force_max - 1),
                e = std::abs(replay.restitution / run.restitution - 1);

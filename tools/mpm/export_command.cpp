@@ -105,7 +105,8 @@ void export_law(const ExportRequest& r)
     const PairLaw pair = resolve_pair(law, a, b, r.law);
     if (r.speed > pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff)))
       fail("--speed", fmt::format("the law's inertia axis for {}:{} ends below it", a, b),
-           fmt::format("{:g} m/s", r.speed), fmt::format("up to {:g} m/s", pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff))));
+           fmt::format("{:g} m/s", r.speed),
+           fmt::format("up to {:g} m/s", pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff))));
   }
   write_atomically(r.output, [&](const std::string& temporary) {
     std::ofstream out(temporary);

@@ -29,8 +29,7 @@ std::unique_ptr<Farm> FarmOptions::farm() const
   if (no_cache || cache.empty() || rank() != 0) return make_farm(threads, RunCache{});
   std::error_code problem;
   std::filesystem::create_directories(cache, problem);
-  if (problem)
-    fail("--cache", fmt::format("the folder '{}' cannot be made ({})", cache, problem.message()));
+  if (problem) fail("--cache", fmt::format("the folder '{}' cannot be made ({})", cache, problem.message()));
   return make_farm(threads, RunCache(cache));
 }
 

@@ -57,16 +57,20 @@ void print_body(const BodyLaw& body)
   fmt::print("  solver error         {:.2g} % (force and e, two resolutions)\n", 100 * c.solver_error_force);
   fmt::print("  interpolation error  {:.2g} %", 100 * c.interpolation_error);
   if (c.origin == "runs")
-    fmt::print(";  held-out e {:.2g} %;  scatter of the runs {:.2g} %\n  reload loop          {:.2g} % of the loading work",
-               100 * c.held_out_error, 100 * c.residual_scatter, 100 * c.reload_loop_area);
+    fmt::print(
+        ";  held-out e {:.2g} %;  scatter of the runs {:.2g} %\n  reload loop          {:.2g} % of the "
+        "loading work",
+        100 * c.held_out_error, 100 * c.residual_scatter, 100 * c.reload_loop_area);
   fmt::print("\n");
   if (c.verification_impacts > 0)
-    fmt::print("  against {:.0f} impacts    force within {:.2g} %, e within {:.2g} %\n", c.verification_impacts,
-               100 * c.verification_error_force, 100 * c.verification_error_restitution);
+    fmt::print("  against {:.0f} impacts    force within {:.2g} %, e within {:.2g} %\n",
+               c.verification_impacts, 100 * c.verification_error_force,
+               100 * c.verification_error_restitution);
   if (c.slow_press_force != 0 || c.slow_press_restitution != 0)
     fmt::print("  slow press instead   force {:+.2g} %, e {:+.2g} % at the deepest impact's overlap\n",
                100 * c.slow_press_force, 100 * c.slow_press_restitution);
-  if (std::isfinite(c.max_inertia)) fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.max_inertia);
+  if (std::isfinite(c.max_inertia))
+    fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.max_inertia);
   if (m.yields())
     fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n",
                support_ratio(body.curve.x_end()));

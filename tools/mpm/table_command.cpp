@@ -60,8 +60,8 @@ std::string hash_of(const std::string& text)
 
 std::string hash_of(const Material& m)
 {
-  return hash_of(fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus, m.poisson_ratio,
-                             m.yield_stress, m.hardening_modulus));
+  return hash_of(fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus,
+                             m.poisson_ratio, m.yield_stress, m.hardening_modulus));
 }
 
 /// The entry that a name of --pair means: a material; else a particle, whose law is its material's if it is a
@@ -72,7 +72,8 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
     const Particle& p = file.particle(name);
     const Subject subject = subject_of(p);
     const int skin = p.material_at(0.0, 1e-9 * subject.scale.length);
-    const Material& m = p.materials[static_cast<std::size_t>(std::max(0, p.is_homogeneous_sphere() ? 0 : skin))];
+    const Material& m =
+        p.materials[static_cast<std::size_t>(std::max(0, p.is_homogeneous_sphere() ? 0 : skin))];
     LawMaterial material = law_material(name, m);
     if (subject.yields()) material.yield_stress = subject.yield * subject.scale.stress;
     return {material, subject, p.is_homogeneous_sphere() ? sphere_name : name, hash_of(subject.description)};
@@ -80,11 +81,13 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
   const Material& m = file.material(name);
   if (m.rate_dependent())
     fail(fmt::format("{}: [material.{}]", file.path, name),
-         fmt::format("its yield stress depends on the rate ('{}'), so its law depends on the particle's size: name a "
-                     "particle of it, --pair PARTICLE:wall",
-                     m.rate.name));
+         fmt::format(
+             "its yield stress depends on the rate ('{}'), so its law depends on the particle's size: name a "
+             "particle of it, --pair PARTICLE:wall",
+             m.rate.name));
   const Subject subject = subject_of(m);
-  return {law_material(name, m), subject, sphere_name, subject.is_plain() ? hash_of(m) : hash_of(subject.description)};
+  return {law_material(name, m), subject, sphere_name,
+          subject.is_plain() ? hash_of(m) : hash_of(subject.description)};
 }
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -99,7 +102,8 @@ Pairs pairs_of(const TableRequest& r, const MaterialsFile& file)
   for (const std::string& text : r.pairs) {
     const auto colon = text.find(':');
     if (colon == std::string::npos)
-      fail("--pair", "cannot be used", fmt::format("'{}'", text), "a:b or a:wall, with names of materials or particles");
+      fail("--pair", "cannot be used", fmt::format("'{}'", text),
+           "a:b or a:wall, with names of materials or particles");
     std::string a = text.substr(0, colon), b = text.substr(colon + 1);
     if (a == wall_name) std::swap(a, b);
     check(a);
@@ -136,9 +140,11 @@ void print_certificate(const BodyLaw& body)
     fmt::print("; held-out e {:.2g} %, scatter {:.2g} %", 100 * c.held_out_error, 100 * c.residual_scatter);
   fmt::print("; solver error {:.2g} %", 100 * c.solver_error_force);
   if (c.verification_impacts > 0)
-    fmt::print("; {:.0f} impacts not sampled: force within {:.2g} %, e within {:.2g} %", c.verification_impacts,
-               100 * c.verification_error_force, 100 * c.verification_error_restitution);
-  if (!body.curve.axis() && std::isfinite(c.max_inertia)) fmt::print("; rate-free up to I = {:.3g}", c.max_inertia);
+    fmt::print("; {:.0f} impacts not sampled: force within {:.2g} %, e within {:.2g} %",
+               c.verification_impacts, 100 * c.verification_error_force,
+               100 * c.verification_error_restitution);
+  if (!body.curve.axis() && std::isfinite(c.max_inertia))
+    fmt::print("; rate-free up to I = {:.3g}", c.max_inertia);
   fmt::print("\n");
 }
 
@@ -156,8 +162,11 @@ void state_reduction(LawPair& pair, const Law& law, double radius_ratio)
     pair.reduction_error_force = std::max(pair.reduction_error_force, error.force);
     pair.reduction_error_restitution = std::max(pair.reduction_error_restitution, error.restitution);
     if (!error.within_measured && rank() == 0)
-      fmt::print(stderr, "mpm: what the pair rule costs {}:{} is extrapolated: the partner is softer than was measured "
-                         "(docs/pairs.md)\n", pair.a, pair.b);
+      fmt::print(
+          stderr,
+          "mpm: what the pair rule costs {}:{} is extrapolated: the partner is softer than was measured "
+          "(docs/pairs.md)\n",
+          pair.a, pair.b);
   }
 }
 
@@ -185,9 +194,9 @@ void build(const TableRequest& r)
   double finished = 0;
   for (const auto& [name, entry] : entries) {
     const bool plain = entry.subject.is_plain();
-    const std::string why = !plain ? "its law is its own"
-                            : r.no_atlas ? "--no-atlas"
-                            : !atlas     ? "there is no atlas beside the program"
+    const std::string why = !plain                   ? "its law is its own"
+                            : r.no_atlas             ? "--no-atlas"
+                            : !atlas                 ? "there is no atlas beside the program"
                             : entry.subject.yields() ? atlas->why_not(MaterialRatios::of(entry.material))
                                                      : std::string();
     if (why.empty()) {
@@ -201,10 +210,12 @@ void build(const TableRequest& r)
       };
       BuiltLaw built = build_law(entry.material, entry.subject, options);
       law.bodies[name] = std::move(built.law);
-      remarks.push_back(fmt::format("{}: by {} runs, {} of the densest survey ({})", name, built.runs, built.runs_full, why));
+      remarks.push_back(fmt::format("{}: by {} runs, {} of the densest survey ({})", name, built.runs,
+                                    built.runs_full, why));
       for (std::size_t k = 0; k < built.holes.size(); ++k)
         law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
-      law.provenance["survey." + name] = fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
+      law.provenance["survey." + name] =
+          fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
     }
     BodyLaw& body = law.bodies[name];
     body.body = entry.body;
@@ -217,7 +228,8 @@ void build(const TableRequest& r)
   }
   for (LawPair& pair : law.pairs) {
     if (pair.b != wall_name && pair.a != pair.b)
-      check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), fmt::format("--pair {}:{}", pair.a, pair.b));
+      check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b),
+                     fmt::format("--pair {}:{}", pair.a, pair.b));
     state_reduction(pair, law, r.radius_ratio);
   }
   law.provenance["version"] = version();
@@ -243,29 +255,36 @@ void add_table(CLI::App& app)
   const auto r = std::make_shared<TableRequest>();
   CLI::App* command = app.add_subcommand(
       "table",
-      "Makes the contact laws of a materials file, one law file for LIGGGHTS. A homogeneous sphere that hardens\n"
-      "linearly or not at all comes from the atlas at once (--no-atlas: computed anew); other hardening laws,\n"
-      "rate dependence, layers, inclusions and profiles are computed by the solver: name the particle in --pair.\n"
+      "Makes the contact laws of a materials file, one law file for LIGGGHTS. A homogeneous sphere that "
+      "hardens\n"
+      "linearly or not at all comes from the atlas at once (--no-atlas: computed anew); other hardening "
+      "laws,\n"
+      "rate dependence, layers, inclusions and profiles are computed by the solver: name the particle in "
+      "--pair.\n"
       "Finished runs are kept in a folder (--cache): a build that was stopped goes on where it was, and one\n"
       "with a wider range reuses them. The folder may be removed at any time.\n"
       "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
       "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5");
   command->add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
   command->add_option("--deck", r->deck, "LIGGGHTS deck to take the pairs from (a later version)");
-  command->add_option("--pair", r->pairs,
-                      "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
-                      "materials");
+  command->add_option(
+      "--pair", r->pairs,
+      "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
+      "materials");
   command
       ->add_option("--tolerance", r->range.tolerance,
-                   "relative error of force and e: of sampling, of the resolution, and below which an axis is left out")
+                   "relative error of force and e: of sampling, of the resolution, and below which an axis "
+                   "is left out")
       ->check(CLI::Range(1e-4, 0.5))
       ->capture_default_str();
-  command->add_option("--depth", r->range.depth, "largest overlap over the radius, up to 0.5")->capture_default_str();
+  command->add_option("--depth", r->range.depth, "largest overlap over the radius, up to 0.5")
+      ->capture_default_str();
   command->add_option("--inertia", r->inertia, "largest I = rho V^2/Y, up to 0.09; 0: a rate-free law")
       ->check(CLI::Range(0.0, 0.09))
       ->capture_default_str();
-  command->add_option("--radius-ratio", r->radius_ratio,
-                      "largest ratio of two radii in the scene: the pair rule's error is stated for it")
+  command
+      ->add_option("--radius-ratio", r->radius_ratio,
+                   "largest ratio of two radii in the scene: the pair rule's error is stated for it")
       ->check(CLI::Range(1.0, 10.0))
       ->capture_default_str();
   command->add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");
