@@ -163,7 +163,11 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
   constexpr double spare = 1e-3;                            // of the work: what may hide between the samples
   std::vector<double> overlaps{slow.onset() * (1 + 1e-9)};  // densely past the onset, then evenly in s
   for (int k = 1; k <= 60; ++k) overlaps.push_back(slow.onset() * (1 + 3e-4 * std::pow(1.13, k)));
-  for (int k = 1; k < 400; ++k) overlaps.push_back(std::pow(slow.table().s_end * k / 400, 4));
+  // where ContactCurve::admissibility_margin() looks
+  const std::size_t samples = std::max<std::size_t>(4 * (slow.table().force_ratio.size() - 1), 512);
+  for (std::size_t k = 1; k < samples; ++k)
+    overlaps.push_back(
+        std::pow(slow.table().s_end * static_cast<double>(k) / static_cast<double>(samples), 4));
   for (int round = 0; round < most_rounds; ++round) {
     const ContactCurve curve(slow.table(), axis, "fitted curve");
     std::vector<double> raise(axis.exponent_correction.size(), 0.0);
