@@ -292,9 +292,9 @@ def case_table():
     with h5py.File("quick.h5") as file:
         certificate = file["bodies/powder/certificate"]
         claimed = float(certificate["atlas_error_force"][()]), float(certificate["atlas_error_restitution"][()])
-        assert certificate.attrs["origin"] == "atlas" and 0 < claimed[0] < 0.02 and 0 < claimed[1] < 0.02, claimed
+        assert np.asarray(certificate.attrs["origin"]).astype(str) == "atlas" and 0 < claimed[0] < 0.02 and 0 < claimed[1] < 0.02, claimed
     for v in ("0.5", "3", "15"):
-        by_runs, by_atlas = (Run("law", law, "--velocity", v, "--json").json() for law in ("law.h5", "quick.h5"))
+        by_runs, by_atlas = (Run("law", law, "--pair", "powder:wall", "--velocity", v, "--json").json() for law in ("law.h5", "quick.h5"))
         # each within 1 % of F and 0.01 of e of the solver (its tolerance; the atlas's claim, above)
         assert abs(by_atlas["force_max_N"] / by_runs["force_max_N"] - 1) < 0.02, (v, by_runs, by_atlas)
         assert abs(by_atlas["e"] - by_runs["e"]) < 0.02, (v, by_runs, by_atlas)
@@ -379,7 +379,7 @@ def case_export():
         assert np.allclose(si[key], np.array(pure[plain]) * unit, rtol=1e-10, atol=0), key  # 12 digits
     # the stiffness is the force's derivative: central differences over rows 1/400 of s apart, of order (ds/s)^2
     x, force, stiffness = (np.array(pure[key]) for key in ("overlap", "force", "stiffness"))
-    middle = slice(200, 399)
+    middle = slice(200, 390)  # (past the depth that was asked for the curve goes on straight)
     slope = (force[2:] - force[:-2]) / (x[2:] - x[:-2])
     assert np.allclose(slope[middle], stiffness[1:-1][middle], rtol=2e-3)
     # the columns replay a collision as mpm law does: W_u/W_L = e^2 after a turn at a row (trapezia: 1e-3)

@@ -17,6 +17,6 @@ int main()
   options.resolution = 8;
   options.phases = 1;
   const double e = granulaw::run_impact(sphere, 1.0, options).summary.restitution;
-  const granulaw::ContactCurve curve(granulaw::table_elastic({}, 0.1).table, "consumer");
+  const granulaw::ContactCurve curve(granulaw::tabulate_elastic({}, 0.1), "consumer");
   return std::abs(e - 1) < 0.01 && curve.loading(0.01).force > 0 ? 0 : 1;
 }
