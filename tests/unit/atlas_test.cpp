@@ -1,0 +1,98 @@
+#include "characterise/atlas.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "characterise/build_law.hpp"
+#include "characterise/interpolation.hpp"
+
+namespace granulaw {
+namespace {
+
+/// The atlas that comes with the program.
+const Atlas& shipped()
+{
+  static const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
+  return atlas;
+}
+
+LawMaterial material(const MaterialRatios& m)
+{
+  LawMaterial law;
+  law.name = "powder";
+  law.density = 1200;
+  law.youngs_modulus = 2e9;
+  law.poisson_ratio = m.poisson_ratio;
+  law.yield_stress = law.e_star() / m.stiffness;
+  law.hardening_modulus = m.hardening * law.youngs_modulus;
+  return law;
+}
+
+TEST(Interpolation, WeightsReproduceACubicAndEndAtTheEnds)
+{
+  const std::vector<double> nodes{0.1, 0.4, 0.5, 1.1, 1.7, 2.0};
+  const auto cubic = [](double x) { return 1 + x * (2 - x * (3 - 0.5 * x)); };
+  const auto told = [&](double x) {
+    const auto weights = interpolation_weights(nodes, x);
+    double sum = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) sum += weights[k] * cubic(nodes[k]);
+    return sum;
+  };
+  for (const double x : {0.1, 0.3, 0.45, 0.9, 1.4, 2.0}) EXPECT_NEAR(told(x), cubic(x), 1e-12);
+  EXPECT_NEAR(told(0.0), cubic(0.1), 1e-12);
+  EXPECT_NEAR(told(5.0), cubic(2.0), 1e-12);
+}
+
+TEST(Atlas, GivesItsOwnMaterialsBack)
+{
+  for (const Atlas::Node& node : shipped().nodes()) {
+    const LawShape shape = shipped().shape(node.material);
+    for (int k = 0; k < LawShape::nodes; ++k) {
+      // rounding of some ten weighted terms
+      EXPECT_NEAR(shape.softening[k], node.shape.softening[k], 1e-9);
+      EXPECT_NEAR(shape.dissipation[k], node.shape.dissipation[k], 1e-9);
+    }
+  }
+}
+
+TEST(Atlas, SaysWhatLiesOutside)
+{
+  const Atlas& atlas = shipped();
+  EXPECT_EQ(atlas.why_not({100, 0.3, 0.01}), "");
+  EXPECT_NE(atlas.why_not({19, 0.3, 0.01}).find("E*/Y"), std::string::npos);
+  EXPECT_NE(atlas.why_not({100, 0.495, 0.01}).find("nu"), std::string::npos);
+  EXPECT_NE(atlas.why_not({100, 0.3, 0.31}).find("H/E"), std::string::npos);
+  EXPECT_NE(atlas.why_not({NAN, 0.3, 0}).find("E*/Y"), std::string::npos);
+}
+
+RC_GTEST_PROP(Atlas, EveryLawInsideIsAdmissible, ())
+{
+  MaterialRatios m;
+  m.stiffness = 20 * std::pow(250.0, *rc::gen::inRange(0, 1001) / 1000.0);
+  m.poisson_ratio = 0.49 * *rc::gen::inRange(0, 1001) / 1000.0;
+  m.hardening =
+      *rc::gen::inRange(0, 4) == 0 ? 0 : 1e-4 * std::pow(3000.0, *rc::gen::inRange(0, 1001) / 1000.0);
+  const BodyLaw law = law_from(shipped(), material(m), {});  // throws where it is not
+  RC_ASSERT(law.curve.admissibility_margin() >= 0);
+  RC_ASSERT(law.curve.axis() != nullptr);  // at I = 0.0625 dropping it would cost more than 1 %
+  RC_ASSERT(law.certificate.axis_cost_force > 0.01);
+}
+
+TEST(Atlas, ClaimsWhatItsChecksFound)
+{
+  const Atlas& atlas = shipped();
+  ASSERT_GE(atlas.checks().size(), 50u);
+  std::size_t force = 0, restitution = 0;
+  for (const AtlasCheck& c : atlas.checks()) {
+    force += std::abs(c.error_force) <= atlas.claimed_force();
+    restitution += std::abs(c.error_restitution) <= atlas.claimed_restitution();
+  }
+  EXPECT_GE(static_cast<double>(force), 0.95 * static_cast<double>(atlas.checks().size()));
+  EXPECT_GE(static_cast<double>(restitution), 0.95 * static_cast<double>(atlas.checks().size()));
+  EXPECT_LT(atlas.claimed_force(), 0.01);  // the figure
+}
+
+}  // namespace
+}  // namespace granulaw
