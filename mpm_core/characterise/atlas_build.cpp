@@ -180,14 +180,7 @@ std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, u
     if (replay.delta_max < least_overlap) continue;
     checks.push_back(c);
     said.push_back(replay);
-    RunJob job = impact_job(subject, velocity, 0, RunOptions{}.phases, source);
-    job.key += " estimated";
-    const auto plain = job.run;
-    job.run = [plain](const RunOptions& o) {
-      RunOptions both = o;
-      both.estimate_error = true;
-      return plain(both);
-    };
+    RunJob job = with_estimate(impact_job(subject, velocity, 0, RunOptions{}.phases, source));
     job.cost = 3;
     jobs.push_back(std::move(job));
   }

@@ -132,15 +132,7 @@ int Build::choose_resolution(const std::function<RunJob(int)>& job)
 {
   double reached = 0;
   for (const int resolution : resolutions) {
-    RunJob with_estimate = job(resolution);
-    with_estimate.key += " estimated";
-    const auto plain = with_estimate.run;
-    with_estimate.run = [plain](const RunOptions& options) {
-      RunOptions both = options;
-      both.estimate_error = true;
-      return plain(both);
-    };
-    const RunOutcome outcome = run({with_estimate}, 0.05)[0];
+    const RunOutcome outcome = run({with_estimate(job(resolution))}, 0.05)[0];
     if (outcome.failed()) fail("mpm table", "the first run fails: " + outcome.error);
     reached = outcome.result.summary.error_estimate;
     law_.certificate.solver_error_force = law_.certificate.solver_error_restitution = reached;

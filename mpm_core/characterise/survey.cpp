@@ -126,6 +126,17 @@ RunJob impact_job(const Subject& subject, double velocity, int resolution, int p
           }};
 }
 
+RunJob with_estimate(RunJob job)
+{
+  job.key += " estimated";
+  job.run = [plain = std::move(job.run)](const RunOptions& options) {
+    RunOptions both = options;
+    both.estimate_error = true;
+    return plain(both);
+  };
+  return job;
+}
+
 SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
 {
   SurveyPlan plan;

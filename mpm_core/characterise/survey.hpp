@@ -63,6 +63,9 @@ RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const R
 RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases,
                   const RunSource& source);
 
+/// The same run with its error estimated by a second resolution.
+RunJob with_estimate(RunJob job);
+
 /// What the runs found.
 struct Survey
 {
