@@ -17,12 +17,12 @@ void fit(const double (&v)[4], double width, double (&c)[4])
 }  // namespace
 
 FastCurve::FastCurve(const ContactCurve& curve)
-    : curve_(&curve),
-      axis_(curve.axis()),
-      lowest_(std::ldexp(1.0, lowest_exponent)),
-      x_end_(curve.x_end()),
-      onset_(curve.onset())
+    : curve_(&curve), lowest_(std::ldexp(1.0, lowest_exponent)), x_end_(curve.x_end()), onset_(curve.onset())
 {
+  if (curve.axis()) {
+    axis_ = FastAxis(*curve.axis());
+    corrected_from_ = InertiaAxis::negligible;
+  }
   if (x_end_ < lowest_) return;  // the curve answers alone
   const std::size_t count = index(x_end_) + 1;
   intervals_.resize(count);
@@ -57,7 +57,7 @@ FastCurve::FastCurve(const ContactCurve& curve)
 
 std::size_t FastCurve::bytes() const
 {
-  return intervals_.size() * sizeof(Interval) + work_.size() * sizeof(Work) + (axis_ ? axis_->bytes() : 0);
+  return intervals_.size() * sizeof(Interval) + work_.size() * sizeof(Work) + axis_.bytes();
 }
 
 double FastCurve::work(double x) const

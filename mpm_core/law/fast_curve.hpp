@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "law/contact_curve.hpp"
+#include "law/fast_axis.hpp"
 #include "law/fast_pow.hpp"
 
 namespace granulaw {
@@ -22,9 +24,9 @@ namespace granulaw {
 ///     steepness 1/(1 - rho), rho = delta_r/delta_m: u = 1 - (1 - delta/delta_m) steepness, no division
 ///     exponent  n
 ///     work      W_load - W_unload: spent on plastic strain (quasi-static)
-/// One cache line for the loading branch, two for unloading. An inertia axis is uniform as it is: the curve's
-/// own is read. Below 2^-40 and beyond x_end the curve itself answers.
-/// Errors against the curve: tests/unit/fast_curve_test.cpp; speed: tests/benchmarks/law_benchmark.cpp.
+/// One cache line for the loading branch, two for unloading. An inertia axis is laid out anew: FastAxis.
+/// Below 2^-40 and beyond x_end the curve itself answers. Errors against the curve:
+/// tests/unit/fast_curve_test.cpp; speed: tests/benchmarks/law_benchmark.cpp.
 ///
 /// The arguments x, x_max and impact_overlap (X; 0: quasi-static) are ContactCurve's.
 class FastCurve
@@ -45,7 +47,7 @@ class FastCurve
       if (!in_table(x)) [[unlikely]]
         return far_loading(x, impact_overlap).force;
       const double slow = at(x).force();
-      return corrected(impact_overlap) ? slow * (1.0 + axis_->force(x, impact_overlap).value) : slow;
+      return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
     }
     if (!in_table(x_max)) [[unlikely]]
       return far_unloading(x_max, ratio, impact_overlap);
@@ -130,7 +132,7 @@ class FastCurve
   }
 
   bool in_table(double x) const { return x >= lowest_ && x <= x_end_; }
-  bool corrected(double impact_overlap) const { return axis_ && impact_overlap > InertiaAxis::negligible; }
+  bool corrected(double impact_overlap) const { return impact_overlap > corrected_from_; }
   Place at(double x) const { return {intervals_[index(x)], position(x)}; }
   double work(double x) const;
 
@@ -141,13 +143,13 @@ class FastCurve
     const Place p = at(x);
     const double force = p.force(), stiffness = cubic_slope(p.i.force, p.t) * per_width(x);
     if (!corrected(impact_overlap)) return {force, stiffness, p.radius()};
-    const InertiaAxis::ForceCorrection a = axis_->force(x, impact_overlap);
+    const InertiaAxis::ForceCorrection a = axis_.force(x, impact_overlap);
     return {force * (1.0 + a.value), stiffness * (1.0 + a.value) + force * a.slope, p.radius()};
   }
   Turn turn_at(const Place& p, double x_max, double impact_overlap) const
   {
     if (!corrected(impact_overlap)) return {p.force(), p.steepness(), p.exponent()};
-    const InertiaAxis::TurnCorrection c = axis_->turn(x_max, impact_overlap);
+    const InertiaAxis::TurnCorrection c = axis_.turn(x_max, impact_overlap);
     return {p.force() * (1.0 + c.force), c.corrected_steepness(p.steepness()),
             c.corrected_exponent(p.exponent())};
   }
@@ -164,8 +166,9 @@ class FastCurve
   };
   std::vector<Work> work_;  // read by ledgers only: apart
   const ContactCurve* curve_ = nullptr;
-  const InertiaAxis* axis_ = nullptr;  // the curve's
+  FastAxis axis_;  // the curve's
   double lowest_ = 0, x_end_ = 0, onset_ = 0;
+  double corrected_from_ = std::numeric_limits<double>::infinity();  // infinity: no axis
 };
 
 }  // namespace granulaw
