@@ -14,25 +14,38 @@ FastAxis::FastAxis(const InertiaAxis& axis)
   cells_a_slice_ = static_cast<int>(nodes);
   cells_.assign((slices + 1) * nodes, Cell{});
 
-  const auto lay_out = [&](Function Cell::*function, const std::vector<double>& value,
-                           const std::vector<double>& slope) {
-    // slice 0 corrects nothing: it stays 0
-    for (std::size_t k = 0; k < slices; ++k) {
-      for (std::size_t l = 0; l < nodes; ++l) {
-        const std::size_t at = k * nodes + l;
-        double(&c)[4] = (cells_[at + nodes].*function).low;
-        if (l + 1 < nodes)
-          hermite(c, value[at], value[at + 1], h * slope[at], h * slope[at + 1]);
-        else
-          c[0] = value[at];
-        Function& below = cells_[at].*function;
-        for (int power = 0; power < 4; ++power) below.rise[power] = c[power] - below.low[power];
-      }
-    }
+  // coefficients of one function over interval l of slice k; slice 0 corrects nothing
+  const auto cubic_of = [&](const std::vector<double>& value, const std::vector<double>& slope, std::size_t k,
+                            std::size_t l, double(&c)[4]) {
+    std::fill_n(c, 4, 0.0);
+    if (k == 0) return;
+    const std::size_t at = (k - 1) * nodes + l;
+    if (l + 1 < nodes)
+      hermite(c, value[at], value[at + 1], h * slope[at], h * slope[at + 1]);
+    else
+      c[0] = value[at];
   };
-  lay_out(&Cell::force, table.force_correction, table.force_correction_slope);
-  lay_out(&Cell::residual, table.residual_correction, table.residual_correction_slope);
-  lay_out(&Cell::exponent, table.exponent_correction, table.exponent_correction_slope);
+  struct Function
+  {
+    const std::vector<double>&value, &slope;
+    CubicPair Cell::*low, Cell::*rise;
+    int low_place, rise_place;
+  };
+  const Function functions[] = {
+      {table.force_correction, table.force_correction_slope, &Cell::force, &Cell::force, 0, 1},
+      {table.residual_correction, table.residual_correction_slope, &Cell::low, &Cell::rise, 0, 0},
+      {table.exponent_correction, table.exponent_correction_slope, &Cell::low, &Cell::rise, 1, 1}};
+  for (const Function& f : functions)
+    for (std::size_t k = 0; k <= slices; ++k)
+      for (std::size_t l = 0; l < nodes; ++l) {
+        double low[4], rise[4];
+        cubic_of(f.value, f.slope, k, l, low);
+        cubic_of(f.value, f.slope, std::min(k + 1, slices), l, rise);
+        for (int power = 0; power < 4; ++power) rise[power] -= low[power];
+        Cell& cell = cells_[k * nodes + l];
+        (cell.*f.low).set(f.low_place, low);
+        (cell.*f.rise).set(f.rise_place, rise);
+      }
 }
 
 }  // namespace granulaw

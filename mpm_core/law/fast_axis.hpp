@@ -24,47 +24,33 @@ class FastAxis
   {
     const double per_x = per_spacing_ / impact_overlap;
     const Place p = locate(x * per_x, impact_overlap);
-    const Coefficients c(p.cell->force, p.weight);
-    return {c.value(p.t), c.slope(p.t) * per_x};
+    const Two value = p.cell->force.both(p.t), slope = p.cell->force.slope_of_both(p.t);
+    return {value[0] + p.weight * value[1], (slope[0] + p.weight * slope[1]) * per_x};
   }
   /// A, B and N of a turn at overlap x_m.
   InertiaAxis::TurnCorrection turn(double x_m, double impact_overlap) const
   {
     const Place p = locate(x_m * (per_spacing_ / impact_overlap), impact_overlap);
-    return {Coefficients(p.cell->force, p.weight).value(p.t),
-            Coefficients(p.cell->residual, p.weight).value(p.t),
-            Coefficients(p.cell->exponent, p.weight).value(p.t)};
+    const Two force = p.cell->force.both(p.t);
+    const Two rest = p.cell->low.both(p.t) + p.weight * p.cell->rise.both(p.t);
+    return {force[0] + p.weight * force[1], rest[0], rest[1]};
   }
 
   /// Bytes of what evaluation reads.
   std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
 
  private:
-  struct alignas(64) Function
-  {
-    double low[4], rise[4];
-  };
   /// One interval of xi between two slices.
   struct Cell
   {
-    Function force, residual, exponent;
+    CubicPair force;      // of the lower slice, and its rise
+    CubicPair low, rise;  // of residual and exponent
   };
   struct Place
   {
     const Cell* cell;
     double weight, t;
   };
-  struct Coefficients
-  {
-    double c[4];
-    Coefficients(const Function& f, double weight)
-    {
-      for (int k = 0; k < 4; ++k) c[k] = f.low[k] + weight * f.rise[k];
-    }
-    double value(double t) const { return (c[0] + t * c[1]) + t * t * (c[2] + t * c[3]); }
-    double slope(double t) const { return cubic_slope(c, t); }
-  };
-
   // Without a branch: in a flow x lies within and beyond ratio_end at random. A slice's last cell stands for
   // all that lies beyond; so does the last slice, whose rise is 0.
   Place locate(double xi, double impact_overlap) const

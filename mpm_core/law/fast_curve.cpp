@@ -42,16 +42,20 @@ FastCurve::FastCurve(const ContactCurve& curve)
       exponent[p] = turning.exponent;
       work[p] = curve.work_loading(x) - curve.work_unloading(x);
     }
-    fit(radius, width, intervals_[k].radius);
-    fit(steepness, width, intervals_[k].steepness);
-    fit(exponent, width, intervals_[k].exponent);
+    double c[4];
+    fit(radius, width, c);
+    intervals_[k].loading.set(1, c);
+    fit(steepness, width, c);
+    intervals_[k].turn.set(0, c);
+    fit(exponent, width, c);
+    intervals_[k].turn.set(1, c);
     fit(work, width, work_[k].cubic);
 
-    double(&force)[4] = intervals_[k].force;
     const double h = width * (high - low);
     const ContactCurve::Loading begin = curve.loading(low), end = curve.loading(low + h);
-    hermite(force, begin.force, end.force, h * begin.stiffness, h * end.stiffness);
-    for (int power = 1; power < 4; ++power) force[power] /= std::pow(width, power);
+    hermite(c, begin.force, end.force, h * begin.stiffness, h * end.stiffness);
+    for (int power = 1; power < 4; ++power) c[power] /= std::pow(width, power);
+    intervals_[k].loading.set(0, c);
   }
 }
 

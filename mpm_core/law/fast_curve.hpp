@@ -51,7 +51,8 @@ class FastCurve
     }
     if (!in_table(x_max)) [[unlikely]]
       return far_unloading(x_max, ratio, impact_overlap);
-    const Turn turn = turn_at(at(x_max), x_max, impact_overlap);
+    const Place p = at(x_max);
+    const Turn turn = turn_at(p, p.force(), x_max, impact_overlap);
     const double u = 1.0 - (1.0 - ratio) * turn.steepness;
     return u <= 0.0 ? 0.0 : turn.force * fast_pow(u, turn.exponent);
   }
@@ -71,14 +72,15 @@ class FastCurve
     if (!in_table(x_max)) [[unlikely]]
       return far_evaluate(pair, r_eff, delta, delta_max, impact_overlap);
     const Place p = at(x_max);
-    const Turn turn = turn_at(p, x_max, impact_overlap);
+    const Two top = p.i.loading.both(p.t);
+    const Turn turn = turn_at(p, top[0], x_max, impact_overlap);
     const double per_delta_max = 1.0 / delta_max;
     const double u = 1.0 - (1.0 - delta * per_delta_max) * turn.steepness;
     if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
     // F = F_m u^n; du/d(delta) = steepness/delta_max; a = a_m u^(n-1), as ContactCurve
     const double below = fast_pow(u, turn.exponent - 1.0), force = force_scale * turn.force * below;
-    return {force * u, force * turn.exponent * turn.steepness * per_delta_max,
-            radius_scale * p.radius() * below, delta_max};
+    return {force * u, force * turn.exponent * turn.steepness * per_delta_max, radius_scale * top[1] * below,
+            delta_max};
   }
 
   /// Work spent on plastic strain by a quasi-static contact whose largest overlap is x_max: a function of
@@ -97,20 +99,17 @@ class FastCurve
   static constexpr int bits_per_octave = 3, lowest_exponent = -40;
   static constexpr int shift = 52 - bits_per_octave;
   static constexpr std::uint64_t exponent_bits = 0x7ff0000000000000ULL;
-  struct alignas(64) Interval
+  struct Interval
   {
-    double force[4], radius[4], steepness[4], exponent[4];
+    CubicPair loading;  // force, radius
+    CubicPair turn;     // steepness, exponent
   };
 
   struct Place
   {
     const Interval& i;
     double t;
-    double cubic(const double (&c)[4]) const { return (c[0] + t * c[1]) + t * t * (c[2] + t * c[3]); }
-    double force() const { return cubic(i.force); }
-    double radius() const { return cubic(i.radius); }
-    double steepness() const { return cubic(i.steepness); }
-    double exponent() const { return cubic(i.exponent); }
+    double force() const { return i.loading.first(t); }
   };
   struct Turn
   {
@@ -141,17 +140,18 @@ class FastCurve
     if (!in_table(x)) [[unlikely]]
       return far_loading(x, impact_overlap);
     const Place p = at(x);
-    const double force = p.force(), stiffness = cubic_slope(p.i.force, p.t) * per_width(x);
-    if (!corrected(impact_overlap)) return {force, stiffness, p.radius()};
+    const Two now = p.i.loading.both(p.t);
+    const double force = now[0], stiffness = p.i.loading.first_slope(p.t) * per_width(x);
+    if (!corrected(impact_overlap)) return {force, stiffness, now[1]};
     const InertiaAxis::ForceCorrection a = axis_.force(x, impact_overlap);
-    return {force * (1.0 + a.value), stiffness * (1.0 + a.value) + force * a.slope, p.radius()};
+    return {force * (1.0 + a.value), stiffness * (1.0 + a.value) + force * a.slope, now[1]};
   }
-  Turn turn_at(const Place& p, double x_max, double impact_overlap) const
+  Turn turn_at(const Place& p, double force, double x_max, double impact_overlap) const
   {
-    if (!corrected(impact_overlap)) return {p.force(), p.steepness(), p.exponent()};
+    const Two shape = p.i.turn.both(p.t);
+    if (!corrected(impact_overlap)) return {force, shape[0], shape[1]};
     const InertiaAxis::TurnCorrection c = axis_.turn(x_max, impact_overlap);
-    return {p.force() * (1.0 + c.force), c.corrected_steepness(p.steepness()),
-            c.corrected_exponent(p.exponent())};
+    return {force * (1.0 + c.force), c.corrected_steepness(shape[0]), c.corrected_exponent(shape[1])};
   }
   // Beyond the table, out of line: the loop stays small.
   ContactCurve::Loading far_loading(double x, double impact_overlap) const;
