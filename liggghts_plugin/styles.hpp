@@ -33,6 +33,12 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
   setup.options = parse_options(model, setup.wall != nullptr, setup.where, words, rest);
   Session& session = *setup.session;
   Options& options = setup.options;
+  if (setup.wall && session.pair_options) {
+    const bool own_switch = options.tangential_damping_on.has_value();
+    options.inherit(*session.pair_options);
+    if (!own_switch && options.tangential_damping_on)
+      rest.insert(rest.end(), {"tangential_damping", *options.tangential_damping_on ? "on" : "off"});
+  }
   if (model == Model::mpm) {
     if (setup.wall && options.law_path.empty()) {
       if (!session.pair_law)
@@ -42,12 +48,8 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
       if (options.law_path.empty()) fail(setup.where, "'law FILE' is missing");
       setup.law = load_law(lmp, options.law_path, setup.where);
     }
-    if (setup.wall && options.materials.empty() && session.pair_options)
-      options.materials = session.pair_options->materials;
     if (options.materials.empty()) fail(setup.where, "'materials' is missing: one name for each atom type");
   }
-  if (setup.wall && !options.tangential_damping && session.pair_options)
-    options.tangential_damping = session.pair_options->tangential_damping;
   if (!setup.wall) {
     session.pair_options = options;
     session.pair_law = setup.law;
