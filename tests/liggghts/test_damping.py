@@ -12,8 +12,15 @@ RESTITUTION = "fix p6 all property/global coefficientRestitution peratomtypepair
 
 
 def damped_restitution(z):
-    """Of a Hertz contact damped with sqrt(5) Z sqrt(k m) d^(1/4) v: Antypov & Elliott 2011."""
-    return math.exp(-math.pi * z / math.sqrt(1 - z * z))
+    """e of d'' = -max(0, d^1.5 + sqrt(5) z d^(1/4) d'), d'(0) = 1: Antypov & Elliott's (2011) Hertz contact, whose
+    e is exp(-pi z/sqrt(1 - z^2)), but for the force that may not pull."""
+    d, v, h = 0.0, 1.0, 1e-4
+    def a(d, v):
+        return -max(0.0, d**1.5 + math.sqrt(5) * z * d**0.25 * v) if d > 0 else 0.0
+    while d >= 0:  # midpoint rule: error far below 1e-4
+        d_mid, v_mid = d + 0.5 * h * v, v + 0.5 * h * a(d, v)
+        d, v = d + h * v_mid, v + h * a(d_mid, v_mid)
+    return -v
 
 
 class Damping(Deck):
@@ -27,12 +34,12 @@ class Damping(Deck):
         return self.result(self.run_deck(deck), "SPEED")[0] / speed
 
     def test_restitution_below_yield(self):
-        # 0.002: velocity Verlet with damping at 100 steps a contact, and the last of the pull of the dashpot
-        # that is clamped to keep the force from turning attractive
+        self.assertAlmostEqual(damped_restitution(0.001), math.exp(-0.001 * math.pi), delta=1e-4)
+        # 0.003: LIGGGHTS takes the velocity half a step late, at 100 steps a contact 1 % of the damping's loss
         for words, z in (("", 0.001), ("elasticDamping 0.05", 0.05), ("elasticDamping 0.2", 0.2)):
             for model in ("mpm", "thornton"):
                 self.assertAlmostEqual(self.e(self.deck(words, ELASTIC_SPEED, model), ELASTIC_SPEED),
-                                       damped_restitution(z), delta=0.002 + 0.06 * z * z, msg=f"{model} {words}")
+                                       damped_restitution(z), delta=0.003, msg=f"{model} {words}")
 
     def test_off_is_the_pure_law(self):
         self.assertAlmostEqual(self.e(self.deck("elasticDamping off", ELASTIC_SPEED), ELASTIC_SPEED), 1.0, delta=1e-4)
@@ -46,8 +53,14 @@ class Damping(Deck):
 
     def test_plastic_impacts_keep_their_rebound(self):
         """Far above yield strong damping takes only what it took before yield."""
-        pure, damped = (self.e(self.deck(w, 3.0), 3.0) for w in ("elasticDamping off", "elasticDamping 0.1"))
-        self.assertAlmostEqual(damped, pure, delta=0.002)
+        def e(words):
+            deck = self.deck(words, 3.0)
+            step = deck.split("timestep ")[1].split()[0]
+            # ten times finer: else the elastic range is one step wide or none
+            return self.e(deck.replace(f"timestep {step}", f"timestep {float(step) / 10!r}").replace("run 240", "run 2400"), 3.0)
+        pure, damped = e("elasticDamping off"), e("elasticDamping 0.1")
+        # the loss up to yield, 4 Z V_y/V of the kinetic energy = 0.008, is 0.003 of e; 0.001 for the step
+        self.assertAlmostEqual(damped, pure, delta=0.004)
 
     def test_stretched(self):
         """Damping is stretched with the force: the same e."""
@@ -63,6 +76,7 @@ class Damping(Deck):
 
     def test_bounces_come_to_rest(self):
         """A sphere under gravity that yielded, then rattles: mechanical energy falls and never grows; off: stays."""
+
         def energies(words):
             text = head(half=20 * RADIUS) + properties([POWDER])
             text += (f"pair_style gran model mpm tangential off law {self.law} materials powder {words}\npair_coeff * *\n"
@@ -71,13 +85,8 @@ class Damping(Deck):
                      f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
                      # pressed with 1 N: rattles in its dent without leaving it
                      "fix push all addforce 0.0 0.0 -1.0\nfix i all nve/sphere\ntimestep 2e-7\n"
-                     "variable v equal ke\nvariable k equal vmax(all)\n")
-            for _ in range(3):
-                text += "run 100\n"
-                text += "variable m1 equal ke\n"
-            values = []
-            text += "variable n loop 40\nlabel again\nrun 997 post no\nprint \"E ${v}\"\nnext n\njump SELF again\n"
-            text = text.replace("variable k equal vmax(all)\n", "").replace("variable m1 equal ke\n", "")
+                     "variable v equal ke\nrun 300\nvariable n loop 40\nlabel again\nrun 997 post no\n"
+                     'print "E ${v}"\nnext n\njump SELF again\n')
             out = self.run_deck(text)
             values = [float(l.split()[1]) for l in out.splitlines() if l.startswith("E ")]
             self.assertEqual(len(values), 40)
@@ -91,7 +100,8 @@ class Damping(Deck):
         deck = self.deck("", ELASTIC_SPEED).replace("fix p1", RESTITUTION)
         self.assertIn("say 'elasticDamping off'", self.run_deck(deck, expect_failure=True))
         said = self.deck("elasticDamping restitution", ELASTIC_SPEED).replace("fix p1", RESTITUTION)
-        self.assertAlmostEqual(self.e(said, ELASTIC_SPEED), 0.6, delta=0.01)  # the clamp of the pull: 0.003 at Z = 0.16
+        self.assertAlmostEqual(self.e(said, ELASTIC_SPEED), damped_restitution(0.1605), delta=0.003)
+        # 0.6 is Z = 0.1605; that the force may not pull makes it 0.63
         ignored = self.deck("elasticDamping off", ELASTIC_SPEED)
         self.assertEqual(self.e(ignored.replace("fix p1", RESTITUTION), ELASTIC_SPEED), self.e(ignored, ELASTIC_SPEED))
 
@@ -111,12 +121,10 @@ class TangentialStiffness(Deck):
                  "fix w all wall/gran model mpm tangential history primitive type 1 zplane 0.0\n"
                  f"create_atoms 1 single 0.0 0.0 {RADIUS * (1 - 0.02)!r} units box\n"
                  f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
-                 f"velocity all set {speed} 0.0 0.0\nfix i all nve/sphere\nfix z all setforce NULL NULL 0.0\n"
-                 "fix o all freeze\nunfix o\ntimestep 1e-9\nvariable f equal fcm(all,x)\nvariable x equal xcm(all,x)\n"
+                 f"velocity all set {speed} 0.0 0.0\nfix i all nve/sphere\n"
+                 "timestep 1e-9\nvariable x equal xcm(all,x)\n"
                  "compute f all reduce sum fx\nvariable g equal c_f\nthermo_style custom step c_f\nrun 50\n"
                  'print "PUSH ${g} ${x}"\n')
-        text = text.replace("fix z all setforce NULL NULL 0.0\nfix o all freeze\nunfix o\n", "")
-        text = text.replace("variable f equal fcm(all,x)\n", "")
         force, x = self.result(self.run_deck(text), "PUSH")
         return -force / x
 
