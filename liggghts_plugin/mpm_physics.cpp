@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include "base/scales.hpp"
+
 namespace granulaw::plugin {
 
 namespace {
@@ -39,11 +41,46 @@ void check_material(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, const Types& typ
                    .c_str());
 }
 
+/// Hertz's law itself, for `elastic` types: F = F_Hertz, a = a_Hertz, no yield.
+struct HertzBody
+{
+  BodyLaw body;
+  FastCurve curve;
+
+  static const HertzBody& instance()
+  {
+    static const HertzBody hertz;
+    return hertz;
+  }
+
+ private:
+  HertzBody()
+  {
+    const std::vector<double> zeros(33, 0.0), ones(33, 1.0), three_halves(33, 1.5);
+    ContactCurve::Table table;
+    table.s_end = 1.0;
+    table.onset = std::numeric_limits<double>::infinity();
+    table.force_ratio = table.radius_ratio = ones;
+    table.exponent = three_halves;
+    table.residual_ratio = zeros;
+    table.force_ratio_slope = table.radius_ratio_slope = table.exponent_slope = table.residual_ratio_slope =
+        zeros;
+    body.material.name = elastic_name;
+    body.curve = ContactCurve(table, elastic_name);
+    curve = FastCurve(body.curve);
+  }
+};
+
 }  // namespace
 
 void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup& setup, const Types& types)
 {
   setup_ = &setup;
+  units_ = types.units;
+  e_star_.assign(static_cast<std::size_t>(types.count + 1), 0.0);
+  for (int t = 1; t <= types.count; ++t)
+    e_star_[static_cast<std::size_t>(t)] =
+        plane_strain_modulus(types.youngs_modulus[t], types.poisson_ratio[t]);
   const auto& materials = setup.options.materials;
   if (materials.size() != static_cast<std::size_t>(types.count)) {
     // names end where the next keyword begins, so a misspelt keyword looks like one more material
@@ -63,6 +100,40 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
     if (const double own = found->second.certificate.max_inertia; own > 0 && (limit == 0 || own < limit))
       limit = own;
   }
+}
+
+const BodyLaw* MpmPhysics::body(int t) const
+{
+  const auto found = setup_->law->law.bodies.find(setup_->options.materials[static_cast<std::size_t>(t - 1)]);
+  return found == setup_->law->law.bodies.end() ? nullptr : &found->second;
+}
+
+MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& where) const
+{
+  const std::string& a = setup_->options.materials[static_cast<std::size_t>(i - 1)];
+  const std::string& b = setup_->options.materials[static_cast<std::size_t>(j - 1)];
+  const double stretch = setup_->options.stretch.value_or(1.0);
+  const double e_star_i = e_star_[static_cast<std::size_t>(i)],
+               e_star_j = e_star_[static_cast<std::size_t>(j)];
+  // a law that has a material of this name means that one
+  const bool i_elastic = a == elastic_name && !body(i), j_elastic = b == elastic_name && !body(j);
+  const HertzBody& hertz = HertzBody::instance();
+  if (i_elastic && (rigid || j_elastic)) {
+    const PairMapping mapping =
+        rigid ? PairMapping::rigid_partner(e_star_i) : PairMapping::deformable_partner(e_star_i, e_star_j);
+    return {PairLaw{&hertz.body.curve, mapping, &hertz.body}, hertz.curve, stretch, units_};
+  }
+  const std::string here = fmt::format("{}: types {} ({}) and {} ({}{}), law file {}", where, i, a, j,
+                                       rigid ? "rigid wall, " : "", b, setup_->law->path);
+  PairLaw law;
+  if (const BodyLaw* yielding = i_elastic ? body(j) : j_elastic && !rigid ? body(i) : nullptr) {
+    check_partners(*yielding, hertz.body, here);
+    law = {&yielding->curve,
+           PairMapping::deformable_partner(yielding->material.e_star(), i_elastic ? e_star_i : e_star_j),
+           yielding};
+  } else
+    law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
+  return {law, setup_->law->curves.at(law.yielding->material.name), stretch, units_};
 }
 
 }  // namespace granulaw::plugin

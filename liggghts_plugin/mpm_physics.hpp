@@ -12,27 +12,35 @@ namespace granulaw::plugin {
 struct MpmContact
 {
   const FastCurve* curve = nullptr;
-  double per_lambda = 0;   // 1/lambda of PairMapping
-  double force_scale = 0;  // Hertz force at x = 1 over R*^2, Pa
-  PairLaw law;             // for first touches
+  double per_lambda = 0;   // 1/(lambda S), lambda of PairMapping
+  double force_scale = 0;  // Hertz force at x = 1 over R*^2 S
+  PairLaw law;             // SI, unstretched: for first touches
+  double per_stretch = 1;  // 1/S
+  DeckUnits units;
 
   MpmContact() = default;
-  MpmContact(const PairLaw& pair, const FastCurve& fast_curve)
+  MpmContact(const PairLaw& pair, const FastCurve& fast_curve, double stretch, const DeckUnits& deck_units)
       : curve(&fast_curve),
-        per_lambda(1.0 / pair.mapping.length(1.0)),
-        force_scale(pair.mapping.force(1.0)),
-        law(pair)
+        per_lambda(1.0 / (pair.mapping.length(1.0) * stretch)),
+        force_scale(pair.mapping.force(1.0) / (deck_units.pressure() * stretch)),
+        law(pair),
+        per_stretch(1.0 / stretch),
+        units(deck_units)
   {
   }
 
-  /// X of a contact that begins at this approach speed (m/s); 0: quasi-static.
+  /// X of a contact that begins at this approach speed; 0: quasi-static.
   double impact_overlap(double r_eff, double m_eff, double speed) const
   {
-    return law.impact_overlap(r_eff, m_eff, speed);
+    if (!law.curve->axis()) return 0.0;
+    return law.impact_overlap(r_eff * units.length, m_eff * units.mass, speed * units.length);
   }
-  /// m/s, where the law's inertia axis ends; infinity without one.
-  double max_speed(double r_eff, double m_eff) const { return law.max_speed(r_eff, m_eff); }
-  /// N, at overlap delta (m) of a contact whose largest overlap so far is delta_max (m) and which latched X.
+  /// Where the law's inertia axis ends; infinity without one.
+  double max_speed(double r_eff, double m_eff) const
+  {
+    return law.max_speed(r_eff * units.length, m_eff * units.mass) / units.length;
+  }
+  /// At overlap delta of a contact whose largest overlap so far is delta_max and which latched X.
   double force(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
     const double per_length = per_lambda / r_eff;
@@ -40,7 +48,19 @@ struct MpmContact
     return force_scale * r_eff * r_eff *
            curve->force(delta * per_length, delta_max * per_length, ratio, impact_overlap);
   }
-  /// J, spent on plastic strain while the largest overlap grew from `from` to `to` (m).
+  /// Of the real, unstretched contact.
+  double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
+  {
+    return curve->evaluate(law.mapping, r_eff, per_stretch * delta, per_stretch * delta_max, impact_overlap)
+        .contact_radius;
+  }
+  /// Over R*, stretched.
+  double yield_overlap() const { return curve->curve().onset() / per_lambda; }
+  /// E* of the pair.
+  double pair_modulus() const { return law.mapping.e_star_pair() / units.pressure(); }
+  /// Whether the force depends on the mass of the bodies.
+  bool needs_mass() const { return law.curve->axis() != nullptr; }
+  /// Spent on plastic strain while the largest overlap grew from `from` to `to`.
   double dissipated(double r_eff, double from, double to, double impact_overlap) const
   {
     const double length = r_eff / per_lambda;
@@ -51,9 +71,13 @@ struct MpmContact
   double inertia_per_speed2() const
   {
     // the yielding body's share of the approach is V/sqrt(lambda): all on a rigid wall, half in a like pair
-    return law.yielding->material.density / law.yielding->material.yield_stress * per_lambda;
+    return law.yielding->material.density / law.yielding->material.yield_stress / law.mapping.length(1.0) *
+           units.length * units.length;
   }
 };
+
+/// Material name of types that follow plain Hertz with the deck's moduli and need no law.
+inline constexpr const char* elastic_name = "elastic";
 
 /// Model `mpm`: laws from a file, one material name for each atom type.
 class MpmPhysics
@@ -65,18 +89,15 @@ class MpmPhysics
 
   void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
 
-  Contact resolve(int i, int j, bool rigid, const std::string& where) const
-  {
-    const std::string& a = setup_->options.materials[static_cast<std::size_t>(i - 1)];
-    const std::string& b = setup_->options.materials[static_cast<std::size_t>(j - 1)];
-    const std::string here = fmt::format("{}: types {} ({}) and {} ({}{}), law file {}", where, i, a, j,
-                                         rigid ? "rigid wall, " : "", b, setup_->law->path);
-    const PairLaw law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
-    return {law, setup_->law->curves.at(law.yielding->material.name)};
-  }
+  Contact resolve(int i, int j, bool rigid, const std::string& where) const;
 
  private:
+  /// The law's body of type t; null: the type is `elastic`, or the law has no such material.
+  const BodyLaw* body(int t) const;
+
   const Setup* setup_ = nullptr;
+  std::vector<double> e_star_;  // Pa, by type
+  DeckUnits units_;
 };
 
 }  // namespace granulaw::plugin

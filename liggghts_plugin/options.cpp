@@ -18,6 +18,7 @@ using Words = std::vector<std::string>;
 /// Words that LIGGGHTS itself reads behind the models, each followed by on or off.
 const Words passed_on = {"tangential_damping",
                          "limitForce",
+                         "tangential_reduce",
                          "computeElasticPotential",
                          "computeDissipatedEnergy",
                          "heating_tracking",
@@ -64,6 +65,18 @@ bool choice(const std::string& text, const char* yes, const char* no, const std:
        fmt::format("{}, {}", yes, no));
 }
 
+ElasticDamping elastic_damping(const std::string& text, const std::string& where)
+{
+  if (text == "off") return {0.0};
+  if (text == "restitution") return {0.0, true};
+  if (text.find_first_of("0123456789") == std::string::npos)
+    fail(where, "'elasticDamping' has an unknown value", fmt::format("'{}'", text),
+         "a number from 0 to 1, off, restitution");
+  const double ratio = number(text, where, "elasticDamping");
+  if (!(ratio >= 0 && ratio <= 1)) fail(where, "'elasticDamping' is out of range", text, "0 to 1");
+  return {ratio};
+}
+
 }  // namespace
 
 const char* model_name(Model model)
@@ -73,10 +86,25 @@ const char* model_name(Model model)
 
 Words keywords(Model model, bool is_wall)
 {
-  Words words = {"tangentialDampingRatio", is_wall ? "wall" : "stats"};
+  Words words = {"tangentialDampingRatio", "tangentialStiffness", "elasticDamping", "stretch",
+                 is_wall ? "wall" : "stats"};
   if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
   words.insert(words.end(), passed_on.begin(), passed_on.end());
   return words;
+}
+
+void Options::inherit(const Options& pair)
+{
+  const auto take = [](auto& own, const auto& other) {
+    if (!own) own = other;
+  };
+  if (materials.empty()) materials = pair.materials;
+  take(tangential_damping, pair.tangential_damping);
+  take(tangential_damping_on, pair.tangential_damping_on);
+  take(tangential_computed, pair.tangential_computed);
+  take(elastic_damping, pair.elastic_damping);
+  take(stretch, pair.stretch);
+  take(stop_beyond_range, pair.stop_beyond_range);
 }
 
 Options parse_options(Model model, bool is_wall, const std::string& where, const Words& words, Words& rest)
@@ -120,7 +148,16 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
       options.tangential_damping = number(value, where, key);
       if (!(*options.tangential_damping >= 0 && *options.tangential_damping <= 1))
         fail(where, "'tangentialDampingRatio' is out of range", value, "0 to 1");
-    } else {
+    } else if (key == "tangentialStiffness")
+      options.tangential_computed = choice(value, "computed", "mindlin", where, key);
+    else if (key == "stretch") {
+      options.stretch = number(value, where, key);
+      if (!(*options.stretch >= 1 && *options.stretch <= 1000))
+        fail(where, "'stretch' is out of range", value, "1 to 1000");
+    } else if (key == "elasticDamping")
+      options.elastic_damping = elastic_damping(value, where);
+    else {
+      if (key == "tangential_damping") options.tangential_damping_on = value != "off";
       rest.push_back(key);
       rest.push_back(value);
     }

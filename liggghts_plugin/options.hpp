@@ -10,6 +10,16 @@ namespace granulaw::plugin {
 enum class Model { mpm, thornton };
 const char* model_name(Model model);
 
+/// Viscous damping of contacts where the law is elastic.
+struct ElasticDamping
+{
+  double ratio = 0.001;  ///< fraction of critical; an elastic impact then has e = exp(-pi Z/sqrt(1-Z^2))
+  bool from_restitution = false;  ///< Z of each pair of types from the deck's coefficientRestitution
+};
+
+/// Fraction of R* at which a stretched contact stops the run: deeper, spheres slip through each other.
+inline constexpr double stretched_overlap_limit = 0.5;
+
 /// What the plug-in's own words in `pair_style gran` and `fix wall/gran` say. See
 /// docs/pair_gran_model_mpm.md.
 struct Options
@@ -18,9 +28,16 @@ struct Options
   std::vector<std::string>
       materials;                 ///< `materials A B ...`: one name for each atom type, type 1 first (mpm)
   bool deformable_wall = false;  ///< `wall rigid|deformable` (walls)
-  std::optional<double> tangential_damping;  ///< `tangentialDampingRatio Z`: fraction of critical damping
-  std::string stats_path;                    ///< `stats FILE` (pair): JSON written at the end of each run
-  bool stop_beyond_range = true;             ///< `beyondRange stop|continue` (mpm)
+  std::optional<double> tangential_damping;   ///< `tangentialDampingRatio Z`: fraction of critical damping
+  std::optional<bool> tangential_damping_on;  ///< LIGGGHTS's own `tangential_damping on|off`
+  std::optional<bool> tangential_computed;    ///< `tangentialStiffness mindlin|computed`
+  std::optional<ElasticDamping> elastic_damping;  ///< `elasticDamping Z|off|restitution`
+  std::optional<double> stretch;                  ///< `stretch S`: F_s(d) = F(d/S)/S
+  std::string stats_path;                 ///< `stats FILE` (pair): JSON written at the end of each run
+  std::optional<bool> stop_beyond_range;  ///< `beyondRange stop|continue` (mpm)
+
+  /// What a wall's command leaves open is taken from the pair style's.
+  void inherit(const Options& pair);
 };
 
 /// Tangential damping where the deck says nothing: see docs, "Tangential force".

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "law/pair.hpp"
+#include "liggghts_plugin/deck_units.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
 
@@ -18,17 +19,24 @@ namespace granulaw::plugin {
 struct Types
 {
   int count = 0;
+  DeckUnits units;
   std::vector<double> youngs_modulus, poisson_ratio;  ///< Pa, -; NaN where no particle or wall has the type
   std::vector<int> of_particles;                      ///< type of a particle that exists or can be inserted
   std::vector<int> of_wall;                           ///< type of this wall (walls only)
   std::vector<double> density_low, density_high;      ///< kg/m^3 of existing particles; low > high: none
 };
 
-/// Collective. Throws Error if a property is missing or the units are not SI.
+/// Collective. Throws Error if a property is missing or the units are neither SI nor cgs.
 Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup);
 
-/// Warns once where the deck sets something that the model does not use.
-void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
+/// Throws Error where the deck sets coefficientRestitution and does not say with `elasticDamping` whether it
+/// is to be used: a Hertz deck's value holds the plastic loss that the law itself computes.
+void refuse_unstated_restitution(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
+/// The damping ratio Z of each pair of types, at [i * (count + 1) + j].
+std::vector<double> damping_ratios(PropertyRegistry& registry, const Setup& setup, const Types& types);
+/// Throws Error if the deck has multispheres: LIGGGHTS gives a contact the mass of the single sphere, and a
+/// law with an inertia axis needs the body's.
+void refuse_multispheres(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 
 /// The history policy that `mpm` and `thornton` share, and everything else that is not the law itself.
 ///
@@ -44,6 +52,10 @@ void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 ///   Contact                                          law of one pair of types: force, dissipated, ...
 ///   prepare(lmp, registry, setup, types)             checks of the deck against the law
 ///   resolve(i, j, rigid, where) -> Contact           throws Error where there is no law for the pair
+///
+/// Everything that a Contact takes and gives is in the deck's units, and stretched (`stretch S`): delta_max
+/// and the ledger's overlaps are the deck's own, S times the real ones; work needs no conversion, because
+/// F(d/S)/S does the same work to S times the overlap. X stays the unstretched law's.
 template <class Physics>
 class PlasticModel : public NormalModelBase
 {
@@ -76,6 +88,8 @@ class PlasticModel : public NormalModelBase
            "fix granulaw/stats gives the energy dissipated by normal contacts");
     damping_ =
         tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
+    tangential_computed_ = setup_->options.tangential_computed.value_or(false);
+    stretch_ = setup_->options.stretch.value_or(1.0);
   }
 
   void connectToProperties(PropertyRegistry& registry)
@@ -84,8 +98,8 @@ class PlasticModel : public NormalModelBase
       fail(fmt::format("model {}", Physics::name), "repeat pair_style and pair_coeff after read_restart");
     const Types types = gather_types(lmp, registry, *setup_);
     physics_.prepare(lmp, registry, *setup_, types);
-    resolve_all(types);
-    warn_unused_properties(lmp, *setup_);
+    refuse_unstated_restitution(lmp, *setup_);
+    resolve_all(types, damping_ratios(registry, *setup_, types));
     ledger_ = &setup_->session->ledger;
     // Else surfacesClose is never called for pairs, and a pair that meets again keeps its old delta_max.
     neighbor->register_contact_dist_factor(1.01);
@@ -100,8 +114,10 @@ class PlasticModel : public NormalModelBase
     const Entry& entry = entries_[static_cast<std::size_t>(sidata.itype * stride_ + sidata.jtype)];
     const double delta = sidata.deltan;
     double& delta_max = sidata.contact_history[history_offset_];
-    if (delta > entry.largest_overlap * r_eff) [[unlikely]]
+    if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
+      check_stretched(sidata, r_eff);
       beyond_table(sidata, entry, r_eff);
+    }
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
 
@@ -109,18 +125,25 @@ class PlasticModel : public NormalModelBase
     if constexpr (Physics::latches_impact)
       impact_overlap = delta_max == 0.0 ? entry.contact.impact_overlap(r_eff, sidata.meff, -sidata.vn)
                                         : sidata.contact_history[impact_offset_];
-    const double normal_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap);
+    const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap);
+    const double root = std::sqrt(r_eff * delta);
+    const double radius =
+        tangential_computed_ ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
+    double normal_force = law_force;
+    sidata.gamman = 0.0;
+    if (is_damped(entry, r_eff, delta, delta_max, sidata.vn)) {
+      sidata.gamman = entry.damping * std::sqrt(root * sidata.meff);
+      normal_force = std::max(0.0, law_force - sidata.gamman * sidata.vn);
+    }
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
       advance(sidata, entry, r_eff, impact_overlap, delta_max);
     }
 
-    const double root = std::sqrt(r_eff * delta);
     sidata.Fn = normal_force;
     sidata.kn =
-        delta > 0.0 ? normal_force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
-    sidata.kt = entry.eight_shear_moduli * root;   // Mindlin, as stock hertz
-    sidata.gamman = 0.0;
+        delta > 0.0 ? law_force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
+    sidata.kt = entry.tangential * radius;
     sidata.gammat = 2.0 * damping_ * std::sqrt(sidata.kt * sidata.meff);
 
     const double force = sidata.is_wall ? normal_force * sidata.area_ratio : normal_force;
@@ -149,11 +172,14 @@ class PlasticModel : public NormalModelBase
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
  private:
-  struct Entry
+  // One pair of types, in the deck's units; what every step reads lies in the first cache line.
+  struct alignas(64) Entry
   {
+    double largest_overlap = -1.0;  // over R*, that the law answers for; -1: no law for this pair of types
+    double tangential = 0.0;        // k_t over the contact radius: 8 G* (Mindlin), stretched
+    double damping = 0.0;           // normal damping over sqrt(sqrt(R* d) m*)
+    double yield_overlap = 0.0;     // over R*
     typename Physics::Contact contact;
-    double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
-    double eight_shear_moduli = 0.0;  // 8 G*, Pa: k_t = 8 G* a (Mindlin)
     double inertia_per_speed2 = 0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
   };
 
@@ -162,8 +188,27 @@ class PlasticModel : public NormalModelBase
     return 2.0 * (2.0 - poisson_ratio) * (1.0 + poisson_ratio) / youngs_modulus;
   }
 
-  void resolve_all(const Types& types)
+  // Where the law is elastic: a contact that never yielded, both ways; a yielded one on its way back to
+  // delta_max, but not when it parts, so that the rebound of a plastic impact is the law's own.
+  static bool is_damped(const Entry& entry, double r_eff, double delta, double delta_max, double vn)
   {
+    if (entry.damping == 0.0) return false;
+    if (delta < delta_max && vn < 0.0) return true;
+    return std::max(delta, delta_max) <= entry.yield_overlap * r_eff;
+  }
+
+  void check_stretched(const SurfacesIntersectData& sidata, double r_eff)
+  {
+    if (stretch_ > 1.0 && sidata.deltan > stretched_overlap_limit * r_eff)
+      stop_one(lmp, fmt::format("{}: 'stretch {:g}' takes the overlap of types {} and {} to {:.4g} R* at "
+                                "{:.4g} m/s; {} R* is the limit: stretch less",
+                                setup_->where, stretch_, sidata.itype, sidata.jtype, sidata.deltan / r_eff,
+                                -sidata.vn * units_.length, stretched_overlap_limit));
+  }
+
+  void resolve_all(const Types& types, const std::vector<double>& damping_ratio)
+  {
+    units_ = types.units;
     const bool is_wall = setup_->wall != nullptr, rigid = is_wall && !setup_->options.deformable_wall;
     stride_ = types.count + 1;
     entries_.assign(static_cast<std::size_t>(stride_ * stride_), Entry{});
@@ -178,10 +223,22 @@ class PlasticModel : public NormalModelBase
           if (needed) throw;
           continue;  // beyond_table() says so if such particles meet after all
         }
+        if (needed && entry.contact.needs_mass()) refuse_multispheres(lmp, *setup_);
         entry.largest_overlap = entry.contact.largest_overlap();
+        if (stretch_ > 1.0) entry.largest_overlap = std::min(entry.largest_overlap, stretched_overlap_limit);
+        entry.yield_overlap = entry.contact.yield_overlap();
         entry.inertia_per_speed2 = entry.contact.inertia_per_speed2();
-        entry.eight_shear_moduli = 8.0 / (shear_compliance(types.youngs_modulus[i], types.poisson_ratio[i]) +
-                                          shear_compliance(types.youngs_modulus[j], types.poisson_ratio[j]));
+        const double eight_shear_moduli =
+            8.0 /
+            (shear_compliance(types.youngs_modulus[i], types.poisson_ratio[i]) +
+             shear_compliance(types.youngs_modulus[j], types.poisson_ratio[j])) /
+            units_.pressure();
+        // k_t,s(d) = k_t(d/s)/s^2; Mindlin's radius is of the stretched overlap: another 1/sqrt(s)
+        entry.tangential = eight_shear_moduli * std::pow(stretch_, tangential_computed_ ? -2.0 : -2.5);
+        // sqrt(5) Z sqrt(k m) d^(1/4) makes e = exp(-pi Z/sqrt(1 - Z^2)) at every speed (Antypov & Elliott
+        // 2011); k = 4/3 E* sqrt(R*), stretched 1/s^2.5
+        entry.damping = std::sqrt(5.0) * damping_ratio[static_cast<std::size_t>(i * stride_ + j)] *
+                        std::sqrt(4.0 / 3.0 * entry.contact.pair_modulus()) * std::pow(stretch_, -1.25);
       }
   }
 
@@ -217,7 +274,8 @@ class PlasticModel : public NormalModelBase
     if (sidata.computeflag && sidata.shearupdate)
       side.beyond += sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
     // 5 %: the linear continuation is still within about a percent of the force there.
-    if (setup_->options.stop_beyond_range && sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
+    if (setup_->options.stop_beyond_range.value_or(true) &&
+        sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
       stop_one(lmp,
                fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
                            "the law's table, which ends at {:.4g}: build a deeper law, or say "
@@ -243,7 +301,9 @@ class PlasticModel : public NormalModelBase
   std::vector<Entry> entries_;
   int stride_ = 0;
   int history_offset_ = -1, impact_offset_ = -1;
-  double damping_ = 0.0;
+  double damping_ = 0.0, stretch_ = 1.0;
+  DeckUnits units_;
+  bool tangential_computed_ = false;
   ContactLedger* ledger_ = nullptr;
   bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false,
        dissipated_energy_ = false;

@@ -1,5 +1,3 @@
-#include <set>
-
 #include "liggghts_plugin/styles.hpp"
 
 namespace granulaw::plugin {
@@ -33,9 +31,8 @@ const std::vector<int> surface_ids = {
 };
 
 constexpr const char* refusal =
-    "models mpm and thornton are built for tangential off, history, no_history; cohesion off; "
-    "rolling_friction off, "
-    "cdt, epsd2; surface default: choose among these";
+    "models mpm and thornton are built for tangential off, history, no_history; cohesion off, sjkr, sjkr2; "
+    "rolling_friction off, cdt, epsd, epsd2; surface default: choose among these";
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
 {
@@ -49,10 +46,8 @@ lg::Walls::IGranularWall* refuse_wall(LAMMPS* lmp, FixWallGran*, int64_t)
 
 bool is_built(int tangential, int cohesion, int rolling, int surface)
 {
-  const std::set<int> tangentials = {cm::TANGENTIAL_OFF, cm::TANGENTIAL_HISTORY, cm::TANGENTIAL_NO_HISTORY};
-  const std::set<int> rollings = {cm::ROLLING_OFF, cm::ROLLING_CDT, cm::ROLLING_EPSD2};
-  return tangentials.count(tangential) && rollings.count(rolling) && cohesion == cm::COHESION_OFF &&
-         surface == cm::SURFACE_DEFAULT;
+  return contains(BuiltTangential{}, tangential) && contains(BuiltCohesion{}, cohesion) &&
+         contains(BuiltRolling{}, rolling) && surface == cm::SURFACE_DEFAULT;
 }
 
 /// Registers everything when the library is loaded. Runs in Open MPI's helper processes as well, which

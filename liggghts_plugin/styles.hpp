@@ -33,6 +33,12 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
   setup.options = parse_options(model, setup.wall != nullptr, setup.where, words, rest);
   Session& session = *setup.session;
   Options& options = setup.options;
+  if (setup.wall && session.pair_options) {
+    const bool own_switch = options.tangential_damping_on.has_value();
+    options.inherit(*session.pair_options);
+    if (!own_switch && options.tangential_damping_on)
+      rest.insert(rest.end(), {"tangential_damping", *options.tangential_damping_on ? "on" : "off"});
+  }
   if (model == Model::mpm) {
     if (setup.wall && options.law_path.empty()) {
       if (!session.pair_law)
@@ -42,12 +48,8 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
       if (options.law_path.empty()) fail(setup.where, "'law FILE' is missing");
       setup.law = load_law(lmp, options.law_path, setup.where);
     }
-    if (setup.wall && options.materials.empty() && session.pair_options)
-      options.materials = session.pair_options->materials;
     if (options.materials.empty()) fail(setup.where, "'materials' is missing: one name for each atom type");
   }
-  if (setup.wall && !options.tangential_damping && session.pair_options)
-    options.tangential_damping = session.pair_options->tangential_damping;
   if (!setup.wall) {
     session.pair_options = options;
     session.pair_law = setup.law;
@@ -78,6 +80,20 @@ void refuse_no_friction(const Setup& setup, const std::vector<std::string>& rest
   }
 }
 
+template <class Style>
+void warn_stretched_cohesion(LAMMPS* lmp, const Setup& setup)
+{
+  const double s = setup.options.stretch.value_or(1.0);
+  if (Style::COHESION != cm::COHESION_OFF && s > 1.0 && setup.session->first_time("stretched cohesion") &&
+      lmp->comm->me == 0)
+    lmp->error->warning(
+        FLERR,
+        fmt::format("{}: 'stretch {:g}' does not reach into the cohesion model: cohesionEnergyDensity must "
+                    "be the real one divided by {:g}, the square of the factor",
+                    setup.where, s, s * s)
+            .c_str());
+}
+
 /// pair_style gran with one of our models.
 template <class Style, Model model>
 class PairStyle final : public LIGGGHTS::PairStyles::Granular<cm::ContactModel<Style>>
@@ -95,6 +111,7 @@ class PairStyle final : public LIGGGHTS::PairStyles::Granular<cm::ContactModel<S
       std::vector<std::string> rest;
       read_setup(lmp_, model, setup_, nargs, args, rest);
       refuse_no_friction<Style, model>(setup_, rest);
+      warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
       provide_stats_fix(lmp_, true);
     });
@@ -134,6 +151,7 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<cm::ContactModel<Style>
       std::vector<std::string> rest;
       read_setup(lmp_, model, setup_, nargs, args, rest);
       refuse_no_friction<Style, model>(setup_, rest);
+      warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
       provide_stats_fix(lmp_, false);  // adding a fix from inside a fix's constructor would corrupt the list
     });
@@ -164,29 +182,53 @@ LIGGGHTS::Walls::IGranularWall* make_wall_style(LAMMPS* lmp, FixWallGran* parent
   return new WallStyle<Style, model>(lmp, parent, hash);
 }
 
-template <int id, Model model, int tangential, int rolling>
+template <int... ids>
+using Ids = std::integer_sequence<int, ids...>;
+
+/// What is built: every combination of these.
+using BuiltTangential = Ids<cm::TANGENTIAL_OFF, cm::TANGENTIAL_HISTORY, cm::TANGENTIAL_NO_HISTORY>;
+using BuiltCohesion = Ids<cm::COHESION_OFF, cm::COHESION_SJKR, cm::COHESION_SJKR2>;
+using BuiltRolling = Ids<cm::ROLLING_OFF, cm::ROLLING_CDT, cm::ROLLING_EPSD, cm::ROLLING_EPSD2>;
+
+template <int... ids>
+constexpr bool contains(Ids<ids...>, int id)
+{
+  return ((ids == id) || ...);
+}
+
+template <int id, Model model, int tangential, int cohesion, int rolling>
 void add_combination()
 {
-  using Style = cm::GranStyle<id, tangential, cm::COHESION_OFF, rolling, cm::SURFACE_DEFAULT>;
+  using Style = cm::GranStyle<id, tangential, cohesion, rolling, cm::SURFACE_DEFAULT>;
   LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", Style::HASHCODE, &make_pair_style<Style, model>);
   LIGGGHTS::Walls::Factory::instance().addStyle("gran", Style::HASHCODE, &make_wall_style<Style, model>);
 }
 
-/// Registers {off, history, no_history} x {off, cdt, epsd2}, and a refusal in a sentence for every other
-/// combination (LIGGGHTS would say "Unknown normal model").
+template <int id, Model model, int tangential, int cohesion, int... rolling>
+void add_rolling(Ids<rolling...>)
+{
+  (add_combination<id, model, tangential, cohesion, rolling>(), ...);
+}
+
+template <int id, Model model, int tangential, int... cohesion>
+void add_cohesion(Ids<cohesion...>)
+{
+  (add_rolling<id, model, tangential, cohesion>(BuiltRolling{}), ...);
+}
+
+template <int id, Model model, int... tangential>
+void add_tangential(Ids<tangential...>)
+{
+  (add_cohesion<id, model, tangential>(BuiltCohesion{}), ...);
+}
+
+/// Registers what is built. Every other combination is refused in a sentence (register_refusals): LIGGGHTS
+/// would say "Unknown normal model".
 template <int id, Model model>
 void register_model()
 {
   cm::Factory::instance().addNormalModel(model_name(model), id);
-  add_combination<id, model, cm::TANGENTIAL_OFF, cm::ROLLING_OFF>();
-  add_combination<id, model, cm::TANGENTIAL_OFF, cm::ROLLING_CDT>();
-  add_combination<id, model, cm::TANGENTIAL_OFF, cm::ROLLING_EPSD2>();
-  add_combination<id, model, cm::TANGENTIAL_HISTORY, cm::ROLLING_OFF>();
-  add_combination<id, model, cm::TANGENTIAL_HISTORY, cm::ROLLING_CDT>();
-  add_combination<id, model, cm::TANGENTIAL_HISTORY, cm::ROLLING_EPSD2>();
-  add_combination<id, model, cm::TANGENTIAL_NO_HISTORY, cm::ROLLING_OFF>();
-  add_combination<id, model, cm::TANGENTIAL_NO_HISTORY, cm::ROLLING_CDT>();
-  add_combination<id, model, cm::TANGENTIAL_NO_HISTORY, cm::ROLLING_EPSD2>();
+  add_tangential<id, model>(BuiltTangential{});
 }
 
 /// Called by the static object in registration.cpp when the library is loaded.

@@ -33,21 +33,24 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
   const double* yield_stress = registry.getVectorProperty("yieldStress", setup.where.c_str())->data;
   e_star_.assign(static_cast<std::size_t>(types.count + 1), 0.0);
   yield_stress_ = e_star_;
+  per_stretch_ = 1.0 / setup.options.stretch.value_or(1.0);
   for (int t = 1; t <= types.count; ++t) {
     if (std::isnan(types.youngs_modulus[t])) continue;
     if (!(yield_stress[t] > 0))
       fail(setup.where, fmt::format("yieldStress of type {} is out of range", t),
-           fmt::format("{:.6g} Pa", yield_stress[t]), "over 0");
-    e_star_[t] = plane_strain_modulus(types.youngs_modulus[t], types.poisson_ratio[t]);
+           fmt::format("{:.6g} Pa", yield_stress[t] * types.units.pressure()), "over 0");
+    e_star_[t] =
+        plane_strain_modulus(types.youngs_modulus[t], types.poisson_ratio[t]) / types.units.pressure();
     yield_stress_[t] = yield_stress[t];
   }
 }
 
 ThorntonContact ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
 {
-  if (rigid) return {ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}};
+  if (rigid) return {ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}, per_stretch_};
   return {ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
-                       1.6 * std::min(yield_stress_[i], yield_stress_[j])}};
+                       1.6 * std::min(yield_stress_[i], yield_stress_[j])},
+          per_stretch_};
 }
 
 }  // namespace granulaw::plugin

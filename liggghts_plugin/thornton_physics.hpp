@@ -10,17 +10,28 @@ namespace granulaw::plugin {
 /// One pair of types under Thornton's law (1997), closed form.
 struct ThorntonContact
 {
-  ThorntonPair law{};
+  ThorntonPair law{};  // in the deck's units, unstretched
+  double per_stretch = 1.0;
 
   double force(double r_eff, double delta, double delta_max, double) const
   {
-    return law.evaluate(r_eff, delta, delta_max).force;
+    return per_stretch * law.evaluate(r_eff, per_stretch * delta, per_stretch * delta_max).force;
   }
-  /// J, spent on plastic strain up to the largest overlap delta_max (m).
+  /// Of the real, unstretched contact.
+  double contact_radius(double r_eff, double delta, double delta_max, double) const
+  {
+    return law.evaluate(r_eff, per_stretch * delta, per_stretch * delta_max).contact_radius;
+  }
+  /// Over R*, stretched.
+  double yield_overlap() const { return law.yield_overlap(1.0) / per_stretch; }
+  /// E* of the pair.
+  double pair_modulus() const { return law.e_star; }
+  static bool needs_mass() { return false; }
+  /// Spent on plastic strain up to the largest real overlap delta_max.
   double dissipated(double r_eff, double delta_max) const;
   double dissipated(double r_eff, double from, double to, double) const
   {
-    return dissipated(r_eff, to) - dissipated(r_eff, from);
+    return dissipated(r_eff, per_stretch * to) - dissipated(r_eff, per_stretch * from);
   }
   double max_speed(double, double) const { return std::numeric_limits<double>::infinity(); }
   double largest_overlap() const
@@ -42,7 +53,8 @@ class ThorntonPhysics
   Contact resolve(int i, int j, bool rigid, const std::string& where) const;
 
  private:
-  std::vector<double> e_star_, yield_stress_;  // Pa, by type
+  std::vector<double> e_star_, yield_stress_;  // the deck's units, by type
+  double per_stretch_ = 1.0;
 };
 
 }  // namespace granulaw::plugin

@@ -14,8 +14,9 @@ void find_particle_types(LAMMPS_NS::LAMMPS* lmp, Types& types)
     const int t = atom.type[a];
     types.of_particles[t] = 1;
     if (!atom.density) continue;
-    types.density_low[t] = std::min(types.density_low[t], atom.density[a]);
-    types.density_high[t] = std::max(types.density_high[t], atom.density[a]);
+    const double density = atom.density[a] * types.units.density();
+    types.density_low[t] = std::min(types.density_low[t], density);
+    types.density_high[t] = std::max(types.density_high[t], density);
   }
   for (int f = 0; f < lmp->modify->nfix; ++f)
     for (int t = 1; t <= types.count; ++t)
@@ -39,10 +40,8 @@ void find_wall_types(LAMMPS_NS::FixWallGran& wall, Types& types)
 
 Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup)
 {
-  if (std::string_view(lmp->update->unit_style) != "si")
-    fail(setup.where, "the model works in SI units", fmt::format("units {}", lmp->update->unit_style),
-         "units si");
   Types types;
+  types.units = DeckUnits::of(lmp->update->unit_style, setup.where);
   types.count = lmp->atom->ntypes;
   const auto n = static_cast<std::size_t>(types.count + 1);
   types.youngs_modulus.assign(n, std::numeric_limits<double>::quiet_NaN());
@@ -58,7 +57,7 @@ Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Set
   const double* youngs_modulus = registry.getVectorProperty("youngsModulus", caller.c_str())->data;
   const double* poisson_ratio = registry.getVectorProperty("poissonsRatio", caller.c_str())->data;
   for (int t = 1; t <= std::min(types.count, registry.max_type()); ++t) {
-    types.youngs_modulus[t] = youngs_modulus[t];
+    types.youngs_modulus[t] = youngs_modulus[t] * types.units.pressure();
     types.poisson_ratio[t] = poisson_ratio[t];
   }
   find_particle_types(lmp, types);
@@ -66,16 +65,40 @@ Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Set
   return types;
 }
 
-void warn_unused_properties(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+void refuse_unstated_restitution(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
 {
+  if (setup.options.elastic_damping) return;
   if (lmp->modify->find_fix_property("coefficientRestitution", "property/global", "peratomtypepair", 0, 0,
-                                     "granulaw", false) &&
-      setup.session->first_time("coefficientRestitution") && lmp->comm->me == 0)
-    lmp->error->warning(FLERR,
-                        fmt::format("{}: 'coefficientRestitution' is not used: restitution follows from the "
-                                    "contact law",
-                                    setup.where)
-                            .c_str());
+                                     "granulaw", false))
+    fail(
+        setup.where,
+        "the deck sets 'coefficientRestitution', and restitution follows from the contact law: remove it, or "
+        "say 'elasticDamping off' or 'elasticDamping Z' (it is for other models), or 'elasticDamping "
+        "restitution' (it damps contacts below yield)");
+}
+
+std::vector<double> damping_ratios(PropertyRegistry& registry, const Setup& setup, const Types& types)
+{
+  const ElasticDamping damping = setup.options.elastic_damping.value_or(ElasticDamping{});
+  const int stride = types.count + 1;
+  std::vector<double> ratios(static_cast<std::size_t>(stride * stride), damping.ratio);
+  if (!damping.from_restitution) return ratios;
+  registry.registerProperty("coeffRest", &MODEL_PARAMS::createCoeffRest);
+  const double* const* restitution = registry.getMatrixProperty("coeffRest", setup.where.c_str())->data;
+  for (int i = 1; i <= std::min(types.count, registry.max_type()); ++i)
+    for (int j = 1; j <= std::min(types.count, registry.max_type()); ++j) {
+      const double loss = -std::log(restitution[i][j]);  // e = exp(-pi Z/sqrt(1 - Z^2))
+      ratios[static_cast<std::size_t>(i * stride + j)] = loss / std::hypot(loss, M_PI);
+    }
+  return ratios;
+}
+
+void refuse_multispheres(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+{
+  if (lmp->modify->find_fix_style("multisphere", 0))
+    fail(setup.where,
+         "fix multisphere needs a law without inertia axis ('mpm info' says): the axis needs the mass of the "
+         "body, and LIGGGHTS gives a contact that of the single sphere");
 }
 
 }  // namespace granulaw::plugin

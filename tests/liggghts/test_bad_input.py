@@ -58,6 +58,9 @@ class BadInput(Deck):
         self.refused(self.deck(self.good() + " rolling_friction cdt"), "'rolling_friction' is out of order")
         self.refused(self.deck(self.good() + " tangentialDampingRatio much"), "needs a number", "much")
         self.refused(self.deck(self.good() + " tangentialDampingRatio 2"), "out of range", "0 to 1")
+        self.refused(self.deck(self.good() + " stretch 0.5"), "'stretch' is out of range", "1 to 1000")
+        self.refused(self.deck(self.good() + " elasticDamping some"), "'elasticDamping'", "off, restitution")
+        self.refused(self.deck(self.good() + " tangentialStiffness hertz"), "computed, mindlin")
         self.refused(self.deck(self.good() + " law again.h5"), "'law' is given twice")
         self.refused(self.deck(self.good(), wall_words="wall soft"), "'wall'", "deformable, rigid")
         self.refused(self.deck(self.good(), wall="", wall_words="wall rigid primitive type 1 zplane 0.0"),
@@ -66,13 +69,13 @@ class BadInput(Deck):
         self.refused(self.deck(self.good() + " tangential_damping off", tangential="no_history"), "no friction")
 
     def test_combinations_that_are_not_built(self):
-        for words in ("cohesion sjkr", "rolling_friction epsd"):
+        for words in ("cohesion easo_capillary_viscous", "rolling_friction epsd3"):
             deck = self.deck(self.good()).replace("tangential history", "tangential history " + words)
             self.refused(deck, "choose among these")
 
     def test_units(self):
-        deck = self.deck(self.good()).replace("units si", "units cgs")
-        self.refused(deck, "units cgs", "units si")
+        deck = self.deck(self.good()).replace("units si", "units micro")
+        self.refused(deck, "units micro", "units si, units cgs")
 
     def test_thornton_yield_stress(self):
         deck = self.deck("", model="thornton")

@@ -17,7 +17,7 @@ class History(Deck):
     def energy(self, model, extra="", neigh="delay 0", run=f"run {STEPS}\n"):
         # damping off: a split run of a damped contact differs for stock reasons (LIGGGHTS's set-up forces use
         # full-step velocities)
-        words = "tangentialDampingRatio 0" + {"mpm": f" law {self.law} materials powder", "thornton": "",
+        words = "tangentialDampingRatio 0 elasticDamping off" + {"mpm": f" law {self.law} materials powder", "thornton": "",
                                                "mpm with axis": f" law {self.axis_law} materials powder"}[model]
         text = self.run_deck(gas.start(extra, neigh) + gas.model(words, name=model.split()[0]) + gas.MOVE + gas.OUTPUT + run +
                              gas.PRINT)

@@ -1,0 +1,157 @@
+"""`stretch S`, F_s(d) = F(d/S)/S: the same impacts, S times slower."""
+import math
+import unittest
+
+from collisions import pair_deck, wall_deck
+from harness import POWDER, Deck, head, properties, sphere_mass
+
+RADIUS = 1.7e-3
+STEPS = 50                 # time steps a contact, stretched or not
+SPEEDS = (0.03, 0.3, 3.0)  # below the onset of yield, above, 4 % of R deep
+STRETCHES = (3, 10, 30)
+DEEPEST = 0.2              # overlap/R, stretched: what the issue asks of
+TOLERANCE = 0.002          # of e: the issue's
+ROUNDING = 1e-8            # a stretched head-on impact is the same arithmetic on other numbers, 1e-16 R in overlaps of 1e-4 R
+
+
+class Stretch(Deck):
+    def words(self, stretch, model="mpm"):
+        law = f"law {self.law} materials powder " if model == "mpm" else ""
+        return law + f"stretch {stretch}"
+
+    def speed(self, deck):
+        return self.result(self.run_deck(deck), "SPEED")[0]
+
+    def replay(self, partner, r_eff, m_eff, speed):
+        return self.fixture("mpm", self.law, "powder", partner, r_eff, m_eff, speed)
+
+    def test_wall_and_pair_head_on(self):
+        mass = sphere_mass(RADIUS, POWDER.density)
+        cases = (("wall", RADIUS, mass, lambda w, v, dt: wall_deck("mpm", w, POWDER, RADIUS, v, dt)),
+                 ("powder", RADIUS / 2, mass / 2,
+                  lambda w, v, dt: pair_deck("mpm", w, (POWDER, POWDER), (RADIUS, RADIUS), v, dt)))
+        compared = 0
+        for partner, r_eff, m_eff, deck in cases:
+            for speed in SPEEDS:
+                _, duration, delta_max = self.replay(partner, r_eff, m_eff, speed)
+                dt = duration / STEPS
+                plain = self.speed(deck(self.words(1), speed, dt))
+                for s in STRETCHES:
+                    if s * delta_max / RADIUS > DEEPEST:
+                        continue
+                    found = self.speed(deck(self.words(s), speed, s * dt))
+                    self.assertAlmostEqual(found / plain, 1.0, delta=ROUNDING, msg=f"{partner}, {speed} m/s, s = {s}")
+                    compared += 1
+        self.assertGreaterEqual(compared, 10)
+
+    def test_law_with_axis(self):
+        """The speed that a contact latches is the real one."""
+        self.fixture("write", self.law, "axis")
+        speed = 8.0
+        _, duration, _ = self.replay("wall", RADIUS, sphere_mass(RADIUS, POWDER.density), speed)
+        plain, stretched = (self.speed(wall_deck("mpm", self.words(s), POWDER, RADIUS, speed, s * duration / STEPS))
+                            for s in (1, 3))
+        self.assertAlmostEqual(stretched / plain, 1.0, delta=ROUNDING)
+
+    def test_thornton(self):
+        plain, stretched = (self.speed(wall_deck("thornton", self.words(s, "thornton"), POWDER, RADIUS, 1.0, s * 2e-7))
+                            for s in (1, 10))
+        self.assertAlmostEqual(stretched / plain, 1.0, delta=ROUNDING)
+
+    def oblique(self, stretch, speed, angle_ratio, dt, pair, stiffness="mindlin"):
+        """Velocities after an impact whose tangential speed is angle_ratio * speed, friction 0.3: normal,
+        tangential, spin * R, over `speed`."""
+        words = self.words(stretch) + f" tangentialStiffness {stiffness}"
+        text = head(half=20 * RADIUS) + properties([POWDER], 0.3)
+        text += f"pair_style gran model mpm tangential history {words}\npair_coeff * *\n"
+        gap = 0.3 * dt * stretch * speed
+        t = angle_ratio * speed
+        if pair:
+            # mirror images: contact normal z when they touch
+            z, lead = RADIUS + gap / 2, 0.5 * t * 0.3 * dt * stretch
+            bodies = ((1, -lead, z, t / 2, -speed / 2), (2, lead, -z, -t / 2, speed / 2))
+        else:
+            text += "fix w all wall/gran model mpm tangential history primitive type 1 zplane 0.0\n"
+            bodies = ((1, 0.0, RADIUS + gap, t, -speed),)
+        for k, x, z, vx, vz in bodies:
+            text += (f"create_atoms 1 single {x!r} 0.0 {z!r} units box\ngroup a{k} id {k}\n"
+                     f"set group a{k} diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                     f"velocity a{k} set {vx!r} 0.0 {vz!r}\n")
+        text += (f"fix i all nve/sphere\ntimestep {dt * stretch!r}\ncompute om a1 property/atom omegay\n"
+                 "compute sum a1 reduce sum c_om\nvariable o equal c_sum\nvariable vx equal vcm(a1,x)\n"
+                 "variable vz equal vcm(a1,z)\nvariable x equal xcm(a1,x)\nvariable z equal xcm(a1,z)\n"
+                 'thermo_style custom step c_sum\nrun 120\nprint "AFTER ${vx} ${vz} ${o} ${x} ${z}"\n')
+        vx, vz, spin, x, z = self.result(self.run_deck(text), "AFTER")
+        turned = 0.0
+        if pair:  # the line of centres where they parted: back along the free flight to |x| = R
+            v2, xv, x2 = vx * vx + vz * vz, x * vx + z * vz, x * x + z * z
+            back = (xv - math.sqrt(xv * xv - v2 * (x2 - RADIUS**2))) / v2
+            x, z = x - back * vx, z - back * vz
+            turned = math.atan2(x, z)
+            vx, vz = (vx * z - vz * x) / RADIUS, (vx * x + vz * z) / RADIUS
+            speed /= 2
+        return (vz / speed, vx / speed, spin * RADIUS / speed), turned
+
+    def oblique_cases(self, partner, ratios, stretches, stiffness="mindlin"):
+        """(plain, stretched, s delta_max/R, turn of the line of centres while they touch, ratio) of each case."""
+        mass, speed = sphere_mass(RADIUS, POWDER.density), 0.3
+        r_eff, m_eff = (RADIUS, mass) if partner == "wall" else (RADIUS / 2, mass / 2)
+        _, duration, delta_max = self.replay(partner, r_eff, m_eff, speed)
+        for ratio in ratios:
+            plain, _ = self.oblique(1, speed, ratio, duration / STEPS, partner != "wall", stiffness)
+            for s in stretches:
+                found, turned = self.oblique(s, speed, ratio, duration / STEPS, partner != "wall", stiffness)
+                yield plain, found, s * delta_max / RADIUS, turned, ratio
+
+    def check_wall(self, case):
+        """Impulses are kept; what differs is their lever arm, which LIGGGHTS shortens by the overlap."""
+        (e, slip, spin), (found_e, found_slip, found_spin), depth, _, ratio = case
+        self.assertAlmostEqual(found_e, e, delta=1e-6)  # e is not affected: rounding, as head-on
+        self.assertLess(abs(found_spin - spin), depth * abs(spin))
+        # sliding: the impulse is mu times the normal one; sticking: it also turns the sphere, by the same arm
+        self.assertLess(abs(found_slip - slip), 1e-6 if ratio > 1 else 0.2 * depth)
+
+    def test_oblique_wall(self):
+        """Sticking (v_t/v_n = 0.3) and sliding (3)."""
+        for case in self.oblique_cases("wall", (0.3, 3.0), STRETCHES):
+            self.check_wall(case)
+        for case in self.oblique_cases("wall", (0.3,), (10,), "computed"):
+            self.check_wall(case)
+
+    def test_oblique_pair(self):
+        """e within 0.002 where spheres do not slide past each other. Where they do, the line of centres turns
+        by phi = v_t t_c/(2R) during the longer contact and the centrifugal term takes phi v_t/v_n from the
+        normal impulse: softness of any kind does that, and this is the bound here."""
+        for ratio, stretches in ((0.3, STRETCHES), (3.0, (3, 30))):
+            for plain, found, depth, turned, _ in self.oblique_cases("powder", (ratio,), stretches):
+                if ratio < 1:
+                    self.assertLess(abs(found[0] - plain[0]), TOLERANCE)
+                for value, expected in zip(found, plain):
+                    self.assertLess(abs(value - expected), turned * ratio + depth * abs(plain[2]))
+
+    def test_walls_inherit(self):
+        """The factor stands with the pair style alone; a wall may say otherwise."""
+        deck = wall_deck("mpm", self.words(10), POWDER, RADIUS, 0.3, 2e-6)
+        own = wall_deck("mpm", self.words(10), POWDER, RADIUS, 0.3, 2e-7, wall_words="stretch 1")
+        plain = wall_deck("mpm", self.words(1), POWDER, RADIUS, 0.3, 2e-7)
+        self.assertAlmostEqual(self.speed(deck) / self.speed(plain), 1.0, delta=ROUNDING)
+        self.assertEqual(self.speed(own), self.speed(plain))
+
+    def test_too_deep(self):
+        """An overlap of more than half of R* ends the run, whatever beyondRange says."""
+        deck = wall_deck("mpm", self.words(100) + " beyondRange continue", POWDER, RADIUS, 3.0, 2e-5)
+        text = self.run_deck(deck, expect_failure=True)
+        self.assertIn("'stretch 100' takes the overlap of types 1 and 1 to", text)
+        self.assertIn("stretch less", text)
+
+    def test_dissipated_energy(self):
+        """The ledger's work is the real one."""
+        out = '\nvariable d equal f_granulaw\nprint "LOSS ${d}"\n'
+        plain, stretched = (self.result(self.run_deck(
+            wall_deck("mpm", self.words(s), POWDER, RADIUS, 1.0, s * 2e-7) + out), "LOSS")[0] for s in (1, 10))
+        self.assertGreater(plain, 0)
+        self.assertAlmostEqual(stretched / plain, 1.0, delta=ROUNDING)
+
+
+if __name__ == "__main__":
+    unittest.main()
