@@ -74,6 +74,7 @@ const char* model_name(Model model)
 Words keywords(Model model, bool is_wall)
 {
   Words words = {"tangentialDampingRatio", is_wall ? "wall" : "stats"};
+  if (!is_wall) words.push_back("energy");
   if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
   words.insert(words.end(), passed_on.begin(), passed_on.end());
   return words;
@@ -112,6 +113,8 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
       options.law_path = value;
     else if (key == "stats")
       options.stats_path = value;
+    else if (key == "energy")
+      options.energy = choice(value, "on", "off", where, key);
     else if (key == "wall")
       options.deformable_wall = choice(value, "deformable", "rigid", where, key);
     else if (key == "beyondRange")

@@ -20,6 +20,7 @@ struct Options
   bool deformable_wall = false;  ///< `wall rigid|deformable` (walls)
   std::optional<double> tangential_damping;  ///< `tangentialDampingRatio Z`: fraction of critical damping
   std::string stats_path;                    ///< `stats FILE` (pair): JSON written at the end of each run
+  bool energy = false;                       ///< `energy on|off` (pair): energies per particle, friction
   bool stop_beyond_range = true;             ///< `beyondRange stop|continue` (mpm)
 };
 
