@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/version.hpp"
@@ -35,15 +37,34 @@ LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 
 void reduce(ContactLedger::Side& side, MPI_Comm world)
 {
-  double sums[] = {side.dissipated, side.touches, side.ended, side.beyond, side.too_fast};
-  double largest[] = {side.speed_max, side.overlap_max, side.inertia_max};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, world);
+  using Side = ContactLedger::Side;
+  const auto numbers = side.numbers();
+  double values[Side::sums + Side::maxima + Side::minima];
+  for (std::size_t k = 0; k < numbers.size(); ++k) values[k] = *numbers[k];
+  double *largest = values + Side::sums, *least = largest + Side::maxima;
+  MPI_Allreduce(MPI_IN_PLACE, values, Side::sums, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, largest, Side::maxima, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, least, Side::minima, MPI_DOUBLE, MPI_MIN, world);
+  for (std::size_t k = 0; k < numbers.size(); ++k) *numbers[k] = values[k];
   MPI_Allreduce(MPI_IN_PLACE, side.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, side.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
-  side.dissipated = sums[0], side.touches = sums[1], side.ended = sums[2], side.beyond = sums[3];
-  side.too_fast = sums[4];
-  side.speed_max = largest[0], side.overlap_max = largest[1], side.inertia_max = largest[2];
+}
+
+constexpr const char* energy_name = "granulaw_energy";
+
+/// The per-atom property that EnergyBooks fills; it moves with the particles and into restart files.
+LAMMPS_NS::FixPropertyAtom* energy_property(LAMMPS_NS::LAMMPS* lmp)
+{
+  return static_cast<LAMMPS_NS::FixPropertyAtom*>(
+      lmp->modify->find_fix_property(energy_name, "property/atom", "vector", 0, 0, style_name, false));
+}
+
+void provide_energy_property(LAMMPS_NS::LAMMPS* lmp)
+{
+  if (!Session::of(lmp)->energy || energy_property(lmp)) return;
+  const char* arg[] = {energy_name, "all", "property/atom", energy_name, "vector", "yes",
+                       "no",        "no",  "0.0",           "0.0",       "0.0"};
+  lmp->modify->add_fix_property_atom(11, const_cast<char**>(arg), style_name);
 }
 
 }  // namespace
@@ -52,7 +73,9 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp, bool add)
 {
   auto& styles = *(lmp->modify->*exposed(FixMapTag{}));
   styles.emplace(style_name, &make_fix);
-  if (!add || !lmp->domain->box_exist || lmp->modify->find_fix_style_strict(style_name, 0)) return;
+  if (!add || !lmp->domain->box_exist) return;
+  provide_energy_property(lmp);
+  if (lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw", "all", style_name};
   lmp->modify->add_fix(3, const_cast<char**>(arg));
 }
@@ -64,24 +87,100 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
   size_vector = vector_length;
   global_freq = 1;
   extscalar = extvector = 0;  // totals, never to be divided by the number of particles
-  for (int i = 3; i < narg; i += 2) {
-    if (std::strcmp(arg[i], "file") != 0 || i + 1 >= narg)
-      stop_all(lmp, fmt::format("fix {} granulaw/stats: found '{}', allowed is: file FILE", id, arg[i]));
-    path_ = arg[i + 1];
+  restart_global = 1;
+  if (session_->energy) {
+    peratom_flag = 1;
+    size_peratom_cols = EnergyBooks::columns;
+    peratom_freq = 1;
   }
+  nevery = 0;
+  for (int i = 3; i < narg; i += 2) {
+    const std::string key = arg[i], value = i + 1 < narg ? arg[i + 1] : "";
+    if ((key != "file" && key != "every") || value.empty())
+      stop_all(lmp,
+               fmt::format("fix {} granulaw/stats: found '{}', allowed is: file FILE, every N", id, key));
+    if (key == "file") path_ = value;
+    if (key == "every") {
+      char* end = nullptr;
+      const long steps = std::strtol(value.c_str(), &end, 10);
+      if (*end != '\0' || steps < 1 || steps > std::numeric_limits<int>::max())
+        stop_all(lmp,
+                 fmt::format("fix {} granulaw/stats: 'every' needs a number of steps, 1 or more, found '{}'",
+                             id, value));
+      nevery = static_cast<int>(steps);
+    }
+  }
+  if (nevery && path_.empty())
+    stop_all(lmp, fmt::format("fix {} granulaw/stats: 'every N' needs 'file FILE' to write to", id));
+}
+
+int FixStats::setmask()
+{
+  return LAMMPS_NS::FixConst::PRE_FORCE | (nevery ? LAMMPS_NS::FixConst::END_OF_STEP : 0);
+}
+
+bool FixStats::speaks() const
+{
+  return modify->find_fix_style_strict(style_name, 0) == this;
+}
+
+void FixStats::print(const std::string& text) const
+{
+  if (comm->me != 0) return;
+  for (FILE* out : {screen, logfile})
+    if (out) std::fprintf(out, "%s", text.c_str());
+}
+
+void FixStats::setup(int)
+{
+  largest_dt_ = std::max(largest_dt_, update->dt);
+  if (!speaks()) return;
+  std::string table = start_table(session_->ledger);
+  if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
+  last_table_ = table;
+  print(table);
+  for (const auto& [key, side] : session_->ledger.sides) {
+    const PairInfo& info = side.info;
+    if (!info.needed || !(info.dt_limit > 0) || update->dt <= info.dt_limit || comm->me != 0) continue;
+    error->warning(
+        FLERR, fmt::format("granulaw: the time step {:.4g} s is over {:.4g} s, 1/{:.0f} of the period of the "
+                           "stiffest contact that the law knows for the smallest particles of type {} "
+                           "against {} {}",
+                           update->dt, info.dt_limit, 1.0 / dt_fraction, key.i,
+                           key.kind == PairKey::particles ? "type" : "a wall of type", key.j)
+                   .c_str());
+  }
+}
+
+void FixStats::pre_force(int)
+{
+  if (!session_->energy) return;
+  // the property's array moves when particles come in
+  LAMMPS_NS::FixPropertyAtom* property = energy_property(lmp);
+  session_->books.per_atom = property ? property->array_atom : nullptr;
+  if (peratom_flag) array_atom = session_->books.per_atom;
+  if (!property) return;
+  for (int a = 0; a < atom->nlocal; ++a) session_->books.per_atom[a][EnergyBooks::stored] = 0.0;
 }
 
 ContactLedger FixStats::total() const
 {
   ContactLedger sum = session_->ledger;
-  reduce(sum.pair, world);
-  reduce(sum.wall, world);
+  for (auto& [key, side] : sum.sides) reduce(side, world);
+  return sum;
+}
+
+double FixStats::stored_energy() const
+{
+  if (!session_->energy || !session_->books.per_atom) return 0.0;
+  double sum = 0.0;
+  for (int a = 0; a < atom->nlocal; ++a) sum += session_->books.per_atom[a][EnergyBooks::stored];
   return sum;
 }
 
 double FixStats::compute_scalar()
 {
-  const double own = session_->ledger.pair.dissipated + session_->ledger.wall.dissipated;
+  const double own = session_->ledger.total().dissipated;
   double sum = 0;
   MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   return sum;
@@ -89,7 +188,7 @@ double FixStats::compute_scalar()
 
 double FixStats::compute_vector(int n)
 {
-  const ContactLedger::Side &p = session_->ledger.pair, &w = session_->ledger.wall;
+  const ContactLedger::Side p = session_->ledger.total(false), w = session_->ledger.total(true);
   const double own[vector_length] = {p.dissipated,
                                      w.dissipated,
                                      p.touches,
@@ -100,46 +199,89 @@ double FixStats::compute_vector(int n)
                                      w.overlap_max,
                                      p.beyond + w.beyond,
                                      std::max(p.inertia_max, w.inertia_max),
-                                     p.too_fast + w.too_fast};
-  const bool is_sum = n < 4 || n == 8 || n == 10;
+                                     p.too_fast + w.too_fast,
+                                     p.near + w.near,
+                                     std::max(p.frequency2, w.frequency2),
+                                     stored_energy(),
+                                     p.other_work + w.other_work};
+  const bool is_sum = !((n >= 4 && n <= 7) || n == 9 || n == 12);
   double result = 0;
   MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
+  if (n == 12) return result > 0 ? dt_fraction * 2.0 * M_PI / std::sqrt(result) : 0.0;
   return result;
+}
+
+void FixStats::end_of_step()
+{
+  largest_dt_ = std::max(largest_dt_, update->dt);
+  const ContactLedger sum = total();
+  if (comm->me == 0) write_files(sum);
 }
 
 void FixStats::post_run()
 {
+  largest_dt_ = std::max(largest_dt_, update->dt);
   const ContactLedger sum = total();
   if (comm->me != 0) return;
+  write_files(sum);
+  if (!speaks()) return;
+  const ContactLedger::Side pair = sum.total(false), wall = sum.total(true), all = sum.total();
   std::string line = fmt::format(
       "granulaw: {:.0f} contacts between particles, {:.0f} with walls; impacts up to {:.4g} and {:.4g} m/s; "
-      "overlap/R* "
-      "up to {:.4g} and {:.4g}; normal contacts dissipated {:.6g} J",
-      sum.pair.touches, sum.wall.touches, sum.pair.speed_max, sum.wall.speed_max, sum.pair.overlap_max,
-      sum.wall.overlap_max, sum.pair.dissipated + sum.wall.dissipated);
-  if (const double beyond = sum.pair.beyond + sum.wall.beyond; beyond > 0)
-    line += fmt::format("; {:.0f} contact-steps beyond the law's table", beyond);
-  if (const double too_fast = sum.pair.too_fast + sum.wall.too_fast; too_fast > 0)
-    line += fmt::format("; {:.0f} contacts began faster than the law's inertia axis goes", too_fast);
-  const double inertia = std::max(sum.pair.inertia_max, sum.wall.inertia_max);
-  if (session_->inertia_limit > 0 && inertia > session_->inertia_limit)
+      "overlap/R* up to {:.4g} and {:.4g}; normal contacts dissipated {:.6g} J",
+      pair.touches, wall.touches, pair.speed_max, wall.speed_max, pair.overlap_max, wall.overlap_max,
+      all.dissipated);
+  if (all.near > 0)
+    line += fmt::format("; {:.0f} contacts came deeper than {:.0f} % of the law's table, {:.0f} beyond it",
+                        all.near, 100 * near_edge, all.past);
+  if (all.beyond > 0) line += fmt::format("; {:.0f} contact-steps beyond the law's table", all.beyond);
+  if (all.too_fast > 0)
+    line += fmt::format("; {:.0f} contacts began faster than the law's inertia axis goes", all.too_fast);
+  if (session_->inertia_limit > 0 && all.inertia_max > session_->inertia_limit)
     line += fmt::format(
         "; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
         "restitution",
-        inertia, session_->inertia_limit);
-  for (FILE* out : {screen, logfile})
-    if (out) std::fprintf(out, "%s\n", line.c_str());
+        all.inertia_max, session_->inertia_limit);
+  if (all.frequency2 > 0)
+    line += fmt::format("; the stiffest contact allowed a time step of {:.4g} s, used were {:.4g} s",
+                        all.dt_allowed(), largest_dt_);
+  print(line + "\n");
+}
+
+void FixStats::write_files(const ContactLedger& sum) const
+{
   if (!path_.empty()) write_json(sum, path_);
-  if (session_->pair_options && !session_->pair_options->stats_path.empty())
+  if (speaks() && session_->pair_options && !session_->pair_options->stats_path.empty())
     write_json(sum, session_->pair_options->stats_path);
+}
+
+// Restart files keep the sums of all ranks: rank 0 takes them up again, the others start at zero.
+void FixStats::write_restart(FILE* file)
+{
+  std::vector<double> values = total().pack();
+  if (comm->me != 0) return;
+  values.insert(values.begin(), static_cast<double>(values.size()));
+  const int size = static_cast<int>(values.size() * sizeof(double));
+  std::fwrite(&size, sizeof(int), 1, file);
+  std::fwrite(values.data(), sizeof(double), values.size(), file);
+}
+
+void FixStats::restart(char* buffer)
+{
+  // LIGGGHTS hands over what follows the size, but does not say how long that is: the first number does
+  double count = 0;
+  std::memcpy(&count, buffer, sizeof(double));
+  std::vector<double> values(static_cast<std::size_t>(count));
+  std::memcpy(values.data(), buffer + sizeof(double), values.size() * sizeof(double));
+  session_->ledger.unpack(values.data(), values.size(), comm->me == 0);
 }
 
 void FixStats::write_json(const ContactLedger& sum, const std::string& path) const
 {
   const std::string header = fmt::format(
       "  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": {:.10g},\n"
-      "  \"ranks\": {},\n  \"inertia_number_limit_of_law\": {:.6g},\n",
-      version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs,
+      "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"inertia_number_limit_of_law\": {:.6g},\n",
+      version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_,
       session_->inertia_limit);
   const std::string text = to_json(sum, header), temporary = fmt::format("{}.tmp.{}", path, getpid());
   FILE* file = std::fopen(temporary.c_str(), "w");

@@ -8,8 +8,10 @@
 
 namespace granulaw::plugin {
 
-/// fix ID all granulaw/stats [file FILE]: what the normal contacts of models mpm and thornton did since the
-/// pair style was set. Added by pair_style itself as `fix granulaw all granulaw/stats` if the deck adds none.
+/// fix ID all granulaw/stats [file FILE] [every N]: what the normal contacts of models mpm and thornton did
+/// since the pair style was set. Added by pair_style itself as `fix granulaw all granulaw/stats` if the deck
+/// adds none. At the start of a run it prints the table of the laws and checks the time step; at the end it
+/// prints a line and writes FILE, which it also does every N steps. The counts survive restart files.
 ///
 /// Global scalar: energy dissipated by normal contacts, J. Global vector (all since the pair style was set):
 ///   1, 2   energy dissipated in particle-particle, particle-wall contacts, J
@@ -18,25 +20,43 @@ namespace granulaw::plugin {
 ///   7, 8   largest overlap/R*
 ///   9      contact-steps beyond the law's table
 ///   10     largest I = rho V^2/Y at first touch (0 for thornton)
+///   11     contacts that began faster than the law's inertia axis goes
+///   12     contacts that came deeper than 90 % of the table
+///   13     time step allowed by the stiffest contact so far, s (0: no contact yet)
+///   14     elastic energy that contacts hold now, J (energy on; else 0)
+///   15     work taken by all forces but the normal law's (friction, ...), J (energy on; else 0)
+/// Per atom with `energy on`, J: elastic energy now, dissipated by normal contacts, work of the other forces.
 class FixStats : public LAMMPS_NS::Fix
 {
  public:
-  static constexpr int vector_length = 11;
+  static constexpr int vector_length = 15;
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 
-  int setmask() override { return 0; }
+  int setmask() override;
+  void setup_pre_force(int) override { pre_force(0); }
+  void setup(int vflag) override;
+  void pre_force(int vflag) override;
+  void end_of_step() override;
   void post_run() override;
   double compute_scalar() override;
   double compute_vector(int n) override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
 
  private:
   /// The ledger summed (or its largest values) over ranks. Collective.
   ContactLedger total() const;
+  double stored_energy() const;
   void write_json(const ContactLedger& sum, const std::string& path) const;
+  void write_files(const ContactLedger& sum) const;
+  void print(const std::string& text) const;
+  /// True in the one fix that speaks, if a deck has several.
+  bool speaks() const;
 
   std::shared_ptr<Session> session_;
-  std::string path_;
+  std::string path_, last_table_;
+  double largest_dt_ = 0;
 };
 
 }  // namespace granulaw::plugin

@@ -7,6 +7,10 @@ namespace granulaw::plugin {
 
 namespace {
 
+constexpr std::size_t key_length = 3;
+constexpr std::size_t side_length = key_length + ContactLedger::Side::sums + ContactLedger::Side::maxima +
+                                    ContactLedger::Side::minima + 2 * LogHistogram::bins;
+
 std::string histogram_json(const LogHistogram& histogram, const char* quantity)
 {
   int low = 0, high = LogHistogram::bins - 1;
@@ -22,32 +26,168 @@ std::string histogram_json(const LogHistogram& histogram, const char* quantity)
       LogHistogram::per_decade, edges, counts);
 }
 
-std::string side_json(const ContactLedger::Side& s)
+/// JSON has no infinity: null.
+std::string number(double value)
 {
+  return std::isfinite(value) ? fmt::format("{:.10g}", value) : "null";
+}
+
+std::string quoted(const std::string& text)
+{
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out + '"';
+}
+
+/// The counts of a side, as the inside of a JSON object.
+std::string counts_json(const ContactLedger::Side& s, const std::string& indent)
+{
+  const std::pair<const char*, std::string> entries[] = {
+      {"normal_dissipation_J", number(s.dissipated)},
+      {"other_work_J", number(s.other_work)},
+      {"contacts_begun", number(s.touches)},
+      {"contacts_ended", number(s.ended)},
+      {"impact_speed_min_m_per_s", number(s.speed_min)},
+      {"impact_speed_max_m_per_s", number(s.speed_max)},
+      {"overlap_over_radius_min", number(s.overlap_min)},
+      {"overlap_over_radius_max", number(s.overlap_max)},
+      {"inertia_number_max", number(s.inertia_max)},
+      {"contacts_near_table_edge", number(s.near)},
+      {"contacts_past_table", number(s.past)},
+      {"contact_steps_beyond_table", number(s.beyond)},
+      {"contacts_beyond_speed_axis", number(s.too_fast)},
+      {"time_step_allowed_s", number(s.dt_allowed())},
+      {"impact_speed", histogram_json(s.speed, "approach speed at first touch, m/s")},
+      {"largest_overlap_over_radius",
+       histogram_json(s.overlap, "largest overlap/R* of each contact that ended")},
+  };
+  std::string text;
+  for (const auto& [name, value] : entries)
+    text += fmt::format("{}{}\"{}\": {}", text.empty() ? "" : ",\n", indent, name, value);
+  return text;
+}
+
+const char* kind_name(int kind)
+{
+  return kind == PairKey::particles    ? "particles"
+         : kind == PairKey::rigid_wall ? "rigid wall"
+                                       : "deformable wall";
+}
+
+std::string pair_json(const PairKey& key, const ContactLedger::Side& s)
+{
+  const PairInfo& info = s.info;
   return fmt::format(
-      "{{\n"
-      "    \"normal_dissipation_J\": {:.10g},\n"
-      "    \"contacts_begun\": {:.10g},\n"
-      "    \"contacts_ended\": {:.10g},\n"
-      "    \"impact_speed_max_m_per_s\": {:.8g},\n"
-      "    \"overlap_over_radius_max\": {:.8g},\n"
-      "    \"inertia_number_max\": {:.8g},\n"
-      "    \"contact_steps_beyond_table\": {:.10g},\n"
-      "    \"contacts_beyond_speed_axis\": {:.10g},\n"
-      "    \"impact_speed\": {},\n"
-      "    \"largest_overlap_over_radius\": {}\n"
-      "  }}",
-      s.dissipated, s.touches, s.ended, s.speed_max, s.overlap_max, s.inertia_max, s.beyond, s.too_fast,
-      histogram_json(s.speed, "approach speed at first touch, m/s"),
-      histogram_json(s.overlap, "largest overlap/R* of each contact that ended"));
+      "    {{\n      \"kind\": \"{}\",\n      \"types\": [{}, {}],\n      \"materials\": [{}, {}],\n"
+      "      \"law\": {},\n      \"rule\": {},\n      \"overlap_over_radius_limit\": {},\n"
+      "      \"inertia_number_limit\": {},\n      \"onset_speed_m_per_s\": {},\n"
+      "      \"time_step_limit_of_law_s\": {},\n{}\n    }}",
+      kind_name(key.kind), key.i, key.j, quoted(info.a), quoted(info.b), quoted(info.law), quoted(info.rule),
+      number(info.overlap_limit), info.inertia_limit > 0 ? number(info.inertia_limit) : "null",
+      number(info.onset_speed), info.dt_limit > 0 ? number(info.dt_limit) : "null", counts_json(s, "      "));
 }
 
 }  // namespace
 
+void ContactLedger::Side::merge(const Side& other)
+{
+  Side copy = other;
+  const auto mine = numbers(), theirs = copy.numbers();
+  for (int k = 0; k < sums; ++k) *mine[k] += *theirs[k];
+  for (int k = sums; k < sums + maxima; ++k) *mine[k] = std::max(*mine[k], *theirs[k]);
+  for (int k = sums + maxima; k < sums + maxima + minima; ++k) *mine[k] = std::min(*mine[k], *theirs[k]);
+  for (int b = 0; b < LogHistogram::bins; ++b) {
+    speed.count[b] += other.speed.count[b];
+    overlap.count[b] += other.overlap.count[b];
+  }
+}
+
+ContactLedger::Side ContactLedger::total(bool walls) const
+{
+  Side sum;
+  for (const auto& [key, side] : sides)
+    if ((key.kind != PairKey::particles) == walls) sum.merge(side);
+  return sum;
+}
+
+ContactLedger::Side ContactLedger::total() const
+{
+  Side sum = total(false);
+  sum.merge(total(true));
+  return sum;
+}
+
+std::vector<double> ContactLedger::pack() const
+{
+  std::vector<double> values;
+  for (const auto& [key, side] : sides) {
+    Side copy = side;
+    values.insert(values.end(),
+                  {static_cast<double>(key.kind), static_cast<double>(key.i), static_cast<double>(key.j)});
+    for (const double* value : copy.numbers()) values.push_back(*value);
+    values.insert(values.end(), copy.speed.count.begin(), copy.speed.count.end());
+    values.insert(values.end(), copy.overlap.count.begin(), copy.overlap.count.end());
+  }
+  return values;
+}
+
+void ContactLedger::unpack(const double* values, std::size_t count, bool sums)
+{
+  for (auto& [key, side] : sides) {
+    Side fresh;
+    fresh.info = side.info;
+    side = fresh;
+  }
+  for (const double* v = values; v + side_length <= values + count; v += side_length) {
+    Side& side = sides[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}];
+    const auto numbers = side.numbers();
+    const double* from = v + key_length;
+    for (std::size_t k = sums ? 0 : Side::sums; k < numbers.size(); ++k) *numbers[k] = from[k];
+    if (!sums) continue;
+    from += numbers.size();
+    std::copy_n(from, LogHistogram::bins, side.speed.count.begin());
+    std::copy_n(from + LogHistogram::bins, LogHistogram::bins, side.overlap.count.begin());
+  }
+}
+
 std::string to_json(const ContactLedger& ledger, const std::string& header)
 {
-  return fmt::format("{{\n{}  \"pair\": {},\n  \"wall\": {}\n}}\n", header, side_json(ledger.pair),
-                     side_json(ledger.wall));
+  std::string pairs;
+  for (const auto& [key, side] : ledger.sides)
+    if (side.info.needed || side.touches > 0)
+      pairs += fmt::format("{}{}", pairs.empty() ? "" : ",\n", pair_json(key, side));
+  return fmt::format(
+      "{{\n{}  \"pair\": {{\n{}\n  }},\n  \"wall\": {{\n{}\n  }},\n  \"pairs\": [\n{}\n  ]\n}}\n", header,
+      counts_json(ledger.total(false), "    "), counts_json(ledger.total(true), "    "), pairs);
+}
+
+std::string start_table(const ContactLedger& ledger)
+{
+  std::string lines;
+  for (const auto& [key, side] : ledger.sides) {
+    const PairInfo& info = side.info;
+    if (!info.needed) continue;
+    const auto or_none = [](bool known, double value) {
+      return known ? fmt::format("{:.4g}", value) : std::string("none");
+    };
+    lines += fmt::format(
+        "  {:<24} {:<18} {:>9} {:>9} {:>9} {:>11} {:>10}  {}; {}\n",
+        fmt::format("{} {} - {} {}", key.i, info.a, key.kind == PairKey::particles ? "" : "wall", key.j)
+            .append(" ")
+            .append(info.b),
+        info.rule, or_none(info.stiffness_ratio > 0, info.stiffness_ratio),
+        or_none(std::isfinite(info.overlap_limit), info.overlap_limit),
+        or_none(info.inertia_limit > 0, info.inertia_limit),
+        or_none(std::isfinite(info.onset_speed), info.onset_speed), or_none(info.dt_limit > 0, info.dt_limit),
+        info.law, info.error);
+  }
+  if (lines.empty()) return lines;
+  return fmt::format("granulaw contact laws\n  {:<24} {:<18} {:>9} {:>9} {:>9} {:>11} {:>10}  {}\n{}",
+                     "types", "pair rule", "E*/Y", "max d/R*", "max I", "yields m/s", "max dt s",
+                     "law; error", lines);
 }
 
 }  // namespace granulaw::plugin

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace granulaw::plugin {
 
@@ -25,6 +29,36 @@ struct LogHistogram
   double lower_edge(int bin) const { return first * std::pow(10.0, static_cast<double>(bin) / per_decade); }
 };
 
+/// Which contacts share one line of the ledger: those of a pair of atom types, or of a type with a wall's.
+struct PairKey
+{
+  enum Kind : int { particles, rigid_wall, deformable_wall };
+  int kind = particles;
+  int i = 0, j = 0;  ///< atom types; i <= j between particles, j the wall's at walls
+
+  auto operator<=>(const PairKey&) const = default;
+};
+
+/// What the law says about a pair of types when a run begins. Not counted, not reduced: alike on all ranks.
+struct PairInfo
+{
+  bool needed = false;         ///< particles (or templates) and walls of these types exist
+  std::string a, b, law;       ///< material names, "mpm" or "thornton" and the law file
+  std::string rule;            ///< "own": the pair rule is exact; "reduced (e 1%)": what it costs
+  std::string error;           ///< what the law states about itself
+  double stiffness_ratio = 0;  ///< E*/Y of the yielding body; 0: it does not yield
+  double overlap_limit = 0;    ///< overlap/R* where the table ends; infinity: nowhere
+  double inertia_limit = 0;    ///< I up to which the law holds; 0: not stated
+  double onset_speed = 0;      ///< m/s, of first yield between the smallest particles; infinity: never
+  double dt_limit = 0;         ///< s, dt_fraction of the stiffest contact's period; 0: no limit known
+};
+
+/// A step may take this part of the period 2 pi sqrt(m*/k) of the stiffest contact. Ten steps or more for a
+/// contact: docs/pair_gran_model_mpm.md, "Time step".
+inline constexpr double dt_fraction = 1.0 / 20.0;
+/// Part of the table's overlap range from which a contact counts as near its edge.
+inline constexpr double near_edge = 0.9;
+
 /// What the contacts of this rank did since the pair style was set. Filled by the contact loops.
 ///
 /// A pair of a local particle and a ghost is computed on both ranks (or twice on one, across a periodic
@@ -33,23 +67,61 @@ struct ContactLedger
 {
   struct Side
   {
-    double dissipated = 0;     ///< J: loading work minus recoverable work, from the law's own work functions
-    double touches = 0;        ///< contacts that began
-    double ended = 0;          ///< contacts that ended
-    double speed_max = 0;      ///< m/s, largest approach speed at first touch
-    double overlap_max = 0;    ///< largest overlap/R*
-    double inertia_max = 0;    ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
-    double beyond = 0;         ///< contact-steps beyond the law's table
-    double too_fast = 0;       ///< contacts that began faster than the law's inertia axis goes
-    LogHistogram speed{1e-6};  ///< approach speed at first touch, m/s
-    LogHistogram overlap{1e-10};  ///< largest overlap/R* of each contact that ended
-  };
-  Side pair, wall;
+    double dissipated = 0;   ///< J: loading work minus recoverable work, from the law's own work functions
+    double other_work = 0;   ///< J, taken by all but the normal law (friction, rolling, ...); energy on only
+    double touches = 0;      ///< contacts that began
+    double ended = 0;        ///< contacts that ended
+    double near = 0;         ///< contacts that came deeper than near_edge of the table
+    double past = 0;         ///< contacts that went beyond the table
+    double beyond = 0;       ///< contact-steps beyond the law's table
+    double too_fast = 0;     ///< contacts that began faster than the law's inertia axis goes
+    double speed_max = 0;    ///< m/s, largest approach speed at first touch
+    double overlap_max = 0;  ///< largest overlap/R*
+    double inertia_max = 0;  ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
+    double frequency2 = 0;   ///< 1/s^2, largest stiffness over effective mass
+    double speed_min = std::numeric_limits<double>::infinity();  ///< m/s, slowest first touch
+    double overlap_min =
+        std::numeric_limits<double>::infinity();  ///< least largest overlap/R* of an ended one
+    LogHistogram speed{1e-6};                     ///< approach speed at first touch, m/s
+    LogHistogram overlap{1e-10};                  ///< largest overlap/R* of each contact that ended
+    double hardest = 0;  ///< R* delta/m*^2 of the contact that frequency2 is of (this rank's; not reduced)
+    PairInfo info;
 
-  void clear() { *this = ContactLedger{}; }
+    static constexpr int sums = 8, maxima = 4, minima = 2;
+    /// The numbers above, first those that add up over ranks, then those of which the largest, the least
+    /// counts.
+    std::array<double*, sums + maxima + minima> numbers()
+    {
+      return {&dissipated, &other_work, &touches,     &ended,       &near,       &past,      &beyond,
+              &too_fast,   &speed_max,  &overlap_max, &inertia_max, &frequency2, &speed_min, &overlap_min};
+    }
+    /// Adds `other`: sums, largest and least values, histograms.
+    void merge(const Side& other);
+    /// s, dt_fraction of the period of the stiffest contact so far; infinity: none yet.
+    double dt_allowed() const
+    {
+      return frequency2 > 0 ? dt_fraction * 2.0 * M_PI / std::sqrt(frequency2)
+                            : std::numeric_limits<double>::infinity();
+    }
+  };
+
+  std::map<PairKey, Side> sides;  ///< nodes stay where they are: contact models keep pointers
+
+  /// All contacts between particles, all with walls.
+  Side total(bool walls) const;
+  Side total() const;
+
+  /// Everything that counts as plain numbers, for restart files, and back. Restoring replaces what is there,
+  /// but keeps each side's info; `sums` false: only largest and least values (all ranks but one).
+  std::vector<double> pack() const;
+  void unpack(const double* values, std::size_t count, bool sums);
 };
 
-/// `ledger` (summed over ranks) as JSON; `header` is placed first ("\"key\": value,\n" lines).
+/// `ledger` (summed over ranks) as JSON; `header` is placed first ("\"key\": value,\n" lines). Schema:
+/// docs/pair_gran_model_mpm.md.
 std::string to_json(const ContactLedger& ledger, const std::string& header);
+
+/// The start-up table: one line for each pair of types that can meet. Empty if there is none.
+std::string start_table(const ContactLedger& ledger);
 
 }  // namespace granulaw::plugin

@@ -34,6 +34,7 @@ struct Options
   std::optional<ElasticDamping> elastic_damping;  ///< `elasticDamping Z|off|restitution`
   std::optional<double> stretch;                  ///< `stretch S`: F_s(d) = F(d/S)/S
   std::string stats_path;                 ///< `stats FILE` (pair): JSON written at the end of each run
+  bool energy = false;                    ///< `energy on|off` (pair): energies per particle, friction
   std::optional<bool> stop_beyond_range;  ///< `beyondRange stop|continue` (mpm)
 
   /// What a wall's command leaves open is taken from the pair style's.

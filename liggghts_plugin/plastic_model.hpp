@@ -9,9 +9,11 @@
 
 #include "base/error.hpp"
 #include "law/pair.hpp"
+#include "liggghts_plugin/contact_work.hpp"
 #include "liggghts_plugin/deck_units.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
+#include "liggghts_plugin/smallest.hpp"
 
 namespace granulaw::plugin {
 
@@ -100,7 +102,7 @@ class PlasticModel : public NormalModelBase
     physics_.prepare(lmp, registry, *setup_, types);
     refuse_unstated_restitution(lmp, *setup_);
     resolve_all(types, damping_ratios(registry, *setup_, types));
-    ledger_ = &setup_->session->ledger;
+    open_books(types);
     // Else surfacesClose is never called for pairs, and a pair that meets again keeps its old delta_max.
     neighbor->register_contact_dist_factor(1.01);
   }
@@ -139,6 +141,8 @@ class PlasticModel : public NormalModelBase
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
       advance(sidata, entry, r_eff, impact_overlap, delta_max);
     }
+    if (energy_) [[unlikely]]
+      store_energy(sidata, entry, r_eff, delta_max, impact_overlap, law_force);
 
     sidata.Fn = normal_force;
     sidata.kn =
@@ -160,10 +164,12 @@ class PlasticModel : public NormalModelBase
     double& delta_max = scdata.contact_history[history_offset_];
     if (delta_max == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
     const double r_eff = scdata.is_wall ? scdata.radi : granulaw::effective_radius(scdata.radi, scdata.radj);
-    ContactLedger::Side& side = scdata.is_wall ? ledger_->wall : ledger_->pair;
-    const double weight = scdata.is_wall || scdata.j < atom->nlocal ? 1.0 : 0.5;
+    const int itype = atom->type[scdata.i], jtype = scdata.is_wall ? scdata.jtype : atom->type[scdata.j];
+    ContactLedger::Side& side = *entries_[static_cast<std::size_t>(itype * stride_ + jtype)].side;
+    const double weight = this->weight(scdata), overlap = delta_max / r_eff;
     side.ended += weight;
-    side.overlap.add(delta_max / r_eff, weight);
+    side.overlap_min = std::min(side.overlap_min, overlap);
+    side.overlap.add(overlap, weight);
     delta_max = 0.0;
     if constexpr (Physics::latches_impact) scdata.contact_history[impact_offset_] = 0.0;
   }
@@ -180,6 +186,7 @@ class PlasticModel : public NormalModelBase
     double damping = 0.0;           // normal damping over sqrt(sqrt(R* d) m*)
     double yield_overlap = 0.0;     // over R*
     typename Physics::Contact contact;
+    ContactLedger::Side* side = nullptr;  // this pair of types in the ledger
     double inertia_per_speed2 = 0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
   };
 
@@ -242,24 +249,82 @@ class PlasticModel : public NormalModelBase
       }
   }
 
+  /// Finds each pair of types its line in the ledger, and writes there what the law says about it.
+  void open_books(const Types& types)
+  {
+    const Smallest least = smallest_particles(lmp);
+    const bool is_wall = setup_->wall != nullptr;
+    for (int i = 1; i <= types.count; ++i)
+      for (int j = 1; j <= types.count; ++j) {
+        Entry& entry = entries_[static_cast<std::size_t>(i * stride_ + j)];
+        if (entry.largest_overlap < 0) continue;
+        PairKey key{PairKey::particles, std::min(i, j), std::max(i, j)};
+        if (is_wall)
+          key = {setup_->options.deformable_wall ? PairKey::deformable_wall : PairKey::rigid_wall, i, j};
+        entry.side = &setup_->session->ledger.sides[key];
+        if (!is_wall && j < i) continue;  // described as i, j
+        const double other_radius = is_wall ? 0.0 : least.radius[j];
+        double r_eff = is_wall ? least.radius[i] : granulaw::effective_radius(least.radius[i], other_radius);
+        double m_eff = is_wall ? least.mass[i] : granulaw::effective_mass(least.mass[i], least.mass[j]);
+        if (!std::isfinite(r_eff) || !std::isfinite(m_eff)) r_eff = m_eff = 0.0;
+        PairInfo info = describe(entry.contact, *setup_, key, r_eff, m_eff);
+        info.needed = types.of_particles[i] && (is_wall ? types.of_wall[j] : types.of_particles[j]);
+        entry.side->info = info;
+      }
+    energy_ = setup_->session->energy;
+  }
+
+  /// Part of a contact that this rank accounts for: see ContactLedger.
+  double weight(const SurfacesCloseData& scdata) const
+  {
+    return scdata.is_wall || scdata.j < atom->nlocal ? 1.0 : 0.5;
+  }
+
   /// A step that takes the contact deeper than it ever was: ledger, then history.
   void advance(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double impact_overlap,
                double& delta_max)
   {
-    ContactLedger::Side& side = sidata.is_wall ? ledger_->wall : ledger_->pair;
-    const double weight = sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
+    ContactLedger::Side& side = *entry.side;
+    const double weight = this->weight(sidata);
     if (delta_max == 0.0) {
       const double speed = std::max(0.0, -sidata.vn);
       side.touches += weight;
       side.speed.add(speed, weight);
+      side.speed_min = std::min(side.speed_min, speed);
       side.speed_max = std::max(side.speed_max, speed);
       side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
       if (speed > entry.contact.max_speed(r_eff, sidata.meff)) side.too_fast += weight;
     }
     const double delta = sidata.deltan;
     if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
-    side.dissipated += weight * entry.contact.dissipated(r_eff, delta_max, delta, impact_overlap);
+    if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
+      if (delta_max <= near_edge * entry.largest_overlap * r_eff) side.near += weight;
+      if (delta > entry.largest_overlap * r_eff && delta_max <= entry.largest_overlap * r_eff)
+        side.past += weight;
+    }
+    // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
+    if (r_eff * delta > side.hardest * sidata.meff * sidata.meff) [[unlikely]] {
+      side.hardest = r_eff * delta / (sidata.meff * sidata.meff);
+      side.frequency2 =
+          std::max(side.frequency2, stiffness(entry.contact, r_eff, delta, impact_overlap) / sidata.meff);
+    }
+    const double dissipated = entry.contact.dissipated(r_eff, delta_max, delta, impact_overlap);
+    side.dissipated += weight * dissipated;
+    if (energy_) [[unlikely]]
+      energy_->share(sidata, EnergyBooks::dissipated, dissipated, atom->nlocal);
     delta_max = delta;
+  }
+
+  /// Only with `energy on`: what the contact holds now, and the law's force for EnergyBooks::account.
+  void store_energy(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double delta_max,
+                    double impact_overlap, double law_force)
+  {
+    energy_->law_force = law_force * (sidata.is_wall ? sidata.area_ratio : 1.0);
+    energy_->side = entry.side;
+    if (sidata.computeflag)
+      energy_->share(sidata, EnergyBooks::stored,
+                     stored_energy(entry.contact, r_eff, sidata.deltan, delta_max, impact_overlap),
+                     atom->nlocal);
   }
 
   void beyond_table(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff)
@@ -270,9 +335,7 @@ class PlasticModel : public NormalModelBase
           fmt::format("{}: no law for particles of type {} against {} {}; it was not among the pairs "
                       "that the deck could show when the run began",
                       setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type", sidata.jtype));
-    ContactLedger::Side& side = sidata.is_wall ? ledger_->wall : ledger_->pair;
-    if (sidata.computeflag && sidata.shearupdate)
-      side.beyond += sidata.is_wall || sidata.j < atom->nlocal ? 1.0 : 0.5;
+    if (sidata.computeflag && sidata.shearupdate) entry.side->beyond += weight(sidata);
     // 5 %: the linear continuation is still within about a percent of the force there.
     if (setup_->options.stop_beyond_range.value_or(true) &&
         sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
@@ -304,7 +367,7 @@ class PlasticModel : public NormalModelBase
   double damping_ = 0.0, stretch_ = 1.0;
   DeckUnits units_;
   bool tangential_computed_ = false;
-  ContactLedger* ledger_ = nullptr;
+  EnergyBooks* energy_ = nullptr;  // null: energy off
   bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false,
        dissipated_energy_ = false;
   bool layout_checked_ = false;

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "liggghts_plugin/energy_books.hpp"
 #include "liggghts_plugin/ledger.hpp"
 #include "liggghts_plugin/loaded_law.hpp"
 #include "liggghts_plugin/options.hpp"
@@ -24,6 +25,8 @@ class Session
   static std::shared_ptr<Session> of(LAMMPS_NS::LAMMPS* lmp);
 
   ContactLedger ledger;
+  EnergyBooks* energy = nullptr;  ///< &books with `energy on`, else null
+  EnergyBooks books;
 
   /// What walls of model `mpm` inherit: set by the pair style.
   std::optional<Options> pair_options;
@@ -54,7 +57,7 @@ struct Setup
 };
 
 /// Registers the fix style `granulaw/stats`; for pairs adds `fix granulaw all granulaw/stats` if the
-/// simulation box exists and no such fix does.
+/// simulation box exists and no such fix does, and the per-atom property with `energy on`.
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp, bool add);
 
 /// Ends the run with "ERROR: MESSAGE" on all ranks (each must call it). error->all does this too, but

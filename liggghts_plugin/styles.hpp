@@ -53,6 +53,7 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
   if (!setup.wall) {
     session.pair_options = options;
     session.pair_law = setup.law;
+    session.energy = options.energy ? &session.books : nullptr;
   }
 }
 
@@ -94,11 +95,55 @@ void warn_stretched_cohesion(LAMMPS* lmp, const Setup& setup)
             .c_str());
 }
 
+/// LIGGGHTS's combination of the five models, and with `energy on` the work of all but the normal law.
+template <class Style>
+class BookedModel : public cm::ContactModel<Style>
+{
+  using Base = cm::ContactModel<Style>;
+
+ public:
+  BookedModel(LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, bool is_wall, int64_t hash)
+      : Base(lmp, hsetup, is_wall, hash), lmp_(lmp)
+  {
+  }
+
+  void postSettings(LIGGGHTS::IContactHistorySetup* hsetup)
+  {
+    Base::postSettings(hsetup);
+    books_ = Setup::current->session->energy;
+    if (!books_) return;
+    for (int k = 0; k < EnergyBooks::history_values; ++k) {
+      const int offset = hsetup->add_history_value(fmt::format("other_force_{}", k), "1");
+      if (k == 0) offset_ = offset;
+    }
+  }
+
+  void surfacesIntersect(cm::SurfacesIntersectData& sidata, cm::ForceData& i_forces, cm::ForceData& j_forces)
+  {
+    Base::surfacesIntersect(sidata, i_forces, j_forces);
+    if (books_) [[unlikely]]
+      books_->account(sidata, i_forces, &sidata.contact_history[offset_], lmp_->update->dt,
+                      lmp_->atom->nlocal);
+  }
+
+  void surfacesClose(cm::SurfacesCloseData& scdata, cm::ForceData& i_forces, cm::ForceData& j_forces)
+  {
+    Base::surfacesClose(scdata, i_forces, j_forces);
+    if (books_ && scdata.contact_history)
+      std::fill_n(&scdata.contact_history[offset_], EnergyBooks::history_values, 0.0);
+  }
+
+ private:
+  LAMMPS* lmp_;
+  EnergyBooks* books_ = nullptr;
+  int offset_ = -1;
+};
+
 /// pair_style gran with one of our models.
 template <class Style, Model model>
-class PairStyle final : public LIGGGHTS::PairStyles::Granular<cm::ContactModel<Style>>
+class PairStyle final : public LIGGGHTS::PairStyles::Granular<BookedModel<Style>>
 {
-  using Base = LIGGGHTS::PairStyles::Granular<cm::ContactModel<Style>>;
+  using Base = LIGGGHTS::PairStyles::Granular<BookedModel<Style>>;
 
  public:
   PairStyle(LAMMPS* lmp, PairGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp) {}
@@ -132,9 +177,9 @@ class PairStyle final : public LIGGGHTS::PairStyles::Granular<cm::ContactModel<S
 
 /// fix wall/gran with one of our models.
 template <class Style, Model model>
-class WallStyle final : public LIGGGHTS::Walls::Granular<cm::ContactModel<Style>>
+class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
 {
-  using Base = LIGGGHTS::Walls::Granular<cm::ContactModel<Style>>;
+  using Base = LIGGGHTS::Walls::Granular<BookedModel<Style>>;
 
  public:
   WallStyle(LAMMPS* lmp, FixWallGran* parent, int64_t hash)

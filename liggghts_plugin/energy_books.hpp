@@ -1,0 +1,84 @@
+#pragma once
+
+#include "liggghts_plugin/ledger.hpp"
+#include "liggghts_plugin/liggghts.hpp"
+
+namespace granulaw::plugin {
+
+/// Energies of single particles and the work of all forces but the normal law's: only with `energy on`.
+///
+/// Each particle of a pair owns half of what their contact holds and loses; at a wall the particle owns all.
+class EnergyBooks
+{
+  using SurfacesIntersectData = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  using ForceData = LIGGGHTS::ContactModels::ForceData;
+
+ public:
+  /// Columns of the per-atom property, J: `stored` is the present step's, the others add up since the
+  /// particle was made.
+  enum Column : int { stored, dissipated, other_work, columns };
+  /// Values of contact history that account() keeps: force and couple of the last step, newton flag "1".
+  static constexpr int history_values = 6;
+
+  double** per_atom = nullptr;          ///< rows of `columns`; null: not there yet
+  double law_force = 0;                 ///< N, of the law alone, in the contact computed last
+  ContactLedger::Side* side = nullptr;  ///< of that contact
+
+  void share(const SurfacesIntersectData& sidata, Column column, double energy, int nlocal) const
+  {
+    if (!per_atom) return;
+    if (sidata.is_wall) {
+      per_atom[sidata.i][column] += energy;
+      return;
+    }
+    per_atom[sidata.i][column] += 0.5 * energy;
+    if (sidata.j < nlocal) per_atom[sidata.j][column] += 0.5 * energy;
+  }
+
+  /// Books the work that the contact took from the particles over the last step, but for the normal law's:
+  /// tangential, rolling and cohesive forces, damping. `i_forces`: all that the contact does to i.
+  ///
+  /// The mean of this step's and the last one's force times the displacement between is the change of the
+  /// kinetic energy by it, exactly, where velocity Verlet moves the particles: at this point of a step
+  /// LIGGGHTS's velocities are those of the half step behind. Work held in tangential springs counts as taken
+  /// until they give it back.
+  void account(const SurfacesIntersectData& sidata, const ForceData& i_forces, double* last, double dt,
+               int nlocal)
+  {
+    if (!sidata.computeflag) return;
+    const double* n = sidata.en;
+    double force[3], couple[3];
+    for (int c = 0; c < 3; ++c) force[c] = i_forces.delta_F[c] - law_force * n[c];
+    double arm[3];
+    cross(n, force, arm);  // torque on i is -cri en x F, and the couple
+    for (int c = 0; c < 3; ++c) couple[c] = i_forces.delta_torque[c] + sidata.cri * arm[c];
+
+    if (sidata.shearupdate) {
+      double mean_force[3], mean_couple[3], power = 0.0;
+      for (int c = 0; c < 3; ++c) {
+        mean_force[c] = 0.5 * (force[c] + last[c]);
+        mean_couple[c] = 0.5 * (couple[c] + last[3 + c]);
+      }
+      cross(n, mean_force, arm);
+      for (int c = 0; c < 3; ++c) {
+        power += mean_force[c] * (sidata.v_i[c] - sidata.v_j[c]) +
+                 (mean_couple[c] - sidata.cri * arm[c]) * sidata.omega_i[c];
+        if (!sidata.is_wall) power -= (mean_couple[c] + sidata.crj * arm[c]) * sidata.omega_j[c];
+      }
+      const double taken = -power * dt;
+      side->other_work += (sidata.is_wall || sidata.j < nlocal ? 1.0 : 0.5) * taken;
+      share(sidata, other_work, taken, nlocal);
+    }
+    for (int c = 0; c < 3; ++c) last[c] = force[c], last[3 + c] = couple[c];
+  }
+
+ private:
+  static void cross(const double* a, const double* b, double* out)
+  {
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+  }
+};
+
+}  // namespace granulaw::plugin

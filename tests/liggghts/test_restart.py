@@ -1,0 +1,41 @@
+"""Restart files: the trajectory, the contacts' history, the ledger's counts and the particles' energies go on."""
+import json
+import unittest
+
+from test_energy import DT, PRINT, SUM, data_file, model, start
+from harness import POWDER, Deck, properties
+
+
+class Restart(Deck):
+    def test_goes_on(self):
+        """Half a run, a restart file, the other half: as the run in one go (in two pieces, for the set-up's sake)."""
+        data_file(self.folder / "bed.data")
+        rules = model(f"law {self.law} materials powder energy on stats s.json tangentialDampingRatio 0", "history", 0.3) + SUM
+        whole = self.result(self.run_deck(start() + rules + "run 15000\nrun 5000\n" + PRINT), "ENERGY")
+        whole_stats = json.loads((self.folder / "s.json").read_text())
+        for written_on, read_on in ((1, 1), (2, 1), (1, 2)):
+            self.run_deck(start() + rules + "run 15000\nwrite_restart half.restart\n", ranks=written_on)
+            text = self.run_deck(start("read_restart half.restart") + rules + "run 5000\n" + PRINT, ranks=read_on)
+            resumed = self.result(text, "ENERGY")
+            for k, (value, expected) in enumerate(zip(resumed, whole)):
+                # rounding, amplified by 5000 steps of collisions
+                self.assertAlmostEqual(value / expected, 1.0, delta=1e-7, msg=f"{k} {written_on} {read_on}")
+            stats = json.loads((self.folder / "s.json").read_text())
+            for side in ("pair", "wall"):
+                for name in ("contacts_begun", "contacts_ended", "impact_speed_max_m_per_s", "impact_speed_min_m_per_s",
+                             "overlap_over_radius_max", "normal_dissipation_J", "time_step_allowed_s"):
+                    self.assertAlmostEqual(stats[side][name] / whole_stats[side][name], 1.0, delta=1e-7, msg=name)
+                self.assertEqual(stats[side]["impact_speed"]["count"], whole_stats[side]["impact_speed"]["count"])
+            self.assertGreater(whole_stats["pair"]["contacts_begun"], 10)
+
+    def test_pair_style_forgotten(self):
+        data_file(self.folder / "bed.data")
+        rules = model(f"law {self.law} materials powder", "history", 0.3)
+        self.run_deck(start() + rules + "run 10\nwrite_restart half.restart\n")
+        text = self.run_deck(start("read_restart half.restart") + properties([POWDER], 0.3) +
+                             f"fix i all nve/sphere\ntimestep {DT}\nrun 1\n", expect_failure=True)
+        self.assertIn("repeat pair_style and pair_coeff after read_restart", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,96 @@
+"""fix granulaw/stats: the start-up table, counts for each pair of types, the edge of the table, files every N steps."""
+import json
+import math
+import unittest
+
+from collisions import wall_deck
+from harness import GLASS, POWDER, Deck, head, properties, sphere_mass
+
+RADIUS = 1.7e-3
+
+
+class Stats(Deck):
+    def test_pairs_apart(self):
+        """Powder hits powder, glass and the floor at three known speeds: each line of the ledger holds its own."""
+        speeds = {"powder": 0.4, "glass": 0.7, "floor": 1.1}
+        deck = head(types=2, half=20 * RADIUS) + properties([POWDER, GLASS])
+        deck += (f"pair_style gran model mpm tangential off law {self.law} materials powder glass stats s.json\n"
+                 "pair_coeff * *\nfix w all wall/gran model mpm tangential off primitive type 1 zplane 0.0\n")
+        dt, k = 1.2e-8, 0
+        places = [(1, -10, 5, speeds["powder"], 0), (1, -10, 7.0001, 0.0, 0), (1, 0, 5, speeds["glass"], 0),
+                  (2, 0, 7.0001, 0.0, 0), (1, 10, 1.0001, 0.0, -speeds["floor"])]
+        for t, x, z, up, down in places:
+            k += 1
+            material = (POWDER, GLASS)[t - 1]
+            deck += (f"create_atoms {t} single {x * RADIUS!r} 0 {z * RADIUS!r} units box\ngroup a{k} id {k}\n"
+                     f"set group a{k} diameter {2 * RADIUS!r} density {material.density}\nvelocity a{k} set 0 0 {up + down}\n")
+        text = self.run_deck(deck + f"fix i all nve/sphere\ntimestep {dt}\nrun 4000\nrun 10\n")
+        stats = json.loads((self.folder / "s.json").read_text())
+        found = {(p["kind"], *p["types"]): p for p in stats["pairs"]}
+        for key, speed, names in ((("particles", 1, 1), speeds["powder"], ["powder", "powder"]),
+                                  (("particles", 1, 2), speeds["glass"], ["powder", "glass"]),
+                                  (("rigid wall", 1, 1), speeds["floor"], ["powder", "wall"])):
+            pair = found[key]
+            self.assertEqual(pair["materials"], names)
+            self.assertEqual((pair["contacts_begun"], pair["contacts_ended"]), (1, 1), key)
+            for end in ("min", "max"):  # nothing acts before first touch
+                self.assertAlmostEqual(pair[f"impact_speed_{end}_m_per_s"] / speed, 1.0, delta=1e-9, msg=str(key))
+            self.assertEqual(pair["overlap_over_radius_min"], pair["overlap_over_radius_max"])
+            self.assertEqual(pair["contacts_near_table_edge"], 0)
+        self.assertEqual(found["particles", 2, 2]["contacts_begun"], 0)
+        self.assertIsNone(found["particles", 2, 2]["impact_speed_min_m_per_s"])
+        # I = rho V^2/Y: the rigid wall's partner takes all of the speed, one of a like pair half
+        for key, share in ((("rigid wall", 1, 1), 1.0), (("particles", 1, 1), 0.5)):
+            speed = share * found[key]["impact_speed_max_m_per_s"]
+            self.assertAlmostEqual(found[key]["inertia_number_max"] / (POWDER.density * speed**2 / POWDER.yield_stress),
+                                   1.0, delta=1e-9)
+        total = sum(p["normal_dissipation_J"] for p in stats["pairs"])
+        self.assertAlmostEqual(total / (stats["pair"]["normal_dissipation_J"] + stats["wall"]["normal_dissipation_J"]),
+                               1.0, delta=1e-9)
+        # once in the log for two runs, with one line for each pair that can meet: 11, 12, 22, floor 1, floor 2
+        self.assertEqual(text.count("granulaw contact laws"), 1)
+        table = text[text.index("granulaw contact laws"):].splitlines()
+        self.assertEqual(sum(str(self.law) in line for line in table[2:7]), 5, table[:8])
+        self.assertEqual(sum("reduced" in line for line in table[2:7]), 1)
+
+    def test_onset_speed_is_where_restitution_leaves_one(self):
+        deck = wall_deck("mpm", f"law {self.law} materials powder stats s.json", POWDER, RADIUS, 1.0, 2e-8)
+        self.run_deck(deck)
+        onset = json.loads((self.folder / "s.json").read_text())["pairs"][-1]["onset_speed_m_per_s"]
+        m = sphere_mass(RADIUS, POWDER.density)
+        below, above = (self.fixture("mpm", self.law, "powder", "wall", RADIUS, m, f * onset)[0] for f in (0.999, 1.05))
+        self.assertAlmostEqual(below, 1.0, delta=1e-6)  # the replay's own step error
+        self.assertLess(above, 1 - 1e-4)
+
+    def test_edge_of_the_table(self):
+        """The law's table ends at 0.1 R on the wall: contacts that stop short of 0.09, between, and beyond."""
+        m = sphere_mass(RADIUS, POWDER.density)
+        def depth(v):
+            return self.fixture("mpm", self.law, "powder", "wall", RADIUS, m, v)[2] / RADIUS
+        for target, near, past in ((0.085, 0, 0), (0.095, 1, 0), (0.103, 1, 1)):
+            low, high = 1.0, 100.0
+            for _ in range(40):
+                middle = math.sqrt(low * high)
+                low, high = (middle, high) if depth(middle) < target else (low, middle)
+            deck = wall_deck("mpm", f"law {self.law} materials powder stats s.json", POWDER, RADIUS, low, 1e-8)
+            text = self.run_deck(deck.replace("run 120", "run 3000"))
+            wall = json.loads((self.folder / "s.json").read_text())["wall"]
+            self.assertAlmostEqual(wall["overlap_over_radius_max"], target, delta=2e-3 * target)  # the step's error
+            self.assertEqual((wall["contacts_near_table_edge"], wall["contacts_past_table"]), (near, past), target)
+            self.assertEqual("deeper than 90 %" in text, near == 1)
+            self.assertEqual(wall["contact_steps_beyond_table"] > 0, past == 1)
+
+    def test_every(self):
+        deck = wall_deck("mpm", f"law {self.law} materials powder", POWDER, RADIUS, 1.0, 2e-8)
+        write = "fix s all granulaw/stats every 50 file s.json\nrun 120 every 60 \"shell cp s.json at_${n}.json\"\n"
+        self.run_deck(deck.replace("run 120", "variable n equal step\n" + write))
+        self.assertEqual(json.loads((self.folder / "s.json").read_text())["step"], 120)
+        self.assertTrue((self.folder / "at_60.json").exists())
+        for words, sentence in (("every 5", "needs 'file FILE'"), ("every 0 file s.json", "1 or more, found '0'"),
+                                ("evry 5", "allowed is: file FILE, every N")):
+            text = self.run_deck(deck.replace("run 120", f"fix s all granulaw/stats {words}\nrun 1"), expect_failure=True)
+            self.assertIn(sentence, text)
+
+
+if __name__ == "__main__":
+    unittest.main()

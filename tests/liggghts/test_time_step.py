@@ -1,0 +1,72 @@
+"""The time step: number and warning at start-up, what the stiffest contact allowed, and what the fraction is worth."""
+import json
+import math
+import unittest
+
+from collisions import pair_deck, wall_deck
+from harness import GLASS, POWDER, Deck, sphere_mass
+
+RADIUS = 1.7e-3
+FRACTION = 1 / 20
+
+
+class TimeStep(Deck):
+    def stats(self, deck):
+        text = self.run_deck(deck)
+        return text, json.loads((self.folder / "s.json").read_text())
+
+    def test_elastic_pair(self):
+        """Hertz in closed form: k = 2 E* sqrt(R* delta), at the deepest overlap visited and at the table's end."""
+        words = f"law {self.law} materials glass stats s.json"
+        r, m = RADIUS / 2, sphere_mass(RADIUS, GLASS.density) / 2
+        deck = pair_deck("mpm", words, (GLASS, GLASS), (RADIUS, RADIUS), 1.0, 1e-8, run="run 3000")
+        text, stats = self.stats(deck)
+        pair = stats["pairs"][0]
+        for found, depth in ((pair["time_step_allowed_s"], pair["overlap_over_radius_max"]),
+                             (pair["time_step_limit_of_law_s"], pair["overlap_over_radius_limit"])):
+            k = 2 * (GLASS.e_star / 2) * r * math.sqrt(depth)
+            # 1e-3: the table's interpolation of Hertz
+            self.assertAlmostEqual(found / (FRACTION * 2 * math.pi * math.sqrt(m / k)), 1.0, delta=1e-3)
+        self.assertNotIn("is over", text)
+        self.assertEqual(stats["time_step_used_s"], 1e-8)
+
+    def test_warning(self):
+        """Just below the limit no word, just above one warning with both numbers; the smallest particle counts."""
+        words = f"law {self.law} materials powder stats s.json"
+        _, stats = self.stats(wall_deck("mpm", words, POWDER, RADIUS, 0.5, 1e-8))
+        limit = next(p for p in stats["pairs"] if p["kind"] == "rigid wall")["time_step_limit_of_law_s"]
+        for factor, count in ((0.99, 0), (1.01, 1)):
+            text, _ = self.stats(wall_deck("mpm", words, POWDER, RADIUS, 0.5, factor * limit))
+            self.assertEqual(text.count("against a wall of type 1"), count, factor)
+        # the period goes with the radius: rho R^3/(E R)
+        _, small = self.stats(wall_deck("mpm", words, POWDER, RADIUS / 3, 0.5, 1e-8))
+        self.assertAlmostEqual(3 * next(p for p in small["pairs"] if p["kind"] == "rigid wall")["time_step_limit_of_law_s"]
+                               / limit, 1.0, delta=1e-9)
+
+    def test_template_counts(self):
+        """A particle that can be inserted later is smaller than all that exist: the limit is its own."""
+        words = f"law {self.law} materials powder stats s.json"
+        template = (f"fix pt all particletemplate/sphere 15485863 atom_type 1 density constant {POWDER.density} "
+                    f"radius constant {RADIUS / 4}\nrun 120")
+        deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, 1e-8)
+        limit = [self.stats(d)[1]["pairs"][-1]["time_step_limit_of_law_s"]
+                 for d in (deck, deck.replace("run 120", template))]
+        self.assertAlmostEqual(limit[0] / limit[1], 4.0, delta=1e-9)
+
+    def test_what_the_fraction_is_worth(self):
+        """At the step that the visited stiffness allows, e is within 0.005 of the law (issue 5) whatever the phase."""
+        m = sphere_mass(RADIUS, POWDER.density)
+        for speed in (0.5, 3.0):
+            e, duration, _ = self.fixture("mpm", self.law, "powder", "wall", RADIUS, m, speed)
+            words = f"law {self.law} materials powder stats s.json"
+            _, stats = self.stats(wall_deck("mpm", words, POWDER, RADIUS, speed, duration / 400).replace("run 120", "run 700"))
+            dt = stats["wall"]["time_step_allowed_s"]
+            self.assertGreater(duration / dt, 10)
+            for phase in (0.05, 0.55):
+                deck = wall_deck("mpm", words, POWDER, RADIUS, speed, dt).replace(
+                    repr(RADIUS + 0.3 * dt * speed), repr(RADIUS + phase * dt * speed)).replace("run 120", "run 60")
+                self.assertAlmostEqual(self.result(self.run_deck(deck), "SPEED")[0] / speed, e, delta=0.005)
+
+
+if __name__ == "__main__":
+    unittest.main()
