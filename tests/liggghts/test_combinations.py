@@ -119,13 +119,13 @@ class Combinations(Deck):
         self.assertGreater(own, 0.99)
 
     def test_multisphere_needs_a_law_without_axis(self):
-        template = ("fix t1 all particletemplate/multisphere 11 atom_type 1 density constant 1500 nspheres 2 ntry 1000 "
+        template = ("fix t1 all particletemplate/multisphere 15485863 atom_type 1 density constant 1500 nspheres 2 ntry 1000 "
                     f"spheres file clump.txt scale 1.0 type 1\n"
-                    "fix pd all particledistribution/discrete 7 1 t1 1.0\n"
+                    "fix pd all particledistribution/discrete 15485867 1 t1 1.0\n"
                     "region r block -0.01 0.01 -0.01 0.01 0.0 0.01 units box\n"
-                    "fix ins all insert/pack seed 13 distributiontemplate pd vel constant 0. 0. -1. "
+                    "fix ins all insert/pack seed 32452843 distributiontemplate pd vel constant 0. 0. -1. "
                     "insert_every once overlapcheck yes all_in yes particles_in_region 3 region r\n"
-                    "fix i all multisphere\n")
+                    "fix i all multisphere allow_group_and_set yes\n")
         (self.folder / "clump.txt").write_text(f"{-RADIUS / 2} 0 0 {RADIUS}\n{RADIUS / 2} 0 0 {RADIUS}\n")
         deck = (head(half=20 * RADIUS) + properties([POWDER]) +
                 f"pair_style gran model mpm tangential history {self.words()}\npair_coeff * *\n"
