@@ -69,7 +69,7 @@ class BadInput(Deck):
         self.refused(self.deck(self.good() + " tangential_damping off", tangential="no_history"), "no friction")
 
     def test_combinations_that_are_not_built(self):
-        for words in ("cohesion easo_capillary_viscous", "rolling_friction epsd3"):
+        for words in ("rolling_friction epsd3", "rolling_friction luding"):
             deck = self.deck(self.good()).replace("tangential history", "tangential history " + words)
             self.refused(deck, "choose among these")
 
