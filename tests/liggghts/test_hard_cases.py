@@ -95,9 +95,8 @@ def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, see
         text += "create_atoms 1 single {!r} {!r} {!r} units box\n".format(*x)
     return (text + f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nvelocity all set 0 0 {-speed!r}\n"
             f"fix g all gravity {gravity} vector 0 0 -1\nfix i all nve/sphere\ntimestep {BED!r}\n"
-            "compute rot all erotate/sphere\ncompute pe all pe/atom\n"
-            "variable height equal xcm(all,z)\nvariable kin equal ke+c_rot\n"
-            f"variable e equal v_kin+mass(all)*{gravity}*v_height\n" + run)
+            "compute rot all erotate/sphere\n"
+            f"variable pot equal mass(all)*{gravity}*xcm(all,z)\n" + run)
 
 
 class Energy(Trial):
@@ -116,14 +115,16 @@ class Energy(Trial):
     def test_bed_at_rest(self):
         """Kinetic + potential energy never exceeds what was there before the first touch, less what was dissipated."""
         steps = 1000000 if FULL else 20000
-        out = ("thermo_style custom step v_kin v_e {}\nthermo 200\nthermo_modify norm no flush no format float %.17g\n")
+        out = ("thermo_style custom step ke c_rot v_pot {}\nthermo 200\nthermo_modify norm no flush no format float %.17g\n")
         for model in ("mpm", "thornton", "hertz"):
-            out_model = out.format("f_granulaw" if model != "hertz" else "v_kin")
+            out_model = out.format("f_granulaw" if model != "hertz" else "")
             # thrown at 1 m/s: yields; then gravity
             rows = self.series(self.run_deck(bed(self.law, model, speed=1.0, run=out_model + f"run {steps}\n")))
             self.assertGreaterEqual(len(rows), steps // 200)
+            # [step, kinetic, kinetic + potential, dissipated]
+            rows = [[row[0], row[1] + row[2], row[1] + row[2] + row[3], row[4] if model != "hertz" else 0.0] for row in rows]
             start = rows[0][2]
-            gained = max((row[2] + (row[3] if model != "hertz" else 0.0) - start) / start for row in rows)
+            gained = max(row[2] + row[3] - start for row in rows) / start
             alone = max(row[2] - start for row in rows) / start
             late = rows[len(rows) // 2:]
             self.record("rest", model=model, steps=steps, gained=gained, mechanical=alone, kinetic_start=rows[0][1],
@@ -135,8 +136,8 @@ class Energy(Trial):
                 self.assertLess(rows[-1][1], 0.5 * rows[0][1], model)  # the contacts did dissipate
 
     def test_vibrated_bed(self):
-        """A floor that shakes at 50 Hz... as a mesh; no sphere is ever faster than elastic bounces allow."""
-        (self.folder / "plane.stl").write_text(plane_stl())
+        """A mesh floor that shakes (1 kHz, 0.2 mm: 1.3 m/s, 100 g lest spheres leave the box): no sphere is ever faster than bounces allow."""
+        (self.folder / "plane.stl").write_text(plane_stl(half=8 * RADIUS))
         amplitude, period = 2e-4, 1e-3
         peak = 2 * math.pi * amplitude / period
         for model in ("mpm", "hertz"):
@@ -144,8 +145,8 @@ class Energy(Trial):
             floor = ("fix cad all mesh/surface file plane.stl type 1\n"
                      f"fix shake all move/mesh mesh cad wiggle amplitude 0. 0. {amplitude!r} period {period!r}\n"
                      f"fix floor all wall/gran model {model} tangential history mesh n_meshes 1 meshes cad {tail}\n")
-            rows = self.series(self.run_deck(bed(self.law, model, floor=floor, run=(
-                "compute vmax all reduce max vz\nthermo_style custom step v_kin c_vmax\nthermo 100\nthermo_modify norm no lost error\nrun 20000\n"))))
+            rows = self.series(self.run_deck(bed(self.law, model, floor=floor, gravity=981.0, run=(
+                "compute vmax all reduce max vz\nthermo_style custom step ke c_vmax\nthermo 100\nthermo_modify norm no lost error\nrun 20000\n"))))
             fastest = max(row[2] for row in rows)
             late = sum(row[1] for row in rows[-50:]) / 50
             self.record("shaken", model=model, floor=peak, fastest=fastest, kinetic=late)
@@ -158,8 +159,9 @@ class Energy(Trial):
 class Stops(Trial):
     def stopped(self, deck, sentence, ranks):
         text = self.run_deck(deck, ranks=ranks, expect_failure=True)
-        lines = [line for line in text.splitlines() if "ERROR" in line]
-        self.assertEqual(len(lines), 1, text[-3000:])
+        lines = [line for line in text.splitlines() if line.startswith("ERROR")]
+        # a pair that two ranks share may stop both: then both say the same
+        self.assertEqual(len({line.split(": ", 1)[1] for line in lines}), 1, text[-3000:])
         self.assertIn(sentence, lines[0])
         self.record("stops", ranks=ranks, line=lines[0])
 
