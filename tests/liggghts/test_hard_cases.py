@@ -81,7 +81,7 @@ def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, see
     half = n * pitch / 2
     words = {"mpm": f"law {law} materials powder", "thornton": "", "hertz": "tangential_damping off"}[model]
     wall = f"wall/gran model {model} tangential history"
-    text = (head(half=max(half, layers * pitch) * 1.5, skin=RADIUS / 2) + properties([POWDER], friction) +
+    text = (head(half=max(half, layers * pitch) * 3.0, skin=RADIUS / 2) + properties([POWDER], friction) +
             (ELASTIC if model == "hertz" else "") +
             f"pair_style gran model {model} tangential history {words}\npair_coeff * *\n")
     tail = "tangential_damping off" if model == "hertz" else ""
@@ -137,7 +137,7 @@ class Energy(Trial):
 
     def test_vibrated_bed(self):
         """A mesh floor that shakes (1 kHz, 0.2 mm: 1.3 m/s, 100 g lest spheres leave the box): no sphere is ever faster than bounces allow."""
-        (self.folder / "plane.stl").write_text(plane_stl(half=8 * RADIUS))
+        (self.folder / "plane.stl").write_text(plane_stl(half=16 * RADIUS))
         amplitude, period = 2e-4, 1e-3
         peak = 2 * math.pi * amplitude / period
         for model in ("mpm", "hertz"):
