@@ -42,7 +42,7 @@ TABLES = {
                  "lid's way that the sphere made (half: in the middle).",
                  (("model", "model"), ("largest force N", "force"), ("step N", "jump"), ("allowed N", "limit"), ("share", "moved"))),
     "curved": ("Curved mesh: new contacts", "A sphere along a trough of 2 degree strips of two triangles. Stock geometry starts a contact at every strip; ours "
-               "begins no more.", (("model", "model"), ("contacts begun", "contacts"), ("triangles entered", "triangles"), ("degrees", "degrees"))),
+               "begin no more (hertz: triangles that entered its list of wall contacts).", (("model", "model"), ("contacts begun", "contacts"), ("strips passed", "strips"), ("degrees", "degrees"))),
     "moving": ("Moving mesh", "The same impact seen from a mesh that comes up at the sphere.", (("model", "model"), ("mesh m/s", "mesh"), ("e", "e"))),
     "particles": ("Boundaries and bodies", "", (("case", "case"), ("model", "model"), ("e", "e"), ("expected", "expected"))),
     "insertion": ("Insertion while running, three sizes", "Largest growth of kinetic energy + dissipated energy between insertions (gives back what contacts held).",
@@ -55,7 +55,9 @@ TABLES = {
              (("model", "model"), ("steps", "steps"), ("growth", "mechanical"), ("growth with dissipated", "gained"), ("start J", "kinetic_start"),
               ("half-way J", "kinetic_half"), ("end J", "kinetic_end"))),
     "shaken": ("A shaken bed", "", (("model", "model"), ("floor, peak m/s", "floor"), ("fastest sphere, up, m/s", "fastest"), ("kinetic J", "kinetic"))),
-    "stops": ("What stops a run", "", (("ranks", "ranks"), ("the line", "line"))),
+    "stops": ("What stops a run", "Under `thermo_modify lost ignore`. `fix granulaw/runaway`, which the pair style adds by itself, looks at every particle whenever "
+              "neighbour lists are rebuilt and at every 100th step: a position or velocity that is no number, or a speed above one radius a step, "
+              "ends the run.", (("ranks", "ranks"), ("the line", "line"))),
 }
 
 
