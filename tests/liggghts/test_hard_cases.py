@@ -1,7 +1,7 @@
 """Decks that break plastic contact models: coarse steps, extreme ratios, long rest, shaking, overlaps past the table, NaN.
 
     test_hard_cases.py            quick
-    test_hard_cases.py full       the bed at rest for a million steps (slow)"""
+    test_hard_cases.py full       the bed for a million steps, every step size, hertz beside (slow)"""
 import math
 import random
 import sys
@@ -26,9 +26,9 @@ class TimeStep(Trial):
         for kind, partner, r_eff, m_eff in (("wall", "wall", RADIUS, mass), ("pair", "powder", RADIUS / 2, mass / 2)):
             for speed in (0.03, 1.0, 8.0):
                 expected, duration, _ = self.fixture("mpm", self.law, "powder", partner, r_eff, m_eff, speed)
-                for steps, limit in self.LIMITS.items():
+                for steps, limit in self.LIMITS.items() if FULL else ((10, self.LIMITS[10]), (50, self.LIMITS[50])):
                     found = {}
-                    for model in ("mpm", "hertz"):
+                    for model in ("mpm", "hertz") if FULL else ("mpm",):
                         words = f"law {self.law} materials powder" if model == "mpm" else "tangential_damping off"
                         if kind == "wall":
                             deck = wall_deck(model, words, POWDER, RADIUS, speed, duration / steps,
@@ -39,7 +39,7 @@ class TimeStep(Trial):
                         if model == "hertz":
                             deck = deck.replace("pair_style", ELASTIC + "pair_style", 1)
                         found[model] = self.result(self.run_deck(deck), "SPEED")[0] / speed
-                    self.record("steps", kind=kind, speed=speed, steps=steps, e=found["mpm"], law=expected, hertz=found["hertz"])
+                    self.record("steps", kind=kind, speed=speed, steps=steps, e=found["mpm"], law=expected, hertz=found.get("hertz"))
                     self.assertAlmostEqual(found["mpm"], expected, delta=limit, msg=f"{kind}, {speed} m/s, {steps} steps")
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 RUNS = (("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_invariance.py", "full", "Collapse"),
-        ("test_geometry.py",), ("test_hard_cases.py",))
+        ("test_geometry.py",), ("test_hard_cases.py", "full"))
 
 INTRO = """# Trials of the LIGGGHTS models
 
