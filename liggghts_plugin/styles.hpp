@@ -7,6 +7,7 @@
 
 #include "liggghts_plugin/model_ids.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
+#include "liggghts_plugin/runaway.hpp"
 
 namespace granulaw::plugin {
 
@@ -139,6 +140,13 @@ class BookedModel : public cm::ContactModel<Style>
   int offset_ = -1;
 };
 
+/// The fixes that come with our models; `add` as in provide_stats_fix.
+inline void provide_fixes(LAMMPS* lmp, bool add)
+{
+  provide_stats_fix(lmp, add);
+  provide_runaway_fix(lmp, add);
+}
+
 /// pair_style gran with one of our models.
 template <class Style, Model model>
 class PairStyle final : public LIGGGHTS::PairStyles::Granular<BookedModel<Style>>
@@ -158,7 +166,7 @@ class PairStyle final : public LIGGGHTS::PairStyles::Granular<BookedModel<Style>
       refuse_no_friction<Style, model>(setup_, rest);
       warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
-      provide_stats_fix(lmp_, true);
+      provide_fixes(lmp_, true);
     });
   }
 
@@ -166,7 +174,7 @@ class PairStyle final : public LIGGGHTS::PairStyles::Granular<BookedModel<Style>
   {
     guarded(lmp_, [&] {
       Base::init_granular();
-      provide_stats_fix(lmp_, true);  // the box did not exist when pair_style stood before create_box
+      provide_fixes(lmp_, true);  // the box did not exist when pair_style stood before create_box
     });
   }
 
@@ -198,7 +206,7 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
       refuse_no_friction<Style, model>(setup_, rest);
       warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
-      provide_stats_fix(lmp_, false);  // adding a fix from inside a fix's constructor would corrupt the list
+      provide_fixes(lmp_, false);  // adding a fix from inside a fix's constructor would corrupt the list
     });
   }
 

@@ -1,0 +1,200 @@
+"""Decks that break plastic contact models: coarse steps, extreme ratios, long rest, shaking, overlaps past the table, NaN.
+
+    test_hard_cases.py            quick
+    test_hard_cases.py full       the bed for a million steps, every step size, hertz beside (slow)"""
+import math
+import random
+import sys
+import unittest
+
+from collisions import pair_deck, wall_deck
+from harness import POWDER, Material, head, plane_stl, properties, sphere_mass
+from trials import Trial
+
+RADIUS = 1.7e-3
+FULL = "full" in sys.argv
+ELASTIC = "fix q1 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
+
+
+class TimeStep(Trial):
+    # Error of e against the law. The force is explicit and a step resolves the contact's turn to 1/steps: the error falls
+    # with its square. The limits are three times or more what was measured, 0.005 at 10 steps and 0.00002 at 100
+    LIMITS = {10: 0.015, 20: 0.004, 50: 0.001, 100: 0.0003}
+
+    def test_steps_a_contact(self):
+        mass = sphere_mass(RADIUS, POWDER.density)
+        for kind, partner, r_eff, m_eff in (("wall", "wall", RADIUS, mass), ("pair", "powder", RADIUS / 2, mass / 2)):
+            for speed in (0.03, 1.0, 8.0):
+                expected, duration, _ = self.fixture("mpm", self.law, "powder", partner, r_eff, m_eff, speed)
+                for steps, limit in self.LIMITS.items() if FULL else ((10, self.LIMITS[10]), (50, self.LIMITS[50])):
+                    found = {}
+                    for model in ("mpm", "hertz") if FULL else ("mpm",):
+                        words = f"law {self.law} materials powder" if model == "mpm" else "tangential_damping off"
+                        if kind == "wall":
+                            deck = wall_deck(model, words, POWDER, RADIUS, speed, duration / steps,
+                                             wall_words="" if model == "mpm" else "tangential_damping off")
+                        else:
+                            deck = pair_deck(model, words, (POWDER, POWDER), (RADIUS, RADIUS), speed, duration / steps)
+                        deck = deck.replace("run 120", f"run {2 * steps + 20}")
+                        if model == "hertz":
+                            deck = deck.replace("pair_style", ELASTIC + "pair_style", 1)
+                        found[model] = self.result(self.run_deck(deck), "SPEED")[0] / speed
+                    self.record("steps", kind=kind, speed=speed, steps=steps, e=found["mpm"], law=expected, hertz=found.get("hertz"))
+                    self.assertAlmostEqual(found["mpm"], expected, delta=limit, msg=f"{kind}, {speed} m/s, {steps} steps")
+
+
+class Ratios(Trial):
+    def check(self, name, model, materials, radii, speed, expected, duration):
+        words = f"law {self.law} materials {' '.join(m.name for m in materials)}" if model == "mpm" else ""
+        if materials[0] is materials[1]:
+            words = words.replace("powder powder", "powder")
+        found = self.result(self.run_deck(pair_deck(model, words, materials, radii, speed, duration / 50)), "SPEED")[0] / speed
+        self.record("ratios", case=name, model=model, speed=speed, e=found, law=expected)
+        self.assertAlmostEqual(found / expected, 1.0, delta=0.01, msg=f"{name} {model} {speed}")  # as in test_restitution
+
+    def test_radii_10_to_1(self):
+        radii = (RADIUS / 10, RADIUS)
+        masses = [sphere_mass(r, POWDER.density) for r in radii]
+        r_eff, m_eff = radii[0] * radii[1] / sum(radii), masses[0] * masses[1] / sum(masses)
+        for speed in (0.05, 1.0, 8.0):
+            for order in (1, -1):
+                expected, duration, _ = self.fixture("mpm", self.law, "powder", "powder", r_eff, m_eff, speed)
+                self.check("radii 1:10" if order == 1 else "radii 10:1", "mpm", (POWDER, POWDER), radii[::order], speed,
+                           expected, duration)
+
+    def test_moduli_1000_to_1(self):
+        """thornton takes its moduli from the deck: the soft body yields, the other is 1000 times as stiff."""
+        soft, stiff = Material("soft", 1500.0, 9.1e9, 0.3, 1e8), Material("stiff", 1500.0, 9.1e12, 0.3, 1e30)
+        e_star = soft.e_star * stiff.e_star / (soft.e_star + stiff.e_star)
+        mass = sphere_mass(RADIUS, 1500.0) / 2
+        for speed in (1.0, 8.0):
+            for pair in ((soft, stiff), (stiff, soft)):
+                expected, duration, _ = self.fixture("thornton", e_star, 1.6 * soft.yield_stress, RADIUS / 2, mass, speed)
+                self.check(f"moduli {pair[0].name}:{pair[1].name}", "thornton", pair, (RADIUS, RADIUS), speed, expected, duration)
+
+
+BED = 5e-7  # s, 30 steps a contact
+
+
+def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, seed=5, floor=None, speed=0.0):
+    """A box of n x n x layers spheres between four elastic walls, dropped on a floor. Frictionless unless said."""
+    rng, pitch = random.Random(seed), 2.02 * RADIUS
+    half = n * pitch / 2
+    words = {"mpm": f"law {law} materials powder", "thornton": "", "hertz": "tangential_damping off"}[model]
+    wall = f"wall/gran model {model} tangential history"
+    text = (head(half=60 * RADIUS, skin=RADIUS / 2) + properties([POWDER], friction) +
+            (ELASTIC if model == "hertz" else "") +
+            f"pair_style gran model {model} tangential history {words}\npair_coeff * *\n")
+    tail = "tangential_damping off" if model == "hertz" else ""
+    for name, plane in (("x0", f"xplane {-half!r}"), ("x1", f"xplane {half!r}"), ("y0", f"yplane {-half!r}"),
+                        ("y1", f"yplane {half!r}")):
+        text += f"fix {name} all {wall} primitive type 1 {plane} {tail}\n"
+    text += f"fix lid all {wall} primitive type 1 zplane {50 * RADIUS!r} {tail}\n"  # none may fly out of the box
+    text += floor or f"fix floor all {wall} primitive type 1 zplane 0.0 {tail}\n"
+    for k in range(n * n * layers):
+        x = [(k % n - (n - 1) / 2) * pitch, (k // n % n - (n - 1) / 2) * pitch, (k // n**2 + 0.52) * pitch]
+        x = [c + rng.uniform(-0.008, 0.008) * RADIUS for c in x]
+        text += "create_atoms 1 single {!r} {!r} {!r} units box\n".format(*x)
+    return (text + f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nvelocity all set 0 0 {-speed!r}\n"
+            f"fix g all gravity {gravity} vector 0 0 -1\nfix i all nve/sphere\ntimestep {BED!r}\n"
+            "compute rot all erotate/sphere\n"
+            f"variable pot equal mass(all)*{gravity}*xcm(all,z)\n" + run)
+
+
+class Energy(Trial):
+    def series(self, text):
+        """Columns of the thermo tables."""
+        rows = []
+        for line in text.splitlines():
+            words = line.split()
+            if len(words) >= 3 and words[0].isdigit():
+                try:
+                    rows.append([float(w) for w in words])
+                except ValueError:
+                    pass
+        return rows
+
+    def test_bed_at_rest(self):
+        """Kinetic + potential energy never exceeds what was there before the first touch, less what was dissipated."""
+        steps = 1000000 if FULL else 20000
+        out = ("thermo_style custom step ke c_rot v_pot {}\nthermo 200\nthermo_modify norm no lost error format float %.17g\n")
+        for model in ("mpm", "thornton", "hertz"):
+            out_model = out.format("f_granulaw" if model != "hertz" else "")
+            # thrown at 1 m/s: yields; then gravity
+            rows = self.series(self.run_deck(bed(self.law, model, speed=1.0, run=out_model + f"run {steps}\n")))
+            self.assertGreaterEqual(len(rows), steps // 200)
+            # [step, kinetic, kinetic + potential, dissipated]
+            rows = [[row[0], row[1] + row[2], row[1] + row[2] + row[3], row[4] if model != "hertz" else 0.0] for row in rows]
+            start = rows[0][2]
+            gained = max(row[2] + row[3] - start for row in rows) / start
+            alone = max(row[2] - start for row in rows) / start
+            late = rows[len(rows) // 2:]
+            self.record("rest", model=model, steps=steps, gained=gained, mechanical=alone, kinetic_start=rows[0][1],
+                        kinetic_half=late[0][1], kinetic_end=rows[-1][1], kinetic_late=max(row[1] for row in late))
+            if model != "hertz":
+                # velocity Verlet at 30 steps a contact: each contact's work is good to (1/30)^2 of it, either sign
+                self.assertLess(gained, 1e-3, model)
+                self.assertLessEqual(alone, 1e-12, model)
+                self.assertLess(rows[-1][1], 0.5 * rows[0][1], model)  # the contacts did dissipate
+
+    def test_vibrated_bed(self):
+        """A mesh floor that shakes (1 kHz, 0.2 mm: 1.3 m/s, 100 g lest spheres leave the box): no sphere is ever faster than bounces allow."""
+        (self.folder / "plane.stl").write_text(plane_stl(half=16 * RADIUS))
+        amplitude, period = 2e-4, 1e-3
+        peak = 2 * math.pi * amplitude / period
+        for model in ("mpm", "hertz"):
+            tail = "tangential_damping off" if model == "hertz" else ""
+            floor = ("fix cad all mesh/surface file plane.stl type 1\n"
+                     f"fix shake all move/mesh mesh cad wiggle amplitude 0. 0. {amplitude!r} period {period!r}\n"
+                     f"fix floor all wall/gran model {model} tangential history mesh n_meshes 1 meshes cad {tail}\n")
+            rows = self.series(self.run_deck(bed(self.law, model, floor=floor, gravity=981.0, run=(
+                "compute vmax all reduce max vz\nthermo_style custom step ke c_vmax\nthermo 100\nthermo_modify norm no lost error\nrun 20000\n"))))
+            fastest = max(row[2] for row in rows)
+            late = sum(row[1] for row in rows[-50:]) / 50
+            self.record("shaken", model=model, floor=peak, fastest=fastest, kinetic=late)
+            if model == "mpm":
+                # one touch gives at most 2 x floor's speed; 27 spheres handing on their speeds a few times that
+                self.assertLess(fastest, 6 * peak)
+                self.assertGreater(late, 0.0)
+
+
+class Stops(Trial):
+    def stopped(self, deck, sentence, ranks):
+        text = self.run_deck(deck, ranks=ranks, expect_failure=True)
+        lines = [line for line in text.splitlines() if line.startswith("ERROR")]
+        # a pair that two ranks share may stop both: then both say the same
+        self.assertEqual(len({line.split(": ", 1)[1] for line in lines}), 1, text[-3000:])
+        self.assertIn(sentence, lines[0])
+        self.record("stops", ranks=ranks, line=lines[0])
+
+    def two_spheres(self, extra="", gap=3.0, dt=2e-7):
+        """Two spheres on either side of x = 0 (one per rank of two) that never touch; `extra` strikes."""
+        text = head(half=20 * RADIUS) + properties([POWDER])
+        text += f"pair_style gran model mpm tangential history law {self.law} materials powder\npair_coeff * *\n"
+        for sign in (-1, 1):
+            text += f"create_atoms 1 single {sign * gap * RADIUS!r} {sign * RADIUS!r} 0.0 units box\n"
+        return (text + f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\ngroup last id 2\ngroup first id 1\n"
+                f"velocity all set 0 0 0.1\nfix i all nve/sphere\ntimestep {dt!r}\nthermo_modify lost ignore\n" + extra)
+
+    def test_overlap_past_the_table(self):
+        deck = pair_deck("mpm", f"law {self.law} materials powder", (POWDER, POWDER), (RADIUS, RADIUS), 200.0, 2e-8,
+                         run="run 1000")
+        for ranks in (1, 2):
+            self.stopped(deck, "beyond the law's table", ranks)
+
+    def test_nan_and_runaway(self):
+        nan = "variable bad atom 1e308*1e308-1e308*1e308\n"
+        for ranks in (1, 2):
+            for who in ("first", "last"):
+                self.stopped(self.two_spheres(f"{nan}run 50\nvelocity {who} set v_bad 0 0\nrun 1000\n"), "is not a number", ranks)
+                self.stopped(self.two_spheres(f"run 50\nvelocity {who} set 1e5 0 0\nrun 1000\n"), "has run away", ranks)
+            # becomes NaN while running: a force that is none
+            self.stopped(self.two_spheres(f"{nan}run 50\nfix f last addforce v_bad 0 0\nrun 1000\n"), "is not a number", ranks)
+
+    def test_fast_but_sound(self):
+        """A sphere that leaves the box in good order stops nothing."""
+        self.run_deck(self.two_spheres("velocity last set 50.0 0 0\nrun 10000\n"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[word for word in sys.argv if word != "full"])

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""docs/trials.md from the tests themselves: trials_page.py DOCS_FOLDER (the target trials_page sets the environment).
+
+Runs test_drop50, test_invariance (full: 10,000 steps), test_geometry and test_hard_cases and writes what they measured.
+trials_page.py DOCS_FOLDER ROWS.jsonl makes the page from rows that are there."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).parent
+RUNS = (("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_invariance.py", "full", "Collapse"),
+        ("test_geometry.py",), ("test_hard_cases.py", "full"))
+
+INTRO = """# Trials of the LIGGGHTS models
+
+What the tests of `tests/liggghts` measured: forces and trajectories that must not depend on LIGGGHTS's bookkeeping, walls and
+particles of every kind, hard cases, 50 drops. Made by `cmake --build --preset release --target trials_page`; the law is the synthetic one of
+`tests/unit/synthetic_law.hpp` (E*/Y = 100), R = 1.7 mm. `hertz` (without damping) and `thornton_ning` are LIGGGHTS's own, at
+`contact_distance_factor 1.01`.
+"""
+
+# table: (title, note, columns as (head, key))
+TABLES = {
+    "drop": ("Drops at 50 velocities", "One run; 50 steps in the shortest contact; every seventh drop is shown. `mpm law` is the tool's own "
+             "integration. The tests ask for 0.005.", (("partner", "kind"), ("V m/s", "speed"), ("e, LIGGGHTS", "e"), ("e, mpm law", "law"))),
+    "drop worst": (None, "", (("partner", "kind"), ("drops", "count"), ("largest error of e", "worst"))),
+    "forces": ("Forces under exchange, rebuild and sorting", "27 spheres thrown together with friction; largest difference of any force component "
+               "over 100 steps, over the largest force. Asked: 1e-12.", (("model", "model"), ("way", "way"), ("difference", "difference"))),
+    "collapse": ("Collapse of 500 spheres", "From one restart file with open contacts, viscous damping off. Largest difference of any coordinate against the "
+                 "first run, over R. Yardstick: the same when each sphere starts one unit in the last place beside. A run that differs in more "
+                 "than the order of its sums would be far above.", (("model", "model"), ("steps", "steps"), ("way", "way"),
+                                                                    ("difference/R", "difference"), ("yardstick/R", "yardstick"))),
+    "rejoin": ("A pair that parts and meets again", "Second impact, after a first one with a plastic dent; e of a virgin contact at that speed is the law's.",
+               (("gap/R", "gap"), ("neigh_modify", "neigh"), ("e of the second impact", "e"), ("virgin", "virgin"))),
+    "flat": ("Flat meshes", "Largest difference of the force from the same contact on a plane without seams, and largest change in one step "
+             "on the mesh and on the plane, over the largest force.",
+             (("case", "case"), ("model", "model"), ("difference", "difference"), ("step, mesh", "jump"), ("step, plane", "jump_plane"))),
+    "squeezed": ("Squeezed between a floor and a lid that comes down", "Largest change of force in one step against what the stiffness allows; share of the "
+                 "lid's way that the sphere made (half: in the middle).",
+                 (("model", "model"), ("largest force N", "force"), ("step N", "jump"), ("allowed N", "limit"), ("share", "moved"))),
+    "curved": ("Curved mesh: new contacts", "A sphere along a trough of 2 degree strips of two triangles. Stock geometry starts a contact at every strip; ours "
+               "begin no more (hertz: triangles that entered its list of wall contacts).", (("model", "model"), ("contacts begun", "contacts"), ("strips passed", "strips"), ("degrees", "degrees"))),
+    "moving": ("Moving mesh", "The same impact seen from a mesh that comes up at the sphere.", (("model", "model"), ("mesh m/s", "mesh"), ("e", "e"))),
+    "particles": ("Boundaries and bodies", "", (("case", "case"), ("model", "model"), ("e", "e"), ("expected", "expected"))),
+    "insertion": ("Insertion while running, three sizes", "Largest growth of kinetic energy + dissipated energy between insertions (gives back what contacts held).",
+                  (("particles", "particles"), ("contacts", "contacts"), ("growth", "gained"))),
+    "steps": ("Steps in a contact", "e of one impact; hertz without damping should give 1.",
+              (("partner", "kind"), ("V m/s", "speed"), ("steps", "steps"), ("e", "e"), ("law", "law"), ("hertz", "hertz"))),
+    "ratios": ("Extreme ratios", "", (("case", "case"), ("model", "model"), ("V m/s", "speed"), ("e", "e"), ("law", "law"))),
+    "rest": ("A bed comes down", "27 frictionless spheres thrown into a box at 1 m/s, no damping at all. Growth of kinetic + potential energy over the start's, and of "
+             "the same + dissipated; kinetic energy (J) at the start, half-way, the end.",
+             (("model", "model"), ("steps", "steps"), ("growth", "mechanical"), ("growth with dissipated", "gained"), ("start J", "kinetic_start"),
+              ("half-way J", "kinetic_half"), ("end J", "kinetic_end"))),
+    "shaken": ("A shaken bed", "", (("model", "model"), ("floor, peak m/s", "floor"), ("fastest sphere, up, m/s", "fastest"), ("kinetic J", "kinetic"))),
+    "stops": ("What stops a run", "Under `thermo_modify lost ignore`. `fix granulaw/runaway`, which the pair style adds by itself, looks at every particle whenever "
+              "neighbour lists are rebuilt and at every 100th step: a position or velocity that is no number, or a speed above one radius a step, "
+              "ends the run.", (("ranks", "ranks"), ("the line", "line"))),
+}
+
+
+def cell(value):
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return f"{value:.2g}" if abs(value) < 1e-3 else f"{value:.5g}"
+    return str(value).replace("|", "\\|")
+
+
+def page(rows):
+    text = [INTRO]
+    for name, (title, note, columns) in TABLES.items():
+        own = [row for row in rows if row["table"] == name]
+        if not own:
+            continue
+        if title:
+            text += [f"## {title}", ""]
+        if note:
+            text += [note, ""]
+        text += ["| " + " | ".join(head for head, _ in columns) + " |", "|" + "---|" * len(columns)]
+        text += ["| " + " | ".join(cell(row[key]) for _, key in columns) + " |" for row in own]
+        text.append("")
+    return "\n".join(text)
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit("trials_page.py DOCS_FOLDER [ROWS.jsonl]")
+    if len(sys.argv) == 3:
+        lines = Path(sys.argv[2]).read_text().splitlines()
+    else:
+        with tempfile.TemporaryDirectory(prefix="granulaw-trials-") as folder:
+            for run in RUNS:
+                print(" ".join(run), flush=True)
+                subprocess.run([sys.executable, str(HERE / run[0]), *run[1:]], check=True, env={**os.environ, "GRANULAW_TRIALS": folder})
+            lines = (Path(folder) / "rows.jsonl").read_text().splitlines()
+    (Path(sys.argv[1]) / "trials.md").write_text(page([json.loads(line) for line in lines]))
+
+
+if __name__ == "__main__":
+    main()
