@@ -59,16 +59,17 @@ def make_law(args, materials=WAX, words=()):
     return str(law)
 
 
-def run(args, deck, model, folder, inputs=(), law=None, variables=None):
+def run(args, deck, model, folder, inputs=(), law=None, variables=None, more=""):
     """Runs `deck` under `model` in `folder` unless that was done with the same inputs. Returns the folder.
 
-    The deck finds -var model, out, common, law and those of `variables`."""
+    The deck finds -var model, out, common, law and those of `variables`; `more`: further words of model mpm."""
     folder = pathlib.Path(folder)
     words = {"model": model, "out": folder, "common": COMMON, **(variables or {})}
     if model == "mpm":
         words["law"] = law
         if args.stretch != 1:
-            words["more"] = f"stretch {args.stretch:g}"
+            more += f" stretch {args.stretch:g}"
+        words.update({"more": more.strip()} if more else {})
     launcher = program("liggghts" if model == "hertz" else "liggghts-mpm")
     plugin = [p for p in pathlib.Path(launcher).parent.glob("libgranulaw_liggghts.so")]
     recipe = digest(deck, *sorted(COMMON.glob("*.in")), *inputs, *plugin, args.ranks,
@@ -78,7 +79,8 @@ def run(args, deck, model, folder, inputs=(), law=None, variables=None):
         return folder
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    command = [launcher, "-in", str(deck), "-log", str(folder / "log")]
+    # line by line: LIGGGHTS ends in MPI_Abort, and with it the sentence that says why
+    command = ["stdbuf", "-oL", launcher, "-in", str(deck), "-log", str(folder / "log")]
     if args.ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(args.ranks)] + command
     for name, value in words.items():
