@@ -12,7 +12,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
-sys.path.insert(0, str(HERE.parent / "hopper"))
+sys.path.append(str(HERE.parent / "hopper"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
 from make_scene import write_stl  # noqa: E402
 from spread import Sample, markdown  # noqa: E402
@@ -20,7 +20,7 @@ from spread import Sample, markdown  # noqa: E402
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 SPEED = 0.2                    # m/s of the lid: rho V^2/Y = 4e-5, far from inertia
 FRACTIONS = (0.65, 0.70, 0.75, 0.80)  # volume of the spheres / volume of the die, where stresses are read
-OVERLAP = 0.1                  # of R: beyond it no single pair law holds (docs/pairs.md): zones of neighbours merge
+OVERLAP = 0.1  # flattening of a sphere over R (half the overlap): beyond it no single pair law holds (docs/pairs.md)
 
 
 def measure(folder, die):
@@ -30,14 +30,14 @@ def measure(folder, die):
     start = die["settle"] * die["dt"]
     height = die["lid"] - SPEED * (s["time"] - start).clip(0)
     curve = {"fraction": die["volume"] / (die["side"]**2 * height), "stress": np.abs(s["force"]) / die["side"]**2,
-             "overlap": s["pair_overlap"] / RADIUS, "beyond": s["beyond"]}
+             "overlap": s["pair_overlap"] / (2 * RADIUS), "beyond": s["beyond"]}
     found = {}
     for f in FRACTIONS:
         if curve["fraction"][-1] >= f:
             found[f"stress at solid fraction {f}, Pa"] = float(np.interp(f, curve["fraction"], curve["stress"]))
-            found[f"largest overlap/R at {f}"] = float(np.interp(f, curve["fraction"], curve["overlap"]))
+            found[f"largest flattening/R at {f}"] = float(np.interp(f, curve["fraction"], curve["overlap"]))
     pressed = s["time"] > start
-    for name, reached in (("overlap/R = 0.1", curve["overlap"] > OVERLAP), ("the end of the law's table", curve["beyond"] > 0)):
+    for name, reached in (("flattening/R = 0.1", curve["overlap"] > OVERLAP), ("the end of the law's table", curve["beyond"] > 0)):
         where = np.flatnonzero(reached & pressed)
         if len(where):
             found[f"solid fraction at {name}"] = float(curve["fraction"][where[0]])
@@ -95,7 +95,7 @@ def main(argv=None):
         pictures.band(axes[1], grid, [np.interp(grid, c["fraction"], c["overlap"]) for c in runs], m)
     axes[1].axhline(OVERLAP, color="tab:red", lw=0.8)
     axes[0].set(xlabel="volume of spheres / volume of die", ylabel="stress, MPa")
-    axes[1].set(xlabel="volume of spheres / volume of die", ylabel="largest overlap / R (red: pair laws end)")
+    axes[1].set(xlabel="volume of spheres / volume of die", ylabel="largest flattening / R (red: pair laws end)")
     axes[0].legend()
     pictures.save(figure, out / "compression.png")
     return samples
