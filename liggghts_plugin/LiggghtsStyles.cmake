@@ -78,6 +78,7 @@ endfunction()
 # would hide the others from the plug-in.
 function(liggghts_link_headers include_dir output_dir)
   file(GLOB headers RELATIVE ${include_dir} CONFIGURE_DEPENDS ${include_dir}/*.h)
+  file(MAKE_DIRECTORY ${output_dir})
   list(FILTER headers EXCLUDE REGEX "^style_(normal|tangential|cohesion|rolling|surface|contact)_model\\.h$")
   foreach(header ${headers})
     file(CREATE_LINK ${include_dir}/${header} ${output_dir}/${header} SYMBOLIC)
