@@ -48,7 +48,7 @@ def pile(folder, glued, base):
     """Free spheres on the base, and how many rolled off it."""
     bed = readings.dump(folder)
     free = bed["id"] > glued
-    on = free & (np.hypot(bed["x"], bed["y"]) < base)
+    on = free & (np.hypot(bed["x"], bed["y"]) < base) & (bed["z"] > 0)  # below the plate there is room as well
     return {name: column[on] for name, column in bed.items()}, int(np.sum(free)), int(np.sum(free & ~on))
 
 
