@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Writes the scene of the hopper example: hopper.stl, outlet.stl and cloud.data.
 
-    make_scene.py -o DIR [--particles 3000] [--radius 3e-3] [--seed 1]
+    make_scene.py -o DIR [--particles 3000] [--radius 3e-3] [--seed 1] ...
 
 The geometry (metres), axis z, orifice in the plane z = 0:
 
         |       |   cylinder, radius 0.050, up to the top of the cloud
         |       |
-         \\     /    cone, half angle 30 degrees
+         \\     /    cone, half angle 30 degrees (--half-angle)
           \\___/     orifice, radius 0.024 (8 particle diameters across)
 
 The particles are a random cloud at rest. Every model and every rank count reads the same cloud.data, so the
@@ -20,15 +20,14 @@ import os
 
 import numpy as np
 
-HALF_ANGLE = math.radians(30.0)
 FACETS = 48  # around the axis
 
 
-def wall_points(orifice, cylinder, top):
+def wall_points(orifice, cylinder, top, half_angle):
     """Profile (r, z) from the orifice to the top; spacing about the facet width, so that no triangle is thin."""
-    cone_height = (cylinder - orifice) / math.tan(HALF_ANGLE)
+    cone_height = (cylinder - orifice) / math.tan(half_angle)
     width = 2.0 * math.pi * orifice / FACETS
-    n_cone = max(1, round(cone_height / math.cos(HALF_ANGLE) / (2.0 * width)))
+    n_cone = max(1, round(cone_height / math.cos(half_angle) / (2.0 * width)))
     n_cylinder = max(1, round((top - cone_height) / (3.0 * width)))
     cone = [(orifice + (cylinder - orifice) * i / n_cone, cone_height * i / n_cone) for i in range(n_cone + 1)]
     return cone + [(cylinder, cone_height + (top - cone_height) * i / n_cylinder) for i in range(1, n_cylinder + 1)]
@@ -66,10 +65,10 @@ def square(half, z):
     return [(a, b, c), (a, c, d)]
 
 
-def random_cloud(count, radius, orifice, cylinder, bottom, packing, rng):
+def random_cloud(count, radius, orifice, cylinder, half_angle, bottom, packing, rng):
     """Centres placed one by one at random, clear of each other and of the walls (random sequential addition)."""
     def free(z):  # distance from the axis that a centre at height z may have
-        cone = orifice + z * math.tan(HALF_ANGLE) - 1.05 * radius / math.cos(HALF_ANGLE)
+        cone = orifice + z * math.tan(half_angle) - 1.05 * radius / math.cos(half_angle)
         return min(cone, cylinder - 1.1 * radius)
 
     height, volume, slice_height = 0.0, 0.0, 0.1 * radius
@@ -114,27 +113,32 @@ def main():
     parser.add_argument("--density", type=float, default=920.0, help="of a particle, kg/m^3: as in materials.toml")
     parser.add_argument("--orifice", type=float, default=24e-3, help="radius of the orifice, m")
     parser.add_argument("--cylinder", type=float, default=50e-3, help="radius of the cylinder, m")
+    parser.add_argument("--half-angle", type=float, default=30.0, help="of the cone, degrees from the axis")
     parser.add_argument("--drop", type=float, default=60e-3, help="lowest height of the cloud over the orifice, m")
     parser.add_argument("--packing", type=float, default=0.25, help="solid fraction of the cloud")
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
     if args.particles < 1 or min(args.radius, args.density, args.drop) <= 0 or not 0 < args.packing <= 0.3:
         parser.error("particles, radius, density and drop must be positive and packing in (0, 0.3]")
+    if not 5 <= args.half_angle <= 80:
+        parser.error(f"--half-angle {args.half_angle} must be 5 to 80 degrees")
     if not args.orifice < args.cylinder:
         parser.error(f"--orifice {args.orifice} must be below --cylinder {args.cylinder}")
 
     os.makedirs(args.out, exist_ok=True)
     rng = np.random.default_rng(args.seed)
-    centres, top = random_cloud(args.particles, args.radius, args.orifice, args.cylinder, args.drop, args.packing, rng)
+    half_angle = math.radians(args.half_angle)
+    centres, top = random_cloud(args.particles, args.radius, args.orifice, args.cylinder, half_angle, args.drop,
+                                args.packing, rng)
     wall_top = top + 5 * args.radius
     outlet = -10 * args.radius  # the plane where particles are counted and removed
     half = 1.2 * args.cylinder
     write_stl(os.path.join(args.out, "hopper.stl"), "hopper",
-              wall_triangles(wall_points(args.orifice, args.cylinder, wall_top)))
+              wall_triangles(wall_points(args.orifice, args.cylinder, wall_top, half_angle)))
     write_stl(os.path.join(args.out, "outlet.stl"), "outlet", square(0.99 * half, outlet))
     write_data(os.path.join(args.out, "cloud.data"), centres, args.radius, args.density,
                [(-half, half), (-half, half), (outlet - 20 * args.radius, wall_top)])
-    scene = dict(vars(args), half_angle_deg=math.degrees(HALF_ANGLE), cloud_top=top, outlet=outlet,
+    scene = dict(vars(args), half_angle_deg=args.half_angle, cloud_top=top, outlet=outlet,
                  mass=args.particles * args.density * 4.0 / 3.0 * math.pi * args.radius**3)
     del scene["out"]
     with open(os.path.join(args.out, "scene.json"), "w") as out:

@@ -1,0 +1,72 @@
+"""Samples of several seeds: mean, spread, and whether two of them differ (Welch's t test)."""
+import math
+
+import numpy as np
+
+
+class Sample:
+    """Values of one quantity, one a seed."""
+
+    def __init__(self, values):
+        self.values = np.asarray(list(values), dtype=float)
+        if self.values.size == 0:
+            raise ValueError("a sample needs one value at least")
+
+    @property
+    def mean(self):
+        return float(np.mean(self.values))
+
+    @property
+    def deviation(self):
+        """Sample standard deviation, or None with a single value."""
+        return float(np.std(self.values, ddof=1)) if self.values.size > 1 else None
+
+    @property
+    def error(self):
+        """Standard error of the mean, or None with a single value."""
+        return None if self.deviation is None else self.deviation / math.sqrt(self.values.size)
+
+    def __str__(self):
+        return f"{self.mean:.4g}" + ("" if self.error is None else f" ± {self.error:.1g}")
+
+
+def student_tail(t, dof):
+    """Two-sided P(|T| > t) of Student's t: with t = sqrt(dof) tan(x) its density becomes cos(x)^(dof-1)."""
+    angles = np.linspace(math.atan(abs(t) / math.sqrt(dof)), math.pi / 2, 4001)
+    whole = np.linspace(0, math.pi / 2, 4001)
+    area = lambda x: float(np.trapz(np.cos(x).clip(0)**(dof - 1), x))
+    return area(angles) / area(whole)
+
+
+def welch(a, b):
+    """p of `the two means are equal` (Welch 1947), None where a spread is missing."""
+    if a.error is None or b.error is None:
+        return None
+    variance = a.error**2 + b.error**2
+    if variance == 0:
+        return 1.0 if a.mean == b.mean else 0.0
+    dof = variance**2 / (a.error**4 / (a.values.size - 1) + b.error**4 / (b.values.size - 1))
+    return student_tail((a.mean - b.mean) / math.sqrt(variance), dof)
+
+
+def verdict(a, b):
+    """A cell for a table: the change from b to a, and whether it is significant (p < 0.05)."""
+    p = welch(a, b)
+    change = f"{100 * (a.mean / b.mean - 1):+.1f} %" if b.mean else f"{a.mean - b.mean:+.3g}"
+    if p is None:
+        return f"{change}, one seed: no verdict"
+    return f"{change}, {'significant' if p < 0.05 else 'not significant'} (p = {p:.2g})"
+
+
+def markdown(samples, base="hertz"):
+    """Table of {model: {quantity: Sample}}: value ± standard error, and each model's verdict against `base`."""
+    models = list(samples)
+    others = [m for m in models if m != base and base in samples]
+    lines = ["| quantity | " + " | ".join(models + [f"{m} against {base}" for m in others]) + " |",
+             "|---|" + "---|" * (len(models) + len(others))]
+    for quantity in samples[models[0]]:
+        cells = [str(samples[m].get(quantity, "n/a")) for m in models]
+        cells += [verdict(samples[m][quantity], samples[base][quantity])
+                  if quantity in samples[m] and quantity in samples[base] else "" for m in others]
+        lines.append(f"| {quantity} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""Compression: uniaxial, in a frictionless die, to overlaps where pair laws end.
+
+    run.py [-o out/compression] [--seeds 5] [--quick]
+
+Writes report.md, compression.csv and compression.png."""
+import csv
+import pathlib
+import sys
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "common"))
+sys.path.append(str(HERE.parent / "hopper"))
+import clouds, pictures, readings, sweep  # noqa: E401, E402
+from make_scene import write_stl  # noqa: E402
+from spread import Sample, markdown  # noqa: E402
+
+RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
+SPEED = 0.2                    # m/s of the lid: rho V^2/Y = 4e-5, far from inertia
+FRACTIONS = (0.65, 0.70, 0.75, 0.80)  # volume of the spheres / volume of the die, where stresses are read
+OVERLAP = 0.1  # flattening of a sphere over R (half the overlap): beyond it no single pair law holds (docs/pairs.md)
+
+
+def measure(folder, die):
+    s = readings.series(folder)
+    if readings.lost(folder):
+        raise SystemExit(f"{folder}: particles were lost")
+    start = die["settle"] * die["dt"]
+    height = die["lid"] - SPEED * (s["time"] - start).clip(0)
+    curve = {"fraction": die["volume"] / (die["side"]**2 * height), "stress": np.abs(s["force"]) / die["side"]**2,
+             "overlap": s["pair_overlap"] / (2 * RADIUS), "beyond": s["beyond"]}
+    found = {}
+    for f in FRACTIONS:
+        if curve["fraction"][-1] >= f:
+            found[f"stress at solid fraction {f}, Pa"] = float(np.interp(f, curve["fraction"], curve["stress"]))
+            found[f"largest flattening/R at {f}"] = float(np.interp(f, curve["fraction"], curve["overlap"]))
+    pressed = s["time"] > start
+    for name, reached in (("flattening/R = 0.1", curve["overlap"] > OVERLAP), ("the end of the law's table", curve["beyond"] > 0)):
+        where = np.flatnonzero(reached & pressed)
+        if len(where):
+            found[f"solid fraction at {name}"] = float(curve["fraction"][where[0]])
+    return found, curve
+
+
+def main(argv=None):
+    parser = sweep.options(__doc__, "out/compression")
+    parser.add_argument("--particles", type=int)
+    args = parser.parse_args(argv)
+    particles = args.particles or (60 if args.quick else 500)
+    side = 2 * RADIUS * (3.5 if args.quick else 8)
+    volume = particles * 4 / 3 * np.pi * RADIUS**3
+    lid, low = volume / (0.50 * side**2), volume / ((0.78 if args.quick else 0.85) * side**2)
+    dt = 4e-6 * args.stretch
+    die = {"side": side, "lid": lid, "dt": dt, "volume": volume, "settle": round((0.16 if args.quick else 0.4) / dt)}
+    press = round((lid - low) / SPEED / dt)
+    out, law, tables, curves = pathlib.Path(args.out), sweep.make_law(args), {}, {}
+    for seed in range(1, args.seeds + 1):
+        scene = out / f"scene-{seed}"
+        scene.mkdir(parents=True, exist_ok=True)
+        top = lid + 4 * RADIUS + volume / (0.2 * side**2)
+        inner = 1.05 * RADIUS
+        centres = clouds.random_cloud(particles, RADIUS, (inner,) * 3, (side - inner, side - inner, top), np.random.default_rng(seed))
+        # the lid waits above the cloud's bed; spheres that are still above it when it starts would be cut off: none may be
+        edge = 0.2 * RADIUS
+        clouds.write_data(scene / "cloud.data", centres, RADIUS, DENSITY, (-2 * RADIUS,) * 3,
+                          (side + 2 * RADIUS, side + 2 * RADIUS, top + 4 * RADIUS))
+        a, b, c, d = (np.array(p + (top + RADIUS,)) for p in ((-edge, -edge), (side + edge, -edge), (side + edge, side + edge), (-edge, side + edge)))
+        write_stl(scene / "lid.stl", "lid", [(a, c, b), (a, d, c)])
+        for model in args.models:
+            name = sweep.label(args, model)
+            whole = dict(die, lid=top + RADIUS)
+            steps = round((top + RADIUS - low) / SPEED / dt)
+            folder = sweep.run(args, HERE / "in.compression", model, out / f"{name}-{seed}",
+                               [scene / "cloud.data", scene / "lid.stl"], law,
+                               {"scene": scene, "dt": dt, "side": side, "settle": die["settle"], "press": steps,
+                                "speed": SPEED, "every": max(1, round(1e-3 / dt)),
+                                **({"behind": "beyondRange continue"} if model == "mpm" else {})}, "beyondRange continue")
+            found, curve = measure(folder, whole)
+            tables.setdefault(name, []).append(found)
+            curves.setdefault(name, []).append(curve)
+    samples = {m: {q: Sample(run[q] for run in runs) for q in runs[0] if all(q in run for run in runs)}
+               for m, runs in tables.items()}
+    with open(out / "compression.csv", "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["model", "seed", "quantity", "value"])
+        writer.writerows([m, k + 1, q, v] for m, runs in tables.items() for k, run in enumerate(runs) for q, v in run.items())
+    (out / "report.md").write_text(f"# Compression\n\n{particles} spheres, {args.seeds} seeds; ±: standard error.\n\n" +
+                                   markdown(samples) + "\n![compression](compression.png)\n")
+    figure, axes = pictures.panels(2)
+    for m, runs in curves.items():
+        grid = np.linspace(0.55, min(c["fraction"][-1] for c in runs), 200)
+        pictures.band(axes[0], grid, [np.interp(grid, c["fraction"], c["stress"]) / 1e6 for c in runs], m)
+        pictures.band(axes[1], grid, [np.interp(grid, c["fraction"], c["overlap"]) for c in runs], m)
+    axes[1].axhline(OVERLAP, color="tab:red", lw=0.8)
+    axes[0].set(xlabel="volume of spheres / volume of die", ylabel="stress, MPa")
+    axes[1].set(xlabel="volume of spheres / volume of die", ylabel="largest flattening / R (red: pair laws end)")
+    axes[0].legend()
+    pictures.save(figure, out / "compression.png")
+    return samples
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,154 @@
+#!/usr/bin/python3
+"""The examples in small.   test_examples.py CLASS FOLDER_OF_mpm FOLDER_OF_liggghts-mpm"""
+import importlib.util
+import math
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "examples" / "common"))
+import readings  # noqa: E402
+import spread  # noqa: E402
+
+
+def example(name):
+    """The module examples/NAME/run.py."""
+    spec = importlib.util.spec_from_file_location(f"run_{name}", ROOT / "examples" / name / "run.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class Run(unittest.TestCase):
+    name, words = "", ()
+
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory(prefix="granulaw-example-")
+        cls.folder = pathlib.Path(cls._folder.name)
+        cls.module = example(cls.name)
+        cls.result = cls.module.main(["-o", str(cls.folder), "--quick", "--seeds", "1", *cls.words])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    def mean(self, model, quantity):
+        return self.result[model][quantity].mean
+
+    def rows(self, model, rest="-1"):
+        return readings.series(self.folder / f"{model}{rest}")
+
+
+class Spread(unittest.TestCase):
+    def test_student_tail_of_the_tables(self):
+        # any table of Student's t; given to four digits, hence 1e-4
+        for t, dof, p in ((12.706, 1, 0.05), (2.776, 4, 0.05), (3.169, 10, 0.01), (1.984, 100, 0.05)):
+            self.assertAlmostEqual(spread.student_tail(t, dof), p, delta=1e-4)
+
+    def test_welch_by_hand(self):
+        a, b = spread.Sample([1, 2, 3, 4]), spread.Sample([3, 5, 7, 9])
+        # t = 3.5/sqrt(5/12 + 5/3) = 2.4249, dof = (25/12)^2/((25/144 + 25/9)/3) = 4.4118
+        self.assertAlmostEqual(spread.welch(a, b), spread.student_tail(3.5 / math.sqrt(25 / 12), 4.411765), delta=1e-6)
+        self.assertGreater(spread.welch(a, b), 0.05)
+
+    def test_one_seed_gives_no_verdict(self):
+        self.assertIsNone(spread.welch(spread.Sample([1.0]), spread.Sample([1.0, 2.0])))
+        self.assertIn("no verdict", spread.verdict(spread.Sample([1.0]), spread.Sample([1.0, 2.0])))
+
+
+class Drop(Run):
+    name = "drop"
+
+    def test_e_is_that_of_the_model(self):
+        # 70 steps in the shortest contact. Hertz: its dashpot acts at the half step's velocity, and e = 0.55 is the
+        # formula for a force that may pull
+        for row in self.result:
+            if row["kind"] != "oblique":
+                limit = 0.003 if row["model"] == "hertz" else 0.001
+                self.assertLess(abs(row["e"] - row["e_expected"]), limit, row)
+
+    def test_gross_sliding(self):
+        # Coulomb's impulse exactly under a law that never pulls; the spin lacks the overlap in the arm, below 1 % of R here
+        slides = [r for r in self.result if r.get("slides") and r["model"] != "hertz"]
+        self.assertGreater(len(slides), 1)
+        for row in slides:
+            self.assertAlmostEqual(row["tangential"] / row["tangential_sliding"], 1, delta=1e-6)
+            self.assertAlmostEqual(row["spin"] / row["spin_sliding"], 1, delta=0.01)
+
+    def test_plastic_e_falls_with_speed(self):
+        for model in ("thornton", "mpm"):
+            e = [r["e"] for r in self.result if (r["model"], r["kind"]) == (model, "wall")]
+            self.assertTrue(all(a > b for a, b in zip(e[1:], e[2:])), e)
+            self.assertLess(e[-1], 0.6 * e[0])
+
+
+class Packing(Run):
+    name = "packing"
+
+    def test_a_bed_of_spheres(self):
+        for model in ("hertz", "thornton", "mpm"):
+            # random loose to dense packing is 0.55 to 0.64; four diameters wide and overlapping: 0.05 either way
+            self.assertTrue(0.50 < self.mean(model, "solid fraction") < 0.69)
+            self.assertTrue(2 < self.mean(model, "coordination number, inside") < 8)
+            self.assertLess(self.mean(model, "kinetic energy at the end / peak"), 0.01)
+
+    def test_normal_contacts_take_a_share(self):
+        for model in ("thornton", "mpm"):
+            self.assertTrue(0.1 < self.mean(model, "of it in normal contacts") < 1)
+
+
+class Heap(Run):
+    name = "heap"
+
+    def test_the_stream_lands(self):
+        for model in ("hertz", "thornton", "mpm"):
+            # more than one layer, on a layer of radius 3 mm; the fall was from 80 mm
+            self.assertTrue(0.0042 < self.mean(model, "mean height of the spheres, m") < 0.012)
+            self.assertGreater(self.mean(model, "height, m"), 0.0082)
+            self.assertLess(self.mean(model, "share that rolled off the plate"), 0.8)
+
+
+class Compression(Run):
+    name = "compression"
+
+    def test_the_stress_grows_and_plastic_beds_are_softer(self):
+        for model in ("hertz", "thornton", "mpm"):
+            s = [self.mean(model, f"stress at solid fraction {f}, Pa") for f in (0.65, 0.7)]
+            self.assertLess(s[0], s[1])
+        # at the same flattening (0.1 R) thornton's force is below a quarter of hertz's, mpm's below a half
+        for model in ("thornton", "mpm"):
+            self.assertLess(self.mean(model, "stress at solid fraction 0.7, Pa"),
+                            0.6 * self.mean("hertz", "stress at solid fraction 0.7, Pa"))
+
+    def test_it_goes_where_pair_laws_end(self):
+        for model in ("hertz", "thornton", "mpm"):
+            self.assertIn("solid fraction at flattening/R = 0.1", self.result[model])
+
+
+class Silo(Run):
+    name = "silo"
+    words = ("--ranks", "2")
+
+    def test_it_flows(self):
+        for model in ("hertz", "thornton", "mpm"):
+            s = self.rows(model, "-1-ranks2")
+            self.assertEqual(max(s["passed"][s["time"] < 0.06]), 0)  # closed
+            self.assertGreater(self.mean(model, "discharged share"), 0.3)
+
+    def test_ranks_agree_before_the_first_impact(self):
+        # the lowest sphere falls 2 mm: 0.02 s; free fall is one to rounding
+        self.module.main(["-o", str(self.folder), "--quick", "--seeds", "1", "--models", "hertz"])
+        one, two = self.rows("hertz", "-1-ranks1"), self.rows("hertz", "-1-ranks2")
+        early = one["time"] < 0.015
+        self.assertGreater(early.sum(), 3)
+        for a, b in zip(one["kinetic"][early], two["kinetic"][early]):
+            self.assertAlmostEqual(a, b, delta=1e-9 * max(a, 1e-12))
+
+
+if __name__ == "__main__":
+    os.environ["PATH"] = os.pathsep.join(sys.argv[2:4] + [os.environ["PATH"]])
+    unittest.main(argv=[sys.argv[0], sys.argv[1]], verbosity=2)
