@@ -64,7 +64,7 @@ LawMaterial material_of(const Scene& scene, int type, const PlanOptions& options
 void ask(Plan& plan, const std::string& what, const std::string& option)
 {
   for (const Question& q : plan.questions)
-    if (q.what == what) return;
+    if (q.what == what && q.option == option) return;
   plan.questions.push_back({what, option});
 }
 
@@ -165,7 +165,7 @@ std::optional<Visited::Range> range_of(const PairPlan& p, const Visited& visited
   const Meeting& m = p.meeting;
   const auto& by_types = m.wall ? visited.walls : visited.pairs;
   std::optional<Visited::Range> range = m.wall ? visited.wall : visited.pair;
-  if (!by_types.empty()) {
+  if (!visited.pairs.empty() || !visited.walls.empty()) {  // the file tells pairs apart
     const auto at = by_types.find(m.wall || m.a <= m.b ? std::pair(m.a, m.b) : std::pair(m.b, m.a));
     range = at == by_types.end() ? Visited::Range{} : at->second;
   }
@@ -242,7 +242,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   if (!options.speed) {
     bool unknown = !scene.unknown_heights.empty();
     for (const auto& [type, f] : flights)
-      if (g > 0 && (!f.known || !std::isfinite(f.at(floor)))) unknown = true;
+      if (g > 0 && (!f.known || !std::isfinite(floor) || !std::isfinite(f.at(floor)))) unknown = true;
     if (unknown && !options.drop_height && !visited)
       ask(plan,
           scene.unknown_heights.empty() ? "from how high the particles fall"

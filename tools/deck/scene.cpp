@@ -622,6 +622,7 @@ void Reader::particle_template(const Command& c, const std::string& id, const st
     else if (k.take("uniform"))
       low = k.value(), high = k.value();
     else if (k.take("gaussian")) {
+      if (!k.take("number")) k.take("mass");
       const double mean = k.value(), sigma = k.value();
       low = std::max(0.1 * mean, mean - 3 * sigma), high = mean + 3 * sigma;
     } else

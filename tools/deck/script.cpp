@@ -37,11 +37,6 @@ std::string uncommented(const std::string& text)
   return text;
 }
 
-bool same_word(const std::string& a, const std::string& b)
-{
-  return a == b;
-}
-
 }  // namespace
 
 std::string path_from(const std::string& folder, const std::string& path)
@@ -110,7 +105,7 @@ void Script::run_file(const std::string& path, const std::string& label)
   const auto position_of = [&](const std::string& wanted) -> std::size_t {
     for (std::size_t k = 0; k < all.size(); ++k) {
       const auto words = split(all[k].text);
-      if (words.size() == 2 && words[0] == "label" && same_word(words[1], wanted)) return k + 1;
+      if (words.size() == 2 && words[0] == "label" && words[1] == wanted) return k + 1;
     }
     fail(path, "has no label that a jump leads to", "'" + wanted + "'");
   };
@@ -129,6 +124,8 @@ void Script::run_file(const std::string& path, const std::string& label)
 
 void Script::run_line(const std::string& text, const std::string& where, const std::string& path)
 {
+  if (++executed_ > largest_number_of_lines)
+    fail(where, fmt::format("the deck executes more than {} lines", largest_number_of_lines));
   Command command{where, folder_, {}, {}};
   std::string line = text;
   try {

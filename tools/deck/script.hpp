@@ -44,7 +44,7 @@ class Script
   /// The words of a line; quotes are taken off.
   static std::vector<std::string> split(const std::string& text);
 
-  static constexpr int largest_number_of_jumps = 20000, largest_depth = 20;
+  static constexpr int largest_number_of_jumps = 20000, largest_depth = 20, largest_number_of_lines = 2000000;
 
  private:
   struct Variable
@@ -84,7 +84,7 @@ class Script
   std::string folder_;
   bool skip_jump_ = false;
   std::vector<Jump> jump_;  // at most one: the jump to take now
-  int jumps_ = 0, depth_ = 0;
+  int jumps_ = 0, depth_ = 0, executed_ = 0;
 };
 
 /// `path` as the deck means it: counted from the folder in which the deck lies.

@@ -73,8 +73,7 @@ Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& option
     PairStretch q;
     q.pair = &p;
     const double density = plan.mass_min / (4.0 / 3.0 * M_PI * std::pow(plan.radius_min, 3));
-    const double r_eff = m.wall ? plan.radius_min : 0.5 * plan.radius_min,
-                 m_eff = m.wall ? plan.mass_min : 0.5 * plan.mass_min;
+    const double r_eff = m.wall ? plan.radius_min : 0.5 * plan.radius_min;
     const double r_big = m.wall ? plan.radius_max : 0.5 * plan.radius_max,
                  m_big = m.wall ? plan.mass_max : 0.5 * plan.mass_max;
     q.slow_speed = g > 0 ? std::min(p.speed, std::sqrt(2 * g * diameter)) : p.speed;
