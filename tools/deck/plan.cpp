@@ -83,7 +83,8 @@ std::map<int, Kind> kinds_of(const Scene& scene, const PlanOptions& options, Pla
     Source s;
     s.where = scene.deck;
     sources.push_back(s);
-    if (!options.radius_max) ask(plan, scene.deck + ": no particles were understood", "--radius R [R_MAX]");
+    if (!options.radius_max && scene.unknown_particles.empty())
+      ask(plan, scene.deck + ": no particles were understood", "--radius R [R_MAX]");
   }
   for (Source s : sources) {
     if (s.radius_max <= 0)
@@ -92,7 +93,7 @@ std::map<int, Kind> kinds_of(const Scene& scene, const PlanOptions& options, Pla
     if (const auto m = options.materials.find(s.type); s.density <= 0 && m != options.materials.end())
       s.density = m->second.density;
     if (s.radius_max <= 0) {
-      ask(plan, s.where + ": the radius of its particles", "--radius R [R_MAX]");
+      if (!scene.sources.empty()) ask(plan, s.where + ": the radius of its particles", "--radius R [R_MAX]");
       continue;
     }
     if (s.density <= 0) {
@@ -248,8 +249,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
           scene.unknown_heights.empty() ? "from how high the particles fall"
                                         : first_of(scene.unknown_heights),
           "--drop-height H");
-    if (!scene.unknown_speeds.empty() && !visited && !options.drop_height)
-      ask(plan, first_of(scene.unknown_speeds), "--speed V");
+    if (!scene.unknown_speeds.empty() && !visited) ask(plan, first_of(scene.unknown_speeds), "--speed V");
   }
   const auto speed_at = [&](const Flight& f, double height) {
     double v = std::sqrt(f.speed * f.speed + 2 * g * options.drop_height.value_or(0));

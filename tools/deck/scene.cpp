@@ -247,8 +247,7 @@ void Reader::execute(const Command& c)
     else if (name == "read_restart") {
       const std::string what = fmt::format("{}: read_restart: its particles are not read", c.where);
       scene_.unknown_particles.push_back(what);
-      scene_.unknown_heights.push_back(what);
-      scene_.unknown_speeds.push_back(what);
+      scene_.unknown_heights.push_back(what);  // --drop-height stands for their kinetic energy as well
     } else if (name == "create_atoms")
       create_atoms(c);
     else if (name == "set")

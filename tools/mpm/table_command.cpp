@@ -193,6 +193,9 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   if (command.count("--depth") == 0) r.range.depth = d.plan.depth;
   if (command.count("--inertia") == 0) r.inertia = d.plan.inertia;
   if (command.count("--radius-ratio") == 0) r.radius_ratio = ratio;
+  if (rank() == 0)
+    fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
+               fmt::join(r.pairs, ", "), r.range.depth, r.inertia);
   return true;
 }
 
@@ -317,7 +320,9 @@ void add_table(CLI::App& app)
   command->add_option("-o,--output", r->output, "law file, NAME.h5")->required();
   command->callback([r, command] {
     if (!r->deck.empty() && !take_from_deck(*r, *command)) {
-      fmt::print("{}: no pair of the scene yields: Hertz suffices, no law is written\n", printable(r->deck));
+      if (rank() == 0)
+        fmt::print("{}: no pair of the scene yields: Hertz suffices, no law is written\n",
+                   printable(r->deck));
       return;
     }
     build(*r);
