@@ -179,7 +179,7 @@ def case_errors():
     refused(["press", name, "--particle", "grain", "--depth", "0.1", "--ramp", "-5", *out], "--ramp", "1 to 1e6")
     refused(["table", name, "--pair", "powdr:wall", "-o", "out.h5"], "powdr", "did you mean 'powder'")
     refused(["table", name, "--pair", "powder", "-o", "out.h5"], "powder", "a:b")
-    refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "--deck", "version")
+    refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "in.x", "cannot be read")
     refused(["plan", "in.hopper"], "plan", "later")
 
     def broken(old, new, *wanted):
