@@ -180,7 +180,7 @@ def case_errors():
     refused(["table", name, "--pair", "powdr:wall", "-o", "out.h5"], "powdr", "did you mean 'powder'")
     refused(["table", name, "--pair", "powder", "-o", "out.h5"], "powder", "a:b")
     refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "in.x", "cannot be read")
-    refused(["plan", "in.hopper"], "plan", "later")
+    refused(["plan", "in.hopper"], "in.hopper", "cannot be read")
 
     def broken(old, new, *wanted):
         materials(GOOD.replace(old, new))
