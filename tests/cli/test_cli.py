@@ -5,6 +5,7 @@ Each case works in its own temporary folder. See CMakeLists.txt for the list.
 """
 import argparse
 import json
+import math
 import os
 import re
 import signal
@@ -178,8 +179,8 @@ def case_errors():
     refused(["press", name, "--particle", "grain", "--depth", "0.1", "--ramp", "-5", *out], "--ramp", "1 to 1e6")
     refused(["table", name, "--pair", "powdr:wall", "-o", "out.h5"], "powdr", "did you mean 'powder'")
     refused(["table", name, "--pair", "powder", "-o", "out.h5"], "powder", "a:b")
-    refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "--deck", "version")
-    refused(["plan", "in.hopper"], "plan", "later")
+    refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "in.x", "cannot be read")
+    refused(["plan", "in.hopper"], "in.hopper", "cannot be read")
 
     def broken(old, new, *wanted):
         materials(GOOD.replace(old, new))
@@ -508,6 +509,147 @@ def case_predict():
         print(f"I {inertia:.2g}: e {impact['e']:.4f}, law {100 * e:+.3f} %; F_max law {100 * force:+.3f} %")
         worst = max(worst, abs(e), abs(force))
     assert worst < 0.01, worst  # the issue's figure
+
+
+TUTORIALS = Path("/usr/share/doc/liggghts/examples/LIGGGHTS/Tutorials_public")
+
+
+def hopper():
+    """The hopper's own scene, and the words that plan it."""
+    example = SOURCE / "examples/hopper"
+    subprocess.run(["/usr/bin/python3", example / "make_scene.py", "-o", "scene"], check=True, capture_output=True)
+    for name in ("in.hopper", "materials.toml"):
+        Path(name).write_text((example / name).read_text())
+    return ["in.hopper", "--var", "model", "mpm", "--var", "scene", "scene", "--materials-file", "materials.toml"]
+
+
+def case_plan():
+    words = hopper()
+    plan = Run("plan", *words, "--json").json()
+    assert plan["complete"] and not plan["asks_for"] and not plan["not_followed"], plan
+    pair, wall = plan["pairs"]
+    # out/demo/mpm/stats.json of tools/demo: the run with these 3000 particles met at 1.93 and 1.34 m/s. The
+    # issue's figure: contained, and exceeded by less than 3 times.
+    assert 1.93 < pair["speed_max_m_per_s"] < 3 * 1.93 and 1.34 < wall["speed_max_m_per_s"] < 3 * 1.34, plan["pairs"]
+    assert pair["needs_table"] and wall["needs_table"] and not pair["wall"] and wall["wall"]
+    assert 0.0734 < pair["overlap_over_radius_max"] < 3 * 0.0734  # visited, over R*
+    # V_y of the README, 0.017 m/s on a wall; a pair of like spheres meets twice as fast
+    assert abs(wall["yield_velocity_m_per_s"] / 0.017 - 1) < 0.03 and \
+        abs(pair["yield_velocity_m_per_s"] / wall["yield_velocity_m_per_s"] - 2) < 1e-9
+    assert plan["cost"]["particles"] == 3000 and plan["cost"]["particle_steps"] == 3000 * (67000 + 180000)
+    assert plan["table_command"].startswith("mpm table materials.toml --pair wax:wax --pair wax:wall --depth ")
+
+    made = Run(*plan["table_command"].split()[1:])
+    assert made.code == 0, made.err
+    by_deck = Run("table", "materials.toml", "--deck", *words[:-2], "-o", "deck.h5")
+    assert by_deck.code == 0, by_deck.err
+    with h5py.File("law.h5") as a, h5py.File("deck.h5") as b:  # the same law, by both ways
+        names = []
+        a.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+        numbers = [n for n in names if a[n].dtype.kind == "f"]
+        assert numbers and all(np.array_equal(a[n][()], b[n][()]) for n in numbers)
+
+    stats = {"pair": {"contacts_begun": 9, "impact_speed_max_m_per_s": 1.6, "overlap_over_radius_max": 0.07},
+             "wall": {"contacts_begun": 9, "impact_speed_max_m_per_s": 1.2, "overlap_over_radius_max": 0.02}}
+    Path("stats.json").write_text(json.dumps(stats))
+    tight = Run("plan", *words, "--from", "stats.json", "--json").json()
+    assert [p["speed_max_m_per_s"] for p in tight["pairs"]] == [2.0, 1.5]  # with the margin of 1.25
+
+    human = Run("plan", *words)
+    assert human.code == 0 and plan["table_command"] in human.out
+    slow = Run("plan", *words, "--speed", "0.01", "--json").json()
+    assert slow["table_command"] is None and not any(p["needs_table"] for p in slow["pairs"])
+    none = Run("table", "materials.toml", "--deck", *words[:-2], "--speed", "0.01", "-o", "none.h5")
+    assert none.code == 0 and "Hertz suffices" in none.out and not Path("none.h5").exists()
+
+    lines = Path("in.hopper").read_text().splitlines()
+    where = f"in.hopper:{1 + next(k for k, line in enumerate(lines) if 'read_restart' in line)}: read_restart"
+    asked = Run("plan", *words, "--var", "refill", "0", "--json").json()  # from a restart file: not read
+    assert not asked["complete"] and any(where in q["what"] for q in asked["asks_for"]), asked["asks_for"]
+    given = Run("plan", *words, "--var", "refill", "0", "--radius", "3e-3", "--drop-height", "0.3", "--particles",
+                "3000", "--json").json()
+    assert given["complete"] and given["cost"]["particle_steps"] == 3000 * 180000
+    refused(["table", "materials.toml", "--deck", *words[:-2], "--var", "refill", "0", "-o", "no.h5"], "--radius")
+
+
+def case_soften():
+    words = hopper()
+    result = Run("soften", *words, "--json").json()
+    assert result["overlap_over_radius"] <= 0.2 and result["stretch"] >= 1
+    loose = Run("soften", *words, "--max-overlap", "0.5", "--static-limit", "100", "--json").json()
+    assert loose["stretch"] > result["stretch"] and loose["extra_plastic_set_over_radius"] >= 0
+    assert abs(loose["time_step_s"] / (6e-6 * loose["stretch"]) - 1) < 1e-12  # the deck's, times s
+    for e in loose["modulus_lowered"]["restitution"]:
+        assert e["e_modulus_lowered"] > e["e_stretched"] + 0.05  # softer spheres yield less: e is not kept
+    human = Run("soften", *words)
+    assert human.code == 0 and all(line in human.out for line in result["paste"])
+    refused(["soften", *words, "--var", "refill", "0"], "--radius")
+
+
+def case_bad_decks():
+    name = materials()
+    for text, *wanted in (
+            ("units lj\n", "units lj", "units si"),
+            ("", "units"),
+            ("units si\nread_data gone\n", "bad:2", "gone"),
+            ("units si\ninclude bad\n", "deep"),
+            ("units si\njump SELF gone\n", "gone"),
+            ("units si\n\0\n", "bad:2"),
+            ("units si\nfix m all mesh/surface file bad type 1\n", "mesh")):
+        Path("bad").write_text(text)
+        refused(["plan", "bad"], *wanted)
+    refused(["plan", "missing"], "missing")
+    refused(["plan", "."], "cannot be read")
+    Path("bad").write_text("units si\nrun 1\n")
+    refused(["plan", "bad", "--from", name], "fix granulaw/stats")
+    refused(["plan", "bad", "--materials", "powder"], "--materials-file")
+    refused(["plan", "bad", "--speed", "-1"], "--speed", code=2)
+    # cut off anywhere, or damaged, our own deck gives a plan, or one sentence
+    deck = (SOURCE / "examples/hopper/in.hopper").read_text()
+    random = np.random.default_rng(1)
+    for k in range(60):
+        damaged = list(deck[: int(random.integers(len(deck)))] if k % 2 else deck)
+        for at in random.integers(len(damaged), size=5) if damaged else []:
+            damaged[at] = str(random.choice(list("${}()&#\"'\n -9eE^")))
+        Path("bad").write_text("".join(damaged))
+        run = Run("plan", "bad", "--var", "model", "thornton")
+        assert run.code in (0, 1), (k, run.code, run.err)
+        assert run.code == 0 or len(run.err.strip().splitlines()) == 1, run.err
+
+
+def case_tutorials():
+    """LIGGGHTS's own decks, of Debian's liggghts-doc."""
+    if not TUTORIALS.is_dir():
+        print("skipped: the package liggghts-doc is not installed")
+        sys.exit(77)
+    known = {"yields": materials(GOOD.replace("9.1e9", "5e6").replace("0.3\n", "0.45\n").replace("100e6", "5e4"))}
+    # (deck, particles at the end, m fallen, m/s of the insertion, radii), read off the decks by hand
+    for deck, fall, start, radii in (
+            ("chute_wear/in.chute_wear", None, 1.0, [0.0015, 0.0025]),
+            ("cohesion/in.cohesion", 0.0603, 0.0, [0.0015, 0.0015]),
+            ("contactModels/in.newModels", 0.15, 0.5, [0.0025, 0.0025]),
+            ("hysteresis/in.hysteresis", 0.0603, 0.0, [0.0015, 0.0015]),
+            ("meshGran/in.meshGran", None, 1.0, [0.005, 0.005]),
+            ("movingMeshGran/in.movingMeshGran", None, 0.8, [0.04, 0.04]),
+            ("conveyor/in.conveyor", None, 1.0, [0.015, 0.025])):
+        plan = Run("plan", TUTORIALS / deck, "--materials-file", known["yields"], "--materials", "powder", "--json").json()
+        assert plan["complete"], (deck, plan["asks_for"])
+        assert plan["radius_m"] == radii, (deck, plan["radius_m"])
+        pair, wall = plan["pairs"]
+        assert pair["needs_table"] and pair["speed_max_m_per_s"] >= wall["speed_max_m_per_s"] > start
+        if fall:
+            assert abs(plan["fall_m"] / fall - 1) < 1e-9, (deck, plan["fall_m"])
+        if deck.startswith("contactModels"):
+            assert abs(wall["speed_max_m_per_s"] / math.sqrt(0.5**2 + 2 * 9.81 * 0.15) - 1) < 1e-9
+        print(f"{deck}: pairs to {pair['speed_max_m_per_s']:.3g} m/s, fall {plan['fall_m']:.3g} m")
+    # what cannot be followed is named, with its line
+    for deck, where in (("packing/in.packing", "in.packing:83"), ("multisphere_stone_restitution/in.multisphere", ":40"),
+                        ("superquadric/in.particle_particle", "in.particle_particle:8")):
+        plan = Run("plan", TUTORIALS / deck, "--json").json()
+        assert not plan["complete"] and any(where in q["what"] for q in plan["asks_for"]), (deck, plan["asks_for"])
+    for deck in sorted(TUTORIALS.rglob("in.*")):  # none crashes
+        run = Run("plan", deck)
+        assert run.code in (0, 1) and (run.code == 0 or len(run.err.strip().splitlines()) == 1), (deck, run.err)
 
 
 if __name__ == "__main__":

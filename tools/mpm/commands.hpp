@@ -16,6 +16,7 @@ void add_info(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_export(CLI::App& app);
 void add_plan(CLI::App& app);
+void add_soften(CLI::App& app);
 
 /// The command line as typed, for provenance; set by main.
 extern std::string command_line;

@@ -136,12 +136,4 @@ void add_plot(CLI::App& app)
   command->callback([r] { plot(r->law, r->output); });
 }
 
-void add_plan(CLI::App& app)
-{
-  const auto deck = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("plan", "What a LIGGGHTS deck needs of a law (a later version)");
-  command->add_option("DECK", *deck, "LIGGGHTS input file");
-  command->callback([deck] { fail("mpm plan", "not in this version yet: it comes with a later one"); });
-}
-
 }  // namespace granulaw

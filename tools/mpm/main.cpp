@@ -51,6 +51,7 @@ int run(int argc, char** argv, std::string& sentence)
   add_plot(app);
   add_export(app);
   add_plan(app);
+  add_soften(app);
 
   catch_interrupts();
   try {

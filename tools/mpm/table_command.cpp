@@ -15,6 +15,7 @@
 #include "characterise/build_law.hpp"
 #include "characterise/reduction_error.hpp"
 #include "commands.hpp"
+#include "deck_options.hpp"
 #include "farm_options.hpp"
 #include "law/law_file.hpp"
 #include "materials_file.hpp"
@@ -34,6 +35,7 @@ struct TableRequest
   double inertia = 0.0625, radius_ratio = 1;
   bool no_atlas = false;
   FarmOptions farm;
+  DeckOptions scene;  ///< of --deck
 };
 
 /// One body of the law file: a material of the materials file, or a particle whose law is its own.
@@ -170,10 +172,35 @@ void state_reduction(LawPair& pair, const Law& law, double radius_ratio)
   }
 }
 
+/// Pairs, depth and inertia that the scene of --deck can reach; of each it takes what was not given itself.
+/// False: no pair of the scene yields.
+bool take_from_deck(TableRequest& r, const CLI::App& command)
+{
+  r.scene.materials_file = r.materials;
+  const PlannedDeck d = plan_deck(r.deck, r.scene);
+  for (const deck::Question& q : d.plan.questions)
+    if (q.option != "--particles N")
+      fail(r.deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
+  double ratio = 1;
+  std::set<std::string> pairs;
+  for (const deck::PairPlan& p : d.plan.pairs) {
+    if (!p.needs_table || !p.visited) continue;
+    pairs.insert(p.meeting.name_a + ":" + p.meeting.name_b);
+    if (!p.meeting.wall) ratio = std::min(10.0, d.plan.radius_max / d.plan.radius_min);
+  }
+  if (pairs.empty()) return false;
+  if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
+  if (command.count("--depth") == 0) r.range.depth = d.plan.depth;
+  if (command.count("--inertia") == 0) r.inertia = d.plan.inertia;
+  if (command.count("--radius-ratio") == 0) r.radius_ratio = ratio;
+  if (rank() == 0)
+    fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
+               fmt::join(r.pairs, ", "), r.range.depth, r.inertia);
+  return true;
+}
+
 void build(const TableRequest& r)
 {
-  if (!r.deck.empty())
-    fail("--deck", "reading decks is not in this version yet: name the pairs with --pair a:b");
   check_output(r.output, ".h5");
   const MaterialsFile file = read_materials(r.materials);
   Law law;
@@ -266,7 +293,8 @@ void add_table(CLI::App& app)
       "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
       "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5");
   command->add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
-  command->add_option("--deck", r->deck, "LIGGGHTS deck to take the pairs from (a later version)");
+  command->add_option("--deck", r->deck, "LIGGGHTS deck: only what its scene can reach (mpm plan)");
+  r->scene.add_to(*command, false);
   command->add_option(
       "--pair", r->pairs,
       "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
@@ -290,7 +318,15 @@ void add_table(CLI::App& app)
   command->add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");
   r->farm.add_to(command);
   command->add_option("-o,--output", r->output, "law file, NAME.h5")->required();
-  command->callback([r] { build(*r); });
+  command->callback([r, command] {
+    if (!r->deck.empty() && !take_from_deck(*r, *command)) {
+      if (rank() == 0)
+        fmt::print("{}: no pair of the scene yields: Hertz suffices, no law is written\n",
+                   printable(r->deck));
+      return;
+    }
+    build(*r);
+  });
 }
 
 }  // namespace granulaw

@@ -1,0 +1,317 @@
+// tools/deck: what a LIGGGHTS input script says about its scene.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "base/scales.hpp"
+#include "deck/plan.hpp"
+#include "deck/script.hpp"
+#include "deck/soften.hpp"
+
+namespace granulaw::deck {
+namespace {
+
+/// A folder of its own for each test.
+class Deck : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("granulaw_deck_" + std::to_string(getpid()) + "_" +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+  Scene scene(const std::string& text, const Presets& presets = {}) const
+  {
+    return read_scene(write("in.deck", text), presets);
+  }
+  /// Words of every command that the script hands on, joined.
+  std::vector<std::string> commands(const std::string& text, const Presets& presets = {})
+  {
+    std::vector<std::string> result;
+    Script script(
+        [&](const Command& c) {
+          std::string line;
+          for (const auto& word : c.words) line += (line.empty() ? "" : " ") + word;
+          result.push_back(c.unknown.empty() ? line : "UNKNOWN");
+        },
+        [](std::string_view name) { return name == "step" ? std::optional(7.0) : std::nullopt; });
+    for (const auto& [name, values] : presets) script.preset(name, values);
+    script.read(write("in.deck", text));
+    notes_ = script.notes();
+    return result;
+  }
+
+  std::filesystem::path folder_;
+  std::vector<std::string> notes_;
+};
+
+using Lines = std::vector<std::string>;
+
+double value(const std::string& formula)
+{
+  return evaluate(formula,
+                  [](std::string_view name) { return name == "v_x" ? std::optional(3.0) : std::nullopt; });
+}
+
+TEST(Expression, FollowsTheRulesOfLiggghts)
+{
+  EXPECT_EQ(value("1+2*3"), 7);
+  EXPECT_EQ(value("2^3^2"), 64);  // to the left
+  EXPECT_EQ(value("-2^2"), 4);    // unary minus first
+  EXPECT_EQ(value("-(1-v_x)*2e-1"), 0.4);
+  EXPECT_EQ(value("sqrt(16)/ln(exp(2))"), 2);
+  EXPECT_EQ(value("1<2&&!(3==4)||0"), 1);
+  EXPECT_EQ(value("v_x != 3"), 0);
+  EXPECT_DOUBLE_EQ(value("4*atan(1)"), M_PI);
+  EXPECT_EQ(value("PI"), M_PI);
+}
+
+TEST(Expression, NamesWhatItDoesNotKnow)
+{
+  for (const char* bad : {"c_ke", "v_y+1", "random(1,2,3)", "1/0", "", "(1", "1 2", "2*", "f_a[2]", "ln(-1)"})
+    EXPECT_THROW(value(bad), Unknown) << bad;
+  EXPECT_THROW(value(std::string(100000, '(')), Unknown);
+  EXPECT_THROW(value(std::string(100000, '-')), Unknown);
+}
+
+TEST(Expression, NumbersAreFiniteDecimals)
+{
+  EXPECT_EQ(number("-1.5e3"), -1500);
+  for (const char* bad : {"", "nan", "inf", "0x10", "1a", " 1", "1e999"}) EXPECT_FALSE(number(bad)) << bad;
+}
+
+TEST_F(Deck, SubstitutesVariables)
+{
+  EXPECT_EQ(commands("variable a index 3 4\nvariable bb equal 2*v_a # comment\nvariable s string word\n"
+                     "run $a ${bb} $(v_a+step) ${s} &\n  more\nprint \"${bb} # kept\""),
+            (Lines{"run 3 6 10 word more", "print ${bb} # kept"}));
+  EXPECT_EQ(commands("variable a index 3\nrun $a", {{"a", {"9"}}}), Lines{"run 9"});
+  EXPECT_EQ(commands("run ${nothing}"), Lines{"UNKNOWN"});
+}
+
+TEST_F(Deck, FollowsLoopsJumpsAndConditions)
+{
+  EXPECT_EQ(commands("variable k loop 3\nlabel again\nrun $k\nnext k\njump SELF again\nrun 0"),
+            (Lines{"run 1", "run 2", "run 3", "run 0"}));
+  EXPECT_EQ(commands("variable m index mpm\nif \"${m} == mpm\" then \"run 1\" \"run 2\" else \"run 3\"\n"
+                     "if \"1 > 2\" then \"run 4\" elif \"2 > 1\" \"run 5\" else \"run 6\""),
+            (Lines{"run 1", "run 2", "run 5"}));
+  EXPECT_EQ(commands("jump SELF end\nrun 1\nlabel end\nrun 2"), Lines{"run 2"});
+  EXPECT_TRUE(commands("if \"c_ke < 1\" then \"run 1\"").empty());
+  ASSERT_EQ(notes_.size(), 1u);
+  EXPECT_NE(notes_[0].find("in.deck:1"), std::string::npos);
+  write("part", "run 2\n");
+  EXPECT_EQ(commands("run 1\ninclude part\nrun 3"), (Lines{"run 1", "run 2", "run 3"}));
+}
+
+TEST_F(Deck, EndsWhereADeckDoesNot)
+{
+  commands("label a\njump SELF a");
+  ASSERT_EQ(notes_.size(), 1u);
+  EXPECT_THROW(commands("include in.deck"), Error);
+  EXPECT_THROW(commands("jump SELF nowhere"), Error);
+  EXPECT_THROW(commands("jump missing"), Error);
+}
+
+TEST(Geometry, RotatesAsTheRightHandDoes)
+{
+  const Vec3 p = rotated({1, 0, 0}, {0, 0, 2}, 90);
+  EXPECT_NEAR(p[0], 0, 1e-15);  // rounding of cos 90 degrees
+  EXPECT_NEAR(p[1], 1, 1e-15);
+}
+
+TEST_F(Deck, ReadsMeshes)
+{
+  const std::string text = write("a.stl",
+                                 "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                                 "vertex 0 2 3\nendloop\nendfacet\nendsolid a\n");
+  std::string binary(80, ' ');
+  binary.replace(0, 5, "solid");  // some writers begin so
+  const std::uint32_t one = 1;
+  binary.append(reinterpret_cast<const char*>(&one), 4);
+  const float triangle[12] = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 2, 3};
+  binary.append(reinterpret_cast<const char*>(triangle), sizeof triangle);
+  binary.append(2, '\0');
+  for (const std::string& path : {text, write("b.stl", binary)}) {
+    Box box;
+    for (const Vec3& p : mesh_vertices(path)) box.include(p);
+    EXPECT_EQ(box.low, (Vec3{0, 0, 0}));
+    EXPECT_EQ(box.high, (Vec3{1, 2, 3}));
+  }
+  EXPECT_THROW(mesh_vertices(write("c.stl", "no mesh")), Error);
+  EXPECT_THROW(mesh_vertices(write("d.stl", "vertex 1 nan")), Error);
+  // scale, move and rotate act in the order of the line
+  const Scene s = scene(
+      "units si\nregion r block -9 9 -9 9 -9 9 units box\ncreate_box 1 r\n"
+      "fix m all mesh/surface file a.stl type 1 scale 2 move 1 0 0 rotate axis 0 0 1 angle 180\n"
+      "fix w all wall/gran model hertz mesh n_meshes 1 meshes m");
+  ASSERT_EQ(s.walls.size(), 1u);
+  EXPECT_NEAR(s.walls[0].box.low[0], -3, 1e-14);
+  EXPECT_NEAR(s.walls[0].box.high[2], 6, 1e-14);
+}
+
+/// Spheres of 2 mm that fall from at most 0.2 m; `more` before the run.
+std::string falling(const std::string& more,
+                    const std::string& insertion = "particles_in_region 100 region bc")
+{
+  return "units si\nregion reg block -1 1 -1 1 0 1 units box\ncreate_box 2 reg\n"
+         "region bc cylinder z 0 0 0.05 0.1 0.2 units box\n"
+         "fix m1 all property/global youngsModulus peratomtype 91e6 210e9\n"
+         "fix m2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
+         "fix g all gravity 9.81 vector 0 0 -2\ntimestep 1e-5\n"
+         "fix w all wall/gran model hertz primitive type 2 zplane 0.0\n"
+         "fix p all particletemplate/sphere 1 atom_type 1 density constant 1000 radius constant 0.002\n"
+         "fix d all particledistribution/discrete 1 1 p 1.0\n"
+         "fix ins all insert/pack seed 1 distributiontemplate d vel constant 0 0 -0.5 insert_every once " +
+         insertion + "\n" + more + "\nrun 1000\n";
+}
+
+TEST_F(Deck, BoundsSpeedsByTheFall)
+{
+  const Plan plan = make_plan(scene(falling("")), {});
+  ASSERT_EQ(plan.pairs.size(), 2u);
+  const double v = std::sqrt(0.5 * 0.5 + 2 * 9.81 * 0.2);
+  EXPECT_NEAR(plan.pairs[0].speed, 2 * v, 1e-12);
+  EXPECT_NEAR(plan.pairs[1].speed, v, 1e-12);
+  EXPECT_EQ(plan.particle_steps, 0.5 * 100 * 1000);  // the mean of none before the run and 100 after it
+  EXPECT_FALSE(plan.complete());                     // the yield stress is not in the deck
+  EXPECT_TRUE(table_command(plan, "m.toml").empty());
+}
+
+TEST_F(Deck, MovingWallsAddTheirSpeed)
+{
+  write("a.stl", "vertex 0 0 0 vertex 0.1 0 0 vertex 0 0.1 0");
+  const std::string mesh =
+      "fix mesh all mesh/surface file a.stl type 2\n"
+      "fix w2 all wall/gran model hertz mesh n_meshes 1 meshes mesh\nfix mv all move/mesh mesh mesh ";
+  const auto speed = [&](const std::string& motion) { return scene(falling(mesh + motion)).walls[1].speed; };
+  EXPECT_NEAR(speed("linear 3 4 0"), 5, 1e-12);
+  EXPECT_NEAR(speed("wiggle amplitude 0 0 0.01 period 0.1"), 0.01 * 2 * M_PI / 0.1, 1e-12);
+  EXPECT_NEAR(speed("rotate origin 0 0 0 axis 0 0 1 period 2"), M_PI * std::sqrt(0.02), 1e-12);
+  // 1000 steps of 1e-5 s at 5 m/s: the mesh, and what lies on it, rises by 0.05 m
+  EXPECT_NEAR(scene(falling(mesh + "linear 0 0 5")).walls[1].box.high[2], 0.05, 1e-12);
+  const Scene unknown = scene(falling(mesh + "linear/variable v_x v_y v_z"));
+  EXPECT_EQ(unknown.unknown_speeds.size(), 1u);
+}
+
+TEST_F(Deck, CountsInsertedParticles)
+{
+  const double ball = 4.0 / 3.0 * M_PI * 8e-9, region = M_PI * 0.05 * 0.05 * 0.1;
+  EXPECT_NEAR(scene(falling("", "volumefraction_region 0.3 region bc")).count(), 0.3 * region / ball, 1e-6);
+  EXPECT_EQ(scene(falling("", "nparticles 5000 particlerate 1000 region bc")).count(),
+            10);  // 1000/s over 0.01 s
+  EXPECT_NEAR(scene(falling("", "mass 0.1 massrate 100 region bc")).count(), 0.1 / (1000 * ball), 1e-6);
+}
+
+TEST_F(Deck, ReadsDataAndSet)
+{
+  write("cloud",
+        "title\n\n2 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms\n\n"
+        "1 1 0.002 900 0.5 0.5 0.1\n2 1 0.004 900 0.5 0.5 0.7\n");
+  const Scene s = scene("units si\nread_data cloud");
+  ASSERT_EQ(s.sources.size(), 1u);
+  EXPECT_EQ(s.sources[0].radius_min, 0.001);
+  EXPECT_EQ(s.sources[0].radius_max, 0.002);
+  EXPECT_EQ(s.sources[0].centres.high[2], 0.7);
+  EXPECT_EQ(s.count(), 2);
+  write("bad", "title\n\n1 atoms\n\nAtoms\n\n1 1 0.002\n");
+  EXPECT_THROW(scene("read_data bad"), Error);
+  EXPECT_THROW(scene("read_data missing"), Error);
+  const Scene t = scene("units cgs\ncreate_atoms 1 single 1 2 3\nset atom 1 diameter 0.4 density 2 vx 10");
+  ASSERT_EQ(t.sources.size(), 1u);  // cgs: cm, g/cm^3, cm/s
+  EXPECT_DOUBLE_EQ(t.sources[0].radius_max, 0.002);
+  EXPECT_DOUBLE_EQ(t.sources[0].density, 2000);
+  EXPECT_DOUBLE_EQ(t.sources[0].speed, 0.1);
+}
+
+TEST_F(Deck, RefusesOtherUnits)
+{
+  EXPECT_THROW(scene("units lj"), Error);
+  EXPECT_THROW(scene("run 1"), Error);  // LIGGGHTS's default is lj
+}
+
+TEST_F(Deck, HertzSufficesBelowTheOnset)
+{
+  PlanOptions options;
+  options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
+  const double onset = onset_velocity(1e8, 1e6, 1000, 0.3);
+  for (const double factor : {0.999, 1.001}) {
+    options.speed = factor * onset;
+    const Plan plan = make_plan(scene(falling("")), options);
+    EXPECT_NEAR(plan.pairs[1].onset / onset, 1, 1e-12);
+    EXPECT_NEAR(plan.pairs[0].onset / onset, 2, 1e-12);  // each sphere of a pair takes half of the speed
+    EXPECT_EQ(plan.pairs[1].needs_table, factor > 1);
+    EXPECT_FALSE(plan.pairs[0].needs_table);
+    EXPECT_EQ(table_command(plan, "m.toml").empty(), factor < 1);
+  }
+}
+
+TEST_F(Deck, TakesWhatWasVisited)
+{
+  PlanOptions options;
+  options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
+  const Scene s = scene(falling(""));
+  const std::string both =
+      R"("pair": {"contacts_begun": 9, "impact_speed_max_m_per_s": 1.0, "overlap_over_radius_max": 0.5},
+                              "wall": {"contacts_begun": 0, "impact_speed_max_m_per_s": 0})";
+  const Visited old = read_visited(write("old.json", "{" + both + "}"));
+  const Plan plan = make_plan(s, options, &old);
+  EXPECT_DOUBLE_EQ(plan.pairs[0].speed, visited_margin);
+  EXPECT_DOUBLE_EQ(plan.pairs[0].overlap, 0.5 * visited_margin);
+  EXPECT_FALSE(plan.pairs[1].visited);
+  EXPECT_EQ(table_command(plan, "m.toml").find("wax:wall"), std::string::npos);
+  const Visited now = read_visited(write(
+      "now.json", "{" + both + R"(, "pairs": [{"kind": "rigid wall", "types": [1, 2], "contacts_begun": 3,
+                                          "impact_speed_max_m_per_s": 0.4}]})"));
+  const Plan by_pair = make_plan(s, options, &now);
+  EXPECT_FALSE(by_pair.pairs[0].visited);
+  EXPECT_DOUBLE_EQ(by_pair.pairs[1].speed, 0.4 * visited_margin);
+  EXPECT_THROW(read_visited(write("bad.json", "[1")), Error);
+  EXPECT_THROW(read_visited(write("none.json", "{}")), Error);
+}
+
+TEST(Hertz, ConservesEnergy)
+{
+  const double e = 1e8, r = 0.002, m = 1e-4, v = 0.3, d = hertz_overlap(e, r, m, v);
+  EXPECT_NEAR(8.0 / 15 * e * std::sqrt(r) * std::pow(d, 2.5) / (0.5 * m * v * v), 1, 1e-12);  // rounding
+  // K. L. Johnson: 2.87 (m^2/(R E^2 V))^0.2, his factor in three digits
+  EXPECT_NEAR(hertz_time(e, r, m, v) / (2.87 * std::pow(m * m / (r * e * e * v), 0.2)), 1, 2e-3);
+}
+
+TEST_F(Deck, SoftensWithinEachLimit)
+{
+  PlanOptions options;
+  options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
+  const Scene s = scene(falling(""));
+  const Plan plan = make_plan(s, options);
+  SoftenLimits limits{0.5, 10, 1e6, 0.01, 0.6};
+  const auto all = [&] { return soften(s, plan, options, limits); };
+  const Softening by_overlap = all();
+  EXPECT_LE(by_overlap.overlap, 0.5);
+  EXPECT_GT(1.1 * by_overlap.overlap, 0.5);  // two digits of s
+  EXPECT_DOUBLE_EQ(by_overlap.time_step, by_overlap.stretch * 1e-5);
+  limits.static_load = 0.05;
+  const Softening by_static = all();
+  EXPECT_TRUE(by_static.stretch == 1 || by_static.static_ratio <= 0.05) << by_static.static_ratio;
+  EXPECT_LE(by_static.stretch, by_overlap.stretch);
+  limits = {0.5, 0.001, 1e6, 0.01, 0.6};
+  EXPECT_EQ(all().stretch, 1);  // never below: the law itself
+  ASSERT_FALSE(by_overlap.naive.empty());
+  EXPECT_GT(by_overlap.naive[0].e_naive, by_overlap.naive[0].e);  // a softer sphere yields less
+}
+
+}  // namespace
+}  // namespace granulaw::deck

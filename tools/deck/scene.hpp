@@ -1,0 +1,80 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deck/geometry.hpp"
+
+namespace granulaw::deck {
+
+/// What one atom type is made of; an empty value is not in the deck.
+struct TypeMaterial
+{
+  std::optional<double> youngs_modulus;  ///< Pa
+  std::optional<double> poisson_ratio;
+  std::optional<double> yield_stress;  ///< Pa, of `fix property/global yieldStress`
+};
+
+/// Particles that the deck brings in at one place.
+struct Source
+{
+  std::string where;  ///< "FILE:LINE"
+  int type = 1;
+  double radius_min = 0, radius_max = 0;  ///< m; 0: not known
+  double density = 0;                     ///< kg/m^3; 0: not known
+  Box centres;                            ///< where they may start; empty: not known
+  double speed = 0;                       ///< m/s, largest speed at the start
+  double count = 0;                       ///< how many of them the runs bring in, at most; 0: not known
+};
+
+/// A wall that particles can hit.
+struct Wall
+{
+  std::string where, id;
+  int type = 1;
+  Box box;                ///< m, with all that its motion sweeps in the runs
+  double speed = 0;       ///< m/s, largest speed of its points when it moves
+  double drag_speed = 0;  ///< m/s, of its surface along itself (conveyor): drags, does not push
+};
+
+/// One `run`.
+struct Run
+{
+  std::string where;
+  double steps = 0, time_step = 0, particles = 0;  ///< time step, s; particles: mean of begin and end
+};
+
+/// What a deck says about its scene, SI units.
+struct Scene
+{
+  std::string deck;
+  std::string units = "lj";  ///< of the deck; LIGGGHTS's default
+  Vec3 gravity{0, 0, 0};     ///< m/s^2
+  Box domain;
+  int types = 0;
+  std::map<int, TypeMaterial> materials;  ///< by atom type
+  std::vector<Source> sources;
+  std::vector<Wall> walls;
+  std::vector<Run> runs;
+  double time_step = 0;                     ///< s, the last one
+  std::string model, law_file;              ///< words of pair_style gran: model, law
+  std::vector<std::string> material_names;  ///< and materials
+  double stretch = 1;                       ///< and stretch
+  std::optional<double> restitution;        ///< the smallest coefficientRestitution of the deck
+  std::vector<std::string> notes;           ///< "FILE:LINE: what was not followed"
+  /// Why particles, heights or velocities may be others than those above: "FILE:LINE: reason".
+  std::vector<std::string> unknown_particles, unknown_heights, unknown_speeds;
+
+  /// Particles at the end, at most.
+  double count() const;
+};
+
+using Presets = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+/// Reads a deck. Throws Error where it, or a file it needs, cannot be used.
+Scene read_scene(const std::string& deck, const Presets& presets = {});
+
+}  // namespace granulaw::deck

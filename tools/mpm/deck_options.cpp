@@ -1,0 +1,171 @@
+#include "deck_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "atlas_path.hpp"
+#include "base/error.hpp"
+#include "characterise/build_law.hpp"
+#include "law/law_file.hpp"
+#include "law/replay.hpp"
+#include "materials_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+LawMaterial law_material(const std::string& name, const Material& m)
+{
+  return {name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
+}
+
+/// Materials of the atom types by the names that --materials or the deck's pair_style gives them. A name that
+/// the file does not hold stays as the deck describes it, elastic: a wall's, or an elastic partner's.
+void name_materials(deck::PlanOptions& into, const deck::Scene& scene, const DeckOptions& o)
+{
+  const bool given = !o.materials.empty();
+  const std::vector<std::string>& names = given ? o.materials : scene.material_names;
+  std::map<std::string, LawMaterial> known;
+  if (!o.materials_file.empty()) {
+    const MaterialsFile file = read_materials(o.materials_file);
+    for (const auto& [name, m] : file.materials) known[name] = law_material(name, m);
+    if (given)
+      for (const std::string& name : names) {
+        const bool elastic_by_deck = scene.materials.contains(static_cast<int>(&name - names.data()) + 1);
+        if (!elastic_by_deck) file.material(name);
+      }
+    // one material, one type: there is nothing to name
+    if (names.empty() && known.size() == 1 && scene.types <= 1) into.materials[1] = known.begin()->second;
+  } else if (!scene.law_file.empty() && std::ifstream(scene.law_file)) {
+    const Law law = read_law(scene.law_file);
+    for (const auto& [name, body] : law.bodies) known[name] = body.material;
+  } else if (given) {
+    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
+  }
+  bool any = false;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const int type = static_cast<int>(k) + 1;
+    if (const auto m = known.find(names[k]); m != known.end()) {
+      into.materials[type] = m->second;
+      any = true;
+      continue;
+    }
+    const auto of_deck = scene.materials.find(type);
+    if (known.empty() || of_deck == scene.materials.end() || !of_deck->second.youngs_modulus) continue;
+    LawMaterial m;
+    m.name = names[k];
+    m.youngs_modulus = *of_deck->second.youngs_modulus;
+    m.poisson_ratio = of_deck->second.poisson_ratio.value_or(0);
+    for (const deck::Source& s : scene.sources)
+      if (s.type == type) m.density = s.density;
+    into.materials[type] = m;
+  }
+  if (given && !any)
+    fail("--materials", fmt::format("none of them is in {}", o.materials_file),
+         fmt::format("'{}'", names[0]));
+}
+
+/// Collisions by the atlas's laws; each law is made once.
+deck::Collide collide_by_atlas()
+{
+  const std::string path = atlas_path();
+  if (path.empty()) return {};
+  const auto atlas = std::make_shared<Atlas>(read_atlas(path));
+  const auto laws = std::make_shared<std::map<std::string, std::optional<BodyLaw>>>();
+  return [atlas, laws](const deck::Meeting& m, double r_eff, double m_eff,
+                       double speed) -> std::optional<deck::Collision> {
+    const LawMaterial& material = m.yields;
+    const std::string key =
+        fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}", material.youngs_modulus, material.poisson_ratio,
+                    material.yield_stress, material.hardening_modulus);
+    if (!laws->contains(key)) {
+      std::optional<BodyLaw>& law = (*laws)[key];
+      if (!material.yields() || atlas->why_not(MaterialRatios::of(material)).empty()) {
+        BuildOptions options;
+        options.depth = 0.5, options.fastest = 0.3;
+        law = law_from(*atlas, material, options);
+      }
+    }
+    const std::optional<BodyLaw>& law = laws->at(key);
+    if (!law) return {};
+    const PairLaw pair{&law->curve, m.mapping, &*law};
+    const Replay replay = replay_collision(pair, r_eff, m_eff, speed, 2000);
+    // past the table the force is extrapolated: still an answer about depth, capped by whoever builds
+    return deck::Collision{replay.delta_max / m.mapping.length(r_eff), replay.restitution};
+  };
+}
+
+}  // namespace
+
+void DeckOptions::add_to(CLI::App& command, bool own_materials)
+{
+  command
+      .add_option("--var", variables, "NAME VALUE: a variable of the deck, as liggghts -var; several times")
+      ->type_size(2)
+      ->expected(1, 1000);
+  if (own_materials)
+    command.add_option("--materials-file", materials_file, "MATERIALS.toml: yield stresses and hardening");
+  command.add_option(
+      "--materials", materials,
+      "names of its materials, one for each atom type in their order (default: the words after "
+      "'materials'\nin the deck's pair_style)");
+  command.add_option("--drop-height", drop_height, "m, from which every particle falls to the lowest wall")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--radius", radius, "R or R_MIN R_MAX, m, of particles that the deck does not show")
+      ->expected(1, 2)
+      ->check(CLI::PositiveNumber);
+  command.add_option("--density", density, "kg/m^3, of the same")->check(CLI::PositiveNumber);
+  command.add_option("--speed", speed, "m/s, the largest approach speed of any two bodies")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--particles", particles, "how many there are, for the cost")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--rate", rate, "particle-steps a second, for the cost (default: one core, dense hopper)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option(
+      "--from", visited,
+      "JSON of fix granulaw/stats: what a run of this deck visited replaces what is foreseen, with a "
+      "margin of 1.25");
+}
+
+PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)
+{
+  PlannedDeck result;
+  deck::Presets presets;
+  for (std::size_t k = 0; k + 1 < o.variables.size(); k += 2)
+    presets.push_back({o.variables[k], {o.variables[k + 1]}});
+  result.scene = deck::read_scene(path, presets);
+  deck::PlanOptions& p = result.options;
+  const auto given = [](double value) { return value > 0 ? std::optional<double>(value) : std::nullopt; };
+  p.drop_height = given(o.drop_height), p.speed = given(o.speed), p.density = given(o.density);
+  p.particles = given(o.particles);
+  if (!o.radius.empty()) {
+    p.radius_min = o.radius.front(), p.radius_max = o.radius.back();
+    if (*p.radius_min > *p.radius_max) std::swap(*p.radius_min, *p.radius_max);
+  }
+  p.rate = o.rate;
+  name_materials(p, result.scene, o);
+  p.collide = collide_by_atlas();
+  std::optional<deck::Visited> visited;
+  if (!o.visited.empty()) visited = deck::read_visited(o.visited);
+  result.plan = deck::make_plan(result.scene, p, visited ? &*visited : nullptr);
+  return result;
+}
+
+nlohmann::ordered_json json_number(double value)
+{
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string questions_text(const deck::Plan& plan)
+{
+  std::string text;
+  for (const deck::Question& q : plan.questions)
+    text += fmt::format("  {}: give it by {}\n", printable(q.what), q.option);
+  return text;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "deck/plan.hpp"
+
+namespace granulaw {
+
+/// The options that `mpm plan`, `mpm soften` and `mpm table --deck` share: the deck's variables, and what the
+/// deck itself does not tell.
+struct DeckOptions
+{
+  std::string materials_file;
+  std::vector<std::string> materials, variables;
+  std::vector<double> radius;
+  double drop_height = -1, speed = -1, density = -1, particles = -1, rate = 2e6;
+  std::string visited;
+
+  /// `own_materials`: with --materials-file (mpm table has its own).
+  void add_to(CLI::App& command, bool own_materials);
+};
+
+/// A deck read and planned.
+struct PlannedDeck
+{
+  deck::Scene scene;
+  deck::PlanOptions options;
+  deck::Plan plan;
+};
+
+/// Throws Error.
+PlannedDeck plan_deck(const std::string& deck, const DeckOptions& options);
+
+/// Number as JSON, null where it is not finite.
+nlohmann::ordered_json json_number(double value);
+
+/// What is left to be asked, one line each.
+std::string questions_text(const deck::Plan& plan);
+
+}  // namespace granulaw

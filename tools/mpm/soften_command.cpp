@@ -1,0 +1,133 @@
+// mpm soften: the largest stretch of the law that a deck bears.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "base/error.hpp"
+#include "commands.hpp"
+#include "deck/soften.hpp"
+#include "deck_options.hpp"
+
+namespace granulaw {
+
+namespace {
+
+struct SoftenRequest
+{
+  std::string deck;
+  DeckOptions options;
+  deck::SoftenLimits limits;
+  bool json = false;
+};
+
+using nlohmann::ordered_json;
+
+std::string largest(double s)
+{
+  return std::isfinite(s) ? fmt::format("{:.3g}", s) : std::string("any");
+}
+
+void soften(const SoftenRequest& r)
+{
+  const PlannedDeck d = plan_deck(r.deck, r.options);
+  for (const deck::Question& q : d.plan.questions)
+    if (q.option != "--particles N")
+      fail(r.deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
+  const deck::Softening s = deck::soften(d.scene, d.plan, d.options, r.limits);
+  if (s.pairs.empty()) fail(r.deck, "no two bodies of it meet at any speed: there is nothing to stretch");
+  const std::string stretch_line = fmt::format("stretch {:.3g}", s.stretch),
+                    step_line = fmt::format("timestep {:.3g}", s.time_step);
+  if (r.json) {
+    ordered_json root{{"deck", printable(r.deck)},
+                      {"stretch", s.stretch},
+                      {"bound_by", printable(s.bound)},
+                      {"time_step_s", json_number(s.time_step)},
+                      {"overlap_over_radius", json_number(s.overlap)},
+                      {"flow_time_s", json_number(s.flow_time)},
+                      {"fill_height_m", json_number(s.fill_height)},
+                      {"static_load_over_yield_load", json_number(s.static_ratio)},
+                      {"extra_plastic_set_over_radius", json_number(s.extra_set)}};
+    ordered_json pairs = ordered_json::array();
+    for (const deck::PairStretch& q : s.pairs)
+      pairs.push_back({{"types", {q.pair->meeting.a, q.pair->meeting.b}},
+                       {"wall", q.pair->meeting.wall},
+                       {"largest_by_overlap", json_number(q.by_overlap)},
+                       {"largest_by_contact_time", json_number(q.by_time)},
+                       {"largest_by_static_load", json_number(q.by_static)},
+                       {"contact_time_s", json_number(q.contact_time)},
+                       {"static_load_N", json_number(q.static_load)},
+                       {"yield_load_N", json_number(q.yield_load)}});
+    root["pairs"] = pairs;
+    ordered_json naive = ordered_json::array();
+    for (const auto& n : s.naive)
+      naive.push_back({{"pair", printable(n.pair)},
+                       {"speed_m_per_s", n.speed},
+                       {"e_stretched", n.e},
+                       {"e_modulus_lowered", n.e_naive},
+                       {"by", n.basis}});
+    root["modulus_lowered"] = {{"factor", s.modulus_factor}, {"restitution", naive}};
+    root["paste"] = {stretch_line, step_line};
+    fmt::print("{}\n", root.dump(1));
+    return;
+  }
+  fmt::print(
+      "limits: s delta_max/R* <= {:g}; s t_contact <= {:g} of {:.3g} s; s P_static <= {:g} F_y (bed {:.3g} m "
+      "high)\n",
+      r.limits.overlap, r.limits.time_fraction, s.flow_time, r.limits.static_load, s.fill_height);
+  fmt::print("  {:<10} {:>10} {:>10} {:>10}   largest s by each\n", "types", "overlap", "duration", "static");
+  for (const deck::PairStretch& q : s.pairs)
+    fmt::print(
+        "  {:<10} {:>10} {:>10} {:>10}\n",
+        fmt::format("{}:{}{}", q.pair->meeting.a, q.pair->meeting.wall ? "wall " : "", q.pair->meeting.b),
+        largest(q.by_overlap), largest(q.by_time), largest(q.by_static));
+  fmt::print("largest stretch: {:.3g}, bound by the {}; then overlap {:.3g} R*, static load {:.3g} F_y",
+             s.stretch, printable(s.bound), s.overlap, s.static_ratio);
+  fmt::print("{}\n", s.extra_set > 0 ? fmt::format(", extra plastic set {:.3g} R*", s.extra_set) : "");
+  fmt::print(
+      "the deck keeps its moduli; after the model's words in pair_style and fix wall/gran, and for the time "
+      "step:\n");
+  fmt::print("  {}\n  {}\n", stretch_line, step_line);
+  if (s.stretch > 1)
+    for (const auto& n : s.naive)
+      fmt::print("instead E times {:.3g}: e of {} at {:.3g} m/s would be {:.3f}, not {:.3f} (by {})\n",
+                 s.modulus_factor, printable(n.pair), n.speed, n.e_naive, n.e,
+                 n.basis == "law" ? "the atlas" : "Thornton's closed form");
+}
+
+}  // namespace
+
+void add_soften(CLI::App& app)
+{
+  const auto r = std::make_shared<SoftenRequest>();
+  CLI::App* command = app.add_subcommand(
+      "soften",
+      "The largest stretch s of a deck's contact law F(delta/s)/s within limits: the time step grows by s, "
+      "every\n"
+      "binary impact keeps its e (docs/plan.md). Prints the lines to paste.\n"
+      "Example: mpm soften in.hopper --var model mpm --var scene out/scene --materials-file materials.toml");
+  command->add_option("DECK", r->deck, "LIGGGHTS input script")->required();
+  r->options.add_to(*command, true);
+  command->add_option("--max-overlap", r->limits.overlap, "largest s delta_max/R*")
+      ->check(CLI::Range(0.001, 0.5))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--time-fraction", r->limits.time_fraction,
+          "longest contact over the flow's own time: a fall through one radius, a wall's way of one diameter")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--static-limit", r->limits.static_load,
+                   "largest s P_static/F_y; above 1 the extra plastic set of the bed is stated")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--fill-height", r->limits.fill_height,
+                   "m, of the bed (default: from particles and walls)")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", r->json, "as JSON");
+  command->callback([r] { soften(*r); });
+}
+
+}  // namespace granulaw
