@@ -72,7 +72,7 @@ class MpmPhysics
     const std::string here = fmt::format("{}: types {} ({}) and {} ({}{}), law file {}", where, i, a, j,
                                          rigid ? "rigid wall, " : "", b, setup_->law->path);
     const PairLaw law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
-    return {law, setup_->law->curves.at(law.yielding->material.name)};
+    return {law, setup_->law->curves.at(law.curve)};
   }
 
  private:
