@@ -88,11 +88,13 @@ PairInfo describe(const MpmContact& contact, const Setup& setup, const PairKey& 
   info.law = fmt::format("mpm {}", setup.law->path);
   const LawPair* pair = setup.law->law.find_pair(info.a, info.b);
   const bool exact = info.a == info.b || key.kind == PairKey::rigid_wall;
-  info.rule = exact ? "own"
+  const BodyLaw& body = *contact.law.yielding;
+  const auto of_body = setup.law->law.bodies.find(body.material.name);
+  const bool of_pair = of_body != setup.law->law.bodies.end() && contact.law.curve != &of_body->second.curve;
+  info.rule = exact || of_pair ? "own"
               : pair && pair->reduction_error_restitution > 0
                   ? fmt::format("reduced (e {:.2g} %)", 100 * pair->reduction_error_restitution)
                   : "reduced";
-  const BodyLaw& body = *contact.law.yielding;
   info.error = error_text(body.certificate);
   if (body.material.yields()) info.stiffness_ratio = body.material.e_star() / body.material.yield_stress;
   info.overlap_limit = contact.largest_overlap();

@@ -14,7 +14,9 @@ std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::str
   try {
     loaded->path = path;
     loaded->law = read_law(path);
-    for (const auto& [name, body] : loaded->law.bodies) loaded->curves.emplace(name, FastCurve(body.curve));
+    const auto add = [&](const BodyLaw& body) { loaded->curves.emplace(&body.curve, FastCurve(body.curve)); };
+    for (const auto& [name, body] : loaded->law.bodies) add(body);
+    for (const auto& [name, own] : loaded->law.pair_laws) add(own.law);
   } catch (const std::exception& error) {
     message = error.what();
   }

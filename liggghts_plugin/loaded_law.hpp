@@ -18,7 +18,7 @@ struct LoadedLaw
 {
   std::string path;
   Law law;
-  std::map<std::string, FastCurve> curves;  ///< by material; they point into `law`
+  std::map<const ContactCurve*, FastCurve> curves;  ///< of each curve of `law`, of bodies and of pairs
 };
 
 /// Reads `path` on every rank. Throws the same Error on all ranks if any rank cannot read it, so that an MPI

@@ -133,7 +133,7 @@ MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& wher
            yielding};
   } else
     law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
-  return {law, setup_->law->curves.at(law.yielding->material.name), stretch, units_};
+  return {law, setup_->law->curves.at(law.curve), stretch, units_};
 }
 
 }  // namespace granulaw::plugin

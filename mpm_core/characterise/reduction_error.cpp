@@ -146,7 +146,19 @@ double fastest_of_law(const UnlikePair& pair, double inertia)
   return std::sqrt(inertia * pair.yielding.yield_stress / density);
 }
 
-ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
+namespace {
+
+/// The four causes of reduction_error.hpp, without their coefficients.
+struct Causes
+{
+  double share = 0, unshared = 0;  // 1
+  double finite = 0;               // 2, signed
+  double uneven = 0, waves = 0;    // 3, 4
+  double e = 1;
+  bool within_measured = true;
+};
+
+Causes causes_of(const UnlikePair& pair, double velocity)
 {
   const LawMaterial &s = pair.yielding, &h = pair.partner;
   const double stiffness = h.e_star() / s.e_star(), yield = s.yield_stress / s.e_star();
@@ -161,30 +173,52 @@ ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
 
   // 1. Elastic partner: the share of the overlap that is the partner's. Partly where it yields soon after:
   // at Y_h/Y_s = 1.1 the error is 0.4 of an elastic partner's, from 1.5 on all of it.
-  const double share = 1 - 1 / mapping;
-  const double unshared = std::min(1.0, std::sqrt(std::max(0.0, h.yield_stress / s.yield_stress - 1) / 0.5));
+  Causes c;
+  c.e = e;
+  c.share = 1 - 1 / mapping;
+  c.unshared = std::min(1.0, std::sqrt(std::max(0.0, h.yield_stress / s.yield_stress - 1) / 0.5));
   // 2. Each centre comes nearer by k F/(E* R) less, k = 0.45; the rule has k F/(E*_s R*). Over the overlap:
   const double force_per_overlap = std::min(17.6 * yield, 4.0 / 3.0 * std::sqrt(depth));
-  const double finite = 0.45 * force_per_overlap * std::abs(1 - r - r / (pair.radius_ratio * stiffness));
+  c.finite = 0.45 * force_per_overlap * (1 - r - r / (pair.radius_ratio * stiffness));
   // 3. The smaller body's contact is larger against its radius; it matters as far as the other gives way.
   const double unlike = (1 - 1 / pair.radius_ratio) / (1 + 1 / pair.radius_ratio);
-  const double uneven = unlike * unlike * depth * std::min(1.0, 2 * share);
+  c.uneven = unlike * unlike * depth * std::min(1.0, 2 * c.share);
   // 4. A half-space takes 1.25 (V/c)^0.6 of the energy of a like sphere (docs/method.md; Hunter 1957), and as
   // 1/(E c) of the larger body.
   const double radiating =
       pair.radius_ratio >= 1 ? std::pow(stiffness, -1.5) * std::sqrt(h.density / s.density) : 1.0;
-  const double waves = 1.3 * unlike * unlike * std::pow(v_over_c, 0.6) * radiating / (2 * e * e);
+  c.waves = 1.3 * unlike * unlike * std::pow(v_over_c, 0.6) * radiating / (2 * e * e);
 
-  // Coefficients: bounds of what docs/pairs.md shows, cause by cause.
-  ReductionError error;
-  error.force = 0.002 + 0.10 * share * unshared + 0.65 * finite + 5 * uneven + 0.25 * waves;
-  error.restitution =
-      0.002 + 0.11 * std::pow(share, 0.7) * unshared + 3.2 * finite * (1 - e * e) + 4 * uneven + waves;
   const bool radii =
       !std::isfinite(pair.radius_ratio) || (pair.radius_ratio >= 0.1 && pair.radius_ratio <= 10);
-  error.within_measured = radii && stiffness >= 0.3 && h.yield_stress >= s.yield_stress &&
-                          v * v / yield <= 0.003 && hertz * mapping * mapping <= 0.13;
-  return error;
+  c.within_measured = radii && stiffness >= 0.3 && h.yield_stress >= s.yield_stress &&
+                      v * v / yield <= 0.003 && hertz * mapping * mapping <= 0.13;
+  return c;
+}
+
+}  // namespace
+
+ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
+{
+  const Causes c = causes_of(pair, velocity);
+  const double finite = std::abs(c.finite);
+  // Coefficients: bounds of what docs/pairs.md shows, cause by cause.
+  return {0.002 + 0.10 * c.share * c.unshared + 0.65 * finite + 5 * c.uneven + 0.25 * c.waves,
+          0.002 + 0.11 * std::pow(c.share, 0.7) * c.unshared + 3.2 * finite * (1 - c.e * c.e) + 4 * c.uneven +
+              c.waves,
+          c.within_measured};
+}
+
+ReductionError estimate_remaining_error(const UnlikePair& pair, double law_radius_ratio, double velocity)
+{
+  UnlikePair made = pair;
+  made.radius_ratio = law_radius_ratio;
+  const Causes here = causes_of(pair, velocity), there = causes_of(made, velocity);
+  const double finite = std::abs(here.finite - there.finite), uneven = std::abs(here.uneven - there.uneven),
+               waves = std::abs(here.waves - there.waves);
+  return {0.65 * finite + 5 * uneven + 0.25 * waves,
+          3.2 * finite * (1 - here.e * here.e) + 4 * uneven + waves,
+          here.within_measured && there.within_measured};
 }
 
 MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocity)

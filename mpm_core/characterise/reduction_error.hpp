@@ -48,6 +48,11 @@ struct ReductionError
 /// bounded here.
 ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity);
 
+/// Bound of what a law of the pair's own (two_body_law.hpp), made at the radius ratio `law_radius_ratio`,
+/// costs at pair.radius_ratio and the relative `velocity` (m/s): the last three causes, as far as they change
+/// with the radii; 0 at its own ratio. What that law's certificate states comes on top.
+ReductionError estimate_remaining_error(const UnlikePair& pair, double law_radius_ratio, double velocity);
+
 /// Relative velocity, m/s, at which the pair's one body has I = rho V^2/Y = `inertia`.
 double fastest_of_law(const UnlikePair& pair, double inertia);
 

@@ -17,7 +17,7 @@ inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
 inline constexpr int major = 1;  ///< counts up where an old reader would misread the file
-inline constexpr int minor = 1;  ///< counts up where something is only added
+inline constexpr int minor = 2;  ///< counts up where something is only added
 
 // Attributes of every dataset.
 inline constexpr const char* unit = "unit";
@@ -37,6 +37,11 @@ inline constexpr const char* inertia_axis = "inertia_axis";  ///< bodies/<name>/
 inline constexpr const char* kind = "kind";                  ///< string attribute of it
 inline constexpr const char* kind_inertia = "inertia";
 inline constexpr const char* kind_rate = "rate";
+
+// Since minor 2: laws of pairs of their own
+inline constexpr const char* pair_laws = "pair_laws";  ///< group; one subgroup "a:b" for each, as in `pairs`
+inline constexpr Field radius_ratio_of_runs{"radius_ratio_of_runs", "1",
+                                            "partner's radius over the yielding body's in the runs"};
 
 // Beside `pairs`, in its order, since minor 1.
 inline constexpr Field pair_reduction_error_force{

@@ -31,11 +31,24 @@ const LawPair* Law::find_pair(const std::string& a, const std::string& b) const
   return nullptr;
 }
 
+const TwoBodyLaw* Law::find_pair_law(const std::string& a, const std::string& b) const
+{
+  for (const std::string& name : {a + ":" + b, b + ":" + a})
+    if (const auto found = pair_laws.find(name); found != pair_laws.end()) return &found->second;
+  return nullptr;
+}
+
 std::string Law::pair_list() const
 {
   std::vector<std::string> names;
   for (const LawPair& pair : pairs) names.push_back(pair.a + ":" + pair.b);
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+bool yields_first(const LawMaterial& a, const LawMaterial& b)
+{
+  const auto rank = [](const LawMaterial& m) { return std::tuple(m.yield_stress, m.e_star(), m.name); };
+  return rank(a) <= rank(b);
 }
 
 void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where)
@@ -87,14 +100,12 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
   if (second) check_partners(first, *second, where);
 
   if (!second) return {&first.curve, PairMapping::rigid_partner(first.material.e_star()), &first};
-  const auto rank = [](const BodyLaw& l) {
-    return std::tuple(l.material.yield_stress, l.material.e_star(), l.material.name);
-  };
-  const bool first_yields = rank(first) <= rank(*second);
-  const BodyLaw& yielding = first_yields ? first : *second;
-  const BodyLaw& partner = first_yields ? *second : first;
-  return {&yielding.curve,
-          PairMapping::deformable_partner(yielding.material.e_star(), partner.material.e_star()), &yielding};
+  const bool swap = !yields_first(first.material, second->material);
+  const BodyLaw &yielding = swap ? *second : first, &partner = swap ? first : *second;
+  const TwoBodyLaw* own = law.find_pair_law(a, b);
+  const BodyLaw& followed = own ? own->law : yielding;
+  return {&followed.curve,
+          PairMapping::deformable_partner(yielding.material.e_star(), partner.material.e_star()), &followed};
 }
 
 }  // namespace granulaw

@@ -78,15 +78,26 @@ struct LawPair
   bool operator==(const LawPair&) const = default;
 };
 
+/// The law of a pair of spheres of different materials, from runs of the two bodies: used in place of the
+/// yielding body's own where the pair rule is not good enough. Its curve goes with the rule's mapping.
+struct TwoBodyLaw
+{
+  BodyLaw law;              ///< `material` is the yielding one's
+  double radius_ratio = 1;  ///< partner's radius over the yielding body's in the runs
+};
+
 /// A contact law file in memory: bodies, and the pairs that it may be used for ("a:b", "a:wall").
 struct Law
 {
   std::map<std::string, BodyLaw> bodies;  ///< by material name
   std::vector<LawPair> pairs;
+  std::map<std::string, TwoBodyLaw> pair_laws;  ///< by "a:b" as in `pairs`; other pairs follow the pair rule
   std::map<std::string, std::string> provenance;  ///< version, git_hash, created, command, material_hash, ...
 
   /// The file's entry for this pair, in either order; null: it was not built for it.
   const LawPair* find_pair(const std::string& a, const std::string& b) const;
+  /// The pair's own law, in either order; null: it follows the pair rule, or is not in the file.
+  const TwoBodyLaw* find_pair_law(const std::string& a, const std::string& b) const;
   /// "a:b, a:wall, ..." for messages.
   std::string pair_list() const;
 };
@@ -95,12 +106,16 @@ struct Law
 /// the radius of curvature alone, which is exact for the rigid wall and like pairs only.
 void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where);
 
+/// True if `a` is the one that yields against `b`: the lower yield stress; of two equally strong or elastic
+/// ones the softer, then the first by name.
+bool yields_first(const LawMaterial& a, const LawMaterial& b);
+
 /// A pair's law, resolved: which curve, which mapping. What a particle code keeps for each pair of types.
 struct PairLaw
 {
-  const ContactCurve* curve = nullptr;  ///< of the yielding body; owned by the Law
+  const ContactCurve* curve = nullptr;  ///< of the yielding body, or the pair's own; owned by the Law
   PairMapping mapping;
-  const BodyLaw* yielding = nullptr;
+  const BodyLaw* yielding = nullptr;  ///< whose curve it is: the yielding body, or TwoBodyLaw::law
 
   /// See ContactCurve::evaluate; X of impact_overlap(), latched at first touch.
   ContactForce evaluate(double r_eff, double delta, double delta_max, double impact_overlap = 0) const
@@ -135,10 +150,10 @@ struct PairLaw
   double speed_coordinate(double r_eff, double m_eff) const;
 };
 
-/// Resolves materials `a` and `b` (b may be "wall": rigid). The body with the lower yield stress yields;
-/// of two equally strong or elastic ones the softer, then the first by name. Throws Error naming `where`
-/// where the law has no such material or was not built for the pair, or where a body that is no homogeneous
-/// sphere would meet another body than its like or the rigid wall.
+/// Resolves materials `a` and `b` (b may be "wall": rigid), in either order: the pair's own law if the file
+/// has one, else the law of the body that yields (`yields_first`). Throws Error naming `where` where the law
+/// has no such material or was not built for the pair, or where a body that is no homogeneous sphere would
+/// meet another body than its like or the rigid wall.
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where);
 
 }  // namespace granulaw

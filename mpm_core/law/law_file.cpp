@@ -165,6 +165,39 @@ void check_body(const BodyLaw& body, const std::string& where)
     fail(where, fmt::format("'pole_radius' of the body {} is missing", shortened(body.body)));
 }
 
+void check_pair_law(const Law& law, const std::string& name, const TwoBodyLaw& own, const std::string& where)
+{
+  const auto pair = std::find_if(law.pairs.begin(), law.pairs.end(),
+                                 [&](const LawPair& p) { return p.a + ':' + p.b == name; });
+  if (pair == law.pairs.end())
+    fail(where, fmt::format("holds a law for the pair {}, which is not among its pairs", shortened(name)));
+  if (pair->b == wall_name || pair->a == wall_name || pair->a == pair->b)
+    fail(where, "a pair of one material, or with the rigid wall, has no law of its own", shortened(name));
+  if (law.pair_laws.contains(pair->b + ':' + pair->a))
+    fail(where, "the pair has two laws of its own, one in each order", shortened(name));
+  for (const std::string& body : {pair->a, pair->b})
+    if (!law.bodies.at(body).is_sphere())
+      fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
+  if (!own.law.material.yields()) fail(where, "a pair's own law needs a body that yields", shortened(name));
+  if (!own.law.is_sphere()) fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
+  if (!(own.radius_ratio >= 0.01 && own.radius_ratio <= 100))
+    fail(where,
+         fmt::format("'{}' of the pair {} is out of range", h5::radius_ratio_of_runs.name, shortened(name)),
+         fmt::format("{:.6g}", own.radius_ratio), "0.01 to 100");
+}
+
+/// The material that yields in the pair "a:b" of the file.
+const LawMaterial& yielding_of(const Law& law, const std::string& pair, const std::string& where)
+{
+  const auto colon = pair.find(':');
+  const auto a = law.bodies.find(pair.substr(0, colon)),
+             b = law.bodies.find(colon == std::string::npos ? std::string() : pair.substr(colon + 1));
+  if (a == law.bodies.end() || b == law.bodies.end())
+    fail(where, fmt::format("holds a law for the pair {}, which is not among its pairs", shortened(pair)));
+  const LawMaterial &first = a->second.material, &second = b->second.material;
+  return yields_first(first, second) ? first : second;
+}
+
 void check_pairs(const Law& law, const std::string& where)
 {
   if (law.bodies.empty()) fail(where, "the law has no material");
@@ -182,6 +215,7 @@ void check_pairs(const Law& law, const std::string& where)
     if (pair.a != wall_name && pair.b != wall_name)
       check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), where);
   }
+  for (const auto& [name, own] : law.pair_laws) check_pair_law(law, name, own, where);
 }
 
 InertiaAxis::Table read_axis(hid_t body, const std::string& where)
@@ -218,6 +252,49 @@ void write_axis(hid_t body, const InertiaAxis::Table& axis, const std::string& p
   for (const AxisField& f : axis_fields) h5::write_vector(group, f.field, axis.*f.values, path);
 }
 
+ContactCurve read_curve(hid_t group, const std::string& where)
+{
+  const h5::Handle c = h5::open_group(group, h5::curve, where);
+  Table table;
+  table.s_end = h5::read_scalar(c, h5::s_end, where);
+  table.onset = h5::has_link(c, h5::onset.name) ? h5::read_scalar(c, h5::onset, where)
+                                                : std::numeric_limits<double>::infinity();
+  for (const CurveField& f : curve_fields) table.*f.values = h5::read_vector(c, f.field, most_nodes, where);
+  return h5::has_link(group, h5::inertia_axis) ? ContactCurve(table, read_axis(group, where), where)
+                                               : ContactCurve(table, where);
+}
+
+void write_curve(hid_t group, const ContactCurve& curve, const std::string& path)
+{
+  const Table& table = curve.table();
+  const h5::Handle c = h5::create_group(group, h5::curve, path);
+  h5::write_scalar(c, h5::s_end, table.s_end, path);
+  if (std::isfinite(table.onset)) h5::write_scalar(c, h5::onset, table.onset, path);
+  for (const CurveField& f : curve_fields) h5::write_vector(c, f.field, table.*f.values, path);
+  if (curve.axis()) write_axis(group, curve.axis()->table(), path);
+}
+
+Certificate read_certificate(hid_t group, const std::string& where)
+{
+  const h5::Handle k = h5::open_group(group, h5::certificate, where);
+  Certificate certificate;
+  for (const CertificateField& f : certificate_fields)
+    if (f.since_minor == 0 || h5::has_link(k, f.field.name))
+      certificate.*f.value = h5::read_scalar(k, f.field, where);
+  certificate.support = h5::read_text_attribute(k, h5::support, where);
+  if (H5Aexists(k, h5::origin) > 0) certificate.origin = h5::read_text_attribute(k, h5::origin, where);
+  return certificate;
+}
+
+void write_certificate(hid_t group, const Certificate& certificate, const std::string& path)
+{
+  const h5::Handle k = h5::create_group(group, h5::certificate, path);
+  for (const CertificateField& f : certificate_fields)
+    h5::write_scalar(k, f.field, certificate.*f.value, path);
+  h5::write_text_attribute(k, h5::support, certificate.support, path);
+  h5::write_text_attribute(k, h5::origin, certificate.origin, path);
+}
+
 BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
 {
   const std::string where = fmt::format("{}, material '{}'", path, name);
@@ -232,22 +309,8 @@ BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
     body.material.yield_stress = h5::read_scalar(m, h5::yield_stress, where);
   body.material.hardening_modulus = h5::read_scalar(m, h5::hardening_modulus, where);
 
-  const h5::Handle c = h5::open_group(group, h5::curve, where);
-  Table table;
-  table.s_end = h5::read_scalar(c, h5::s_end, where);
-  table.onset = h5::has_link(c, h5::onset.name) ? h5::read_scalar(c, h5::onset, where)
-                                                : std::numeric_limits<double>::infinity();
-  for (const CurveField& f : curve_fields) table.*f.values = h5::read_vector(c, f.field, most_nodes, where);
-  body.curve = h5::has_link(group, h5::inertia_axis) ? ContactCurve(table, read_axis(group, where), where)
-                                                     : ContactCurve(table, where);
-
-  const h5::Handle k = h5::open_group(group, h5::certificate, where);
-  for (const CertificateField& f : certificate_fields)
-    if (f.since_minor == 0 || h5::has_link(k, f.field.name))
-      body.certificate.*f.value = h5::read_scalar(k, f.field, where);
-  body.certificate.support = h5::read_text_attribute(k, h5::support, where);
-  if (H5Aexists(k, h5::origin) > 0) body.certificate.origin = h5::read_text_attribute(k, h5::origin, where);
-
+  body.curve = read_curve(group, where);
+  body.certificate = read_certificate(group, where);
   if (H5Aexists(group, h5::body) > 0) body.body = h5::read_text_attribute(group, h5::body, where);
   if (h5::has_link(group, h5::pole_radius.name))
     body.pole_radius = h5::read_scalar(group, h5::pole_radius, where);
@@ -267,19 +330,8 @@ void write_body(hid_t group, const BodyLaw& body, const std::string& path)
   if (body.material.yields()) h5::write_scalar(m, h5::yield_stress, body.material.yield_stress, path);
   h5::write_scalar(m, h5::hardening_modulus, body.material.hardening_modulus, path);
 
-  const Table& table = body.curve.table();
-  const h5::Handle c = h5::create_group(group, h5::curve, path);
-  h5::write_scalar(c, h5::s_end, table.s_end, path);
-  if (std::isfinite(table.onset)) h5::write_scalar(c, h5::onset, table.onset, path);
-  for (const CurveField& f : curve_fields) h5::write_vector(c, f.field, table.*f.values, path);
-  if (body.curve.axis()) write_axis(group, body.curve.axis()->table(), path);
-
-  const h5::Handle k = h5::create_group(group, h5::certificate, path);
-  for (const CertificateField& f : certificate_fields)
-    h5::write_scalar(k, f.field, body.certificate.*f.value, path);
-  h5::write_text_attribute(k, h5::support, body.certificate.support, path);
-  h5::write_text_attribute(k, h5::origin, body.certificate.origin, path);
-
+  write_curve(group, body.curve, path);
+  write_certificate(group, body.certificate, path);
   h5::write_text_attribute(group, h5::body, body.body, path);
   h5::write_scalar(group, h5::pole_radius, body.pole_radius, path);
   h5::write_scalar(group, h5::mass_ratio, body.mass_ratio, path);
@@ -316,15 +368,18 @@ Law read_law(const std::string& path)
 
   const h5::Handle bodies = h5::open_group(file, h5::bodies, path);
   std::size_t nodes = 0;
+  const auto count_nodes = [&](const ContactCurve& curve) {
+    nodes += node_count(curve);
+    if (nodes > most_nodes_together)
+      fail(path, "the curves have too many nodes together", std::to_string(nodes),
+           fmt::format("up to {}", most_nodes_together));
+  };
   for (const std::string& name : h5::link_names(bodies, most_bodies, path)) {
     check_name(name, path);
     const BodyLaw& body =
         law.bodies.emplace(name, read_body(h5::open_group(bodies, name.c_str(), path), name, path))
             .first->second;
-    nodes += node_count(body.curve);
-    if (nodes > most_nodes_together)
-      fail(path, "the curves have too many nodes together", std::to_string(nodes),
-           fmt::format("up to {}", most_nodes_together));
+    count_nodes(body.curve);
   }
 
   for (const std::string& pair : h5::read_texts(file, h5::pairs, most_pairs, path)) {
@@ -339,6 +394,22 @@ Law read_law(const std::string& path)
       fail(path, fmt::format("'{}' has the wrong length", f.field.name), std::to_string(errors.size()),
            std::to_string(law.pairs.size()));
     for (std::size_t k = 0; k < errors.size(); ++k) law.pairs[k].*f.error = errors[k];
+  }
+
+  if (h5::has_link(file, h5::pair_laws)) {
+    const h5::Handle own_laws = h5::open_group(file, h5::pair_laws, path);
+    for (const std::string& name : h5::link_names(own_laws, most_bodies, path)) {
+      const std::string where = fmt::format("{}, law of the pair {}", path, shortened(name));
+      const h5::Handle group = h5::open_group(own_laws, name.c_str(), path);
+      TwoBodyLaw own;
+      own.law.material = yielding_of(law, name, path);
+      own.law.curve = read_curve(group, where);
+      own.law.certificate = read_certificate(group, where);
+      own.radius_ratio = h5::read_scalar(group, h5::radius_ratio_of_runs, where);
+      check_body(own.law, where);
+      count_nodes(own.law.curve);
+      law.pair_laws.emplace(name, std::move(own));
+    }
   }
 
   const h5::Handle notes = h5::open_group(file, h5::provenance, path);
@@ -361,6 +432,8 @@ void write_law(const Law& law, const std::string& path)
     check_name(name, path);
     check_body(body, fmt::format("{}, material '{}'", path, name));
   }
+  for (const auto& [name, own] : law.pair_laws)
+    check_body(own.law, fmt::format("{}, law of the pair {}", path, shortened(name)));
 
   const h5::Silence silence;
   write_atomically(path, [&](const std::string& temporary) {
@@ -385,6 +458,16 @@ void write_law(const Law& law, const std::string& path)
     const h5::Handle bodies = h5::create_group(file, h5::bodies, path);
     for (const auto& [name, body] : law.bodies)
       write_body(h5::create_group(bodies, name.c_str(), path), body, path);
+
+    if (!law.pair_laws.empty()) {
+      const h5::Handle own_laws = h5::create_group(file, h5::pair_laws, path);
+      for (const auto& [name, own] : law.pair_laws) {
+        const h5::Handle group = h5::create_group(own_laws, name.c_str(), path);
+        write_curve(group, own.law.curve, path);
+        write_certificate(group, own.law.certificate, path);
+        h5::write_scalar(group, h5::radius_ratio_of_runs, own.radius_ratio, path);
+      }
+    }
 
     if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
   });

@@ -81,11 +81,21 @@ void info(const std::string& path)
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
   for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
-  for (const LawPair& pair : law.pairs)
+  for (const LawPair& pair : law.pairs) {
+    const TwoBodyLaw* own = law.find_pair_law(pair.a, pair.b);
+    if (own)
+      fmt::print("  pair {}:{} by its own law, made at radii 1:{:.4g} (yielding body : partner)\n", pair.a,
+                 pair.b, own->radius_ratio);
     if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
-      fmt::print("  pair {}:{} by the pair rule: force within {:.2g} %, e within {:.2g} %\n", pair.a, pair.b,
-                 100 * pair.reduction_error_force, 100 * pair.reduction_error_restitution);
+      fmt::print("  pair {}:{} {}: force within {:.2g} %, e within {:.2g} %\n", pair.a, pair.b,
+                 own ? "at other radii" : "by the pair rule", 100 * pair.reduction_error_force,
+                 100 * pair.reduction_error_restitution);
+  }
   for (const auto& entry : law.bodies) print_body(entry.second);
+  for (const auto& [name, own] : law.pair_laws) {
+    fmt::print("pair {}, its own law; yielding ", name);
+    print_body(own.law);
+  }
 }
 
 void plot(const std::string& law, const std::string& output)

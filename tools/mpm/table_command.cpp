@@ -14,6 +14,7 @@
 #include "base/version.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/reduction_error.hpp"
+#include "characterise/two_body_law.hpp"
 #include "commands.hpp"
 #include "deck_options.hpp"
 #include "farm_options.hpp"
@@ -33,7 +34,7 @@ struct TableRequest
   std::vector<std::string> pairs;
   BuildOptions range;
   double inertia = 0.0625, radius_ratio = 1;
-  bool no_atlas = false;
+  bool no_atlas = false, own_law = false;
   FarmOptions farm;
   DeckOptions scene;  ///< of --deck
 };
@@ -130,10 +131,10 @@ std::string now_utc()
   return text;
 }
 
-void print_certificate(const BodyLaw& body)
+void print_certificate(const std::string& name, const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
-  fmt::print("{}: to delta/R = {:.3g}", body.material.name, body.curve.x_end());
+  fmt::print("{}: to delta/R = {:.3g}", name, body.curve.x_end());
   if (body.curve.axis()) fmt::print(" and I = rho V^2/Y = {:.3g}", c.max_inertia);
   if (c.origin == "atlas")
     fmt::print("; from the atlas: force within {:.2g} %, e within {:.2g}", 100 * c.atlas_error_force,
@@ -150,17 +151,27 @@ void print_certificate(const BodyLaw& body)
   fmt::print("\n");
 }
 
-/// What the pair rule costs, at the end of the range that it was measured in.
+/// The pair as its two bodies, at this ratio of the partner's radius to the yielding body's.
+UnlikePair bodies_of(const LawPair& pair, const Law& law, double radius_ratio)
+{
+  const LawMaterial &a = law.bodies.at(pair.a).material, &b = law.bodies.at(pair.b).material;
+  const bool a_yields = yields_first(a, b);
+  return {a_yields ? a : b, a_yields ? b : a, radius_ratio};
+}
+
+/// What the pair's law costs, at the end of the range that the pair rule was measured in: by the rule; of its
+/// own law, by other radii.
 void state_reduction(LawPair& pair, const Law& law, double radius_ratio)
 {
   constexpr double inertia = 0.002;
   if (pair.b == wall_name || (pair.a == pair.b && radius_ratio == 1)) return;
-  const LawMaterial &a = law.bodies.at(pair.a).material, &b = law.bodies.at(pair.b).material;
-  const bool a_yields = a.yield_stress <= b.yield_stress;
+  const TwoBodyLaw* own = law.find_pair_law(pair.a, pair.b);
   for (const double ratio : {radius_ratio, 1 / radius_ratio}) {
-    const UnlikePair unlike{a_yields ? a : b, a_yields ? b : a, ratio};
+    const UnlikePair unlike = bodies_of(pair, law, ratio);
     if (!unlike.yielding.yields()) return;
-    const ReductionError error = estimate_reduction_error(unlike, fastest_of_law(unlike, inertia));
+    const double fastest = fastest_of_law(unlike, inertia);
+    const ReductionError error = own ? estimate_remaining_error(unlike, own->radius_ratio, fastest)
+                                     : estimate_reduction_error(unlike, fastest);
     pair.reduction_error_force = std::max(pair.reduction_error_force, error.force);
     pair.reduction_error_restitution = std::max(pair.reduction_error_restitution, error.restitution);
     if (!error.within_measured && rank() == 0)
@@ -197,6 +208,15 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
     fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
                fmt::join(r.pairs, ", "), r.range.depth, r.inertia);
   return true;
+}
+
+/// Whether the two make a pair that may have its own law: different homogeneous spheres, one yields.
+bool may_have_own_law(const LawPair& pair, const std::map<std::string, Entry>& entries, const Law& law)
+{
+  if (pair.a == pair.b || pair.b == wall_name) return false;
+  for (const std::string& name : {pair.a, pair.b})
+    if (entries.at(name).body != sphere_name || !entries.at(name).subject.is_plain()) return false;
+  return bodies_of(pair, law, 1).yielding.yields();
 }
 
 void build(const TableRequest& r)
@@ -254,9 +274,32 @@ void build(const TableRequest& r)
     finished += 1;
   }
   for (LawPair& pair : law.pairs) {
+    const std::string name = pair.a + ":" + pair.b;
     if (pair.b != wall_name && pair.a != pair.b)
-      check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b),
-                     fmt::format("--pair {}:{}", pair.a, pair.b));
+      check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), fmt::format("--pair {}", name));
+    state_reduction(pair, law, r.radius_ratio);
+    const double worst = std::max(pair.reduction_error_force, pair.reduction_error_restitution);
+    if (!may_have_own_law(pair, entries, law) || worst <= options.tolerance) continue;
+    if (!r.own_law) {
+      remarks.push_back(
+          fmt::format("{}: by the pair rule, force within {:.2g} %, e within {:.2g} %; --own-law computes "
+                      "the pair's own law",
+                      name, 100 * pair.reduction_error_force, 100 * pair.reduction_error_restitution));
+      continue;
+    }
+    if (law.find_pair_law(pair.a, pair.b)) continue;  // named twice
+    if (!farm) farm = r.farm.farm();
+    options.farm = farm.get();
+    options.progress = [&](double done, const std::string& what) { bar.update(done, name + ": " + what); };
+    BuiltLaw built = build_two_body_law(bodies_of(pair, law, 1), options);
+    law.pair_laws[name] = {std::move(built.law), 1};
+    for (std::size_t k = 0; k < built.holes.size(); ++k)
+      law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
+    remarks.push_back(fmt::format(
+        "{}: its own law by {} runs of two bodies of equal radii (pair rule: force within "
+        "{:.2g} %, e within {:.2g} %)",
+        name, built.runs, 100 * pair.reduction_error_force, 100 * pair.reduction_error_restitution));
+    pair.reduction_error_force = pair.reduction_error_restitution = 0;
     state_reduction(pair, law, r.radius_ratio);
   }
   law.provenance["version"] = version();
@@ -271,7 +314,8 @@ void build(const TableRequest& r)
   bar.clear();
   fmt::print("wrote {}: pairs {}\n", r.output, law.pair_list());
   for (const std::string& remark : remarks) fmt::print("{}\n", remark);
-  for (const auto& entry : law.bodies) print_certificate(entry.second);
+  for (const auto& [name, body] : law.bodies) print_certificate(name, body);
+  for (const auto& [name, own] : law.pair_laws) print_certificate(name, own.law);
   if (farm) print_count(farm->count());
 }
 
@@ -315,6 +359,9 @@ void add_table(CLI::App& app)
                    "largest ratio of two radii in the scene: the pair rule's error is stated for it")
       ->check(CLI::Range(1.0, 10.0))
       ->capture_default_str();
+  command->add_flag("--own-law", r->own_law,
+                    "compute a law of its own, by runs of the two bodies at equal radii, for each pair of\n"
+                    "different spheres whose law by the pair rule is off by more than --tolerance");
   command->add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");
   r->farm.add_to(command);
   command->add_option("-o,--output", r->output, "law file, NAME.h5")->required();
