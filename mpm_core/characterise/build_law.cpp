@@ -347,6 +347,8 @@ void Build::plastic()
   c.residual_scatter = fitted.quality.scatter;
   c.held_out_error = fitted.quality.held_out;
   c.interpolation_error = finish_curve(law_, fitted.shape, subject_, options_, options_.depth);
+  built_.change_of_restitution =
+      change_of_restitution(fitted.shape, subject_.onset, options_.depth, options_.depth);
   if (options_.fastest > 0) {
     std::vector<double> speeds;
     for (const double share : {0.13, 0.42, 0.88}) speeds.push_back(share * options_.fastest);

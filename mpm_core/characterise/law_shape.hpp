@@ -59,9 +59,13 @@ struct LawShape
 inline constexpr double inertia_speeds[] = {0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3};
 
 /// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
-/// `x_end`, at most there. Throws Error where the loading force would not rise or a closed cycle would gain
-/// energy.
+/// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the
+/// turn: the smallest change of a fit that scatters about 0. Throws Error where the loading force would not
+/// rise or a closed cycle would gain energy.
 ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
+
+/// By how much, relative, tabulate() changed e of the fitted shape to make it rise, at most.
+double change_of_restitution(const LawShape& shape, double onset, double shape_end, double x_end);
 
 /// Largest relative error of the loading force of `curve` against the shape it was tabulated from.
 double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve);

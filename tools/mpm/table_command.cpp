@@ -216,6 +216,8 @@ void build(const TableRequest& r)
         law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
       law.provenance["survey." + name] =
           fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
+      law.provenance["admissible." + name] =
+          fmt::format("the fitted e changed by {:.2g} % at most", 100 * built.change_of_restitution);
     }
     BodyLaw& body = law.bodies[name];
     body.body = entry.body;
