@@ -64,8 +64,10 @@ inline constexpr double inertia_speeds[] = {0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.
 /// rise or a closed cycle would gain energy.
 ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
 
-/// By how much, relative, tabulate() changed e of the fitted shape to make it rise, at most.
-double change_of_restitution(const LawShape& shape, double onset, double shape_end, double x_end);
+/// Largest relative difference between e of `curve` and of the shape it was tabulated from: what making it
+/// admissible took.
+double change_of_restitution(const LawShape& shape, double onset, double shape_end,
+                             const ContactCurve& curve);
 
 /// Largest relative error of the loading force of `curve` against the shape it was tabulated from.
 double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve);
@@ -76,7 +78,7 @@ void require_admissible(const ContactCurve& curve);
 /// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at
 /// most the shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches
 /// the force goes over to the press's within half of it; residual and dissipation keep their ratio to the
-/// press's at any overlap.
+/// press's at any overlap. The axis ends before `fastest` where that would go deeper than `slow`'s table.
 InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                     double mass, double fastest);
 
