@@ -228,7 +228,7 @@ ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_e
                                        (onset * first.stiffness / first.force + 1) / (first.force * onset));
   // There nothing would be left for the rounding of n between its nodes (6e-5 of F was seen): e 0.025 %
   // lower.
-  const double spare = needed < rounding_spare ? rounding_spare : 0.0;
+  const double spare = needed > 0 ? 0.0 : rounding_spare;
   const auto lost_at_onset = [&](double q) { return std::max(0.0, needed) * std::exp(-8 * q) + spare; };
   const auto yielded_exponent = [&](double s) {
     const double x = s * s * s * s, q = std::log(s / s_onset);

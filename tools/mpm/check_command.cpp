@@ -98,6 +98,7 @@ void check(const CheckRequest& r)
   bool good = admissible(law, r.law);
   const unsigned seed = r.seed ? r.seed : std::random_device{}();
   std::mt19937 random(seed);
+  int thrown = 0;
   for (const auto& [name, body] : law.bodies) {
     const LawMaterial& m = body.material;
     if (!m.yields() || r.impacts == 0) continue;
@@ -118,14 +119,15 @@ void check(const CheckRequest& r)
     if (subject->rate_dependent()) slow = std::max(slow, 0.13 * end);
     const double fast = std::max(1.01 * slow, end);
     std::uniform_real_distribution<double> logarithm(std::log(slow), std::log(fast));
+    thrown += r.impacts;
     for (int k = 0; k < r.impacts; ++k)
       good = impact_agrees(name, body, *subject, std::exp(logarithm(random))) && good;
   }
   if (!good) fail(r.law, fmt::format("the law fails its check (seed {})", seed));
   fmt::print(
-      "{}: good ({} materials, pairs {}; no closed cycle gains energy; {} fresh impacts a material, seed "
+      "{}: good ({} materials, pairs {}; no closed cycle gains energy; {} fresh impacts in all, seed "
       "{})\n",
-      r.law, law.bodies.size(), law.pair_list(), r.impacts, seed);
+      r.law, law.bodies.size(), law.pair_list(), thrown, seed);
 }
 
 }  // namespace
