@@ -41,13 +41,8 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
     law.curve = slow;
     return error;
   }
-  // An impact at the end of the axis must turn within the table.
-  double fastest = options.fastest;
-  InertiaAxis::Table axis = tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, fastest);
-  while (axis.impact_overlap.back() > slow.x_end()) {
-    fastest *= std::min(0.98, std::sqrt(slow.x_end() / axis.impact_overlap.back()));
-    axis = tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, fastest);
-  }
+  InertiaAxis::Table axis = tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, options.fastest);
+  const double fastest = axis.speed_end;
   law.certificate.max_inertia = fastest * fastest;
   if (subject.rate_dependent()) {
     axis.kind = InertiaAxis::Kind::rate;
@@ -347,9 +342,11 @@ void Build::plastic()
   c.residual_scatter = fitted.quality.scatter;
   c.held_out_error = fitted.quality.held_out;
   c.interpolation_error = finish_curve(law_, fitted.shape, subject_, options_, options_.depth);
+  built_.change_of_restitution =
+      change_of_restitution(fitted.shape, subject_.onset, options_.depth, law_.curve);
   if (options_.fastest > 0) {
     std::vector<double> speeds;
-    for (const double share : {0.13, 0.42, 0.88}) speeds.push_back(share * options_.fastest);
+    for (const double share : {0.13, 0.42, 0.88}) speeds.push_back(share * std::sqrt(c.max_inertia));
     verify(speeds);
   }
 }

@@ -14,8 +14,8 @@ struct BuildOptions
   double fastest = 0.25;    ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
   double tolerance = 0.01;  ///< of force and e, relative: sampling is refined until it adds no more than
                             ///< this, the resolution until two of them agree to this
-  Farm* farm = nullptr;  ///< makes the runs; none: this thread
-  Progress progress;     ///< may throw to stop
+  Farm* farm = nullptr;     ///< makes the runs; none: this thread
+  Progress progress;        ///< may throw to stop
 };
 
 /// A law, and what it took.
@@ -23,9 +23,10 @@ struct BuiltLaw
 {
   BodyLaw law;
   std::vector<std::string>
-      holes;                  ///< runs that failed twice, each with its sentence: the law has no sample there
-  std::size_t runs = 0;       ///< that the adaptive survey asked for
-  std::size_t runs_full = 0;  ///< that the densest one would have
+      holes;  ///< runs that failed twice, each with its sentence: the law has no sample there
+  double change_of_restitution = 0;  ///< largest relative change of the fitted e that admissibility took
+  std::size_t runs = 0;              ///< that the adaptive survey asked for
+  std::size_t runs_full = 0;         ///< that the densest one would have
 };
 
 /// The law of one body on a rigid wall, by the material point method.

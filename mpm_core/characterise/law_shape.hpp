@@ -59,9 +59,15 @@ struct LawShape
 inline constexpr double inertia_speeds[] = {0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3};
 
 /// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
-/// `x_end`, at most there. Throws Error where the loading force would not rise or a closed cycle would gain
-/// energy.
+/// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the
+/// turn: the smallest change of a fit that scatters about 0. Throws Error where the loading force would not
+/// rise or a closed cycle would gain energy.
 ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
+
+/// Largest relative difference between e of `curve` and of the shape it was tabulated from: what making it
+/// admissible took.
+double change_of_restitution(const LawShape& shape, double onset, double shape_end,
+                             const ContactCurve& curve);
 
 /// Largest relative error of the loading force of `curve` against the shape it was tabulated from.
 double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve);
@@ -72,7 +78,7 @@ void require_admissible(const ContactCurve& curve);
 /// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at
 /// most the shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches
 /// the force goes over to the press's within half of it; residual and dissipation keep their ratio to the
-/// press's at any overlap.
+/// press's at any overlap. The axis ends before `fastest` where that would go deeper than `slow`'s table.
 InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                     double mass, double fastest);
 

@@ -219,6 +219,9 @@ InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& s
     fail("fit", "no impact was as fast", fmt::format("sqrt(I) = {:.4g}", fastest),
          fmt::format("up to {:.4g}", last));
   const Speeds speeds(shape, slow, 0.375 * mass / e_star_over_yield);  // 1/2 m Y v^2 over 4/3 E* R^3
+  // An impact at the end of the axis must turn within the table.
+  while (speeds.reach(fastest) > slow.x_end())
+    fastest *= std::min(0.98, std::sqrt(slow.x_end() / speeds.reach(fastest)));
   InertiaAxis::Table table;
   table.speed_end = fastest;
   const auto steps = std::max(3, static_cast<int>(std::ceil(fastest / speed_spacing - 1e-9)));

@@ -19,6 +19,7 @@
 #include "deck_options.hpp"
 #include "farm_options.hpp"
 #include "law/law_file.hpp"
+#include "material_hash.hpp"
 #include "materials_file.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
@@ -53,20 +54,6 @@ LawMaterial law_material(const std::string& name, const Material& m)
   return {name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
 }
 
-/// FNV-1a: tells whether a law was made from these very materials.
-std::string hash_of(const std::string& text)
-{
-  std::uint64_t h = 14695981039346656037ull;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return fmt::format("{:016x}", h);
-}
-
-std::string hash_of(const Material& m)
-{
-  return hash_of(fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus,
-                             m.poisson_ratio, m.yield_stress, m.hardening_modulus));
-}
-
 /// The entry that a name of --pair means: a material; else a particle, whose law is its material's if it is a
 /// homogeneous sphere and the law knows no size.
 Entry entry_of(const std::string& name, const MaterialsFile& file)
@@ -79,7 +66,7 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
         p.materials[static_cast<std::size_t>(std::max(0, p.is_homogeneous_sphere() ? 0 : skin))];
     LawMaterial material = law_material(name, m);
     if (subject.yields()) material.yield_stress = subject.yield * subject.scale.stress;
-    return {material, subject, p.is_homogeneous_sphere() ? sphere_name : name, hash_of(subject.description)};
+    return {material, subject, p.is_homogeneous_sphere() ? sphere_name : name, hash_of(subject)};
   }
   const Material& m = file.material(name);
   if (m.rate_dependent())
@@ -89,8 +76,7 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
              "particle of it, --pair PARTICLE:wall",
              m.rate.name));
   const Subject subject = subject_of(m);
-  return {law_material(name, m), subject, sphere_name,
-          subject.is_plain() ? hash_of(m) : hash_of(subject.description)};
+  return {law_material(name, m), subject, sphere_name, subject.is_plain() ? hash_of(m) : hash_of(subject)};
 }
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -263,6 +249,17 @@ void build(const TableRequest& r)
         law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
       law.provenance["survey." + name] =
           fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
+      law.provenance["admissible." + name] =
+          fmt::format("the fitted e changed by {:.2g} % at most", 100 * built.change_of_restitution);
+      if (entry.subject.rate_dependent()) {
+        law.provenance["size." + name] = fmt::format(
+            "rate-dependent, computed at R = {:g} m: {}", entry.subject.scale.length,
+            law.bodies[name].curve.axis()
+                ? "at another size the axis is read at the same V/R, which is exact only while inertia is "
+                  "nothing"
+                : "held to that size");
+        remarks.push_back(name + ": " + law.provenance["size." + name]);
+      }
     }
     BodyLaw& body = law.bodies[name];
     body.body = entry.body;

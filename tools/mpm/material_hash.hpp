@@ -1,0 +1,33 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+
+#include "characterise/subject.hpp"
+
+namespace granulaw {
+
+/// FNV-1a: tells whether a law was made from these very materials.
+inline std::string hash_of(const std::string& text)
+{
+  std::uint64_t h = 14695981039346656037ull;
+  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return fmt::format("{:016x}", h);
+}
+
+/// Of a material that its five numbers determine.
+inline std::string hash_of(const Material& m)
+{
+  return hash_of(fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus,
+                             m.poisson_ratio, m.yield_stress, m.hardening_modulus));
+}
+
+/// Of a subject that they do not determine: its layers, shape, hardening law or rate.
+inline std::string hash_of(const Subject& subject)
+{
+  return hash_of(subject.description);
+}
+
+}  // namespace granulaw
