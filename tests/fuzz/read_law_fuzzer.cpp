@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "finding.hpp"
 #include "hostile_file.hpp"
 #include "law/h5.hpp"
 #include "law/law_file.hpp"
@@ -34,8 +34,7 @@ namespace fs = std::filesystem;
 /// A folder in memory with what damages lead to; removed at exit, a crash leaves it.
 struct Folder
 {
-  fs::path path = (fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path()) /
-                  ("granulaw_fuzz_" + std::to_string(getpid()));
+  fs::path path = scratch() / ("granulaw_fuzz_" + std::to_string(getpid()));
   Folder()
   {
     fs::create_directories(path);
@@ -59,22 +58,6 @@ Folder& folder()
 {
   static Folder the;
   return the;
-}
-
-[[noreturn]] void finding(const std::string& what)
-{
-  std::fprintf(stderr, "finding: %s\n", what.c_str());
-  std::abort();
-}
-
-/// What is wrong with the sentence of an Error about the file `path`; "" if nothing.
-std::string unclear(const std::string& sentence, const std::string& path)
-{
-  if (!sentence.starts_with(path)) return "does not name the file";
-  if (sentence.size() > path.size() + 600) return "too long";  // a name of 255 bytes twice, and the words
-  for (const char c : sentence)
-    if (std::iscntrl(static_cast<unsigned char>(c))) return "holds a control character";
-  return "";
 }
 
 std::string damaged_law(std::mt19937& draw)

@@ -1,0 +1,132 @@
+// How right is a law where nobody sampled it? Laws of the atlas against fresh runs of the solver:
+//   - impacts at random velocities: e, F_max, contact time;
+//   - slow presses along a path that no impact takes, with three partial unloadings and reloadings at random
+//     overlaps: the largest |F_law - F|/F_max along the whole path, and the area of the reload loops, which
+//     the law leaves out, over the work put in.
+//
+//   law_study FOLDER --atlas ATLAS.h5 [--impacts N] [--threads N] [--seed N]    runs are kept in FOLDER and
+//   not made again
+//
+// Prints one line a material. The force of a press is as computed, with the ripple of the contact edge.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "base/error.hpp"
+#include "base/scales.hpp"
+#include "characterise/atlas.hpp"
+#include "characterise/build_law.hpp"
+#include "law/replay.hpp"
+
+namespace {
+
+using namespace granulaw;
+
+/// Dimensionless: R = E* = rho = 1.
+LawMaterial dimensionless(const MaterialRatios& m)
+{
+  LawMaterial law;
+  law.name = "material", law.density = 1, law.poisson_ratio = m.poisson_ratio;
+  law.youngs_modulus = 1 - m.poisson_ratio * m.poisson_ratio;
+  law.yield_stress = 1 / m.stiffness;
+  law.hardening_modulus = m.hardening * law.youngs_modulus;
+  return law;
+}
+
+/// Largest and 95th-percentile magnitude of signed errors.
+std::string worst(std::vector<double> errors)
+{
+  for (double& error : errors) error = std::abs(error);
+  std::sort(errors.begin(), errors.end());
+  return fmt::format("{:.4f} (95 %: {:.4f})", errors.back(), errors[errors.size() * 95 / 100]);
+}
+
+/// Largest deviation of the law from the run's force along its path, over the run's largest force.
+double path_error(const PairLaw& law, const RunResult& run)
+{
+  double deepest = 0, largest = 0, error = 0;
+  for (const TraceSample& s : run.trace) {
+    deepest = std::max(deepest, s.delta);
+    largest = std::max(largest, s.force);
+    error = std::max(error, std::abs(law.evaluate(1, s.delta, deepest).force - s.force));
+  }
+  return error / largest;
+}
+
+void study(const Atlas& atlas, const MaterialRatios& m, int impacts, std::mt19937& random, Farm& farm)
+{
+  const LawMaterial material = dimensionless(m);
+  const Subject subject = subject_of(m.stiffness, m.poisson_ratio, m.hardening);
+  BuildOptions options;
+  options.depth = 0.2, options.fastest = 0.25;
+  const BodyLaw law = law_from(atlas, material, options);
+  const PairLaw pair{&law.curve, PairMapping::rigid_partner(1), &law};
+
+  const RunSource source;
+  std::uniform_real_distribution<double> share(0, 1);
+  std::vector<RunJob> jobs;
+  std::vector<double> velocities;
+  // sqrt(I) from 1.5 onsets to 0.245, evenly in its logarithm
+  const double slowest = 1.5 * onset_velocity(1, 1 / m.stiffness, 1, m.poisson_ratio);
+  const double fastest = 0.245 / std::sqrt(m.stiffness);
+  for (int k = 0; k < impacts; ++k) {
+    velocities.push_back(slowest * std::pow(fastest / slowest, share(random)));
+    jobs.push_back(impact_job(subject, velocities.back(), 24, 2, source));
+  }
+  for (const double depth : {0.02, 0.15}) {
+    SurveyPlan::Press press{depth, {}, 24, 4};
+    for (int k = 0; k < 3; ++k) press.stops.push_back(depth * (0.1 + 0.3 * (k + share(random))));
+    jobs.push_back(press_job(subject, press, source));
+  }
+  const std::vector<RunResult> runs = farm.run_all(jobs);
+
+  std::vector<double> e, force, time;
+  for (int k = 0; k < impacts; ++k) {
+    const RunSummary& run = runs[static_cast<std::size_t>(k)].summary;
+    const Replay replay = replay_collision(pair, 1, 4. / 3 * M_PI, velocities[static_cast<std::size_t>(k)]);
+    if (replay.left_range) continue;  // deeper than the law: it says so
+    e.push_back(replay.restitution - run.restitution);
+    force.push_back(replay.force_max / run.force_max - 1);
+    time.push_back(replay.contact_time / run.contact_time - 1);
+  }
+  fmt::print("E*/Y {:g}, nu {:g}, H/E {:g}: {} impacts: e {}, F {}, time {}\n", m.stiffness, m.poisson_ratio,
+             m.hardening, e.size(), worst(e), worst(force), worst(time));
+  for (std::size_t k = static_cast<std::size_t>(impacts); k < runs.size(); ++k) {
+    double loop = 0;
+    partial_unloadings(runs[k], loop);
+    fmt::print(
+        "  press to {:.2f} R with three reloadings: |F_law - F|/F_max {:.4f}; loop {:.4f} of the work\n",
+        runs[k].summary.delta_max, path_error(pair, runs[k]), loop);
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Laws of the atlas against fresh runs");
+  std::string folder, atlas_file;
+  int impacts = 50, threads = 1;
+  unsigned seed = 1;
+  app.add_option("folder", folder)->required();
+  app.add_option("--atlas", atlas_file)->required();
+  app.add_option("--impacts", impacts)->check(CLI::Range(1, 1000));
+  app.add_option("--threads", threads)->check(CLI::Range(1, 256));
+  app.add_option("--seed", seed);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const Atlas atlas = read_atlas(atlas_file);
+    ThreadFarm farm(threads, RunCache(folder));
+    std::mt19937 random(seed);
+    for (const MaterialRatios& m :
+         {MaterialRatios{100, 0.3, 0}, {30, 0.3, 0}, {500, 0.25, 0.01}, {1500, 0.35, 0}})
+      study(atlas, m, impacts, random, farm);
+  } catch (const Error& error) {
+    fmt::print(stderr, "law_study: {}\n", error.what());
+    return 2;
+  }
+}
