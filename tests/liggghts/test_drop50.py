@@ -29,7 +29,7 @@ class Drop(Trial):
             steps = math.ceil(1.2 * max(x["contact_time_s"] for x in expected) / dt)
             pitch = 6 * RADIUS
             text = (head(half=pitch * 5, skin=RADIUS / 2) + properties([POWDER]) +
-                    f"pair_style gran model mpm tangential history law {self.law} materials powder\npair_coeff * *\n")
+                    f"pair_style gran model mpm tangential history law {self.law} materials powder elasticDamping off\npair_coeff * *\n")
             if kind == "wall":
                 text += "fix w all wall/gran model mpm tangential history primitive type 1 zplane 0.0\n"
             velocities, first = "", []

@@ -48,9 +48,9 @@ PRINT = 'print "ENERGY ${e} ${d} ${s} ${o} ${a1} ${a2} ${a3}"\n'
 
 
 class Energy(Deck):
-    def balance(self, tangential, friction, ranks, name="mpm", law=None, steps=30000):
+    def balance(self, tangential, friction, ranks, name="mpm", law=None, steps=30000, more="elasticDamping off"):
         data_file(self.folder / "bed.data")
-        words = (f"law {law or self.law} materials powder " if name == "mpm" else "") + "energy on"
+        words = (f"law {law or self.law} materials powder " if name == "mpm" else "") + f"energy on {more}"
         deck = start() + model(words, tangential, friction, name) + SUM
         text = self.run_deck(deck + "run 0\n" + PRINT + f"run {steps}\n" + PRINT, ranks=ranks)
         lines = [[float(w) for w in line.split()[1:]] for line in text.splitlines() if line.startswith("ENERGY")]
@@ -72,6 +72,12 @@ class Energy(Deck):
             error, dissipated, stored, other = self.balance("off", 0.0, ranks, name, law)
             self.assertLess(abs(error), 2e-5, f"{name} {law} {ranks}")
             self.assertLess(abs(other), 1e-9 * dissipated)
+
+    def test_elastic_damping(self):
+        """What damping below yield takes stands in the other work, and the balance stays closed to the same bound."""
+        error, dissipated, stored, other = self.balance("off", 0.0, 1, more="elasticDamping 0.05")
+        self.assertLess(abs(error), 2e-5)
+        self.assertGreater(other, 1e-3 * dissipated)
 
     def test_friction(self):
         """Sliding, tangential springs, rolling resistance: the same bound, with a share that matters."""

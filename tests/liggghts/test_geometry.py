@@ -52,7 +52,7 @@ def trough(radius, facets, half, low=-60.0, high=60.0):
 
 class Geometry(Trial):
     def words(self, model):
-        return {"mpm": f"law {self.law} materials powder", "thornton": "", "hertz": "tangential_damping off"}[model]
+        return {"mpm": f"law {self.law} materials powder elasticDamping off", "thornton": "elasticDamping off", "hertz": "tangential_damping off"}[model]
 
     def wall(self, model, wall, name="w"):
         words = "tangential_damping off" if model == "hertz" else ""

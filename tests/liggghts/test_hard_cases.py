@@ -29,7 +29,7 @@ class TimeStep(Trial):
                 for steps, limit in self.LIMITS.items() if FULL else ((10, self.LIMITS[10]), (50, self.LIMITS[50])):
                     found = {}
                     for model in ("mpm", "hertz") if FULL else ("mpm",):
-                        words = f"law {self.law} materials powder" if model == "mpm" else "tangential_damping off"
+                        words = f"law {self.law} materials powder elasticDamping off" if model == "mpm" else "tangential_damping off"
                         if kind == "wall":
                             deck = wall_deck(model, words, POWDER, RADIUS, speed, duration / steps,
                                              wall_words="" if model == "mpm" else "tangential_damping off")
@@ -80,7 +80,7 @@ def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, see
     """A box of n x n x layers spheres between four elastic walls, dropped on a floor. Frictionless unless said."""
     rng, pitch = random.Random(seed), 2.02 * RADIUS
     half = n * pitch / 2
-    words = {"mpm": f"law {law} materials powder", "thornton": "", "hertz": "tangential_damping off"}[model]
+    words = {"mpm": f"law {law} materials powder elasticDamping off", "thornton": "elasticDamping off", "hertz": "tangential_damping off"}[model]
     wall = f"wall/gran model {model} tangential history"
     text = (head(half=60 * RADIUS, skin=RADIUS / 2) + properties([POWDER], friction) +
             (ELASTIC if model == "hertz" else "") +

@@ -52,9 +52,9 @@ class Invariance(Trial):
     def words(self, model):
         """Normal model, tangential history without viscous damping, its own keywords."""
         if model == "mpm":
-            return f"model mpm tangential history law {self.law} materials powder tangentialDampingRatio 0"
+            return f"model mpm tangential history law {self.law} materials powder tangentialDampingRatio 0 elasticDamping off"
         if model == "thornton":
-            return "model thornton tangential history tangentialDampingRatio 0"
+            return "model thornton tangential history tangentialDampingRatio 0 elasticDamping off"
         if model == "hertz":
             return "model hertz tangential history tangential_damping off"
         return "model thornton_ning tangential history tangential_damping off"
@@ -171,7 +171,7 @@ class Rejoin(Invariance):
                         "newton off\ncommunicate single vel yes\nregion box block -0.01 0.01 -0.01 0.01 -0.01 0.01 units box\n"
                         f"create_box 1 box\nneighbor {RADIUS!r} bin\nneigh_modify {neigh}\n" + properties([POWDER]) +
                         ELASTIC +
-                        f"pair_style gran model mpm tangential history law {self.law} materials powder\npair_coeff * *\n"
+                        f"pair_style gran model mpm tangential history law {self.law} materials powder elasticDamping off\npair_coeff * *\n"
                         f"fix w all wall/gran model hertz tangential history primitive type 1 zplane {back!r} tangential_damping off\n"
                         f"create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single 0 0 {2 * RADIUS + 0.3 * DT * speed!r} units box\n"
                         f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\n"

@@ -13,8 +13,9 @@ class Ledger(Deck):
     def words(self, model):
         if model == "mpm with axis":
             self.fixture("write", self.folder / "axis.h5", "axis")
-            return f"law {self.folder / 'axis.h5'} materials powder"
-        return f"law {self.law} materials powder" if model == "mpm" else ""
+            return f"law {self.folder / 'axis.h5'} materials powder elasticDamping off"
+        # damping below yield is no plastic loss: not in this ledger
+        return (f"law {self.law} materials powder " if model == "mpm" else "") + "elasticDamping off"
 
     def test_one_collision(self):
         """Wall and pair: dissipated = kinetic energy before - after; one contact begun; impact speed and overlap."""

@@ -112,9 +112,9 @@ def loop(folder, name, steps):
     yield_stress = {o: 2 * e_star / 3.14159265 / 1.6 * x**0.5 for o, x in ONSETS.items()}
     model, words, preload, y = name, "", None, yield_stress["mpm"]
     if name.startswith("mpm"):
-        model, words = "mpm", f"law {name}.h5 materials powder beyondRange continue"
+        model, words = "mpm", f"law {name}.h5 materials powder beyondRange continue elasticDamping 0.001"
     elif name.startswith("thornton"):
-        model, y = "thornton", yield_stress[name.replace("thornton", "mpm")]
+        model, words, y = "thornton", "elasticDamping 0.001", yield_stress[name.replace("thornton", "mpm")]
     elif name == "hertz_granulaw":
         preload = HERTZ
     text = run(folder, head(data="flow.data") + properties(E, y) + flow(model, words) +
