@@ -124,6 +124,11 @@ bool FixStats::speaks() const
   return modify->find_fix_style_strict(style_name, 0) == this;
 }
 
+DeckUnits FixStats::deck_units() const
+{
+  return DeckUnits::of(update->unit_style, style_name);
+}
+
 void FixStats::print(const std::string& text) const
 {
   if (comm->me != 0) return;
@@ -135,7 +140,7 @@ void FixStats::setup(int)
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
   if (!speaks()) return;
-  std::string table = start_table(session_->ledger);
+  std::string table = start_table(session_->ledger, deck_units());
   if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
   last_table_ = table;
   print(table);
@@ -225,7 +230,9 @@ void FixStats::post_run()
   if (comm->me != 0) return;
   write_files(sum);
   if (!speaks()) return;
-  const ContactLedger::Side pair = sum.total(false), wall = sum.total(true), all = sum.total();
+  const DeckUnits units = deck_units();
+  const ContactLedger::Side pair = sum.total(false).in_si(units), wall = sum.total(true).in_si(units),
+                            all = sum.total().in_si(units);
   std::string line = fmt::format(
       "granulaw: {:.0f} contacts between particles, {:.0f} with walls; impacts up to {:.4g} and {:.4g} m/s; "
       "overlap/R* up to {:.4g} and {:.4g}; normal contacts dissipated {:.6g} J",
@@ -283,7 +290,8 @@ void FixStats::write_json(const ContactLedger& sum, const std::string& path) con
       "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"inertia_number_limit_of_law\": {:.6g},\n",
       version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_,
       session_->inertia_limit);
-  const std::string text = to_json(sum, header), temporary = fmt::format("{}.tmp.{}", path, getpid());
+  const std::string text = to_json(sum, header, deck_units()),
+                    temporary = fmt::format("{}.tmp.{}", path, getpid());
   FILE* file = std::fopen(temporary.c_str(), "w");
   const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const bool closed = file && std::fclose(file) == 0;

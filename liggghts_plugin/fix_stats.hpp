@@ -53,6 +53,7 @@ class FixStats : public LAMMPS_NS::Fix
   void print(const std::string& text) const;
   /// True in the one fix that speaks, if a deck has several.
   bool speaks() const;
+  DeckUnits deck_units() const;
 
   std::shared_ptr<Session> session_;
   std::string path_, last_table_;

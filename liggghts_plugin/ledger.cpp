@@ -105,6 +105,15 @@ void ContactLedger::Side::merge(const Side& other)
   }
 }
 
+ContactLedger::Side ContactLedger::Side::in_si(const DeckUnits& units) const
+{
+  Side si = *this;
+  for (double* energy : {&si.dissipated, &si.other_work}) *energy *= units.energy();
+  for (double* speed : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
+    *speed *= units.length;
+  return si;
+}
+
 ContactLedger::Side ContactLedger::total(bool walls) const
 {
   Side sum;
@@ -153,22 +162,23 @@ void ContactLedger::unpack(const double* values, std::size_t count, bool sums)
   }
 }
 
-std::string to_json(const ContactLedger& ledger, const std::string& header)
+std::string to_json(const ContactLedger& ledger, const std::string& header, const DeckUnits& units)
 {
   std::string pairs;
   for (const auto& [key, side] : ledger.sides)
     if (side.info.needed || side.touches > 0)
-      pairs += fmt::format("{}{}", pairs.empty() ? "" : ",\n", pair_json(key, side));
+      pairs += fmt::format("{}{}", pairs.empty() ? "" : ",\n", pair_json(key, side.in_si(units)));
   return fmt::format(
       "{{\n{}  \"pair\": {{\n{}\n  }},\n  \"wall\": {{\n{}\n  }},\n  \"pairs\": [\n{}\n  ]\n}}\n", header,
-      counts_json(ledger.total(false), "    "), counts_json(ledger.total(true), "    "), pairs);
+      counts_json(ledger.total(false).in_si(units), "    "),
+      counts_json(ledger.total(true).in_si(units), "    "), pairs);
 }
 
-std::string start_table(const ContactLedger& ledger)
+std::string start_table(const ContactLedger& ledger, const DeckUnits& units)
 {
   std::string lines;
   for (const auto& [key, side] : ledger.sides) {
-    const PairInfo& info = side.info;
+    const PairInfo info = side.in_si(units).info;
     if (!info.needed) continue;
     const auto or_none = [](bool known, double value) {
       return known ? fmt::format("{:.4g}", value) : std::string("none");

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "liggghts_plugin/deck_units.hpp"
+
 namespace granulaw::plugin {
 
 /// Counts in logarithmic bins, eight a decade, from `first` (lower edge of bin 0); the outer bins catch the
@@ -95,6 +97,8 @@ struct ContactLedger
       return {&dissipated, &other_work, &touches,     &ended,       &near,       &past,      &beyond,
               &too_fast,   &speed_max,  &overlap_max, &inertia_max, &frequency2, &speed_min, &overlap_min};
     }
+    /// The same in SI; the contact loops count in the deck's units.
+    Side in_si(const DeckUnits& units) const;
     /// Adds `other`: sums, largest and least values, histograms.
     void merge(const Side& other);
     /// s, dt_fraction of the period of the stiffest contact so far; infinity: none yet.
@@ -117,11 +121,11 @@ struct ContactLedger
   void unpack(const double* values, std::size_t count, bool sums);
 };
 
-/// `ledger` (summed over ranks) as JSON; `header` is placed first ("\"key\": value,\n" lines). Schema:
-/// docs/pair_gran_model_mpm.md.
-std::string to_json(const ContactLedger& ledger, const std::string& header);
+/// `ledger` (summed over ranks, in the deck's units) as JSON, in SI; `header` is placed first ("\"key\":
+/// value,\n" lines). Schema: docs/pair_gran_model_mpm.md.
+std::string to_json(const ContactLedger& ledger, const std::string& header, const DeckUnits& units);
 
-/// The start-up table: one line for each pair of types that can meet. Empty if there is none.
-std::string start_table(const ContactLedger& ledger);
+/// The start-up table: one line for each pair of types that can meet. In SI. Empty if there is none.
+std::string start_table(const ContactLedger& ledger, const DeckUnits& units);
 
 }  // namespace granulaw::plugin

@@ -343,8 +343,8 @@ class PlasticModel : public NormalModelBase
                fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
                            "the law's table, which ends at {:.4g}: build a deeper law, or say "
                            "'beyondRange continue'",
-                           setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype, -sidata.vn,
-                           entry.largest_overlap));
+                           setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype,
+                           -sidata.vn * units_.length, entry.largest_overlap));
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.
