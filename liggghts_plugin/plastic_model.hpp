@@ -131,10 +131,11 @@ class PlasticModel : public NormalModelBase
     const double root = std::sqrt(r_eff * delta);
     const double radius =
         tangential_computed_ ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
+    const double impedance = std::sqrt(root * sidata.meff);  // both dampings are proportional to it
     double normal_force = law_force;
     sidata.gamman = 0.0;
     if (is_damped(entry, r_eff, delta, delta_max, sidata.vn)) {
-      sidata.gamman = entry.damping * std::sqrt(root * sidata.meff);
+      sidata.gamman = entry.damping * impedance;
       normal_force = std::max(0.0, law_force - sidata.gamman * sidata.vn);
     }
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
@@ -148,7 +149,8 @@ class PlasticModel : public NormalModelBase
     sidata.kn =
         delta > 0.0 ? law_force / delta : 0.0;  // secant: rolling model cdt takes kn*deltan as the force
     sidata.kt = entry.tangential * radius;
-    sidata.gammat = 2.0 * damping_ * std::sqrt(sidata.kt * sidata.meff);
+    sidata.gammat = tangential_computed_ ? 2.0 * damping_ * std::sqrt(sidata.kt * sidata.meff)
+                                         : entry.tangential_damping * impedance;
 
     const double force = sidata.is_wall ? normal_force * sidata.area_ratio : normal_force;
     for (int c = 0; c < 3; ++c) {
@@ -181,10 +183,11 @@ class PlasticModel : public NormalModelBase
   // One pair of types, in the deck's units; what every step reads lies in the first cache line.
   struct alignas(64) Entry
   {
-    double largest_overlap = -1.0;  // over R*, that the law answers for; -1: no law for this pair of types
-    double tangential = 0.0;        // k_t over the contact radius: 8 G* (Mindlin), stretched
-    double damping = 0.0;           // normal damping over sqrt(sqrt(R* d) m*)
-    double yield_overlap = 0.0;     // over R*
+    double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
+    double tangential = 0.0;          // k_t over the contact radius: 8 G* (Mindlin), stretched
+    double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
+    double tangential_damping = 0.0;  // Mindlin's, over the same
+    double yield_overlap = 0.0;       // over R*
     typename Physics::Contact contact;
     ContactLedger::Side* side = nullptr;  // this pair of types in the ledger
     double inertia_per_speed2 = 0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
@@ -242,6 +245,7 @@ class PlasticModel : public NormalModelBase
             units_.pressure();
         // k_t,s(d) = k_t(d/s)/s^2; Mindlin's radius is of the stretched overlap: another 1/sqrt(s)
         entry.tangential = eight_shear_moduli * std::pow(stretch_, tangential_computed_ ? -2.0 : -2.5);
+        entry.tangential_damping = 2.0 * damping_ * std::sqrt(entry.tangential);
         // sqrt(5) Z sqrt(k m) d^(1/4) makes e = exp(-pi Z/sqrt(1 - Z^2)) at every speed (Antypov & Elliott
         // 2011); k = 4/3 E* sqrt(R*), stretched 1/s^2.5
         entry.damping = std::sqrt(5.0) * damping_ratio[static_cast<std::size_t>(i * stride_ + j)] *
