@@ -10,25 +10,13 @@
 
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "liggghts_plugin/fix_style.hpp"
 
 namespace granulaw::plugin {
 
 namespace {
 
 constexpr const char* style_name = "granulaw/stats";
-
-// Modify::fix_map is private, and LIGGGHTS has no call that adds a fix style. An explicit instantiation may
-// name private members ([temp.spec]), so it can hand out the pointer to member.
-template <class Tag, auto member>
-struct Expose
-{
-  friend auto exposed(Tag) { return member; }
-};
-struct FixMapTag
-{
-  friend auto exposed(FixMapTag);
-};
-template struct Expose<FixMapTag, &LAMMPS_NS::Modify::fix_map>;
 
 LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 {
@@ -71,8 +59,7 @@ void provide_energy_property(LAMMPS_NS::LAMMPS* lmp)
 
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp, bool add)
 {
-  auto& styles = *(lmp->modify->*exposed(FixMapTag{}));
-  styles.emplace(style_name, &make_fix);
+  register_fix_style(lmp, style_name, &make_fix);
   if (!add || !lmp->domain->box_exist) return;
   provide_energy_property(lmp);
   if (lmp->modify->find_fix_style_strict(style_name, 0)) return;

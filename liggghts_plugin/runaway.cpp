@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/session.hpp"
 
 namespace granulaw::plugin {
@@ -12,18 +13,6 @@ namespace {
 
 constexpr const char* style_name = "granulaw/runaway";
 constexpr int check_every = 100;  // steps
-
-// As in fix_stats.cpp: LIGGGHTS has no call that adds a fix style.
-template <class Tag, auto member>
-struct ExposeRunaway
-{
-  friend auto exposed(Tag) { return member; }
-};
-struct RunawayFixMapTag
-{
-  friend auto exposed(RunawayFixMapTag);
-};
-template struct ExposeRunaway<RunawayFixMapTag, &LAMMPS_NS::Modify::fix_map>;
 
 LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 {
@@ -39,8 +28,7 @@ bool is_finite(const double* v)
 
 void provide_runaway_fix(LAMMPS_NS::LAMMPS* lmp, bool add)
 {
-  auto& styles = *(lmp->modify->*exposed(RunawayFixMapTag{}));
-  styles.emplace(style_name, &make_fix);
+  register_fix_style(lmp, style_name, &make_fix);
   if (!add || !lmp->domain->box_exist || lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw_runaway", "all", style_name};
   lmp->modify->add_fix(3, const_cast<char**>(arg));
