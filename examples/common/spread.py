@@ -1,4 +1,5 @@
 """Samples of several seeds: mean, spread, and whether two of them differ (Welch's t test)."""
+import csv
 import math
 
 import numpy as np
@@ -56,6 +57,16 @@ def verdict(a, b):
     if p is None:
         return f"{change}, one seed: no verdict"
     return f"{change}, {'significant' if p < 0.05 else 'not significant'} (p = {p:.2g})"
+
+
+def tabulate(tables, path):
+    """tables[model]: of each seed, a dict of quantities. Writes them all to `path` (CSV: model, seed, quantity, value) and returns
+    samples[model][quantity] for `markdown`; a quantity that some seed did not reach has no sample."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["model", "seed", "quantity", "value"])
+        writer.writerows([m, k + 1, q, v] for m, runs in tables.items() for k, run in enumerate(runs) for q, v in run.items())
+    return {m: {q: Sample(run[q] for run in runs) for q in runs[0] if all(q in run for run in runs)} for m, runs in tables.items()}
 
 
 def markdown(samples, base="hertz"):

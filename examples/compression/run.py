@@ -4,7 +4,6 @@
     run.py [-o out/compression] [--seeds 5] [--quick]
 
 Writes report.md, compression.csv and compression.png."""
-import csv
 import pathlib
 import sys
 
@@ -15,7 +14,7 @@ sys.path.insert(0, str(HERE.parent / "common"))
 sys.path.append(str(HERE.parent / "hopper"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
 from make_scene import write_stl  # noqa: E402
-from spread import Sample, markdown  # noqa: E402
+from spread import markdown, tabulate  # noqa: E402
 
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 SPEED = 0.2                    # m/s of the lid: rho V^2/Y = 4e-5, far from inertia
@@ -80,12 +79,7 @@ def main(argv=None):
             found, curve = measure(folder, whole)
             tables.setdefault(name, []).append(found)
             curves.setdefault(name, []).append(curve)
-    samples = {m: {q: Sample(run[q] for run in runs) for q in runs[0] if all(q in run for run in runs)}
-               for m, runs in tables.items()}
-    with open(out / "compression.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["model", "seed", "quantity", "value"])
-        writer.writerows([m, k + 1, q, v] for m, runs in tables.items() for k, run in enumerate(runs) for q, v in run.items())
+    samples = tabulate(tables, out / "compression.csv")
     (out / "report.md").write_text(f"# Compression\n\n{particles} spheres, {args.seeds} seeds; ±: standard error.\n\n" +
                                    markdown(samples) + "\n![compression](compression.png)\n")
     figure, axes = pictures.panels(2)

@@ -4,7 +4,6 @@
     run.py [-o out/heap] [--seeds 5] [--quick]
 
 A seed is another random stream, the same for every model. Writes report.md, heap.csv and heap.png."""
-import csv
 import pathlib
 import sys
 
@@ -13,7 +12,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
-from spread import Sample, markdown  # noqa: E402
+from spread import markdown, tabulate  # noqa: E402
 
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 
@@ -93,11 +92,7 @@ def main(argv=None):
                                 "every": max(1, round(6e-3 / dt)), "seed": prime_after(100003 * seed)})
             tables.setdefault(name, []).append(measure(folder, particles, len(layer), base))
             profiles.setdefault(name, []).append(surface(pile(folder, len(layer), base)[0])[0])
-    samples = {m: {q: Sample(run[q] for run in runs) for q in runs[0]} for m, runs in tables.items()}
-    with open(out / "heap.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["model", "seed", "quantity", "value"])
-        writer.writerows([m, k + 1, q, v] for m, runs in tables.items() for k, run in enumerate(runs) for q, v in run.items())
+    samples = tabulate(tables, out / "heap.csv")
     (out / "report.md").write_text(f"# Heap\n\n{particles} spheres at {rate} a second, {args.seeds} seeds; ±: standard error."
                                    "\n\n" + markdown(samples) + "\n![heap](heap.png)\n")
     figure, axes = pictures.panels(1, 6, 3)

@@ -4,7 +4,6 @@
     run.py [-o out/packing] [--seeds 5] [--quick]
 
 A seed is a random cloud, the same for every model. Writes report.md, packing.csv and packing.png."""
-import csv
 import pathlib
 import sys
 
@@ -13,7 +12,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
-from spread import Sample, markdown  # noqa: E402
+from spread import markdown, tabulate  # noqa: E402
 
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 
@@ -78,13 +77,7 @@ def main(argv=None):
                                {"scene": scene, "dt": dt, "steps": steps, "every": max(1, round(1.5e-3 / dt))})
             tables.setdefault(name, []).append(measure(folder, side, particles))
             curves.setdefault(name, []).append(readings.series(folder))
-    # a quantity that some seed did not reach (an energy level) has no sample
-    samples = {m: {q: Sample(run[q] for run in runs) for q in runs[0] if all(q in run for run in runs)}
-               for m, runs in tables.items()}
-    with open(out / "packing.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["model", "seed", "quantity", "value"])
-        writer.writerows([m, k + 1, q, v] for m, runs in tables.items() for k, run in enumerate(runs) for q, v in run.items())
+    samples = tabulate(tables, out / "packing.csv")
     (out / "report.md").write_text(f"# Packing\n\n{particles} spheres, {args.seeds} seeds; ±: standard error.\n\n" +
                                    markdown(samples) + "\n![packing](packing.png)\n")
     figure, axes = pictures.panels(2)

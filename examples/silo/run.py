@@ -4,7 +4,6 @@
     run.py [-o out/silo] [--seeds 3] [--ranks 2] [--full] [--quick]
 
 A seed is a random cloud, the same for every model. Writes report.md, silo.csv and silo.png."""
-import csv
 import json
 import math
 import pathlib
@@ -16,7 +15,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import pictures, readings, sweep  # noqa: E401, E402
-from spread import Sample, markdown  # noqa: E402
+from spread import markdown, tabulate  # noqa: E402
 
 # The particle and the orifice are the benchmark's in every size, so the rate is too; fewer particles: a narrower cylinder.
 RADIUS, ORIFICE, DENSITY, BULK = 2e-3, 0.030, 2500.0, 1500.0
@@ -70,12 +69,7 @@ def main(argv=None):
                               "every": max(1, round(2.5e-3 / dt))})
             tables.setdefault(name, []).append(measure(done, scene))
             curves.setdefault(name, []).append(readings.series(done))
-    samples = {m: {q: Sample(run[q] for run in runs) for q in runs[0] if all(q in run for run in runs)}
-               for m, runs in tables.items()}
-    with open(out / "silo.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["model", "seed", "quantity", "value"])
-        writer.writerows([m, k + 1, q, v] for m, runs in tables.items() for k, run in enumerate(runs) for q, v in run.items())
+    samples = tabulate(tables, out / "silo.csv")
     (out / "report.md").write_text(f"# Silo\n\n{size['particles']} spheres, {args.seeds} seeds, {args.ranks} ranks; ±: standard "
                                    f"error. Beverloo: {beverloo():.3f} kg/s at a bulk density of {BULK:g} kg/m3.\n\n" +
                                    markdown(samples) + "\n![silo](silo.png)\n")
