@@ -207,7 +207,7 @@ class PlasticModel : public NormalModelBase
     return std::max(delta, delta_max) <= entry.yield_overlap * r_eff;
   }
 
-  void check_stretched(const SurfacesIntersectData& sidata, double r_eff)
+  [[gnu::noinline, gnu::cold]] void check_stretched(const SurfacesIntersectData& sidata, double r_eff)
   {
     if (stretch_ > 1.0 && sidata.deltan > stretched_overlap_limit * r_eff)
       stop_one(lmp, fmt::format("{}: 'stretch {:g}' takes the overlap of types {} and {} to {:.4g} R* at "
@@ -320,8 +320,9 @@ class PlasticModel : public NormalModelBase
   }
 
   /// Only with `energy on`: what the contact holds now, and the law's force for EnergyBooks::account.
-  void store_energy(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double delta_max,
-                    double impact_overlap, double law_force)
+  [[gnu::noinline, gnu::cold]] void store_energy(const SurfacesIntersectData& sidata, const Entry& entry,
+                                                 double r_eff, double delta_max, double impact_overlap,
+                                                 double law_force)
   {
     energy_->law_force = law_force * (sidata.is_wall ? sidata.area_ratio : 1.0);
     energy_->side = entry.side;
@@ -331,7 +332,8 @@ class PlasticModel : public NormalModelBase
                      atom->nlocal);
   }
 
-  void beyond_table(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff)
+  [[gnu::noinline, gnu::cold]] void beyond_table(const SurfacesIntersectData& sidata, const Entry& entry,
+                                                 double r_eff)
   {
     if (entry.largest_overlap < 0)
       stop_one(
@@ -352,7 +354,7 @@ class PlasticModel : public NormalModelBase
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.
-  void check_layout(const SurfacesIntersectData& sidata)
+  [[gnu::noinline, gnu::cold]] void check_layout(const SurfacesIntersectData& sidata)
   {
     layout_checked_ = true;
     const double distance = std::sqrt(sidata.delta[0] * sidata.delta[0] + sidata.delta[1] * sidata.delta[1] +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "liggghts_plugin/model_ids.hpp"
+#include "liggghts_plugin/pair_loop.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
 #include "liggghts_plugin/runaway.hpp"
 
@@ -149,9 +150,9 @@ inline void provide_fixes(LAMMPS* lmp, bool add)
 
 /// pair_style gran with one of our models.
 template <class Style, Model model>
-class PairStyle final : public LIGGGHTS::PairStyles::Granular<BookedModel<Style>>
+class PairStyle final : public PairLoop<BookedModel<Style>>
 {
-  using Base = LIGGGHTS::PairStyles::Granular<BookedModel<Style>>;
+  using Base = PairLoop<BookedModel<Style>>;
 
  public:
   PairStyle(LAMMPS* lmp, PairGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp) {}

@@ -1,0 +1,246 @@
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+
+#include "liggghts_plugin/liggghts.hpp"
+
+namespace granulaw::plugin {
+
+/// The loop over neighbouring spheres, in the place of LIGGGHTS's own (PairStyles::Granular): the same forces
+/// to the bit, in the same order, in less time.
+///
+/// A neighbour that does not touch costs its distance and one flag, not a cleared set of forces and a visit
+/// to its history: contact_flags says which models hold history, so surfacesClose is called in the step in
+/// which a pair parts, however far it got, and not again. What only some decks ask for (virial, stored
+/// contact forces, compute pair/gran/local) stands apart from the path of every contact.
+///
+/// Left out: `fix multicontact`, which belongs to surface models that ours refuse; it stops the run.
+template <class ContactModel>
+class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
+{
+  using ForceData = LIGGGHTS::ContactModels::ForceData;
+  using SurfacesIntersectData = LIGGGHTS::ContactModels::SurfacesIntersectData;
+
+ public:
+  PairLoop(LAMMPS* lmp, PairGran* parent, int64_t hash) : lmp_(lmp), model_(lmp, parent, false, hash) {}
+
+  int64_t hashcode() override { return model_.hashcode(); }
+  int get_history_offset(const std::string name) override { return model_.get_history_offset(name); }
+  double stressStrainExponent() override { return model_.stressStrainExponent(); }
+  bool contact_match(const std::string kind, const std::string model) override
+  {
+    return model_.contact_match(kind, model);
+  }
+
+  void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
+  {
+    Settings settings(lmp_);
+    model_.registerSettings(settings);
+    const bool understood = settings.parseArguments(nargs, args);
+    model_.postSettings(hsetup);
+    if (!understood) lmp_->error->all(FLERR, settings.error_message.c_str());
+  }
+
+  void init_granular() override { model_.connectToProperties(lmp_->force->registry); }
+
+  void write_restart_settings(FILE* file) override
+  {
+    const int64_t code = hashcode();
+    std::fwrite(&code, sizeof code, 1, file);
+  }
+  /// `known`: read already by LIGGGHTS; -1: an old file, still to be compared with its own.
+  void read_restart_settings(FILE* file, int64_t known) override
+  {
+    if (lmp_->comm->me != 0) return;
+    int64_t written = -1;
+    const bool complete = std::fread(&written, sizeof written, 1, file) == 1;
+    if (known == -1) known = complete ? written : -1;
+    if (known != hashcode()) lmp_->error->one(FLERR, "the restart file was written by another pair style");
+  }
+
+  void compute_force(PairGran* pair, int eflag, int vflag, int addflag) override
+  {
+    if (eflag || vflag)
+      pair->ev_setup(eflag, vflag);
+    else
+      pair->evflag = pair->vflag_fdotr = 0;
+    if (pair->storeSumDelta())
+      lmp_->error->all(FLERR, "fix multicontact needs 'surface multicontact', which this normal model lacks");
+    copy_predefined_histories(pair);
+    const bool observed = pair->evflag || (pair->cpl() && addflag) || pair->storeContactForces() ||
+                          pair->storeContactForcesStress() || pair->store_sum_normal_force();
+    walk(pair, observed, addflag);
+    if (pair->cpl() && addflag) pair->cpl_pair_finalize();
+    if (pair->storeContactForces()) pair->fix_contact_forces()->do_forward_comm();
+    if (pair->storeContactForcesStress()) pair->fix_contact_forces_stress()->do_forward_comm();
+  }
+
+ private:
+  /// What inlining makes of this is the inner loop of the simulation.
+  [[gnu::flatten]] void walk(PairGran* pair, bool observed, int addflag)
+  {
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    const LAMMPS_NS::NeighList& list = *pair->list;
+    const LAMMPS_NS::NeighList& history = *pair->listgranhistory;
+    const int values = pair->dnum(), nlocal = atom.nlocal;
+    const bool newton = lmp_->force->newton_pair;
+    const int* type = atom.type;
+    const double* radius = atom.radius;
+
+    SurfacesIntersectData contact;
+    ForceData on_i, on_j;
+    contact.is_wall = false;
+    contact.area_ratio = 1.0;
+    contact.computeflag = pair->computeflag();
+    contact.shearupdate = pair->shearupdate();
+    model_.beginPass(contact, on_i, on_j);
+
+    for (int ii = 0; ii < list.inum; ++ii) {
+      const int i = list.ilist[ii];
+      const int* neighbours = list.firstneigh[i];
+      int* flags = history.firstneigh[i];
+      double* histories = history.firstdouble[i];
+      const double x = atom.x[i][0], y = atom.x[i][1], z = atom.x[i][2];
+      contact.i = i;
+      contact.radi = radius[i];
+      contact.itype = type[i];
+      contact.v_i = atom.v[i];
+      contact.omega_i = atom.omega[i];
+
+      for (int jj = 0; jj < list.numneigh[i]; ++jj) {
+        const int j = neighbours[jj] & NEIGHMASK;
+        const double dx = x - atom.x[j][0], dy = y - atom.x[j][1], dz = z - atom.x[j][2];
+        const double rsq = dx * dx + dy * dy + dz * dz;
+        const double radsum = contact.radi + radius[j];
+        const bool touching = rsq < radsum * radsum;
+        if (!touching && flags[jj] == 0) continue;
+
+        contact.j = j;
+        contact.jtype = type[j];
+        contact.radj = radius[j];
+        contact.radsum = radsum;
+        contact.rsq = rsq;
+        contact.delta[0] = dx;
+        contact.delta[1] = dy;
+        contact.delta[2] = dz;
+        contact.contact_flags = &flags[jj];
+        contact.contact_history = &histories[values * jj];
+        contact.v_j = atom.v[j];
+        contact.omega_j = atom.omega[j];
+        if (!touching) {
+          contact.has_force_update = false;
+          model_.surfacesClose(contact, on_i, on_j);
+          continue;
+        }
+        contact.r = std::sqrt(rsq);
+        contact.rinv = 1.0 / contact.r;
+        for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
+        set_masses(pair, contact);
+        on_i.reset();
+        on_j.reset();
+        model_.surfacesIntersect(contact, on_i, on_j);
+        model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
+        contact.has_force_update = true;
+        if (contact.computeflag) {
+          add(pair->relax(i), on_i, atom.f[i], atom.torque[i]);
+          if (newton || j < nlocal) add(pair->relax(j), on_j, atom.f[j], atom.torque[j]);
+        }
+        if (observed) [[unlikely]]
+          tell_observers(pair, contact, on_i, on_j, addflag);
+      }
+    }
+    model_.endPass(contact, on_i, on_j);
+  }
+
+  /// The body's mass where a sphere is part of one; a frozen sphere leaves the other its own.
+  void set_masses(PairGran* pair, SurfacesIntersectData& contact) const
+  {
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    const int i = contact.i, j = contact.j;
+    double mass_i = atom.rmass ? atom.rmass[i] : atom.mass[contact.itype];
+    double mass_j = atom.rmass ? atom.rmass[j] : atom.mass[contact.jtype];
+    if (pair->fr_pair()) [[unlikely]] {
+      const double* of_body = pair->mr_pair();
+      if (of_body[i] > 0.0) mass_i = of_body[i];
+      if (of_body[j] > 0.0) mass_j = of_body[j];
+    }
+    contact.mi = mass_i;
+    contact.mj = mass_j;
+    contact.meff = mass_i * mass_j / (mass_i + mass_j);
+    if (atom.mask[i] & pair->freeze_group_bit()) contact.meff = mass_j;
+    if (atom.mask[j] & pair->freeze_group_bit()) contact.meff = mass_i;
+  }
+
+  static void add(double share, const ForceData& part, double* force, double* torque)
+  {
+    for (int c = 0; c < 3; ++c) {
+      force[c] += share * part.delta_F[c];
+      torque[c] += share * part.delta_torque[c];
+    }
+  }
+
+  [[gnu::noinline, gnu::cold]] void tell_observers(PairGran* pair, SurfacesIntersectData& contact,
+                                                   ForceData& on_i, ForceData& on_j, int addflag)
+  {
+    const int i = contact.i, j = contact.j, nlocal = lmp_->atom->nlocal;
+    const bool newton = lmp_->force->newton_pair;
+    const double* force = on_i.delta_F;
+    if (contact.computeflag && pair->store_sum_normal_force()) {
+      const double normal = force[0] * contact.en[0] + force[1] * contact.en[1] + force[2] * contact.en[2];
+      *pair->get_sum_normal_force_ptr(i) += normal;
+      if (newton || j < nlocal) *pair->get_sum_normal_force_ptr(j) += normal;
+    }
+    if (pair->cpl() && addflag) pair->cpl_add_pair(contact, on_i);
+    if (pair->evflag)
+      pair->ev_tally_xyz(i, j, nlocal, newton, 0.0, 0.0, force[0], force[1], force[2], contact.delta[0],
+                         contact.delta[1], contact.delta[2]);
+    if (pair->storeContactForces() && lmp_->update->ntimestep % pair->storeContactForcesEvery() == 0) {
+      store_force(*pair->fix_contact_forces(), i, j, on_i);
+      store_force(*pair->fix_contact_forces(), j, i, on_j);
+    }
+    if (pair->storeContactForcesStress()) {
+      store_partner(*pair->fix_contact_forces_stress(), i, j, on_i);
+      store_partner(*pair->fix_contact_forces_stress(), j, i, on_j);
+    }
+  }
+
+  /// Of fix contactproperty/atom, in its layout: force and torque; force and the partner's index.
+  void store_force(LAMMPS_NS::FixContactPropertyAtom& fix, int i, int j, const ForceData& on_i) const
+  {
+    const int tag = lmp_->atom->tag[j];
+    if (fix.has_partner(i, tag) != -1) return;
+    double values[6];
+    for (int c = 0; c < 3; ++c) values[c] = on_i.delta_F[c], values[3 + c] = on_i.delta_torque[c];
+    fix.add_partner(i, tag, values);
+  }
+  void store_partner(LAMMPS_NS::FixContactPropertyAtom& fix, int i, int j, const ForceData& on_i) const
+  {
+    const int tag = lmp_->atom->tag[j];
+    if (fix.has_partner(i, tag) != -1) return;
+    double values[4] = {on_i.delta_F[0], on_i.delta_F[1], on_i.delta_F[2], static_cast<double>(j)};
+    fix.add_partner(i, tag, values);
+  }
+
+  /// After fix insert/stream/predefined inserted particles that touch already, with their histories.
+  void copy_predefined_histories(PairGran* pair) const
+  {
+    const char* style = "insert/stream/predefined";
+    for (int k = 0; k < lmp_->modify->n_fixes_style(style); ++k) {
+      auto* fix = static_cast<LAMMPS_NS::FixInsertStreamPredefined*>(lmp_->modify->find_fix_style(style, k));
+      if (!fix->has_inserted()) continue;
+      const LAMMPS_NS::NeighList& list = *pair->list;
+      for (int ii = 0; ii < list.inum; ++ii) {
+        const int i = list.ilist[ii];
+        for (int jj = 0; jj < list.numneigh[i]; ++jj)
+          fix->copy_history(i, list.firstneigh[i][jj] & NEIGHMASK,
+                            &pair->listgranhistory->firstdouble[i][pair->dnum() * jj]);
+      }
+    }
+  }
+
+  LAMMPS* lmp_;
+  ContactModel model_;
+};
+
+}  // namespace granulaw::plugin
