@@ -1,11 +1,20 @@
-// Stock Hertz, compiled with the plug-in's flags, as model `hertz_granulaw`: for the benchmark only.
+// Stock Hertz, compiled with the plug-in's flags, for the benchmark only: as model `hertz_granulaw` in
+// LIGGGHTS's loop over pairs, as `hertz_loop` in ours.
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/model_ids.hpp"
+#include "liggghts_plugin/pair_loop.hpp"
 
 namespace LIGGGHTS::ContactModels {
 
 template <>
 class NormalModel<granulaw::plugin::hertz_copy_id> : public NormalModel<HERTZ>
+{
+ public:
+  using NormalModel<HERTZ>::NormalModel;
+};
+
+template <>
+class NormalModel<granulaw::plugin::hertz_loop_id> : public NormalModel<HERTZ>
 {
  public:
   using NormalModel<HERTZ>::NormalModel;
@@ -19,10 +28,10 @@ namespace {
 
 namespace cm = LIGGGHTS::ContactModels;
 
-template <class Style>
+template <class Pair>
 LIGGGHTS::PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t hash)
 {
-  return new LIGGGHTS::PairStyles::Granular<cm::ContactModel<Style>>(lmp, parent, hash);
+  return new Pair(lmp, parent, hash);
 }
 
 template <class Style>
@@ -31,12 +40,14 @@ LIGGGHTS::Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int6
   return new LIGGGHTS::Walls::Granular<cm::ContactModel<Style>>(lmp, parent, hash);
 }
 
-template <int rolling>
-void add()
+template <int id, template <class> class Pair>
+void add(const char* name)
 {
   using Style =
-      cm::GranStyle<hertz_copy_id, cm::TANGENTIAL_HISTORY, cm::COHESION_OFF, rolling, cm::SURFACE_DEFAULT>;
-  LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", Style::HASHCODE, &make_pair<Style>);
+      cm::GranStyle<id, cm::TANGENTIAL_HISTORY, cm::COHESION_OFF, cm::ROLLING_OFF, cm::SURFACE_DEFAULT>;
+  cm::Factory::instance().addNormalModel(name, id);
+  LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", Style::HASHCODE,
+                                                     &make_pair<Pair<cm::ContactModel<Style>>>);
   LIGGGHTS::Walls::Factory::instance().addStyle("gran", Style::HASHCODE, &make_wall<Style>);
 }
 
@@ -44,10 +55,8 @@ struct Registration
 {
   Registration()
   {
-    cm::Factory::instance().addNormalModel("hertz_granulaw", hertz_copy_id);
-    add<cm::ROLLING_OFF>();
-    add<cm::ROLLING_CDT>();
-    add<cm::ROLLING_EPSD2>();
+    add<hertz_copy_id, LIGGGHTS::PairStyles::Granular>("hertz_granulaw");
+    add<hertz_loop_id, PairLoop>("hertz_loop");
   }
 } registration;
 

@@ -1,9 +1,13 @@
-"""Loop time of LIGGGHTS in dense flow under each normal model, as a ratio to stock Hertz.
+"""Loop time of LIGGGHTS under each normal model, as a ratio to stock Hertz in the same scene.
 
-A chute flow (periodic in x and y, rough floor) is prepared once with stock Hertz; then every model runs the same
-steps from the same positions and velocities, several times, interleaved. Prints for each model the median ratio of
-loop times with its spread, pair-force time, particle-steps per second, and
-the error of the force that the loop computes. Standard library only.
+    dense   a chute flow (periodic in x and y, rough floor), prepared once with stock Hertz
+    types   the same flow with four types of particles: ten pairs, each with a law of its own under mpm
+    sparse  spheres on their way down, as in an insertion phase: near neighbours, hardly a contact
+
+Every model runs the same steps from the same positions and velocities, several times, interleaved. Prints for each
+the median ratio of loop times with its spread, pair-force time, also over the contacts (flows under different laws
+drift apart), particle-steps per second, and the error of the force that the loop computes. hertz_granulaw is stock Hertz compiled with the plug-in's flags, hertz_loop the same in the
+plug-in's loop over pairs. Standard library only.
 
     ninja benchmark_liggghts          (or: loop.py [--repeats 5] [--steps 1500] [--spheres 3000])
 """
@@ -23,12 +27,20 @@ WARM_UP = 500  # steps before the clock starts
 ONSETS = {"mpm": 6.4e-4, "mpm_soft": 6.4e-6}  # E*/Y = 100; and one tenth of that yield stress
 
 
-def properties(youngs_modulus, yield_stress):
-    return (f"fix p1 all property/global youngsModulus peratomtype {youngs_modulus}\n"
-            f"fix p2 all property/global poissonsRatio peratomtype {NU}\n"
-            f"fix p3 all property/global yieldStress peratomtype {yield_stress}\n"
-            "fix p4 all property/global coefficientFriction peratomtypepair 1 0.5\n"
-            "fix p5 all property/global coefficientRestitution peratomtypepair 1 0.5\n")
+def properties(youngs_modulus, yield_stress, types=1):
+    """What any of the models asks for; thornton_ning and hooke/hysteresis yield near the others' onset."""
+    def each(name, value):
+        return f"fix {name} all property/global {name} peratomtype" + types * f" {value}" + "\n"
+
+    def pairs(name, value):
+        return f"fix {name} all property/global {name} peratomtypepair {types}" + types * types * f" {value}" + "\n"
+
+    return (each("youngsModulus", youngs_modulus) + each("poissonsRatio", NU) + each("yieldStress", yield_stress) +
+            each("coefficientYieldRatio", 0.025) + pairs("surfaceEnergy", 0.0) +
+            "fix characteristicVelocity all property/global characteristicVelocity scalar 0.5\n" +
+            pairs("coefficientFriction", 0.5) + pairs("coefficientRestitution", 0.5) +
+            pairs("coefficientMaxElasticStiffness", 3.0) + pairs("coefficientAdhesionStiffness", 0.0) +
+            pairs("coefficientPlasticityDepth", 0.05))
 
 
 def head(box=None, data=None):
@@ -48,11 +60,11 @@ def flow(model, words=""):
             "thermo_style custom step c_z\n")
 
 
-def write_data(path, atoms, box, ):
-    text = "flow\n\n%d atoms\n1 atom types\n\n" % len(atoms)
+def write_data(path, atoms, box, types=1):
+    text = f"flow\n\n{len(atoms)} atoms\n{types} atom types\n\n"
     for c, size in zip("xyz", box):
         text += f"0 {size!r} {c}lo {c}hi\n"
-    text += "\nAtoms\n\n" + "".join(f"{k + 1} 1 {2 * RADIUS!r} {DENSITY} {a[0]} {a[1]} {a[2]}\n"
+    text += "\nAtoms\n\n" + "".join(f"{k + 1} {1 + k % types} {2 * RADIUS!r} {DENSITY} {a[0]} {a[1]} {a[2]}\n"
                                     for k, a in enumerate(atoms))
     text += "\nVelocities\n\n" + "".join(f"{k + 1} {a[3]} {a[4]} {a[5]} {a[6]} {a[7]} {a[8]}\n"
                                          for k, a in enumerate(atoms))
@@ -77,27 +89,40 @@ def read_dump(path):
     return [row[1:] for row in rows]
 
 
-def prepare(folder, spheres):
-    """A dense layer that flows slowly, from a jittered lattice."""
+COLUMNS, ROWS = 15, 10
+
+
+def box_of(spheres, spacing):
+    return (COLUMNS * spacing, ROWS * spacing, 3.0 * spacing * spheres / (COLUMNS * ROWS))
+
+
+def lattice(spheres, spacing, speed, flow_speed):
+    """Rows of data: position, velocity, no rotation."""
     rng = random.Random(3)
-    step, columns, rows = 2.06 * RADIUS, 15, 10
-    box = (columns * step, rows * step, 3.0 * step * spheres / (columns * rows))
     atoms = []
     for k in range(spheres):
-        cell = (k % columns, k // columns % rows, k // (columns * rows))
-        x = [(c + 0.5) * step + rng.uniform(-0.02, 0.02) * RADIUS for c in cell]
-        v = [rng.uniform(-0.3, 0.3) + (0.6 if axis == 0 else 0.0) for axis in range(3)]
+        cell = (k % COLUMNS, k // COLUMNS % ROWS, k // (COLUMNS * ROWS))
+        x = [(c + 0.5) * spacing + rng.uniform(-0.02, 0.02) * RADIUS for c in cell]
+        v = [rng.uniform(-speed, speed) + (flow_speed if axis == 0 else 0.0) for axis in range(3)]
         atoms.append([repr(w) for w in x + v] + ["0", "0", "0"])
-    write_data(folder / "start.data", atoms, box)
-    text = run(folder, head(data="start.data") + properties(E, 1e30) + flow("hertz") + "run 40000\n"
-               "dump d all custom 1 flow.dump id xu yu z vx vy vz omegax omegay omegaz\n"
-               'dump_modify d format "%d %.12g %.12g %.12g %.9g %.9g %.9g %.9g %.9g %.9g"\nrun 0\n')
+    return atoms
+
+
+def prepare(folder, spheres):
+    """dense.data and types.data: a layer that flows slowly, from a jittered lattice; sparse.data."""
+    box = box_of(spheres, 2.06 * RADIUS)
+    write_data(folder / "start.data", lattice(spheres, 2.06 * RADIUS, 0.3, 0.6), box)
+    run(folder, head(data="start.data") + properties(E, 1e30) + flow("hertz") + "run 40000\n"
+        "dump d all custom 1 flow.dump id xu yu z vx vy vz omegax omegay omegaz\n"
+        'dump_modify d format "%d %.12g %.12g %.12g %.9g %.9g %.9g %.9g %.9g %.9g"\nrun 0\n')
     flowing = read_dump(folder / "flow.dump")
     for row in flowing:
         for axis in (0, 1):
             row[axis] = repr(float(row[axis]) % box[axis])
-    write_data(folder / "flow.data", flowing, box)
-    return contacts(text)
+    write_data(folder / "dense.data", flowing, box)
+    write_data(folder / "types.data", flowing, box, types=4)
+    # 1.15 diameters apart: all are in each other's lists, and meet now and then
+    write_data(folder / "sparse.data", lattice(spheres, 2.3 * RADIUS, 0.5, 0.0), box_of(spheres, 2.3 * RADIUS))
 
 
 def contacts(text):
@@ -106,22 +131,52 @@ def contacts(text):
     return float(rows[-1])
 
 
-def loop(folder, name, steps):
+MODELS = {"dense": ("hertz", "hertz_granulaw", "hertz_loop", "mpm", "mpm_soft", "thornton", "thornton_soft",
+                    "thornton_ning", "hooke_hysteresis"),
+          "types": ("hertz", "mpm", "thornton"),
+          "sparse": ("hertz", "mpm", "thornton")}
+
+
+def loop(folder, scene, name, steps):
     # yield stress for thornton: onset at the same overlap as the law's, delta_y/R = (1.6 pi Y/(2E*))^2
     e_star = E / (1 - NU * NU)
     yield_stress = {o: 2 * e_star / 3.14159265 / 1.6 * x**0.5 for o, x in ONSETS.items()}
-    model, words, preload, y = name, "", None, yield_stress["mpm"]
+    model, words, preload, y = name.replace("_hysteresis", "/hysteresis"), "", None, yield_stress["mpm"]
+    types = 4 if scene == "types" else 1
     if name.startswith("mpm"):
-        model, words = "mpm", f"law {name}.h5 materials powder beyondRange continue elasticDamping 0.001"
-    elif name.startswith("thornton"):
+        law = "law four.h5 materials a b c d" if types == 4 else f"law {name}.h5 materials powder"
+        model, words = "mpm", f"{law} beyondRange continue elasticDamping 0.001"
+    elif name.startswith("thornton") and name != "thornton_ning":
         model, words, y = "thornton", "elasticDamping 0.001", yield_stress[name.replace("thornton", "mpm")]
-    elif name == "hertz_granulaw":
+    elif name in ("hertz_granulaw", "hertz_loop"):
         preload = HERTZ
-    text = run(folder, head(data="flow.data") + properties(E, y) + flow(model, words) +
+    text = run(folder, head(data=f"{scene}.data") + properties(E, y, types) + flow(model, words) +
                f"run {WARM_UP}\nrun {steps}\n", preload)
     seconds = float(re.findall(r"^Loop time of (\S+)", text, re.M)[-1])
     pair = float(re.findall(r"^Pair  time \(%\) = (\S+)", text, re.M)[-1])
     return seconds, pair, contacts(text)
+
+
+def compare(folder, scene, options, error):
+    models = [m for m in MODELS[scene] if not options.models or m in options.models]
+    times = {m: [] for m in models}
+    for _ in range(options.repeats):
+        for m in models:
+            times[m].append(loop(folder, scene, m, options.steps))
+    print(f"{scene}: {options.spheres} spheres, {options.steps} steps, {options.repeats} interleaved runs; "
+          "ratio of loop times to stock hertz, round by round: median [lowest, highest]; of the fastest runs")
+    for m in models:
+        ratios = [t[0] / h[0] for t, h in zip(times[m], times["hertz"])]
+        seconds = statistics.median(t[0] for t in times[m])
+        pair = statistics.median(t[1] for t in times[m]) / statistics.median(t[1] for t in times["hertz"])
+        # half the coordination number: a contact has two spheres; includes the search among near neighbours
+        per_contact = min(t[1] / (0.5 * t[2]) for t in times[m]) / (options.steps * options.spheres) * 1e9
+        best = min(t[0] for t in times[m]) / min(t[0] for t in times["hertz"])  # what a busy machine disturbs least
+        print(f"{m:16s} loop ratio {statistics.median(ratios):.3f} [{min(ratios):.3f}, {max(ratios):.3f}]  "
+              f"fastest {best:.3f}  "
+              f"pair-time ratio {pair:.3f}  {per_contact:.1f} ns a contact  {options.spheres * options.steps / seconds / 1e6:.2f} M particle-steps/s  "
+              f"{statistics.median(t[2] for t in times[m]):.2f} contacts a sphere  "
+              f"force error {error.get((scene, m), 'none (closed form)')}", flush=True)
 
 
 def main():
@@ -129,30 +184,23 @@ def main():
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--steps", type=int, default=1500)
     parser.add_argument("--spheres", type=int, default=3000)
+    parser.add_argument("--scenes", nargs="+", choices=MODELS, default=list(MODELS))
+    parser.add_argument("--models", nargs="+", help="hertz and these only")
     options = parser.parse_args()
+    if options.models:
+        options.models.append("hertz")
     with tempfile.TemporaryDirectory(prefix="granulaw-loop-") as name:
         folder = pathlib.Path(name)
-        error = {law: subprocess.run([LAW_MAKER, str(folder / f"{law}.h5"), str(onset)], check=True,
-                                     capture_output=True, text=True).stdout.strip() for law, onset in ONSETS.items()}
-        coordination = prepare(folder, options.spheres)
-        models = ("hertz", "hertz_granulaw", "mpm", "mpm_soft", "thornton", "thornton_soft")
-        times = {m: [] for m in models}
-        for _ in range(options.repeats):
-            for m in models:
-                times[m].append(loop(folder, m, options.steps))
-        print(f"chute flow, {options.spheres} spheres, {options.steps} steps, {options.repeats} interleaved runs, "
-              f"{coordination:.2f} contacts a sphere at the start; "
-              "ratio of loop times to stock hertz, round by round: median [lowest, highest]; of the fastest runs")
-        for m in models:
-            ratios = [t[0] / h[0] for t, h in zip(times[m], times["hertz"])]
-            seconds = statistics.median(t[0] for t in times[m])
-            pair = statistics.median(t[1] for t in times[m]) / statistics.median(t[1] for t in times["hertz"])
-            best = min(t[0] for t in times[m]) / min(t[0] for t in times["hertz"])  # what a busy machine disturbs least
-            print(f"{m:15s} loop ratio {statistics.median(ratios):.3f} [{min(ratios):.3f}, {max(ratios):.3f}]  "
-                  f"fastest {best:.3f}  "
-                  f"pair-time ratio {pair:.3f}  {options.spheres * options.steps / seconds / 1e6:.2f} M particle-steps/s  "
-                  f"{statistics.median(t[2] for t in times[m]):.2f} contacts a sphere  "
-                  f"force error {error.get(m, 'none (closed form)')}")
+
+        def law(*words):
+            return subprocess.run([LAW_MAKER, *map(str, words)], check=True, capture_output=True, text=True).stdout.strip()
+
+        error = {("dense", name): law("one", folder / f"{name}.h5", onset) for name, onset in ONSETS.items()}
+        error["sparse", "mpm"] = error["dense", "mpm"]
+        error["types", "mpm"] = law("four", folder / "four.h5")
+        prepare(folder, options.spheres)
+        for scene in options.scenes:
+            compare(folder, scene, options, error)
 
 
 if __name__ == "__main__":

@@ -1,25 +1,26 @@
-// bench_loop_law FILE ONSET: writes the synthetic law with onset of yield at x = ONSET (overlap/R on a rigid
-// wall) and prints the largest error of the contact loop's force against the functions the law was sampled
-// from, over 200,000 random states (loading and unloading), relative to the force at the turning point.
+// bench_loop_law one FILE ONSET: writes the synthetic law with onset of yield at x = ONSET (overlap/R on a
+// rigid wall) and prints the largest error of the contact loop's force against the functions the law was
+// sampled from, over 200,000 random states (loading and unloading), relative to the force at the turning
+// point. bench_loop_law four FILE: four materials and a law of its own for each of their ten pairs; prints
+// the largest of their ten errors.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "law/fast_curve.hpp"
 #include "law/law_file.hpp"
 #include "synthetic_law.hpp"
 
-int main(int argc, char** argv)
-{
-  if (argc != 3) return 2;
-  granulaw::testing::SyntheticLaw shape;
-  shape.onset = std::strtod(argv[2], nullptr);
-  granulaw::Law law = shape.law();
-  law.bodies.at("powder").material.youngs_modulus = 9.1e7;  // as loop.py
-  granulaw::write_law(law, argv[1]);
+namespace {
 
-  const auto q_of = [&](double s) { return granulaw::testing::SyntheticLaw::past(s, shape.onset); };
+using granulaw::testing::SyntheticLaw;
+
+double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curve)
+{
+  const auto q_of = [&](double s) { return SyntheticLaw::past(s, shape.onset); };
   const auto loading = [&](double x) {
     const double s = std::pow(x, 0.25), q = q_of(s);
     return std::pow(x, 1.5) * (1 + shape.finite_sphere * s * s) *
@@ -33,8 +34,6 @@ int main(int argc, char** argv)
     const double u = (x - residual) / (x_max - residual);
     return u <= 0 ? 0.0 : loading(x_max) * std::pow(u, n);
   };
-
-  const granulaw::ContactCurve& curve = law.bodies.at("powder").curve;
   const granulaw::FastCurve table(curve);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> log_x(std::log(1e-7), std::log(shape.x_end)), part(0.0, 1.2);
@@ -44,5 +43,65 @@ int main(int argc, char** argv)
     const double found = table.force(x, x_max, x / x_max);
     worst = std::max(worst, std::abs(found - force(x, x_max)) / loading(std::max(x, x_max)));
   }
-  std::printf("%.3g\n", worst);
+  return worst;
+}
+
+constexpr double youngs_modulus = 9.1e7;  // as loop.py
+constexpr int nodes = 1025;               // so many that the error is the loop's, not the sampling's
+
+double one(const char* file, double onset)
+{
+  SyntheticLaw shape;
+  shape.onset = onset;
+  granulaw::Law law = shape.law();
+  granulaw::BodyLaw& powder = law.bodies.at("powder");
+  powder.material.youngs_modulus = youngs_modulus;
+  powder.curve = shape.curve(nodes);
+  granulaw::write_law(law, file);
+  return worst_error(shape, powder.curve);
+}
+
+double four(const char* file)
+{
+  const std::vector<std::string> names{"a", "b", "c", "d"};
+  granulaw::Law law;
+  double worst = 0, onset = 3e-4;
+  const auto body = [&](const std::string& name) {
+    SyntheticLaw shape;
+    shape.onset = onset *= 1.2;  // ten curves, no two alike
+    granulaw::BodyLaw result = shape.law().bodies.at("powder");
+    result.curve = shape.curve(nodes);
+    result.material.name = name;
+    result.material.youngs_modulus = youngs_modulus;
+    result.material.yield_stress *= std::sqrt(onset);
+    worst = std::max(worst, worst_error(shape, result.curve));
+    return result;
+  };
+  for (const std::string& name : names) {
+    law.bodies[name] = body(name);
+    law.pairs.push_back({name, granulaw::wall_name});
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t j = i; j < names.size(); ++j) {
+      law.pairs.push_back({names[i], names[j]});
+      if (i == j) continue;
+      granulaw::TwoBodyLaw& own = law.pair_laws[names[i] + ":" + names[j]];
+      own.law = body(names[i]);
+      own.law.material = law.bodies[names[i]].material;  // of the pair's weaker body
+    }
+  granulaw::write_law(law, file);
+  return worst;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  const std::string kind = argc > 2 ? argv[1] : "";
+  if (kind == "one" && argc == 4)
+    std::printf("%.3g\n", one(argv[2], std::strtod(argv[3], nullptr)));
+  else if (kind == "four" && argc == 3)
+    std::printf("%.3g\n", four(argv[2]));
+  else
+    return 2;
 }
