@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/model_ids.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
 #include "liggghts_plugin/runaway.hpp"
@@ -140,11 +141,11 @@ class BookedModel : public cm::ContactModel<Style>
   int offset_ = -1;
 };
 
-/// The fixes that come with our models; `add` as in provide_stats_fix.
-inline void provide_fixes(LAMMPS* lmp, bool add)
+/// The fixes that come with our models.
+inline void provide_fixes(LAMMPS* lmp)
 {
-  provide_stats_fix(lmp, add);
-  provide_runaway_fix(lmp, add);
+  provide_stats_fix(lmp);
+  provide_runaway_fix(lmp);
 }
 
 /// pair_style gran with one of our models.
@@ -166,7 +167,7 @@ class PairStyle final : public LIGGGHTS::PairStyles::Granular<BookedModel<Style>
       refuse_no_friction<Style, model>(setup_, rest);
       warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
-      provide_fixes(lmp_, true);
+      provide_fixes(lmp_);
     });
   }
 
@@ -174,7 +175,7 @@ class PairStyle final : public LIGGGHTS::PairStyles::Granular<BookedModel<Style>
   {
     guarded(lmp_, [&] {
       Base::init_granular();
-      provide_fixes(lmp_, true);  // the box did not exist when pair_style stood before create_box
+      provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
     });
   }
 
@@ -198,6 +199,7 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
   void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
   {
     guarded(lmp_, [&] {
+      const UnfinishedFix unfinished(lmp_, parent_);  // we are in its constructor
       setup_.session = Session::of(lmp_);
       setup_.wall = parent_;
       setup_.where = fmt::format("fix {} wall/gran model {}", parent_->id, model_name(model));
@@ -206,7 +208,7 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
       refuse_no_friction<Style, model>(setup_, rest);
       warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
-      provide_fixes(lmp_, false);  // adding a fix from inside a fix's constructor would corrupt the list
+      provide_fixes(lmp_);
     });
   }
 
