@@ -6,8 +6,9 @@
 //   law_fixture write FILE major N                           claims to be of major version N
 //   law_fixture write FILE axis                              the powder has an inertia axis
 //   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
-//   law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
-// The last two print "restitution duration(s) delta_max(m)".
+//   law_fixture elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus
+//   E_STAR law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
+// The last three print "restitution duration(s) delta_max(m)".
 #include <hdf5.h>
 
 #include <cstdio>
@@ -58,6 +59,14 @@ int run(int argc, char** argv)
   if (word(1) == "mpm") {
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
+    print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
+    return 0;
+  }
+  if (word(1) == "elastic") {
+    const granulaw::Law law = granulaw::read_law(word(2));
+    const granulaw::BodyLaw& body = law.bodies.at(word(3));
+    const granulaw::PairLaw pair{
+        &body.curve, granulaw::PairMapping::deformable_partner(body.material.e_star(), number(4)), &body};
     print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
     return 0;
   }
