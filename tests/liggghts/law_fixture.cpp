@@ -5,6 +5,7 @@
 //   law_fixture write FILE pairs a:b c:wall ...              only these pairs
 //   law_fixture write FILE major N                           claims to be of major version N
 //   law_fixture write FILE axis                              the powder has an inertia axis
+//   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
 //   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
 //   law_fixture elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus
 //   E_STAR law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
@@ -45,6 +46,15 @@ int run(int argc, char** argv)
   if (word(1) == "write") {
     const granulaw::testing::SyntheticLaw synthetic;
     granulaw::Law law = word(3) == "axis" ? synthetic.law_with_axis() : synthetic.law();
+    if (word(3) == "pair_law") {
+      law = synthetic.law_with_axis();
+      granulaw::testing::SyntheticLaw other;  // told from the powder's by its residuals
+      other.depth = 0.8;
+      granulaw::TwoBodyLaw& own = law.pair_laws["powder:glass"];
+      own.law = law.bodies.at("powder");
+      own.law.curve = granulaw::ContactCurve(other.table(), other.axis(), "law_fixture");
+      own.radius_ratio = 2;
+    }
     if (word(3) == "pairs") {
       law.pairs.clear();
       for (int k = 4; k < argc; ++k) {
