@@ -138,15 +138,15 @@ class Energy(Trial):
               "thermo_modify norm no lost error format float %.17g\n")
 
     def energies(self, text, steps):
-        """Of each output: motion (kinetic + held by contacts), mechanical (+ gravity), all (+ taken by contacts). J"""
+        """Of each output: motion (kinetic + held by contacts), mechanical (+ gravity), all (+ taken by contacts), kinetic. J"""
         rows = self.series(text)
         self.assertGreaterEqual(len(rows), steps // 200)
-        return [(k + r + s, k + r + s + p, k + r + s + p + d + o) for _, k, r, p, s, d, o in rows]
+        return [(k + r + s, k + r + s + p, k + r + s + p + d + o, k + r) for _, k, r, p, s, d, o in rows]
 
     def growth(self, rows):
         """Largest rise of the mechanical energy above its least value so far, over the motion of that moment."""
         least, largest = rows[0][1], 0.0
-        for motion, mechanical, _ in rows:
+        for motion, mechanical, *_ in rows:
             if mechanical > least:
                 largest = max(largest, (mechanical - least) / motion)
             least = min(least, mechanical)
@@ -158,12 +158,12 @@ class Energy(Trial):
         for model in ("mpm", "thornton"):
             rows = self.energies(self.run_deck(bed(self.law, model, speed=1.0, gravity=981.0, words="energy on",
                                                    run=self.THERMO + f"run {steps}\n")), steps)
-            growth, left = self.growth(rows), max(row[0] for row in rows[-len(rows) // 10:]) / rows[0][0]
+            growth, left = self.growth(rows), max(row[3] for row in rows[-len(rows) // 10:]) / rows[0][3]
             drift = max(abs(row[2] - rows[0][2]) for row in rows) / rows[0][0]
             self.record("default damping", model=model, steps=steps, growth=growth, left=left, drift=drift)
             # velocity Verlet at 30 steps a contact: the work of a contact is good to (1/30)^2 of it, either sign
             self.assertLess(growth, 1e-3, model)
-            self.assertLess(left, 2e-3 if FULL else 5e-2, model)
+            self.assertLess(left, 1e-3 if FULL else 5e-2, model)
 
     def test_rest(self):
         """A bed that lies still (settled with strong damping, read from a restart file), with default damping and with none."""
@@ -177,7 +177,7 @@ class Energy(Trial):
                 growth = max(row[1] - rows[0][1] for row in rows) / rows[0][1]
                 held = rows[0][0]
                 moves = max(abs(row[0] - held) for row in rows) / held
-                self.record("at rest", model=model, damping=damping or "default", steps=steps, growth=growth, moves=moves)
+                self.record("at rest", model=model, damping=damping.split()[-1] if damping else "default", steps=steps, growth=growth, moves=moves)
                 self.assertGreater(held, 0.0)  # contacts carry the weight
                 self.assertLess(growth, 1e-14, model)  # rounding of a sum over 27 spheres, 1e-16 each
                 self.assertLess(moves, 1e-9, model)    # overlaps of 1e-4 R are good to 1e-12, their energy to little more
