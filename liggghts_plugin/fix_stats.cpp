@@ -57,10 +57,10 @@ void provide_energy_property(LAMMPS_NS::LAMMPS* lmp)
 
 }  // namespace
 
-void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp, bool add)
+void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
 {
   register_fix_style(lmp, style_name, &make_fix);
-  if (!add || !lmp->domain->box_exist) return;
+  if (!lmp->domain->box_exist) return;
   provide_energy_property(lmp);
   if (lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw", "all", style_name};

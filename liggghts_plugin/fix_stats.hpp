@@ -9,11 +9,12 @@
 namespace granulaw::plugin {
 
 /// fix ID all granulaw/stats [file FILE] [every N]: what the normal contacts of models mpm and thornton did
-/// since the pair style was set. Added by pair_style itself as `fix granulaw all granulaw/stats` if the deck
-/// adds none. At the start of a run it prints the table of the laws and checks the time step; at the end it
-/// prints a line and writes FILE, which it also does every N steps. The counts survive restart files.
+/// since one of them was first named. Added by pair_style or fix wall/gran itself as `fix granulaw all
+/// granulaw/stats` if the deck adds none. At the start of a run it prints the table of the laws and checks
+/// the time step; at the end it prints a line and writes FILE, which it also does every N steps. The counts
+/// survive restart files.
 ///
-/// Global scalar: energy dissipated by normal contacts, J. Global vector (all since the pair style was set):
+/// Global scalar: energy dissipated by normal contacts, J. Global vector (all since then):
 ///   1, 2   energy dissipated in particle-particle, particle-wall contacts, J
 ///   3, 4   contacts begun, particle-particle, particle-wall
 ///   5, 6   largest approach speed at first touch, m/s

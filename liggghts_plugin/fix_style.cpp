@@ -24,4 +24,21 @@ void register_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator cre
   (lmp->modify->*exposed(FixMapTag{}))->emplace(name, create);
 }
 
+UnfinishedFix::UnfinishedFix(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::Fix* unfinished) : modify_(lmp->modify)
+{
+  // Modify::add_fix has emptied the place of the fix that it replaces, or made room behind the last one
+  for (int f = 0; f < modify_->nfix; ++f)
+    if (!modify_->fix[f]) {
+      modify_->fix[f] = unfinished;
+      return;
+    }
+  modify_->fix[modify_->nfix++] = unfinished;
+  entered_ = true;
+}
+
+UnfinishedFix::~UnfinishedFix()
+{
+  if (entered_) --modify_->nfix;  // add_fix counts it when the constructor is done, whatever came behind it
+}
+
 }  // namespace granulaw::plugin

@@ -26,10 +26,10 @@ bool is_finite(const double* v)
 
 }  // namespace
 
-void provide_runaway_fix(LAMMPS_NS::LAMMPS* lmp, bool add)
+void provide_runaway_fix(LAMMPS_NS::LAMMPS* lmp)
 {
   register_fix_style(lmp, style_name, &make_fix);
-  if (!add || !lmp->domain->box_exist || lmp->modify->find_fix_style_strict(style_name, 0)) return;
+  if (!lmp->domain->box_exist || lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw_runaway", "all", style_name};
   lmp->modify->add_fix(3, const_cast<char**>(arg));
 }

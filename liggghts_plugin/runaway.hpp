@@ -26,7 +26,7 @@ class FixRunaway : public LAMMPS_NS::Fix
   void check() const;
 };
 
-/// Registers the fix style; adds the fix if `add`, the simulation box exists and there is none yet.
-void provide_runaway_fix(LAMMPS_NS::LAMMPS* lmp, bool add);
+/// Registers the fix style; adds the fix if the simulation box exists and there is none yet.
+void provide_runaway_fix(LAMMPS_NS::LAMMPS* lmp);
 
 }  // namespace granulaw::plugin

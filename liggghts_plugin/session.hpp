@@ -56,9 +56,9 @@ struct Setup
   static const Setup* current;
 };
 
-/// Registers the fix style `granulaw/stats`; for pairs adds `fix granulaw all granulaw/stats` if the
-/// simulation box exists and no such fix does, and the per-atom property with `energy on`.
-void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp, bool add);
+/// Registers the fix style `granulaw/stats`; if the simulation box exists adds `fix granulaw all
+/// granulaw/stats` where there is no such fix, and the per-atom property with `energy on`.
+void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp);
 
 /// Ends the run with "ERROR: MESSAGE" on all ranks (each must call it). error->all does this too, but
 /// in 3.8.0 it adds a "special message" from freed memory: bytes of garbage in one run of eight (seen).

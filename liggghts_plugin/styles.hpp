@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/model_ids.hpp"
 #include "liggghts_plugin/pair_loop.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
@@ -141,11 +142,11 @@ class BookedModel : public cm::ContactModel<Style>
   int offset_ = -1;
 };
 
-/// The fixes that come with our models; `add` as in provide_stats_fix.
-inline void provide_fixes(LAMMPS* lmp, bool add)
+/// The fixes that come with our models.
+inline void provide_fixes(LAMMPS* lmp)
 {
-  provide_stats_fix(lmp, add);
-  provide_runaway_fix(lmp, add);
+  provide_stats_fix(lmp);
+  provide_runaway_fix(lmp);
 }
 
 /// pair_style gran with one of our models.
@@ -167,7 +168,7 @@ class PairStyle final : public PairLoop<BookedModel<Style>>
       refuse_no_friction<Style, model>(setup_, rest);
       warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
-      provide_fixes(lmp_, true);
+      provide_fixes(lmp_);
     });
   }
 
@@ -175,7 +176,7 @@ class PairStyle final : public PairLoop<BookedModel<Style>>
   {
     guarded(lmp_, [&] {
       Base::init_granular();
-      provide_fixes(lmp_, true);  // the box did not exist when pair_style stood before create_box
+      provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
     });
   }
 
@@ -199,6 +200,7 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
   void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
   {
     guarded(lmp_, [&] {
+      const UnfinishedFix unfinished(lmp_, parent_);  // we are in its constructor
       setup_.session = Session::of(lmp_);
       setup_.wall = parent_;
       setup_.where = fmt::format("fix {} wall/gran model {}", parent_->id, model_name(model));
@@ -207,7 +209,7 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
       refuse_no_friction<Style, model>(setup_, rest);
       warn_stretched_cohesion<Style>(lmp_, setup_);
       with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
-      provide_fixes(lmp_, false);  // adding a fix from inside a fix's constructor would corrupt the list
+      provide_fixes(lmp_);
     });
   }
 

@@ -79,9 +79,20 @@ class Deck(unittest.TestCase):
 
     def result(self, text, name):
         """The numbers behind `print "NAME ..."`."""
-        found = re.findall(rf"^{name} (.*)$", text, re.M)
+        found = self.results(text, name)
         self.assertTrue(found, f"no line '{name} ...' in:\n{text[-3000:]}")
-        return [float(w) for w in found[-1].split()]
+        return found[-1]
+
+    def results(self, text, name):
+        return [[float(w) for w in line.split()] for line in re.findall(rf"^{name} (.*)$", text, re.M)]
+
+    def run_each(self, decks, name, ranks=1):
+        """The numbers behind `print "NAME ..."` of each of many short decks: one process, `clear` between them."""
+        decks = list(decks)
+        text = self.run_deck("clear\n".join(decks), ranks=ranks)
+        found = self.results(text, name)
+        self.assertEqual(len(found), len(decks), text[-3000:])
+        return found
 
 
 def sphere_mass(radius, density):

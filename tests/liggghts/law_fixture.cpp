@@ -5,9 +5,11 @@
 //   law_fixture write FILE pairs a:b c:wall ...              only these pairs
 //   law_fixture write FILE major N                           claims to be of major version N
 //   law_fixture write FILE axis                              the powder has an inertia axis
+//   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
 //   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
-//   law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
-// The last two print "restitution duration(s) delta_max(m)".
+//   law_fixture elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus
+//   E_STAR law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
+// The last three print "restitution duration(s) delta_max(m)".
 #include <hdf5.h>
 
 #include <cstdio>
@@ -44,6 +46,15 @@ int run(int argc, char** argv)
   if (word(1) == "write") {
     const granulaw::testing::SyntheticLaw synthetic;
     granulaw::Law law = word(3) == "axis" ? synthetic.law_with_axis() : synthetic.law();
+    if (word(3) == "pair_law") {
+      law = synthetic.law_with_axis();
+      granulaw::testing::SyntheticLaw other;  // told from the powder's by its residuals
+      other.depth = 0.8;
+      granulaw::TwoBodyLaw& own = law.pair_laws["powder:glass"];
+      own.law = law.bodies.at("powder");
+      own.law.curve = granulaw::ContactCurve(other.table(), other.axis(), "law_fixture");
+      own.radius_ratio = 2;
+    }
     if (word(3) == "pairs") {
       law.pairs.clear();
       for (int k = 4; k < argc; ++k) {
@@ -58,6 +69,14 @@ int run(int argc, char** argv)
   if (word(1) == "mpm") {
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
+    print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
+    return 0;
+  }
+  if (word(1) == "elastic") {
+    const granulaw::Law law = granulaw::read_law(word(2));
+    const granulaw::BodyLaw& body = law.bodies.at(word(3));
+    const granulaw::PairLaw pair{
+        &body.curve, granulaw::PairMapping::deformable_partner(body.material.e_star(), number(4)), &body};
     print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
     return 0;
   }

@@ -68,11 +68,6 @@ class BadInput(Deck):
         self.refused(self.deck(self.good() + " computeDissipatedEnergy on"), "not available", "granulaw/stats")
         self.refused(self.deck(self.good() + " tangential_damping off", tangential="no_history"), "no friction")
 
-    def test_combinations_that_are_not_built(self):
-        for words in ("rolling_friction epsd3", "rolling_friction luding"):
-            deck = self.deck(self.good()).replace("tangential history", "tangential history " + words)
-            self.refused(deck, "choose among these")
-
     def test_units(self):
         deck = self.deck(self.good()).replace("units si", "units micro")
         self.refused(deck, "units micro", "units si, units cgs")

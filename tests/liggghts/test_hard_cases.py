@@ -62,6 +62,17 @@ class Ratios(Trial):
                 self.check("radii 1:10" if order == 1 else "radii 10:1", "mpm", (POWDER, POWDER), radii[::order], speed,
                            expected, duration)
 
+    def test_moduli_1000_to_1_mpm(self):
+        """The powder against an `elastic` type 1000 times as stiff, and one 1000 times as soft: types in either order."""
+        mass = sphere_mass(RADIUS, 1500.0) / 2
+        for ratio in (1000.0, 0.001):
+            other = Material("elastic", 1500.0, ratio * POWDER.youngs_modulus, POWDER.poisson_ratio, 1e30)
+            for speed in (0.05, 1.0, 8.0):
+                for pair in ((POWDER, other), (other, POWDER)):
+                    expected, duration, _ = self.fixture("elastic", self.law, "powder", other.e_star, RADIUS / 2, mass, speed)
+                    self.check(f"moduli {'1:1000' if ratio > 1 else '1000:1'}, {pair[0].name} first", "mpm", pair, (RADIUS, RADIUS), speed,
+                               expected, duration)
+
     def test_moduli_1000_to_1(self):
         """thornton takes its moduli from the deck: the soft body yields, the other is 1000 times as stiff."""
         soft, stiff = Material("soft", 1500.0, 9.1e9, 0.3, 1e8), Material("stiff", 1500.0, 9.1e12, 0.3, 1e30)
@@ -76,13 +87,21 @@ class Ratios(Trial):
 BED = 5e-7  # s, 30 steps a contact
 
 
-def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, seed=5, floor=None, speed=0.0):
-    """A box of n x n x layers spheres between four elastic walls, dropped on a floor. Frictionless unless said."""
+def again(restart):
+    """Head of a deck that goes on from a restart file."""
+    return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+            f"communicate single vel yes\nread_restart {restart}\nneighbor {RADIUS / 2!r} bin\nneigh_modify delay 0\n")
+
+
+def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, seed=5, floor=None, speed=0.0,
+        words="elasticDamping off", restart=None):
+    """A box of n x n x layers spheres between four walls, dropped on a floor. Frictionless unless said. `restart`: a file
+    that holds the spheres."""
     rng, pitch = random.Random(seed), 2.02 * RADIUS
     half = n * pitch / 2
-    words = {"mpm": f"law {law} materials powder elasticDamping off", "thornton": "elasticDamping off", "hertz": "tangential_damping off"}[model]
+    words = {"mpm": f"law {law} materials powder {words}", "thornton": words, "hertz": "tangential_damping off"}[model]
     wall = f"wall/gran model {model} tangential history"
-    text = (head(half=60 * RADIUS, skin=RADIUS / 2) + properties([POWDER], friction) +
+    text = ((again(restart) if restart else head(half=60 * RADIUS, skin=RADIUS / 2)) + properties([POWDER], friction) +
             (ELASTIC if model == "hertz" else "") +
             f"pair_style gran model {model} tangential history {words}\npair_coeff * *\n")
     tail = "tangential_damping off" if model == "hertz" else ""
@@ -91,12 +110,13 @@ def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, see
         text += f"fix {name} all {wall} primitive type 1 {plane} {tail}\n"
     text += f"fix lid all {wall} primitive type 1 zplane {50 * RADIUS!r} {tail}\n"  # none may fly out of the box
     text += floor or f"fix floor all {wall} primitive type 1 zplane 0.0 {tail}\n"
-    for k in range(n * n * layers):
+    for k in range(0 if restart else n * n * layers):
         x = [(k % n - (n - 1) / 2) * pitch, (k // n % n - (n - 1) / 2) * pitch, (k // n**2 + 0.52) * pitch]
         x = [c + rng.uniform(-0.008, 0.008) * RADIUS for c in x]
         text += "create_atoms 1 single {!r} {!r} {!r} units box\n".format(*x)
-    return (text + f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nvelocity all set 0 0 {-speed!r}\n"
-            f"fix g all gravity {gravity} vector 0 0 -1\nfix i all nve/sphere\ntimestep {BED!r}\n"
+    if not restart:
+        text += f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nvelocity all set 0 0 {-speed!r}\n"
+    return (text + f"fix g all gravity {gravity} vector 0 0 -1\nfix i all nve/sphere\ntimestep {BED!r}\n"
             "compute rot all erotate/sphere\n"
             f"variable pot equal mass(all)*{gravity}*xcm(all,z)\n" + run)
 
@@ -114,7 +134,55 @@ class Energy(Trial):
                     pass
         return rows
 
-    def test_bed_at_rest(self):
+    THERMO = ("thermo_style custom step ke c_rot v_pot f_granulaw[14] f_granulaw f_granulaw[15]\nthermo 200\n"
+              "thermo_modify norm no lost error format float %.17g\n")
+
+    def energies(self, text, steps):
+        """Of each output: motion (kinetic + held by contacts), mechanical (+ gravity), all (+ taken by contacts), kinetic. J"""
+        rows = self.series(text)
+        self.assertGreaterEqual(len(rows), steps // 200)
+        return [(k + r + s, k + r + s + p, k + r + s + p + d + o, k + r) for _, k, r, p, s, d, o in rows]
+
+    def growth(self, rows):
+        """Largest rise of the mechanical energy above its least value so far, over the motion of that moment."""
+        least, largest = rows[0][1], 0.0
+        for motion, mechanical, *_ in rows:
+            if mechanical > least:
+                largest = max(largest, (mechanical - least) / motion)
+            least = min(least, mechanical)
+        return largest
+
+    def test_default_damping(self):
+        """Thrown at 1 m/s under 100 g (that falls be short): mechanical energy never grows and the bed comes to rest."""
+        steps = 1000000 if FULL else 40000
+        for model in ("mpm", "thornton"):
+            rows = self.energies(self.run_deck(bed(self.law, model, speed=1.0, gravity=981.0, words="energy on",
+                                                   run=self.THERMO + f"run {steps}\n")), steps)
+            growth, left = self.growth(rows), max(row[3] for row in rows[-len(rows) // 10:]) / rows[0][3]
+            drift = max(abs(row[2] - rows[0][2]) for row in rows) / rows[0][0]
+            self.record("default damping", model=model, steps=steps, growth=growth, left=left, drift=drift)
+            # velocity Verlet at 30 steps a contact: the work of a contact is good to (1/30)^2 of it, either sign
+            self.assertLess(growth, 1e-3, model)
+            self.assertLess(left, 1e-3 if FULL else 5e-2, model)
+
+    def test_rest(self):
+        """A bed that lies still (settled with strong damping, read from a restart file), with default damping and with none."""
+        steps = 1000000 if FULL else 20000
+        for model in ("mpm", "thornton"):
+            still = dict(model=model, gravity=981.0)
+            self.run_deck(bed(self.law, words="energy on elasticDamping 0.3", run="run 60000\nwrite_restart still.restart\n", **still))
+            for damping in ("elasticDamping off", ""):
+                rows = self.energies(self.run_deck(bed(self.law, words=f"energy on {damping}", restart="still.restart",
+                                                       run=self.THERMO + f"run {steps}\n", **still)), steps)
+                growth = max(row[1] - rows[0][1] for row in rows) / rows[0][1]
+                held = rows[0][0]
+                moves = max(abs(row[0] - held) for row in rows) / held
+                self.record("at rest", model=model, damping=damping.split()[-1] if damping else "default", steps=steps, growth=growth, moves=moves)
+                self.assertGreater(held, 0.0)  # contacts carry the weight
+                self.assertLess(growth, 1e-14, model)  # rounding of a sum over 27 spheres, 1e-16 each
+                self.assertLess(moves, 1e-9, model)    # overlaps of 1e-4 R are good to 1e-12, their energy to little more
+
+    def test_bed_comes_down(self):
         """Kinetic + potential energy never exceeds what was there before the first touch, less what was dissipated."""
         steps = 1000000 if FULL else 20000
         out = ("thermo_style custom step ke c_rot v_pot {}\nthermo 200\nthermo_modify norm no lost error format float %.17g\n")

@@ -1,0 +1,57 @@
+"""liggghts_plugin/copy_to_src into a folder that looks like LIGGGHTS's src: what it copies, what it refuses, and that the words
+it prints compile what it copied."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
+NOT_COPIED = {"launcher.cpp", "register_hertz.cpp"}  # a main of its own; a yardstick for benchmarks
+
+
+class CopyToSrc(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-copy-")
+        self.src = pathlib.Path(self._folder.name) / "src"
+        self.src.mkdir()
+        for header in HEADERS.glob("*.h"):
+            (self.src / header.name).symlink_to(header.resolve())
+        (self.src / "version_liggghts.txt").write_text("3.8.0\n")
+
+    def tearDown(self):
+        self._folder.cleanup()
+
+    def copy(self, folder="src", status=0):
+        done = subprocess.run([ROOT / "liggghts_plugin" / "copy_to_src", folder], capture_output=True, text=True, cwd=self.src.parent)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stdout if status == 0 else done.stderr
+
+    def test_all_sources(self):
+        before = {path.name for path in self.src.iterdir()}
+        (self.src / "granulaw_old.cpp").write_text("of an earlier version")
+        self.copy()
+        expected = {f"granulaw_{name}_{path.name}" for folder, name in (("liggghts_plugin", "liggghts_plugin"), ("mpm_core/law", "law"),
+                                                                        ("mpm_core/base", "base"))
+                    for path in (ROOT / folder).glob("*.cpp") if path.name not in NOT_COPIED} | {"granulaw_base_version.cpp"}
+        self.assertEqual({path.name for path in self.src.iterdir()} - before, expected | {"granulaw"})
+        self.assertNotIn("@", (self.src / "granulaw_base_version.cpp").read_text())  # filled in
+
+    def test_its_words_compile(self):
+        """One file of each folder (docs/own-liggghts.md: the whole of LIGGGHTS, done once)."""
+        words = dict(line.split(" = ", 1) for line in self.copy().splitlines() if " = " in line)
+        flags = words["MPI_CCFLAGS_USR"].split() + ["-O2", "-std=c++17"] + words["LMP_INC"].split()  # as Makefile.auto orders them
+        for name in ("law_law.cpp", "liggghts_plugin_options.cpp", "base_version.cpp"):
+            done = subprocess.run(["mpicxx", *flags, "-fsyntax-only", str(self.src / f"granulaw_{name}")], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, f"{name}: {done.stderr[:2000]}")
+
+    def test_refusals(self):
+        self.assertIn("holds no contact_models.h", self.copy(".", status=1))
+        (self.src / "version_liggghts.txt").write_text("4.0.0\n")
+        self.assertIn("LIGGGHTS '4.0.0'; the models are written for 3.8.0", self.copy(status=1))
+        self.assertFalse((self.src / "granulaw").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

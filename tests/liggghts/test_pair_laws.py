@@ -1,0 +1,57 @@
+"""Pairs with a law of their own in the file (/pair_laws, `mpm table --own-law`): drops in LIGGGHTS against `mpm law` of the file."""
+import json
+import os
+import subprocess
+import unittest
+
+from collisions import pair_deck
+from harness import GLASS, POWDER, Deck
+
+RADII = {"powder": 1.7e-3, "glass": 3.4e-3}
+SPEEDS = (0.05, 1.0, 5.0)  # from below the onset of yield to 4 % of R*
+STEPS = 2000               # time steps a contact
+TOLERANCE = 1e-6           # of e: the step's error, 1e-3 at 50 steps (test_restitution.py), falls with its square
+
+
+class PairLaws(Deck):
+    def setUp(self):
+        super().setUp()
+        self.fixture("write", self.law, "pair_law")
+
+    def tool(self, first, second, speed):
+        done = subprocess.run([os.environ["GRANULAW_MPM"], "law", str(self.law), "--pair", f"{first.name}:{second.name}", "--radius",
+                               str(RADII[first.name]), "--radius2", str(RADII[second.name]), "--velocity", repr(speed), "--json"],
+                              capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)
+
+    def deck(self, first, second, speed, duration, steps=STEPS):
+        return pair_deck("mpm", f"law {self.law} materials {first.name} {second.name} elasticDamping off", (first, second),
+                         (RADII[first.name], RADII[second.name]), speed, duration / steps, run=f"run {steps * 6 // 5}")
+
+    def test_drops(self):
+        """Both orders of the types, 1 and 2 ranks (the contact lies on the border of two)."""
+        cases = [(order, speed) for order in ((POWDER, GLASS), (GLASS, POWDER)) for speed in SPEEDS]
+        laws = [self.tool(*order, speed) for order, speed in cases]
+        decks = [self.deck(*order, speed, law["contact_time_s"]) for (order, speed), law in zip(cases, laws)]
+        for ranks in (1, 2):
+            found = self.run_each(decks, "SPEED", ranks=ranks)
+            for ((first, _), speed), law, (after,) in zip(cases, laws, found):
+                self.assertAlmostEqual(after / speed, law["e"], delta=TOLERANCE, msg=f"{first.name} first, {speed} m/s, {ranks} ranks")
+        self.assertLess(laws[1]["e"], 0.97)
+
+    def test_it_is_the_pairs_own(self):
+        """Without it e is another, and the start-up table says whose law it is."""
+        law = self.tool(POWDER, GLASS, 5.0)
+        self.fixture("write", self.law, "axis")
+        self.assertGreater(abs(self.tool(POWDER, GLASS, 5.0)["e"] - law["e"]), 0.01)
+        rules = []
+        for variant in ("axis", "pair_law"):
+            self.fixture("write", self.law, variant)
+            text = self.run_deck(self.deck(POWDER, GLASS, 5.0, law["contact_time_s"], steps=50))
+            line, = [line for line in text.splitlines() if line.startswith("  1 powder -  2 glass")]
+            rules.append(line.split()[5])
+        self.assertEqual(rules, ["reduced", "own"])
+
+
+if __name__ == "__main__":
+    unittest.main()
