@@ -5,10 +5,10 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "claim.hpp"
+#include "collision_report.hpp"
 #include "commands.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
@@ -101,23 +101,8 @@ void replay(const LawRequest& r)
         r.velocity, pair.max_speed(r_eff, m_eff));
   const double error = stated_error(law, pair, a, b, result.restitution);
   if (r.json) {
-    nlohmann::ordered_json out;
-    out["e"] = result.restitution;
-    out["force_max_N"] = result.force_max;
-    out["delta_max_m"] = result.delta_max;
-    out["delta_residual_m"] = result.delta_residual;
-    out["contact_time_s"] = result.contact_time;
-    out["work_load_J"] = result.work_load;
-    out["work_unload_J"] = result.work_unload;
-    // the keys of mpm impact, where there are points
-    out["points"] = 0;
-    out["steps"] = result.samples.size();
-    out["cpu_s"] = cpu_s;
-    out["point_updates_per_s"] = 0;
-    if (error > 0)
-      out["error_estimate"] = error;
-    else
-      out["error_estimate"] = nullptr;
+    nlohmann::ordered_json out = collision_json(result);
+    put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0, error);  // no solver: no points
     out["inertia"] = inertia;
     out["needs_velocity_axis"] = needs_axis;
     out["beyond_velocity_axis"] = result.left_speeds;
@@ -126,13 +111,7 @@ void replay(const LawRequest& r)
   }
   fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}\n", a, b, r.velocity, r_eff,
              inertia);
-  fmt::print("coefficient of restitution e   {:.4f}\n", result.restitution);
-  fmt::print("largest force                  {:.5g} N\n", result.force_max);
-  fmt::print("largest overlap                {:.5g} m  ({:.3g} of the law's range)\n", result.delta_max,
-             result.delta_max / limit);
-  fmt::print("residual overlap               {:.5g} m\n", result.delta_residual);
-  fmt::print("contact time                   {:.5g} s\n", result.contact_time);
-  fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", result.work_load, result.work_unload);
+  print_collision(result, fmt::format("{:.3g} of the law's range", result.delta_max / limit));
   if (error > 0) fmt::print("stated error of F and e        {:.2g}\n", error);
 }
 

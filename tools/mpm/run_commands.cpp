@@ -4,13 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "checkpoint_file.hpp"
+#include "collision_report.hpp"
 #include "commands.hpp"
 #include "field_file.hpp"
 #include "materials_file.hpp"
@@ -194,22 +194,8 @@ std::string grid_name(const RunRequest& r, const Particle& particle)
 
 void print_json(const RunRequest& r, const Particle& particle, const RunSummary& s)
 {
-  nlohmann::ordered_json out;
-  out["e"] = s.restitution;
-  out["force_max_N"] = s.force_max;
-  out["delta_max_m"] = s.delta_max;
-  out["delta_residual_m"] = s.delta_residual;
-  out["contact_time_s"] = s.contact_time;
-  out["work_load_J"] = s.work_load;
-  out["work_unload_J"] = s.work_unload;
-  out["points"] = s.points;
-  out["steps"] = s.steps;
-  out["cpu_s"] = s.cpu_s;
-  out["point_updates_per_s"] = s.point_updates_per_s;
-  if (s.error_estimate > 0)
-    out["error_estimate"] = s.error_estimate;
-  else
-    out["error_estimate"] = nullptr;
+  nlohmann::ordered_json out = collision_json(s);
+  put_effort(out, s.points, s.steps, s.cpu_s, s.point_updates_per_s, s.error_estimate);
   out["grid"] = grid_name(r, particle);
   out["resolution"] = s.resolution;
   out["grids"] = s.grids;
@@ -227,13 +213,7 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
   if (r.json) return print_json(r, particle, s);
-  fmt::print("coefficient of restitution e   {:.4f}\n", s.restitution);
-  fmt::print("largest force                  {:.5g} N\n", s.force_max);
-  fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max,
-             s.delta_max / particle.radius);
-  fmt::print("residual overlap               {:.5g} m\n", s.delta_residual);
-  fmt::print("contact time                   {:.5g} s\n", s.contact_time);
-  fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", s.work_load, s.work_unload);
+  print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
   if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
              s.cpu_s, 1e-6 * s.point_updates_per_s);
