@@ -70,11 +70,14 @@ def refused(words, *wanted, code=1):
     assert before == after, f"{words}: files changed: {before} -> {after}"
 
 
+# of impact, press and law alike
+KEYS = ["e", "force_max_N", "delta_max_m", "delta_residual_m", "contact_time_s", "work_load_J", "work_unload_J",
+        "points", "steps", "cpu_s", "point_updates_per_s", "error_estimate"]
+
+
 def case_impact():
-    keys = ["e", "force_max_N", "delta_max_m", "delta_residual_m", "contact_time_s", "work_load_J", "work_unload_J",
-            "points", "steps", "cpu_s", "point_updates_per_s", "error_estimate"]
     result = Run("impact", materials(), *HIT, "-o", "t.csv", "--json").json()
-    assert list(result)[:len(keys)] == keys and 0 < result["error_estimate"] < 0.1
+    assert list(result)[:len(KEYS)] == KEYS and 0 < result["error_estimate"] < 0.1
     assert 0.6 < result["e"] < 0.85 and abs(result["work_unload_J"] / result["work_load_J"] - result["e"] ** 2) < 1e-3
     kinetic = 0.5 * 1500 * 4 / 3 * np.pi * 2e-3**3 * 2.6**2
     assert abs(result["work_load_J"] / kinetic - 1) < 1e-6  # all of the kinetic energy goes into the contact
@@ -106,6 +109,7 @@ def case_press():
                      "--resolution", "8", "--json").json()
         assert abs(result["delta_max_m"] / 1e-4 - 1) < 1e-4, result
         assert 0 < result["delta_residual_m"] < result["delta_max_m"] and 0 < result["e"] < 1
+        assert list(result)[:len(KEYS)] == KEYS
     # three quarters of the default ramp (60 R/c*) is still the rate-free law: at most, I = rho v^2/Y is
     # (pi/2 0.05/45)^2 100 = 3e-4, where inertia takes less than 0.5 % of e (docs/method.md)
     words = ["press", "m.toml", "--particle", "grain", "--depth", "0.05", "--resolution", "8", "--json"]
@@ -176,6 +180,12 @@ def case_errors():
     refused(["impact", name, *HIT, "--courant", "0", *out], "--courant", "0.05 to 1")
     refused(["impact", name, *HIT, "--courant", "nan", *out], "--courant", "0.05 to 1")
     refused(["impact", name, *HIT, "--phases", "0", *out], "--phases", "1 to 64")
+    # days of computing, and what a default hides behind 0
+    refused(["impact", name, "--particle", "grain", "--velocity", "1e-9", *out], "--velocity", "too slow", "1e-10 times")
+    refused(["press", name, "--particle", "grain", "--depth", "1e-9", *out], "--depth", "1e-08 to 0.8")
+    refused(["press", name, "--particle", "grain", "--depth", "0.1", "--ramp", "0", *out], "--ramp", "1 to 1e6")
+    refused(["impact", name, *HIT[:4], "--resolution", "0", *out], "--resolution", "6 to 200")
+    refused(["impact", name, *HIT[:4], "--tolerance", "0", *out], "--tolerance", "1e-4 to 0.5")
     refused(["press", name, "--particle", "grain", "--depth", "0.1", "--ramp", "-5", *out], "--ramp", "1 to 1e6")
     refused(["table", name, "--pair", "powdr:wall", "-o", "out.h5"], "powdr", "did you mean 'powder'")
     refused(["table", name, "--pair", "powder", "-o", "out.h5"], "powder", "a:b")
@@ -189,6 +199,9 @@ def case_errors():
 
     broken("youngs_modulus = 9.1e9", "youngs_modulus = -9.1e9", ":4:", "youngs_modulus", "-9.1e+09", "over 0")
     broken("poisson_ratio = 0.3", "poisson_ratio = 0.5", ":5:", "poisson_ratio", "0.5")
+    broken("yield_stress = 100e6", "yield_stress = 2e9", ":6:", "yield_stress", "2e+09 Pa", "a tenth of E*", "1e+09 Pa")
+    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "linear", modulus = 1e11}', ":7:", "modulus", "youngs_modulus")
+    broken("density = 1500", "density = 1500\n" + 400 * "k" + " = 1", ":4:", "unknown key", "kkk...'")
     broken("density = 1500", "densty = 1500", ":3:", "densty", "did you mean 'density'")
     broken("density = 1500", "", "density", "missing")
     broken("density = 1500", 'density = "heavy"', "density", "number", "kg/m^3")
@@ -221,7 +234,10 @@ def case_errors():
 def case_usage():
     name = materials()
     refused(["impact", name], "required", code=2)
-    refused(["impcat", name], code=2)
+    refused(["impcat", name], "no command 'impcat'", "did you mean 'impact'", "soften", code=2)
+    refused(["impact", name, "--partcle", "grain", "--velocity", "1"], "no option '--partcle'", "did you mean '--particle'", code=2)
+    refused(["law", "law.h5", "--pairs=a:b", "--velocity", "1"], "no option '--pairs'", "did you mean '--pair'", code=2)
+    refused(["impact", name, "--particle", "grain", "--velocity", "1 m/s"], "--velocity", "1 m/s", "no number", code=2)
     refused([], code=2)
     refused(["impact", name, *HIT, "--tolerance", "0.1"], "--tolerance", code=2)  # with --resolution
     refused(["table", name, "--jobs", "0", "-o", "x.h5"], "--jobs", code=2)
@@ -237,6 +253,14 @@ def case_usage():
     err = stopped.communicate(timeout=60)[1]
     assert stopped.returncode == 130 and err == "mpm: stopped\n", (stopped.returncode, err)
     assert not list(Path().glob("late.csv*"))
+    # a run that does not come to look (its samples are far apart) is ended by the second Ctrl-C
+    deaf = subprocess.Popen([MPM, "impact", name, "--particle", "grain", "--velocity", "1e-6", "--resolution", "200"],
+                            stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    time.sleep(0.5)
+    deaf.send_signal(signal.SIGINT)
+    time.sleep(0.5)
+    deaf.send_signal(signal.SIGINT)
+    assert deaf.wait(timeout=60) in (130, -signal.SIGINT)
 
 
 def trace(name, radius, density, e_star):
@@ -312,6 +336,8 @@ def case_law():
             body["curve/exponent"][...] = body["curve/exponent"][:] + 0.3
     refused(["check", "false.h5", "--seed", "7"], "false.h5", "fails its check")
     wall = Run("law", LAW, "--pair", "powder:wall", "--velocity", "3", "--radius", "1e-3", "--json").json()
+    # what the file's certificate claims: in `mpm check`, a fresh impact lies within twice of it
+    assert list(wall)[:len(KEYS)] == KEYS and wall["points"] == 0 and 0 < wall["error_estimate"] < 0.05, wall
     like = Run("law", LAW, "--pair", "powder:powder", "--velocity", "6", "--radius", "1e-3", "--json").json()
     # a like pair closing at V is, for each sphere, a wall hit at V/2; replay: 1e-6
     assert abs(like["e"] / wall["e"] - 1) < 1e-5 and abs(like["force_max_N"] / wall["force_max_N"] - 1) < 1e-5

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/reduction_error.hpp"
+#include "claim.hpp"
 #include "commands.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
@@ -50,14 +51,12 @@ bool admissible(const Law& law, const std::string& path)
 bool within_claim(const std::string& name, const Certificate& c, double velocity, double force, double e,
                   double restitution)
 {
-  const double claimed_force = c.verification_error_force + c.atlas_error_force + c.solver_error_force;
-  const double claimed_e =
-      c.verification_error_restitution + c.atlas_error_restitution / restitution + c.solver_error_restitution;
-  const bool good = force <= 2 * claimed_force && e <= 2 * claimed_e;
+  const Claim claim = claim_of(c, restitution);
+  const bool good = force <= 2 * claim.force && e <= 2 * claim.restitution;
   fmt::print(
       "{}: impact at {:.4g} m/s: F off by {:.2g} % (claimed {:.2g} %), e by {:.2g} % (claimed {:.2g} %): "
       "{}\n",
-      name, velocity, 100 * force, 100 * claimed_force, 100 * e, 100 * claimed_e,
+      name, velocity, 100 * force, 100 * claim.force, 100 * e, 100 * claim.restitution,
       good ? "good" : "NOT GOOD: more than twice the claim");
   return good;
 }

@@ -1,4 +1,4 @@
-// mpm info, mpm plot, mpm plan: what a law file says about itself.
+// mpm info, mpm plot: what a law file says about itself.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>

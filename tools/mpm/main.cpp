@@ -3,9 +3,12 @@
 // Exit codes: 0 done; 1 the input cannot be used (one sentence on stderr); 2 the command line cannot be
 // understood; 130 stopped by Ctrl-C. Under mpirun all ranks end with the largest of theirs.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <new>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/version.hpp"
@@ -21,6 +24,32 @@ namespace {
 
 using namespace granulaw;
 
+/// The first command or option that there is none of, with the nearest there is; empty: all are known. CLI11
+/// would rather complain of a required option that is missing because it was mistyped.
+std::string unknown_word(const CLI::App& app, int argc, char** argv)
+{
+  const CLI::App* command = nullptr;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = std::string(argv[k]).substr(0, std::string(argv[k]).find('='));
+    const bool is_option = word.starts_with("--") && word != "--";
+    if (!is_option && command) continue;
+    std::vector<std::string> known;
+    if (is_option) {
+      for (const CLI::Option* option : (command ? *command : app).get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    } else {
+      for (const CLI::App* one : app.get_subcommands({})) {
+        if (one->get_name() == word) command = one;
+        known.push_back(one->get_name());
+      }
+    }
+    if (std::find(known.begin(), known.end(), word) == known.end() && !word.starts_with("-h"))
+      return fmt::format("no {} '{}'{}: allowed is {}", is_option ? "option" : "command", printable(word),
+                         did_you_mean(word, known), fmt::join(known, ", "));
+  }
+  return {};
+}
+
 /// Carries out the command line. Returns the exit code; `sentence` says why it is not 0.
 int run(int argc, char** argv, std::string& sentence)
 {
@@ -35,7 +64,7 @@ int run(int argc, char** argv, std::string& sentence)
       "A first session:\n"
       "  mpm impact materials.toml --particle grain --velocity 1.0        one collision with a rigid wall\n"
       "  mpm table materials.toml -o law.h5                               the contact law of every pair\n"
-      "  mpm law law.h5 --pair powder:wall --velocity 1.0                 the same collision by the law\n"
+      "  mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 1.0   the same collision by the law\n"
       "  mpm plot law.h5 -o law.png                                       what the law looks like\n"
       "Each command explains itself: mpm impact --help",
       "mpm"};
@@ -60,8 +89,17 @@ int run(int argc, char** argv, std::string& sentence)
     return 0;
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
+  } catch (const CLI::ConversionError& error) {  // "Could not convert: --velocity = fast"
+    const std::string text = error.what();
+    const auto colon = text.find(": ");
+    sentence = fmt::format("{}: is no number, or not of the kind that is wanted",
+                           printable(colon == std::string::npos ? text : text.substr(colon + 2)));
+    return 2;
   } catch (const CLI::ParseError& error) {
-    sentence = fmt::format("{} (mpm --help and mpm COMMAND --help list what is possible)", error.what());
+    sentence = unknown_word(app, argc, argv);
+    if (sentence.empty())
+      sentence = fmt::format("{} (mpm --help and mpm COMMAND --help list what is possible)",
+                             printable(error.what()));
     return 2;
   } catch (const Interrupted&) {
     sentence = "stopped";

@@ -30,12 +30,31 @@ Words names_of(const Map& map)
   return names;
 }
 
+/// A text of the file as a sentence can hold it: cut after `longest` bytes, between characters.
+std::string cut(const std::string& text, std::size_t longest = 60)
+{
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end) + "...";
+}
+
+/// The allowed words; of many the first.
+std::string list_of(const Words& words)
+{
+  constexpr std::size_t most = 20;
+  Words shown;
+  for (std::size_t k = 0; k < std::min(words.size(), most); ++k) shown.push_back(cut(words[k]));
+  if (words.size() > most) shown.push_back(fmt::format("... ({} in all)", words.size()));
+  return fmt::format("{}", fmt::join(shown, ", "));
+}
+
 /// One table of the file, with the words that lead its messages.
 class Section
 {
  public:
   Section(const std::string& path, const toml::table& table, std::string name)
-      : path_(path), table_(table), name_(std::move(name))
+      : path_(path), table_(table), name_(cut(name))
   {
   }
 
@@ -50,8 +69,8 @@ class Section
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
       if (std::find(known.begin(), known.end(), word) == known.end())
-        fail(where(node), fmt::format("unknown key '{}'{}", word, did_you_mean(word, known)), {},
-             fmt::format("{}", fmt::join(known, ", ")));
+        fail(where(node), fmt::format("unknown key '{}'{}", cut(word), did_you_mean(word, known)), {},
+             list_of(known));
     }
   }
   bool has(const char* key) const { return table_.contains(key); }
@@ -163,8 +182,8 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
   const auto found = std::find(names.begin(), names.end(), law.name);
   if (found == names.end())
     fail(s.where(s.node("law")),
-         fmt::format("no {} law '{}'{}", kind, law.name, did_you_mean(law.name, names)), {},
-         fmt::format("{}", fmt::join(names, ", ")));
+         fmt::format("no {} law '{}'{}", kind, cut(law.name), did_you_mean(law.name, names)), {},
+         list_of(names));
   const std::vector<flow::Parameter>& parameters = known[found - names.begin()].parameters;
   Words keys{"law"};
   for (const flow::Parameter& p : parameters) keys.push_back(p.key);
@@ -182,11 +201,16 @@ Material read_material(const Section& s)
   m.density = s.positive("density", "kg/m^3");
   m.youngs_modulus = s.positive("youngs_modulus", "Pa");
   m.poisson_ratio = s.number("poisson_ratio", "");
-  if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.5))
+  if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.4999))
     fail(s.where(s.node("poisson_ratio")), "'poisson_ratio' is out of range",
          fmt::format("{:g}", m.poisson_ratio),
-         "0 to below 0.5 (0.5 is incompressible: the solver needs a finite bulk modulus; 0.49 works)");
+         "0 to below 0.4999 (0.5 is incompressible: the solver needs a finite bulk modulus; 0.49 works)");
   if (s.has("yield_stress")) m.yield_stress = s.positive("yield_stress", "Pa");
+  if (m.yields() && m.yield_stress > 0.1 * m.e_star())
+    fail(s.where(s.node("yield_stress")), "'yield_stress' is out of range",
+         fmt::format("{:g} Pa", m.yield_stress),
+         fmt::format("up to a tenth of E* = E/(1-nu^2), {:.4g} Pa; without the key the body is elastic",
+                     0.1 * m.e_star()));
   if (!m.yields() && (s.has("hardening") || s.has("rate"))) {
     const char* key = s.has("hardening") ? "hardening" : "rate";
     fail(s.where(s.node(key)), fmt::format("'{}' needs a 'yield_stress'", key));
@@ -196,9 +220,9 @@ Material read_material(const Section& s)
     const FlowLaw law = read_flow_law(h, "hardening", hardening_laws());
     if (law.name == flow::Linear::name) {
       m.hardening_modulus = law.values.at("modulus").front();
-      if (!(m.hardening_modulus >= 0 && std::isfinite(m.hardening_modulus)))
+      if (!(m.hardening_modulus >= 0 && m.hardening_modulus <= m.youngs_modulus))
         fail(h.where(h.node("modulus")), "'modulus' is out of range",
-             fmt::format("{:g} Pa", m.hardening_modulus), "0 or more");
+             fmt::format("{:g} Pa", m.hardening_modulus), "0 to youngs_modulus");
     } else {
       m.hardening = law;
       validate_flow(m, h.where());
@@ -250,8 +274,8 @@ void read_shape(const Section& p, Particle& particle)
   for (const ProfileShape& shape : profile_shapes()) names.push_back(shape.name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    fail(p.where(p.node("shape")), fmt::format("no shape '{}'{}", name, did_you_mean(name, names)), {},
-         fmt::format("{}, or points = [[r, z], ...]", fmt::join(names, ", ")));
+    fail(p.where(p.node("shape")), fmt::format("no shape '{}'{}", cut(name), did_you_mean(name, names)), {},
+         fmt::format("{}, or points = [[r, z], ...]", list_of(names)));
   const ProfileShape& shape = profile_shapes()[found - names.begin()];
   Words keys{"shape"};
   for (const ProfileKey& key : shape.keys) keys.push_back(key.name);
@@ -272,8 +296,8 @@ Particle read_particle(const Section& s, const std::map<std::string, Material>& 
     const auto found = materials.find(name);
     if (found == materials.end()) {
       const Words names = names_of(materials);
-      fail(at.where(at.node("material")), fmt::format("no material '{}'{}", name, did_you_mean(name, names)),
-           {}, fmt::format("{}", fmt::join(names, ", ")));
+      fail(at.where(at.node("material")),
+           fmt::format("no material '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
     }
     const auto [entry, is_new] = places.emplace(name, static_cast<int>(particle.materials.size()));
     if (is_new) particle.materials.push_back(found->second);
@@ -316,7 +340,7 @@ void check_name(const std::string& name, const std::string& where)
   constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   if (name.empty() || name.size() > 100 || name.find_first_not_of(allowed) != std::string::npos ||
       name == wall_name)
-    fail(where, "unusable name", fmt::format("'{}'", name),
+    fail(where, "unusable name", fmt::format("'{}'", cut(name)),
          fmt::format("letters, digits, '_' and '-', and not '{}' (the rigid partner in pairs)", wall_name));
 }
 
@@ -347,8 +371,7 @@ const Material& MaterialsFile::material(const std::string& name) const
   const auto found = materials.find(name);
   if (found != materials.end()) return found->second;
   const Words names = names_of(materials);
-  fail(path, fmt::format("no material '{}'{}", name, did_you_mean(name, names)), {},
-       fmt::format("{}", fmt::join(names, ", ")));
+  fail(path, fmt::format("no material '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
 }
 
 const Particle& MaterialsFile::particle(const std::string& name) const
@@ -357,9 +380,8 @@ const Particle& MaterialsFile::particle(const std::string& name) const
   if (found != particles.end()) return found->second;
   const Words names = names_of(particles);
   if (names.empty())
-    fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", name));
-  fail(path, fmt::format("no particle '{}'{}", name, did_you_mean(name, names)), {},
-       fmt::format("{}", fmt::join(names, ", ")));
+    fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", cut(name)));
+  fail(path, fmt::format("no particle '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
 }
 
 Sphere MaterialsFile::sphere(const std::string& name) const
@@ -382,7 +404,7 @@ MaterialsFile read_materials(const std::string& path)
   try {
     root = toml::parse_file(path);
   } catch (const toml::parse_error& error) {
-    fail(fmt::format("{}:{}", path, error.source().begin.line), std::string(error.description()));
+    fail(fmt::format("{}:{}", path, error.source().begin.line), cut(std::string(error.description()), 200));
   }
   MaterialsFile file;
   file.path = path;

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "checkpoint_file.hpp"
+#include "collision_report.hpp"
 #include "commands.hpp"
 #include "field_file.hpp"
 #include "materials_file.hpp"
 #include "solver/accuracy.hpp"
+#include "solver/scene_builder.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
 
@@ -26,9 +28,11 @@ struct RunRequest
 {
   std::string materials, particle, against, wall, grid = "auto", precision = "double", output, fields,
                                                   checkpoint, support = "free";
-  double velocity = 0, depth = 0, tolerance = 0, ramp = 0, checkpoint_every = 30;
+  double velocity = 0, depth = 0, checkpoint_every = 30;
   double courant = RunOptions{}.courant;
-  int resolution = 0, jobs = 1, frames = 40, phases = RunOptions{}.phases;
+  std::optional<double> tolerance, ramp;
+  std::optional<int> resolution;
+  int jobs = 1, frames = 40, phases = RunOptions{}.phases;
   bool json = false, no_estimate = false;
 };
 
@@ -102,6 +106,22 @@ bool same_file(const std::string& a, const std::filesystem::path& b)
   return std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
 }
 
+/// Slowest impact, over the wave speed c* = sqrt(E*/rho), and shallowest press, over R: contacts of about
+/// 1e-4 R. The time step goes with their cells, so smaller ones take days. Elastic there up to E*/Y = 15 000.
+constexpr double slowest = 1e-10, shallowest = 1e-8;
+
+/// `velocity` and `wave_speed` in m/s. Beyond half the wave speed the solver refuses, too.
+void check_velocity(double velocity, double wave_speed)
+{
+  if (!(velocity > 0 && std::isfinite(velocity)))
+    fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "over 0");
+  if (velocity < slowest * wave_speed)
+    fail("--velocity", "is too slow to be resolved (Hertz's law holds there)",
+         fmt::format("{:g} m/s", velocity),
+         fmt::format("{:g} times the wave speed sqrt(E*/rho) or more, {:.4g} m/s", slowest,
+                     slowest * wave_speed));
+}
+
 void check(const RunRequest& r)
 {
   grid_of(r.grid);
@@ -113,8 +133,11 @@ void check(const RunRequest& r)
          fmt::format("{:g}", r.courant), "0.05 to 1");
   if (r.phases < 1 || r.phases > 64)
     fail("--phases", "cannot be used", std::to_string(r.phases), "1 to 64 shifted grids");
-  if (r.tolerance != 0 && !(r.tolerance >= 1e-4 && r.tolerance <= 0.5))
-    fail("--tolerance", "cannot be used", fmt::format("{:g}", r.tolerance), "1e-4 to 0.5");
+  if (r.tolerance && !(*r.tolerance >= 1e-4 && *r.tolerance <= 0.5))
+    fail("--tolerance", "cannot be used", fmt::format("{:g}", *r.tolerance), "1e-4 to 0.5");
+  if (r.resolution && !(*r.resolution >= 6 && *r.resolution <= 200))
+    fail("--resolution", "cannot be used", std::to_string(*r.resolution),
+         "6 to 200 cells across the contact block");
   check_output(r.output, ".csv, .h5");
   if (!r.checkpoint.empty()) {
     require_writable(r.checkpoint, "--checkpoint");
@@ -134,7 +157,7 @@ RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, const
 {
   ProgressBar bar;
   RunOptions options;
-  options.resolution = r.resolution;
+  options.resolution = r.resolution.value_or(0);
   options.grid = grid_of(r.grid);
   options.precision = r.precision == "single" ? Precision::single : Precision::full;
   options.threads = r.jobs;
@@ -143,14 +166,14 @@ RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, const
   options.fields = fields;
   options.progress = [&](double done) { bar.update(done, ""); };
   options.estimate_error = !r.no_estimate;
-  if (r.tolerance <= 0) return run(options);
-  const ToleranceResult found = run_to_tolerance(r.tolerance, r.depth > 0, options, run);
+  if (!r.tolerance) return run(options);
+  const ToleranceResult found = run_to_tolerance(*r.tolerance, r.depth > 0, options, run);
   if (!found.reached)
     fmt::print(
         stderr,
         "mpm: tolerance {:.2g} not reached: at {} cells the estimate is {:.2g} (resolution {:.2g}, time "
         "step {:.2g}, ramp {:.2g})\n",
-        r.tolerance, found.result.summary.resolution, found.result.summary.error_estimate,
+        *r.tolerance, found.result.summary.resolution, found.result.summary.error_estimate,
         found.resolution_error, found.step_error, found.ramp_error);
   return found.result;
 }
@@ -171,22 +194,8 @@ std::string grid_name(const RunRequest& r, const Particle& particle)
 
 void print_json(const RunRequest& r, const Particle& particle, const RunSummary& s)
 {
-  nlohmann::ordered_json out;
-  out["e"] = s.restitution;
-  out["force_max_N"] = s.force_max;
-  out["delta_max_m"] = s.delta_max;
-  out["delta_residual_m"] = s.delta_residual;
-  out["contact_time_s"] = s.contact_time;
-  out["work_load_J"] = s.work_load;
-  out["work_unload_J"] = s.work_unload;
-  out["points"] = s.points;
-  out["steps"] = s.steps;
-  out["cpu_s"] = s.cpu_s;
-  out["point_updates_per_s"] = s.point_updates_per_s;
-  if (s.error_estimate > 0)
-    out["error_estimate"] = s.error_estimate;
-  else
-    out["error_estimate"] = nullptr;
+  nlohmann::ordered_json out = collision_json(s);
+  put_effort(out, s.points, s.steps, s.cpu_s, s.point_updates_per_s, s.error_estimate);
   out["grid"] = grid_name(r, particle);
   out["resolution"] = s.resolution;
   out["grids"] = s.grids;
@@ -204,13 +213,7 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
   if (r.json) return print_json(r, particle, s);
-  fmt::print("coefficient of restitution e   {:.4f}\n", s.restitution);
-  fmt::print("largest force                  {:.5g} N\n", s.force_max);
-  fmt::print("largest overlap                {:.5g} m  ({:.4g} R)\n", s.delta_max,
-             s.delta_max / particle.radius);
-  fmt::print("residual overlap               {:.5g} m\n", s.delta_residual);
-  fmt::print("contact time                   {:.5g} s\n", s.contact_time);
-  fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", s.work_load, s.work_unload);
+  print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
   if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
              s.cpu_s, 1e-6 * s.point_updates_per_s);
@@ -256,8 +259,8 @@ void run_and_report(const RunRequest& r, const Meeting& m, const RunIdentity& dr
       RunIdentity asked = drive;
       asked.insert(asked.end(), {{"--grid", r.grid},
                                  {"--precision", r.precision},
-                                 {"--resolution", fmt::format("{}", r.resolution)},
-                                 {"--tolerance", fmt::format("{}", r.tolerance)},
+                                 {"--resolution", fmt::format("{}", r.resolution.value_or(0))},
+                                 {"--tolerance", fmt::format("{}", r.tolerance.value_or(0))},
                                  {"--no-estimate", r.no_estimate ? "yes" : "no"}});
       checkpoint.emplace(r.checkpoint, r.checkpoint_every,
                          identity_of(std::move(asked), m.particle, m.partner, options));
@@ -293,8 +296,7 @@ void add_impact(CLI::App& app)
   command->callback([r] {
     check(*r);
     const Meeting m = read_meeting(*r);
-    if (!(r->velocity > 0 && std::isfinite(r->velocity)))
-      fail("--velocity", "cannot be used", fmt::format("{:g} m/s", r->velocity), "over 0");
+    check_velocity(r->velocity, scales_of(m.particle).velocity());
     print_setting(*r, m.particle);
     const RunIdentity drive{{"command", "impact"}, {"--velocity", fmt::format("{}", r->velocity)}};
     run_and_report(*r, m, drive,
@@ -322,20 +324,20 @@ void add_press(CLI::App& app)
     if (r->support != "free" && r->support != "midplane")
       fail("--support", "unknown support", r->support, "free, midplane");
     const Meeting m = read_meeting(*r);
-    if (!(r->depth > 0 && r->depth <= 0.8))
+    if (!(r->depth >= shallowest && r->depth <= 0.8))
       fail("--depth", "cannot be used", fmt::format("{:g} (a share of the radius)", r->depth),
-           "over 0, up to 0.8");
-    if (r->ramp != 0 && !(r->ramp >= 1 && r->ramp <= 1e6))
-      fail("--ramp", "cannot be used", fmt::format("{:g} R/c*", r->ramp), "1 to 1e6");
+           fmt::format("{:g} to 0.8", shallowest));
+    if (r->ramp && !(*r->ramp >= 1 && *r->ramp <= 1e6))
+      fail("--ramp", "cannot be used", fmt::format("{:g} R/c*", *r->ramp), "1 to 1e6");
     PressPlan plan;
-    plan.ramp = r->ramp;
+    plan.ramp = r->ramp.value_or(0);
     plan.depth = r->depth * m.particle.radius;
     plan.support = r->support == "free" ? Support::free : Support::midplane;
     print_setting(*r, m.particle);
     const RunIdentity drive{{"command", "press"},
                             {"--depth", fmt::format("{}", r->depth)},
                             {"--support", r->support},
-                            {"--ramp", fmt::format("{}", r->ramp)}};
+                            {"--ramp", fmt::format("{}", r->ramp.value_or(0))}};
     run_and_report(*r, m, drive,
                    [&](const RunOptions& o) { return run_press(m.particle, plan, o, m.partner); });
   });

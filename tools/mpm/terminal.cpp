@@ -21,8 +21,11 @@ extern "C" void remember_interrupt(int)
 
 void catch_interrupts()
 {
-  std::signal(SIGINT, remember_interrupt);
-  std::signal(SIGTERM, remember_interrupt);
+  struct sigaction once = {};
+  once.sa_handler = remember_interrupt;
+  once.sa_flags = SA_RESETHAND | SA_RESTART;
+  sigaction(SIGINT, &once, nullptr);
+  sigaction(SIGTERM, &once, nullptr);
 }
 
 bool is_interrupted()

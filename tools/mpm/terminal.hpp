@@ -10,7 +10,7 @@ struct Interrupted
 {
 };
 
-/// Ctrl-C and SIGTERM from now on only set a flag.
+/// Ctrl-C and SIGTERM from now on only set a flag; the second one ends the program at once.
 void catch_interrupts();
 bool is_interrupted();
 /// Throws Interrupted once the flag is set.
