@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 from . import files
-from .page import number, plt
+from .page import legend_below, number, plt
 
 BINS = 8  # a decade, as the plug-in counts
 
@@ -194,7 +194,7 @@ def picture(all_contacts):
     for part, contacts in zip(parts, all_contacts):
         axis = draw(part, contacts, f"{name_of(contacts)}: {contacts.begun:,.0f}".replace(",", "\u2009"))
     handles, labels = axis.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    legend_below(figure, handles, labels, 3)
     return figure
 
 

@@ -9,7 +9,7 @@ import statistics
 from spread import Sample, welch
 
 from . import files
-from .page import number, plt
+from .page import legend_below, number, plt
 
 REFERENCE = "mpm"
 DECKS = ("drop", "packing", "heap", "compression", "hopper", "silo")
@@ -224,7 +224,7 @@ def picture(deck, names):
     for axis in axes[0]:
         for handle, text in zip(*axis.get_legend_handles_labels()):
             handles.setdefault(text, handle)
-    figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=min(4, len(handles)))
+    legend_below(figure, list(handles.values()), list(handles), min(4, len(handles)))
     return figure
 
 

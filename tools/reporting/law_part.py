@@ -1,6 +1,6 @@
 """(b) Law: table size and time of a lookup against the interpolation error, axes kept and dropped."""
 from . import files
-from .page import number, plt
+from .page import legend_below, number, plt
 
 NAME = "law_size.json"  # of law_size_benchmark
 KEYS = ("bytes", "nodes", "slices", "ratio_nodes", "ns_load", "ns_load_low", "ns_load_high", "ns_unload", "ns_unload_low", "ns_unload_high",
@@ -50,7 +50,7 @@ def picture(found):
                           xytext=(0, 3), fontsize=7, color="0.4")
         axis.set(xlabel="kilobytes that a lookup may read", ylabel=f"error of {what}, %")
     handles, names = axes[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=3)
+    legend_below(figure, handles, names, 3)
     return figure
 
 

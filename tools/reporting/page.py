@@ -3,6 +3,7 @@
 Texts are plain; `code` between back-quotes and **bold** are the only marks."""
 import html
 import io
+import math
 import os
 import pathlib
 import re
@@ -155,6 +156,14 @@ class Page:
         return folder / "report.html"
 
 
+def legend_below(figure, handles, labels, columns):
+    """One legend for all panels, under them, in a strip of its own."""
+    rows = -(-len(labels) // columns)
+    strip = (0.19 * rows + 0.12) / figure.get_size_inches()[1]
+    figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
+    figure.legend(handles, labels, loc="lower center", ncols=columns)
+
+
 def number(value, digits=3):
     """For a table: `digits` significant ones, no exponent where it can be avoided; n/a for None."""
     if value is None:
@@ -162,7 +171,6 @@ def number(value, digits=3):
     if value == 0:
         return "0"
     if 1e-4 <= abs(value) < 1e6:
-        from math import floor, log10
-        decimals = max(0, digits - 1 - floor(log10(abs(value))))
+        decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
         return f"{value:.{decimals}f}"
     return f"{value:.{digits - 1}e}"

@@ -1,6 +1,6 @@
 """(a) Solver: CPU seconds against the error in F and e, by grid and precision."""
 from . import files
-from .page import number, plt
+from .page import legend_below, number, plt
 
 NAME = "cost.json"  # of granulaw_cost_study
 JOBS = {"plastic": "Impact, E*/Y = 100, V/V_y = 100", "elastic": "Elastic impact to 0.002 R"}
@@ -45,7 +45,7 @@ def picture(study):
                 axis.axhspan(axis.get_ylim()[0] if floor > axis.get_ylim()[0] else floor / 3, floor, color="0.85", zorder=0)
             axis.set(xlabel="CPU seconds, one core", ylabel=f"error of {what}, %", title=JOBS.get(job["name"], job["name"]))
     handles, names = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=2)
+    legend_below(figure, handles, names, 2)
     return figure
 
 
