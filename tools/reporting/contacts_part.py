@@ -95,7 +95,8 @@ class Contacts:
         place = np.cumsum(counts) / np.sum(counts)
         k = int(np.searchsorted(place, part))
         before = place[k - 1] if k else 0.0
-        return float(edges[k] * (edges[k + 1] / edges[k])**((part - before) / (place[k] - before)))
+        found = float(edges[k] * (edges[k + 1] / edges[k])**((part - before) / (place[k] - before)))
+        return min(found, (self.speed_max if which == "speed" else self.overlap_max) or found)
 
     def elastic_share(self):
         """Of the contacts, those slower than the onset of yield (the bin of the onset is cut in proportion)."""
@@ -176,8 +177,8 @@ def draw(figure, contacts, title):
     v, x = contacts.law.impacts()
     middle.plot(v, contacts.scale * x, color="black", lw=1.2, label="a head-on impact turns here")
     middle.plot([contacts.speed_max], [contacts.overlap_max], marker="+", color="tab:blue", ms=9, mew=1.6, linestyle="", label="largest V, largest δ")
-    middle.set(xscale="log", yscale="log", xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="approach speed at first touch, V/V_y",
-               ylabel="largest overlap, δ/R*")
+    middle.set(xscale="log", yscale="log", xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="approach speed at first touch, $V/V_y$",
+               ylabel="largest overlap, $\\delta/R^*$")
     top.stairs(np.maximum(speeds, 0.3), speed, fill=True, color="tab:blue", alpha=0.55, baseline=0.3)
     right.stairs(np.maximum(overlaps, 0.3), overlap, fill=True, color="tab:blue", alpha=0.55, baseline=0.3, orientation="horizontal")
     top.set(yscale="log", ylabel="contacts", title=title, ylim=(0.5, None))
@@ -212,7 +213,7 @@ def write(page, found):
                          *[number(c.quantile("overlap", p)) for p in (0.5, 0.995)], number(c.overlap_max), number(c.limit), f"{c.beyond:.0f}",
                          f"{c.beyond_axis:.0f}"])
     page.table(["deck", "pair", "contacts", "V/V_y: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
-                "law to", "contact-steps beyond the table", "contacts faster than its axis"], rows)
+                "law to", "steps beyond it", "too fast for it"], rows)
     page.origin("Quantiles are read from bins a third of their value wide: good to about 15 %. V_y: yield velocity with the customary 1.6 Y "
-                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); below onset: slower than the true onset of yield. From the "
+                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its inertia axis goes; below onset: slower than the true onset of yield. From the "
                 "`stats.json` of each run (`fix granulaw/stats`) and the law file it names.")

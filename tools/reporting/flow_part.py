@@ -9,7 +9,7 @@ import statistics
 from spread import Sample, welch
 
 from . import files
-from .page import legend_below, number, plt
+from .page import legend_below, number, plt, with_error
 
 REFERENCE = "mpm"
 DECKS = ("drop", "packing", "heap", "compression", "hopper", "silo")
@@ -39,8 +39,15 @@ def differs(a, b):
     return abs(a.mean - b.mean) > 1.96 * math.hypot(a.error, b.error)
 
 
-def deviation(a, b):
-    """(percent of b, its standard error or None); None where b is 0."""
+def unit_of(quantity):
+    """Of a deviation: an angle's in degrees (a share of an angle says nothing), else percent of the reference."""
+    return "degrees" if "degrees" in quantity else "%"
+
+
+def deviation(a, b, unit):
+    """(deviation of a from b, its standard error or None); None where it would be a share of 0."""
+    if unit != "%":
+        return a.mean - b.mean, None if a.error is None or b.error is None else math.hypot(a.error, b.error)
     if b.mean == 0:
         return None
     spread = None if a.error is None or b.error is None else 100 * math.hypot(a.error / b.mean, b.error * a.mean / b.mean**2)
@@ -201,48 +208,52 @@ def picture(deck, names):
         base = deck.quantities[REFERENCE].get(name)
         if base is None:
             continue
-        if base.error is not None and base.mean:
-            own = 100 * base.error / abs(base.mean)
+        unit = unit_of(name)
+        scale = 1 if unit != "%" else 100 / abs(base.mean) if base.mean else 0
+        if base.error is not None:
+            own = scale * base.error
             axis.axhspan(-own, own, color="tab:blue", alpha=0.12, lw=0)
         axis.axhline(0, color="tab:blue", lw=0.8)
         for k, model in enumerate(deck.models):
-            if name not in deck.quantities[model] or not deviation(deck.quantities[model][name], base):
+            if name not in deck.quantities[model] or not deviation(deck.quantities[model][name], base, unit):
                 continue
             sample = deck.quantities[model][name]
-            percent, _ = deviation(sample, base)
-            own = None if sample.error is None or model == REFERENCE else 100 * sample.error / abs(base.mean)
+            off, _ = deviation(sample, base, unit)
+            own = None if sample.error is None or model == REFERENCE else scale * sample.error
             seconds = deck.cost[model].seconds(which)
             dt = deck.cost[model].dt
-            axis.errorbar(seconds.mean, percent, yerr=own, xerr=seconds.error, fmt=MARKERS[k % len(MARKERS)] if model != REFERENCE else "o",
+            axis.errorbar(seconds.mean, off, yerr=own, xerr=seconds.error, fmt=MARKERS[k % len(MARKERS)] if model != REFERENCE else "o",
                           color=COLOURS.get(model) or plt.cm.viridis(0.15 + 0.11 * (k % 8)), capsize=2.5, lw=1,
                           label=words(model) + (f", dt {1e6 * dt:g} µs" if dt else ""))
-        axis.set(title=short, ylabel="deviation from mpm, %" if axis is axes[0][0] else None, xlabel=f"{which} seconds a run")
+        axis.set(title=short, ylabel=f"deviation from mpm, {unit}", xlabel=f"{which} seconds a run")
         axis.margins(x=0.15, y=0.15)
         if ticks[-1] > 4 * ticks[0]:
             axis.set_xscale("log")
-    handles, labels = {}, []
+    handles = {}
     for axis in axes[0]:
         for handle, text in zip(*axis.get_legend_handles_labels()):
             handles.setdefault(text, handle)
-    legend_below(figure, list(handles.values()), list(handles), min(4, len(handles)))
+    texts = [t for m in deck.models for t in handles if t.split(", dt ")[0] == words(m)]
+    legend_below(figure, [handles[t] for t in texts], texts, min(4, len(texts)))
     return figure
 
 
 def cell(sample):
-    return "n/a" if sample is None else number(sample.mean, 4) + (f" ± {sample.error:.1g}" if sample.error is not None else " (no spread)")
+    return "n/a" if sample is None else with_error(sample.mean, sample.error)
 
 
-def against(sample, base):
+def against(sample, base, quantity):
     """Deviation, its standard error, and whether it is significant."""
     if sample is None or base is None:
         return ""
-    found = deviation(sample, base)
+    unit = unit_of(quantity)
+    found = deviation(sample, base, unit)
     if found is None:
         return ""
-    percent, error = found
+    off, error = found
     if error is None:
-        return f"{percent:+.1f} %, no spread: no verdict"
-    return f"{percent:+.1f} ± {error:.1g} %, {'**significant**' if differs(sample, base) else 'not significant'}"
+        return f"{with_error(off, None, plus=True)} {unit}, no spread: no verdict"
+    return f"{with_error(off, error, plus=True)} {unit}, {'**significant**' if differs(sample, base) else 'not significant'}"
 
 
 def cost_cells(deck, model):
@@ -255,7 +266,7 @@ def cost_cells(deck, model):
     if mine and other and other.mean:
         value = mine.mean / other.mean
         spread = None if mine.error is None or other.error is None else value * math.hypot(mine.error / mine.mean, other.error / other.mean)
-        ratio = f"{value:.2f}" + (f" ± {spread:.1g}" if spread is not None and model != REFERENCE else "")
+        ratio = "1" if model == REFERENCE else with_error(value, spread) if spread is not None else number(value)
     return [f"{1e6 * cost.dt:g}" if cost.dt else "n/a", cell(wall), cell(cpu), ratio]
 
 
@@ -270,30 +281,26 @@ def write_deck(page, deck, k):
     elif names and deck.clock():
         page.figure(picture(deck, names), f"flow-{k}-{deck.name}",
                     f"Deviation from the unstretched `mpm` against cost; ± one standard error ({spread}); the band is the reference's own.")
-    head = ["model", "time step, µs", "wall-clock, s a run", "CPU, s a run", "cost / mpm's"]
-    for short, name in names:
-        head += [name, "against mpm"]
+    head = ["model", "time step, µs", "wall-clock, s a run", "CPU, s a run", "cost / mpm's", *[name for _, name in names]]
     rows = []
     for model in models:
         row = [words(model), *cost_cells(deck, model)]
         for _, name in names:
             mine = deck.quantities[model].get(name)
-            row += [cell(mine), "reference" if model == REFERENCE else against(mine, base and base.get(name))]
+            row.append(cell(mine) + "\n" + ("reference" if model == REFERENCE else against(mine, base and base.get(name), name)))
         rows.append(row)
     for model, sentence in deck.stopped.items():
         if model not in models:
-            rows.append([words(model), "n/a", "n/a", "n/a", "n/a", f"stopped: {sentence}"] + [""] * (2 * len(names) - 1))
+            rows.append([words(model), "n/a", "n/a", "n/a", "n/a", f"stopped: {sentence}"] + [""] * (len(names) - 1))
     page.table(head, rows)
     if deck.name == "hopper" and deck.within and (timing := read_timing(deck)):
         page.table(["model", "µs a particle-step, dense bed: median (range)", "over Hertz's, round by round: median (range)"], timing)
     shown = {name for _, name in names}
     rest = [q for q in dict.fromkeys(q for m in models for q in deck.quantities[m]) if q not in shown]
     if rest:
-        others = [m for m in models if m != REFERENCE]
-        page.table(["quantity", *[words(m) for m in models], *[f"{words(m)} against mpm" for m in others]],
-                   [[q, *[cell(deck.quantities[m].get(q)) for m in models],
-                     *[against(deck.quantities[m].get(q), base and base.get(q)) if not q.startswith(COSTS) else "" for m in others]]
-                    for q in rest], fold=f"{len(rest)} other quantities of this deck")
+        full = lambda m, q: cell(deck.quantities[m].get(q)) + ("" if m == REFERENCE or q.startswith(COSTS) else
+                                                               "\n" + against(deck.quantities[m].get(q), base and base.get(q), q))
+        page.table(["quantity", *[words(m) for m in models]], [[q, *[full(m, q) for m in models]] for q in rest], fold=f"{len(rest)} other quantities of this deck")
     page.origin("From " + ", ".join(f"`{s}`" for s in deck.sources) + f"; ± is the standard error, {spread}.")
 
 
@@ -323,7 +330,7 @@ def verdicts(decks):
             for model in deck.models:
                 if model != REFERENCE and name in deck.quantities[model] and name in base:
                     cost = cost_cells(deck, model)
-                    rows.append([deck.title, name, words(model), cost[0], cost[3], against(deck.quantities[model][name], base[name])])
+                    rows.append([deck.title, name, words(model), cost[0], cost[3], against(deck.quantities[model][name], base[name], name)])
     return rows
 
 

@@ -35,19 +35,21 @@ def picture(found):
     for axis, key, what in zip(axes, ("err_force", "err_e"), ("force, over the loading force", "e, absolute")):
         seen = set()
         for row in rows:
-            error = max(100 * row[key], 1e-5)
+            error = 100 * row[key]
+            if error == 0:
+                continue  # the law itself
             name = kind(row, full) + (", as stored" if row["evaluator"] == "curve" else ", as the plug-in reads it")
             stored = row["evaluator"] == "curve"
             axis.loglog(row["bytes"] / 1024, error, linestyle="", marker="o" if stored else "^", color=COLOURS[kind(row, full)],
                         markerfacecolor=None if stored else "white", label=None if name in seen else name)
             seen.add(name)
             if stored:
-                axis.annotate(str(row["nodes"]) if row["slices"] in (0, full["slices"]) else f"{row['slices']} slices",
-                              (row["bytes"] / 1024, error), textcoords="offset points", xytext=(5, 3), fontsize=6.5, color="0.35")
+                axis.annotate(str(row["nodes"]) if row["slices"] in (0, full["slices"]) else f"{row['slices']} slice{'s'[:row['slices'] - 1]}",
+                              (row["bytes"] / 1024, error), textcoords="offset points", xytext=(5, 2), fontsize=6.5, color="0.35")
         if own > 0 and key == "err_e":
             axis.axhline(own, color="0.5", lw=0.8)
             axis.annotate("the law's own stated error", (0.02, own), xycoords=("axes fraction", "data"), textcoords="offset points",
-                          xytext=(0, 3), fontsize=7, color="0.4")
+                          xytext=(0, -9), fontsize=7, color="0.4")
         axis.set(xlabel="kilobytes that a lookup may read", ylabel=f"error of {what}, %")
     handles, names = axes[0].get_legend_handles_labels()
     legend_below(figure, handles, names, 3)
@@ -63,16 +65,21 @@ def write(page, found, path):
     page.figure(picture(found), "law",
                 f"One law ({found['material']}, {full['nodes']} nodes, {full['slices']} slices of {full['ratio_nodes']} nodes), thinned; errors "
                 "against the law as the file has it, the largest over contacts of all sizes and speeds. Numbers at the points: nodes of the "
-                "curve. The plug-in lays every law out anew on octaves of the overlap, so its size does not fall with the nodes.")
-    rows = []
-    for r in found["rows"]:
-        rows.append([f"{r['nodes']} nodes", kind(r, full) + (f" ({r['slices']} slices)" if r["slices"] else ""),
+                "curve; the law itself has no error here and is left out. The plug-in lays every law out anew on octaves of the overlap, so its size does not fall with the nodes.")
+    head = ["curve", "axis", "evaluated by", "kB", "ns, loading: median (range)", "ns, unloading", "force %", "e, absolute"]
+    main, every = [], []
+    for r in sorted(found["rows"], key=lambda r: (-r["slices"], -r["nodes"], r["evaluator"])):
+        row = ([f"{r['nodes']} nodes", kind(r, full) + (f" ({r['slices']} slices)" if r["slices"] else ""),
                      "stored table" if r["evaluator"] == "curve" else "plug-in's", f"{r['bytes'] / 1024:.1f}", span(r, "ns_load"),
-                     span(r, "ns_unload"), f"{100 * r['err_force']:.2g}", f"{r['err_e']:.2g}"])
+                     span(r, "ns_unload"), f"{100 * r['err_force']:.2g}", f"{r['err_e']:.1e}" if r["err_e"] else "0"])
+        every.append(row)
+        if r["nodes"] == full["nodes"] or (r["slices"] == full["slices"] and r["evaluator"] == "curve"):
+            main.append(row)
     hertz = found["hertz"]
-    rows.append(["Hertz's formula", "", "", "0", f"{number(hertz['ns'])} ({number(hertz['ns_low'])} to {number(hertz['ns_high'])})",
-                 "the same", "not applicable", "not applicable"])
-    page.table(["curve", "axis", "evaluated by", "kB", "ns, loading: median (range)", "ns, unloading", "force %", "e, absolute"], rows)
+    main.append(["Hertz's formula", "", "", "0", f"{number(hertz['ns'])} ({number(hertz['ns_low'])} to {number(hertz['ns_high'])})",
+                 "the same", "n/a", "n/a"])
+    page.table(head, main)
+    page.table(head, every, fold=f"All {len(every)} variants")
     stated = f"the solver's error (force {100 * own.get('solver_error_force', 0):.2g} %, e {100 * own.get('solver_error_restitution', 0):.2g} %)"
     if own.get("origin") == "atlas":
         stated += f" and the atlas's (force {100 * own.get('atlas_error_force', 0):.2g} %, e {own.get('atlas_error_restitution', 0):.2g} absolute)"

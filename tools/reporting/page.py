@@ -1,6 +1,6 @@
 """A page that is written twice: as one HTML file that loads nothing, and as Markdown with PNG files beside it.
 
-Texts are plain; `code` between back-quotes and **bold** are the only marks."""
+Texts are plain; `code` between back-quotes and **bold** are the only marks, a line break in a cell begins a second line."""
 import html
 import io
 import math
@@ -24,7 +24,7 @@ plt.rcParams.update({
 STYLE = """
 :root { color-scheme: light; }
 body { font: 15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #222; background: #fff; margin: 0 auto;
-       max-width: 1080px; padding: 1.5rem 1.2rem 4rem; }
+       max-width: 1120px; padding: 1.5rem 1.2rem 4rem; }
 h1 { font-size: 1.7rem; margin: 0 0 .2rem; } h2 { font-size: 1.3rem; margin: 2.6rem 0 .6rem; border-top: 2px solid #333; padding-top: .7rem; }
 h3 { font-size: 1.05rem; margin: 1.7rem 0 .4rem; }
 p { margin: .5rem 0; max-width: 52rem; } .origin, figcaption { color: #555; font-size: .87rem; }
@@ -38,7 +38,9 @@ figure { margin: 1rem 0; } figure svg { width: 100%; height: auto; display: bloc
 table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .22rem .6rem; text-align: right; border-bottom: 1px solid #e4e4e0; vertical-align: top; }
 th { border-bottom: 1.5px solid #555; font-weight: 600; vertical-align: bottom; }
-td:first-child, th:first-child, td.text, th.text { text-align: left; } td.text { min-width: 7rem; }
+td { white-space: nowrap; } td:first-child, th:first-child, td.text, th.text { text-align: left; }
+td.long { white-space: normal; min-width: 13rem; max-width: 24rem; }
+td .second { color: #555; }
 tr:hover td { background: #f7f7f4; }
 .missing { border-left: 4px solid #c77700; background: #fff7ea; padding: .5rem .9rem; margin: .7rem 0; max-width: 52rem; }
 .missing.broken { border-color: #b3261e; background: #fdeeed; }
@@ -50,13 +52,15 @@ details { margin: .6rem 0; } summary { cursor: pointer; color: #14588f; font-siz
 
 def _inline(text):
     text = html.escape(str(text), quote=False)
+    first, *rest = text.split("\n")
+    text = first + "".join(f'<br><span class="second">{line}</span>' for line in rest)
     text = re.sub(r"`([^`]+)`", r"<code>\1</code>", text)
     return re.sub(r"\*\*([^*]+)\*\*", r"<strong>\1</strong>", text)
 
 
 def _number(cell):
-    """Cells that are aligned to the right: numbers, and words of up to two letters more (n/a, 3 %)."""
-    return bool(re.match(r"^[-+−±<≤>≥]?\s*[\d.]", cell)) or len(cell) < 4
+    """Cells that are aligned to the right: numbers, and n/a and the like."""
+    return bool(re.match(r"^[-+−±<≤>≥]?\s*[\d.]", cell)) or len(cell) < 5
 
 
 class Page:
@@ -99,7 +103,8 @@ class Page:
         """`fold`: a line under which the table is hidden until it is asked for."""
         rows = [[str(c) for c in row] for row in rows]
         text = [k > 0 and bool(rows) and sum(not _number(r[k]) for r in rows) > len(rows) / 2 for k in range(len(head))]
-        mark = lambda k: ' class="text"' if text[k] else ""
+        long = [any(len(line) > 45 for r in rows for line in r[k].split("\n")) for k in range(len(head))]
+        mark = lambda k: f' class="{"text" if text[k] else ""}{" long" if long[k] else ""}"' if text[k] or long[k] else ""
         out = ['<div class="scroll"><table><thead><tr>', *[f"<th{mark(k)}>{_inline(h)}</th>" for k, h in enumerate(head)],
                "</tr></thead><tbody>"]
         for row in rows:
@@ -107,7 +112,7 @@ class Page:
         body = "".join(out) + "</tbody></table></div>"
         if fold:
             body = f"<details><summary>{_inline(fold)}</summary>{body}</details>"
-        cell = lambda c: c.replace("|", "\\|").replace("\n", " ")
+        cell = lambda c: c.replace("|", "\\|").replace("\n", "<br>")
         plain = ["| " + " | ".join(map(cell, head)) + " |", "|---|" + "".join("---|" if t else "---:|" for t in text[1:])]
         plain += ["| " + " | ".join(map(cell, row)) + " |" for row in rows]
         self._add(body, (f"{fold}:\n\n" if fold else "") + "\n".join(plain))
@@ -130,7 +135,7 @@ class Page:
         self._add(f"<figure>{svg}<figcaption>{_inline(caption)}</figcaption></figure>", f"![{name}]({name}.png)\n\n*{caption}*")
 
     def to_html(self):
-        links = "".join(f'<a href="#{name}">{_inline(title)}</a>' for title, name in self._sections)
+        links = " ".join(f'<a href="#{name}">{_inline(title)}</a>' for title, name in self._sections)
         return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
                 f"<title>{_inline(self.title)}</title><style>{STYLE}</style></head><body>\n<h1>{_inline(self.title)}</h1>"
                 f"<p>{_inline(self.lead)}</p><nav>{links}</nav>\n" + "\n".join(self._html) + "\n</body></html>\n")
@@ -162,6 +167,19 @@ def legend_below(figure, handles, labels, columns):
     strip = (0.19 * rows + 0.12) / figure.get_size_inches()[1]
     figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
     figure.legend(handles, labels, loc="lower center", ncols=columns)
+
+
+def with_error(value, error, plus=False):
+    """`value ± error` with the error to two digits at most and the value to the same decimals; `plus`: the sign of a change.
+
+    `error` None: no spread is known, and the value stands with four digits."""
+    sign = "+" if plus and value > 0 else ""
+    if error is None:
+        return sign + number(value, 4).replace("-", "−")
+    if error == 0 or not 1e-4 <= max(abs(value), error) < 1e5:
+        return sign + f"{value:.4g} ± {error:.1g}".replace("-", "−")
+    decimals = max(0, (1 if error / 10**math.floor(math.log10(error)) < 2 else 0) - math.floor(math.log10(error)))
+    return sign + f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
 
 
 def number(value, digits=3):

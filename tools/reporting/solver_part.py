@@ -32,7 +32,7 @@ def groups(rows):
 def picture(study):
     figure, axes = plt.subplots(len(study["jobs"]), 2, figsize=(9.6, 3.5 * len(study["jobs"])), squeeze=False, sharex="row")
     for line, job in zip(axes, study["jobs"]):
-        for axis, key, what in zip(line, ("L2_force", "err_e"), ("loading force F(δ), L2", "restitution e")):
+        for axis, key, what in zip(line, ("L2_force", "err_e"), ("loading force, L2", "e")):
             for name, rows in groups(job["rows"]).items():
                 first = rows[0]
                 single = first["precision"] == "single"
@@ -43,7 +43,7 @@ def picture(study):
             floor = 100 * abs(job["reference"][key])
             if floor > 0:
                 axis.axhspan(axis.get_ylim()[0] if floor > axis.get_ylim()[0] else floor / 3, floor, color="0.85", zorder=0)
-            axis.set(xlabel="CPU seconds, one core", ylabel=f"error of {what}, %", title=JOBS.get(job["name"], job["name"]))
+            axis.set(xlabel="CPU seconds, one core", ylabel=f"error of {what}, %", title=JOBS.get(job["name"], job["name"]).replace("V/V_y", "$V/V_y$"))
     handles, names = axes[0][0].get_legend_handles_labels()
     legend_below(figure, handles, names, 2)
     return figure
@@ -71,10 +71,10 @@ def write(page, study, path, commands):
             cells = []
             for target in TARGETS:
                 row = cheapest(group, target)
-                cells.append("none" if row is None else f"{number(row['cpu_s'])} s ({row['cells']} cells; e {100 * row['err_e']:+.2g} %)")
+                cells.append("none" if row is None else f"{number(row['cpu_s'])} s\n{row['cells']} cells, e {100 * row['err_e']:+.2f} %".replace("-", "−"))
             rows.append([name, *cells])
         page.table(["cheapest run with error of F within", *[f"{100 * t:g} %" for t in TARGETS]], rows)
-        page.origin(f"The error of e of that run in brackets; {own}. `none`: no resolution of this study reaches it.")
+        page.origin(f"Second line: its resolution and its error of e; {own}. `none`: no resolution of this study reaches it.")
         page.table(["grid", "precision", "cells", "shifted grids", "points", "CPU s", "million updates/s", "F, L2 %", "F_max %", "e %",
                     "ripple %", "energy error"],
                    [[r["grid"], r["precision"], r["cells"], r["grids"], r["points"], number(r["cpu_s"]), number(r["Mupd_s"]),
