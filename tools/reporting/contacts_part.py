@@ -143,6 +143,7 @@ def read(decks):
                         laws[law, name] = Law(law, name)
                     kinds.setdefault(key, Contacts(key, laws[law, name], entry, path)).add(entry, path)
         except files.Unreadable as error:
+            error.deck = "demo" if deck.within else deck.name
             broken.append(error)
             continue
         if kinds:
@@ -199,7 +200,17 @@ def picture(all_contacts):
     return figure
 
 
+def glance(found):
+    rows = []
+    for deck, kinds in found.items():
+        c = max(kinds, key=lambda c: c.overlap_max / c.limit)
+        rows.append([f"law used by {deck}, {name_of(c)}", f"V/V_y to {number(c.speed_max)}\nlaw to {number(c.fastest) if c.fastest else 'not stated'}",
+                     f"δ/R* to {number(c.overlap_max)}\nlaw to {number(c.limit)}"])
+    return rows
+
+
 def write(page, found):
+    page.glance(glance(found))
     page.text("Each contact has a speed at first touch and a largest overlap; the plug-in counts the two apart (not their pairs), in eight bins a "
               "decade: the bars above and beside each map. White: what the law was computed for. Black: where a head-on impact of two free "
               "bodies turns (quasi-static). Overlaps that speed alone does not explain come from static load and from several contacts at once.")

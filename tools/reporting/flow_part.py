@@ -252,7 +252,7 @@ def against(sample, base, quantity):
         return ""
     off, error = found
     if error is None:
-        return f"{with_error(off, None, plus=True)} {unit}, no spread: no verdict"
+        return f"{with_error(off, None, plus=True)} {unit}, no spread"
     return f"{with_error(off, error, plus=True)} {unit}, {'**significant**' if differs(sample, base) else 'not significant'}"
 
 
@@ -274,25 +274,30 @@ def write_deck(page, deck, k):
     page.heading(deck.title[0].upper() + deck.title[1:])
     names, models = observables(deck), deck.models
     base = deck.quantities.get(REFERENCE)
-    spread = ("spread within one run (windows of the flow, particles)" if deck.within else
+    spread = ("from the spread within one run: windows of the flow, particles" if deck.within else
               f"{min(len(next(iter(q.values())).values) for q in deck.quantities.values())} seeds")
     if base is None:
         page.text(f"No unstretched `mpm` runs here: nothing to hold {', '.join(models)} against.")
     elif names and deck.clock():
         page.figure(picture(deck, names), f"flow-{k}-{deck.name}",
                     f"Deviation from the unstretched `mpm` against cost; ± one standard error ({spread}); the band is the reference's own.")
-    head = ["model", "time step, µs", "wall-clock, s a run", "CPU, s a run", "cost / mpm's", *[name for _, name in names]]
-    rows = []
+    costs = {m: cost_cells(deck, m) for m in models}
+    kept = [k for k in range(4) if any(c[k] != "n/a" for c in costs.values())]
+    head = ["time step, µs", "wall-clock, s a run", "CPU, s a run", "cost / mpm's"]
+    head = ["model", *[head[k] for k in kept], *[name for _, name in names]]
+    rows, stopped = [], []
     for model in models:
-        row = [words(model), *cost_cells(deck, model)]
+        row = [words(model), *[costs[model][k] for k in kept]]
         for _, name in names:
             mine = deck.quantities[model].get(name)
             row.append(cell(mine) + "\n" + ("reference" if model == REFERENCE else against(mine, base and base.get(name), name)))
         rows.append(row)
     for model, sentence in deck.stopped.items():
         if model not in models:
-            rows.append([words(model), "n/a", "n/a", "n/a", "n/a", f"stopped: {sentence}"] + [""] * (len(names) - 1))
+            stopped.append(f"{words(model)}: {sentence}")
     page.table(head, rows)
+    for sentence in stopped:
+        page.text(f"**Stopped.** {sentence}.")
     if deck.name == "hopper" and deck.within and (timing := read_timing(deck)):
         page.table(["model", "µs a particle-step, dense bed: median (range)", "over Hertz's, round by round: median (range)"], timing)
     shown = {name for _, name in names}
@@ -334,7 +339,34 @@ def verdicts(decks):
     return rows
 
 
+def glance(decks):
+    """One row for each other model: its cost and its deviations, over all decks."""
+    found = {}
+    for deck in decks:
+        base = deck.quantities.get(REFERENCE)
+        for model in deck.models if base else []:
+            if model == REFERENCE:
+                continue
+            entry = found.setdefault(model, {"cost": [], "tested": 0, "off": []})
+            seconds = [deck.cost[m].seconds(deck.clock()) if deck.clock() else None for m in (model, REFERENCE)]
+            if all(seconds):
+                entry["cost"].append(seconds[0].mean / seconds[1].mean)
+            for short, name in observables(deck):
+                mine = deck.quantities[model].get(name)
+                verdict = differs(mine, base[name]) if mine and name in base else None
+                entry["tested"] += verdict is not None
+                if verdict:
+                    entry["off"].append(f"{short} in {deck.title} {with_error(*deviation(mine, base[name], unit_of(name)), plus=True)} {unit_of(name)}")
+    rows = []
+    for model, e in found.items():
+        span = "n/a" if not e["cost"] else f"{min(e['cost']):.2f}" + (f" to {max(e['cost']):.2f}" if len(e["cost"]) > 1 else "")
+        rows.append([f"flow under {words(model)}", f"{span} times mpm's cost", f"{len(e['off'])} of {e['tested']} observables differ significantly from mpm"
+                     + "".join(f"\n{o}" for o in e["off"][:3]) + (f"\nand {len(e['off']) - 3} more" if len(e["off"]) > 3 else "")])
+    return rows
+
+
 def write(page, decks):
+    page.glance(glance(decks))
     page.text("The reference is model `mpm` unstretched: the computed law, with the errors of parts (a) and (b). So a deviation here is what "
               "another law, or stretching, does to the flow, not an error against an experiment.")
     rows = verdicts(decks)

@@ -27,6 +27,9 @@ def write(page, found, path):
     rows = found["rows"]
     failed = [r["name"] for r in rows if r["verdict"].startswith("FAILED")]
     refused = [r["name"] for r in rows if r["verdict"].startswith("refused")]
+    energy = max((r["energy_error"] for r in rows if r.get("energy_error") is not None), default=None)
+    page.glance([[f"hard cases of the solver: {len(rows)}", f"{sum(r.get('cpu_s') or 0 for r in rows):.0f} CPU s in all",
+                  f"{len(failed)} failed, {len(refused)} refused" + (f"\nenergy error at most {energy:.0e}" if energy is not None else "")]])
     page.text(f"{len(rows)} cases: {len(rows) - len(failed) - len(refused)} stable with their energy balance closed, {len(refused)} refused with a "
               f"sentence, {len(failed)} failed" + (": **" + "**, **".join(failed) + "**." if failed else "."))
     page.table(["case", "what it stresses", "e", "from grid to grid", "deviation from reference", "reference", "energy error", "δ_max/R", "steps",

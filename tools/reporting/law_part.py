@@ -56,11 +56,23 @@ def picture(found):
     return figure
 
 
+def glance(found):
+    full, own, rows = whole(found["rows"]), found["own_errors"], []
+    stated = 100 * max(own.get("solver_error_force", 0), own.get("atlas_error_force", 0))
+    for r in found["rows"]:
+        if r["evaluator"] == "fast" and r["nodes"] == full["nodes"] and r["slices"] in (0, full["slices"]):
+            rows.append([f"law: lookup by the plug-in, {kind(r, full)}" if full["slices"] else "law: lookup by the plug-in",
+                         f"{number(r['ns_load'])} ns loading, {number(r['ns_unload'])} ns unloading\nHertz's formula {number(found['hertz']['ns'])} ns; "
+                         f"{r['bytes'] / 1024:.0f} kB", f"force {number(100 * r['err_force'], 2)} %, e {number(r['err_e'], 2)}\nbesides the law's own {stated:.2g} %"])
+    return rows
+
+
 def span(row, name):
     return f"{number(row[name])} ({number(row[name + '_low'])} to {number(row[name + '_high'])})"
 
 
 def write(page, found, path):
+    page.glance(glance(found))
     full, own = whole(found["rows"]), found["own_errors"]
     page.figure(picture(found), "law",
                 f"One law ({found['material']}, {full['nodes']} nodes, {full['slices']} slices of {full['ratio_nodes']} nodes), thinned; errors "

@@ -68,7 +68,11 @@ class Page:
 
     def __init__(self, title, lead):
         self.title, self.lead = title, lead
-        self._html, self._markdown, self._figures, self._sections = [], [], {}, []
+        self._html, self._markdown, self._figures, self._sections, self._glance = [], [], {}, [], []
+
+    def glance(self, rows):
+        """Rows of the table at the top: what, its speed, its error."""
+        self._glance += rows
 
     def _add(self, as_html, as_markdown):
         self._html.append(as_html)
@@ -101,6 +105,9 @@ class Page:
 
     def table(self, head, rows, fold=None):
         """`fold`: a line under which the table is hidden until it is asked for."""
+        self._add(*self._table(head, rows, fold))
+
+    def _table(self, head, rows, fold=None):
         rows = [[str(c) for c in row] for row in rows]
         text = [k > 0 and bool(rows) and sum(not _number(r[k]) for r in rows) > len(rows) / 2 for k in range(len(head))]
         long = [any(len(line) > 45 for r in rows for line in r[k].split("\n")) for k in range(len(head))]
@@ -115,7 +122,10 @@ class Page:
         cell = lambda c: c.replace("|", "\\|").replace("\n", "<br>")
         plain = ["| " + " | ".join(map(cell, head)) + " |", "|---|" + "".join("---|" if t else "---:|" for t in text[1:])]
         plain += ["| " + " | ".join(map(cell, row)) + " |" for row in rows]
-        self._add(body, (f"{fold}:\n\n" if fold else "") + "\n".join(plain))
+        return body, (f"{fold}:\n\n" if fold else "") + "\n".join(plain)
+
+    def _glance_table(self):
+        return self._table(["at a glance", "speed", "error"], self._glance) if self._glance else ("", "")
 
     def figure(self, figure, name, caption):
         """A matplotlib figure, `name`.png beside the Markdown, SVG in the HTML."""
@@ -138,10 +148,10 @@ class Page:
         links = " ".join(f'<a href="#{name}">{_inline(title)}</a>' for title, name in self._sections)
         return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
                 f"<title>{_inline(self.title)}</title><style>{STYLE}</style></head><body>\n<h1>{_inline(self.title)}</h1>"
-                f"<p>{_inline(self.lead)}</p><nav>{links}</nav>\n" + "\n".join(self._html) + "\n</body></html>\n")
+                f"<p>{_inline(self.lead)}</p><nav>{links}</nav>\n{self._glance_table()[0]}\n" + "\n".join(self._html) + "\n</body></html>\n")
 
     def to_markdown(self):
-        return f"# {self.title}\n\n{self.lead}\n\n" + "\n\n".join(self._markdown) + "\n"
+        return f"# {self.title}\n\n{self.lead}\n\n{self._glance_table()[1]}\n\n" + "\n\n".join(self._markdown) + "\n"
 
     def write(self, folder):
         """report.html, report.md and the pictures, each under a temporary name first: a reader sees the old file or the new."""
@@ -170,15 +180,17 @@ def legend_below(figure, handles, labels, columns):
 
 
 def with_error(value, error, plus=False):
-    """`value ± error` with the error to two digits at most and the value to the same decimals; `plus`: the sign of a change.
+    """`value ± error` with two digits of the error and the value to the same decimals; `plus`: the sign of a change.
 
-    `error` None: no spread is known, and the value stands with four digits."""
+    `error` None: no spread is known, and the value stands alone."""
     sign = "+" if plus and value > 0 else ""
     if error is None:
-        return sign + number(value, 4).replace("-", "−")
+        return sign + number(value, 3 if plus else 4).replace("-", "−")
+    if error < 1e-9 * abs(value):  # of equal numbers: rounding
+        error = 0
     if error == 0 or not 1e-4 <= max(abs(value), error) < 1e5:
         return sign + f"{value:.4g} ± {error:.1g}".replace("-", "−")
-    decimals = max(0, (1 if error / 10**math.floor(math.log10(error)) < 2 else 0) - math.floor(math.log10(error)))
+    decimals = max(0, 1 - math.floor(math.log10(error)))
     return sign + f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
 
 

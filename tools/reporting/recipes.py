@@ -23,16 +23,21 @@ def stretched(deck, out, factors, words):
     return [f"{PYTHON} examples/{deck}/run.py -o {out}/{deck}-stretch{s} --models mpm --stretch {s}{words}" for s in factors]
 
 
+def deck(name, out, quick=False):
+    """One deck under all models and stretches; name "demo": tools/demo."""
+    words = " --quick --seeds 2" if quick else ""
+    if name == "demo":
+        return ["tools/demo --fresh"]
+    if name == "hopper":  # its run.py takes all stretches at once
+        return [f"{PYTHON} examples/hopper/run.py -o {out}/hopper --stretches 3{'' if quick else ' 10 30'}{words}"]
+    return [f"{PYTHON} examples/{name}/run.py -o {out}/{name}{words}", *stretched(name, out, (3,) if quick else (3, 10, 30), words)]
+
+
 def flow(out, quick):
     commands = ["cmake --build --preset release --target mpm liggghts-mpm"]
-    words = " --quick --seeds 2" if quick else ""
-    for deck in ("packing",) if quick else ("packing", "heap", "silo"):
-        commands.append(f"{PYTHON} examples/{deck}/run.py -o {out}/{deck}{words}")
-        commands += stretched(deck, out, (3,) if quick else (3, 10, 30), words)
-    if (ROOT / "examples/hopper/run.py").exists():
-        commands.append(f"{PYTHON} examples/hopper/run.py -o {out}/hopper --stretches 3{'' if quick else ' 10 30'}{words}")
-    elif not quick:
-        commands.append("tools/demo")
+    for name in ("packing", "hopper") if quick else ("packing", "heap", "hopper", "silo"):
+        if (ROOT / "examples" / name / "run.py").exists():
+            commands += deck(name, out, quick)
     return commands
 
 

@@ -49,15 +49,28 @@ def picture(study):
     return figure
 
 
-def cheapest(rows, target):
-    """The cheapest run from which on all finer ones of its group keep |L2 error of F| <= target; None: none does."""
+def cheapest(rows, target, keys=("L2_force",)):
+    """The cheapest run of a group from which on all finer ones keep these errors within `target`; None: none does."""
     for k, row in enumerate(rows):
-        if all(r["L2_force"] <= target for r in rows[k:]):
+        if all(abs(r[key]) <= target for r in rows[k:] for key in keys):
             return row
     return None
 
 
+def glance(study):
+    rows = []
+    for job in study["jobs"]:
+        for keys, what in ((("L2_force",), "F within 0.3 %"), (("L2_force", "err_e"), "F and e within 0.3 %")):
+            found = [r for r in (cheapest(g, 0.003, keys) for g in groups(job["rows"]).values()) if r]
+            if found:
+                row = min(found, key=lambda r: r["cpu_s"])
+                rows.append([f"solver: {JOBS.get(job['name'], job['name'])}, {what}", f"{number(row['cpu_s'])} CPU s\n{label(row)}, {row['cells']} cells",
+                             f"F {100 * row['L2_force']:.2f} %, e {100 * row['err_e']:+.2f} %".replace("-", "−")])
+    return rows
+
+
 def write(page, study, path, commands):
+    page.glance(glance(study))
     page.figure(picture(study), "solver",
                 "Error against cost. Each line is one grid and precision, its points are growing resolutions. Grey: how far the reference "
                 "itself is from the next coarser one; errors in it say no more than that. Single precision changes no digit of the error and "
