@@ -108,7 +108,7 @@ class Deck:
 def words(model):
     """mpm-stretch10 -> `mpm` stretched by 10."""
     stretch, softer = re.match(r"(\w+)-stretch([\d.]+)$", model), re.match(r"(\w+)-softer([\d.]+)$", model)
-    return f"{stretch[1]}, stretched by {stretch[2]}" if stretch else f"{softer[1]}, E lowered for {softer[2]} dt" if softer else model
+    return f"{stretch[1]}, stretched by {stretch[2]}" if stretch else f"{softer[1]}, E lowered, dt × {softer[2]}" if softer else model
 
 
 def read_example(decks, path):
