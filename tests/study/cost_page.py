@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""docs/cost.md and docs/cost.png from the CSV of granulaw_cost_study: cost_page.py COST.csv DOCS_FOLDER"""
-import csv
-import platform
+"""docs/cost.md and docs/cost.png from what granulaw_cost_study wrote: cost_page.py COST.json DOCS_FOLDER"""
+import json
 import sys
 from pathlib import Path
 
@@ -22,32 +21,25 @@ STYLE = {
 MARKS = {"plastic": [(0.3, 0.01), (1.0, 0.003)], "elastic": [(0.5, 0.002)]}
 
 
-def processor():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.processor()
-
-
 def main():
     if len(sys.argv) != 3:
-        sys.exit("cost_page.py COST.csv DOCS_FOLDER")
-    rows = list(csv.DictReader(open(sys.argv[1])))
+        sys.exit("cost_page.py COST.json DOCS_FOLDER")
+    study = json.loads(Path(sys.argv[1]).read_text())
+    jobs = {job["name"]: job for job in study["jobs"]}
     docs = Path(sys.argv[2])
 
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2), sharey=True)
     for axis, (job, title) in zip(axes, JOBS.items()):
-        own = [r for r in rows if r["job"] == job]
-        reference, own = own[0], own[1:]
+        reference, own = jobs[job]["reference"], jobs[job]["rows"]
         for (grid, precision), (colour, marker, line) in STYLE.items():
-            points = [(float(r["cpu_s"]), abs(float(r["L2_force"]))) for r in own
-                      if (r["grid"], r["precision"], r["grids"]) == (grid, precision, "4")]
+            points = [(r["cpu_s"], r["L2_force"]) for r in own
+                      if (r["grid"], r["precision"], r["grids"]) == (grid, precision, 4)]
             axis.loglog(*zip(*points), color=colour, marker=marker, linestyle=line, label=f"{grid}, {precision}")
-        single = [(float(r["cpu_s"]), float(r["L2_force"])) for r in own
-                  if (r["grid"], r["precision"], r["grids"]) == ("mapped", "double", "1")]
+        single = [(r["cpu_s"], r["L2_force"]) for r in own
+                  if (r["grid"], r["precision"], r["grids"]) == ("mapped", "double", 1)]
         axis.loglog(*zip(*single), color="grey", marker=".", linestyle=":", label="mapped, one grid")
         axis.loglog(*zip(*MARKS[job]), "kx", markersize=9, label="mark to beat")
-        axis.axhline(abs(float(reference["L2_force"])), color="black", linewidth=0.7)
+        axis.axhline(reference["L2_force"], color="black", linewidth=0.7)
         axis.set_title(title, fontsize=10)
         axis.set_xlabel("CPU seconds, one core")
         axis.grid(True, which="both", alpha=0.2)
@@ -61,7 +53,7 @@ def main():
         "",
         "![L2 error of the loading force against CPU seconds](cost.png)",
         "",
-        f"One core of: {processor()}. Four shifted grids (or one, dotted), three grids, both precisions; black line: how far",
+        f"One core of: {study['processor']}. Four shifted grids (or one, dotted), three grids, both precisions; black line: how far",
         "the reference (mapped, 56 cells, 8 shifted grids, Courant number 0.5) is from the same at 40 cells. L2: deviation of the",
         "treated loading force over 0.05 to 1 delta_max. F_max and e: deviation. Ripple: rms of raw/treated force - 1 over 0.25 to 1",
         "delta_max, that is, of the mean of the shifted grids. The treated force of a single grid (dotted) is as good as that of",
@@ -75,12 +67,11 @@ def main():
         text += [f"## {title[0].upper()}{title[1:]}", "",
                  "| grid | precision | cells | shifted grids | points | CPU s | million updates/s | L2 % | F_max % | e % | ripple % | energy error |",
                  "|---|---|---|---|---|---|---|---|---|---|---|---|"]
-        for k, r in enumerate(row for row in rows if row["job"] == job):
-            percent = [f"{100 * float(r[c]):+.3f}" if c.startswith("err") else f"{100 * float(r[c]):.3f}"
-                       for c in ("L2_force", "err_force", "err_e", "ripple")]
+        for k, r in enumerate([jobs[job]["reference"], *jobs[job]["rows"]]):
+            percent = [f"{100 * r[c]:{'+' if c.startswith('err') else ''}.3f}" for c in ("L2_force", "err_force", "err_e", "ripple")]
             name = r["grid"] + (" (against the reference)" if k == 0 else "")
-            text.append("| " + " | ".join([name, r["precision"], r["cells"], r["grids"], r["points"], r["cpu_s"],
-                                           f"{float(r['Mupd_s']):.0f}", *percent, r["energy"]]) + " |")
+            text.append("| " + " | ".join([name, r["precision"], str(r["cells"]), str(r["grids"]), str(r["points"]),
+                                           f"{r['cpu_s']:.4g}", f"{r['Mupd_s']:.0f}", *percent, f"{r['energy']:.2g}"]) + " |")
         text.append("")
     (docs / "cost.md").write_text("\n".join(text))
 

@@ -1,24 +1,28 @@
 // Error against CPU seconds for every grid and precision: the numbers behind docs/cost.md and its picture.
 //
-//   cost_study OUT.csv [QUICK]
+//   cost_study OUT.json [quick]           quick: the plastic impact alone, coarser (half a minute)
 //
 // Two jobs, one core: the plastic impact E*/Y = 100, V/V_y = 100, and the elastic impact that Hertz would
-// stop at 0.002 R. Reference: the mapped grid at 56 cells, 8 shifted grids, Courant number 0.5; the first two
-// lines hold the same at 40 cells: how good the reference is. Columns: job, grid, precision, cells, grids
-// (shifted), points, CPU seconds, million point updates a second, L2 deviation of the treated loading force
-// over 0.05 to 1 delta_max, deviation of F_max and of e, raw ripple (rms of F/fit - 1 over 0.25 to 1
-// delta_max), energy error.
+// stop at 0.002 R. Reference: the mapped grid at 56 cells, 8 shifted grids, Courant number 0.5; "reference"
+// holds the same at 40 cells: how good the reference is. Of each run, in the file: job, grid, precision,
+// cells, grids (shifted), points, cpu_s, Mupd_s: million point updates a second, L2_force: L2 deviation of
+// the treated loading force over 0.05 to 1 delta_max, err_force and err_e: deviation of F_max and of e,
+// ripple: rms of F/fit - 1 over 0.25 to 1 delta_max, energy: energy error. Deviations and errors: relative.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "../verification/references.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "base/version.hpp"
 #include "solver/ripple.hpp"
 #include "solver/runs.hpp"
 
@@ -40,39 +44,74 @@ double distance(const RunResult& found, const RunResult& reference)
   return std::sqrt(difference / norm);
 }
 
-std::string line(const std::string& job, const RunOptions& o, const RunResult& r, const RunResult& reference)
+using nlohmann::json;
+
+/// Six digits: more would be noise.
+double rounded(double value)
 {
-  const RunSummary& s = r.summary;
-  const std::string text = fmt::format(
-      "{},{},{},{},{},{},{:.4g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.2g}\n", job, name_of(o.grid),
-      o.precision == Precision::single ? "single" : "double", o.resolution, o.phases, s.points, s.cpu_s,
-      s.point_updates_per_s / 1e6, distance(r, reference), s.force_max / reference.summary.force_max - 1,
-      s.restitution / reference.summary.restitution - 1, s.ripple, s.energy_error);
-  fmt::print("{}", text);
-  std::fflush(stdout);
-  return text;
+  return std::stod(fmt::format("{:.6g}", value));
 }
 
-std::string study(const std::string& job, const Sphere& sphere, double velocity, bool quick)
+json row(const std::string& job, const RunOptions& o, const RunResult& r, const RunResult& reference)
+{
+  const RunSummary& s = r.summary;
+  const json found = {
+      {"job", job},
+      {"grid", name_of(o.grid)},
+      {"precision", o.precision == Precision::single ? "single" : "double"},
+      {"cells", o.resolution},
+      {"grids", o.phases},
+      {"points", s.points},
+      {"cpu_s", rounded(s.cpu_s)},
+      {"Mupd_s", rounded(s.point_updates_per_s / 1e6)},
+      {"L2_force", rounded(distance(r, reference))},
+      {"err_force", rounded(s.force_max / reference.summary.force_max - 1)},
+      {"err_e", rounded(s.restitution / reference.summary.restitution - 1)},
+      {"ripple", rounded(s.ripple)},
+      {"energy", rounded(s.energy_error)},
+  };
+  fmt::print("{}\n", found.dump());
+  std::fflush(stdout);
+  return found;
+}
+
+json study(const std::string& job, const Sphere& sphere, double velocity, bool quick)
 {
   RunOptions o;
   o.grid = GridKind::mapped, o.precision = Precision::full;
-  o.resolution = quick ? 28 : 56, o.phases = 8, o.courant = 0.5;
+  o.resolution = quick ? 40 : 56, o.phases = 8, o.courant = 0.5;
   const RunResult reference = run_impact(sphere, velocity, o);
-  o.resolution = quick ? 20 : 40;
-  std::string text = line(job, o, run_impact(sphere, velocity, o), reference);
+  json found = {{"name", job}, {"reference_cells", o.resolution}, {"rows", json::array()}};
+  o.resolution = quick ? 28 : 40;
+  found["reference"] = row(job, o, run_impact(sphere, velocity, o), reference);
   o = {};
   for (const GridKind grid : {GridKind::mapped, GridKind::tartan, GridKind::updated})
     for (const Precision precision : {Precision::full, Precision::single}) {
       if (grid == GridKind::updated && precision == Precision::single) continue;
       for (const int phases : {1, 4})
         for (const int cells : {8, 12, 16, 24, 32}) {
-          if (cells > (quick ? 12 : grid == GridKind::updated ? 24 : 32)) continue;
+          if (cells > (quick ? 16 : grid == GridKind::updated ? 24 : 32)) continue;
           if (phases == 1 && grid != GridKind::mapped) continue;
           o.grid = grid, o.precision = precision, o.resolution = cells, o.phases = phases;
-          text += line(job, o, run_impact(sphere, velocity, o), reference);
+          found["rows"].push_back(row(job, o, run_impact(sphere, velocity, o), reference));
         }
     }
+  return found;
+}
+
+std::string processor()
+{
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(std::min(line.find(": ") + 2, line.size()));
+  return "unknown";
+}
+
+std::string utc_now()
+{
+  char text[32];
+  const std::time_t now = std::time(nullptr);
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
   return text;
 }
 
@@ -81,16 +120,22 @@ std::string study(const std::string& job, const Sphere& sphere, double velocity,
 int main(int argc, char** argv)
 {
   if (argc < 2) {
-    fmt::print(stderr, "cost_study OUT.csv [quick]\n");
+    fmt::print(stderr, "cost_study OUT.json [quick]\n");
     return 2;
   }
   try {
     const bool quick = argc > 2;
-    std::string text =
-        "job,grid,precision,cells,grids,points,cpu_s,Mupd_s,L2_force,err_force,err_e,ripple,energy\n";
-    text += study("plastic", reference::unit_sphere(100), 100 * yield_velocity(1, 0.01, 1), quick);
-    text += study("elastic", reference::unit_sphere(0), reference::elastic_impact_velocity(), quick);
-    write_atomically(argv[1], [&](const std::string& path) { std::ofstream(path) << text; });
+    json found = {{"study", "cost"},      {"granulaw_version", version()}, {"git_hash", git_hash()},
+                  {"created", utc_now()}, {"processor", processor()},      {"quick", quick},
+                  {"jobs", json::array()}};
+    const auto finished = [&](const json& job) {  // written job by job: a killed study keeps the first
+      found["jobs"].push_back(job);
+      write_atomically(argv[1],
+                       [&](const std::string& path) { std::ofstream(path) << found.dump(1) << "\n"; });
+    };
+    finished(study("plastic", reference::unit_sphere(100), 100 * yield_velocity(1, 0.01, 1), quick));
+    if (!quick)
+      finished(study("elastic", reference::unit_sphere(0), reference::elastic_impact_velocity(), quick));
   } catch (const Error& error) {
     fmt::print(stderr, "cost_study: {}\n", error.what());
     return 2;

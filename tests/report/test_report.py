@@ -1,0 +1,280 @@
+#!/usr/bin/python3
+"""tools/report: what the page says of files whose numbers are known, of missing files and of damaged ones."""
+import contextlib
+import html.parser
+import importlib.machinery
+import importlib.util
+import io
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "examples" / "common"), str(pathlib.Path(__file__).resolve().parent)]
+import run_files  # noqa: E402
+from reporting import contacts_part, page, solver_part  # noqa: E402
+
+
+def module(path):
+    loader = importlib.machinery.SourceFileLoader("report_tool", str(path))
+    found = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(found)
+    return found
+
+
+TOOL = module(ROOT / "tools" / "report")
+
+
+def without_drawing(folder):
+    """The same in this process, figures counted but not drawn, for speed: (exit status, stderr)."""
+    def figure(self, picture, name, caption):
+        page.plt.close(picture)
+        self.text(f"figure {name}")
+    told, drawn = io.StringIO(), page.Page.figure
+    page.Page.figure = figure
+    try:
+        with contextlib.redirect_stderr(told), contextlib.redirect_stdout(io.StringIO()):
+            status = TOOL.main(["--from", str(folder), "-o", str(folder / "page")])
+    finally:
+        page.Page.figure = drawn
+    return status, told.getvalue()
+
+
+def report(folder, *words):
+    return subprocess.run([ROOT / "tools" / "report", "--from", folder, "-o", folder / "page", *words], capture_output=True, text=True, cwd=folder)
+
+
+class Loads(html.parser.HTMLParser):
+    """All that a browser would fetch, and all script."""
+
+    def __init__(self):
+        super().__init__()
+        self.found, self.ids, self.figures = [], [], 0
+
+    def handle_starttag(self, tag, attributes):
+        self.figures += tag == "svg"
+        if tag in ("script", "link", "iframe", "object", "embed", "base", "form", "img", "image"):
+            self.found.append(tag)
+        for name, value in attributes:
+            value = value or ""
+            if name == "id":
+                self.ids.append(value)
+            if name.startswith("on") or (name in ("src", "href", "xlink:href", "srcset", "data", "action", "poster") and not value.startswith("#")):
+                self.found.append(f"{tag} {name}={value}")
+            if re.search(r"url\((?!#)|@import", value):
+                self.found.append(f"{tag} {name}={value}")
+
+    def handle_data(self, data):
+        if re.search(r"url\((?!#)|@import", data):
+            self.found.append(data[:80])
+
+
+def loads(text):
+    parser = Loads()
+    parser.feed(text)
+    return parser
+
+
+class Whole(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory(prefix="granulaw-report-")
+        cls.folder = pathlib.Path(cls._folder.name)
+        run_files.everything(cls.folder)
+        cls.done = report(cls.folder)
+        cls.html = (cls.folder / "page" / "report.html").read_text()
+        cls.markdown = (cls.folder / "page" / "report.md").read_text()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    def row(self, *cells):
+        """The line of the Markdown that holds all of these; where it stands in two tables, it is the same in both."""
+        found = {line for line in self.markdown.splitlines() if all(c in line for c in cells)}
+        self.assertEqual(len(found), 1, f"{cells}: {found}")
+        return found.pop()
+
+    def test_it_is_written_whole(self):
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+        names = sorted(p.name for p in (self.folder / "page").iterdir())
+        pictures = sorted(re.findall(r"!\[.*?\]\((.+?)\)", self.markdown))
+        self.assertEqual(names, sorted(pictures + ["report.html", "report.md"]))  # no temporary file stays
+        self.assertEqual(pictures, ["contacts-1.png", "flow-1-packing.png", "law.png", "solver.png"])
+        self.assertNotIn("Missing", self.markdown)
+
+    def test_nothing_is_loaded(self):
+        parser = loads(self.html)
+        self.assertEqual(parser.found, [])
+        self.assertEqual(parser.figures, 4)
+        self.assertEqual(len(parser.ids), len(set(parser.ids)))  # figures do not take each other's shapes
+        for tag, bad in (("<img src='https://x/y.png'>", 2), ("<p style='background: url(http://x)'>", 1), ("<style>@import 'x';</style>", 1)):
+            self.assertEqual(len(loads(tag).found), bad)  # and the search would find it
+
+    def test_solver(self):
+        # within 1 %: of mapped double 8 cells (1.7 %) are too coarse, 16 (0.63 %) do; within 0.3 %: 24 cells; within 0.1 %: none
+        self.assertIn("| 0.210 s<br>16 cells, e +1.26 % | 0.740 s<br>24 cells, e +0.56 % | none |", self.markdown)
+        self.assertIn("F 0.05 %, e 0.1 %", self.markdown)  # the reference's own error
+        self.assertIn("0.460 CPU s<br>mapped, single", self.row("Impact", "F within 0.3 %", "solver:"))
+
+    def test_law(self):
+        self.assertIn("| 93.5 | 10.2 (9.22 to 12.3) |", self.row("| 148 nodes | inertia axis kept (7 slices) | plug-in's"))
+        self.assertIn("| 21 | 1.9e-02 |", self.row("| 148 nodes | inertia axis dropped | stored table"))
+        self.assertIn("solver's error (force 1.3 %", self.markdown)
+
+    def test_flow(self):
+        # solid fraction: 0.59 ± 0.01/sqrt(3) against 0.6 ± 0: -1.67 %, error 0.00577/0.6 = 0.96 %, t = 1.73 with 2 degrees of freedom: p = 0.23
+        self.assertIn("−1.67 ± 0.96 %, not significant", self.row("| hertz | 6 |"))
+        # stretched: +10 %, error 0.00577/0.6, t = 10.4: p = 0.009; wall-clock 2 of 20 s
+        self.assertIn("+10.00 ± 0.96 %, **significant**", self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |"))  # 60 microseconds
+        self.assertIn("11.00 ± 0.58", self.row("| hertz | 6 |"))  # wall-clock of 10, 11, 12 s
+        self.assertIn("**Stopped.** mpm, stretched by 30: pair_style gran model mpm: stretch less.", self.markdown)
+        self.assertIn("LIGGGHTS-TEST 1.2", self.markdown)
+
+    def test_contacts(self):
+        # V_y = 0.03 m/s * ((0.8 pi/100)^2/6.4e-4)^1.25; the largest speed is 1 m/s
+        unit = 0.03 * ((0.008 * math.pi)**2 / run_files.ONSET)**1.25
+        line = self.row("| packing | wax-wax, particles | 300 |")
+        self.assertIn(f"| {page.number(1.0 / unit)} |", line)
+        self.assertIn("| 60 % |", line)  # 60 of 100 contacts at 0.01 m/s are below the onset at 0.03 m/s
+        self.assertIn("| 9 | 0 |", line)  # three seeds of three contact-steps beyond the table
+
+    def test_hard_cases(self):
+        self.assertIn("2 cases: 1 stable with their energy balance closed, 1 refused with a sentence, 0 failed.", self.markdown)
+
+
+class Formulas(unittest.TestCase):
+    def test_map_of_a_hertz_law(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "law.h5"
+            run_files.hertz_law(path)
+            law = contacts_part.Law(path, "wax")
+        speed, overlap = law.impacts()
+        # W ~ x^2.5, so V/V_onset = (x/x_onset)^1.25; trapezoids over 20000 steps in x^(1/4): 1e-4 from a tenth of the onset up
+        for v, x in list(zip(speed, overlap))[::500]:
+            if x > 0.1 * run_files.ONSET:
+                self.assertAlmostEqual(v * law.yield_per_onset / (x / run_files.ONSET)**1.25, 1, delta=1e-4)
+        # DESIGN: rho V_y^2/Y = 25.5 (Y/E*)^4, so I = 25.5e-8 is V_y; 25.5 has three digits
+        self.assertAlmostEqual(law.fastest(25.5e-8), 1, delta=2e-3)
+
+    def test_cheapest_run_stays_within(self):
+        rows = [{"cpu_s": s, "L2_force": e} for s, e in ((1, 0.02), (2, 0.001), (3, 0.005), (4, 0.002))]
+        self.assertEqual(solver_part.cheapest(rows, 0.003)["cpu_s"], 4)  # 2 s was luck
+        self.assertEqual(solver_part.cheapest(rows, 0.01)["cpu_s"], 2)
+        self.assertIsNone(solver_part.cheapest(rows, 0.001))
+
+    def test_numbers(self):
+        self.assertEqual(page.with_error(-0.0832, 0.0215, plus=True), "−0.083 ± 0.021")
+        self.assertEqual(page.with_error(12.34, 3.4), "12.3 ± 3.4")
+        self.assertEqual(page.number(0.04567), "0.0457")
+        self.assertEqual(page.number(None), "n/a")
+
+
+class Missing(unittest.TestCase):
+    def test_each_part_names_its_commands(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.assertEqual(without_drawing(folder), (0, ""))
+            text = (folder / "page" / "report.md").read_text()
+            for command in ("granulaw_cost_study", "law_size_benchmark", "examples/packing/run.py"):
+                self.assertIn(command, text)
+            self.assertEqual(text.count("**Missing.**"), 4)  # solver, law, flow, contacts; the hard cases come with the tree
+            self.assertEqual(text.count("figure "), 0)  # no empty plot
+            self.assertNotIn("nan", text)
+
+    def test_small_versions_are_not_mixed_with_the_rest(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            run_files.everything(folder / "quick")
+            self.assertEqual((without_drawing(folder), without_drawing(folder / "quick")), ((0, ""), (0, "")))
+            self.assertIn("**Missing.** No `cost.json`", (folder / "page" / "report.md").read_text())
+            self.assertNotIn("Missing", (folder / "quick" / "page" / "report.md").read_text())
+
+    def test_a_folder_that_is_not_there(self):
+        with tempfile.TemporaryDirectory() as name:
+            done = subprocess.run([ROOT / "tools" / "report", "--from", pathlib.Path(name) / "no"], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"^tools/report: .*/no is no folder; .*\n$")
+
+
+class Damaged(unittest.TestCase):
+    def check(self, damage, sentence, still="cheapest run"):
+        """One sentence on stderr and on the page, exit 1, and the other parts as ever."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            damage(folder, run_files.everything(folder))
+            status, told = without_drawing(folder)
+            self.assertEqual((status, len(told.splitlines())), (1, 1), told)
+            self.assertRegex(told, "^tools/report: .*" + sentence)
+            text = (folder / "page" / "report.md").read_text()
+            self.assertRegex(text, sentence)
+            self.assertIn(still, text)
+            self.assertEqual(loads((folder / "page" / "report.html").read_text()).found, [])
+
+    def cut(self, path):
+        content = path.read_bytes()
+        path.write_bytes(content[:len(content) // 2])
+
+    def test_a_cut_study(self):
+        self.check(lambda root, deck: self.cut(root / "solver" / "cost.json"), r"cost\.json: not a whole JSON file", still="## (b) Law")
+
+    def test_no_number(self):
+        def damage(root, deck):
+            content = run_files.cost()
+            content["jobs"][0]["rows"][1]["err_e"] = math.nan
+            (root / "solver" / "cost.json").write_text(json.dumps(content))
+        self.check(damage, r"cost\.json: row 3: 'err_e' is nan, expected a number", still="## (b) Law")
+
+    def test_another_study(self):
+        self.check(lambda root, deck: (root / "law" / "law_size.json").write_text('{"benchmark": "other"}'),
+                   r"law_size\.json: 'benchmark' is 'other', expected 'law_size'")
+
+    def test_bytes(self):
+        self.check(lambda root, deck: (root / "law" / "law_size.json").write_bytes(bytes(range(256))), r"law_size\.json: not a whole JSON file")
+
+    def test_a_word_for_a_number(self):
+        def damage(root, deck):
+            text = (deck / "packing.csv").read_text()
+            (deck / "packing.csv").write_text(text.replace("0.58", "abc"))
+        self.check(damage, r"packing\.csv: line 2: value is 'abc', expected a number")
+
+    def test_cut_statistics(self):
+        self.check(lambda root, deck: self.cut(deck / "mpm-2" / "stats.json"), r"mpm-2/stats\.json: not a whole JSON file")
+
+    def test_old_statistics(self):
+        self.check(lambda root, deck: (deck / "mpm-2" / "stats.json").write_text("{}"), r"stats\.json: has no 'pairs': an older plug-in")
+
+    def test_a_law_that_is_none(self):
+        self.check(lambda root, deck: (deck / "law.h5").write_text("no law"), r"law\.h5: not a law file with material 'wax'")
+
+    def test_old_hard_cases(self):
+        # the tree's own table takes the place of one that cannot be read
+        self.check(lambda root, deck: (root / "hard" / "hard-cases.json").write_text('{"mpm": "m", "runs": {}}'), r"hard-cases\.json: has no 'rows'")
+
+    def test_hostile_names(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            deck = run_files.everything(folder)
+            with open(deck / "packing.csv", "a") as file:
+                for model in ("hertz", "mpm"):
+                    file.writelines(f'{model},{k},"<script src=""http://x""></script>|a",{k}\n' for k in (1, 2, 3))
+            self.assertEqual(without_drawing(folder), (0, ""))
+            self.assertEqual(loads((folder / "page" / "report.html").read_text()).found, [])
+            self.assertIn("\\|a", (folder / "page" / "report.md").read_text())
+
+
+class Help(unittest.TestCase):
+    def test_it_teaches(self):
+        done = subprocess.run([ROOT / "tools" / "report", "--help"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0)
+        for word in ("--make quick", "--from DIR", "cost.json", "law_size.json", "stats.json", "Exit:"):
+            self.assertIn(word, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,230 @@
+"""Where in (V/V_y, delta/R) the contacts of the flow lived, over the law they used: from the plug-in's stats.json and the law file."""
+import math
+import pathlib
+import re
+
+import h5py
+import numpy as np
+
+from . import files
+from .page import legend_below, number, plt
+
+BINS = 8  # a decade, as the plug-in counts
+
+
+class Law:
+    """What the map needs of a law file (docs/law-format.md): E*/Y, the onset, and the curve of a head-on impact."""
+
+    def __init__(self, path, material):
+        try:
+            with h5py.File(path) as file:
+                body = file["bodies"][material]
+                get = lambda part, name: body[part][name][()]
+                e_star = get("material", "youngs_modulus") / (1 - get("material", "poisson_ratio")**2)
+                self.ratio = float(e_star / get("material", "yield_stress"))
+                self.s_end, self.onset = float(get("curve", "s_end")), float(get("curve", "onset"))
+                self.g, self.slope = get("curve", "force_ratio"), get("curve", "force_ratio_slope")
+        except (OSError, KeyError, ValueError, RuntimeError) as error:
+            raise files.Unreadable(path, f"not a law file with material '{material}' ({str(error).splitlines()[0]})") from None
+
+    @property
+    def yield_per_onset(self):
+        """V_y over the true onset velocity: V goes as overlap^(5/4) in the elastic range, delta_y/R = (1.6 pi Y/(2 E*))^2."""
+        return ((0.8 * math.pi / self.ratio)**2 / self.onset)**1.25
+
+    def impacts(self):
+        """(V/V_y, x): overlap x over lambda R* at which a head-on impact turns, quasi-static; x is delta/R on a rigid wall.
+
+        (V/V_onset)^2 = W(x)/W(onset), W the loading work: the same for the wall and for like pairs."""
+        s = np.linspace(0, self.s_end, 20001)
+        h = self.s_end / (len(self.g) - 1)
+        k = np.minimum((s / h).astype(int), len(self.g) - 2)
+        t = s / h - k
+        g = (1 - t)**2 * ((1 + 2 * t) * self.g[k] + t * h * self.slope[k]) + t**2 * ((3 - 2 * t) * self.g[k + 1] - (1 - t) * h * self.slope[k + 1])
+        x = s**4
+        force = x**1.5 * g
+        work = np.concatenate([[0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(x))])
+        keep = x > 1e-6 * self.onset
+        return np.sqrt(work[keep] / np.interp(self.onset, x, work)) / self.yield_per_onset, x[keep]
+
+    def fastest(self, inertia_limit):
+        """V/V_y at I = rho V^2/Y of the yielding body: rho V_y^2/Y = (pi/2)^4 (2/5) 1.6^5 (Y/E*)^4."""
+        return math.sqrt(inertia_limit / ((math.pi / 2)**4 * 0.4 * 1.6**5)) * self.ratio**2
+
+
+class Contacts:
+    """All contacts of one kind of pair in one deck's runs. Speeds in V/V_y, overlaps over R*."""
+
+    def __init__(self, key, law, entry, path):
+        self.kind, self.materials = key
+        self.law = law
+        onset, limit, inertia = (entry.get(k) for k in ("onset_speed_m_per_s", "overlap_over_radius_limit", "inertia_number_limit"))
+        files.rows_with(path, [entry], ("onset_speed_m_per_s", "overlap_over_radius_limit"))
+        self.yield_speed, self.limit = onset * law.yield_per_onset, limit
+        self.fastest = law.fastest(inertia) if inertia else None
+        self.begun = self.beyond = self.beyond_axis = 0.0
+        self.speed, self.overlap = {}, {}
+        self.speed_max = self.overlap_max = 0.0
+        self.scale = limit * (law.s_end**-4)  # lambda: x of the law to overlap/R*
+
+    def add(self, entry, path):
+        files.rows_with(path, [entry], ("contacts_begun", "contact_steps_beyond_table"))
+        self.begun += entry["contacts_begun"]
+        self.beyond += entry["contact_steps_beyond_table"]
+        self.beyond_axis += entry.get("contacts_beyond_speed_axis") or 0
+        self.speed_max = max(self.speed_max, (entry["impact_speed_max_m_per_s"] or 0) / self.yield_speed)
+        self.overlap_max = max(self.overlap_max, entry["overlap_over_radius_max"] or 0)
+        for into, name in ((self.speed, "impact_speed"), (self.overlap, "largest_overlap_over_radius")):
+            histogram = entry.get(name)
+            if not isinstance(histogram, dict) or len(histogram.get("lower_edge", [])) != len(histogram.get("count", [0])):
+                raise files.Unreadable(path, f"'{name}' is no histogram with as many edges as counts")
+            for edge, count in zip(histogram["lower_edge"], histogram["count"]):
+                if count:
+                    bin_ = round(BINS * math.log10(edge))
+                    into[bin_] = into.get(bin_, 0) + count
+
+    def histogram(self, which):
+        """(edges, counts), edges in V/V_y or overlap/R*."""
+        counts = self.speed if which == "speed" else self.overlap
+        bins = range(min(counts), max(counts) + 1)
+        edges = np.array([10**(b / BINS) for b in [*bins, bins[-1] + 1]])
+        return edges / (self.yield_speed if which == "speed" else 1.0), np.array([counts.get(b, 0) for b in bins])
+
+    def quantile(self, which, part):
+        edges, counts = self.histogram(which)
+        place = np.cumsum(counts) / np.sum(counts)
+        k = int(np.searchsorted(place, part))
+        before = place[k - 1] if k else 0.0
+        found = float(edges[k] * (edges[k + 1] / edges[k])**((part - before) / (place[k] - before)))
+        return min(found, (self.speed_max if which == "speed" else self.overlap_max) or found)
+
+    def elastic_share(self):
+        """Of the contacts, those slower than the onset of yield (the bin of the onset is cut in proportion)."""
+        edges, counts = self.histogram("speed")
+        onset = 1 / self.law.yield_per_onset
+        parts = np.clip(np.log(onset / edges[:-1]) / np.log(edges[1:] / edges[:-1]), 0, 1)
+        return float(np.sum(parts * counts) / np.sum(counts))
+
+
+def law_of(run, entry):
+    """The law file that a run used: named by its `command` or by stats.json, else the one beside its folder."""
+    names = []
+    if (run / "command").is_file():
+        names += re.findall(r"-var law (\S+)", (run / "command").read_text(errors="replace"))
+    names += re.findall(r"\S+\.h5", str(entry.get("law", "")))
+    root = pathlib.Path(__file__).resolve().parents[2]
+    candidates = [base / name for name in names for base in (pathlib.Path("."), root, run.parent)]
+    candidates += [run.parent / pathlib.Path(name).name for name in names] + sorted(run.parent.glob("*.h5"))
+    return next((p for p in candidates if p.is_file()), None)
+
+
+def read(decks):
+    """({deck title: [Contacts, ...]}, [Unreadable, ...]) of the unstretched `mpm` runs."""
+    found, broken = {}, []
+    for deck in decks:
+        kinds, laws = {}, {}
+        try:
+            for run in deck.folders.get("mpm", []):
+                path = run / "stats.json"
+                if not path.exists():
+                    continue
+                stats = files.read_json(path)
+                if not isinstance(stats.get("pairs"), list):
+                    raise files.Unreadable(path, "has no 'pairs': an older plug-in made it, run the deck anew")
+                for entry in stats["pairs"]:
+                    if not isinstance(entry, dict) or not entry.get("contacts_begun") or entry.get("onset_speed_m_per_s") is None:
+                        continue
+                    key = (entry["kind"], tuple(entry["materials"]))
+                    law = law_of(run, entry)
+                    if law is None:
+                        raise files.Unreadable(path, f"its law '{entry.get('law')}' is not there any more")
+                    name = entry["materials"][0]
+                    if (law, name) not in laws:
+                        laws[law, name] = Law(law, name)
+                    kinds.setdefault(key, Contacts(key, laws[law, name], entry, path)).add(entry, path)
+        except files.Unreadable as error:
+            error.deck = "demo" if deck.within else deck.name
+            broken.append(error)
+            continue
+        if kinds:
+            found[deck.title] = sorted(kinds.values(), key=lambda c: -c.begun)
+    return found, broken
+
+
+def name_of(contacts):
+    return "between particles" if contacts.kind == "particles" else f"at the {contacts.kind}"
+
+
+def draw(figure, contacts, title):
+    """One map: in the middle the plane, above and to the right what the plug-in counted."""
+    grid = figure.add_gridspec(2, 2, width_ratios=(4, 1), height_ratios=(1, 3.4))
+    middle = figure.add_subplot(grid[1, 0])
+    top, right = figure.add_subplot(grid[0, 0], sharex=middle), figure.add_subplot(grid[1, 1], sharey=middle)
+    speed, speeds = contacts.histogram("speed")
+    overlap, overlaps = contacts.histogram("overlap")
+    x_low, x_high = 0.5 * speed[0], 3 * max(speed[-1], contacts.fastest or 0)
+    y_low, y_high = max(0.5 * overlap[0], 1e-9), 3 * max(overlap[-1], contacts.limit)
+    end = contacts.fastest or x_high
+    middle.set_facecolor("#efe9e4")
+    middle.fill_between([x_low, end], y_low, contacts.limit, color="white", lw=0)
+    middle.plot([end, end], [y_low, contacts.limit], color="tab:red", lw=1)
+    middle.plot([x_low, end], [contacts.limit] * 2, color="tab:red", lw=1, label="end of the law")
+    onset = 1 / contacts.law.yield_per_onset
+    middle.axvspan(x_low, onset, color="tab:green", alpha=0.08, lw=0)
+    middle.plot([onset, onset], [y_low, contacts.limit], color="tab:green", lw=0.9, linestyle="--", label="onset of yield")
+    middle.axvspan(contacts.quantile("speed", 0.005), contacts.quantile("speed", 0.995), color="tab:blue", alpha=0.10, lw=0)
+    middle.axhspan(contacts.quantile("overlap", 0.005), contacts.quantile("overlap", 0.995), color="tab:blue", alpha=0.10, lw=0,
+                   label="99 % of the contacts, each way")
+    v, x = contacts.law.impacts()
+    middle.plot(v, contacts.scale * x, color="black", lw=1.2, label="a head-on impact turns here")
+    middle.plot([contacts.speed_max], [contacts.overlap_max], marker="+", color="tab:blue", ms=9, mew=1.6, linestyle="", label="largest V, largest δ")
+    middle.set(xscale="log", yscale="log", xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="approach speed at first touch, $V/V_y$",
+               ylabel="largest overlap, $\\delta/R^*$")
+    top.stairs(np.maximum(speeds, 0.3), speed, fill=True, color="tab:blue", alpha=0.55, baseline=0.3)
+    right.stairs(np.maximum(overlaps, 0.3), overlap, fill=True, color="tab:blue", alpha=0.55, baseline=0.3, orientation="horizontal")
+    top.set(yscale="log", ylabel="contacts", title=title, ylim=(0.5, None))
+    right.set(xscale="log", xlabel="contacts", xlim=(0.5, None))
+    top.tick_params(labelbottom=False)
+    right.tick_params(labelleft=False)
+    return middle
+
+
+def picture(all_contacts):
+    count = min(len(all_contacts), 2)
+    figure = plt.figure(figsize=(4.8 * count + 0.2, 4.6))
+    parts = figure.subfigures(1, count, squeeze=False)[0]
+    for part, contacts in zip(parts, all_contacts):
+        axis = draw(part, contacts, f"{name_of(contacts)}: {contacts.begun:,.0f}".replace(",", "\u2009"))
+    handles, labels = axis.get_legend_handles_labels()
+    legend_below(figure, handles, labels, 3)
+    return figure
+
+
+def glance(found):
+    rows = []
+    for deck, kinds in found.items():
+        c = max(kinds, key=lambda c: c.overlap_max / c.limit)
+        rows.append([f"law used by {deck}, {name_of(c)}", f"V/V_y to {number(c.speed_max)}\nlaw to {number(c.fastest) if c.fastest else 'not stated'}",
+                     f"δ/R* to {number(c.overlap_max)}\nlaw to {number(c.limit)}"])
+    return rows
+
+
+def write(page, found):
+    page.glance(glance(found))
+    page.text("Each contact has a speed at first touch and a largest overlap; the plug-in counts the two apart (not their pairs), in eight bins a "
+              "decade: the bars above and beside each map. White: what the law was computed for. Black: where a head-on impact of two free "
+              "bodies turns (quasi-static). Overlaps that speed alone does not explain come from static load and from several contacts at once.")
+    rows = []
+    for k, (deck, kinds) in enumerate(found.items(), 1):
+        page.figure(picture(kinds), f"contacts-{k}", f"Contacts of {deck} under the unstretched `mpm`, all seeds.")
+        for c in kinds:
+            share = c.elastic_share()
+            rows.append([deck, f"{'-'.join(c.materials)}, {c.kind}", f"{c.begun:.0f}", *[number(c.quantile("speed", p)) for p in (0.5, 0.995)],
+                         number(c.speed_max), number(c.fastest) if c.fastest else "not stated", f"{100 * share:.0f} %",
+                         *[number(c.quantile("overlap", p)) for p in (0.5, 0.995)], number(c.overlap_max), number(c.limit), f"{c.beyond:.0f}",
+                         f"{c.beyond_axis:.0f}"])
+    page.table(["deck", "pair", "contacts", "V/V_y: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
+                "law to", "steps beyond it", "too fast for it"], rows)
+    page.origin("Quantiles are read from bins a third of their value wide: good to about 15 %. V_y: yield velocity with the customary 1.6 Y "
+                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its inertia axis goes; below onset: slower than the true onset of yield. From the "
+                "`stats.json` of each run (`fix granulaw/stats`) and the law file it names.")
