@@ -4,7 +4,7 @@
     run.py [-o out/drop] [--seeds 5] [--quick]     # 5 seeds, about 10 s
 
 A collision has no chance in it but the phase of its first touch in the time step: that is what the seeds vary.
-Writes report.md, collisions.csv and drop.png."""
+Writes report.md, collisions.csv, drop.csv and drop.png."""
 import csv
 import json
 import math
@@ -18,7 +18,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
-from spread import Sample  # noqa: E402
+from spread import Sample, tabulate  # noqa: E402
 
 RADIUS, DENSITY, E, NU, Y, MU, E_HERTZ = 3e-3, 920.0, 91e6, 0.3, 1e6, 0.4, 0.55  # as contact.in and materials.toml
 NORMAL_SPEED = 0.5  # m/s, of the oblique impacts
@@ -124,8 +124,22 @@ def main(argv=None):
         writer = csv.DictWriter(file, names)
         writer.writeheader()
         writer.writerows(rows)
+    tabulate(selection(samples, cases, args.seeds), out / "drop.csv")
     report(out, rows, args)
     return rows
+
+
+def selection(samples, cases, seeds):
+    """Of every model and seed, a few collisions that stand for the rest: for the table over all examples."""
+    wall = [k for k, c in enumerate(cases) if c[0] == "wall"]
+    chosen = {}
+    for target in (0.1, 0.3, 1.0, 3.0):
+        k = min(wall, key=lambda k: abs(math.log(cases[k][1] / target)))
+        chosen[f"e on the wall at {cases[k][1]:.3g} m/s"] = (k, "e", 1.0)
+    k = min((k for k, c in enumerate(cases) if c[0] == "oblique"), key=lambda k: abs(cases[k][2] - 40))
+    chosen[f"tangential speed kept at {cases[k][2]:g} degrees"] = (k, "tangential", cases[k][1] * math.tan(math.radians(cases[k][2])))
+    return {m: [{name: by_case[k][quantity][seed] / unit for name, (k, quantity, unit) in chosen.items()} for seed in range(seeds)]
+            for m, by_case in samples.items()}
 
 
 def report(out, rows, args):
