@@ -5,7 +5,7 @@
     run.py -o out/hopper-stiff --material stiff --models mpm --stretches 3 10 30 --softer 3 10 30
 
 A seed is a random cloud, the same for every variant. `mpm-stretchS`: the law F(delta/S)/S, time step times S. `mpm-softerS`: what one does
-without: Young's modulus over S^2.5, which makes Hertz's contact and so the time step S times longer; its law is computed anew.
+without: Young's modulus over S^2.5, which makes Hertz's contact and so the time step S times longer; its law is computed anew. `mpm-decklaw`: a law for the range that `mpm plan` finds.
 Writes report.md, hopper.csv and hopper.png after every seed."""
 import json
 import pathlib
@@ -32,9 +32,10 @@ SIZES = {"wax": dict(particles=800, orifice=0.015, cylinder=0.030, drop=0.06, pa
 
 
 class Variant:
-    def __init__(self, model, stretch=1.0, softer=1.0):
-        self.model, self.stretch, self.softer = model, stretch, softer
-        self.name = model + (f"-stretch{stretch:g}" if stretch != 1 else "") + (f"-softer{softer:g}" if softer != 1 else "")
+    def __init__(self, model, stretch=1.0, softer=1.0, deck_law=False):
+        self.model, self.stretch, self.softer, self.deck_law = model, stretch, softer, deck_law
+        self.name = model + (f"-stretch{stretch:g}" if stretch != 1 else "") + (f"-softer{softer:g}" if softer != 1 else "") + \
+            ("-decklaw" if deck_law else "")
 
     @property
     def gain(self):
@@ -84,7 +85,7 @@ def measure(folder, model, scene):
 
 def variants(args):
     return [Variant(m) for m in args.models] + [Variant("mpm", stretch=s) for s in args.stretches] + \
-           [Variant("mpm", softer=s) for s in args.softer]
+           [Variant("mpm", softer=s) for s in args.softer] + [Variant("mpm", deck_law=True)] * args.deck_law
 
 
 def main(argv=None):
@@ -92,6 +93,7 @@ def main(argv=None):
     parser.add_argument("--material", choices=list(MATERIALS), default="wax", help="default wax; stiff: E*/Y = 1000")
     parser.add_argument("--stretches", type=float, nargs="*", default=[], metavar="S")
     parser.add_argument("--softer", type=float, nargs="*", default=[], metavar="S")
+    parser.add_argument("--deck-law", action="store_true", help="also a law of what this deck can reach: mpm table --deck")
     args = parser.parse_args(argv)
     if args.stretch != 1:
         args.stretches.append(args.stretch)
@@ -107,6 +109,9 @@ def main(argv=None):
                         *[w for k in ("orifice", "cylinder", "drop", "packing") for w in (f"--{k}", str(size[k]))], "--seed", str(seed)],
                        check=True, stdout=subprocess.DEVNULL)
         scene = json.loads((folder / "scene.json").read_text())
+        if args.deck_law:  # the clouds of all seeds are equally high
+            words = ["--deck", str(HERE / "in.hopper"), "--var", "model", "mpm", "--var", "scene", str((out / "scene-1").resolve())]
+            laws["mpm-decklaw"] = sweep.make_law(args, HERE / material["file"], words, "decklaw.h5"), args.material
         for v in variants(args):
             dt = material["dt"] * v.gain
             fill, every = 4 * round(size["fill"] / dt / 4), max(1, round(1.5e-3 / dt))
