@@ -77,7 +77,7 @@ def main(argv=None):
     rate = 1000 if args.quick else 2000  # spheres a second
     base = 0.05 if args.quick else 0.10  # m, radius of the glued layer
     dt = 6e-6 * args.stretch
-    steps = round((particles / rate + (0.25 if args.quick else 0.4)) / dt)
+    steps = round((particles / rate + (0.25 if args.quick else 0.6)) / dt)
     out, law, tables, profiles = pathlib.Path(args.out), sweep.make_law(args), {}, {}
     scene = out / "scene"
     scene.mkdir(parents=True, exist_ok=True)
