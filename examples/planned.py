@@ -60,23 +60,27 @@ def visited(folders):
     return speeds
 
 
-def rows(out):
-    for deck in sorted(p for p in out.iterdir() if p.is_dir()):
-        runs = [f for f in sorted(deck.glob("*-[0-9]*")) if (f / "done").exists() and (f / "stats.json").exists()]
-        for model in sweep.MODELS:
-            mine = [f for f in runs if f.name.startswith(f"{model}-") and f.name[len(model) + 1].isdigit()]
-            if mine:
-                bounds = [planned(f) for f in mine]
-                bound = {side: max(b[side] for b, _ in bounds) for side in ("pair", "wall")}
-                yield deck.name, model, len(mine), bound, visited(mine), bounds[0][1]
+def body(speeds):
+    """Of the yielding body: each of a like pair has half the relative speed."""
+    return max(speeds["pair"] / 2, speeds["wall"])
+
+
+def compare(deck):
+    """(model, number of runs, planned, visited, the plan) of each model's finished runs in the folder `deck`."""
+    runs = [f for f in sorted(deck.glob("*-[0-9]*")) if (f / "done").exists() and (f / "stats.json").exists()]
+    for model in sweep.MODELS:
+        mine = [f for f in runs if f.name.startswith(f"{model}-") and f.name[len(model) + 1].isdigit()]
+        if mine:
+            bounds = [planned(f) for f in mine]
+            yield model, len(mine), {side: max(b[side] for b, _ in bounds) for side in ("pair", "wall")}, visited(mine), bounds[0][1]
 
 
 def table(out):
     lines = ["| deck | model (runs) | pairs: planned, visited m/s | ratio | walls: planned, visited m/s | ratio | the scene |",
              "|---|---|---|---|---|---|---|"]
-    for name, model, runs, bound, seen, plan in rows(out):
+    rows = [(deck.name, *row) for deck in sorted(p for p in out.iterdir() if p.is_dir()) for row in compare(deck)]
+    for name, model, runs, bound, seen, plan in rows:
         ratio = {side: f"{bound[side] / seen[side]:.2f}" if seen[side] else "not met" for side in bound}
-        body = lambda speeds: max(speeds["pair"] / 2, speeds["wall"])
         lines.append(f"| {name} | {model} ({runs}) | {bound['pair']:.3g}, {seen['pair']:.3g} | {ratio['pair']} | {bound['wall']:.3g}, "
                      f"{seen['wall']:.3g} | {ratio['wall']} | {body(bound) / body(seen):.2f} |")
         for key in ("asks_for", "not_followed"):
