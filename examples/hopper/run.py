@@ -23,11 +23,11 @@ from runs import Run  # noqa: E402
 from spread import markdown, tabulate  # noqa: E402
 
 MATERIALS = {"wax": dict(file="materials.toml", E=91e6, Y=1e6, e=0.55, dt=6e-6),
-             "stiff": dict(file="stiff.toml", E=3.64e9, Y=4e6, e=0.35, dt=1.4e-6)}  # dt: about 25 steps in the shortest contact
-# Smaller than the demo's hopper, so that several seeds are cheap; the bed is about twice as high as the orifice is wide.
+             "stiff": dict(file="stiff.toml", E=1.82e9, Y=2e6, e=0.35, dt=1.8e-6)}  # dt: about 25 steps in the shortest contact
+# Smaller than the demo's hopper, so that several seeds are cheap; the bed is 1.5 times as high as the orifice is wide.
 # The stiff one falls less deep: overlaps that may be stretched 10 times.
-SIZES = {"wax": dict(particles=800, orifice=0.015, cylinder=0.030, drop=0.06, packing=0.25, fill=0.36, flow=1.20),
-         "stiff": dict(particles=500, orifice=0.015, cylinder=0.030, drop=0.012, packing=0.28, fill=0.26, flow=0.80),
+SIZES = {"wax": dict(particles=500, orifice=0.015, cylinder=0.030, drop=0.06, packing=0.25, fill=0.32, flow=0.80),
+         "stiff": dict(particles=400, orifice=0.015, cylinder=0.030, drop=0.012, packing=0.28, fill=0.24, flow=0.64),
          "quick": dict(particles=200, orifice=0.024, cylinder=0.050, drop=0.03, packing=0.25, fill=0.24, flow=0.39)}
 
 
