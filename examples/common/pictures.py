@@ -8,8 +8,9 @@ import numpy as np  # noqa: E402
 COLOURS = {"hertz": "0.35", "thornton": "tab:orange", "mpm": "tab:blue"}
 
 
-def colour(model):
-    return COLOURS.get(model, "tab:green")
+def colour(name):
+    """Of a model, or of a variant of it, as they come."""
+    return COLOURS.setdefault(name, f"C{2 + len(COLOURS)}")
 
 
 def panels(count, width=4.2, height=3.2):

@@ -69,6 +69,16 @@ def tabulate(tables, path):
     return {m: {q: Sample(run[q] for run in runs) for q in runs[0] if all(q in run for run in runs)} for m, runs in tables.items()}
 
 
+def read(path):
+    """samples[model][quantity] of a file that `tabulate` wrote."""
+    values = {}
+    with open(path) as file:
+        for row in csv.DictReader(file):
+            values.setdefault(row["model"], {}).setdefault(row["quantity"], []).append(float(row["value"]))
+    most = {m: max(map(len, q.values())) for m, q in values.items()}
+    return {m: {q: Sample(v) for q, v in quantities.items() if len(v) == most[m]} for m, quantities in values.items()}
+
+
 def markdown(samples, base="hertz"):
     """Table of {model: {quantity: Sample}}: value ± standard error, and each model's verdict against `base`."""
     models = list(samples)

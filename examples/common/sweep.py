@@ -4,6 +4,7 @@ import csv
 import hashlib
 import os
 import pathlib
+import resource
 import shutil
 import subprocess
 import sys
@@ -46,17 +47,24 @@ def digest(*things):
     return sum_.hexdigest()[:32]
 
 
-def make_law(args, materials=WAX, words=()):
-    """Path of the law file of `materials` (None if mpm is not asked for)."""
+def make_law(args, materials=WAX, words=(), name="law.h5"):
+    """Path of the law file of `materials` (None if mpm is not asked for). Raises Refused with what `mpm table` said."""
     if args.law or "mpm" not in args.models:
         return args.law
     os.makedirs(args.out, exist_ok=True)
-    law = pathlib.Path(args.out) / "law.h5"
+    law = pathlib.Path(args.out) / name
     mark, recipe = law.with_suffix(".recipe"), digest(materials, *words, program("mpm"))
     if not law.exists() or not mark.exists() or mark.read_text() != recipe:
-        subprocess.run([program("mpm"), "table", str(materials), "-o", str(law), *words], check=True, stdout=subprocess.DEVNULL)
+        done = subprocess.run([program("mpm"), "table", str(materials), "-o", str(law), *words], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True)
+        if done.returncode:
+            raise Refused(done.stderr.strip())
         mark.write_text(recipe)
     return str(law)
+
+
+class Refused(SystemExit):
+    """A program ended with an error; str() is its last words."""
 
 
 def run(args, deck, model, folder, inputs=(), law=None, variables=None, more=""):
@@ -88,6 +96,7 @@ def run(args, deck, model, folder, inputs=(), law=None, variables=None, more="")
     (folder / "command").write_text(" ".join(command) + "\n")
     environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
     start = told = time.monotonic()
+    used = cpu_of_children()
     with open(folder / "screen", "w") as screen:
         process = subprocess.Popen(command, stdout=screen, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
         try:
@@ -101,10 +110,23 @@ def run(args, deck, model, folder, inputs=(), law=None, variables=None, more="")
                 process.terminate()
     if process.returncode:
         tail = (folder / "screen").read_text(errors="replace")[-1500:]
-        raise SystemExit(f"{' '.join(command)}\nfailed ({process.returncode}):\n{tail}")
+        raise Refused(f"{' '.join(command)}\nfailed ({process.returncode}):\n{tail}")
+    used = cpu_of_children() - used
+    (folder / "cpu").write_text(f"{used:.2f}\n")  # s; the wall-clock of a shared machine says little
     done.write_text(recipe)
-    say(f"{folder.name}: {time.monotonic() - start:.1f} s")
+    say(f"{folder.name}: {time.monotonic() - start:.1f} s, {used:.1f} s of CPU")
     return folder
+
+
+def cpu_of_children():
+    """s, user and system, of all finished children of this process."""
+    sum_ = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return sum_.ru_utime + sum_.ru_stime
+
+
+def cpu(folder):
+    """s of CPU that the run in `folder` took."""
+    return float((pathlib.Path(folder) / "cpu").read_text())
 
 
 def moment(folder):

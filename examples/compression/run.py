@@ -26,8 +26,7 @@ def measure(folder, die):
     s = readings.series(folder)
     if readings.lost(folder):
         raise SystemExit(f"{folder}: particles were lost")
-    start = die["settle"] * die["dt"]
-    height = die["lid"] - SPEED * (s["time"] - start).clip(0)
+    height = die["lid"] - SPEED * s["time"]
     curve = {"fraction": die["volume"] / (die["side"]**2 * height), "stress": np.abs(s["force"]) / die["side"]**2,
              "overlap": s["pair_overlap"] / (2 * RADIUS), "beyond": s["beyond"]}
     found = {}
@@ -35,7 +34,7 @@ def measure(folder, die):
         if curve["fraction"][-1] >= f:
             found[f"stress at solid fraction {f}, Pa"] = float(np.interp(f, curve["fraction"], curve["stress"]))
             found[f"largest flattening/R at {f}"] = float(np.interp(f, curve["fraction"], curve["overlap"]))
-    pressed = s["time"] > start
+    pressed = curve["fraction"] > 0.5  # before: the fall
     for name, reached in (("flattening/R = 0.1", curve["overlap"] > OVERLAP), ("the end of the law's table", curve["beyond"] > 0)):
         where = np.flatnonzero(reached & pressed)
         if len(where):
@@ -47,36 +46,33 @@ def main(argv=None):
     parser = sweep.options(__doc__, "out/compression")
     parser.add_argument("--particles", type=int)
     args = parser.parse_args(argv)
-    particles = args.particles or (60 if args.quick else 500)
-    side = 2 * RADIUS * (3.5 if args.quick else 8)
+    particles = args.particles or (60 if args.quick else 300)
+    side = 2 * RADIUS * (3.5 if args.quick else 6)
     volume = particles * 4 / 3 * np.pi * RADIUS**3
-    lid, low = volume / (0.50 * side**2), volume / ((0.78 if args.quick else 0.85) * side**2)
+    inner = 1.05 * RADIUS  # clear of the walls
+    top = inner + 1.02**3 * volume / (0.27 * (side - 2 * inner)**2)  # of the cloud; it is at rest when the lid has come down to it
+    low = volume / ((0.78 if args.quick else 0.85) * side**2)
     dt = 4e-6 * args.stretch
-    die = {"side": side, "lid": lid, "dt": dt, "volume": volume, "settle": round((0.16 if args.quick else 0.4) / dt)}
-    press = round((lid - low) / SPEED / dt)
+    die = {"side": side, "lid": top + RADIUS, "volume": volume}
+    steps = round((die["lid"] - low) / SPEED / dt)
     out, law, tables, curves = pathlib.Path(args.out), sweep.make_law(args), {}, {}
     for seed in range(1, args.seeds + 1):
         scene = out / f"scene-{seed}"
         scene.mkdir(parents=True, exist_ok=True)
-        top = lid + 4 * RADIUS + volume / (0.2 * side**2)
-        inner = 1.05 * RADIUS
         centres = clouds.random_cloud(particles, RADIUS, (inner,) * 3, (side - inner, side - inner, top), np.random.default_rng(seed))
-        # the lid waits above the cloud's bed; spheres that are still above it when it starts would be cut off: none may be
         edge = 0.2 * RADIUS
         clouds.write_data(scene / "cloud.data", centres, RADIUS, DENSITY, (-2 * RADIUS,) * 3,
                           (side + 2 * RADIUS, side + 2 * RADIUS, top + 4 * RADIUS))
-        a, b, c, d = (np.array(p + (top + RADIUS,)) for p in ((-edge, -edge), (side + edge, -edge), (side + edge, side + edge), (-edge, side + edge)))
+        a, b, c, d = (np.array(p + (die["lid"],)) for p in ((-edge, -edge), (side + edge, -edge), (side + edge, side + edge), (-edge, side + edge)))
         write_stl(scene / "lid.stl", "lid", [(a, c, b), (a, d, c)])
         for model in args.models:
             name = sweep.label(args, model)
-            whole = dict(die, lid=top + RADIUS)
-            steps = round((top + RADIUS - low) / SPEED / dt)
             folder = sweep.run(args, HERE / "in.compression", model, out / f"{name}-{seed}",
                                [scene / "cloud.data", scene / "lid.stl"], law,
-                               {"scene": scene, "dt": dt, "side": side, "settle": die["settle"], "press": steps,
+                               {"scene": scene, "dt": dt, "side": side, "press": steps,
                                 "speed": SPEED, "every": max(1, round(1e-3 / dt)),
                                 **({"behind": "beyondRange continue"} if model == "mpm" else {})}, "beyondRange continue")
-            found, curve = measure(folder, whole)
+            found, curve = measure(folder, die)
             tables.setdefault(name, []).append(found)
             curves.setdefault(name, []).append(curve)
     samples = tabulate(tables, out / "compression.csv")

@@ -2,9 +2,10 @@
 """Drop test: restitution against speed on a wall, in pairs and obliquely, under three contact laws.
 
     run.py [-o out/drop] [--seeds 5] [--quick]     # 5 seeds, about 10 s
+    run.py -o out/drop-stiff --material stiff --models mpm --stretch 10
 
 A collision has no chance in it but the phase of its first touch in the time step: that is what the seeds vary.
-Writes report.md, collisions.csv and drop.png."""
+Writes report.md, collisions.csv, drop.csv and drop.png."""
 import csv
 import json
 import math
@@ -18,9 +19,12 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
-from spread import Sample  # noqa: E402
+from spread import Sample, tabulate  # noqa: E402
 
-RADIUS, DENSITY, E, NU, Y, MU, E_HERTZ = 3e-3, 920.0, 91e6, 0.3, 1e6, 0.4, 0.55  # as contact.in and materials.toml
+RADIUS, DENSITY, NU, MU, E_HERTZ = 3e-3, 920.0, 0.3, 0.4, 0.55  # as contact.in and hopper/*.toml
+# dt, s: about 70 steps in the shortest contact
+MATERIALS = {"wax": dict(file="materials.toml", E=91e6, Y=1e6, dt=2e-6), "stiff": dict(file="stiff.toml", E=1820e6, Y=2e6, dt=6e-7)}
+DEEPEST = 0.2  # stretched overlap/R*: only collisions below it are tried under --stretch
 NORMAL_SPEED = 0.5  # m/s, of the oblique impacts
 
 
@@ -63,35 +67,48 @@ def outcome(after, case, first):
     return {"e": after["vz"][i] / speed, "tangential": after["vx"][i], "spin": after["omegay"][i] * RADIUS}
 
 
-def thornton_e(speed):
+def thornton_e(speed, material):
     """Thornton 1997, eq. 41, for the wall; a like pair at twice the speed is the same collision."""
-    e_star = E / (1 - NU**2)
-    v_y = (math.pi / (2 * e_star))**2 * math.sqrt(2 / (5 * DENSITY)) * (1.6 * Y)**2.5
+    e_star = material["E"] / (1 - NU**2)
+    v_y = (math.pi / (2 * e_star))**2 * math.sqrt(2 / (5 * DENSITY)) * (1.6 * material["Y"])**2.5
     x = v_y / speed
     return 1.0 if x >= 1 else (math.sqrt(6 * math.sqrt(3) / 5) * math.sqrt(1 - x * x / 6)
                                * (x / (x + 2 * math.sqrt(1.2 - 0.2 * x * x)))**0.25)
 
 
-def expected(model, case, law):
-    """e by the model itself, outside LIGGGHTS: `mpm law`, the closed form, the constant."""
+def collide(case, law, name):
+    """One collision of the law itself, outside LIGGGHTS: what `mpm law` says."""
     kind, speed, _ = case
-    if model == "thornton":
-        return thornton_e(speed / 2 if kind == "pair" else speed)
-    if model == "hertz":
-        return E_HERTZ
-    pair = "wax:wax" if kind == "pair" else "wax:wall"
+    pair = f"{name}:{name}" if kind == "pair" else f"{name}:wall"
     done = subprocess.run([sweep.program("mpm"), "law", law, "--pair", pair, "--radius", str(RADIUS), "--velocity",
                            repr(float(speed)), "--json"], check=True, capture_output=True, text=True)
-    return json.loads(done.stdout)["e"]
+    return json.loads(done.stdout)
+
+
+def expected(model, case, law, args):
+    """e by the model itself: `mpm law`, the closed form, the constant."""
+    kind, speed, _ = case
+    if model == "thornton":
+        return thornton_e(speed / 2 if kind == "pair" else speed, MATERIALS[args.material])
+    return E_HERTZ if model == "hertz" else collide(case, law, args.material)["e"]
+
+
+def shallow(case, law, args):
+    """Whether the stretched overlap stays below DEEPEST."""
+    radius = RADIUS / 2 if case[0] == "pair" else RADIUS
+    return args.stretch == 1 or args.stretch * collide(case, law, args.material)["delta_max_m"] / radius < DEEPEST
 
 
 def main(argv=None):
-    args = sweep.options(__doc__, "out/drop").parse_args(argv)
-    out = pathlib.Path(args.out)
-    law = sweep.make_law(args)
-    cases = collisions(args.quick)
-    stretch = max(args.stretch, 1.0)
-    dt, steps = 2e-6, int(600 * stretch)
+    parser = sweep.options(__doc__, "out/drop")
+    parser.add_argument("--material", choices=list(MATERIALS), default="wax", help="default wax; stiff: E*/Y = 1000")
+    args = parser.parse_args(argv)
+    if args.stretch != 1 and args.models != ["mpm"]:
+        parser.error("--stretch is of model mpm: give --models mpm")
+    material, out = MATERIALS[args.material], pathlib.Path(args.out)
+    law = sweep.make_law(args, HERE.parent / "hopper" / material["file"])
+    cases = [case for case in collisions(args.quick) if shallow(case, law, args)]
+    dt, steps = material["dt"] * args.stretch, 600
     rows = []
     samples = {}  # model -> case number -> {quantity: [a value for each seed]}
     for seed in range(1, args.seeds + 1):
@@ -100,7 +117,8 @@ def main(argv=None):
         for model in args.models:
             name = sweep.label(args, model)
             folder = sweep.run(args, HERE / "in.drop", model, out / f"{name}-{seed}", [scene / "collisions.data"], law,
-                               {"scene": scene, "dt": dt, "steps": steps})
+                               {"scene": scene, "dt": dt, "steps": steps, "E": material["E"], "Y": material["Y"],
+                                "material": args.material})
             after = readings.dump(folder)
             for k, case in enumerate(cases):
                 for quantity, value in outcome(after, case, first[k]).items():
@@ -108,7 +126,7 @@ def main(argv=None):
     for name, by_case in samples.items():
         model = name.split("-")[0]
         for k, case in enumerate(cases):
-            e, own = Sample(by_case[k]["e"]), expected(model, case, law)
+            e, own = Sample(by_case[k]["e"]), expected(model, case, law, args)
             row = {"model": name, "kind": case[0], "normal_speed": case[1], "angle": case[2], "e": e.mean,
                    "e_deviation": e.deviation, "e_expected": own}
             if case[0] == "oblique":
@@ -124,8 +142,24 @@ def main(argv=None):
         writer = csv.DictWriter(file, names)
         writer.writeheader()
         writer.writerows(rows)
+    tabulate(selection(samples, cases, args.seeds), out / "drop.csv")
     report(out, rows, args)
     return rows
+
+
+def selection(samples, cases, seeds):
+    """Of every model and seed, a few collisions that stand for the rest: for the table over all examples."""
+    wall = [k for k, c in enumerate(cases) if c[0] == "wall"]
+    chosen = {}
+    for target in (0.1, 0.3, 1.0, 3.0):
+        k = min(wall, key=lambda k: abs(math.log(cases[k][1] / target)))
+        chosen[f"e on the wall at {cases[k][1]:.3g} m/s"] = (k, "e", 1.0)
+    oblique = [k for k, c in enumerate(cases) if c[0] == "oblique"]
+    if oblique:
+        k = min(oblique, key=lambda k: abs(cases[k][2] - 40))
+        chosen[f"tangential speed kept at {cases[k][2]:g} degrees"] = (k, "tangential", cases[k][1] * math.tan(math.radians(cases[k][2])))
+    return {m: [{name: by_case[k][quantity][seed] / unit for name, (k, quantity, unit) in chosen.items()} for seed in range(seeds)]
+            for m, by_case in samples.items()}
 
 
 def report(out, rows, args):
@@ -135,17 +169,17 @@ def report(out, rows, args):
              "gross sliding: tangential speed | spin |", "|---|---|---|---|---|---|"]
     for m in models:
         mine = [r for r in rows if r["model"] == m]
-        worst = {k: max(abs(r["e"] - r["e_expected"]) for r in mine if r["kind"] == k) for k in ("wall", "pair")}
+        worst = {k: max((abs(r["e"] - r["e_expected"]) for r in mine if r["kind"] == k), default=math.nan) for k in ("wall", "pair")}
         slide = [r for r in mine if r.get("slides")]
-        part = lambda q: max(abs(r[q] / r[q + "_sliding"] - 1) for r in slide)
+        part = lambda q: max((abs(r[q] / r[q + "_sliding"] - 1) for r in slide), default=math.nan)
         spread = f"{max(r['e_deviation'] for r in mine):.1g}" if args.seeds > 1 else "one seed"
         lines.append(f"| {m} | {worst['wall']:.1g} | {worst['pair']:.1g} | {spread} | "
                      f"{100 * part('tangential'):.2g} % | {100 * part('spin'):.2g} % |")
     lines += ["", "| normal speed, m/s | " + " | ".join(f"{m}, wall | {m}, pair" for m in models) + " |",
               "|---|" + "---|---|" * len(models)]
     for v in sorted({r["normal_speed"] for r in rows if r["kind"] == "wall"}):
-        cell = lambda m, k: next(r["e"] for r in rows if (r["model"], r["kind"], r["normal_speed"]) == (m, k, v))
-        lines.append(f"| {v:.4g} | " + " | ".join(f"{cell(m, 'wall'):.4f} | {cell(m, 'pair'):.4f}" for m in models) + " |")
+        cell = lambda m, k: next((f"{r['e']:.4f}" for r in rows if (r["model"], r["kind"], r["normal_speed"]) == (m, k, v)), "")
+        lines.append(f"| {v:.4g} | " + " | ".join(f"{cell(m, 'wall')} | {cell(m, 'pair')}" for m in models) + " |")
     (out / "report.md").write_text("\n".join(lines) + "\n\n![drop](drop.png)\n")
 
     figure, axes = pictures.panels(3)

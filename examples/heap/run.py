@@ -73,11 +73,11 @@ def main(argv=None):
     parser = sweep.options(__doc__, "out/heap")
     parser.add_argument("--particles", type=int)
     args = parser.parse_args(argv)
-    particles = args.particles or (150 if args.quick else 1200)
-    rate = 1000 if args.quick else 1500  # spheres a second
-    base = 0.05 if args.quick else 0.12  # m, radius of the glued layer
+    particles = args.particles or (150 if args.quick else 800)
+    rate = 1000 if args.quick else 2000  # spheres a second
+    base = 0.05 if args.quick else 0.10  # m, radius of the glued layer
     dt = 6e-6 * args.stretch
-    steps = round((particles / rate + (0.25 if args.quick else 0.5)) / dt)
+    steps = round((particles / rate + (0.25 if args.quick else 0.6)) / dt)
     out, law, tables, profiles = pathlib.Path(args.out), sweep.make_law(args), {}, {}
     scene = out / "scene"
     scene.mkdir(parents=True, exist_ok=True)

@@ -61,7 +61,7 @@ def main(argv=None):
     particles = args.particles or (150 if args.quick else 2000)
     side = 2 * RADIUS * (4 if args.quick else 10)
     dt = 6e-6 * args.stretch
-    steps = round((0.25 if args.quick else 0.6) / dt)
+    steps = round((0.25 if args.quick else 0.5) / dt)
     out, law, tables, curves = pathlib.Path(args.out), sweep.make_law(args), {}, {}
     for seed in range(1, args.seeds + 1):
         scene = out / f"scene-{seed}"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The hopper example in small: three models on one and two ranks, from one cloud of 200 spheres.
 
-    test_hopper.py MODEL LAUNCHER LAW MPIRUN      (LAW: a law file of the example's material; used by mpm)
+    test_hopper.py MODEL LAUNCHER LAW MPIRUN PLUGIN_LAUNCHER      (LAW: a law file of the example's material; used by mpm)
 """
 import os
 import pathlib
@@ -22,7 +22,7 @@ PARTICLES = 200
 
 
 class Hopper(unittest.TestCase):
-    model = launcher = law = mpirun = ""
+    model = launcher = law = mpirun = plugin_launcher = ""
 
     @classmethod
     def setUpClass(cls):
@@ -97,6 +97,22 @@ class Hopper(unittest.TestCase):
             self.assertGreater(f["plastic"], 0.1 * f["dissipated"])
             self.assertLess(f["plastic"], f["dissipated"])
 
+    def test_stock_hertz_is_stock_hertz(self):
+        """The launcher with the plug-in loaded changes nothing in a stock run: the same dumps, digit for digit, in impact and at rest."""
+        if self.model != "hertz":
+            self.skipTest("of the stock model only")
+        first = []
+        for launcher in (self.launcher, self.plugin_launcher):
+            out = self.folder / f"plain{len(first)}"
+            out.mkdir()
+            command = [launcher, "-in", str(EXAMPLE / "in.hopper"), "-log", str(out / "log"), "-var", "model", "hertz", "-var", "scene",
+                       str(self.folder / "scene"), "-var", "out", str(out), "-var", "fill", "16000", "-var", "flow", "4000",
+                       "-var", "pictures", "4000"]
+            subprocess.run(command, check=True, capture_output=True, stdin=subprocess.DEVNULL, timeout=100)
+            first.append([p.read_text() for p in sorted(out.glob("dump_*.txt"))])
+        self.assertEqual(len(first[0]), 6)
+        self.assertEqual(first[0], first[1])
+
     def test_ranks_agree_until_chaos_parts_them(self):
         """One cloud, two rank counts: the free fall is one to rounding, the settled bed only in the mean."""
         one, two = self.runs[1].series, self.runs[2].series
@@ -108,5 +124,5 @@ class Hopper(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Hopper.model, Hopper.launcher, Hopper.law, Hopper.mpirun = sys.argv[1:5]
+    Hopper.model, Hopper.launcher, Hopper.law, Hopper.mpirun, Hopper.plugin_launcher = sys.argv[1:6]
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -227,6 +227,16 @@ TEST_F(Deck, ReadsDataAndSet)
   EXPECT_EQ(s.sources[0].radius_max, 0.002);
   EXPECT_EQ(s.sources[0].centres.high[2], 0.7);
   EXPECT_EQ(s.count(), 2);
+  EXPECT_EQ(s.sources[0].speed, 0);
+  write("moving",
+        "title\n\n2 atoms\n\nAtoms\n\n1 1 0.002 900 0 0 0\n2 2 0.002 900 1 0 0\n\nVelocities\n\n"
+        "1 0 0 0.5 0 0 0\n2 3 0 -4 0 9 0\n");
+  const Scene m = scene("units si\nread_data moving");
+  ASSERT_EQ(m.sources.size(), 2u);
+  EXPECT_EQ(m.sources[0].speed, 0.5);
+  EXPECT_EQ(m.sources[1].speed, 5);
+  write("stranger", "title\n\n1 atoms\n\nAtoms\n\n1 1 0.002 900 0 0 0\n\nVelocities\n\n7 0 0 1 0 0 0\n");
+  EXPECT_THROW(scene("units si\nread_data stranger"), Error);
   write("bad", "title\n\n1 atoms\n\nAtoms\n\n1 1 0.002\n");
   EXPECT_THROW(scene("read_data bad"), Error);
   EXPECT_THROW(scene("read_data missing"), Error);

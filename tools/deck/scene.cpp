@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <unordered_map>
 
 #include "base/error.hpp"
 #include "deck/script.hpp"
@@ -743,8 +744,9 @@ void Reader::read_data(const Command& c)
   if (!in || !std::filesystem::is_regular_file(path, ignored))
     fail(c.where, "the file of read_data cannot be read", "'" + path + "'");
   std::map<int, Source> by_type;
+  std::unordered_map<double, Source*> of_id;  // for the speeds, which come after the atoms
   std::string line;
-  bool atoms = false, first = true;
+  bool atoms = false, velocities = false, first = true;
   double n_atoms = 0;
   int number_of_line = 0;
   while (std::getline(in, line)) {
@@ -756,12 +758,28 @@ void Reader::read_data(const Command& c)
     if (const auto comment = line.find('#'); comment != std::string::npos) line.resize(comment);
     const auto words = Script::split(line);
     if (words.empty()) continue;
-    if (words[0] == "Atoms") {
-      atoms = true;
+    if (!number(words[0])) {  // a section's name
+      atoms = words[0] == "Atoms";
+      velocities = words[0] == "Velocities";
       continue;
     }
-    if (!number(words[0])) {
-      atoms = false;  // another section
+    const auto numbers = [&](auto& v, const char* section, const char* columns) {
+      const std::string where = fmt::format("{}:{}", path, number_of_line);
+      if (words.size() < v.size())
+        fail(where, fmt::format("found {} words in a line of {}", words.size(), section), "", columns);
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        const auto n = number(words[k]);
+        if (!n) fail(where, "is no number", "'" + words[k] + "'");
+        v[k] = *n;
+      }
+    };
+    if (velocities) {
+      std::array<double, 4> v{};  // the angular velocity that follows moves no centre
+      numbers(v, "Velocities", "id vx vy vz");
+      const auto s = of_id.find(v[0]);
+      if (s == of_id.end())
+        fail(fmt::format("{}:{}", path, number_of_line), "Velocities of an atom that Atoms lacks", words[0]);
+      s->second->speed = std::max(s->second->speed, norm(Vec3{v[1], v[2], v[3]}));
       continue;
     }
     if (!atoms) {
@@ -775,17 +793,8 @@ void Reader::read_data(const Command& c)
         }
       continue;
     }
-    // atom_style granular: id type diameter density x y z
-    std::array<double, 7> v{};
-    if (words.size() < 7)
-      fail(fmt::format("{}:{}", path, number_of_line),
-           "found " + std::to_string(words.size()) + " words in a line of Atoms", "",
-           "id type diameter density x y z");
-    for (std::size_t k = 0; k < 7; ++k) {
-      const auto n = number(words[k]);
-      if (!n) fail(fmt::format("{}:{}", path, number_of_line), "is no number", "'" + words[k] + "'");
-      v[k] = *n;
-    }
+    std::array<double, 7> v{};  // atom_style granular
+    numbers(v, "Atoms", "id type diameter density x y z");
     Source& s = by_type[static_cast<int>(std::clamp(v[1], 0.0, 1e6))];
     const double radius = 0.5 * v[2];
     s.radius_min = s.count == 0 ? radius : std::min(s.radius_min, radius);
@@ -793,6 +802,7 @@ void Reader::read_data(const Command& c)
     s.density = std::max(s.density, v[3]);
     s.centres.include(Vec3{v[4], v[5], v[6]});
     s.count += 1;
+    of_id[v[0]] = &s;
   }
   if (n_atoms > 0 && by_type.empty())
     script_->note(c.where, fmt::format("'{}' holds no section Atoms", path));

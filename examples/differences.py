@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""Which observables differ between hertz, thornton and mpm, over all decks, from the runs' own CSV files.
+
+    differences.py out [--write]      # --write: into examples/README.md, between its marks
+
+Welch's t test between every two models. Among so many tests some fall below 0.05 by chance: a difference is called significant
+where p times the number of tests in the table is below 0.05 (Bonferroni), `perhaps` where only p is."""
+import argparse
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE / "common"))
+import marks, sweep  # noqa: E401, E402
+from spread import read, welch  # noqa: E402
+
+DECKS = ("drop", "packing", "heap", "compression", "hopper", "silo")
+PAIRS = (("thornton", "hertz"), ("mpm", "hertz"), ("mpm", "thornton"))
+SKIP = ("CPU", "particle-steps")  # cost is no observable of the flow
+
+
+def rows(out):
+    """(deck, quantity, {model: Sample}, seeds) of what was run."""
+    for deck in DECKS:
+        path = out / deck / f"{deck}.csv"
+        if not path.exists():
+            continue
+        samples = read(path)
+        models = [m for m in sweep.MODELS if m in samples]
+        for quantity in dict.fromkeys(q for m in models for q in samples[m]):
+            found = {m: samples[m][quantity] for m in models if quantity in samples[m]}
+            if len(found) > 1 and not any(word in quantity for word in SKIP):
+                yield deck, quantity, found
+
+
+def cell(found, pair, tests):
+    if not all(m in found for m in pair):
+        return ""
+    a, b = (found[m] for m in pair)
+    p = welch(a, b)
+    if p is None:
+        return "one seed"
+    change = f"{100 * (a.mean / b.mean - 1):+.1f} %" if b.mean else f"{a.mean - b.mean:+.2g}"
+    if p >= 0.05:
+        return f"no ({change}, p = {p:.2g})"
+    return f"**yes**, {change}, p = {p:.1g}" if p * tests < 0.05 else f"perhaps, {change}, p = {p:.2g}"
+
+
+def table(out):
+    found = list(rows(out))
+    tests = sum(all(m in f for m in pair) and welch(f[pair[0]], f[pair[1]]) is not None for _, _, f in found for pair in PAIRS)
+    lines = [f"{tests} tests. Mean ± standard error of the seeds.", "",
+             "| deck (seeds) | observable | " + " | ".join(sweep.MODELS) + " | " + " | ".join(f"{a} differs from {b}" for a, b in PAIRS) + " |",
+             "|---|---|" + "---|" * (len(sweep.MODELS) + len(PAIRS))]
+    for deck, quantity, f in found:
+        seeds = min(s.values.size for s in f.values())
+        lines.append(f"| {deck} ({seeds}) | {quantity} | " + " | ".join(str(f.get(m, "")) for m in sweep.MODELS) + " | " +
+                     " | ".join(cell(f, pair, tests) for pair in PAIRS) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=pathlib.Path, help="folder that holds the decks' outputs")
+    parser.add_argument("--write", action="store_true", help="into examples/README.md")
+    args = parser.parse_args(argv)
+    marks.put(HERE / "README.md", "differences.py", table(args.out), args.write)
+
+
+if __name__ == "__main__":
+    main()

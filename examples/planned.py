@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""Speeds that `mpm plan DECK` predicts beside those that the deck's runs visited (stats.json), for every example that was run.
+
+    planned.py out [--write]      # --write: into examples/README.md, between its marks
+
+Largest speeds over all seeds; "the scene" compares the speed of the yielding body (half a like pair's, a wall's own)."""
+import argparse
+import json
+import pathlib
+import shlex
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE / "common"))
+import marks, sweep  # noqa: E401, E402
+
+MARK = "planned.py"
+
+
+def variables(command):
+    """The deck and {name: value} of `-var name value...`; the command file joins a value's words by blanks."""
+    words, found, name = shlex.split(command), {}, None
+    deck = words[words.index("-in") + 1]
+    for word in words[words.index("-log") + 2:]:
+        if word == "-var":
+            name = ""
+        elif name == "":
+            name = word
+            found[name] = []
+        else:
+            found[name].append(word)
+    return deck, {k: " ".join(v) for k, v in found.items()}
+
+
+def planned(folder):
+    """{"pair": m/s, "wall": m/s} by `mpm plan`, paths from the folder where the runs were started."""
+    deck, words = variables((folder / "command").read_text())
+    command = [sweep.program("mpm"), "plan", deck, "--json"]
+    for name, value in words.items():
+        path = pathlib.Path(value)
+        command += ["--var", name, str(path.resolve()) if path.exists() else value or " "]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
+    plan = json.loads(done.stdout)
+    speeds = {"pair": 0.0, "wall": 0.0}
+    for p in plan["pairs"]:
+        side = "wall" if p["wall"] else "pair"
+        speeds[side] = max(speeds[side], p["speed_max_m_per_s"])
+    return speeds, plan
+
+
+def visited(folders):
+    speeds = {"pair": 0.0, "wall": 0.0}
+    for folder in folders:
+        stats = json.loads((folder / "stats.json").read_text())
+        for side in speeds:
+            speeds[side] = max(speeds[side], stats[side]["impact_speed_max_m_per_s"] or 0.0)
+    return speeds
+
+
+def body(speeds):
+    """Of the yielding body: each of a like pair has half the relative speed."""
+    return max(speeds["pair"] / 2, speeds["wall"])
+
+
+def compare(deck):
+    """(model, number of runs, planned, visited, the plan) of each model's finished runs in the folder `deck`."""
+    runs = [f for f in sorted(deck.glob("*-[0-9]*")) if (f / "done").exists() and (f / "stats.json").exists()]
+    for model in sweep.MODELS:
+        mine = [f for f in runs if f.name.startswith(f"{model}-") and f.name[len(model) + 1].isdigit()]
+        if mine:
+            bounds = [planned(f) for f in mine]
+            yield model, len(mine), {side: max(b[side] for b, _ in bounds) for side in ("pair", "wall")}, visited(mine), bounds[0][1]
+
+
+def table(out):
+    lines = ["| deck | model (runs) | pairs: planned, visited m/s | ratio | walls: planned, visited m/s | ratio | the scene |",
+             "|---|---|---|---|---|---|---|"]
+    rows = [(deck.name, *row) for deck in sorted(p for p in out.iterdir() if p.is_dir()) for row in compare(deck)]
+    for name, model, runs, bound, seen, plan in rows:
+        ratio = {side: f"{bound[side] / seen[side]:.2f}" if seen[side] else "not met" for side in bound}
+        lines.append(f"| {name} | {model} ({runs}) | {bound['pair']:.3g}, {seen['pair']:.3g} | {ratio['pair']} | {bound['wall']:.3g}, "
+                     f"{seen['wall']:.3g} | {ratio['wall']} | {body(bound) / body(seen):.2f} |")
+        for key in ("asks_for", "not_followed"):
+            for what in plan[key]:
+                lines.append(f"| {name} | {model} | {key.replace('_', ' ')}: {what} | | | | |")
+    return "\n".join(lines) + "\n"
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=pathlib.Path, help="folder that holds the decks' outputs")
+    parser.add_argument("--write", action="store_true", help="into examples/README.md")
+    args = parser.parse_args(argv)
+    marks.put(HERE / "README.md", MARK, table(args.out), args.write)
+
+
+if __name__ == "__main__":
+    main()
