@@ -54,6 +54,11 @@ struct SyntheticLaw
     return (1 + c) / (0.4 + c / 3) - 1 + 1e-9;
   }
 
+  double residual_ratio(double s) const
+  {
+    const double q = past(s, onset);
+    return 0.9999 * (1 - std::exp(-depth * q * q));  // a law may not come nearer to 1 than 1e-5
+  }
   static double past(double s, double onset)
   {
     return std::max(0.0, std::log(std::max(s, 1e-12)) - 0.25 * std::log(onset));
@@ -66,10 +71,7 @@ struct SyntheticLaw
           const double q = past(s, onset);
           return (1 + finite_sphere * s * s) * std::exp(-softening * q * q / (1 + q));
         },
-        [&](double s) {
-          const double q = past(s, onset);
-          return 0.9999 * (1 - std::exp(-depth * q * q));  // a law may not come nearer to 1 than 1e-5
-        },
+        [&](double s) { return residual_ratio(s); },
         [&](double s) {
           const double q = past(s, onset);
           return elastic_exponent(s) + bend * q * q / (1 + q * q);

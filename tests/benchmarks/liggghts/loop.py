@@ -48,8 +48,7 @@ def head(box=None, data=None):
             "communicate single vel yes\n")
     if data:
         text += f"read_data {data}\n"
-    return text + ("neighbor 0.0008 bin\n"
-                   "neigh_modify delay 0 contact_distance_factor 1.01\n")  # stock Hertz too forgets what parted
+    return text + "neighbor 0.0008 bin\nneigh_modify delay 0\n"
 
 
 def flow(model, words=""):
