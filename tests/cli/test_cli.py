@@ -189,6 +189,13 @@ def case_errors():
     refused(["press", name, "--particle", "grain", "--depth", "0.1", "--ramp", "-5", *out], "--ramp", "1 to 1e6")
     refused(["table", name, "--pair", "powdr:wall", "-o", "out.h5"], "powdr", "did you mean 'powder'")
     refused(["table", name, "--pair", "powder", "-o", "out.h5"], "powder", "a:b")
+    # a layered body has no law with an unlike one: said before any run is made (and kept in the folder of --cache)
+    Path("coated.toml").write_text(GOOD + """[particle.coated]
+radius = 2e-3
+material = "powder"
+layers = [{material = "glass", thickness = 1e-4}]
+""")
+    refused(["table", "coated.toml", "--pair", "coated:glass", "--cache", "runs", "-o", "out.h5"], "coated:glass", "no homogeneous sphere")
     refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "in.x", "cannot be read")
     refused(["plan", "in.hopper"], "in.hopper", "cannot be read")
 

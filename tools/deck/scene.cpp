@@ -919,7 +919,8 @@ void Reader::finish()
   scene_.time_step = dt_;
   if (scene_.units == "si") return;
   if (scene_.units != "cgs")
-    fail(scene_.deck, "its units cannot be planned with", "units " + scene_.units, "units si, units cgs");
+    fail(scene_.deck, "its units cannot be planned with (LIGGGHTS's own, where a deck says none, are lj)",
+         "units " + scene_.units, "units si, units cgs");
   constexpr double length = 0.01, density = 1000, pressure = 0.1;
   const auto scale = [](Box& box) { box.low = length * box.low, box.high = length * box.high; };
   scene_.gravity = length * scene_.gravity;

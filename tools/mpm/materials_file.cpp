@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -399,7 +400,8 @@ MaterialsFile read_materials(const std::string& path)
 {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) fail(path, "no such file");
-  if (!std::filesystem::is_regular_file(path, ignored)) fail(path, "cannot be read as a file");
+  if (!std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path))
+    fail(path, "cannot be read as a file");
   toml::table root;
   try {
     root = toml::parse_file(path);

@@ -32,6 +32,8 @@ def main():
     options.add_argument("--moments", type=int, default=3, help="how many (default 3); the deepest is one of them")
     options = options.parse_args()
 
+    if not h5py.is_hdf5(options.fields):
+        raise SystemExit(f"{options.fields}: no such file, or not HDF5")
     with h5py.File(options.fields) as file:
         if file.attrs.get("format") not in ("granulaw-fields", b"granulaw-fields"):
             raise SystemExit(f"{options.fields}: not a field series of mpm impact or mpm press")

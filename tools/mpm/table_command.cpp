@@ -205,6 +205,20 @@ bool may_have_own_law(const LawPair& pair, const std::map<std::string, Entry>& e
   return bodies_of(pair, law, 1).yielding.yields();
 }
 
+/// Throws for a pair of different bodies that the pair rule is not for: before anything is computed.
+void check_pairs(const std::vector<LawPair>& pairs, const std::map<std::string, Entry>& entries)
+{
+  const auto body_of = [&](const std::string& name) {
+    BodyLaw body;
+    body.material = entries.at(name).material;
+    body.body = entries.at(name).body;
+    return body;
+  };
+  for (const LawPair& pair : pairs)
+    if (pair.b != wall_name && pair.a != pair.b)
+      check_partners(body_of(pair.a), body_of(pair.b), fmt::format("--pair {}:{}", pair.a, pair.b));
+}
+
 void build(const TableRequest& r)
 {
   check_output(r.output, ".h5");
@@ -216,6 +230,7 @@ void build(const TableRequest& r)
     for (const std::string& name : {a, b})
       if (name != wall_name && !entries.contains(name)) entries[name] = entry_of(name, file);
   }
+  check_pairs(law.pairs, entries);
 
   BuildOptions options = r.range;
   options.fastest = std::sqrt(r.inertia);
@@ -272,8 +287,6 @@ void build(const TableRequest& r)
   }
   for (LawPair& pair : law.pairs) {
     const std::string name = pair.a + ":" + pair.b;
-    if (pair.b != wall_name && pair.a != pair.b)
-      check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), fmt::format("--pair {}", name));
     state_reduction(pair, law, r.radius_ratio);
     const double worst = std::max(pair.reduction_error_force, pair.reduction_error_restitution);
     if (!may_have_own_law(pair, entries, law) || worst <= options.tolerance) continue;
