@@ -17,7 +17,8 @@ DECKS = ("drop", "packing", "heap", "compression", "hopper", "silo")
 OBSERVABLES = (("discharge rate", r"^discharge rate"), ("energy dissipated", r"^energy dissipated"),
                ("dissipated in normal contacts", r"^(dissipated in normal contacts|of it in normal contacts)"),
                ("heap angle", r"^angle, degrees"), ("packing fraction", r"^(solid fraction$|bulk density)"),
-               ("stress", r"^stress at solid fraction 0\.7,"))
+               ("stress", r"^stress at solid fraction 0\.7,"), ("restitution", r"^e on the wall at .* m/s"))
+PANELS = 5  # of one deck's picture, at most
 COSTS = ("CPU time, s", "million particle-steps a second", "wall-clock per particle-step, dense, median")
 COLOURS = {"hertz": "0.35", "thornton": "tab:orange", "mpm": "tab:blue"}
 MARKERS = "sD^vP*Xp"
@@ -41,7 +42,7 @@ def differs(a, b):
 
 def unit_of(quantity):
     """Of a deviation: an angle's in degrees (a share of an angle says nothing), else percent of the reference."""
-    return "degrees" if "degrees" in quantity else "%"
+    return "degrees" if re.search(r"angle.*degrees", quantity) else "%"
 
 
 def deviation(a, b, unit):
@@ -108,14 +109,16 @@ class Deck:
 def words(model):
     """mpm-stretch10 -> `mpm` stretched by 10."""
     stretch, softer = re.match(r"(\w+)-stretch([\d.]+)$", model), re.match(r"(\w+)-softer([\d.]+)$", model)
+    if model.endswith("-decklaw"):
+        return f"{model[:-8]}, law for this deck only"
     return f"{stretch[1]}, stretched by {stretch[2]}" if stretch else f"{softer[1]}, E lowered, dt × {softer[2]}" if softer else model
 
 
 def read_example(decks, path):
-    """Adds a DECK.csv to `decks`. Folders NAME and NAME-stretchS are one deck's."""
+    """Adds a DECK.csv to `decks`. Folders NAME, NAME-stretchS and NAME-S are one deck's."""
     rows = files.read_csv(path, ("model", "seed", "quantity", "value"))
     folder = path.parent
-    base = re.sub(r"-stretch[\d.]+$", "", folder.name)
+    base = re.sub(r"-(stretch)?[\d.]+$", "", folder.name)
     key = (str(folder.parent), base, path.stem)
     deck = decks.setdefault(key, Deck(path.stem, base if base.startswith(path.stem) else f"{path.stem} ({base})"))
     values = {}
@@ -184,7 +187,11 @@ def read_all(folder):
             read_demo(decks, path)
         except files.Unreadable as error:
             broken.append(error)
-    return [d for d in decks.values() if d.quantities], broken
+    found = [d for d in decks.values() if d.quantities]
+    for deck in found:  # runs of one deck in two places are told apart by their folders
+        if sum(other.title == deck.title for other in found) > 1:
+            deck.title = f"{deck.title} in {deck.sources[0].parent}"
+    return found, broken
 
 
 def observables(deck):
@@ -192,9 +199,10 @@ def observables(deck):
     names = list(dict.fromkeys(q for m in deck.quantities.values() for q in m))
     found = []
     for short, pattern in OBSERVABLES:
-        name = next((q for q in names if re.search(pattern, q)), None)
-        if name and sum(name in deck.quantities[m] for m in deck.models) > 1:
-            found.append((short, name))
+        matching = [q for q in names if re.search(pattern, q)]
+        for name in matching if short == "restitution" else matching[:1]:
+            if sum(name in deck.quantities[m] for m in deck.models) > 1:
+                found.append((re.sub(r"^e on the wall", "e", name) if short == "restitution" else short, name))
     return found
 
 
@@ -256,6 +264,10 @@ def against(sample, base, quantity):
     return f"{with_error(off, error, plus=True)} {unit}, {'**significant**' if differs(sample, base) else 'not significant'}"
 
 
+def two_lines(first, second):
+    return first + ("\n" + second if second else "")
+
+
 def cost_cells(deck, model):
     """Time step, wall-clock and CPU seconds a run, wall-clock over the reference's."""
     cost, base = deck.cost[model], deck.cost.get(REFERENCE)
@@ -274,12 +286,13 @@ def write_deck(page, deck, k):
     page.heading(deck.title[0].upper() + deck.title[1:])
     names, models = observables(deck), deck.models
     base = deck.quantities.get(REFERENCE)
+    seeds = min((len(next(iter(q.values())).values) for q in deck.quantities.values() if q), default=0)
     spread = ("from the spread within one run: windows of the flow, particles" if deck.within else
-              f"{min(len(next(iter(q.values())).values) for q in deck.quantities.values())} seeds")
+              f"{seeds} seeds" if seeds > 1 else "one seed: no spread is known")
     if base is None:
         page.text(f"No unstretched `mpm` runs here: nothing to hold {', '.join(models)} against.")
     elif names and deck.clock():
-        page.figure(picture(deck, names), f"flow-{k}-{deck.name}",
+        page.figure(picture(deck, names[:PANELS]), f"flow-{k}-{deck.name}",
                     f"Deviation from the unstretched `mpm` against cost; ± one standard error ({spread}); the band is the reference's own.")
     costs = {m: cost_cells(deck, m) for m in models}
     kept = [k for k in range(4) if any(c[k] != "n/a" for c in costs.values())]
@@ -290,7 +303,7 @@ def write_deck(page, deck, k):
         row = [words(model), *[costs[model][k] for k in kept]]
         for _, name in names:
             mine = deck.quantities[model].get(name)
-            row.append(cell(mine) + "\n" + ("reference" if model == REFERENCE else against(mine, base and base.get(name), name)))
+            row.append(two_lines(cell(mine), "reference" if model == REFERENCE else against(mine, base and base.get(name), name)))
         rows.append(row)
     for model, sentence in deck.stopped.items():
         if model not in models:
@@ -303,9 +316,9 @@ def write_deck(page, deck, k):
     shown = {name for _, name in names}
     rest = [q for q in dict.fromkeys(q for m in models for q in deck.quantities[m]) if q not in shown]
     if rest:
-        full = lambda m, q: cell(deck.quantities[m].get(q)) + ("" if m == REFERENCE or q.startswith(COSTS) else
-                                                               "\n" + against(deck.quantities[m].get(q), base and base.get(q), q))
-        page.table(["quantity", *[words(m) for m in models]], [[q, *[full(m, q) for m in models]] for q in rest], fold=f"{len(rest)} other quantities of this deck")
+        full = lambda m, q: two_lines(cell(deck.quantities[m].get(q)), "" if m == REFERENCE or q.startswith(COSTS) else
+                                      against(deck.quantities[m].get(q), base and base.get(q), q))
+        page.table(["quantity", *[words(m) for m in models]], [[q, *[full(m, q) for m in models]] for q in rest], fold=f"{len(rest)} other quantit{'ies' if len(rest) > 1 else 'y'} of this deck")
     page.origin("From " + ", ".join(f"`{s}`" for s in deck.sources) + f"; ± is the standard error, {spread}.")
 
 
@@ -347,28 +360,33 @@ def glance(decks):
         for model in deck.models if base else []:
             if model == REFERENCE:
                 continue
-            entry = found.setdefault(model, {"cost": [], "tested": 0, "off": []})
+            entry = found.setdefault(model, {"cost": [], "tested": 0, "off": {}})
             seconds = [deck.cost[m].seconds(deck.clock()) if deck.clock() else None for m in (model, REFERENCE)]
-            if all(seconds):
+            if all(seconds) and min(s.mean for s in seconds) > 1.0:  # shorter runs are mostly start-up
                 entry["cost"].append(seconds[0].mean / seconds[1].mean)
             for short, name in observables(deck):
                 mine = deck.quantities[model].get(name)
                 verdict = differs(mine, base[name]) if mine and name in base else None
                 entry["tested"] += verdict is not None
                 if verdict:
-                    entry["off"].append(f"{short} in {deck.title} {with_error(*deviation(mine, base[name], unit_of(name)), plus=True)} {unit_of(name)}")
+                    entry["off"].setdefault(deck.title, []).append((short, *deviation(mine, base[name], unit_of(name)), unit_of(name)))
     rows = []
     for model, e in found.items():
         span = "n/a" if not e["cost"] else f"{min(e['cost']):.2f}" + (f" to {max(e['cost']):.2f}" if len(e["cost"]) > 1 else "")
-        rows.append([f"flow under {words(model)}", f"{span} times mpm's cost", f"{len(e['off'])} of {e['tested']} observables differ significantly from mpm"
-                     + "".join(f"\n{o}" for o in e["off"][:3]) + (f"\nand {len(e['off']) - 3} more" if len(e["off"]) > 3 else "")])
+        count = sum(map(len, e["off"].values()))
+        lines = [f"{count} of {e['tested']} observables differ significantly from mpm" if e["tested"] else "one seed: no verdict"]
+        for deck, off in e["off"].items():
+            short, value, error, unit = max(off, key=lambda o: abs(o[1]))
+            lines.append(f"{deck}: {'up to ' if len(off) > 1 else ''}{with_error(value, error, plus=True)} {unit}, {short}")
+        rows.append([f"flow under {words(model)}", f"{span} times mpm's cost" if e["cost"] else "n/a", "\n".join(lines)])
     return rows
 
 
 def write(page, decks):
     page.glance(glance(decks))
     page.text("The reference is model `mpm` unstretched: the computed law, with the errors of parts (a) and (b). So a deviation here is what "
-              "another law, or stretching, does to the flow, not an error against an experiment.")
+              "another law, or stretching, does to the flow, not an error against an experiment. Cost: CPU seconds where every run kept them, else "
+              "wall-clock, which says little on a machine with other work.")
     rows = verdicts(decks)
     if len(decks) > 1 and rows:
         tested = sum("significant" in r[-1] for r in rows)

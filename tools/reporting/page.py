@@ -107,9 +107,10 @@ class Page:
         """`fold`: a line under which the table is hidden until it is asked for."""
         self._add(*self._table(head, rows, fold))
 
-    def _table(self, head, rows, fold=None):
+    def _table(self, head, rows, fold=None, words=False):
+        """`words`: no column of numbers."""
         rows = [[str(c) for c in row] for row in rows]
-        text = [k > 0 and bool(rows) and sum(not _number(r[k]) for r in rows) > len(rows) / 2 for k in range(len(head))]
+        text = [words or k > 0 and bool(rows) and sum(not _number(r[k]) for r in rows) > len(rows) / 2 for k in range(len(head))]
         long = [any(len(line) > 45 for r in rows for line in r[k].split("\n")) for k in range(len(head))]
         mark = lambda k: f' class="{"text" if text[k] else ""}{" long" if long[k] else ""}"' if text[k] or long[k] else ""
         out = ['<div class="scroll"><table><thead><tr>', *[f"<th{mark(k)}>{_inline(h)}</th>" for k, h in enumerate(head)],
@@ -125,7 +126,7 @@ class Page:
         return body, (f"{fold}:\n\n" if fold else "") + "\n".join(plain)
 
     def _glance_table(self):
-        return self._table(["at a glance", "speed", "error"], self._glance) if self._glance else ("", "")
+        return self._table(["at a glance", "speed", "error"], self._glance, words=True) if self._glance else ("", "")
 
     def figure(self, figure, name, caption):
         """A matplotlib figure, `name`.png beside the Markdown, SVG in the HTML."""
@@ -188,8 +189,11 @@ def with_error(value, error, plus=False):
         return sign + number(value, 3 if plus else 4).replace("-", "−")
     if error < 1e-9 * abs(value):  # of equal numbers: rounding
         error = 0
-    if error == 0 or not 1e-4 <= max(abs(value), error) < 1e5:
-        return sign + f"{value:.4g} ± {error:.1g}".replace("-", "−")
+    if error == 0:
+        return sign + f"{value:.4g} ± 0".replace("-", "−")
+    top = math.floor(math.log10(max(abs(value), error)))
+    if not -4 <= top < 5:
+        return f"({with_error(value / 10**top, error / 10**top, plus)})e{top}".replace("-", "−")
     decimals = max(0, 1 - math.floor(math.log10(error)))
     return sign + f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
 
