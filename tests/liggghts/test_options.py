@@ -20,10 +20,14 @@ class Options(Deck):
         return self.result(self.run_deck(deck, **keywords), "SPEED")[0]
 
     def test_pair_style_before_create_box(self):
-        deck = self.deck()
-        style = next(l for l in deck.splitlines() if l.startswith("pair_style"))
-        early = deck.replace(style + "\n", "").replace("region box", style + "\nregion box")
-        self.assertEqual(self.speed(early), self.speed(deck))
+        """Then the first wall adds the fixes, with `energy on` the particles' energies too."""
+        for words in ("", " energy on"):
+            deck = self.deck(self.words + words) + 'variable d equal f_granulaw\nprint "LOSS ${d}"\n'
+            style = next(l for l in deck.splitlines() if l.startswith("pair_style"))
+            early = deck.replace(style + "\n", "").replace("region box", style + "\nregion box")
+            early, late = self.run_deck(early), self.run_deck(deck)
+            for name in ("SPEED", "LOSS"):
+                self.assertEqual(self.result(early, name), self.result(late, name))
 
     def test_ld_preload_with_the_stock_binary(self):
         found = self.speed(self.deck(), launcher="liggghts", environment={"LD_PRELOAD": PLUGIN})

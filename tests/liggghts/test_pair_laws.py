@@ -1,4 +1,7 @@
-"""Pairs with a law of their own in the file (/pair_laws, `mpm table --own-law`): drops in LIGGGHTS against `mpm law` of the file."""
+"""Pairs with a law of their own in the file (/pair_laws, `mpm table --own-law`): drops in LIGGGHTS against `mpm law` of the file.
+
+    test_pair_laws.py Synthetic   quick
+    test_pair_laws.py Computed    runs the solver (slow)"""
 import json
 import os
 import subprocess
@@ -13,10 +16,8 @@ STEPS = 2000               # time steps a contact
 TOLERANCE = 1e-6           # of e: the step's error, 1e-3 at 50 steps (test_restitution.py), falls with its square
 
 
-class PairLaws(Deck):
-    def setUp(self):
-        super().setUp()
-        self.fixture("write", self.law, "pair_law")
+class Drops:
+    """Of whatever law setUp wrote to self.law."""
 
     def tool(self, first, second, speed):
         done = subprocess.run([os.environ["GRANULAW_MPM"], "law", str(self.law), "--pair", f"{first.name}:{second.name}", "--radius",
@@ -39,6 +40,12 @@ class PairLaws(Deck):
                 self.assertAlmostEqual(after / speed, law["e"], delta=TOLERANCE, msg=f"{first.name} first, {speed} m/s, {ranks} ranks")
         self.assertLess(laws[1]["e"], 0.97)
 
+
+class Synthetic(Drops, Deck):
+    def setUp(self):
+        super().setUp()
+        self.fixture("write", self.law, "pair_law")
+
     def test_it_is_the_pairs_own(self):
         """Without it e is another, and the start-up table says whose law it is."""
         law = self.tool(POWDER, GLASS, 5.0)
@@ -51,6 +58,20 @@ class PairLaws(Deck):
             line, = [line for line in text.splitlines() if line.startswith("  1 powder -  2 glass")]
             rules.append(line.split()[5])
         self.assertEqual(rules, ["reduced", "own"])
+
+
+class Computed(Drops, Deck):
+    """The whole chain: `mpm table --own-law` runs the solver with the two bodies, 140 CPU s where its cache is empty."""
+    def setUp(self):
+        super().setUp()
+        materials = self.folder / "materials.toml"
+        materials.write_text("".join(
+            f"[material.{m.name}]\ndensity = {m.density}\nyoungs_modulus = {m.youngs_modulus}\npoisson_ratio = {m.poisson_ratio}\n" +
+            (f"yield_stress = {m.yield_stress}\n" if m is POWDER else "") for m in (POWDER, GLASS)))
+        pairs = [word for pair in ("powder:glass", "powder:powder", "glass:glass") for word in ("--pair", pair)]
+        done = subprocess.run([os.environ["GRANULAW_MPM"], "table", materials, *pairs, "--own-law", "-o", self.law], check=True,
+                              capture_output=True, text=True)
+        self.assertIn("powder:glass: its own law by", done.stdout + done.stderr)
 
 
 if __name__ == "__main__":
