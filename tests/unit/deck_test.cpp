@@ -293,6 +293,52 @@ TEST_F(Deck, TakesWhatWasVisited)
   EXPECT_THROW(read_visited(write("none.json", "{}")), Error);
 }
 
+TEST_F(Deck, DeformableWallsAreBodiesOfTheirMaterial)
+{
+  PlanOptions options;
+  options.materials[1] = {"steel", 7800, 2e11, 0.3, 1e9, 0};
+  options.materials[2] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
+  std::string text = falling("");
+  const std::size_t primitive = text.find("primitive");
+  ASSERT_NE(primitive, std::string::npos);
+  text.insert(text.find('\n', primitive), " wall deformable");
+  const Plan plan = make_plan(scene(text), options), rigid = make_plan(scene(falling("")), options);
+  const Meeting& wall = plan.pairs[1].meeting;
+  EXPECT_TRUE(wall.wall && wall.deformable);
+  EXPECT_EQ(wall.name_b, "wax");
+  EXPECT_EQ(wall.yields.name, "wax");  // the weaker: the wall
+  EXPECT_EQ(rigid.pairs[1].meeting.name_b, "wall");
+  EXPECT_EQ(rigid.pairs[1].meeting.yields.name, "steel");
+  EXPECT_LT(plan.pairs[1].onset, rigid.pairs[1].onset);
+  // as Hertz has it, 1/E* = 1/E*_s + 1/E*_h
+  EXPECT_NEAR(wall.mapping.e_star_pair() * (1 / wall.yields.e_star() + 0.91 / 2e11), 1, 1e-12);
+  EXPECT_EQ(radius_ratio(plan, wall), largest_radius_ratio);
+  EXPECT_EQ(radius_ratio(plan, rigid.pairs[1].meeting), 1);
+}
+
+TEST_F(Deck, AStretchedDeckHasLongerStepsAndTheSameOverlapsInItsLaw)
+{
+  PlanOptions options;
+  options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
+  const std::string style =
+      "pair_style gran model mpm tangential history law x.h5 materials wax wax stretch 4\n";
+  const Scene plain = scene(falling("")), stretched = scene(style + falling(""));
+  ASSERT_EQ(stretched.stretch, 4);
+  const Plan a = make_plan(plain, options), b = make_plan(stretched, options);
+  EXPECT_DOUBLE_EQ(b.time_step, 4 * a.time_step);
+  EXPECT_DOUBLE_EQ(b.depth, a.depth);
+  const Visited run = read_visited(write(
+      "run.json",
+      R"({"pair": {"contacts_begun": 9, "impact_speed_max_m_per_s": 0.01, "overlap_over_radius_max": 0.6},
+                      "wall": {"contacts_begun": 0, "impact_speed_max_m_per_s": 0}})"));
+  EXPECT_DOUBLE_EQ(make_plan(stretched, options, &run).pairs[0].overlap, visited_margin * 0.6 / 4);
+  // another stretch takes the place of the deck's
+  const SoftenLimits limits{0.5, 10, 1e6, 0.01, 0.6};
+  const Softening once = soften(plain, a, options, limits), again = soften(stretched, b, options, limits);
+  EXPECT_DOUBLE_EQ(again.stretch, once.stretch);
+  EXPECT_DOUBLE_EQ(4 * again.time_step, once.time_step);  // both decks say 1e-5 s
+}
+
 TEST(Hertz, ConservesEnergy)
 {
   const double e = 1e8, r = 0.002, m = 1e-4, v = 0.3, d = hertz_overlap(e, r, m, v);

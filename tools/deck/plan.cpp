@@ -262,26 +262,29 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   if (options.drop_height) plan.fall = *options.drop_height;
 
   // who meets whom
-  const auto add = [&](const Kind& a, const Kind* b, int type_b, double speed) {
+  std::set<int> unknown_yield;
+  const auto add = [&](const Kind& a, const Kind& b, const Wall* wall, double speed) {
     PairPlan p;
     Meeting& m = p.meeting;
-    m.a = a.type, m.b = type_b, m.wall = b == nullptr;
-    m.name_a = a.material.name, m.name_b = b ? b->material.name : wall_name;
-    const bool first =
-        !b || a.material.yield_stress < b->material.yield_stress ||
-        (a.material.yield_stress == b->material.yield_stress && a.material.e_star() <= b->material.e_star());
-    m.yields = first ? a.material : b->material;
-    m.known_yield = a.known_yield && (!b || b->known_yield);
+    m.a = a.type, m.b = b.type, m.wall = wall != nullptr, m.deformable = wall && wall->deformable;
+    const bool rigid = wall && !wall->deformable;
+    m.name_a = a.material.name, m.name_b = rigid ? wall_name : b.material.name;
+    const LawMaterial &first = a.material, &second = b.material;
+    const bool a_yields = rigid || first.yield_stress < second.yield_stress ||
+                          (first.yield_stress == second.yield_stress && first.e_star() <= second.e_star());
+    m.yields = a_yields ? first : second;
+    m.known_yield = a.known_yield && (rigid || b.known_yield);
     m.mapping =
-        b ? PairMapping::deformable_partner(m.yields.e_star(), (first ? b->material : a.material).e_star())
-          : PairMapping::rigid_partner(m.yields.e_star());
+        rigid ? PairMapping::rigid_partner(m.yields.e_star())
+              : PairMapping::deformable_partner(m.yields.e_star(), (a_yields ? second : first).e_star());
     p.speed = options.speed.value_or(speed);
     std::optional<Visited::Range> range;
     if (visited) range = range_of(p, *visited);
     if (range) p.visited = range->met, p.speed = visited_margin * range->speed;
-    over_sizes(p, a, b, options);
-    if (range && visited_margin * range->overlap > p.overlap) {  // pressed deeper than any impact goes
-      p.overlap = visited_margin * range->overlap;
+    over_sizes(p, a, wall ? nullptr : &b, options);
+    const double overlap = range ? visited_margin * range->overlap / scene.stretch : 0.0;
+    if (overlap > p.overlap) {  // pressed deeper than any impact goes
+      p.overlap = overlap;
       p.depth = p.overlap / (m.mapping.sqrt_lambda * m.mapping.sqrt_lambda);
       p.overlap_basis = "visited";
     }
@@ -292,18 +295,32 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
       if (a == b && scene.sources.size() == 1 && scene.sources[0].count == 1 &&
           scene.unknown_particles.empty())
         continue;  // a single particle
-      add(a->second, &b->second, b->first,
+      add(a->second, b->second, nullptr,
           speed_at(flights.at(a->first), floor) + speed_at(flights.at(b->first), floor) +
               2 * (2 * push + drag));
     }
   for (const auto& [type, k] : kinds) {
-    std::map<int, double> by_type;
+    std::map<std::pair<int, bool>, std::pair<const Wall*, double>> by_type;
     for (const Wall* w : walls) {
       const double height = g > 0 ? w->box.bottom(upward) : 0.0;
-      double& v = by_type[w->type];
-      v = std::max(v, speed_at(flights.at(type), height) + 2 * push + drag + w->speed + w->drag_speed);
+      const double v = speed_at(flights.at(type), height) + 2 * push + drag + w->speed + w->drag_speed;
+      const auto [at, fresh] = by_type.try_emplace({w->type, w->deformable}, w, v);
+      if (!fresh) at->second.second = std::max(at->second.second, v);
     }
-    for (const auto& [wall_type, v] : by_type) add(k, nullptr, wall_type, v);
+    for (const auto& [key, wall] : by_type) {
+      Kind material;
+      material.type = key.first;
+      if (wall.first->deformable) {
+        material.material = material_of(scene, key.first, options, 0, material.known_yield);
+        if (material.material.youngs_modulus <= 0) {
+          ask(plan, fmt::format("the moduli of type {}", key.first),
+              "--materials-file FILE --materials NAME...");
+          continue;
+        }
+        if (!material.known_yield) unknown_yield.insert(key.first);
+      }
+      add(k, material, wall.first, wall.second);
+    }
   }
 
   double shortest = Box::infinity, deepest = 0, fastest = 0;
@@ -312,12 +329,11 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
     if (!p.needs_table || !p.visited) continue;
     deepest = std::max(deepest, p.depth), fastest = std::max(fastest, p.inertia);
   }
-  std::set<int> unknown_yield;
   for (const auto& [type, k] : kinds)
     if (!k.known_yield) unknown_yield.insert(type);
   for (const int type : unknown_yield)
     ask(plan, fmt::format("the yield stress of type {}", type), "--materials-file FILE --materials NAME...");
-  if (std::isfinite(shortest)) plan.time_step = shortest / steps_per_contact;
+  if (std::isfinite(shortest)) plan.time_step = scene.stretch * shortest / steps_per_contact;
   plan.axis_matters = fastest > negligible_inertia;
   // a fifth more than foreseen, in two digits
   const auto rounded_up = [](double x) {
@@ -338,6 +354,13 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   return plan;
 }
 
+double radius_ratio(const Plan& plan, const Meeting& meeting)
+{
+  if (meeting.wall && !meeting.deformable) return 1;  // exact by the pair rule
+  return meeting.wall ? largest_radius_ratio
+                      : std::min(largest_radius_ratio, plan.radius_max / plan.radius_min);
+}
+
 std::string table_command(const Plan& plan, const std::string& materials_file)
 {
   std::string pairs;
@@ -347,13 +370,12 @@ std::string table_command(const Plan& plan, const std::string& materials_file)
     if (!p.needs_table || !p.visited) continue;
     const std::string name = p.meeting.name_a + ":" + p.meeting.name_b;
     if (done.insert(name).second) pairs += " --pair " + name;
-    if (!p.meeting.wall) ratio = plan.radius_max / plan.radius_min;
+    ratio = std::max(ratio, radius_ratio(plan, p.meeting));
   }
   if (pairs.empty() || plan.depth <= 0) return {};
   return fmt::format("mpm table {}{} --depth {:.3g} --inertia {:.3g}{} -o law.h5",
                      materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
-                     plan.inertia,
-                     ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", std::min(ratio, 10.0)) : "");
+                     plan.inertia, ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", ratio) : "");
 }
 
 }  // namespace granulaw::deck

@@ -15,8 +15,9 @@ namespace granulaw::deck {
 struct Meeting
 {
   int a = 1, b = 1;
-  bool wall = false;           ///< b is a wall; for the normal law it is rigid
-  std::string name_a, name_b;  ///< of the materials; of a wall "wall"
+  bool wall = false;           ///< b is a wall
+  bool deformable = false;     ///< ... whose material gives way; else it is rigid for the normal law
+  std::string name_a, name_b;  ///< of the materials; of a rigid wall "wall"
   LawMaterial yields;          ///< the body that yields (the weaker), or the softer of two elastic ones
   PairMapping mapping;
   bool known_yield = false;  ///< whether the yield stress is known, be it infinite
@@ -74,7 +75,7 @@ struct PairPlan
   double onset = 0;           ///< m/s, where yield begins, the least over the sizes; infinity: never
   double yield_velocity = 0;  ///< m/s, customary V_y, the least over the sizes; infinity: elastic
   double inertia = 0;         ///< largest I = rho V^2/Y of the pair's one body
-  double overlap = 0;         ///< largest, over R*
+  double overlap = 0;         ///< largest, over R*, of the real contact: the deck's over its stretch
   double depth = 0;           ///< largest, over lambda R*: the table's own coordinate
   std::string overlap_basis;  ///< "law", "Hertz" or "visited"
   double contact_time = 0;    ///< s, shortest: Hertz at the largest speed, smallest particles
@@ -95,7 +96,7 @@ struct Plan
   double fall = 0;                        ///< m, largest height a particle may fall
   double radius_min = 0, radius_max = 0;  ///< m
   double mass_min = 0, mass_max = 0;      ///< kg
-  double time_step = 0;                   ///< s, that resolves the shortest contact
+  double time_step = 0;  ///< s, that resolves the shortest contact, stretched as the deck says
   double particle_steps = 0, hours = 0;
   double depth = 0, inertia = 0;  ///< that the table needs, margins included; 0: no table
   bool axis_matters = false;      ///< the inertia axis
@@ -111,6 +112,12 @@ inline constexpr double steps_per_contact = 25;
 /// the wall, losing nothing; a wall that moves at U gives it up to 2U more (an elastic rebound), one that
 /// drags its surface U; two particles meet at most with the sum of their speeds.
 Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* visited = nullptr);
+
+/// `mpm table` states a pair's error up to this ratio of radii.
+inline constexpr double largest_radius_ratio = 10;
+/// The largest ratio of radii at which such bodies meet, as far as a law is asked about it: a deformable
+/// plane counts as the largest.
+double radius_ratio(const Plan& plan, const Meeting& meeting);
 
 /// The words behind `mpm table` that build what the plan needs; empty: no table is needed, or it cannot be
 /// said yet.

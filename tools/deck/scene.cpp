@@ -483,7 +483,8 @@ void Reader::mesh(const Command& c, const std::string& id, Words w)
 
 void Reader::wall(const Command& c, const std::string& id, Words w)
 {
-  std::vector<std::string> names;
+  Words own = w;
+  const bool deformable = own.seek("wall") && own.word() == "deformable";
   if (Words k = w; k.seek("mesh")) {
     std::size_t n = 1;
     if (k.seek("n_meshes")) n = k.count();
@@ -494,12 +495,12 @@ void Reader::wall(const Command& c, const std::string& id, Words w)
       if (mesh == meshes_.end()) misread(fmt::format("there is no mesh '{}'", name));
       const Mesh& m = mesh->second;
       wall_of_mesh_[name].push_back(scene_.walls.size());
-      scene_.walls.push_back({m.where, name, m.type, m.box, m.speed, m.drag_speed});
+      scene_.walls.push_back({m.where, name, m.type, m.box, m.speed, m.drag_speed, deformable});
     }
     return;
   }
   if (!w.seek("primitive")) misread("neither 'mesh' nor 'primitive'");
-  Wall wall{c.where, id, 1, scene_.domain, 0, 0};
+  Wall wall{c.where, id, 1, scene_.domain, 0, 0, deformable};
   if (Words t = w; t.seek("type")) wall.type = static_cast<int>(t.value());
   static const std::array<std::string, 3> planes{"xplane", "yplane", "zplane"},
       cylinders{"xcylinder", "ycylinder", "zcylinder"};

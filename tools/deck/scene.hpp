@@ -35,9 +35,10 @@ struct Wall
 {
   std::string where, id;
   int type = 1;
-  Box box;                ///< m, with all that its motion sweeps in the runs
-  double speed = 0;       ///< m/s, largest speed of its points when it moves
-  double drag_speed = 0;  ///< m/s, of its surface along itself (conveyor): drags, does not push
+  Box box;                  ///< m, with all that its motion sweeps in the runs
+  double speed = 0;         ///< m/s, largest speed of its points when it moves
+  double drag_speed = 0;    ///< m/s, of its surface along itself (conveyor): drags, does not push
+  bool deformable = false;  ///< the word `wall deformable` of the plug-in: its material gives way
 };
 
 /// One `run`.
@@ -62,7 +63,7 @@ struct Scene
   double time_step = 0;                     ///< s, the last one
   std::string model, law_file;              ///< words of pair_style gran: model, law
   std::vector<std::string> material_names;  ///< and materials
-  double stretch = 1;                       ///< and stretch
+  double stretch = 1;                       ///< and stretch: the time step is this much longer
   std::optional<double> restitution;        ///< the smallest coefficientRestitution of the deck
   std::vector<std::string> notes;           ///< "FILE:LINE: what was not followed"
   /// Why particles, heights or velocities may be others than those above: "FILE:LINE: reason".

@@ -95,7 +95,8 @@ Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& option
   }
   result.stretch = std::max(1.0, two_digits_down(largest));
   const double s = result.stretch;
-  result.time_step = s * (scene.time_step > 0 ? scene.time_step : plan.time_step);
+  // the deck's own stretch is in both; the new one takes its place
+  result.time_step = s / scene.stretch * (scene.time_step > 0 ? scene.time_step : plan.time_step);
   result.modulus_factor = std::pow(s, -2.5);  // Hertz: t ~ E^-0.4
   for (const PairStretch& q : result.pairs) {
     const PairPlan& p = *q.pair;

@@ -59,6 +59,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
     pairs.push_back(
         {{"types", {p.meeting.a, p.meeting.b}},
          {"wall", p.meeting.wall},
+         {"deformable_wall", p.meeting.deformable},
          {"materials", {printable(p.meeting.name_a), printable(p.meeting.name_b)}},
          {"speed_max_m_per_s", json_number(p.speed)},
          {"onset_speed_m_per_s", p.meeting.known_yield ? json_number(p.onset) : ordered_json(nullptr)},
@@ -129,7 +130,8 @@ void plan(const PlanRequest& r)
         deck::norm(d.scene.gravity));
   print_types(d);
   if (!plan.pairs.empty()) {
-    fmt::print("pairs that can meet (V: relative normal speed; yield begins at V_on; walls are rigid)\n");
+    fmt::print(
+        "pairs that can meet (V: relative normal speed; yield begins at V_on; material 'wall': rigid)\n");
     fmt::print("  {:<9} {:<18} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}  {}\n", "types", "materials",
                "V m/s", "V_on m/s", "V/V_on", "V/V_y", "I", "d/R*", "by", "verdict");
   }
@@ -150,6 +152,9 @@ void plan(const PlanRequest& r)
   if (plan.time_step > 0)
     fmt::print("time step: {:.3g} s ({:g} in the shortest contact); the deck has {:.3g} s\n", plan.time_step,
                deck::steps_per_contact, d.scene.time_step);
+  if (d.scene.stretch > 1)
+    fmt::print("stretch {:g}: in it; the deck's overlaps are {:g} times the d/R* above\n", d.scene.stretch,
+               d.scene.stretch);
   if (plan.particle_steps > 0)
     fmt::print("cost: {:.3g} particle-steps, {:.3g} hours at {:.3g} a second\n", plan.particle_steps,
                plan.hours, d.options.rate);

@@ -183,7 +183,7 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   for (const deck::PairPlan& p : d.plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     pairs.insert(p.meeting.name_a + ":" + p.meeting.name_b);
-    if (!p.meeting.wall) ratio = std::min(10.0, d.plan.radius_max / d.plan.radius_min);
+    ratio = std::max(ratio, deck::radius_ratio(d.plan, p.meeting));
   }
   if (pairs.empty()) return false;
   if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
