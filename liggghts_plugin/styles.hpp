@@ -98,6 +98,17 @@ void warn_stretched_cohesion(LAMMPS* lmp, const Setup& setup)
             .c_str());
 }
 
+/// Our own words of a command into `setup`; `call(nargs, args)` gets the others.
+template <class Style, Model model, class Call>
+void settle(LAMMPS* lmp, Setup& setup, int nargs, char** args, Call&& call)
+{
+  std::vector<std::string> rest;
+  read_setup(lmp, model, setup, nargs, args, rest);
+  refuse_no_friction<Style, model>(setup, rest);
+  warn_stretched_cohesion<Style>(lmp, setup);
+  with_setup(setup, rest, std::forward<Call>(call));
+}
+
 /// LIGGGHTS's combination of the five models, and with `energy on` the work of all but the normal law.
 template <class Style>
 class BookedModel : public cm::ContactModel<Style>
@@ -163,11 +174,8 @@ class PairStyle final : public PairLoop<BookedModel<Style>>
     guarded(lmp_, [&] {
       setup_.session = Session::of(lmp_);
       setup_.where = fmt::format("pair_style gran model {}", model_name(model));
-      std::vector<std::string> rest;
-      read_setup(lmp_, model, setup_, nargs, args, rest);
-      refuse_no_friction<Style, model>(setup_, rest);
-      warn_stretched_cohesion<Style>(lmp_, setup_);
-      with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
+      settle<Style, model>(lmp_, setup_, nargs, args,
+                           [&](int n, char** words) { Base::settings(n, words, hsetup); });
       provide_fixes(lmp_);
     });
   }
@@ -204,11 +212,8 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
       setup_.session = Session::of(lmp_);
       setup_.wall = parent_;
       setup_.where = fmt::format("fix {} wall/gran model {}", parent_->id, model_name(model));
-      std::vector<std::string> rest;
-      read_setup(lmp_, model, setup_, nargs, args, rest);
-      refuse_no_friction<Style, model>(setup_, rest);
-      warn_stretched_cohesion<Style>(lmp_, setup_);
-      with_setup(setup_, rest, [&](int n, char** words) { Base::settings(n, words, hsetup); });
+      settle<Style, model>(lmp_, setup_, nargs, args,
+                           [&](int n, char** words) { Base::settings(n, words, hsetup); });
       provide_fixes(lmp_);
     });
   }
