@@ -174,6 +174,7 @@ class Formulas(unittest.TestCase):
         self.assertEqual(page.with_error(12.34, 3.4), "12.3 ± 3.4")
         self.assertEqual(page.with_error(7.009e-6, 3.2e-6), "(7.0 ± 3.2)e−6")
         self.assertEqual(page.with_error(0.1, 1e-17), "0.1 ± 0")  # three equal numbers have a rounded spread
+        self.assertEqual(page.with_error(-1e-5, 2e-3, plus=True), "0.0000 ± 0.0020")
         self.assertEqual(page.number(0.04567), "0.0457")
         self.assertEqual(page.number(None), "n/a")
 
