@@ -21,6 +21,7 @@ OBSERVABLES = (("discharge rate", r"^discharge rate"), ("energy dissipated", r"^
 PANELS = 5  # of one deck's picture, at most
 COSTS = ("CPU time, s", "million particle-steps a second", "wall-clock per particle-step, dense, median")
 COLOURS = {"hertz": "0.35", "thornton": "tab:orange", "mpm": "tab:blue"}
+OTHERS = ("tab:green", "tab:purple", "tab:red", "tab:brown", "tab:pink", "tab:olive", "tab:cyan")
 MARKERS = "sD^vP*Xp"
 
 
@@ -231,7 +232,7 @@ def picture(deck, names):
             seconds = deck.cost[model].seconds(which)
             dt = deck.cost[model].dt
             axis.errorbar(seconds.mean, off, yerr=own, xerr=seconds.error, fmt=MARKERS[k % len(MARKERS)] if model != REFERENCE else "o",
-                          color=COLOURS.get(model) or plt.cm.viridis(0.15 + 0.11 * (k % 8)), capsize=2.5, lw=1,
+                          color=COLOURS.get(model) or OTHERS[k % len(OTHERS)], capsize=2.5, lw=1,
                           label=words(model) + (f", dt {1e6 * dt:g} µs" if dt else ""))
         axis.set(title=short, ylabel=f"deviation from mpm, {unit}", xlabel=f"{which} seconds a run")
         axis.margins(x=0.15, y=0.15)

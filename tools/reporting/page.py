@@ -195,6 +195,8 @@ def with_error(value, error, plus=False):
     if not -4 <= top < 5:
         return f"({with_error(value / 10**top, error / 10**top, plus)})e{top}".replace("-", "−")
     decimals = max(0, 1 - math.floor(math.log10(error)))
+    if round(value, decimals) == 0:
+        value, sign = 0.0, ""  # not -0
     return sign + f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
 
 

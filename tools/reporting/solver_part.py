@@ -79,7 +79,7 @@ def glance(study):
             if found:
                 row = min(found, key=lambda r: r["cpu_s"])
                 rows.append([f"solver: {JOBS.get(job['name'], job['name'])}, {what}", f"{number(row['cpu_s'])} CPU s\n{label(row)}, {row['cells']} cells",
-                             f"F {100 * row['L2_force']:.2f} %, e {100 * row['err_e']:+.2f} %".replace("-", "−")])
+                             f"F {100 * row['L2_force']:.2f} %, e {100 * row['err_e']:+.2g} %".replace("-", "−")])
     return rows
 
 
@@ -98,7 +98,7 @@ def write(page, study, path, commands):
             cells = []
             for target in TARGETS:
                 row = cheapest(group, target)
-                cells.append("none" if row is None else f"{number(row['cpu_s'])} s\n{row['cells']} cells, e {100 * row['err_e']:+.2f} %".replace("-", "−"))
+                cells.append("none" if row is None else f"{number(row['cpu_s'])} s\n{row['cells']} cells, e {100 * row['err_e']:+.2g} %".replace("-", "−"))
             rows.append([name, *cells])
         page.table(["cheapest run with error of F within", *[f"{100 * t:g} %" for t in TARGETS]], rows)
         page.origin(f"Second line: its resolution and its error of e; {own}. `none`: no resolution of this study reaches it.")
