@@ -92,13 +92,21 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
     fail(setup.where, fmt::format("'materials' needs one name for each of the {} atom types, found {}: {}{}",
                                   types.count, materials.size(), fmt::join(materials, " "), hint));
   }
+  double& limit = setup.session->inertia_limit;
+  const auto lower_limit = [&](const Certificate& certificate) {
+    const double own = certificate.max_inertia;
+    if (own > 0 && (limit == 0 || own < limit)) limit = own;
+  };
+  const Law& law = setup.law->law;
   for (int t = 1; t <= types.count; ++t) {
-    const auto found = setup.law->law.bodies.find(materials[static_cast<std::size_t>(t - 1)]);
-    if (found == setup.law->law.bodies.end() || std::isnan(types.youngs_modulus[t])) continue;
+    const std::string& name = materials[static_cast<std::size_t>(t - 1)];
+    const auto found = law.bodies.find(name);
+    if (found == law.bodies.end() || std::isnan(types.youngs_modulus[t])) continue;
     check_material(lmp, setup, types, t, found->second.material);
-    double& limit = setup.session->inertia_limit;
-    if (const double own = found->second.certificate.max_inertia; own > 0 && (limit == 0 || own < limit))
-      limit = own;
+    lower_limit(found->second.certificate);
+    for (int other = 1; other < t; ++other)
+      if (const TwoBodyLaw* own = law.find_pair_law(name, materials[static_cast<std::size_t>(other - 1)]))
+        lower_limit(own->law.certificate);
   }
 }
 

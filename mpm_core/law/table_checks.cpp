@@ -28,7 +28,10 @@ void check_between(const double (&c)[4], double low, double high, const std::str
   const double root = c[2] * c[2] - 3.0 * c[1] * c[3];
   if (!(root >= 0)) return;
   const double q = -(c[2] + std::copysign(std::sqrt(root), c[2]));
-  for (const double t : {q / (3.0 * c[3]), c[1] / q}) {
+  const double fractions[2][2] = {{q, 3.0 * c[3]}, {c[1], q}};
+  for (const auto& [above, below] : fractions) {
+    if (below == 0) continue;  // a root at infinity
+    const double t = above / below;
     if (!(t > 0 && t < 1)) continue;
     if (const double value = cubic(c, t); !(value >= low && value <= high))
       fail(where, fmt::format("'{}' between nodes {} and {} is out of range", name, node, node + 1),
