@@ -85,7 +85,7 @@ def markdown(samples, base="hertz"):
     others = [m for m in models if m != base and base in samples]
     lines = ["| quantity | " + " | ".join(models + [f"{m} against {base}" for m in others]) + " |",
              "|---|" + "---|" * (len(models) + len(others))]
-    for quantity in samples[models[0]]:
+    for quantity in dict.fromkeys(q for m in models for q in samples[m]):
         cells = [str(samples[m].get(quantity, "n/a")) for m in models]
         cells += [verdict(samples[m][quantity], samples[base][quantity])
                   if quantity in samples[m] and quantity in samples[base] else "" for m in others]

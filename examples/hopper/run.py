@@ -124,10 +124,11 @@ def main(argv=None):
                                                "pictures": fill // 4, "E": material["E"] / v.softer**2.5, "Y": material["Y"],
                                                "e": material["e"], "material": name},
                                  f"stretch {v.stretch:g}" if v.stretch != 1 else "")
-            except sweep.Refused as end:  # the plug-in ends a run whose overlaps leave what a stretched law can mean
-                if "stretch less" not in str(end):
+            except sweep.Refused as end:  # overlaps beyond what a stretched law can mean, moduli that LIGGGHTS takes for a slip
+                why = re.search(r"'stretch \S+' takes.*|youngsModulus >= .*?SI units", str(end))
+                if not why:
                     raise
-                stopped[v.name] = re.search(r"'stretch.*", str(end)).group()
+                stopped[v.name] = why.group()
                 continue
             tables.setdefault(v.name, []).append(measure(done, v.model, scene))
         samples = report(out, args, size, tables, stopped)
@@ -146,7 +147,7 @@ def report(out, args, size, tables, stopped):
     if len(models) < len(samples):
         changed = {m: s for m, s in samples.items() if m not in models or m == "mpm"}
         text += markdown(changed, "mpm") + "\n"
-    text += "".join(f"{name} was stopped by the plug-in: {why}\n\n" for name, why in stopped.items())
+    text += "".join(f"{name} was stopped: {why}\n\n" for name, why in stopped.items())
     (out / "report.md").write_text(text + "![hopper](hopper.png)\n")
     picture(out, tables)
     return samples
