@@ -36,6 +36,11 @@ void reduce(ContactLedger::Side& side, MPI_Comm world)
   for (std::size_t k = 0; k < numbers.size(); ++k) *numbers[k] = values[k];
   MPI_Allreduce(MPI_IN_PLACE, side.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, side.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
+  int mapped = side.map.empty() ? 0 : 1;  // one rank may have it alone, out of a restart file
+  MPI_Allreduce(MPI_IN_PLACE, &mapped, 1, MPI_INT, MPI_MAX, world);
+  if (!mapped) return;
+  side.open_map();
+  MPI_Allreduce(MPI_IN_PLACE, side.map.data(), static_cast<int>(side.map.size()), MPI_DOUBLE, MPI_SUM, world);
 }
 
 constexpr const char* energy_name = "granulaw_energy";

@@ -11,6 +11,8 @@ constexpr std::size_t key_length = 3;
 constexpr std::size_t side_length = key_length + ContactLedger::Side::sums + ContactLedger::Side::maxima +
                                     ContactLedger::Side::minima + 2 * LogHistogram::bins;
 
+constexpr int map_record = 100;  // added to the kind of a key in pack(): what follows is its map
+
 std::string histogram_json(const LogHistogram& histogram, const char* quantity)
 {
   int low = 0, high = LogHistogram::bins - 1;
@@ -24,6 +26,35 @@ std::string histogram_json(const LogHistogram& histogram, const char* quantity)
   return fmt::format(
       "{{\"quantity\": \"{}\", \"bins_per_decade\": {}, \"lower_edge\": [{}], \"count\": [{}]}}", quantity,
       LogHistogram::per_decade, edges, counts);
+}
+
+/// The part of the map that holds something: rows by speed, columns by overlap.
+std::string map_json(const ContactLedger::Side& s)
+{
+  constexpr int bins = LogHistogram::bins;
+  int low[2] = {bins, bins}, high[2] = {-1, -1};
+  for (int k = 0; k < bins * bins; ++k) {
+    if (s.map[static_cast<std::size_t>(k)] == 0) continue;
+    const int at[2] = {k / bins, k % bins};
+    for (int axis = 0; axis < 2; ++axis)
+      low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
+  }
+  std::string edges[2], rows;
+  const LogHistogram* axes[2] = {&s.speed, &s.overlap};
+  for (int axis = 0; axis < 2; ++axis)
+    for (int b = low[axis]; b <= high[axis]; ++b)
+      edges[axis] += fmt::format("{}{:.6g}", b > low[axis] ? ", " : "", axes[axis]->lower_edge(b));
+  for (int i = low[0]; i <= high[0]; ++i) {
+    std::string row;
+    for (int j = low[1]; j <= high[1]; ++j)
+      row += fmt::format("{}{:.10g}", j > low[1] ? ", " : "", s.map[static_cast<std::size_t>(i * bins + j)]);
+    rows += fmt::format("{}[{}]", i > low[0] ? ", " : "", row);
+  }
+  return fmt::format(
+      "{{\"quantity\": \"contacts that ended, by approach speed at first touch (rows), m/s, and largest "
+      "overlap/R* (columns)\", \"bins_per_decade\": {}, \"speed_lower_edge\": [{}], "
+      "\"overlap_lower_edge\": [{}], \"count\": [{}]}}",
+      LogHistogram::per_decade, edges[0], edges[1], rows);
 }
 
 /// JSON has no infinity: null.
@@ -67,6 +98,7 @@ std::string counts_json(const ContactLedger::Side& s, const std::string& indent)
   std::string text;
   for (const auto& [name, value] : entries)
     text += fmt::format("{}{}\"{}\": {}", text.empty() ? "" : ",\n", indent, name, value);
+  if (!s.map.empty()) text += fmt::format(",\n{}\"contact_map\": {}", indent, map_json(s));
   return text;
 }
 
@@ -103,6 +135,9 @@ void ContactLedger::Side::merge(const Side& other)
     speed.count[b] += other.speed.count[b];
     overlap.count[b] += other.overlap.count[b];
   }
+  if (other.map.empty()) return;
+  if (map.empty()) open_map();
+  for (std::size_t k = 0; k < map.size(); ++k) map[k] += other.map[k];
 }
 
 ContactLedger::Side ContactLedger::Side::in_si(const DeckUnits& units) const
@@ -140,6 +175,15 @@ std::vector<double> ContactLedger::pack() const
     values.insert(values.end(), copy.speed.count.begin(), copy.speed.count.end());
     values.insert(values.end(), copy.overlap.count.begin(), copy.overlap.count.end());
   }
+  for (const auto& [key, side] : sides) {
+    if (side.map.empty()) continue;
+    values.insert(values.end(), {static_cast<double>(map_record + key.kind), static_cast<double>(key.i),
+                                 static_cast<double>(key.j), 0.0});
+    const std::size_t length = values.size() - 1;
+    for (std::size_t k = 0; k < side.map.size(); ++k)
+      if (side.map[k] != 0) values.insert(values.end(), {static_cast<double>(k), side.map[k]});
+    values[length] = static_cast<double>(values.size() - length - 1);
+  }
   return values;
 }
 
@@ -148,9 +192,11 @@ void ContactLedger::unpack(const double* values, std::size_t count, bool sums)
   for (auto& [key, side] : sides) {
     Side fresh;
     fresh.info = side.info;
+    if (!side.map.empty()) fresh.open_map();
     side = fresh;
   }
-  for (const double* v = values; v + side_length <= values + count; v += side_length) {
+  const double *v = values, *end = values + count;
+  for (; v + side_length <= end && v[0] < map_record; v += side_length) {
     Side& side = sides[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}];
     const auto numbers = side.numbers();
     const double* from = v + key_length;
@@ -159,6 +205,16 @@ void ContactLedger::unpack(const double* values, std::size_t count, bool sums)
     from += numbers.size();
     std::copy_n(from, LogHistogram::bins, side.speed.count.begin());
     std::copy_n(from + LogHistogram::bins, LogHistogram::bins, side.overlap.count.begin());
+  }
+  if (!sums) return;
+  while (v + key_length < end) {
+    Side& side = sides[{static_cast<int>(v[0]) - map_record, static_cast<int>(v[1]), static_cast<int>(v[2])}];
+    side.open_map();
+    const double* record_end = std::min(end, v + key_length + 1 + static_cast<std::size_t>(v[key_length]));
+    for (v += key_length + 1; v + 1 < record_end; v += 2)
+      if (v[0] >= 0 && v[0] < static_cast<double>(side.map.size()))
+        side.map[static_cast<std::size_t>(v[0])] = v[1];
+    v = record_end;
   }
 }
 

@@ -23,11 +23,12 @@ struct LogHistogram
   std::array<double, bins> count{};
 
   explicit LogHistogram(double lower_edge) : first(lower_edge) {}
-  void add(double value, double weight)
+  std::size_t bin(double value) const
   {
     const double position = value > first ? per_decade * std::log10(value / first) : 0.0;
-    count[static_cast<std::size_t>(std::min(position, bins - 1.0))] += weight;
+    return static_cast<std::size_t>(std::min(position, bins - 1.0));
   }
+  void add(double value, double weight) { count[bin(value)] += weight; }
   double lower_edge(int bin) const { return first * std::pow(10.0, static_cast<double>(bin) / per_decade); }
 };
 
@@ -86,6 +87,8 @@ struct ContactLedger
         std::numeric_limits<double>::infinity();  ///< least largest overlap/R* of an ended one
     LogHistogram speed{1e-6};                     ///< approach speed at first touch, m/s
     LogHistogram overlap{1e-10};                  ///< largest overlap/R* of each contact that ended
+    /// Each contact that ended by both, at [bin of speed * bins + bin of overlap]; empty: `contactMap off`.
+    std::vector<double> map;
     double hardest = 0;  ///< R* delta/m*^2 of the contact that frequency2 is of (this rank's; not reduced)
     PairInfo info;
 
@@ -97,6 +100,12 @@ struct ContactLedger
       return {&dissipated, &other_work, &touches,     &ended,       &near,       &past,      &beyond,
               &too_fast,   &speed_max,  &overlap_max, &inertia_max, &frequency2, &speed_min, &overlap_min};
     }
+    void add_to_map(double touch_speed, double largest_overlap, double weight)
+    {
+      if (map.empty()) open_map();
+      map[speed.bin(touch_speed) * LogHistogram::bins + overlap.bin(largest_overlap)] += weight;
+    }
+    void open_map() { map.resize(static_cast<std::size_t>(LogHistogram::bins * LogHistogram::bins)); }
     /// The same in SI; the contact loops count in the deck's units.
     Side in_si(const DeckUnits& units) const;
     /// Adds `other`: sums, largest and least values, histograms.
@@ -116,7 +125,9 @@ struct ContactLedger
   Side total() const;
 
   /// Everything that counts as plain numbers, for restart files, and back. Restoring replaces what is there,
-  /// but keeps each side's info; `sums` false: only largest and least values (all ranks but one).
+  /// but keeps each side's info; `sums` false: only largest and least values (all ranks but one). A side is
+  /// a key, its numbers and histograms; a map follows as a record of its own, of the bins that hold
+  /// something.
   std::vector<double> pack() const;
   void unpack(const double* values, std::size_t count, bool sums);
 };

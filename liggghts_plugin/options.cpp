@@ -88,7 +88,7 @@ Words keywords(Model model, bool is_wall)
 {
   Words words = {"tangentialDampingRatio", "tangentialStiffness", "elasticDamping", "stretch",
                  is_wall ? "wall" : "stats"};
-  if (!is_wall) words.push_back("energy");
+  if (!is_wall) words.insert(words.end(), {"energy", "contactMap"});
   if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
   words.insert(words.end(), passed_on.begin(), passed_on.end());
   return words;
@@ -143,6 +143,8 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
       options.stats_path = value;
     else if (key == "energy")
       options.energy = choice(value, "on", "off", where, key);
+    else if (key == "contactMap")
+      options.contact_map = choice(value, "on", "off", where, key);
     else if (key == "wall")
       options.deformable_wall = choice(value, "deformable", "rigid", where, key);
     else if (key == "beyondRange")

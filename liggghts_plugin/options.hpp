@@ -35,6 +35,7 @@ struct Options
   std::optional<double> stretch;                  ///< `stretch S`: F_s(d) = F(d/S)/S
   std::string stats_path;                 ///< `stats FILE` (pair): JSON written at the end of each run
   bool energy = false;                    ///< `energy on|off` (pair): energies per particle, friction
+  bool contact_map = false;               ///< `contactMap on|off` (pair): counts of speed and overlap, joint
   std::optional<bool> stop_beyond_range;  ///< `beyondRange stop|continue` (mpm)
 
   /// What a wall's command leaves open is taken from the pair style's.

@@ -81,9 +81,10 @@ class PlasticModel : public NormalModelBase
     settings.registerOnOff("computeDissipatedEnergy", dissipated_energy_, false);
   }
 
-  void postSettings(IContactHistorySetup*, ContactModelBase*)
+  void postSettings(IContactHistorySetup* hsetup, ContactModelBase*)
   {
     setup_ = Setup::current;
+    if (setup_->session->contact_map) speed_offset_ = hsetup->add_history_value("impact_speed", "0");
     if (elastic_potential_ || dissipated_energy_)
       fail(setup_->where,
            "'computeElasticPotential' and 'computeDissipatedEnergy' are not available with this model; "
@@ -172,6 +173,10 @@ class PlasticModel : public NormalModelBase
     side.ended += weight;
     side.overlap_min = std::min(side.overlap_min, overlap);
     side.overlap.add(overlap, weight);
+    if (speed_offset_ >= 0) [[unlikely]] {
+      side.add_to_map(scdata.contact_history[speed_offset_], overlap, weight);
+      scdata.contact_history[speed_offset_] = 0.0;
+    }
     delta_max = 0.0;
     if constexpr (Physics::latches_impact) scdata.contact_history[impact_offset_] = 0.0;
   }
@@ -298,6 +303,8 @@ class PlasticModel : public NormalModelBase
       side.speed_max = std::max(side.speed_max, speed);
       side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
       if (speed > entry.contact.max_speed(r_eff, sidata.meff)) side.too_fast += weight;
+      if (speed_offset_ >= 0) [[unlikely]]
+        sidata.contact_history[speed_offset_] = speed;
     }
     const double delta = sidata.deltan;
     if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
@@ -370,6 +377,7 @@ class PlasticModel : public NormalModelBase
   std::vector<Entry> entries_;
   int stride_ = 0;
   int history_offset_ = -1, impact_offset_ = -1;
+  int speed_offset_ = -1;  // of the approach speed at first touch; only with `contactMap on`
   double damping_ = 0.0, stretch_ = 1.0;
   DeckUnits units_;
   bool tangential_computed_ = false;

@@ -26,6 +26,7 @@ class Session
 
   ContactLedger ledger;
   EnergyBooks* energy = nullptr;  ///< &books with `energy on`, else null
+  bool contact_map = false;       ///< `contactMap on`
   EnergyBooks books;
 
   /// What walls of model `mpm` inherit: set by the pair style.

@@ -57,6 +57,7 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
     session.pair_options = options;
     session.pair_law = setup.law;
     session.energy = options.energy ? &session.books : nullptr;
+    session.contact_map = options.contact_map;
   }
 }
 

@@ -3,6 +3,7 @@ import json
 import math
 import unittest
 
+import gas
 from collisions import wall_deck
 from harness import GLASS, POWDER, Deck, head, properties, sphere_mass
 
@@ -90,6 +91,52 @@ class Stats(Deck):
                                 ("evry 5", "allowed is: file FILE, every N")):
             text = self.run_deck(deck.replace("run 120", f"fix s all granulaw/stats {words}\nrun 1"), expect_failure=True)
             self.assertIn(sentence, text)
+
+    def mapped_gas(self, parts, ranks=1, words="contactMap on"):
+        """The gas in so many runs, each but the first from the restart file of the one before: kinetic energy, counts."""
+        gas.data_file(self.folder / "gas.data")
+        model = gas.model(f"law {self.law} materials powder tangentialDampingRatio 0 stats s.json {words}")
+        body = model + gas.MOVE + gas.OUTPUT + f"run {4000 // parts}\n" + gas.PRINT + "write_restart half.restart\n"
+        begin = gas.start()
+        for _ in range(parts):
+            text = self.run_deck(begin + body, ranks=ranks)
+            begin = gas.start().replace("read_data gas.data", "read_restart half.restart")
+        return self.result(text, "GAS")[0], json.loads((self.folder / "s.json").read_text())["pair"]
+
+    def test_contact_map(self):
+        """Its sums are the histograms of the contacts that ended; the same by two ranks and through a restart."""
+        energy, off = self.mapped_gas(1, words="")
+        self.assertNotIn("contact_map", off)
+        found, whole = self.mapped_gas(1)
+        self.assertEqual(found, energy)  # counting changes nothing
+        both = whole["contact_map"]
+        self.assertGreater(whole["contacts_ended"], 50)
+        by_overlap = dict(zip(both["overlap_lower_edge"], map(sum, zip(*both["count"]))))
+        overlaps = whole["largest_overlap_over_radius"]
+        self.assertEqual({e: c for e, c in by_overlap.items() if c},
+                         {e: c for e, c in zip(overlaps["lower_edge"], overlaps["count"]) if c})
+        begun = dict(zip(whole["impact_speed"]["lower_edge"], whole["impact_speed"]["count"]))
+        ended = dict(zip(both["speed_lower_edge"], map(sum, both["count"])))
+        for edge, count in ended.items():
+            self.assertLessEqual(count, begun.get(edge, 0))
+        self.assertEqual(sum(ended.values()), whole["contacts_ended"])
+        # faster contacts go deeper: the means of the fastest and the slowest row that hold five
+        rows = [r for r in both["count"] if sum(r) >= 5]
+        means = [sum(k * c for k, c in enumerate(r)) / sum(r) for r in (rows[0], rows[-1])]
+        self.assertGreater(means[1], means[0] + 1)
+        self.assertEqual(self.mapped_gas(1, ranks=2)[1]["contact_map"], both)
+        self.assertEqual(self.mapped_gas(2)[1]["contact_map"], both)
+
+    def test_contact_map_holds_the_one_contact(self):
+        deck = wall_deck("mpm", f"law {self.law} materials powder stats s.json contactMap on", POWDER, RADIUS, 1.0, 2e-8)
+        self.run_deck(deck.replace("run 120", "run 3000"))
+        wall = json.loads((self.folder / "s.json").read_text())["wall"]
+        found = wall["contact_map"]
+        self.assertEqual(found["count"], [[1]])
+        for edge, value in ((found["speed_lower_edge"][0], wall["impact_speed_max_m_per_s"]),
+                            (found["overlap_lower_edge"][0], wall["overlap_over_radius_max"])):
+            self.assertLessEqual(edge, value * (1 + 1e-5))  # edges have six digits
+            self.assertGreater(edge * 10**(1 / 8), value * (1 - 1e-5))
 
 
 if __name__ == "__main__":

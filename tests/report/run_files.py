@@ -57,12 +57,22 @@ def histogram(values, per_decade=8):
             "count": [bins.get(k, 0) for k in span]}
 
 
+def contact_map(speeds, overlaps):
+    """Each speed with the overlap of the same place in its list."""
+    v, x = histogram(speeds), histogram(overlaps)
+    rows = [[0] * len(x["count"]) for _ in v["count"]]
+    for (speed, n), (overlap, _) in zip(speeds, overlaps):
+        at = [math.floor(8 * math.log10(value)) - round(8 * math.log10(h["lower_edge"][0])) for value, h in ((speed, v), (overlap, x))]
+        rows[at[0]][at[1]] += n
+    return {"quantity": "", "bins_per_decade": 8, "speed_lower_edge": v["lower_edge"], "overlap_lower_edge": x["lower_edge"], "count": rows}
+
+
 def stats(speeds, overlaps):
     entry = {"kind": "particles", "types": [1, 1], "materials": ["wax", "wax"], "law": "mpm law.h5", "rule": "own", "overlap_over_radius_limit": 0.4,
              "inertia_number_limit": 0.002, "onset_speed_m_per_s": 0.03, "contacts_begun": sum(n for _, n in speeds),
              "contact_steps_beyond_table": 3, "impact_speed_max_m_per_s": max(v for v, _ in speeds),
              "overlap_over_radius_max": max(d for d, _ in overlaps), "impact_speed": histogram(speeds),
-             "largest_overlap_over_radius": histogram(overlaps)}
+             "largest_overlap_over_radius": histogram(overlaps), "contact_map": contact_map(speeds, overlaps)}
     return {"granulaw_version": "0", "pairs": [entry]}
 
 

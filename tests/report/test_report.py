@@ -145,6 +145,29 @@ class Whole(unittest.TestCase):
         self.assertIn("| 60 % |", line)  # 60 of 100 contacts at 0.01 m/s are below the onset at 0.03 m/s
         self.assertIn("| 9 | 0 |", line)  # three seeds of three contact-steps beyond the table
 
+    def test_contacts_by_speed_and_overlap(self):
+        deck = contacts_part.Contacts.__new__(contacts_part.Contacts)
+        deck.joint, deck.mapped, deck.yield_speed = {}, True, 0.5
+        entry = run_files.stats([(0.01, 60), (1.0, 40)], [(1e-4, 60), (0.02, 40)])["pairs"][0]
+        deck.add_map(entry, "x")
+        deck.add_map(entry, "x")
+        speed, overlap, counts = deck.plane()
+        self.assertEqual(counts.sum(), 200)
+        self.assertEqual((counts[0, 0], counts[-1, -1]), (120, 80))  # slow and flat, fast and deep; nothing between
+        self.assertAlmostEqual(speed[-2] * 0.5, 1.0, delta=1e-5)  # lower edge of the bin of 1 m/s, in V_y
+        self.assertTrue(overlap[-2] <= 0.02 < overlap[-1])
+        del entry["contact_map"]
+        deck.add_map(entry, "x")
+        self.assertIsNone(deck.plane())  # one run of several did not count them
+
+    def test_a_cut_map(self):
+        deck = contacts_part.Contacts.__new__(contacts_part.Contacts)
+        deck.joint, deck.mapped = {}, True
+        for damaged in ({"speed_lower_edge": [1.0], "overlap_lower_edge": [1.0], "count": [[1, 2]]}, {"count": [[1]]}, [1],
+                        {"speed_lower_edge": ["a"], "overlap_lower_edge": [1.0], "count": [[1]]}):
+            with self.assertRaises(contacts_part.files.Unreadable):
+                deck.add_map({"contact_map": damaged}, "x")
+
     def test_hard_cases(self):
         self.assertIn("2 cases: 1 stable with their energy balance closed, 1 refused with a sentence, 0 failed.", self.markdown)
 

@@ -270,8 +270,18 @@ void Reader::execute(const Command& c)
         if (c.words[k] == "stretch")
           if (const auto s = number(c.words[k + 1])) scene_.stretch = *s;
         if (c.words[k] != "materials") continue;
-        static const std::set<std::string> keywords{"law", "stats", "stretch", "tangential_damping",
-                                                    "limitForce"};
+        static const std::set<std::string> keywords{"law",
+                                                    "stats",
+                                                    "stretch",
+                                                    "tangential_damping",
+                                                    "limitForce",
+                                                    "wall",
+                                                    "energy",
+                                                    "contactMap",
+                                                    "beyondRange",
+                                                    "tangentialDampingRatio",
+                                                    "tangentialStiffness",
+                                                    "elasticDamping"};
         scene_.material_names.clear();
         for (std::size_t n = k + 1; n < c.words.size() && !keywords.contains(c.words[n]); ++n)
           scene_.material_names.push_back(c.words[n]);

@@ -5,6 +5,7 @@ import re
 
 import h5py
 import numpy as np
+from matplotlib.colors import LogNorm
 
 from . import files
 from .page import legend_below, number, plt
@@ -64,6 +65,7 @@ class Contacts:
         self.fastest = law.fastest(inertia) if inertia else None
         self.begun = self.beyond = self.beyond_axis = 0.0
         self.speed, self.overlap = {}, {}
+        self.joint, self.mapped = {}, True  # (bin of speed, of overlap): contacts that ended; of every run, or not at all
         self.speed_max = self.overlap_max = 0.0
         self.scale = limit * (law.s_end**-4)  # lambda: x of the law to overlap/R*
 
@@ -82,6 +84,36 @@ class Contacts:
                 if count:
                     bin_ = round(BINS * math.log10(edge))
                     into[bin_] = into.get(bin_, 0) + count
+
+        self.add_map(entry, path)
+
+    def add_map(self, entry, path):
+        found = entry.get("contact_map")
+        self.mapped = self.mapped and found is not None
+        if not found:
+            return
+        try:
+            speeds, overlaps = ([round(BINS * math.log10(e)) for e in found[f"{w}_lower_edge"]] for w in ("speed", "overlap"))
+            fits = len(found["count"]) == len(speeds) and all(len(row) == len(overlaps) for row in found["count"])
+        except (KeyError, TypeError, ValueError):
+            fits = False
+        if not fits:
+            raise files.Unreadable(path, "'contact_map' is no table with as many rows and columns as edges")
+        for speed, row in zip(speeds, found["count"]):
+            for overlap, count in zip(overlaps, row):
+                if count:
+                    self.joint[speed, overlap] = self.joint.get((speed, overlap), 0) + count
+
+    def plane(self):
+        """(edges in V/V_y, edges in overlap/R*, counts); None: the plug-in did not count the two together."""
+        if not self.mapped or not self.joint:
+            return None
+        low, high = ([f(k[axis] for k in self.joint) for axis in (0, 1)] for f in (min, max))
+        counts = np.zeros((high[1] - low[1] + 1, high[0] - low[0] + 1))
+        for (speed, overlap), count in self.joint.items():
+            counts[overlap - low[1], speed - low[0]] = count
+        edges = [np.array([10**(b / BINS) for b in range(low[axis], high[axis] + 2)]) for axis in (0, 1)]
+        return edges[0] / self.yield_speed, edges[1], counts
 
     def histogram(self, which):
         """(edges, counts), edges in V/V_y or overlap/R*."""
@@ -172,9 +204,14 @@ def draw(figure, contacts, title):
     onset = 1 / contacts.law.yield_per_onset
     middle.axvspan(x_low, onset, color="tab:green", alpha=0.08, lw=0)
     middle.plot([onset, onset], [y_low, contacts.limit], color="tab:green", lw=0.9, linestyle="--", label="onset of yield")
-    middle.axvspan(contacts.quantile("speed", 0.005), contacts.quantile("speed", 0.995), color="tab:blue", alpha=0.10, lw=0)
-    middle.axhspan(contacts.quantile("overlap", 0.005), contacts.quantile("overlap", 0.995), color="tab:blue", alpha=0.10, lw=0,
-                   label="99 % of the contacts, each way")
+    plane = contacts.plane()
+    if plane:
+        v, x, counts = plane
+        middle.pcolormesh(v, x, np.ma.masked_equal(counts, 0), cmap="Blues", norm=LogNorm(0.3, max(counts.max(), 1)))
+    else:
+        middle.axvspan(contacts.quantile("speed", 0.005), contacts.quantile("speed", 0.995), color="tab:blue", alpha=0.10, lw=0)
+        middle.axhspan(contacts.quantile("overlap", 0.005), contacts.quantile("overlap", 0.995), color="tab:blue", alpha=0.10, lw=0,
+                       label="99 % of the contacts, each way")
     v, x = contacts.law.impacts()
     middle.plot(v, contacts.scale * x, color="black", lw=1.2, label="a head-on impact turns here")
     middle.plot([contacts.speed_max], [contacts.overlap_max], marker="+", color="tab:blue", ms=9, mew=1.6, linestyle="", label="largest V, largest δ")
@@ -211,8 +248,9 @@ def glance(found):
 
 def write(page, found):
     page.glance(glance(found))
-    page.text("Each contact has a speed at first touch and a largest overlap; the plug-in counts the two apart (not their pairs), in eight bins a "
-              "decade: the bars above and beside each map. White: what the law was computed for. Black: where a head-on impact of two free "
+    page.text("Each contact has a speed at first touch and a largest overlap, counted in eight bins a decade: the bars above and beside each map. "
+              "Blue in the map: contacts that ended, by both (`contactMap on`; runs without it show only how far the two reach, each for itself). "
+              "White: what the law was computed for. Black: where a head-on impact of two free "
               "bodies turns (quasi-static). Overlaps that speed alone does not explain come from static load and from several contacts at once.")
     rows = []
     for k, (deck, kinds) in enumerate(found.items(), 1):
