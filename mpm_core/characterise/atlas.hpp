@@ -78,7 +78,8 @@ class Atlas
   /// Its shape. Needs why_not() empty.
   LawShape shape(const MaterialRatios& m) const;
 
-  /// Errors that the atlas claims for its laws: 95 % of its checks lie within.
+  /// Errors that the atlas claims for its laws: 95 % of all impacts lie within, as its checks tell with a
+  /// confidence of 95 %; none of the checks exceeds twice the claim.
   double claimed_force() const { return claimed_force_; }
   double claimed_restitution() const { return claimed_restitution_; }
   /// The solver's own error, by the checks' estimates, of force and e: 95 % lie within.
