@@ -77,8 +77,10 @@ void study(const Atlas& atlas, const MaterialRatios& m, int impacts, std::mt1993
   std::uniform_real_distribution<double> share(0, 1);
   std::vector<RunJob> jobs;
   std::vector<double> velocities;
-  // sqrt(I) from 1.5 onsets to 0.245, evenly in its logarithm
-  const double slowest = 1.5 * onset_velocity(1, 1 / m.stiffness, 1, m.poisson_ratio);
+  // sqrt(I) from 1.5 onsets, or what reaches 3e-5 R (shallower impacts take many minutes), to 0.245, evenly
+  // in its logarithm
+  const double slowest =
+      std::max(1.5 * onset_velocity(1, 1 / m.stiffness, 1, m.poisson_ratio), velocity_to(3e-5, subject));
   const double fastest = 0.245 / std::sqrt(m.stiffness);
   for (int k = 0; k < impacts; ++k) {
     velocities.push_back(slowest * std::pow(fastest / slowest, share(random)));
