@@ -80,14 +80,39 @@ RC_GTEST_PROP(Atlas, EveryLawInsideIsAdmissible, ())
   RC_ASSERT(law.certificate.axis_cost_force > 0.01);
 }
 
+/// The shipped atlas with checks whose errors of force are 1, 2, ... `count`, and ten times less in e.
+Atlas with_checks(int count)
+{
+  std::vector<AtlasCheck> checks;
+  for (int k = 1; k <= count; ++k)
+    checks.push_back({{100, 0.3, 0}, 0.1, k % 2 ? 1.0 * k : -1.0 * k, 0.1 * k, 0});
+  return Atlas(shipped().grid(), shipped().nodes(), checks);
+}
+
+TEST(Atlas, ClaimsABoundThatItsChecksTellWithConfidence)
+{
+  // ranks of the one-sided 95 %/95 % tolerance bound (tables of Wilks' order statistics)
+  EXPECT_EQ(with_checks(59).claimed_force(), 59);
+  EXPECT_EQ(with_checks(93).claimed_force(), 92);
+  EXPECT_EQ(with_checks(100).claimed_force(), 99);
+  EXPECT_EQ(with_checks(200).claimed_force(), 196);
+  EXPECT_DOUBLE_EQ(with_checks(200).claimed_restitution(), 19.6);
+  // one wild check of a hundred must not exceed twice the claim
+  std::vector<AtlasCheck> checks = with_checks(100).checks();
+  checks.back().error_force = 1000;
+  EXPECT_EQ(Atlas(shipped().grid(), shipped().nodes(), checks).claimed_force(), 500);
+}
+
 TEST(Atlas, ClaimsWhatItsChecksFound)
 {
   const Atlas& atlas = shipped();
-  ASSERT_GE(atlas.checks().size(), 50u);
+  ASSERT_GE(atlas.checks().size(), 100u);
   std::size_t force = 0, restitution = 0;
   for (const AtlasCheck& c : atlas.checks()) {
     force += std::abs(c.error_force) <= atlas.claimed_force();
     restitution += std::abs(c.error_restitution) <= atlas.claimed_restitution();
+    EXPECT_LE(std::abs(c.error_force), 2 * atlas.claimed_force());
+    EXPECT_LE(std::abs(c.error_restitution), 2 * atlas.claimed_restitution());
   }
   EXPECT_GE(static_cast<double>(force), 0.95 * static_cast<double>(atlas.checks().size()));
   EXPECT_GE(static_cast<double>(restitution), 0.95 * static_cast<double>(atlas.checks().size()));

@@ -112,6 +112,42 @@ TEST(FitCurve, ElasticFitRecoversItsCoefficients)
     EXPECT_NEAR(curve.loading(x).force / (std::pow(x, 1.5) * (1 + 0.87 * std::sqrt(x) + 0.4 * x)), 1, 1e-7);
 }
 
+/// u^n from x = 0.1 to `residual`, then nothing to the overlap `touched`.
+std::vector<PathPoint> power_law(double n, double residual, double touched)
+{
+  std::vector<PathPoint> path;
+  constexpr int count = 2000;
+  for (int k = 0; k <= count; ++k) {
+    const double u = 1 - static_cast<double>(k) / count;
+    path.push_back({residual + (0.1 - residual) * u, std::pow(u, n)});
+  }
+  if (touched < residual) path.push_back({touched, 0});
+  return path;
+}
+
+TEST(Pressing, UnloadingThatIsAPowerLawKeepsItsResidual)
+{
+  // the path's straight pieces leave 2e-7
+  for (const double n : {1.2, 1.5, 2.0})
+    EXPECT_NEAR(residual_as_long(power_law(n, 0.06, 0.06), 1), 0.06, 1e-6);
+}
+
+TEST(Pressing, UnloadingEndsWhereItTakesAsLong)
+{
+  // After u^n the body coasts over 0.002 at its speed of rebound: all that it adds to the time is 0.002/V,
+  // and with t(r) = (x_m - r)/V f(n), f = int du/sqrt(1 - u^(n+1)), n = (x_m - r)/W - 1, the r asked for
+  // obeys t(r) = t(0.06) + 0.002/V.
+  const double residual = residual_as_long(power_law(1.5, 0.06, 0.058), 1);
+  const double work = 0.04 / 2.5;
+  const auto time = [&](double r) {
+    const double p = (0.1 - r) / work;  // n + 1
+    return (0.1 - r) * std::beta(1 / p, 0.5) / p;
+  };
+  EXPECT_NEAR(time(residual), time(0.06) + 0.002, 1e-6);
+  EXPECT_LT(residual, 0.06);
+  EXPECT_GT(residual, 0.055);
+}
+
 TEST(FitCurve, RefusesRunsThatContradictEachOther)
 {
   const ContactCurve truth = SyntheticLaw{}.curve();
