@@ -39,7 +39,7 @@ def cell(found, pair, tests):
     a, b = (found[m] for m in pair)
     p = welch(a, b)
     if p is None:
-        return "one seed"
+        return "one seed" if a.error is None or b.error is None else "no spread"
     change = f"{100 * (a.mean / b.mean - 1):+.1f} %" if b.mean else f"{a.mean - b.mean:+.2g}"
     if p >= 0.05:
         return f"no ({change}, p = {p:.2g})"

@@ -48,6 +48,17 @@ def loops(folder):
     return [(float(s), int(n), int(a)) for s, n, a in found]
 
 
+def decay(time, kinetic, level, until=None):
+    """s from the peak to the first fall below `level` times it (straight in log energy between rows), None if not before row `until`."""
+    peak = int(np.argmax(kinetic[:until]))
+    below = np.flatnonzero(kinetic[peak:until] < level * kinetic[peak])
+    if not len(below):
+        return None
+    k = peak + below[0]
+    a, b = np.log(kinetic[k - 1:k + 1] / (level * kinetic[peak]))
+    return float(time[k - 1] + (time[k] - time[k - 1]) * a / (a - b) - time[peak])
+
+
 def lost(folder, removed="removed"):
     """Particles that are neither there nor removed on purpose: must be 0. The first row counts as complete."""
     s = series(folder)

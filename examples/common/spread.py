@@ -40,12 +40,12 @@ def student_tail(t, dof):
 
 
 def welch(a, b):
-    """p of `the two means are equal` (Welch 1947), None where a spread is missing."""
+    """p of `the two means are equal` (Welch 1947), None where a spread is missing or 0."""
     if a.error is None or b.error is None:
         return None
     variance = a.error**2 + b.error**2
     if variance == 0:
-        return 1.0 if a.mean == b.mean else 0.0
+        return 1.0 if a.mean == b.mean else None
     dof = variance**2 / (a.error**4 / (a.values.size - 1) + b.error**4 / (b.values.size - 1))
     return student_tail((a.mean - b.mean) / math.sqrt(variance), dof)
 
@@ -55,7 +55,7 @@ def verdict(a, b):
     p = welch(a, b)
     change = f"{100 * (a.mean / b.mean - 1):+.1f} %" if b.mean else f"{a.mean - b.mean:+.3g}"
     if p is None:
-        return f"{change}, one seed: no verdict"
+        return f"{change}, {'one seed' if a.error is None or b.error is None else 'no spread'}: no verdict"
     return f"{change}, {'significant' if p < 0.05 else 'not significant'} (p = {p:.2g})"
 
 

@@ -72,7 +72,9 @@ def measure(folder, model, scene):
     found.update({"bulk density, kg/m3": density, "coordination number": measures.coordination(run).value,
                   "bed height, m": measures.bed_height(run).value, "peak kinetic energy while filling, J": f["peak"],
                   "energy dissipated while filling, J": f["dissipated"]})
-    found.update({f"time from the peak to {level:g} of it, s": f[level] for level in (1e-1, 1e-2, 1e-3) if f[level] is not None})
+    kinetic, closed = run.series["kinetic"] + run.series["rotational"], int(np.sum(run.series["time"] <= run.opened + 0.5 * run.dt))
+    decay = {level: readings.decay(run.series["time"], kinetic, level, closed) for level in (1e-1, 1e-2, 1e-3)}
+    found.update({f"time from the peak to {level:g} of it, s": t for level, t in decay.items() if t is not None})
     if run.stats:
         found["plastic share while filling"] = f["plastic"] / f["dissipated"]
         for side in ("pair", "wall"):

@@ -46,9 +46,9 @@ def measure(folder, side, particles):
              "energy dissipated, J": energy[0] - energy[-1],
              "kinetic energy at the end / peak": kinetic[-1] / kinetic[peak]}
     for level in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5):
-        below = np.flatnonzero((np.arange(len(kinetic)) > peak) & (kinetic < level * kinetic[peak]))
-        if len(below):
-            found[f"time from the peak to {level:g} of it, s"] = s["time"][below[0]] - s["time"][peak]
+        time = readings.decay(s["time"], kinetic, level)
+        if time is not None:
+            found[f"time from the peak to {level:g} of it, s"] = time
     if not folder.name.startswith("hertz"):
         found["of it in normal contacts"] = s["plastic"][-1] / found["energy dissipated, J"]
     return found

@@ -8,6 +8,8 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "examples" / "common"))
 import readings  # noqa: E402
@@ -67,6 +69,17 @@ class Spread(unittest.TestCase):
     def test_one_seed_gives_no_verdict(self):
         self.assertIsNone(spread.welch(spread.Sample([1.0]), spread.Sample([1.0, 2.0])))
         self.assertIn("no verdict", spread.verdict(spread.Sample([1.0]), spread.Sample([1.0, 2.0])))
+
+
+    def test_no_spread_gives_no_verdict(self):
+        self.assertIsNone(spread.welch(spread.Sample([1.0, 1.0]), spread.Sample([2.0, 2.0])))
+
+    def test_decay_between_rows(self):
+        time = np.linspace(0, 1, 11)
+        kinetic = np.where(time < 0.2, time, 0.2) * np.exp(-5 * (time - 0.2).clip(0))  # peak at 0.2, then a pure exponential
+        self.assertAlmostEqual(readings.decay(time, kinetic, 0.1), math.log(10) / 5, delta=1e-12)
+        self.assertIsNone(readings.decay(time, kinetic, 0.01))
+        self.assertIsNone(readings.decay(time, kinetic, 0.1, 5))
 
 
 class Drop(Run):
