@@ -392,7 +392,7 @@ def write(page, decks):
     if len(decks) > 1 and rows:
         tested = sum("significant" in r[-1] for r in rows)
         page.heading("All decks")
-        page.table(["deck", "observable", "model", "time step, µs", "cost / mpm's", "deviation from mpm"], rows)
+        page.table(["deck", "observable", "model", "time step, µs", "cost / mpm's", "deviation from mpm"], [[*r[:-1], r[-1].replace(", ", "\n")] for r in rows])
         page.text(f"{tested} of these differences have a spread and were tested (Welch's t test on the seeds, p < 0.05; 1.96 standard errors "
                   f"where one run gives the spread): about {0.05 * tested:.1g} would be called significant by chance alone.")
     for k, deck in enumerate(decks, 1):
