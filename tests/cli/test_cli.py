@@ -253,7 +253,7 @@ def case_usage():
     for command in ("impact", "press", "table", "law", "check", "info", "plot", "plan"):
         text = Run(command, "--help")
         assert text.code == 0 and (command == "plan" or "Example: mpm " + command in text.out), command
-    stopped = subprocess.Popen([MPM, "impact", name, "--particle", "grain", "--velocity", "0.3", "--resolution", "64",
+    stopped = subprocess.Popen([MPM, "impact", name, "--particle", "grain", "--velocity", "0.3", "--resolution", "32",
                                 "-o", "late.csv"], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     time.sleep(0.5)
     stopped.send_signal(signal.SIGINT)

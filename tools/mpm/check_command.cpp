@@ -159,12 +159,14 @@ void check(const CheckRequest& r)
     if (subject->rate_dependent())
       slow = std::max(slow, 0.13 * std::sqrt(body.certificate.max_inertia * body.material.yield_stress /
                                              body.material.e_star()));
-    throw_some(slow, body, [&](double velocity) { return impact_agrees(name, body, *subject, velocity); });
+    throw_some(slow, body, [&, &name = name, &body = body](double velocity) {
+      return impact_agrees(name, body, *subject, velocity);
+    });
   }
   for (const auto& [name, own] : law.pair_laws)
     if (r.impacts > 0)
       throw_some(twice_onset(own.law.material), own.law,
-                 [&](double velocity) { return pair_impact_agrees(law, name, velocity); });
+                 [&, &name = name](double velocity) { return pair_impact_agrees(law, name, velocity); });
   if (!good) fail(r.law, fmt::format("the law fails its check (seed {})", seed));
   fmt::print(
       "{}: good ({} materials, pairs {}; no closed cycle gains energy; {} fresh impacts in all, seed "

@@ -253,7 +253,7 @@ void build(const TableRequest& r)
     } else {
       if (!farm) farm = r.farm.farm();
       options.farm = farm.get();
-      options.progress = [&](double done, const std::string& what) {
+      options.progress = [&, &name = name](double done, const std::string& what) {
         bar.update((finished + done) / static_cast<double>(entries.size()), name + ": " + what);
       };
       BuiltLaw built = build_law(entry.material, entry.subject, options);
