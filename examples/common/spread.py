@@ -91,3 +91,12 @@ def markdown(samples, base="hertz"):
                   if quantity in samples[m] and quantity in samples[base] else "" for m in others]
         lines.append(f"| {quantity} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
+
+
+def write_tables(out, title, lead, tables):
+    """NAME.csv and report.md of a deck in the folder `out`, NAME being the title in small letters; NAME.png is the caller's.
+    Returns the samples of `tabulate`."""
+    name = title.lower()
+    samples = tabulate(tables, out / f"{name}.csv")
+    (out / "report.md").write_text(f"# {title}\n\n{lead} ±: standard error.\n\n{markdown(samples)}\n![{name}]({name}.png)\n")
+    return samples

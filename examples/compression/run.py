@@ -14,7 +14,7 @@ sys.path.insert(0, str(HERE.parent / "common"))
 sys.path.append(str(HERE.parent / "hopper"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
 from make_scene import write_stl  # noqa: E402
-from spread import markdown, tabulate  # noqa: E402
+from spread import write_tables  # noqa: E402
 
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 SPEED = 0.2                    # m/s of the lid: rho V^2/Y = 4e-5, far from inertia
@@ -75,9 +75,7 @@ def main(argv=None):
             found, curve = measure(folder, die)
             tables.setdefault(name, []).append(found)
             curves.setdefault(name, []).append(curve)
-    samples = tabulate(tables, out / "compression.csv")
-    (out / "report.md").write_text(f"# Compression\n\n{particles} spheres, {args.seeds} seeds; ±: standard error.\n\n" +
-                                   markdown(samples) + "\n![compression](compression.png)\n")
+    samples = write_tables(out, "Compression", f"{particles} spheres, {args.seeds} seeds.", tables)
     figure, axes = pictures.panels(2)
     for m, runs in curves.items():
         grid = np.linspace(0.55, min(c["fraction"][-1] for c in runs), 200)

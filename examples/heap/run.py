@@ -12,7 +12,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
-from spread import markdown, tabulate  # noqa: E402
+from spread import write_tables  # noqa: E402
 
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 
@@ -92,9 +92,7 @@ def main(argv=None):
                                 "every": max(1, round(6e-3 / dt)), "seed": prime_after(100003 * seed)})
             tables.setdefault(name, []).append(measure(folder, particles, len(layer), base))
             profiles.setdefault(name, []).append(surface(pile(folder, len(layer), base)[0])[0])
-    samples = tabulate(tables, out / "heap.csv")
-    (out / "report.md").write_text(f"# Heap\n\n{particles} spheres at {rate} a second, {args.seeds} seeds; ±: standard error."
-                                   "\n\n" + markdown(samples) + "\n![heap](heap.png)\n")
+    samples = write_tables(out, "Heap", f"{particles} spheres at {rate} a second, {args.seeds} seeds.", tables)
     figure, axes = pictures.panels(1, 6, 3)
     for m, runs in profiles.items():
         n = min(len(p) for p in runs)

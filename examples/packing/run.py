@@ -12,7 +12,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import clouds, pictures, readings, sweep  # noqa: E401, E402
-from spread import markdown, tabulate  # noqa: E402
+from spread import write_tables  # noqa: E402
 
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 
@@ -77,9 +77,7 @@ def main(argv=None):
                                {"scene": scene, "dt": dt, "steps": steps, "every": max(1, round(1.5e-3 / dt))})
             tables.setdefault(name, []).append(measure(folder, side, particles))
             curves.setdefault(name, []).append(readings.series(folder))
-    samples = tabulate(tables, out / "packing.csv")
-    (out / "report.md").write_text(f"# Packing\n\n{particles} spheres, {args.seeds} seeds; ±: standard error.\n\n" +
-                                   markdown(samples) + "\n![packing](packing.png)\n")
+    samples = write_tables(out, "Packing", f"{particles} spheres, {args.seeds} seeds.", tables)
     figure, axes = pictures.panels(2)
     for m, runs in curves.items():
         n = min(len(s["time"]) for s in runs)

@@ -15,7 +15,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 import pictures, readings, sweep  # noqa: E401, E402
-from spread import markdown, tabulate  # noqa: E402
+from spread import write_tables  # noqa: E402
 
 # The particle and the orifice are the benchmark's in every size, so the rate is too; fewer particles: a narrower cylinder.
 RADIUS, ORIFICE, DENSITY, BULK = 2e-3, 0.030, 2500.0, 1500.0
@@ -69,10 +69,8 @@ def main(argv=None):
                               "every": max(1, round(2.5e-3 / dt))})
             tables.setdefault(name, []).append(measure(done, scene))
             curves.setdefault(name, []).append(readings.series(done))
-    samples = tabulate(tables, out / "silo.csv")
-    (out / "report.md").write_text(f"# Silo\n\n{size['particles']} spheres, {args.seeds} seeds, {args.ranks} ranks; ±: standard "
-                                   f"error. Beverloo: {beverloo():.3f} kg/s at a bulk density of {BULK:g} kg/m3.\n\n" +
-                                   markdown(samples) + "\n![silo](silo.png)\n")
+    samples = write_tables(out, "Silo", f"{size['particles']} spheres, {args.seeds} seeds, {args.ranks} ranks. Beverloo: {beverloo():.3f} kg/s at a bulk density "
+                           f"of {BULK:g} kg/m3.", tables)
     figure, axes = pictures.panels(1, 6)
     for m, runs in curves.items():
         n = min(len(s["time"]) for s in runs)
