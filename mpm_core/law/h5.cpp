@@ -264,22 +264,35 @@ std::vector<std::string> read_texts(hid_t group, const char* name, std::size_t m
   return texts;
 }
 
+namespace {
+
+/// The `count` names that `read(k, buffer, size)` gives; what it returns is a name's length.
+template <class Read>
+std::vector<std::string> read_names(hsize_t count, const std::string& file, const char* unusable,
+                                    const Read& read)
+{
+  std::vector<std::string> names;
+  for (hsize_t k = 0; k < count; ++k) {
+    char name[256];
+    const ssize_t size = read(k, name, sizeof name);
+    if (size <= 0 || size >= static_cast<ssize_t>(sizeof name)) fail(file, unusable);
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
 std::vector<std::string> link_names(hid_t group, std::size_t most, const std::string& file)
 {
   H5G_info_t info{};
   if (H5Gget_info(group, &info) < 0 || info.nlinks > most)
     fail(file, "a group has an unusable number of entries", std::to_string(info.nlinks),
          fmt::format("up to {}", most));
-  std::vector<std::string> names;
-  for (hsize_t k = 0; k < info.nlinks; ++k) {
-    char name[256];
-    const ssize_t size =
-        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name, H5P_DEFAULT);
-    if (size <= 0 || size >= static_cast<ssize_t>(sizeof name))
-      fail(file, "a group has an unusable entry name");
-    names.emplace_back(name);
-  }
-  return names;
+  return read_names(
+      info.nlinks, file, "a group has an unusable entry name", [&](hsize_t k, char* name, std::size_t size) {
+        return H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, size, H5P_DEFAULT);
+      });
 }
 
 std::vector<std::string> attribute_names(hid_t object, std::size_t most, const std::string& file)
@@ -288,16 +301,11 @@ std::vector<std::string> attribute_names(hid_t object, std::size_t most, const s
   if (H5Oget_info2(object, &info, H5O_INFO_NUM_ATTRS) < 0 || info.num_attrs > most)
     fail(file, "an object has an unusable number of attributes", std::to_string(info.num_attrs),
          fmt::format("up to {}", most));
-  std::vector<std::string> names;
-  for (hsize_t k = 0; k < info.num_attrs; ++k) {
-    char name[256];
-    const ssize_t size =
-        H5Aget_name_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name, H5P_DEFAULT);
-    if (size <= 0 || size >= static_cast<ssize_t>(sizeof name))
-      fail(file, "an attribute has an unusable name");
-    names.emplace_back(name);
-  }
-  return names;
+  return read_names(info.num_attrs, file, "an attribute has an unusable name",
+                    [&](hsize_t k, char* name, std::size_t size) {
+                      return H5Aget_name_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, size,
+                                                H5P_DEFAULT);
+                    });
 }
 
 }  // namespace granulaw::h5
