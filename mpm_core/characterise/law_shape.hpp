@@ -82,6 +82,12 @@ void require_admissible(const ContactCurve& curve);
 InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                     double mass, double fastest);
 
+/// The same of a rate-dependent body whose `slow` law is that of no rate: an axis from the slowest impact of
+/// the shape on, by the logarithm of the speed; at a body of this radius (m). The force goes over to `slow`'s
+/// within so much more than half of the overlap reached that it never falls.
+InertiaAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
+                                 double mass, double fastest, double reference_radius);
+
 /// The law of a body that never yields.
 ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_end);
 

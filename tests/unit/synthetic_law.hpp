@@ -115,6 +115,7 @@ struct SyntheticLaw
     InertiaAxis::Table table = axis();
     table.kind = InertiaAxis::Kind::rate;
     table.reference_radius = reference_radius;
+    table.speed_begin = table.speed_end / 40;
     return table;
   }
   ContactCurve curve_with_axis(int count = 129) const { return {table(count), axis(), "synthetic"}; }

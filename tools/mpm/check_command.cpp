@@ -156,10 +156,9 @@ void check(const CheckRequest& r)
       continue;
     }
     double slow = twice_onset(body.material);
-    // A rate reaches down to no speed at all: the law claims what its own impacts checked.
-    if (subject->rate_dependent())
-      slow = std::max(slow, 0.13 * std::sqrt(body.certificate.max_inertia * body.material.yield_stress /
-                                             body.material.e_star()));
+    if (const InertiaAxis* axis = body.curve.axis())
+      slow = std::max(slow,
+                      axis->speed_begin() * std::sqrt(body.material.yield_stress / body.material.e_star()));
     throw_some(slow, body, [&](double velocity) { return impact_agrees(name, body, *subject, velocity); });
   }
   for (const auto& [name, own] : law.pair_laws)
