@@ -63,8 +63,7 @@ double slowest_of(const Subject& subject, const BuildOptions& o)
 double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject, const BuildOptions& options,
                     double shape_end)
 {
-  const ContactCurve::Table table = tabulate(shape, subject.onset, shape_end, options.depth);
-  const ContactCurve slow(table, law.material.name);
+  const ContactCurve slow = tabulate(shape, subject.onset, shape_end, options.depth);
   const double error = table_error(shape, subject.onset, shape_end, slow);
   if (options.fastest == 0) {
     law.curve = slow;
@@ -76,7 +75,7 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
           ? tabulate_rate(shape, slow, 1 / subject.yield, subject.mass, options.fastest, subject.scale.length)
           : tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, options.fastest);
   law.certificate.max_inertia = axis.speed_end * axis.speed_end;
-  law.curve = ContactCurve(table, axis, law.material.name);
+  law.curve = ContactCurve(slow.table(), axis, law.material.name);
   require_admissible(law.curve);
 
   const Scales unit{subject.scale.length, law.material.e_star(), law.material.density};
@@ -123,6 +122,7 @@ class Build
   ElasticCorrection elastic_correction(double depth, int resolution);
   LawShape shallow_guide(const ElasticCorrection& elastic, const SurveyPlan& plan);
   void survey_more(Survey& survey, const SurveyPlan& plan, const Subject& subject, double until);
+  void heed_early_yield(const Survey& survey);
   FittedShape fit(const Survey& survey, const LawShape* shallow) const;
   SurveyPlan refinement(const FittedShape& fitted, const Survey& survey, const std::vector<double>& overlaps,
                         const std::vector<double>& speeds) const;
@@ -133,7 +133,7 @@ class Build
 
   BuiltLaw built_;
   BodyLaw& law_ = built_.law;
-  const Subject& subject_;
+  Subject subject_;  ///< its onset is what the runs show, where that is earlier than foreseen
   const BuildOptions& options_;
   const RunSource& source_;
   ElasticCorrection elastic_;
@@ -183,6 +183,15 @@ ElasticCorrection Build::elastic_correction(double depth, int resolution)
 void Build::survey_more(Survey& survey, const SurveyPlan& plan, const Subject& subject, double until)
 {
   add_to(survey, plan, run(survey_jobs(subject, plan, source_), until));
+}
+
+/// The onset foreseen for a body of several materials is an estimate: a run that turned before it and lost
+/// energy has yielded.
+void Build::heed_early_yield(const Survey& survey)
+{
+  constexpr double lost = 0.01;  // of the work: the waves that a slow elastic run leaves in the body are less
+  for (const Pressing& p : survey.slow)
+    if (p.work_ratio < 1 - lost) subject_.onset = std::min(subject_.onset, 0.7 * p.depth);
 }
 
 FittedShape Build::fit(const Survey& survey, const LawShape* shallow) const
@@ -285,7 +294,7 @@ std::vector<double> Build::more_speeds(const std::vector<LawShape::Inertia>& fou
                  after = impacts[k + 1].speed;
     const auto middle = [&](double a, double b) { return rate ? std::sqrt(a * b) : 0.5 * (a + b); };
     for (const double speed : {middle(before, here), middle(here, after)})
-      if (speed > (rate ? 0.0 : 0.01) && is_new(speed, tried)) more.push_back(speed);
+      if (speed > (rate ? 0.0 : 0.01) && is_new(speed, tried) && is_new(speed, more)) more.push_back(speed);
   }
   return more;
 }
@@ -387,6 +396,7 @@ void Build::plastic()
     plan.fast_speeds.clear();
     survey_more(survey, plan, slow, done_ + 0.5 * (0.9 - done_));
     survey_more(survey, impacts, subject_, done_ + 0.3 * (0.9 - done_));
+    if (!subject_.particle.is_homogeneous_sphere()) heed_early_yield(survey);
     fitted = fit(survey, guide ? &*guide : nullptr);
     for (const Pressing& p : survey.slow) tried_overlaps.push_back(p.depth);
     for (const Survey::Impact& i : survey.fast) tried_speeds.push_back(i.speed);

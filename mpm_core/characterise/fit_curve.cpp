@@ -172,7 +172,15 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
 
   // What is given back follows the force at the turn, and that swings with the contact edge about the law:
   // only the share that is lost depends on it.
-  std::vector<Pressing> turns = survey.slow;
+  std::vector<Pressing> turns;
+  for (const Pressing& p : survey.slow)
+    if (p.depth > onset)
+      turns.push_back(p);
+    else
+      fitted.quality.held_out_each.push_back(0);  // elastic, as the law is there
+  if (turns.size() < 3)
+    fail("fit", "too few turning points beyond the onset of yield", std::to_string(turns.size()),
+         "3 or more");
   for (Pressing& p : turns)
     if (p.turn_force > 0) p.work_ratio *= 1 + (press_force(p.depth) / p.turn_force - 1) * (1 - p.work_ratio);
   const auto* shallow_residual = shallow ? &shallow->residual : nullptr;
@@ -239,9 +247,8 @@ FittedCurve fit_plastic(const std::vector<Pressing>& presses, const ElasticCorre
   Survey survey;
   survey.slow = presses;
   const FittedShape fitted = fit_shape(survey, elastic, onset, x_end);
-  FittedCurve curve{tabulate(fitted.shape, onset, x_end, x_end), fitted.quality, 0};
-  curve.table_error = table_error(fitted.shape, onset, x_end, ContactCurve(curve.table, "fitted curve"));
-  return curve;
+  const ContactCurve curve = tabulate(fitted.shape, onset, x_end, x_end);
+  return {curve.table(), fitted.quality, table_error(fitted.shape, onset, x_end, curve)};
 }
 
 }  // namespace granulaw

@@ -62,7 +62,7 @@ inline constexpr double inertia_speeds[] = {0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.
 /// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the
 /// turn: the smallest change of a fit that scatters about 0. Throws Error where the loading force would not
 /// rise or a closed cycle would gain energy.
-ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
+ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
 
 /// Largest relative difference between e of `curve` and of the shape it was tabulated from: what making it
 /// admissible took.
