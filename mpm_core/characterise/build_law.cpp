@@ -246,7 +246,7 @@ SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey,
     for (const std::size_t other : {k - 1, k + 1})
       if (other < survey.slow.size()) {
         const double middle = std::sqrt(survey.slow[k].depth * survey.slow[other].depth);
-        if (is_new(middle, tried_overlaps)) overlaps.push_back(middle);
+        if (is_new(middle, tried_overlaps) && is_new(middle, overlaps)) overlaps.push_back(middle);
       }
   }
   std::sort(overlaps.begin(), overlaps.end());
@@ -313,10 +313,11 @@ void Build::verify(const std::vector<double>& speeds)
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     if (outcomes[k].failed()) continue;
     const RunSummary& run = outcomes[k].result.summary;
+    const double found = subject_.rate_dependent() ? force_at_turn(outcomes[k].result.trace) : run.force_max;
     const Replay replay = replay_collision(wall, unit.length, subject_.mass * unit.mass(),
                                            speeds[k] * std::sqrt(subject_.yield) * unit.velocity());
     c.verification_error_force =
-        std::max(c.verification_error_force, std::abs(replay.force_max / unit.force() / run.force_max - 1));
+        std::max(c.verification_error_force, std::abs(replay.force_max / unit.force() / found - 1));
     c.verification_error_restitution =
         std::max(c.verification_error_restitution, std::abs(replay.restitution / run.restitution - 1));
     c.verification_impacts += 1;
@@ -387,6 +388,7 @@ void Build::plastic()
   if (first > 2 * subject_.onset) guide = shallow_guide(elastic_, plan);
 
   Survey survey;
+  survey.rate = subject_.rate_dependent();
   FittedShape fitted;
   std::vector<double> tried_overlaps, tried_speeds;
   built_.runs = 0;

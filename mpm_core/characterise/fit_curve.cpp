@@ -13,7 +13,8 @@ namespace granulaw {
 
 namespace {
 
-constexpr double from_share = 0.1;  // of a press's depth: below, the contact spans too few cells
+constexpr double least_lost = 0.02;  // -ln W_u/W_L, -ln(1 - delta_r/delta_m): less is not told from nothing
+constexpr double from_share = 0.1;   // of a press's depth: below, the contact spans too few cells
 
 /// Ripple of a sample grows as (cell/contact radius)^1.65 (formulations.md, sect. 3): its weight falls as
 /// x^0.8. Samples stand at equal times; what counts is equal steps of ln x.
@@ -80,16 +81,23 @@ std::vector<double> sampled(const SmoothSpline& spline, double q_end)
 }
 
 /// ln(F/F_press) of an impact at shares of its overlap: a least-squares polynomial in sqrt(share), which
-/// cannot follow the ripple. Below the first share that the grid resolves it keeps its value.
-std::vector<double> inertia_force(const Pressing& impact, const auto& press_force)
+/// cannot follow the ripple. Below the first share that the grid resolves it keeps its value. Of a rate with
+/// the logarithm of the speed besides, v^2/V^2 = 1 - share^2 of an oscillator, which is what the flow stress
+/// feels, down to where the body unloads elastically instead.
+std::vector<double> inertia_force(const Pressing& impact, bool rate, const auto& press_force)
 {
-  constexpr int terms = 6;
-  constexpr double first = 0.04;
-  const auto basis = [first](double share, int k) { return std::pow(std::max(share, first), 0.5 * k); };
+  constexpr int powers = 6;
+  const int terms = rate ? powers + 1 : powers;
+  constexpr double first = 0.04, least_energy = 0.01;
+  const auto basis = [&](double share, int k) {
+    share = std::max(share, first);
+    return k < powers ? std::pow(share, 0.5 * k)
+                      : 0.5 * std::log(std::max(0.0, 1 - share * share) + least_energy);
+  };
   std::vector<const Pressing::Sample*> used;
   for (const Pressing::Sample& s : impact.loading)
     if (s.x >= first * impact.depth && s.force > 0) used.push_back(&s);
-  if (used.size() < 3 * terms)
+  if (used.size() < 3 * powers)
     fail("fit", "too few samples in an impact", std::to_string(used.size()), "18 or more");
   Eigen::MatrixXd a(used.size(), terms);
   Eigen::VectorXd b(used.size());
@@ -99,11 +107,11 @@ std::vector<double> inertia_force(const Pressing& impact, const auto& press_forc
     b(row) = std::log(s.force / press_force(s.x));
   }
   const Eigen::VectorXd c = a.colPivHouseholderQr().solve(b);
+  const int shares = rate ? LawShape::Inertia::rate_shares : LawShape::Inertia::shares;
   std::vector<double> values;
-  for (int n = 0; n < LawShape::Inertia::shares; ++n) {
-    const double share = static_cast<double>(n) / (LawShape::Inertia::shares - 1);
+  for (int n = 0; n < shares; ++n) {
     double value = 0;
-    for (int k = 0; k < terms; ++k) value += c(k) * basis(share, k);
+    for (int k = 0; k < terms; ++k) value += c(k) * basis(static_cast<double>(n) / (shares - 1), k);
     values.push_back(value);
   }
   return values;
@@ -197,15 +205,22 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   for (const auto& [speed, impact] : survey.fast) {
     const double q = q_of(impact.depth, onset);
     LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
-                              inertia_force(impact, press_force)};
+                              inertia_force(impact, survey.rate, press_force)};
     // Where next to nothing is lost the ratios mean nothing.
-    constexpr double least = 0.02;
-    if (const double slow = dissipation.value(q); slow > least)
+    if (const double slow = dissipation.value(q); slow > least_lost)
       inertia.dissipation = dissipation_measure(impact) / slow - 1;
-    if (const double slow = residual.value(q); slow > least)
+    if (const double slow = residual.value(q); slow > least_lost)
       inertia.residual = residual_measure(impact) / slow - 1;
     shape.inertia.push_back(std::move(inertia));
   }
+  // There inertia changes nothing, but a rate as much as in the next faster impact: its yield begins later.
+  if (survey.rate)
+    for (std::size_t k = survey.fast.size(); k-- > 1;) {
+      const double q = q_of(survey.fast[k - 1].path.depth, onset);
+      LawShape::Inertia &faster = shape.inertia[k], &slower = shape.inertia[k - 1];
+      if (dissipation.value(q) <= least_lost) slower.dissipation = faster.dissipation;
+      if (residual.value(q) <= least_lost) slower.residual = faster.residual;
+    }
 
   FitQuality& quality = fitted.quality;
   double sum = 0;
