@@ -81,23 +81,16 @@ std::vector<double> sampled(const SmoothSpline& spline, double q_end)
 }
 
 /// ln(F/F_press) of an impact at shares of its overlap: a least-squares polynomial in sqrt(share), which
-/// cannot follow the ripple. Below the first share that the grid resolves it keeps its value. Of a rate with
-/// the logarithm of the speed besides, v^2/V^2 = 1 - share^2 of an oscillator, which is what the flow stress
-/// feels, down to where the body unloads elastically instead.
-std::vector<double> inertia_force(const Pressing& impact, bool rate, const auto& press_force)
+/// cannot follow the ripple. Below the first share that the grid resolves it keeps its value.
+std::vector<double> inertia_force(const Pressing& impact, const auto& press_force)
 {
-  constexpr int powers = 6;
-  const int terms = rate ? powers + 1 : powers;
-  constexpr double first = 0.04, least_energy = 0.01;
-  const auto basis = [&](double share, int k) {
-    share = std::max(share, first);
-    return k < powers ? std::pow(share, 0.5 * k)
-                      : 0.5 * std::log(std::max(0.0, 1 - share * share) + least_energy);
-  };
+  constexpr int terms = 6;
+  constexpr double first = 0.04;
+  const auto basis = [first](double share, int k) { return std::pow(std::max(share, first), 0.5 * k); };
   std::vector<const Pressing::Sample*> used;
   for (const Pressing::Sample& s : impact.loading)
     if (s.x >= first * impact.depth && s.force > 0) used.push_back(&s);
-  if (used.size() < 3 * powers)
+  if (used.size() < 3 * terms)
     fail("fit", "too few samples in an impact", std::to_string(used.size()), "18 or more");
   Eigen::MatrixXd a(used.size(), terms);
   Eigen::VectorXd b(used.size());
@@ -107,11 +100,11 @@ std::vector<double> inertia_force(const Pressing& impact, bool rate, const auto&
     b(row) = std::log(s.force / press_force(s.x));
   }
   const Eigen::VectorXd c = a.colPivHouseholderQr().solve(b);
-  const int shares = rate ? LawShape::Inertia::rate_shares : LawShape::Inertia::shares;
   std::vector<double> values;
-  for (int n = 0; n < shares; ++n) {
+  for (int n = 0; n < LawShape::Inertia::shares; ++n) {
+    const double share = static_cast<double>(n) / (LawShape::Inertia::shares - 1);
     double value = 0;
-    for (int k = 0; k < terms; ++k) value += c(k) * basis(static_cast<double>(n) / (shares - 1), k);
+    for (int k = 0; k < terms; ++k) value += c(k) * basis(share, k);
     values.push_back(value);
   }
   return values;
@@ -205,7 +198,7 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   for (const auto& [speed, impact] : survey.fast) {
     const double q = q_of(impact.depth, onset);
     LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
-                              inertia_force(impact, survey.rate, press_force)};
+                              inertia_force(impact, press_force)};
     // Where next to nothing is lost the ratios mean nothing.
     if (const double slow = dissipation.value(q); slow > least_lost)
       inertia.dissipation = dissipation_measure(impact) / slow - 1;

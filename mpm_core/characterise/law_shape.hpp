@@ -33,8 +33,6 @@ struct LawShape
   struct Inertia
   {
     static constexpr int shares = 12;  ///< xi = x/X = 0, 1/11, ..., 1
-    static constexpr int rate_shares =
-        41;  ///< of a rate: the force drops in the last per cent before the turn
 
     double speed = 0;           ///< v
     double reach = 0;           ///< ln(X/v), X the overlap/R reached

@@ -13,11 +13,11 @@ namespace granulaw {
 
 namespace {
 
-constexpr double speed_spacing = 0.02;                          // of the nodes of X(v)
-constexpr double slice_spacing = 0.02;                          // of X, about
-constexpr double slices_an_octave = 3;                          // of a rate axis
-constexpr double inertia_spacing = 0.05, rate_spacing = 0.025;  // of xi = x/X
-constexpr double usual_ratio_end = 1.5;                         // xi where the force is the press's again
+constexpr double speed_spacing = 0.02;   // of the nodes of X(v)
+constexpr double slice_spacing = 0.02;   // of X, about
+constexpr double slices_an_octave = 3;   // of a rate axis
+constexpr double share_spacing = 0.05;   // of xi = x/X
+constexpr double usual_ratio_end = 1.5;  // xi where the force is the press's again
 
 /// y(x) = 0 by bracketing.
 template <class F>
@@ -44,7 +44,6 @@ class Speeds
     }
   }
 
-  bool rate() const { return rate_; }
   /// X: the overlap/R that an impact reaches.
   double reach(double v) const
   {
@@ -94,25 +93,23 @@ struct Slice
 };
 
 Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& slow, double x_reach,
-               double slowest, double fastest, double ratio_end, double spacing)
+               double slowest, double fastest, double ratio_end)
 {
-  const std::size_t shares = shape.inertia.front().force.size();
   const double v =
       root_of([&](double speed) { return speeds.reach(speed) - x_reach; }, 0.999 * slowest, 1.001 * fastest);
   std::vector<double> log_force;
-  for (std::size_t n = 0; n < shares; ++n)
+  for (std::size_t n = 0; n < LawShape::Inertia::shares; ++n)
     log_force.push_back(speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].force[n]; }));
+  // A cubic through few speeds may swing below what no impact can: to lose less than nothing.
   const double more_dissipation =
-      1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].dissipation; });
-  const double more_residual = 1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].residual; });
+      1 + std::max(-1.0, speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].dissipation; }));
+  const double more_residual =
+      1 + std::max(-1.0, speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].residual; }));
 
   const boost::math::interpolators::cardinal_cubic_b_spline<double> within(
-      log_force.begin(), log_force.end(), 0.0, 1.0 / static_cast<double>(shares - 1));
+      log_force.begin(), log_force.end(), 0.0, 1.0 / (LawShape::Inertia::shares - 1));
   // From the impact's own overlap on: the cubic with its value and slope there, and none at ratio_end.
-  const double end = within(1.0);
-  double end_slope = within.prime(1.0) * (ratio_end - 1);
-  if (speeds.rate())  // it dropped just before: not beyond 0
-    end_slope = end > 0 ? std::clamp(end_slope, -3 * end, 0.0) : std::clamp(end_slope, 0.0, -3 * end);
+  const double end = within(1.0), end_slope = within.prime(1.0) * (ratio_end - 1);
   const auto correction = [&](double xi) {
     if (xi >= ratio_end) return 0.0;
     if (xi <= 1) return std::expm1(within(xi));
@@ -121,10 +118,10 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
   };
 
   Slice slice;
-  const auto count = static_cast<int>(std::lround(ratio_end / spacing));
+  const auto count = static_cast<int>(std::lround(ratio_end / share_spacing));
   double work = 0;  // of loading from 0 to the node
   for (int l = 0; l <= count; ++l) {
-    const double xi = spacing * l;
+    const double xi = share_spacing * l;
     if (l > 0) {
       // 4-point Gauss-Legendre over the share, twice: F goes as xi^1.5 near 0
       constexpr double node[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
@@ -133,8 +130,9 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
                                     0.3478548451374538};
       for (int half = 0; half < 2; ++half)
         for (int g = 0; g < 4; ++g) {
-          const double at = xi - spacing * (1 - 0.25 * (2 * half + 1 + node[g]));
-          work += weight[g] * spacing / 4 * x_reach * slow.loading(at * x_reach).force * (1 + correction(at));
+          const double at = xi - share_spacing * (1 - 0.25 * (2 * half + 1 + node[g]));
+          work += weight[g] * share_spacing / 4 * x_reach * slow.loading(at * x_reach).force *
+                  (1 + correction(at));
         }
     }
     slice.force.push_back(correction(xi));
@@ -166,7 +164,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
 {
   const std::size_t columns = axis.ratio_nodes();
   constexpr int most_rounds = 40;
-  const double spacing = axis.ratio_end / static_cast<double>(columns - 1), fading_nodes = 0.4 / spacing;
+  constexpr double fading_nodes = 8;
   constexpr double spare = 1e-3;                            // of the work: what may hide between the samples
   std::vector<double> overlaps{slow.onset() * (1 + 1e-9)};  // densely past the onset, then evenly in s
   for (int k = 1; k <= 60; ++k) overlaps.push_back(slow.onset() * (1 + 3e-4 * std::pow(1.13, k)));
@@ -187,7 +185,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
                                         -curve.margin_at(x, reach));
         if (lacking <= -spare) continue;
         lacks = lacks || lacking > -0.2 * spare;
-        const auto column = std::min(static_cast<std::size_t>(x / reach / spacing) + 1, columns - 1);
+        const auto column = std::min(static_cast<std::size_t>(x / reach / share_spacing) + 1, columns - 1);
         const double more = 1.2 * (lacking + 1.5 * spare) * (curve.turning(x, reach).exponent + 1);
         for (const std::size_t row : {(half + 1) / 2, half / 2})
           for (std::size_t l = 0; row > 0 && l < columns; ++l) {
@@ -203,7 +201,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
     for (std::size_t row = 0; row < axis.slices; ++row) {
       const auto first = axis.exponent_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);
       const std::vector<double> slope =
-          slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, spacing);
+          slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, share_spacing);
       std::copy(slope.begin(), slope.end(),
                 axis.exponent_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
     }
@@ -212,12 +210,12 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
 
 /// The slice's force, raised where it would fall: towards its turn an impact loses speed and with it rate,
 /// and a law's loading force rises.
-void keep_rising(Slice& slice, const ContactCurve& slow, double x_reach, double spacing)
+void keep_rising(Slice& slice, const ContactCurve& slow, double x_reach)
 {
   double most = 0;
   for (std::size_t l = 1; l < slice.force.size(); ++l) {
-    const double press = slow.loading(spacing * static_cast<double>(l) * x_reach).force;
-    constexpr double least_rise = 1e-3;  // a node, of the force: the cubics between nodes rise as well
+    const double press = slow.loading(share_spacing * static_cast<double>(l) * x_reach).force;
+    constexpr double least_rise = 2e-3;  // a node, of the force: the cubics between nodes rise as well
     const double force = std::max((1 + slice.force[l]) * press, most * (1 + least_rise));
     slice.force[l] = force / press - 1;
     most = force;
@@ -234,7 +232,6 @@ InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, con
   for (double& slope : table.impact_overlap_slope) slope = std::max(0.0, slope);
   const double reach = table.impact_overlap.back();
   const bool rate = table.kind == InertiaAxis::Kind::rate;
-  const double spacing = rate ? rate_spacing : inertia_spacing;
   SliceScale scale;
   if (rate) {
     const double first = speeds.reach(table.speed_begin);
@@ -247,12 +244,11 @@ InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, con
   }
   for (std::size_t k = 1; k <= table.slices; ++k) {
     const double x_reach = scale.overlap(static_cast<double>(k));
-    Slice slice =
-        slice_at(speeds, shape, slow, x_reach, table.speed_begin, fastest, table.ratio_end, spacing);
-    if (rate) keep_rising(slice, slow, x_reach, spacing);
+    Slice slice = slice_at(speeds, shape, slow, x_reach, table.speed_begin, fastest, table.ratio_end);
+    if (rate) keep_rising(slice, slow, x_reach);
     const auto append = [&](const std::vector<double>& values, std::vector<double>& all,
                             std::vector<double>& slopes, bool ends_flat) {
-      std::vector<double> slope = slopes_of(values, spacing);
+      std::vector<double> slope = slopes_of(values, share_spacing);
       if (ends_flat) slope.back() = 0;
       all.insert(all.end(), values.begin(), values.end());
       slopes.insert(slopes.end(), slope.begin(), slope.end());
@@ -310,7 +306,7 @@ InertiaAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow
          fmt::format("sqrt(I) = {:.4g} and {:.4g}", table.speed_begin, table.speed_end), "1.5 times or more");
   double raised = 1;  // force of an impact at its turn, over the press's
   for (const LawShape::Inertia& i : shape.inertia) raised = std::max(raised, std::exp(i.force.back()));
-  table.ratio_end = rate_spacing * std::ceil(usual_ratio_end * raised / rate_spacing - 1e-9);
+  table.ratio_end = share_spacing * std::ceil(usual_ratio_end * raised / share_spacing - 1e-9);
   // X(v) is as v^0.8 to v: an eighth of the first speed a step, and one table for all
   const double steps = std::clamp(8 * table.speed_end / table.speed_begin, 16.0, 2048.0);
   return tabulate(shape, slow, speeds, table, static_cast<int>(steps));
