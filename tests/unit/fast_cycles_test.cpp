@@ -144,7 +144,7 @@ TEST(FastCycles, ACycleThatGainsIsSeen)
   testing::Path contact(law.fast);
   contact.move(1.2 * law.curve.onset());
   contact.move(0.0);
-  EXPECT_LT(contact.work(), -10 * (2 * lookup_error + contact.open) * contact.scale());
+  EXPECT_LT(contact.work(), -10 * (2 * lookup_error * contact.scale() + contact.open()));
 }
 
 }  // namespace
