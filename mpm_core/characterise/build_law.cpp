@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "base/error.hpp"
@@ -27,6 +28,34 @@ void check(const BuildOptions& o)
   if (!(o.fastest >= 0 && o.fastest <= most))
     fail("fastest impact of the law", "cannot be used",
          fmt::format("I = rho V^2/Y = {:g}", o.fastest * o.fastest), fmt::format("0 to {:g}", most * most));
+  if (!(o.slowest >= 0 && (o.slowest == 0 || o.slowest <= 0.7 * o.fastest)))
+    fail("slowest impact of the law", "cannot be used",
+         fmt::format("{:.3g} of the fastest", o.slowest / o.fastest), "up to 0.7 of it");
+}
+
+/// `from` to `to` in equal factors of at most `factor`.
+std::vector<double> by_factors(double from, double to, double factor)
+{
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(to / from) / std::log(factor) - 1e-9)));
+  std::vector<double> values;
+  for (int k = 0; k <= steps; ++k)
+    values.push_back(from * std::pow(to / from, static_cast<double>(k) / steps));
+  return values;
+}
+
+/// Whether none of `tried` is about the same.
+bool is_new(double value, const std::vector<double>& tried)
+{
+  return std::none_of(tried.begin(), tried.end(), [&](double t) { return std::abs(value / t - 1) < 0.12; });
+}
+
+/// sqrt(I) of the slowest impact on a rate axis.
+double slowest_of(const Subject& subject, const BuildOptions& o)
+{
+  const double onset =
+      onset_velocity(1.0, subject.yield, 1.0, subject.poisson_ratio) / std::sqrt(subject.yield);
+  const double wanted = o.slowest > 0 ? o.slowest : o.fastest / 50;
+  return std::min(std::max(wanted, onset), 0.5 * o.fastest);
 }
 
 /// The law's curve and axis from its shape, which ends at `shape_end`. Returns the largest relative error of
@@ -34,39 +63,41 @@ void check(const BuildOptions& o)
 double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject, const BuildOptions& options,
                     double shape_end)
 {
-  const ContactCurve::Table table = tabulate(shape, subject.onset, shape_end, options.depth);
-  const ContactCurve slow(table, law.material.name);
+  const ContactCurve slow = tabulate(shape, subject.onset, shape_end, options.depth);
   const double error = table_error(shape, subject.onset, shape_end, slow);
   if (options.fastest == 0) {
     law.curve = slow;
     return error;
   }
-  InertiaAxis::Table axis = tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, options.fastest);
-  const double fastest = axis.speed_end;
-  law.certificate.max_inertia = fastest * fastest;
-  if (subject.rate_dependent()) {
-    axis.kind = InertiaAxis::Kind::rate;
-    axis.reference_radius = subject.scale.length;
-  }
-  law.curve = ContactCurve(table, axis, law.material.name);
+  const bool rate = subject.rate_dependent();
+  const InertiaAxis::Table axis =
+      rate
+          ? tabulate_rate(shape, slow, 1 / subject.yield, subject.mass, options.fastest, subject.scale.length)
+          : tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, options.fastest);
+  law.certificate.max_inertia = axis.speed_end * axis.speed_end;
+  law.curve = ContactCurve(slow.table(), axis, law.material.name);
   require_admissible(law.curve);
 
   const Scales unit{subject.scale.length, law.material.e_star(), law.material.density};
-  const double mass = subject.mass * unit.mass(),
-               speed = fastest * std::sqrt(subject.yield) * unit.velocity();
-  const auto replay = [&](const ContactCurve& curve) {
+  const auto replay = [&](const ContactCurve& curve, double v) {
     BodyLaw body = law;
     body.curve = curve;
     const PairLaw wall{&body.curve, PairMapping::rigid_partner(law.material.e_star()), &body};
-    return replay_collision(wall, unit.length, mass, speed);
+    return replay_collision(wall, unit.length, subject.mass * unit.mass(),
+                            v * std::sqrt(subject.yield) * unit.velocity());
   };
-  const Replay with = replay(law.curve), without = replay(slow);
-  law.certificate.axis_cost_force = without.force_max / with.force_max - 1;
-  law.certificate.axis_cost_restitution = without.restitution / with.restitution - 1;
+  double worst = 0;
+  // what a rate raises at the fast end inertia may take away again
+  for (const double v : {axis.speed_begin, axis.speed_end}) {
+    if (v == 0) continue;
+    const Replay with = replay(law.curve, v), without = replay(slow, v);
+    law.certificate.axis_cost_force = without.force_max / with.force_max - 1;
+    law.certificate.axis_cost_restitution = without.restitution / with.restitution - 1;
+    worst = std::max(
+        {worst, std::abs(law.certificate.axis_cost_force), std::abs(law.certificate.axis_cost_restitution)});
+  }
   // Model only what the scene needs.
-  if (std::max(std::abs(law.certificate.axis_cost_force), std::abs(law.certificate.axis_cost_restitution)) <=
-      options.tolerance)
-    law.curve = slow;
+  if (worst <= options.tolerance) law.curve = slow;
   return error;
 }
 
@@ -91,14 +122,18 @@ class Build
   ElasticCorrection elastic_correction(double depth, int resolution);
   LawShape shallow_guide(const ElasticCorrection& elastic, const SurveyPlan& plan);
   void survey_more(Survey& survey, const SurveyPlan& plan, const Subject& subject, double until);
+  void heed_early_yield(const Survey& survey);
   FittedShape fit(const Survey& survey, const LawShape* shallow) const;
-  SurveyPlan refinement(const FittedShape& fitted, const Survey& survey,
-                        const std::vector<double>& tried) const;
+  SurveyPlan refinement(const FittedShape& fitted, const Survey& survey, const std::vector<double>& overlaps,
+                        const std::vector<double>& speeds) const;
+  std::vector<double> more_speeds(const std::vector<LawShape::Inertia>& found,
+                                  const std::vector<Survey::Impact>& impacts,
+                                  const std::vector<double>& tried) const;
   void verify(const std::vector<double>& speeds);
 
   BuiltLaw built_;
   BodyLaw& law_ = built_.law;
-  const Subject& subject_;
+  Subject subject_;  ///< its onset is what the runs show, where that is earlier than foreseen
   const BuildOptions& options_;
   const RunSource& source_;
   ElasticCorrection elastic_;
@@ -150,6 +185,15 @@ void Build::survey_more(Survey& survey, const SurveyPlan& plan, const Subject& s
   add_to(survey, plan, run(survey_jobs(subject, plan, source_), until));
 }
 
+/// The onset foreseen for a body of several materials is an estimate: a run that turned before it and lost
+/// energy has yielded.
+void Build::heed_early_yield(const Survey& survey)
+{
+  constexpr double lost = 0.01;  // of the work: the waves that a slow elastic run leaves in the body are less
+  for (const Pressing& p : survey.slow)
+    if (p.work_ratio < 1 - lost) subject_.onset = std::min(subject_.onset, 0.7 * p.depth);
+}
+
 FittedShape Build::fit(const Survey& survey, const LawShape* shallow) const
 {
   return fit_shape(survey, elastic_, subject_.onset, options_.depth, shallow);
@@ -188,23 +232,21 @@ LawShape Build::shallow_guide(const ElasticCorrection& elastic, const SurveyPlan
   return guide;
 }
 
-/// Halves the neighbourhood of what the law fitted without it was wrong about. `tried` overlaps and speeds
-/// are not asked for again.
+/// Halves the neighbourhood of what the law fitted without it was wrong about. `tried_overlaps` and
+/// `tried_speeds` are not asked for again.
 SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey,
-                             const std::vector<double>& tried) const
+                             const std::vector<double>& tried_overlaps,
+                             const std::vector<double>& tried_speeds) const
 {
   SurveyPlan more;
   more.resolution = resolution_;
-  const auto is_new = [&](double value) {
-    return std::none_of(tried.begin(), tried.end(), [&](double t) { return std::abs(value / t - 1) < 0.12; });
-  };
   std::vector<double> overlaps;
   for (std::size_t k = 0; k < survey.slow.size(); ++k) {
     if (fitted.quality.held_out_each[k] <= options_.tolerance) continue;
     for (const std::size_t other : {k - 1, k + 1})
       if (other < survey.slow.size()) {
         const double middle = std::sqrt(survey.slow[k].depth * survey.slow[other].depth);
-        if (is_new(middle)) overlaps.push_back(middle);
+        if (is_new(middle, tried_overlaps) && is_new(middle, overlaps)) overlaps.push_back(middle);
       }
   }
   std::sort(overlaps.begin(), overlaps.end());
@@ -218,23 +260,41 @@ SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey,
       stops.insert(stops.begin(), overlaps[k]);
     }
   }
-  const auto& speeds = survey.fast;
-  for (std::size_t k = 0; k < speeds.size(); ++k) {
-    // e of each impact as its neighbours would have it
-    std::vector<double> nodes{0.0}, values{0.0};
-    for (std::size_t j = 0; j < speeds.size(); ++j)
-      if (j != k) nodes.push_back(speeds[j].speed), values.push_back(fitted.shape.inertia[j].dissipation);
-    const auto weights = interpolation_weights(nodes, speeds[k].speed);
-    double told = 0;
-    for (std::size_t j = 0; j < values.size(); ++j) told += weights[j] * values[j];
-    const double lost =
-        -std::log(std::max(1e-6, speeds[k].path.work_ratio)) / (1 + fitted.shape.inertia[k].dissipation);
-    if (0.5 * lost * std::abs(told - fitted.shape.inertia[k].dissipation) <= options_.tolerance) continue;
-    if (k + 1 == speeds.size()) continue;  // that was extrapolation
-    const double before = k ? speeds[k - 1].speed : 0.0;
-    for (const double middle :
-         {0.5 * (before + speeds[k].speed), 0.5 * (speeds[k].speed + speeds[k + 1].speed)})
-      if (middle > 0.01 && is_new(middle)) more.fast_speeds.push_back(middle);
+  more.fast_speeds = more_speeds(fitted.shape.inertia, survey.fast, tried_speeds);
+  return more;
+}
+
+/// Speeds half-way to the neighbours of each impact whose e, or of a rate-dependent body also force at the
+/// turn, is not as its neighbours would have it: even steps, a rate in the logarithm.
+std::vector<double> Build::more_speeds(const std::vector<LawShape::Inertia>& found,
+                                       const std::vector<Survey::Impact>& impacts,
+                                       const std::vector<double>& tried) const
+{
+  const bool rate = subject_.rate_dependent();
+  const auto coordinate = [&](double speed) { return rate ? std::log(speed) : speed; };
+  std::vector<double> more;
+  for (std::size_t k = 0; k < impacts.size(); ++k) {
+    if (k + 1 == impacts.size() || (rate && k == 0)) continue;  // that would be extrapolation
+    std::vector<double> nodes, dissipation, force;
+    if (!rate) nodes = dissipation = force = {0.0};  // at standstill
+    for (std::size_t j = 0; j < impacts.size(); ++j)
+      if (j != k) {
+        nodes.push_back(coordinate(impacts[j].speed));
+        dissipation.push_back(found[j].dissipation), force.push_back(found[j].force.back());
+      }
+    const auto weights = interpolation_weights(nodes, coordinate(impacts[k].speed));
+    const auto told = [&](const std::vector<double>& values) {
+      return std::inner_product(weights.begin(), weights.end(), values.begin(), 0.0);
+    };
+    const double lost = -std::log(std::max(1e-6, impacts[k].path.work_ratio)) / (1 + found[k].dissipation);
+    double wrong = 0.5 * lost * std::abs(told(dissipation) - found[k].dissipation);
+    if (rate) wrong = std::max(wrong, std::abs(told(force) - found[k].force.back()));
+    if (wrong <= options_.tolerance) continue;
+    const double here = impacts[k].speed, before = k ? impacts[k - 1].speed : 0.0,
+                 after = impacts[k + 1].speed;
+    const auto middle = [&](double a, double b) { return rate ? std::sqrt(a * b) : 0.5 * (a + b); };
+    for (const double speed : {middle(before, here), middle(here, after)})
+      if (speed > (rate ? 0.0 : 0.01) && is_new(speed, tried) && is_new(speed, more)) more.push_back(speed);
   }
   return more;
 }
@@ -253,10 +313,11 @@ void Build::verify(const std::vector<double>& speeds)
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     if (outcomes[k].failed()) continue;
     const RunSummary& run = outcomes[k].result.summary;
+    const double found = subject_.rate_dependent() ? force_at_turn(outcomes[k].result.trace) : run.force_max;
     const Replay replay = replay_collision(wall, unit.length, subject_.mass * unit.mass(),
                                            speeds[k] * std::sqrt(subject_.yield) * unit.velocity());
     c.verification_error_force =
-        std::max(c.verification_error_force, std::abs(replay.force_max / unit.force() / run.force_max - 1));
+        std::max(c.verification_error_force, std::abs(replay.force_max / unit.force() / found - 1));
     c.verification_error_restitution =
         std::max(c.verification_error_restitution, std::abs(replay.restitution / run.restitution - 1));
     c.verification_impacts += 1;
@@ -290,6 +351,9 @@ void Build::plastic()
          "yields too late in the overlaps that a law covers",
          fmt::format("onset at delta/R = {:.3g}", subject_.onset),
          fmt::format("up to {:.3g}", 0.2 * options_.depth));
+  if (subject_.rate_dependent() && options_.fastest == 0)
+    fail(fmt::format("material '{}'", law_.material.name),
+         "depends on the rate: its law needs impacts, not the rate-free law alone", "I = 0", "over 0");
   // The rate-free law of a rate-dependent material is the one at no rate; the speed axis brings the rate in.
   const Subject slow = subject_.rate_dependent() ? subject_.rate_free() : subject_;
 
@@ -303,7 +367,7 @@ void Build::plastic()
   SurveyRange range;
   range.depth = options_.depth;
   range.fastest = options_.fastest;
-  const SurveyPlan full = plan_survey(slow, range);
+  SurveyPlan full = plan_survey(slow, range);
   range.stops = 2;
   range.every = 2;
   SurveyPlan plan = plan_survey(slow, range);
@@ -312,6 +376,11 @@ void Build::plastic()
   // The fastest asked for is always run: nothing may be extrapolated.
   if (options_.fastest > 0 && (plan.fast_speeds.empty() || plan.fast_speeds.back() < options_.fastest))
     plan.fast_speeds.push_back(options_.fastest);
+  if (subject_.rate_dependent()) {
+    const double slowest = slowest_of(subject_, options_);
+    plan.fast_speeds = by_factors(slowest, options_.fastest, 2.2);
+    full.fast_speeds = by_factors(slowest, options_.fastest, std::sqrt(2.2));
+  }
 
   std::optional<LawShape> guide;
   const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
@@ -319,8 +388,9 @@ void Build::plastic()
   if (first > 2 * subject_.onset) guide = shallow_guide(elastic_, plan);
 
   Survey survey;
+  survey.rate = subject_.rate_dependent();
   FittedShape fitted;
-  std::vector<double> tried;
+  std::vector<double> tried_overlaps, tried_speeds;
   built_.runs = 0;
   for (int round = 0; round < most_rounds; ++round) {
     SurveyPlan impacts = plan;
@@ -328,10 +398,11 @@ void Build::plastic()
     plan.fast_speeds.clear();
     survey_more(survey, plan, slow, done_ + 0.5 * (0.9 - done_));
     survey_more(survey, impacts, subject_, done_ + 0.3 * (0.9 - done_));
+    if (!subject_.particle.is_homogeneous_sphere()) heed_early_yield(survey);
     fitted = fit(survey, guide ? &*guide : nullptr);
-    for (const Pressing& p : survey.slow) tried.push_back(p.depth);
-    for (const Survey::Impact& i : survey.fast) tried.push_back(i.speed);
-    plan = refinement(fitted, survey, tried);
+    for (const Pressing& p : survey.slow) tried_overlaps.push_back(p.depth);
+    for (const Survey::Impact& i : survey.fast) tried_speeds.push_back(i.speed);
+    plan = refinement(fitted, survey, tried_overlaps, tried_speeds);
     if (plan.runs() == 0) break;
   }
   built_.runs_full = full.runs();
@@ -345,8 +416,15 @@ void Build::plastic()
   built_.change_of_restitution =
       change_of_restitution(fitted.shape, subject_.onset, options_.depth, law_.curve);
   if (options_.fastest > 0) {
+    const double fastest = std::sqrt(c.max_inertia);
     std::vector<double> speeds;
-    for (const double share : {0.13, 0.42, 0.88}) speeds.push_back(share * std::sqrt(c.max_inertia));
+    if (subject_.rate_dependent()) {
+      const double slowest = survey.fast.front().speed;
+      for (const double share : {0.1, 0.37, 0.63, 0.9})
+        speeds.push_back(slowest * std::pow(fastest / slowest, share));
+    } else {
+      for (const double share : {0.13, 0.42, 0.88}) speeds.push_back(share * fastest);
+    }
     verify(speeds);
   }
 }

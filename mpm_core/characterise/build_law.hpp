@@ -11,7 +11,9 @@ struct BuildOptions
 {
   double depth = 0.2;  ///< overlap/length that the law must reach, up to 0.5; beyond 0.1 no single pair law
                        ///< exists: the support matters (the certificate says how much)
-  double fastest = 0.25;    ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
+  double fastest = 0.25;  ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
+  double slowest = 0;  ///< of a rate-dependent body: sqrt(I) of the slowest impact that its law must know; 0:
+                       ///< a fiftieth of `fastest`. Not below the onset of yield, where rates change nothing
   double tolerance = 0.01;  ///< of force and e, relative: sampling is refined until it adds no more than
                             ///< this, the resolution until two of them agree to this
   Farm* farm = nullptr;     ///< makes the runs; none: this thread

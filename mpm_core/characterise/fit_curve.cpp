@@ -13,6 +13,7 @@ namespace granulaw {
 
 namespace {
 
+constexpr double least_lost = 0.02;  // -ln W_u/W_L, -ln(1 - delta_r/delta_m): less is not told from nothing
 /// Share of an elastic press's depth below which the contact spans too few cells.
 constexpr double elastic_from = 0.1;
 /// The same where it yields. The contact spans 24 cells at the press's depth, 14 at a third of it; below, its
@@ -178,7 +179,15 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
 
   // What is given back follows the force at the turn, and that swings with the contact edge about the law:
   // only the share that is lost depends on it.
-  std::vector<Pressing> turns = survey.slow;
+  std::vector<Pressing> turns;
+  for (const Pressing& p : survey.slow)
+    if (p.depth > onset)
+      turns.push_back(p);
+    else
+      fitted.quality.held_out_each.push_back(0);  // elastic, as the law is there
+  if (turns.size() < 3)
+    fail("fit", "too few turning points beyond the onset of yield", std::to_string(turns.size()),
+         "3 or more");
   for (Pressing& p : turns)
     if (p.turn_force > 0) p.work_ratio *= 1 + (press_force(p.depth) / p.turn_force - 1) * (1 - p.work_ratio);
   const auto* shallow_residual = shallow ? &shallow->residual : nullptr;
@@ -197,13 +206,20 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
     LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
                               inertia_force(impact, press_force)};
     // Where next to nothing is lost the ratios mean nothing.
-    constexpr double least = 0.02;
-    if (const double slow = dissipation.value(q); slow > least)
+    if (const double slow = dissipation.value(q); slow > least_lost)
       inertia.dissipation = dissipation_measure(impact) / slow - 1;
-    if (const double slow = residual.value(q); slow > least)
+    if (const double slow = residual.value(q); slow > least_lost)
       inertia.residual = residual_measure(impact) / slow - 1;
     shape.inertia.push_back(std::move(inertia));
   }
+  // There inertia changes nothing, but a rate as much as in the next faster impact: its yield begins later.
+  if (survey.rate)
+    for (std::size_t k = survey.fast.size(); k-- > 1;) {
+      const double q = q_of(survey.fast[k - 1].path.depth, onset);
+      LawShape::Inertia &faster = shape.inertia[k], &slower = shape.inertia[k - 1];
+      if (dissipation.value(q) <= least_lost) slower.dissipation = faster.dissipation;
+      if (residual.value(q) <= least_lost) slower.residual = faster.residual;
+    }
 
   FitQuality& quality = fitted.quality;
   double sum = 0;
@@ -245,9 +261,8 @@ FittedCurve fit_plastic(const std::vector<Pressing>& presses, const ElasticCorre
   Survey survey;
   survey.slow = presses;
   const FittedShape fitted = fit_shape(survey, elastic, onset, x_end);
-  FittedCurve curve{tabulate(fitted.shape, onset, x_end, x_end), fitted.quality, 0};
-  curve.table_error = table_error(fitted.shape, onset, x_end, ContactCurve(curve.table, "fitted curve"));
-  return curve;
+  const ContactCurve curve = tabulate(fitted.shape, onset, x_end, x_end);
+  return {curve.table(), fitted.quality, table_error(fitted.shape, onset, x_end, curve)};
 }
 
 }  // namespace granulaw

@@ -187,7 +187,7 @@ double table_error(const LawShape& shape, double onset, double shape_end, const 
   return worst;
 }
 
-ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end)
+ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, double x_end)
 {
   const double s_onset = std::pow(onset, 0.25), q_end = 0.25 * std::log(shape_end / onset);
   const ShapeFunction softening(shape.softening, q_end), widening(shape.widening, q_end),
@@ -252,8 +252,9 @@ ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_e
   }
   // 1e-7: returned work must not exceed the work put in just past the onset, not even by rounding.
   for (double& n : table.exponent) n += 1e-7;
-  require_admissible(ContactCurve(table, "fitted curve"));
-  return table;
+  ContactCurve curve(table, "fitted curve");
+  require_admissible(curve);
+  return curve;
 }
 
 ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_end)

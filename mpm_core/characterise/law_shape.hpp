@@ -62,7 +62,7 @@ inline constexpr double inertia_speeds[] = {0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.
 /// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the
 /// turn: the smallest change of a fit that scatters about 0. Throws Error where the loading force would not
 /// rise or a closed cycle would gain energy.
-ContactCurve::Table tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
+ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
 
 /// Largest relative difference between e of `curve` and of the shape it was tabulated from: what making it
 /// admissible took.
@@ -81,6 +81,12 @@ void require_admissible(const ContactCurve& curve);
 /// press's at any overlap. The axis ends before `fastest` where that would go deeper than `slow`'s table.
 InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                     double mass, double fastest);
+
+/// The same of a rate-dependent body whose `slow` law is that of no rate: an axis from the slowest impact of
+/// the shape on, by the logarithm of the speed; at a body of this radius (m). The force goes over to `slow`'s
+/// within so much more than half of the overlap reached that it never falls.
+InertiaAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
+                                 double mass, double fastest, double reference_radius);
 
 /// The law of a body that never yields.
 ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_end);

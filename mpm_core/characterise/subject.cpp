@@ -63,14 +63,58 @@ double mass_of(const Particle& p)
   return mass * p.volume() / volume;  // what the raster misses at the surface
 }
 
+/// Least distance of each material from the contact pole, over the length, by a raster of the meridian; 0:
+/// the pole's own, or too small to be found.
+std::vector<double> distances_from_pole(const Particle& p, double length)
+{
+  constexpr int cells = 400;
+  const double dz = p.height() / cells, dr = p.radius / cells, diagonal = std::hypot(dr, dz);
+  std::vector<double> nearest(p.materials.size(), never);
+  for (int i = 0; i < cells; ++i)
+    for (int k = 0; k < cells; ++k) {
+      const double r = (i + 0.5) * dr, z = (k + 0.5) * dz;
+      if (const int at = p.depth(r, z) < 0 ? -1 : p.material_at(r, z); at >= 0) {
+        double& d = nearest[static_cast<std::size_t>(at)];
+        d = std::min(d, std::max(0.0, std::hypot(r, z) - 0.5 * diagonal) / length);
+      }
+    }
+  for (double& d : nearest)
+    if (d == never) d = 0;
+  nearest[static_cast<std::size_t>(std::max(0, p.material_at(0.0, 1e-9 * length)))] = 0;
+  return nearest;
+}
+
+/// Overlap at which a material at this distance from the pole begins to yield, all over the length and E* at
+/// the pole: where the von Mises stress on the axis of Hertz's contact reaches Y there (Johnson 1985,
+/// eq. 3.45).
+double buried_onset(double yield, double poisson_ratio, double distance)
+{
+  const double at_pole = onset_overlap(1.0, yield, poisson_ratio);
+  const double largest = 1 / onset_pressure_ratio(poisson_ratio);  // over p0, at a depth of about a half of a
+  const auto mises = [&](double a) {
+    const double z = distance / a;
+    return z > 0.48 ? 1.5 / (1 + z * z) - (1 + poisson_ratio) * (1 - z * std::atan(1 / z)) : largest;
+  };
+  double a = std::sqrt(at_pole);
+  while (a < 1 && 2 * a / M_PI * mises(a) < yield * (1 - 1e-9)) a *= 1.02;  // p0 = 2 a/pi
+  // A half for what the bodies' different stiffnesses do: too early an onset costs a few runs, too late a one
+  // calls elastic what is not.
+  return a * a > at_pole ? std::max(at_pole, 0.5 * a * a) : at_pole;
+}
+
 void fill_yield(Subject& s)
 {
   s.yield = s.onset = never;
-  for (const Material& m : s.particle.materials)
-    if (m.yields()) {
-      s.yield = std::min(s.yield, m.yield_stress / s.scale.stress);
-      s.onset = std::min(s.onset, onset_overlap(1.0, m.yield_stress / s.scale.stress, m.poisson_ratio));
-    }
+  const std::vector<double> distance = s.particle.materials.size() > 1
+                                           ? distances_from_pole(s.particle, s.scale.length)
+                                           : std::vector<double>{0.0};
+  for (std::size_t k = 0; k < s.particle.materials.size(); ++k) {
+    const Material& m = s.particle.materials[k];
+    if (!m.yields()) continue;
+    const double yield = m.yield_stress / s.scale.stress;
+    s.yield = std::min(s.yield, yield);
+    s.onset = std::min(s.onset, buried_onset(yield, m.poisson_ratio, distance[k]));
+  }
 }
 
 void fill_plain(Subject& s)

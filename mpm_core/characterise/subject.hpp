@@ -14,7 +14,7 @@ struct Subject
   Scales scale;      ///< radius of curvature at the contact pole; E* and density of the material there
   double yield = 0;  ///< smallest yield stress in it over E*; infinity: elastic
   double poisson_ratio = 0;  ///< of the material at the pole
-  double onset = 0;          ///< overlap/length below which nothing in it yields
+  double onset = 0;          ///< overlap/length at which it begins to yield; of several materials: about
   double mass = 0;           ///< over density length^3; 4/3 pi: a sphere
   std::string description;   ///< everything about it that determines a run, on one line
 

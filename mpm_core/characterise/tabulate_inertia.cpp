@@ -13,10 +13,11 @@ namespace granulaw {
 
 namespace {
 
-constexpr double speed_spacing = 0.02;  // of the nodes of X(v)
-constexpr double slice_spacing = 0.02;  // of X, about
-constexpr double share_spacing = 0.05;  // of xi = x/X
-constexpr double ratio_end = 1.5;       // xi where the force is the press's again
+constexpr double speed_spacing = 0.02;   // of the nodes of X(v)
+constexpr double slice_spacing = 0.02;   // of X, about
+constexpr double slices_an_octave = 3;   // of a rate axis
+constexpr double share_spacing = 0.05;   // of xi = x/X
+constexpr double usual_ratio_end = 1.5;  // xi where the force is the press's again
 
 /// y(x) = 0 by bracketing.
 template <class F>
@@ -28,35 +29,35 @@ double root_of(const F& y, double low, double high)
   return 0.5 * (a + b);
 }
 
-/// The shape's table over speed, with the standstill before it.
+/// The shape's table over speed: inertia, with the standstill before it, where it changes nothing; a rate,
+/// over the logarithm of the speed, and below its first speed as there.
 class Speeds
 {
  public:
-  Speeds(const LawShape& shape, const ContactCurve& slow, double energy_unit)
-      : slow_(slow), energy_unit_(energy_unit)
+  Speeds(const LawShape& shape, const ContactCurve& slow, double energy_unit, InertiaAxis::Kind kind)
+      : slow_(slow), energy_unit_(energy_unit), rate_(kind == InertiaAxis::Kind::rate)
   {
-    nodes_ = {0.0};
-    log_reach_ = {0.0};
+    if (!rate_) nodes_ = {0.0};
     for (const LawShape::Inertia& i : shape.inertia) {
-      const double v = i.speed;
-      nodes_.push_back(v);
-      log_reach_.push_back(std::log(v * std::exp(i.reach) / slow_reach(v)));
+      nodes_.push_back(rate_ ? std::log(i.speed) : i.speed);
+      log_reach_.push_back(std::log(i.speed * std::exp(i.reach) / slow_reach(i.speed)));
     }
   }
 
   /// X: the overlap/R that an impact reaches.
   double reach(double v) const
   {
-    return v > 0 ? slow_reach(v) * std::exp(mix(v, [&](std::size_t j) { return log_reach_[j + 1]; })) : 0.0;
+    return v > 0 ? slow_reach(v) * std::exp(mix(v, [&](std::size_t j) { return log_reach_[j]; })) : 0.0;
   }
-  /// A quantity of LawShape::Inertia at speed v; 0 at standstill.
+  /// A quantity of LawShape::Inertia at speed v; inertia: 0 at standstill.
   template <class Of>
   double mix(double v, const Of& of) const
   {
-    const std::vector<double> weights = interpolation_weights(nodes_, v);
+    const std::vector<double> weights = interpolation_weights(nodes_, rate_ ? std::log(v) : v);
+    const std::size_t standstill = rate_ ? 0 : 1;
     double sum = 0;
-    for (std::size_t j = 1; j < weights.size(); ++j)
-      if (weights[j] != 0) sum += weights[j] * of(j - 1);
+    for (std::size_t j = standstill; j < weights.size(); ++j)
+      if (weights[j] != 0) sum += weights[j] * of(j - standstill);
     return sum;
   }
 
@@ -70,6 +71,7 @@ class Speeds
 
   const ContactCurve& slow_;
   double energy_unit_;  // kinetic energy at v = 1 over 4/3 E* R^3, the unit of ContactCurve's work
+  bool rate_;
   std::vector<double> nodes_, log_reach_;
 };
 
@@ -91,15 +93,18 @@ struct Slice
 };
 
 Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& slow, double x_reach,
-               double fastest)
+               double slowest, double fastest, double ratio_end)
 {
-  const double v = root_of([&](double speed) { return speeds.reach(speed) - x_reach; }, 0.0, 1.001 * fastest);
+  const double v =
+      root_of([&](double speed) { return speeds.reach(speed) - x_reach; }, 0.999 * slowest, 1.001 * fastest);
   std::vector<double> log_force;
   for (std::size_t n = 0; n < LawShape::Inertia::shares; ++n)
     log_force.push_back(speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].force[n]; }));
+  // A cubic through few speeds may swing below what no impact can: to lose less than nothing.
   const double more_dissipation =
-      1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].dissipation; });
-  const double more_residual = 1 + speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].residual; });
+      1 + std::max(-1.0, speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].dissipation; }));
+  const double more_residual =
+      1 + std::max(-1.0, speeds.mix(v, [&](std::size_t j) { return shape.inertia[j].residual; }));
 
   const boost::math::interpolators::cardinal_cubic_b_spline<double> within(
       log_force.begin(), log_force.end(), 0.0, 1.0 / (LawShape::Inertia::shares - 1));
@@ -163,27 +168,21 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
   constexpr double spare = 1e-3;                            // of the work: what may hide between the samples
   std::vector<double> overlaps{slow.onset() * (1 + 1e-9)};  // densely past the onset, then evenly in s
   for (int k = 1; k <= 60; ++k) overlaps.push_back(slow.onset() * (1 + 3e-4 * std::pow(1.13, k)));
-  // where ContactCurve::admissibility_margin() looks
-  const std::size_t samples = std::max<std::size_t>(4 * (slow.table().force_ratio.size() - 1), 512);
-  for (std::size_t k = 1; k < samples; ++k)
-    overlaps.push_back(
-        std::pow(slow.table().s_end * static_cast<double>(k) / static_cast<double>(samples), 4));
+  const std::vector<double> evenly =
+      ContactCurve(slow.table(), axis, "fitted curve").margin_overlaps(axis.impact_overlap.back());
+  overlaps.insert(overlaps.end(), evenly.begin(), evenly.end());
   for (int round = 0; round < most_rounds; ++round) {
     const ContactCurve curve(slow.table(), axis, "fitted curve");
+    const std::vector<double> reaches = curve.axis()->examined_overlaps();
     std::vector<double> raise(axis.exponent_correction.size(), 0.0);
     bool lacks = false;
-    for (std::size_t half = 1; half <= 2 * axis.slices; ++half) {
-      const double reach =
-          axis.impact_overlap.back() * static_cast<double>(half) / static_cast<double>(2 * axis.slices);
+    for (std::size_t k = 0; k < reaches.size(); ++k) {
+      const double reach = reaches[k];
+      const std::size_t half = 2 * axis.slices + 1 + k - reaches.size();  // of a slice; the last is at 2 K
       for (const double x : overlaps) {
-        const double step = x == overlaps.front() ? 0 : 1e-4 * x;
-        if (x - step < slow.onset() || x + step > slow.x_end()) continue;
-        double lacking = curve.work_unloading(x, reach) / curve.work_loading(x, reach) - 1;
-        if (step > 0) {
-          const double slope =
-              (curve.work_unloading(x + step, reach) - curve.work_unloading(x - step, reach)) / (2 * step);
-          lacking = std::max(lacking, slope / curve.loading(x, reach).force - 1);
-        }
+        if (x < slow.onset() || x > slow.x_end()) continue;
+        const double lacking = std::max(curve.work_unloading(x, reach) / curve.work_loading(x, reach) - 1,
+                                        -curve.margin_at(x, reach));
         if (lacking <= -spare) continue;
         lacks = lacks || lacking > -0.2 * spare;
         const auto column = std::min(static_cast<std::size_t>(x / reach / share_spacing) + 1, columns - 1);
@@ -209,30 +208,44 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
   }
 }
 
-}  // namespace
-
-InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
-                                    double mass, double fastest)
+/// The slice's force, raised where it would fall: towards its turn an impact loses speed and with it rate,
+/// and a law's loading force rises.
+void keep_rising(Slice& slice, const ContactCurve& slow, double x_reach)
 {
-  const double last = shape.inertia.empty() ? 0 : shape.inertia.back().speed;
-  if (!(fastest > 0 && fastest <= last * 1.0001))
-    fail("fit", "no impact was as fast", fmt::format("sqrt(I) = {:.4g}", fastest),
-         fmt::format("up to {:.4g}", last));
-  const Speeds speeds(shape, slow, 0.375 * mass / e_star_over_yield);  // 1/2 m Y v^2 over 4/3 E* R^3
-  // An impact at the end of the axis must turn within the table.
-  while (speeds.reach(fastest) > slow.x_end())
-    fastest *= std::min(0.98, std::sqrt(slow.x_end() / speeds.reach(fastest)));
-  InertiaAxis::Table table;
-  table.speed_end = fastest;
-  const auto steps = std::max(3, static_cast<int>(std::ceil(fastest / speed_spacing - 1e-9)));
+  double most = 0;
+  for (std::size_t l = 1; l < slice.force.size(); ++l) {
+    const double press = slow.loading(share_spacing * static_cast<double>(l) * x_reach).force;
+    constexpr double least_rise = 2e-3;  // a node, of the force: the cubics between nodes rise as well
+    const double force = std::max((1 + slice.force[l]) * press, most * (1 + least_rise));
+    slice.force[l] = force / press - 1;
+    most = force;
+  }
+}
+
+/// X(v) at equal steps, and the slices at the X that `scale` says.
+InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, const Speeds& speeds,
+                            InertiaAxis::Table table, int steps)
+{
+  const double fastest = table.speed_end;
   for (int k = 0; k <= steps; ++k) table.impact_overlap.push_back(speeds.reach(fastest * k / steps));
   table.impact_overlap_slope = slopes_of(table.impact_overlap, fastest / steps);
+  for (double& slope : table.impact_overlap_slope) slope = std::max(0.0, slope);
   const double reach = table.impact_overlap.back();
-  table.slices = static_cast<std::size_t>(std::max(2.0, std::round(reach / slice_spacing)));
-  table.ratio_end = ratio_end;
+  const bool rate = table.kind == InertiaAxis::Kind::rate;
+  SliceScale scale;
+  if (rate) {
+    const double first = speeds.reach(table.speed_begin);
+    table.slices = 1 + static_cast<std::size_t>(
+                           std::max(1.0, std::round(slices_an_octave * (octaves(reach) - octaves(first)))));
+    scale = SliceScale::by_octaves(table.slices, first, reach);
+  } else {
+    table.slices = static_cast<std::size_t>(std::max(2.0, std::round(reach / slice_spacing)));
+    scale = SliceScale::even(table.slices, reach);
+  }
   for (std::size_t k = 1; k <= table.slices; ++k) {
-    const Slice slice = slice_at(speeds, shape, slow,
-                                 reach * static_cast<double>(k) / static_cast<double>(table.slices), fastest);
+    const double x_reach = scale.overlap(static_cast<double>(k));
+    Slice slice = slice_at(speeds, shape, slow, x_reach, table.speed_begin, fastest, table.ratio_end);
+    if (rate) keep_rising(slice, slow, x_reach);
     const auto append = [&](const std::vector<double>& values, std::vector<double>& all,
                             std::vector<double>& slopes, bool ends_flat) {
       std::vector<double> slope = slopes_of(values, share_spacing);
@@ -246,6 +259,57 @@ InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& s
   }
   raise_exponents(table, slow);
   return table;
+}
+
+/// `fastest`, or less where an impact would turn beyond the table; throws where none was as fast.
+double end_of_axis(const LawShape& shape, const ContactCurve& slow, const Speeds& speeds, double fastest)
+{
+  const double last = shape.inertia.empty() ? 0 : shape.inertia.back().speed;
+  if (!(fastest > 0 && fastest <= last * 1.0001))
+    fail("fit", "no impact was as fast", fmt::format("sqrt(I) = {:.4g}", fastest),
+         fmt::format("up to {:.4g}", last));
+  while (speeds.reach(fastest) > slow.x_end())
+    fastest *= std::min(0.98, std::sqrt(slow.x_end() / speeds.reach(fastest)));
+  return fastest;
+}
+
+/// 1/2 m Y v^2 at v = 1 over 4/3 E* R^3.
+double energy_unit(double e_star_over_yield, double mass)
+{
+  return 0.375 * mass / e_star_over_yield;
+}
+
+}  // namespace
+
+InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
+                                    double mass, double fastest)
+{
+  const Speeds speeds(shape, slow, energy_unit(e_star_over_yield, mass), InertiaAxis::Kind::inertia);
+  InertiaAxis::Table table;
+  table.speed_end = end_of_axis(shape, slow, speeds, fastest);
+  table.ratio_end = usual_ratio_end;
+  return tabulate(shape, slow, speeds, table,
+                  std::max(3, static_cast<int>(std::ceil(table.speed_end / speed_spacing - 1e-9))));
+}
+
+InertiaAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
+                                 double mass, double fastest, double reference_radius)
+{
+  const Speeds speeds(shape, slow, energy_unit(e_star_over_yield, mass), InertiaAxis::Kind::rate);
+  InertiaAxis::Table table;
+  table.kind = InertiaAxis::Kind::rate;
+  table.reference_radius = reference_radius;
+  table.speed_end = end_of_axis(shape, slow, speeds, fastest);
+  table.speed_begin = shape.inertia.front().speed;
+  if (!(table.speed_begin < 0.7 * table.speed_end))
+    fail("fit", "the slowest and the fastest impact of a rate-dependent law are too near to each other",
+         fmt::format("sqrt(I) = {:.4g} and {:.4g}", table.speed_begin, table.speed_end), "1.5 times or more");
+  double raised = 1;  // force of an impact at its turn, over the press's
+  for (const LawShape::Inertia& i : shape.inertia) raised = std::max(raised, std::exp(i.force.back()));
+  table.ratio_end = share_spacing * std::ceil(usual_ratio_end * raised / share_spacing - 1e-9);
+  // X(v) is as v^0.8 to v: an eighth of the first speed a step, and one table for all
+  const double steps = std::clamp(8 * table.speed_end / table.speed_begin, 16.0, 2048.0);
+  return tabulate(shape, slow, speeds, table, static_cast<int>(steps));
 }
 
 }  // namespace granulaw

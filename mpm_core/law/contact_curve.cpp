@@ -73,10 +73,9 @@ void ContactCurve::check_axis(const std::string& where) const
   if (end > 1.05 * x_end_)  // 5 %: so far the linear continuation is still within about a percent
     fail(where, "the inertia axis goes deeper than the curve: 'impact_overlap' at the last node",
          fmt::format("{:.6g}", end), fmt::format("up to {:.6g}", 1.05 * x_end_));
-  const auto rows = 2 * axis_->table().slices, columns = 8 * (axis_->table().ratio_nodes() - 1);
-  for (std::size_t k = 1; k <= rows; ++k)
+  const auto columns = 8 * (axis_->table().ratio_nodes() - 1);
+  for (const double overlap : axis_->examined_overlaps())
     for (std::size_t l = 1; l <= columns; ++l) {
-      const double overlap = end * static_cast<double>(k) / static_cast<double>(rows);
       const double ratio = axis_->table().ratio_end * static_cast<double>(l) / static_cast<double>(columns);
       const double x = ratio * overlap;
       const auto here = [&](const char* what) {
@@ -177,10 +176,8 @@ double ContactCurve::admissibility_margin() const
 {
   double margin = admissibility_margin(0.0);
   if (!axis_) return margin;
-  const auto rows = 2 * axis_->table().slices;
-  for (std::size_t k = 1; k <= rows; ++k)
-    margin = std::min(margin, admissibility_margin(axis_->overlap_end() * static_cast<double>(k) /
-                                                   static_cast<double>(rows)));
+  for (const double overlap : axis_->examined_overlaps())
+    margin = std::min(margin, admissibility_margin(overlap));
   return margin;
 }
 
@@ -190,19 +187,32 @@ double ContactCurve::admissibility_margin(double impact_overlap) const
   // A turn just past the onset must not give back more than was put in.
   if (const double first = onset_ * (1.0 + 1e-9); onset_ > 0 && first < x_end_)
     margin = 1.0 - work_unloading(first, impact_overlap) / work_loading(first, impact_overlap);
+  for (const double x : margin_overlaps(impact_overlap))
+    margin = std::min(margin, margin_at(x, impact_overlap));
+  return margin;
+}
+
+std::vector<double> ContactCurve::margin_overlaps(double impact_overlap) const
+{
   // an axis bends the curve on a scale of its own: at least 512
   const std::size_t samples =
       corrected(impact_overlap) ? std::max<std::size_t>(4 * intervals_.size(), 512) : 4 * intervals_.size();
+  std::vector<double> overlaps;
   for (std::size_t k = 1; k < samples; ++k) {
     const double s = table_.s_end * static_cast<double>(k) / static_cast<double>(samples);
-    const double x = s * s * s * s, step = 1e-4 * x;
-    if (x - step <= onset_ || x + step >= x_end_) continue;
-    const double slope =
-        (work_unloading(x + step, impact_overlap) - work_unloading(x - step, impact_overlap)) / (2.0 * step);
-    const double force = loading(x, impact_overlap).force;
-    margin = std::min(margin, (force - slope) / force);
+    overlaps.push_back(s * s * s * s);
   }
-  return margin;
+  return overlaps;
+}
+
+double ContactCurve::margin_at(double x, double impact_overlap) const
+{
+  const double step = 1e-4 * x;
+  if (x - step <= onset_ || x + step >= x_end_) return std::numeric_limits<double>::infinity();
+  const double slope =
+      (work_unloading(x + step, impact_overlap) - work_unloading(x - step, impact_overlap)) / (2.0 * step);
+  const double force = loading(x, impact_overlap).force;
+  return (force - slope) / force;
 }
 
 }  // namespace granulaw

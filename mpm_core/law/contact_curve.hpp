@@ -93,6 +93,11 @@ class ContactCurve
   /// least of the quasi-static law, every slice of the axis and half-way between slices.
   double admissibility_margin() const;
   double admissibility_margin(double impact_overlap) const;
+  /// (F_L - dW_u/d x_m)/F_L at x; infinity within 1e-4 of the onset and the table's end, below and beyond
+  /// them.
+  double margin_at(double x, double impact_overlap) const;
+  /// Where admissibility_margin(X) takes it.
+  std::vector<double> margin_overlaps(double impact_overlap) const;
 
   /// The law: force, stiffness and contact radius of a pair at overlap `delta` (m, > 0) whose largest overlap
   /// so far is `delta_max` (m). No allocation, no branch on strings, no exceptions.

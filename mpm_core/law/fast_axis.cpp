@@ -7,8 +7,7 @@ FastAxis::FastAxis(const InertiaAxis& axis)
   const InertiaAxis::Table& table = axis.table();
   const std::size_t slices = table.slices, nodes = table.ratio_nodes();
   const double h = table.ratio_end / static_cast<double>(nodes - 1);
-  rows_ = static_cast<double>(slices);
-  per_slice_ = rows_ / axis.overlap_end();
+  scale_ = axis.scale();
   per_spacing_ = 1.0 / h;
   columns_ = static_cast<double>(nodes - 1);
   cells_a_slice_ = static_cast<int>(nodes);

@@ -10,9 +10,9 @@ namespace granulaw {
 
 /// An InertiaAxis laid out for the contact loop of a particle code: the same functions, to rounding.
 ///
-/// Linear in X, a correction is one cubic in t whose coefficients are low + weight rise: the lower slice's,
-/// and what the next slice's are above them, side by side. One cache line for the loading branch, three for
-/// a turn; one division.
+/// Linear in X (or octaves of X), a correction is one cubic in t whose coefficients are low + weight rise:
+/// the lower slice's, and what the next slice's are above them, side by side. One cache line for the loading
+/// branch, three for a turn; one division.
 class FastAxis
 {
  public:
@@ -55,14 +55,15 @@ class FastAxis
   // all that lies beyond; so does the last slice, whose rise is 0.
   Place locate(double xi, double impact_overlap) const
   {
-    const double row = std::min(impact_overlap * per_slice_, rows_), column = std::min(xi, columns_);
+    const double row = scale_.row(impact_overlap), column = std::min(xi, columns_);
     const int k = static_cast<int>(row), l = static_cast<int>(column);
     return {cells_.data() + (k * cells_a_slice_ + l), row - k, column - l};
   }
 
   std::vector<Cell> cells_;  // slices 0..K, in each the L - 1 intervals of xi and the cell beyond
-  double per_slice_ = 0, rows_ = 0, per_spacing_ = 0, columns_ = 0;  // K/X_end, K, (L - 1)/ratio_end, L - 1
-  int cells_a_slice_ = 0;                                            // L
+  SliceScale scale_;
+  double per_spacing_ = 0, columns_ = 0;  // (L - 1)/ratio_end, L - 1
+  int cells_a_slice_ = 0;                 // L
 };
 
 }  // namespace granulaw

@@ -17,7 +17,7 @@ inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
 inline constexpr int major = 1;  ///< counts up where an old reader would misread the file
-inline constexpr int minor = 2;  ///< counts up where something is only added
+inline constexpr int minor = 3;  ///< counts up where something is only added
 
 // Attributes of every dataset.
 inline constexpr const char* unit = "unit";
@@ -36,7 +36,7 @@ inline constexpr const char* body = "body";  ///< string attribute of bodies/<na
 inline constexpr const char* inertia_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, since minor 1
 inline constexpr const char* kind = "kind";                  ///< string attribute of it
 inline constexpr const char* kind_inertia = "inertia";
-inline constexpr const char* kind_rate = "rate";
+inline constexpr const char* kind_rate = "logarithmic rate";  ///< since minor 3
 
 // Since minor 2: laws of pairs of their own
 inline constexpr const char* pair_laws = "pair_laws";  ///< group; one subgroup "a:b" for each, as in `pairs`
@@ -77,12 +77,15 @@ inline constexpr Field radius_ratio_slope{"radius_ratio_slope", "1", "d(radius_r
 
 // bodies/<name>/inertia_axis
 inline constexpr Field reference_radius{"reference_radius", "m", "R_ref of v; absent: kind inertia"};
+inline constexpr Field speed_begin{"speed_begin", "1",
+                                   "v of slice 1, the slowest impact known; absent: kind inertia"};
 inline constexpr Field speed_end{"speed_end", "1",
                                  "v at the last node of impact_overlap; nodes uniform in v"};
 inline constexpr Field impact_overlap{"impact_overlap", "1",
                                       "X = overlap/(lambda R*) at which an impact at v turns"};
 inline constexpr Field impact_overlap_slope{"impact_overlap_slope", "1", "d(impact_overlap)/dv"};
-inline constexpr Field slices{"slices", "1", "number K of slices, at X_k = k X_end/K, k = 1..K"};
+inline constexpr Field slices{
+    "slices", "1", "number K of slices; kind inertia: at X_k = k X_end/K, k = 1..K; rate: law-format.md"};
 inline constexpr Field ratio_end{"ratio_end", "1", "xi = x/X at the last node; nodes uniform in xi"};
 inline constexpr Field force_correction{"force_correction", "1",
                                         "A: loading force over the curve's, less 1; slice after slice"};

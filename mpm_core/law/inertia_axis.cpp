@@ -28,16 +28,26 @@ void overlap_cubic(const InertiaAxis::Table& table, std::size_t j, double (&c)[4
           h * table.impact_overlap_slope[j + 1]);
 }
 
+/// X at 0 < v < speed_end.
+double overlap_at(const InertiaAxis::Table& table, double v)
+{
+  const double intervals = static_cast<double>(table.impact_overlap.size() - 1);
+  const double position = std::min(v / table.speed_end * intervals, intervals);
+  const auto j = std::min(static_cast<std::size_t>(position), table.impact_overlap.size() - 2);
+  double c[4];
+  overlap_cubic(table, j, c);
+  return std::clamp(cubic(c, position - static_cast<double>(j)), 0.0, table.impact_overlap.back());
+}
+
 void check_speeds(const InertiaAxis::Table& table, const std::string& where)
 {
   const std::size_t count = table.impact_overlap.size();
   if (count < 2 || count > 4096)
     fail(where, "'impact_overlap' has an unusable number of nodes", std::to_string(count), "2 to 4096");
   check_number(table.speed_end, 1e-9, 1e6, where, "speed_end");
-  if (table.kind == InertiaAxis::Kind::rate)
-    check_number(table.reference_radius, 1e-20, 1e20, where, "reference_radius");
-  else
-    check_number(table.reference_radius, 0, 0, where, "reference_radius");
+  const bool rate = table.kind == InertiaAxis::Kind::rate;
+  check_number(table.reference_radius, rate ? 1e-20 : 0, rate ? 1e20 : 0, where, "reference_radius");
+  check_number(table.speed_begin, rate ? 1e-9 : 0, rate ? 0.999 * table.speed_end : 0, where, "speed_begin");
   check_values(table.impact_overlap, count, 0, 16, where, "impact_overlap");
   check_values(table.impact_overlap_slope, count, 0, big, where, "impact_overlap_slope");
   if (table.impact_overlap.front() != 0)
@@ -74,8 +84,13 @@ InertiaAxis::InertiaAxis(const Table& table, const std::string& where) : table_(
   per_spacing_ = 1.0 / h;
   columns_ = static_cast<double>(nodes - 1);
   cells_a_slice_ = static_cast<int>(nodes);
-  rows_ = static_cast<double>(slices);
-  per_slice_ = rows_ / overlap_end_;
+  scale_ = SliceScale::even(slices, overlap_end_);
+  if (table.kind == Kind::rate) {
+    const double first = overlap_at(table, table.speed_begin);
+    check_number(first, 1e-24, 0.999 * overlap_end_, where, "impact_overlap at speed_begin");
+    if (slices < 2) fail(where, "a rate axis has too few slices", std::to_string(slices), "2 to 256");
+    scale_ = SliceScale::by_octaves(slices, first, overlap_end_);
+  }
   last_row_ = static_cast<int>(slices) - 1;
   cells_.assign((slices + 1) * nodes, Cell{});
 
@@ -118,12 +133,16 @@ double InertiaAxis::impact_overlap(double v) const
 {
   if (!(v > 0)) return 0.0;
   if (v >= table_.speed_end) return overlap_end_;
-  const double intervals = static_cast<double>(table_.impact_overlap.size() - 1);
-  const double position = std::min(v / table_.speed_end * intervals, intervals);
-  const auto j = std::min(static_cast<std::size_t>(position), table_.impact_overlap.size() - 2);
-  double c[4];
-  overlap_cubic(table_, j, c);
-  return std::clamp(cubic(c, position - static_cast<double>(j)), 0.0, overlap_end_);
+  return overlap_at(table_, std::max(v, table_.speed_begin));
+}
+
+std::vector<double> InertiaAxis::examined_overlaps() const
+{
+  std::vector<double> overlaps;
+  const auto halves = static_cast<int>(2 * table_.slices);
+  for (int half = static_cast<int>(2 * scale_.first_row()); half <= halves; ++half)
+    if (half > 0) overlaps.push_back(scale_.overlap(0.5 * half));
+  return overlaps;
 }
 
 }  // namespace granulaw

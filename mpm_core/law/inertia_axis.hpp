@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "law/cubic.hpp"
+#include "law/slice_scale.hpp"
 
 namespace granulaw {
 
@@ -31,15 +32,20 @@ namespace granulaw {
 /// What is stored.
 ///     impact_overlap[j]   X and dX/dv at nodes uniform in v from 0 to speed_end; X[0] = 0. Cubic Hermite.
 ///                         Beyond speed_end X is clamped: the caller compares with speed_end() and counts.
-///     corrections         K slices at X_k = k X_end/K, k = 1..K, X_end = X(speed_end) (slice 0: none, not
-///                         stored), each at L nodes uniform in xi from 0 to ratio_end, value and d/dxi;
-///                         slice after slice:
+///     corrections         K slices, each at L nodes uniform in xi from 0 to ratio_end, value and d/dxi;
+///     slice
+///                         after slice. X_end = X(speed_end);
+///                         inertia: X_k = k X_end/K, k = 1..K (slice 0: none, not stored)
+///                         rate: from X_1 = X(speed_begin) to X_K = X_end evenly in octaves() of SliceScale,
+///                         since the flow stress goes with the logarithm of the rate, or slower. No impact is
+///                         slower than speed_begin: X is clamped there, too, and the caller compares
+///                         with speed_begin() and counts
 ///         force_correction A      F_L = F_qs(x) (1 + A)
 ///         residual_correction B   residual ratio = rho_qs(x_m) + B, kept within 0 to 0.999995
 ///         exponent_correction N   n = n_qs(x_m) + N, kept within 1 to 12
-/// Cubic Hermite in xi, so that the stiffness is continuous; linear in X, in which nothing is ever derived.
-/// Beyond ratio_end: A = 0 (its last value and slope are), B and N keep their last values. The contact radius
-/// is not corrected.
+/// Cubic Hermite in xi, so that the stiffness is continuous; linear in X, or in octaves(X), in which nothing
+/// is ever derived. Beyond ratio_end: A = 0 (its last value and slope are), B and N keep their last values.
+/// The contact radius is not corrected.
 class InertiaAxis
 {
  public:
@@ -53,6 +59,7 @@ class InertiaAxis
   {
     Kind kind = Kind::inertia;
     double reference_radius = 0;                                   ///< m; kind rate only, else 0
+    double speed_begin = 0;                                        ///< v of slice 1; kind rate only, else 0
     double speed_end = 0;                                          ///< v at the last node
     std::vector<double> impact_overlap, impact_overlap_slope;      ///< X and dX/dv
     std::size_t slices = 0;                                        ///< K
@@ -71,11 +78,18 @@ class InertiaAxis
 
   const Table& table() const { return table_; }
   Kind kind() const { return table_.kind; }
+  double speed_begin() const { return table_.speed_begin; }
   double speed_end() const { return table_.speed_end; }
   /// X_end, the largest X.
   double overlap_end() const { return overlap_end_; }
-  /// X that a contact first touched at dimensionless speed v latches: 0 for v <= 0, X_end beyond speed_end.
+  /// X that a contact first touched at dimensionless speed v latches: 0 for v <= 0, X_end beyond speed_end,
+  /// kind rate: X_1 below speed_begin.
   double impact_overlap(double v) const;
+  /// Where the slices lie in X.
+  const SliceScale& scale() const { return scale_; }
+  /// X of every slice and half-way between two (and half-way to X = 0, kind inertia): where a law is
+  /// examined.
+  std::vector<double> examined_overlaps() const;
 
   /// A and dA/dx at overlap x of a contact that latched X > 0.
   struct ForceCorrection
@@ -128,7 +142,7 @@ class InertiaAxis
   // all that lies beyond.
   Place locate(double x, double impact_overlap) const
   {
-    const double row = std::min(impact_overlap * per_slice_, rows_);
+    const double row = scale_.row(impact_overlap);
     const double column = std::min(x / impact_overlap * per_spacing_, columns_);
     const int k = std::min(static_cast<int>(row), last_row_), l = static_cast<int>(column);
     const Cell* const low = cells_.data() + k * cells_a_slice_ + l;
@@ -146,8 +160,9 @@ class InertiaAxis
   }
 
   std::vector<Cell> cells_;  // slices 0..K, in each the L - 1 intervals of xi and the cell beyond
-  double per_slice_ = 0, rows_ = 0, per_spacing_ = 0, columns_ = 0;  // K/X_end, K, (L - 1)/ratio_end, L - 1
-  int last_row_ = 0, cells_a_slice_ = 0;                             // K - 1, L
+  SliceScale scale_;
+  double per_spacing_ = 0, columns_ = 0;  // (L - 1)/ratio_end, L - 1
+  int last_row_ = 0, cells_a_slice_ = 0;  // K - 1, L
   double overlap_end_ = 0;
   Table table_;
 };

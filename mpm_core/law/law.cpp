@@ -90,6 +90,17 @@ double PairLaw::speed_coordinate(double r_eff, double m_eff) const
          mapping.length(r_eff);
 }
 
+void check_size(const PairLaw& pair, double radius, const std::string& where)
+{
+  const double only = pair.only_radius();
+  if (only > 0 && !(std::abs(radius / only - 1) <= size_tolerance))
+    fail(where,
+         fmt::format("the law of '{}' depends on the strain rate, so it holds for one size: radius",
+                     pair.yielding->material.name),
+         fmt::format("{:.6g} m", radius),
+         fmt::format("{:.6g} m within {:.0f} %: make a law for each size", only, 100 * size_tolerance));
+}
+
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where)
 {
   if (a == wall_name && b != wall_name) return resolve_pair(law, b, a, where);

@@ -223,12 +223,15 @@ InertiaAxis::Table read_axis(hid_t body, const std::string& where)
   const h5::Handle group = h5::open_group(body, h5::inertia_axis, where);
   InertiaAxis::Table axis;
   const std::string kind = h5::read_text_attribute(group, h5::kind, where);
+  if (kind == "rate")  // minors 1 and 2: evenly spaced slices from no rate at all
+    fail(where, "a rate-dependent law of an older version: build it again with `mpm table`");
   if (kind != h5::kind_inertia && kind != h5::kind_rate)
     fail(where, "unknown 'kind' of the inertia axis", shortened(kind),
          fmt::format("{}, {}", h5::kind_inertia, h5::kind_rate));
   if (kind == h5::kind_rate) {
     axis.kind = InertiaAxis::Kind::rate;
     axis.reference_radius = h5::read_scalar(group, h5::reference_radius, where);
+    axis.speed_begin = h5::read_scalar(group, h5::speed_begin, where);
   }
   axis.speed_end = h5::read_scalar(group, h5::speed_end, where);
   axis.ratio_end = h5::read_scalar(group, h5::ratio_end, where);
@@ -245,7 +248,10 @@ void write_axis(hid_t body, const InertiaAxis::Table& axis, const std::string& p
   const h5::Handle group = h5::create_group(body, h5::inertia_axis, path);
   const bool rate = axis.kind == InertiaAxis::Kind::rate;
   h5::write_text_attribute(group, h5::kind, rate ? h5::kind_rate : h5::kind_inertia, path);
-  if (rate) h5::write_scalar(group, h5::reference_radius, axis.reference_radius, path);
+  if (rate) {
+    h5::write_scalar(group, h5::reference_radius, axis.reference_radius, path);
+    h5::write_scalar(group, h5::speed_begin, axis.speed_begin, path);
+  }
   h5::write_scalar(group, h5::speed_end, axis.speed_end, path);
   h5::write_scalar(group, h5::ratio_end, axis.ratio_end, path);
   h5::write_scalar(group, h5::slices, static_cast<double>(axis.slices), path);

@@ -55,6 +55,7 @@ Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass
       [&](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max, impact_overlap); },
       effective_mass, velocity, duration, steps_per_contact);
   result.left_speeds = velocity > pair.max_speed(r_eff, effective_mass);
+  result.held_speed = velocity < pair.min_speed(r_eff, effective_mass);
   result.left_range = result.delta_max > pair.max_overlap(r_eff);
   return result;
 }

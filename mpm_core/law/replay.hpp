@@ -19,6 +19,7 @@ struct Replay
   double work_unload = 0;     ///< J, given back after it
   bool left_range = false;    ///< delta_max went past the table
   bool left_speeds = false;   ///< the approach was faster than the inertia axis goes
+  bool held_speed = false;    ///< it was slower than a rate axis begins: answered as an impact there
   struct Sample
   {
     double time, delta, force, contact_radius;

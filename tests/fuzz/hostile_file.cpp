@@ -25,6 +25,21 @@ const std::vector<std::string> axis = {
     "ratio_end",           "force_correction",         "force_correction_slope",
     "residual_correction", "exponent_correction_slope"};
 
+// what only a file with a pair's own law has, and of what it shares with bodies enough to find another way in
+const std::string pair_law = "pair_laws/powder:glass";
+const std::vector<std::string> pair_sets = {"radius_ratio_of_runs",
+                                            "curve/s_end",
+                                            "curve/onset",
+                                            "curve/force_ratio",
+                                            "curve/exponent_slope",
+                                            "certificate/max_inertia",
+                                            "inertia_axis/reference_radius",
+                                            "inertia_axis/speed_begin",
+                                            "inertia_axis/speed_end",
+                                            "inertia_axis/slices",
+                                            "inertia_axis/impact_overlap",
+                                            "inertia_axis/force_correction"};
+
 std::string parent_of(const std::string& path)
 {
   return path.substr(0, path.rfind('/') + 1) + ".";
@@ -367,6 +382,31 @@ void Collector::names()
       if (note.ok()) H5Awrite(note, type, "a\nb");
     });
   }
+  for (const std::string& name :
+       {std::string("glass:powder"), std::string("powder:wall"), std::string("wall:wall"),
+        std::string("powder:powder"), std::string("powder:none"), std::string("powder"), std::string(":"),
+        std::string("powder:glass:wall"), std::string("\x1b[2J:\n"), std::string(60000, 'n')})
+    for (const bool moved : {false, true})
+      add((moved ? "a pair law renamed " : "a second pair law named ") + name.substr(0, 20), [=](hid_t f) {
+        if (moved)
+          H5Lmove(f, pair_law.c_str(), f, ("pair_laws/" + name).c_str(), H5P_DEFAULT, H5P_DEFAULT);
+        else
+          H5Lcreate_hard(f, pair_law.c_str(), f, ("pair_laws/" + name).c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      });
+  add("300 pair laws", [](hid_t f) {
+    for (int k = 0; k < 300; ++k)
+      H5Lcreate_hard(f, pair_law.c_str(), f, ("pair_laws/p" + std::to_string(k) + ":glass").c_str(),
+                     H5P_DEFAULT, H5P_DEFAULT);
+  });
+  add("the pair law is a body's", [](hid_t f) {
+    H5Ldelete(f, pair_law.c_str(), H5P_DEFAULT);
+    H5Lcreate_hard(f, "bodies/powder", f, pair_law.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+  });
+  add("the pair law's axis is a body's", [](hid_t f) {
+    H5Ldelete(f, (pair_law + "/inertia_axis").c_str(), H5P_DEFAULT);
+    H5Lcreate_hard(f, "bodies/powder/inertia_axis", f, (pair_law + "/inertia_axis").c_str(), H5P_DEFAULT,
+                   H5P_DEFAULT);
+  });
   for (const int count : {200, 300, 3000})
     add(std::to_string(count) + " bodies", [=](hid_t f) {
       for (int k = 0; k < count; ++k)
@@ -487,15 +527,19 @@ std::vector<Damage> hostile_damages(const std::string& folder)
     sets.push_back("bodies/powder/curve/" + name + "_slope");
     sets.push_back("bodies/glass/curve/" + name);
   }
+  for (const std::string& name : pair_sets) sets.push_back(pair_law + "/" + name);
   for (const std::string& path : sets) {
     collect.values(path);
     collect.storage(path);
     collect.entry(path);
   }
   collect.storage("pairs");
-  for (const char* path :
-       {"pairs", "provenance", "bodies", "bodies/glass", "bodies/powder", "bodies/powder/material",
-        "bodies/powder/curve", "bodies/powder/certificate", "bodies/powder/inertia_axis"})
+  for (const std::string& path :
+       {std::string("pairs"), std::string("provenance"), std::string("bodies"), std::string("bodies/glass"),
+        std::string("bodies/powder"), std::string("bodies/powder/material"),
+        std::string("bodies/powder/curve"), std::string("bodies/powder/certificate"),
+        std::string("bodies/powder/inertia_axis"), std::string("pair_laws"), pair_law, pair_law + "/curve",
+        pair_law + "/certificate", pair_law + "/inertia_axis"})
     collect.entry(path);
   collect.texts();
   collect.names();
@@ -503,6 +547,8 @@ std::vector<Damage> hostile_damages(const std::string& folder)
   collect.attribute("bodies/powder/certificate", "support");
   collect.attribute("bodies/powder/certificate", "origin");
   collect.attribute("bodies/powder/inertia_axis", "kind");
+  collect.attribute(pair_law + "/inertia_axis", "kind");
+  collect.attribute(pair_law + "/certificate", "support");
   collect.attribute("bodies/powder", "body");
   collect.attribute("provenance", "command");
   return all;

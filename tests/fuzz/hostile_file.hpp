@@ -21,8 +21,9 @@ struct Damage
 /// Applies the damages in order, of those that lead away only the first, as the last.
 void spoil(hid_t file, const std::vector<const Damage*>& damages);
 
-/// Every damage to every dataset, group and attribute of the file that SyntheticLaw writes. `folder` must
-/// hold `other.h5`, a good law, and `fifo`, a named pipe that nobody writes to: links lead there.
+/// Every damage to every dataset, group and attribute of the file that SyntheticLaw::whole_law() writes.
+/// `folder` must hold `other.h5`, a good law, and `fifo`, a named pipe that nobody writes to: links lead
+/// there.
 std::vector<Damage> hostile_damages(const std::string& folder);
 
 }  // namespace granulaw::testing

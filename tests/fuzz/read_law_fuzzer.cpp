@@ -39,9 +39,7 @@ struct Folder
   {
     fs::create_directories(path);
     // few nodes: the file stays small, and a change of bytes rarely hits a mere number
-    Law law = SyntheticLaw{}.law();
-    law.bodies["powder"].curve = SyntheticLaw{}.curve(5);
-    write_law(law, (path / "good.h5").string());
+    write_law(SyntheticLaw{}.whole_law(9, 2, 6), (path / "good.h5").string());
     fs::copy_file(path / "good.h5", path / "other.h5");
     if (mkfifo((path / "fifo").c_str(), 0600) != 0) std::abort();
   }

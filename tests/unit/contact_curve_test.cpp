@@ -6,6 +6,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "base/error.hpp"
+#include "law_paths.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
@@ -13,9 +14,7 @@ namespace {
 
 using testing::sample_table;
 using testing::SyntheticLaw;
-
-/// Force unit 1, length unit 1: evaluate() then returns the curve's own numbers.
-const PairMapping unit_pair = PairMapping::rigid_partner(0.75);
+using testing::unit_pair;
 
 TEST(ContactCurve, ReproducesCubicsBetweenItsNodes)
 {
@@ -37,18 +36,7 @@ TEST(ContactCurve, ReproducesCubicsBetweenItsNodes)
 RC_GTEST_PROP(ContactCurve, StiffnessIsTheDerivativeOfTheForce, ())
 {
   const ContactCurve curve = SyntheticLaw{}.curve();
-  const double s_m = curve.table().s_end * *rc::gen::inRange(100, 1150) / 1000.0;  // also beyond the table
-  const double x_m = s_m * s_m * s_m * s_m;
-  const double x = x_m * *rc::gen::inRange(1, 2000) / 1000.0;
-  const double step = 1e-6 * x;
-  RC_PRE(std::abs(x - x_m) > 2 * step && std::abs(x - curve.x_end()) > 2 * step);
-  const ContactForce here = curve.evaluate(unit_pair, 1.0, x, x_m);
-  const double up = curve.evaluate(unit_pair, 1.0, x + step, x_m).force;
-  const double down = curve.evaluate(unit_pair, 1.0, x - step, x_m).force;
-  RC_PRE((up == 0) == (down == 0));
-  // central difference: truncation 1e-12, cancellation 1e-16/1e-6 of F/x; 1e-6 where a node's jump in F'' is
-  // crossed
-  RC_ASSERT(std::abs((up - down) / (2 * step) - here.stiffness) <= 1e-6 * (here.stiffness + here.force / x));
+  testing::stiffness_is_the_derivative(curve, curve);
 }
 
 RC_GTEST_PROP(ContactCurve, IsHertzForSmallOverlapsOfEveryPair, ())

@@ -11,16 +11,21 @@ namespace {
 
 using testing::SyntheticLaw;
 
-TEST(FastAxis, IsTheAxisToRounding)
+class FastAxis : public ::testing::TestWithParam<InertiaAxis::Table>
 {
-  const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
-  const InertiaAxis& axis = *curve.axis();
-  const FastAxis fast(axis);
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, FastAxis,
+                         ::testing::Values(SyntheticLaw{}.axis(), SyntheticLaw{}.rate_axis(1e-3)));
+
+TEST_P(FastAxis, IsTheAxisToRounding)
+{
+  const InertiaAxis axis(GetParam(), "test");
+  const granulaw::FastAxis fast(axis);
   const double end = axis.overlap_end();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(1e-3, 1.0);
   for (int k = 0; k < 20000; ++k) {
-    // every tenth X at or beyond the last slice; x also beyond ratio_end
+    // every tenth X at or beyond the last slice, some before a rate's first; x also beyond ratio_end
     const double X = k % 10 == 0 ? end * (1.0 + (k % 20) * 0.01) : end * part(random);
     const double x = 1.2 * axis.table().ratio_end * X * part(random);
     const InertiaAxis::ForceCorrection a = axis.force(x, X), b = fast.force(x, X);

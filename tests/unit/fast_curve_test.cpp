@@ -6,14 +6,14 @@
 #include <bit>
 #include <random>
 
+#include "law_paths.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
 namespace {
 
 using testing::SyntheticLaw;
-
-const PairMapping unit_pair = PairMapping::rigid_partner(0.75);
+using testing::unit_pair;
 
 /// Largest differences from the curve: of the force over that at the turning point, of stiffness and radius
 /// over theirs at the turning point.
@@ -79,18 +79,8 @@ TEST(FastCurve, AnElasticCurveStaysElastic)
 RC_GTEST_PROP(FastCurve, StiffnessIsTheDerivativeOfTheForce, ())
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
-  const FastCurve fast(curve);
-  const double X = curve.axis()->overlap_end() * *rc::gen::inRange(0, 1000) / 1000.0;
-  const double s_m = curve.table().s_end * *rc::gen::inRange(1, 1150) / 1000.0;  // also beyond the table
-  const double x_m = s_m * s_m * s_m * s_m, x = x_m * *rc::gen::inRange(1, 2000) / 1000.0;
-  const double step = 1e-6 * x;
-  RC_PRE(std::abs(x - x_m) > 2 * step && std::abs(x - curve.x_end()) > 2 * step);
-  const ContactForce here = fast.evaluate(unit_pair, 1.0, x, x_m, X);
-  const double up = fast.evaluate(unit_pair, 1.0, x + step, x_m, X).force;
-  const double down = fast.evaluate(unit_pair, 1.0, x - step, x_m, X).force;
-  RC_PRE((up == 0) == (down == 0));
-  // as ContactCurve: the force is piecewise cubic with continuous slope, so a node within the step costs 1e-6
-  RC_ASSERT(std::abs((up - down) / (2 * step) - here.stiffness) <= 1e-6 * (here.stiffness + here.force / x));
+  testing::stiffness_is_the_derivative(FastCurve(curve), curve,
+                                       curve.axis()->overlap_end() * *rc::gen::inRange(0, 1000) / 1000.0);
 }
 
 TEST(FastCurve, IsContinuousAcrossItsNodes)

@@ -35,7 +35,7 @@ class HostileLaw : public ::testing::Test
                                            ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
     path_ = (folder_ / "law.h5").string();
-    write_law(SyntheticLaw{}.law_with_axis(), (folder_ / "other.h5").string());
+    write_law(SyntheticLaw{}.whole_law(65, 3, 10), (folder_ / "other.h5").string());
     fs::copy_file(folder_ / "other.h5", folder_ / "good.h5");
     ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
     damages_ = testing::hostile_damages(folder_.string());
@@ -140,7 +140,7 @@ TEST_F(HostileLaw, CutAtEvery64thByte)
 /// The test itself must be able to fail.
 TEST_F(HostileLaw, TheJudgeSeesWhatItShould)
 {
-  Law law = SyntheticLaw{}.law_with_axis();
+  Law law = SyntheticLaw{}.whole_law(65, 3, 10);
   EXPECT_EQ(testing::unusable(law), "");
   law.bodies["powder"].material.youngs_modulus = HUGE_VAL;
   EXPECT_NE(testing::unusable(law), "");

@@ -8,15 +8,14 @@
 
 #include "base/error.hpp"
 #include "law/replay.hpp"
+#include "law_paths.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
 namespace {
 
 using testing::SyntheticLaw;
-
-/// Force unit 1, length unit 1: evaluate() then returns the curve's own numbers.
-const PairMapping unit_pair = PairMapping::rigid_partner(0.75);
+using testing::unit_pair;
 
 bool same_bits(double a, double b)
 {
@@ -77,6 +76,60 @@ TEST(InertiaAxis, ImpactOverlapRisesFromZeroAndIsClamped)
   EXPECT_EQ(axis.impact_overlap(HUGE_VAL), axis.overlap_end());
 }
 
+TEST(InertiaAxis, ARateAxisBeginsAtItsSlowestImpactAndIsLinearInOctaves)
+{
+  InertiaAxis::Table t = SyntheticLaw{}.rate_axis(1e-3);
+  const std::size_t nodes = t.ratio_nodes();
+  // each slice its number: the correction tells the row
+  for (std::size_t k = 0; k < t.slices; ++k)
+    for (std::size_t l = 0; l < nodes; ++l) {
+      t.exponent_correction[k * nodes + l] = static_cast<double>(k + 1);
+      t.exponent_correction_slope[k * nodes + l] = 0;
+    }
+  const InertiaAxis axis(t, "test");
+  const double first = axis.impact_overlap(t.speed_begin), end = axis.overlap_end();
+  EXPECT_NEAR(first, 0.1 * (1 / 40.0) * (0.6 + 0.4 / 40), 1e-15);
+  const auto row = [&](double X) { return axis.turn(0.5 * X, X).exponent; };
+  EXPECT_EQ(axis.impact_overlap(1e-3 * t.speed_begin), first);  // held
+  EXPECT_EQ(axis.impact_overlap(0), 0.0);
+  EXPECT_NEAR(row(first), 1.0, 1e-12);
+  EXPECT_NEAR(row(0.1 * first), 1.0, 1e-12);
+  EXPECT_NEAR(row(end), 8.0, 1e-12);
+  // e + m of X = (1 + m) 2^e, from frexp: another way to the same
+  const auto q = [](double X) {
+    int e = 0;
+    const double f = std::frexp(X, &e);
+    return e - 1 + 2 * f - 1;
+  };
+  for (const double X : {0.0016, 0.002, 1 / 512.0, 0.0077, 0.03, 0.09}) {
+    const double expected = 1 + 7 * (q(X) - q(first)) / (q(end) - q(first));
+    EXPECT_NEAR(row(X), expected, 1e-11) << X;  // the bits of 1023 + e leave 2e-13 of an octave
+    EXPECT_NEAR(axis.scale().overlap(row(X)), X, 1e-11 * X);
+  }
+  const std::vector<double> examined = axis.examined_overlaps();
+  ASSERT_EQ(examined.size(), 15u);
+  EXPECT_EQ(examined.front(), first);
+  EXPECT_EQ(examined.back(), end);
+}
+
+TEST(InertiaAxis, ARateLawIsOfOneSize)
+{
+  Law law = SyntheticLaw{}.law_with_axis();
+  law.bodies["powder"].curve = ContactCurve(SyntheticLaw{}.table(), SyntheticLaw{}.rate_axis(2e-3), "test");
+  const PairLaw wall = resolve_pair(law, "powder", "wall", "test");
+  EXPECT_EQ(wall.only_radius(), 2e-3);
+  EXPECT_NO_THROW(check_size(wall, 2e-3, "test"));
+  EXPECT_NO_THROW(check_size(wall, 1.04 * 2e-3, "test"));
+  EXPECT_THROW(check_size(wall, 1.06 * 2e-3, "test"), Error);
+  EXPECT_THROW(check_size(wall, NAN, "test"), Error);
+  EXPECT_NO_THROW(check_size(resolve_pair(law, "glass", "wall", "test"), 1.0, "test"));
+  const double mass = wall.usual_mass(2e-3), unit = std::sqrt(1e8 / 1500.0);
+  EXPECT_NEAR(wall.min_speed(2e-3, mass), 0.066 / 40 * unit, 1e-9);
+  const double slow = 0.5 * wall.min_speed(2e-3, mass);
+  EXPECT_TRUE(replay_collision(wall, 2e-3, mass, slow).held_speed);
+  EXPECT_FALSE(replay_collision(wall, 2e-3, mass, 3 * slow).held_speed);
+}
+
 TEST(InertiaAxis, WithoutAnImpactTheLawIsTheCurveWithoutAnAxisToTheBit)
 {
   const ContactCurve plain = SyntheticLaw{}.curve(), with = SyntheticLaw{}.curve_with_axis();
@@ -108,18 +161,8 @@ TEST(InertiaAxis, VanishesForSmallImpactsAndWellBeyondThem)
 RC_GTEST_PROP(InertiaAxis, StiffnessIsTheDerivativeOfTheForce, ())
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
-  const double overlap = curve.axis()->overlap_end() * *rc::gen::inRange(1, 1000) / 1000.0;
-  const double s_m = curve.table().s_end * *rc::gen::inRange(100, 1150) / 1000.0;  // also beyond the table
-  const double x_m = s_m * s_m * s_m * s_m;
-  const double x = x_m * *rc::gen::inRange(1, 2000) / 1000.0;
-  const double step = 1e-6 * x;
-  RC_PRE(std::abs(x - x_m) > 2 * step && std::abs(x - curve.x_end()) > 2 * step);
-  const ContactForce here = curve.evaluate(unit_pair, 1.0, x, x_m, overlap);
-  const double up = curve.evaluate(unit_pair, 1.0, x + step, x_m, overlap).force;
-  const double down = curve.evaluate(unit_pair, 1.0, x - step, x_m, overlap).force;
-  RC_PRE((up == 0) == (down == 0));
-  // as for the curve alone: 1e-6 where a node's jump in F'' is crossed
-  RC_ASSERT(std::abs((up - down) / (2 * step) - here.stiffness) <= 1e-6 * (here.stiffness + here.force / x));
+  testing::stiffness_is_the_derivative(curve, curve,
+                                       curve.axis()->overlap_end() * *rc::gen::inRange(1, 1000) / 1000.0);
 }
 
 TEST(InertiaAxis, WorkFunctionsAreTheIntegralsOfTheForce)
@@ -160,7 +203,6 @@ TEST(InertiaAxis, AdmissibilityIsThatOfEveryImpactOverlap)
   EXPECT_LT(cheat.admissibility_margin(), 0);
 }
 
-/// Integral of F d(delta) over a random path of a contact that latched X, by Simpson in s = x^(1/4).
 RC_GTEST_PROP(InertiaAxis, NoClosedCycleGainsEnergy, ())
 {
   SyntheticLaw law;
@@ -169,26 +211,8 @@ RC_GTEST_PROP(InertiaAxis, NoClosedCycleGainsEnergy, ())
   law.onset = std::pow(10.0, -*rc::gen::inRange(200, 600) / 100.0);
   const ContactCurve curve = law.curve_with_axis();
   RC_PRE(curve.admissibility_margin() >= 0);
-  const double overlap = curve.axis()->overlap_end() * *rc::gen::inRange(0, 1001) / 1000.0;
-  double x = 0, x_m = 0, work = 0;
-  const auto move = [&](double to) {
-    constexpr int pieces = 400;
-    const double a = std::pow(x, 0.25), h = (std::pow(to, 0.25) - a) / pieces;
-    const auto integrand = [&](double s) {
-      const double at = s * s * s * s;
-      return 4 * s * s * s * (at > 0 ? curve.evaluate(unit_pair, 1.0, at, x_m, overlap).force : 0.0);
-    };
-    for (int k = 0; k < pieces; ++k)
-      work += h / 6 * (integrand(a + k * h) + 4 * integrand(a + (k + 0.5) * h) + integrand(a + (k + 1) * h));
-    x = to;
-    x_m = std::max(x_m, to);
-  };
-  const int turns = *rc::gen::inRange(2, 12);
-  for (int k = 0; k < turns; ++k)
-    move(std::pow(curve.table().s_end * *rc::gen::inRange(1, 1000) / 1000.0, 4));
-  move(0.0);
-  // Simpson at the kinks u = 0 and x = x_m of the path: 1e-4 of the largest loading work
-  RC_ASSERT(work >= -1e-4 * curve.work_loading(x_m, overlap));
+  testing::no_closed_cycle_gains(curve, curve,
+                                 curve.axis()->overlap_end() * *rc::gen::inRange(0, 1001) / 1000.0);
 }
 
 TEST(InertiaAxis, SpeedsOfPairs)
@@ -268,6 +292,16 @@ TEST(InertiaAxis, RefusesUnusableTables)
   says([](Table& t) { t.ratio_end = 0; }, "ratio_end");
   says([](Table& t) { t.reference_radius = 1e-3; }, "reference_radius");
   says([](Table& t) { t.kind = InertiaAxis::Kind::rate; }, "reference_radius");
+  says([](Table& t) { t.speed_begin = 1e-3; }, "speed_begin");
+  says([](Table& t) { t = SyntheticLaw{}.rate_axis(1e-3), t.speed_begin = 0; }, "speed_begin");
+  says([](Table& t) { t = SyntheticLaw{}.rate_axis(1e-3), t.speed_begin = t.speed_end; }, "speed_begin");
+  says([](Table& t) { t = SyntheticLaw{}.rate_axis(1e-3, 1); }, "slices");
+  says(
+      [](Table& t) {  // X that does not rise before speed_begin
+        t = SyntheticLaw{}.rate_axis(1e-3);
+        t.impact_overlap[1] = t.impact_overlap_slope[0] = t.impact_overlap_slope[1] = 0;
+      },
+      "speed_begin");
   says([](Table& t) { t.impact_overlap.resize(1); }, "impact_overlap");
   says([](Table& t) { t.impact_overlap_slope.pop_back(); }, "length");
   says([](Table& t) { t.impact_overlap[0] = 1e-3; }, "begin at 0");

@@ -144,6 +144,7 @@ TEST_F(LawFile, TheAxisTheBodyAndThePairErrorsComeBackBitExact)
     const InertiaAxis::Table &s = a.curve.axis()->table(), &t = b.curve.axis()->table();
     EXPECT_EQ(s.kind, t.kind);
     EXPECT_EQ(s.reference_radius, t.reference_radius);
+    EXPECT_EQ(s.speed_begin, t.speed_begin);
     EXPECT_EQ(s.speed_end, t.speed_end);
     EXPECT_EQ(s.ratio_end, t.ratio_end);
     EXPECT_EQ(s.slices, t.slices);

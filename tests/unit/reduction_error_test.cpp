@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -91,6 +92,55 @@ TEST(ReductionError, IsBoundedForMixtures)
   }
   ASSERT_GE(within, 10);
   EXPECT_EQ(over, 0);
+}
+
+/// A pair's own law, made at equal radii, at others (tests/study/pair_law_radii.py): what `mpm table
+/// --radius-ratio` states of it.
+TEST(ReductionError, OfALawOfEqualRadiiIsBoundedAtOthers)
+{
+  const auto soft = [] {
+    LawMaterial m = material(1, 0, 0.3, 1000);
+    m.youngs_modulus = 1e9, m.yield_stress = 1.0989e7;
+    return m;
+  }();
+  struct Row
+  {
+    double restitution, force, solver;  // rule over two bodies
+  };
+  std::map<std::string, Row> equal;  // by inertia and partner
+  std::ifstream file(GRANULAW_SOURCE_DIR "/tests/study/pair_law_radii.csv");
+  std::string line, inertia, partner, cell;
+  std::getline(file, line);
+  int count = 0, over = 0;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    std::getline(cells, inertia, ','), std::getline(cells, partner, ',');
+    std::vector<double> n;
+    while (std::getline(cells, cell, ',')) n.push_back(std::stod(cell));
+    const Row row{n.at(2) / n.at(3), n.at(4) / n.at(5), n.at(6)};
+    if (n.at(0) == 1) {
+      equal[inertia + partner] = row;
+      continue;
+    }
+    const Row& at_equal = equal.at(inertia + partner);
+    LawMaterial other = soft;
+    other.name = partner, other.yield_stress = infinity;
+    if (partner == "harder") other.yield_stress = 1.5 * soft.yield_stress;
+    if (partner == "stiff") other.youngs_modulus = 1e10, other.density = 5200;
+    const ReductionError bound = estimate_remaining_error({soft, other, n.at(0)}, 1, n.at(1));
+    const double solver = 2 * (row.solver + at_equal.solver);  // the tool's estimate of each run, twice
+    const double force = std::abs(row.force / at_equal.force - 1),
+                 restitution = std::abs(row.restitution / at_equal.restitution - 1);
+    printf("I %s %s 1:%g: force %.2f %% (bound %.2f), e %.2f %% (bound %.2f)\n", inertia.c_str(),
+           partner.c_str(), n.at(0), 100 * force, 100 * bound.force, 100 * restitution,
+           100 * bound.restitution);
+    ++count;
+    over += force > bound.force + solver || restitution > bound.restitution + solver;
+    EXPECT_LT(force, 2 * bound.force + solver);  // never off by more than twice
+    EXPECT_LT(restitution, 2 * bound.restitution + solver);
+  }
+  ASSERT_GE(count, 24);
+  EXPECT_LE(over, 0.05 * count);  // the promise of the header
 }
 
 /// The study separates the rule's error from the solver's: what the solver leaves open is far below the

@@ -112,11 +112,12 @@ struct SyntheticLaw
     return table;
   }
   /// The same for a rate-dependent material.
-  InertiaAxis::Table rate_axis(double reference_radius) const
+  InertiaAxis::Table rate_axis(double reference_radius, int slices = 8, int nodes = 25) const
   {
-    InertiaAxis::Table table = axis();
+    InertiaAxis::Table table = axis(slices, nodes);
     table.kind = InertiaAxis::Kind::rate;
     table.reference_radius = reference_radius;
+    table.speed_begin = table.speed_end / 40;
     return table;
   }
   ContactCurve curve_with_axis(int count = 129) const { return {table(count), axis(), "synthetic"}; }
@@ -130,6 +131,19 @@ struct SyntheticLaw
     powder.certificate.max_inertia = 0.06;
     powder.certificate.axis_cost_force = 0.031;
     powder.certificate.axis_cost_restitution = 0.08;
+    return result;
+  }
+
+  /// All that a file may hold: law_with_axis() and a law of its own for powder:glass, with a rate axis.
+  Law whole_law(int count = 129, int slices = 8, int nodes = 25) const
+  {
+    Law result = law_with_axis();
+    BodyLaw& powder = result.bodies.at("powder");
+    powder.curve = ContactCurve(table(count), axis(slices, nodes), "synthetic");
+    TwoBodyLaw& own = result.pair_laws["powder:glass"];
+    own.law = powder;
+    own.law.curve = ContactCurve(table(count), rate_axis(1e-3, slices, nodes), "synthetic");
+    own.radius_ratio = 2;
     return result;
   }
 

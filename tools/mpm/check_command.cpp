@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "characterise/pressing.hpp"
 #include "characterise/reduction_error.hpp"
 #include "claim.hpp"
 #include "commands.hpp"
@@ -114,7 +115,9 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, const Subject& 
     ProgressBar bar;
     RunOptions options;
     options.progress = [&](double done) { bar.update(done, "check " + name); };
-    run = run_impact(subject.particle, velocity * subject.scale.velocity(), options).summary;
+    const RunResult result = run_impact(subject.particle, velocity * subject.scale.velocity(), options);
+    run = result.summary;
+    if (subject.rate_dependent()) run.force_max = force_at_turn(result.trace);
   }
   run.force_max /= subject.scale.force();
   const Scales unit{subject.scale.length, m.e_star(), m.density};
@@ -155,10 +158,9 @@ void check(const CheckRequest& r)
       continue;
     }
     double slow = twice_onset(body.material);
-    // A rate reaches down to no speed at all: the law claims what its own impacts checked.
-    if (subject->rate_dependent())
-      slow = std::max(slow, 0.13 * std::sqrt(body.certificate.max_inertia * body.material.yield_stress /
-                                             body.material.e_star()));
+    if (const InertiaAxis* axis = body.curve.axis())
+      slow = std::max(slow,
+                      axis->speed_begin() * std::sqrt(body.material.yield_stress / body.material.e_star()));
     throw_some(slow, body, [&, &name = name, &body = body](double velocity) {
       return impact_agrees(name, body, *subject, velocity);
     });

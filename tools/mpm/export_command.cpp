@@ -103,6 +103,13 @@ void export_law(const ExportRequest& r)
     fail("--speed", "cannot be used", fmt::format("{:g} m/s", r.speed), "0 or more");
   for (const auto& [a, b] : pairs) {  // before anything is written
     const PairLaw pair = resolve_pair(law, a, b, r.law);
+    // a rate-dependent law's one size: as R* on a wall and in a like pair; other partners have any
+    if (!r.dimensionless && (b == wall_name || a == b))
+      check_size(pair, b == wall_name ? r.r_eff : 2 * r.r_eff, "--effective-radius");
+    if (r.speed > 0 && r.speed < pair.min_speed(r.r_eff, pair.usual_mass(r.r_eff)))
+      fail("--speed", fmt::format("the rate axis of the law for {}:{} begins above it", a, b),
+           fmt::format("{:g} m/s", r.speed),
+           fmt::format("{:g} m/s or more", pair.min_speed(r.r_eff, pair.usual_mass(r.r_eff))));
     if (r.speed > pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff)))
       fail("--speed", fmt::format("the law's inertia axis for {}:{} ends below it", a, b),
            fmt::format("{:g} m/s", r.speed),

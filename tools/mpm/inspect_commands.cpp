@@ -44,8 +44,9 @@ void print_body(const BodyLaw& body)
     if (axis->kind() == InertiaAxis::Kind::inertia)
       fmt::print("  inertia axis         to I = rho V^2/Y = {:.3g}", t.speed_end * t.speed_end);
     else
-      fmt::print("  rate axis            to V sqrt(rho/Y) = {:.3g} at R = {:.4g} m", t.speed_end,
-                 t.reference_radius);
+      fmt::print("  rate axis            V = {:.3g} to {:.3g} m/s on a wall, for R = {:.4g} m only",
+                 t.speed_begin * std::sqrt(m.yield_stress / m.density),
+                 t.speed_end * std::sqrt(m.yield_stress / m.density), t.reference_radius);
     fmt::print(", {} slices of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.slices,
                t.ratio_nodes(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
   }

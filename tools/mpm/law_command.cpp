@@ -20,7 +20,7 @@ namespace {
 struct LawRequest
 {
   std::string law, pair;
-  double radius = 1e-3, radius2 = 0, velocity = 0;
+  double radius = 0, radius2 = 0, velocity = 0;  ///< radius 0: not given
   bool json = false;
 };
 
@@ -55,12 +55,13 @@ double stated_error(const Law& law, const PairLaw& pair, const std::string& a, c
                   claim.restitution + (entry ? entry->reduction_error_restitution : 0.0));
 }
 
-void replay(const LawRequest& r)
+void replay(LawRequest r)
 {
   const Law law = read_law(r.law);
   auto [a, b] = choose_pair(law, r);
   if (a == wall_name) std::swap(a, b);
   const PairLaw pair = resolve_pair(law, a, b, r.law);
+  if (r.radius == 0) r.radius = pair.only_radius() > 0 ? pair.only_radius() : 1e-3;
   for (const auto& [option, value] : {std::pair("--radius", r.radius), std::pair("--velocity", r.velocity)})
     if (!(value > 0 && std::isfinite(value)))
       fail(option, "cannot be used", fmt::format("{:g}", value), "over 0");
@@ -69,6 +70,10 @@ void replay(const LawRequest& r)
   const double radius2 = r.radius2 == 0 ? r.radius : r.radius2;
   if (!(radius2 > 0 && std::isfinite(radius2)))
     fail("--radius2", "cannot be used", fmt::format("{:g} m", radius2), "over 0");
+
+  const std::string& yielding = pair.yielding->material.name;
+  if (a == yielding) check_size(pair, r.radius, "--radius");
+  if (b == yielding) check_size(pair, radius2, "--radius2");
 
   const double mass = body_mass(law.bodies.at(a), r.radius);
   const double m_eff = wall ? mass : effective_mass(mass, body_mass(law.bodies.at(b), radius2));
@@ -99,6 +104,12 @@ void replay(const LawRequest& r)
         "mpm: {:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: it answers with the "
         "corrections of that speed\n",
         r.velocity, pair.max_speed(r_eff, m_eff));
+  if (result.held_speed)
+    fmt::print(
+        stderr,
+        "mpm: {:.4g} m/s is below {:.4g} m/s, the slowest impact that this rate-dependent law knows: it "
+        "answers as at that rate\n",
+        r.velocity, pair.min_speed(r_eff, m_eff));
   const double error = stated_error(law, pair, a, b, result.restitution);
   if (r.json) {
     nlohmann::ordered_json out = collision_json(result);
@@ -106,6 +117,7 @@ void replay(const LawRequest& r)
     out["inertia"] = inertia;
     out["needs_velocity_axis"] = needs_axis;
     out["beyond_velocity_axis"] = result.left_speeds;
+    out["below_velocity_axis"] = result.held_speed;
     fmt::print("{}\n", out.dump(2));
     return;
   }
@@ -126,8 +138,10 @@ void add_law(CLI::App& app)
                          "Example: mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 0.5 --json");
   command->add_option("LAW", r->law, "law file of mpm table")->required();
   command->add_option("--pair", r->pair, "a:b or a:wall; may be left out if the file holds one");
-  command->add_option("--radius", r->radius,
-                      "radius of the first body, m (default 1e-3; e depends on no radius)");
+  command->add_option(
+      "--radius", r->radius,
+      "radius of the first body, m (default 1e-3, e depends on no radius; of a rate-dependent\n"
+      "law the one it was made for, and no other is allowed)");
   command->add_option("--radius2", r->radius2, "radius of the second body, m (default: the first's)");
   command->add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command->add_flag("--json", r->json,

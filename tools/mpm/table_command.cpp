@@ -34,7 +34,7 @@ struct TableRequest
   std::string materials, deck, output;
   std::vector<std::string> pairs;
   BuildOptions range;
-  double inertia = 0.0625, radius_ratio = 1;
+  double inertia = 0.0625, radius_ratio = 1, slowest = 0;
   bool no_atlas = false, own_law = false;
   FarmOptions farm;
   DeckOptions scene;  ///< of --deck
@@ -253,6 +253,9 @@ void build(const TableRequest& r)
     } else {
       if (!farm) farm = r.farm.farm();
       options.farm = farm.get();
+      options.slowest = entry.subject.rate_dependent()
+                            ? r.slowest * std::sqrt(entry.material.density / entry.material.yield_stress)
+                            : 0.0;
       options.progress = [&, &name = name](double done, const std::string& what) {
         bar.update((finished + done) / static_cast<double>(entries.size()), name + ": " + what);
       };
@@ -267,12 +270,15 @@ void build(const TableRequest& r)
       law.provenance["admissible." + name] =
           fmt::format("the fitted e changed by {:.2g} % at most", 100 * built.change_of_restitution);
       if (entry.subject.rate_dependent()) {
-        law.provenance["size." + name] = fmt::format(
-            "rate-dependent, computed at R = {:g} m: {}", entry.subject.scale.length,
-            law.bodies[name].curve.axis()
-                ? "at another size the axis is read at the same V/R, which is exact only while inertia is "
-                  "nothing"
-                : "held to that size");
+        const InertiaAxis* axis = law.bodies[name].curve.axis();
+        law.provenance["size." + name] =
+            axis ? fmt::format(
+                       "rate-dependent: holds for R = {:g} m and from {:.3g} m/s on a wall",
+                       entry.subject.scale.length,
+                       axis->speed_begin() * std::sqrt(entry.material.yield_stress / entry.material.density))
+                 : fmt::format(
+                       "rate-dependent, by less than the tolerance at R = {:g} m and in this range of speeds",
+                       entry.subject.scale.length);
         remarks.push_back(name + ": " + law.provenance["size." + name]);
       }
     }
@@ -364,6 +370,13 @@ void add_table(CLI::App& app)
   command->add_option("--inertia", r->inertia, "largest I = rho V^2/Y, up to 0.09; 0: a rate-free law")
       ->check(CLI::Range(0.0, 0.09))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--slowest", r->slowest,
+          "speed, m/s on a wall, of the slowest impact that the law of a rate-dependent particle must\n"
+          "know: slower ones count as this one (default: a fiftieth of the fastest, or the onset of "
+          "yield)")
+      ->check(CLI::PositiveNumber);
   command
       ->add_option("--radius-ratio", r->radius_ratio,
                    "largest ratio of two radii in the scene: the pair rule's error is stated for it")
