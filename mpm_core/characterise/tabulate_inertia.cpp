@@ -53,10 +53,16 @@ class Speeds
   template <class Of>
   double mix(double v, const Of& of) const
   {
-    const std::vector<double> weights = interpolation_weights(nodes_, v);
+    // Inertia goes as v^2: even in v, so the first speeds stand on the other side of the standstill, too.
+    std::vector<double> nodes;
+    const std::size_t mirrored = std::min<std::size_t>(2, nodes_.size() - 1);
+    for (std::size_t j = mirrored; j > 0; --j) nodes.push_back(-nodes_[j]);
+    nodes.insert(nodes.end(), nodes_.begin(), nodes_.end());
+    const std::vector<double> weights = interpolation_weights(nodes, v);
     double sum = 0;
-    for (std::size_t j = 1; j < weights.size(); ++j)
-      if (weights[j] != 0) sum += weights[j] * of(j - 1);
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      if (weights[j] != 0 && j != mirrored)
+        sum += weights[j] * of(j < mirrored ? mirrored - 1 - j : j - mirrored - 1);
     return sum;
   }
 
