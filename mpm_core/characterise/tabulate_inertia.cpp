@@ -53,11 +53,22 @@ class Speeds
   template <class Of>
   double mix(double v, const Of& of) const
   {
-    const std::vector<double> weights = interpolation_weights(nodes_, rate_ ? std::log(v) : v);
-    const std::size_t standstill = rate_ ? 0 : 1;
     double sum = 0;
-    for (std::size_t j = standstill; j < weights.size(); ++j)
-      if (weights[j] != 0) sum += weights[j] * of(j - standstill);
+    if (rate_) {
+      const std::vector<double> weights = interpolation_weights(nodes_, std::log(v));
+      for (std::size_t j = 0; j < weights.size(); ++j)
+        if (weights[j] != 0) sum += weights[j] * of(j);
+      return sum;
+    }
+    // Inertia goes as v^2: even in v, so the first speeds stand on the other side of the standstill, too.
+    std::vector<double> nodes;
+    const std::size_t mirrored = std::min<std::size_t>(2, nodes_.size() - 1);
+    for (std::size_t j = mirrored; j > 0; --j) nodes.push_back(-nodes_[j]);
+    nodes.insert(nodes.end(), nodes_.begin(), nodes_.end());
+    const std::vector<double> weights = interpolation_weights(nodes, v);
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      if (weights[j] != 0 && j != mirrored)
+        sum += weights[j] * of(j < mirrored ? mirrored - 1 - j : j - mirrored - 1);
     return sum;
   }
 
