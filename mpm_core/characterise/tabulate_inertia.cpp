@@ -191,7 +191,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
       const double reach = reaches[k];
       const std::size_t half = 2 * axis.slices + 1 + k - reaches.size();  // of a slice; the last is at 2 K
       for (const double x : overlaps) {
-        if (x < slow.onset() || x > slow.x_end()) continue;
+        if (x <= slow.onset() || x > slow.x_end()) continue;  // at the onset itself nothing is lost yet
         const double lacking = std::max(curve.work_unloading(x, reach) / curve.work_loading(x, reach) - 1,
                                         -curve.margin_at(x, reach));
         if (lacking <= -spare) continue;
