@@ -116,6 +116,19 @@ const BodyLaw* MpmPhysics::body(int t) const
   return found == setup_->law->law.bodies.end() ? nullptr : &found->second;
 }
 
+void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
+                             const ParticleSizes& sizes) const
+{
+  for (const int t : {i, is_wall ? i : j}) {
+    const auto at = static_cast<std::size_t>(t);
+    if (setup_->options.materials[at - 1] != contact.law.yielding->material.name) continue;
+    for (const double radius : {sizes.radius[at], sizes.largest_radius[at]})
+      if (radius > 0 && std::isfinite(radius))
+        check_size(contact.law, radius * units_.length,
+                   fmt::format("{}: type {}, law file {}", setup_->where, t, setup_->law->path));
+  }
+}
+
 MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& where) const
 {
   const std::string& a = setup_->options.materials[static_cast<std::size_t>(i - 1)];

@@ -90,6 +90,8 @@ class MpmPhysics
   void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
 
   Contact resolve(int i, int j, bool rigid, const std::string& where) const;
+  /// A rate-dependent body has one radius: the rate is the speed over it.
+  void check_sizes(int i, int j, bool is_wall, const Contact& contact, const ParticleSizes& sizes) const;
 
  private:
   /// The law's body of type t; null: the type is `elastic`, or the law has no such material.

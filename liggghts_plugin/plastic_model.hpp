@@ -12,8 +12,8 @@
 #include "liggghts_plugin/contact_work.hpp"
 #include "liggghts_plugin/deck_units.hpp"
 #include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/particle_sizes.hpp"
 #include "liggghts_plugin/session.hpp"
-#include "liggghts_plugin/smallest.hpp"
 
 namespace granulaw::plugin {
 
@@ -54,6 +54,7 @@ void refuse_multispheres(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 ///   Contact                                          law of one pair of types: force, dissipated, ...
 ///   prepare(lmp, registry, setup, types)             checks of the deck against the law
 ///   resolve(i, j, rigid, where) -> Contact           throws Error where there is no law for the pair
+///   check_sizes(i, j, is_wall, contact, sizes)       throws Error where the pair's law is of another size
 ///
 /// Everything that a Contact takes and gives is in the deck's units, and stretched (`stretch S`): delta_max
 /// and the ledger's overlaps are the deck's own, S times the real ones; work needs no conversion, because
@@ -261,7 +262,7 @@ class PlasticModel : public NormalModelBase
   /// Finds each pair of types its line in the ledger, and writes there what the law says about it.
   void open_books(const Types& types)
   {
-    const Smallest least = smallest_particles(lmp);
+    const ParticleSizes sizes = particle_sizes(lmp);
     const bool is_wall = setup_->wall != nullptr;
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
@@ -272,12 +273,13 @@ class PlasticModel : public NormalModelBase
           key = {setup_->options.deformable_wall ? PairKey::deformable_wall : PairKey::rigid_wall, i, j};
         entry.side = &setup_->session->ledger.sides[key];
         if (!is_wall && j < i) continue;  // described as i, j
-        const double other_radius = is_wall ? 0.0 : least.radius[j];
-        double r_eff = is_wall ? least.radius[i] : granulaw::effective_radius(least.radius[i], other_radius);
-        double m_eff = is_wall ? least.mass[i] : granulaw::effective_mass(least.mass[i], least.mass[j]);
+        const double other_radius = is_wall ? 0.0 : sizes.radius[j];
+        double r_eff = is_wall ? sizes.radius[i] : granulaw::effective_radius(sizes.radius[i], other_radius);
+        double m_eff = is_wall ? sizes.mass[i] : granulaw::effective_mass(sizes.mass[i], sizes.mass[j]);
         if (!std::isfinite(r_eff) || !std::isfinite(m_eff)) r_eff = m_eff = 0.0;
         PairInfo info = describe(entry.contact, *setup_, key, r_eff, m_eff);
         info.needed = types.of_particles[i] && (is_wall ? types.of_wall[j] : types.of_particles[j]);
+        if (info.needed) physics_.check_sizes(i, j, is_wall, entry.contact, sizes);
         entry.side->info = info;
       }
     energy_ = setup_->session->energy;

@@ -51,6 +51,7 @@ class ThorntonPhysics
 
   void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
   Contact resolve(int i, int j, bool rigid, const std::string& where) const;
+  void check_sizes(int, int, bool, const Contact&, const ParticleSizes&) const {}  // none is left out
 
  private:
   std::vector<double> e_star_, yield_stress_;  // the deck's units, by type

@@ -5,6 +5,7 @@
 //   law_fixture write FILE pairs a:b c:wall ...              only these pairs
 //   law_fixture write FILE major N                           claims to be of major version N
 //   law_fixture write FILE axis                              the powder has an inertia axis
+//   law_fixture write FILE rate RADIUS                       the powder depends on the rate, made for RADIUS
 //   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
 //   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
 //   law_fixture elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus
@@ -46,6 +47,10 @@ int run(int argc, char** argv)
   if (word(1) == "write") {
     const granulaw::testing::SyntheticLaw synthetic;
     granulaw::Law law = word(3) == "axis" ? synthetic.law_with_axis() : synthetic.law();
+    if (word(3) == "rate") {
+      granulaw::BodyLaw& powder = law.bodies.at("powder");
+      powder.curve = {synthetic.table(), synthetic.rate_axis(number(4)), "law_fixture"};
+    }
     if (word(3) == "pair_law") {
       law = synthetic.law_with_axis();
       granulaw::testing::SyntheticLaw other;  // told from the powder's by its residuals

@@ -1,0 +1,42 @@
+#include "liggghts_plugin/particle_sizes.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "fix_template_sphere.h"
+#include "liggghts_plugin/liggghts.hpp"
+
+namespace granulaw::plugin {
+
+ParticleSizes particle_sizes(LAMMPS_NS::LAMMPS* lmp)
+{
+  const LAMMPS_NS::Atom& atom = *lmp->atom;
+  const auto n = static_cast<std::size_t>(atom.ntypes + 1);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  ParticleSizes sizes{std::vector<double>(n, none), std::vector<double>(n, none),
+                      std::vector<double>(n, 0.0)};
+  for (int a = 0; a < atom.nlocal; ++a) {
+    const int t = atom.type[a];
+    sizes.radius[t] = std::min(sizes.radius[t], atom.radius[a]);
+    sizes.largest_radius[t] = std::max(sizes.largest_radius[t], atom.radius[a]);
+    if (atom.rmass) sizes.mass[t] = std::min(sizes.mass[t], atom.rmass[a]);
+  }
+  for (int f = 0; f < lmp->modify->nfix; ++f) {
+    auto* particle = dynamic_cast<LAMMPS_NS::FixTemplateSphere*>(lmp->modify->fix[f]);
+    if (!particle || particle->is_relative()) continue;
+    const double radius = particle->min_rad(), density = particle->massexpect() / particle->volexpect();
+    if (!(radius > 0) || !(density > 0)) continue;
+    for (int t = particle->mintype(); t <= particle->maxtype(); ++t) {
+      sizes.radius[t] = std::min(sizes.radius[t], radius);
+      sizes.largest_radius[t] = std::max(sizes.largest_radius[t], particle->max_rad());
+      sizes.mass[t] = std::min(sizes.mass[t], 4.0 / 3.0 * M_PI * radius * radius * radius * density);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sizes.radius.data(), static_cast<int>(n), MPI_DOUBLE, MPI_MIN, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, sizes.mass.data(), static_cast<int>(n), MPI_DOUBLE, MPI_MIN, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, sizes.largest_radius.data(), static_cast<int>(n), MPI_DOUBLE, MPI_MAX,
+                lmp->world);
+  return sizes;
+}
+
+}  // namespace granulaw::plugin

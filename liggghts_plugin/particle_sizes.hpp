@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace granulaw::plugin {
+
+/// Least radius and mass and largest radius of each atom type, in the deck's units, of particles that exist
+/// and templates that fixes can insert; infinity, and 0 for the largest: there is none. Index 0 is unused.
+struct ParticleSizes
+{
+  std::vector<double> radius, mass, largest_radius;
+};
+
+/// Collective. A template's density is its mean one.
+ParticleSizes particle_sizes(LAMMPS_NS::LAMMPS* lmp);
+
+}  // namespace granulaw::plugin
