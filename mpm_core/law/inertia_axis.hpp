@@ -32,9 +32,8 @@ namespace granulaw {
 /// What is stored.
 ///     impact_overlap[j]   X and dX/dv at nodes uniform in v from 0 to speed_end; X[0] = 0. Cubic Hermite.
 ///                         Beyond speed_end X is clamped: the caller compares with speed_end() and counts.
-///     corrections         K slices, each at L nodes uniform in xi from 0 to ratio_end, value and d/dxi;
-///     slice
-///                         after slice. X_end = X(speed_end);
+///     corrections         K slices, each at L nodes uniform in xi from 0 to ratio_end, value and d/dxi,
+///                         slice after slice. X_end = X(speed_end);
 ///                         inertia: X_k = k X_end/K, k = 1..K (slice 0: none, not stored)
 ///                         rate: from X_1 = X(speed_begin) to X_K = X_end evenly in octaves() of SliceScale,
 ///                         since the flow stress goes with the logarithm of the rate, or slower. No impact is
