@@ -5,7 +5,6 @@
 
 Welch's t test between every two models. Among so many tests some fall below 0.05 by chance: a difference is called significant
 where p times the number of tests in the table is below 0.05 (Bonferroni), `perhaps` where only p is."""
-import argparse
 import pathlib
 import sys
 
@@ -60,11 +59,7 @@ def table(out):
 
 
 def main(argv=None):
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=pathlib.Path, help="folder that holds the decks' outputs")
-    parser.add_argument("--write", action="store_true", help="into examples/README.md")
-    args = parser.parse_args(argv)
-    marks.put(HERE / "README.md", "differences.py", table(args.out), args.write)
+    marks.command(__doc__, HERE / "README.md", "differences.py", table, argv)
 
 
 if __name__ == "__main__":

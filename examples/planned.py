@@ -4,7 +4,6 @@
     planned.py out [--write]      # --write: into examples/README.md, between its marks
 
 Largest speeds over all seeds; "the scene" compares the speed of the yielding body (half a like pair's, a wall's own)."""
-import argparse
 import json
 import pathlib
 import shlex
@@ -90,11 +89,7 @@ def table(out):
 
 
 def main(argv=None):
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=pathlib.Path, help="folder that holds the decks' outputs")
-    parser.add_argument("--write", action="store_true", help="into examples/README.md")
-    args = parser.parse_args(argv)
-    marks.put(HERE / "README.md", MARK, table(args.out), args.write)
+    marks.command(__doc__, HERE / "README.md", MARK, table, argv)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,15 @@
 """Tables that scripts write into a README, between marks that name the script."""
+import argparse
+import pathlib
+
+
+def command(doc, page, name, table, argv=None):
+    """The command line of such a script: `OUT [--write]`, and `table(OUT)` printed or put into `page`."""
+    parser = argparse.ArgumentParser(description=doc.splitlines()[0])
+    parser.add_argument("out", type=pathlib.Path, help="folder that holds the decks' outputs")
+    parser.add_argument("--write", action="store_true", help=f"into {page.parent.name}/{page.name}")
+    args = parser.parse_args(argv)
+    put(page, name, table(args.out), args.write)
 
 
 def put(page, name, text, write):

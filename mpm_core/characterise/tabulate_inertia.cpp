@@ -37,9 +37,18 @@ class Speeds
   Speeds(const LawShape& shape, const ContactCurve& slow, double energy_unit, InertiaAxis::Kind kind)
       : slow_(slow), energy_unit_(energy_unit), rate_(kind == InertiaAxis::Kind::rate)
   {
-    if (!rate_) nodes_ = {0.0};
-    for (const LawShape::Inertia& i : shape.inertia) {
-      nodes_.push_back(rate_ ? std::log(i.speed) : i.speed);
+    const auto node = [&](double at, std::size_t source) {
+      nodes_.push_back(at), sources_.push_back(source);
+    };
+    if (!rate_) {
+      // Inertia goes as v^2: even in v, so the first speeds stand on the other side of the standstill, too.
+      for (std::size_t j = std::min<std::size_t>(2, shape.inertia.size()); j-- > 0;)
+        node(-shape.inertia[j].speed, j);
+      node(0.0, standstill);
+    }
+    for (std::size_t j = 0; j < shape.inertia.size(); ++j) {
+      const LawShape::Inertia& i = shape.inertia[j];
+      node(rate_ ? std::log(i.speed) : i.speed, j);
       log_reach_.push_back(std::log(i.speed * std::exp(i.reach) / slow_reach(i.speed)));
     }
   }
@@ -53,22 +62,10 @@ class Speeds
   template <class Of>
   double mix(double v, const Of& of) const
   {
+    const std::vector<double> weights = interpolation_weights(nodes_, rate_ ? std::log(v) : v);
     double sum = 0;
-    if (rate_) {
-      const std::vector<double> weights = interpolation_weights(nodes_, std::log(v));
-      for (std::size_t j = 0; j < weights.size(); ++j)
-        if (weights[j] != 0) sum += weights[j] * of(j);
-      return sum;
-    }
-    // Inertia goes as v^2: even in v, so the first speeds stand on the other side of the standstill, too.
-    std::vector<double> nodes;
-    const std::size_t mirrored = std::min<std::size_t>(2, nodes_.size() - 1);
-    for (std::size_t j = mirrored; j > 0; --j) nodes.push_back(-nodes_[j]);
-    nodes.insert(nodes.end(), nodes_.begin(), nodes_.end());
-    const std::vector<double> weights = interpolation_weights(nodes, v);
     for (std::size_t j = 0; j < weights.size(); ++j)
-      if (weights[j] != 0 && j != mirrored)
-        sum += weights[j] * of(j < mirrored ? mirrored - 1 - j : j - mirrored - 1);
+      if (weights[j] != 0 && sources_[j] != standstill) sum += weights[j] * of(sources_[j]);
     return sum;
   }
 
@@ -83,7 +80,10 @@ class Speeds
   const ContactCurve& slow_;
   double energy_unit_;  // kinetic energy at v = 1 over 4/3 E* R^3, the unit of ContactCurve's work
   bool rate_;
-  std::vector<double> nodes_, log_reach_;
+  static constexpr auto standstill = static_cast<std::size_t>(-1);  // where inertia changes nothing
+  std::vector<double> nodes_;         // where speeds are known: v, of a rate ln v
+  std::vector<std::size_t> sources_;  // and which of the shape's it is
+  std::vector<double> log_reach_;     // by the shape's speeds
 };
 
 /// d/dx of values at equal spacings: three-point differences.
