@@ -41,8 +41,7 @@ double stored_energy(const MpmContact& contact, double r_eff, double delta, doub
   if (x_max <= curve.onset()) return unit * curve.work_loading(x, impact_overlap);
   const ContactCurve::Turning top = curve.turning(x_max, impact_overlap);
   const double span = x_max - top.residual, u = (x - top.residual) / span;
-  // integral of F_m u^n from the residual overlap on
-  return u > 0.0 ? unit * top.force * span * std::pow(u, top.exponent + 1.0) / (top.exponent + 1.0) : 0.0;
+  return u > 0.0 ? unit * top.force * span * top.shape.work(u) : 0.0;
 }
 
 double stored_energy(const ThorntonContact& contact, double r_eff, double delta, double delta_max, double)
@@ -64,7 +63,7 @@ double stiffness(const MpmContact& contact, double r_eff, double delta, double i
   const double x = delta / length;
   if (x <= curve.onset()) return unit * curve.loading(x, impact_overlap).stiffness;
   const ContactCurve::Turning top = curve.turning(x, impact_overlap);
-  return unit * std::max(top.stiffness, top.exponent * top.force / (x - top.residual));
+  return unit * std::max(top.stiffness, top.shape.exponent * top.force / (x - top.residual));
 }
 
 double stiffness(const ThorntonContact& contact, double r_eff, double delta, double)

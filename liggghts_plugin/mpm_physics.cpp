@@ -56,15 +56,15 @@ struct HertzBody
  private:
   HertzBody()
   {
-    const std::vector<double> zeros(33, 0.0), ones(33, 1.0), three_halves(33, 1.5);
+    const std::vector<double> zeros(33, 0.0), ones(33, 1.0), three_halves(33, UnloadingShape{}.exponent);
     ContactCurve::Table table;
     table.s_end = 1.0;
     table.onset = std::numeric_limits<double>::infinity();
-    table.force_ratio = table.radius_ratio = ones;
+    table.force_ratio = table.radius_ratio = table.foot = ones;
     table.exponent = three_halves;
     table.residual_ratio = zeros;
-    table.force_ratio_slope = table.radius_ratio_slope = table.exponent_slope = table.residual_ratio_slope =
-        zeros;
+    table.force_ratio_slope = table.radius_ratio_slope = table.exponent_slope = table.foot_slope =
+        table.residual_ratio_slope = zeros;
     body.material.name = elastic_name;
     body.curve = ContactCurve(table, elastic_name);
     curve = FastCurve(body.curve);

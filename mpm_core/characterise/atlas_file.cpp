@@ -14,7 +14,7 @@ namespace granulaw {
 namespace {
 
 constexpr const char* format_value = "granulaw-atlas";
-constexpr int major = 1;
+constexpr int major = 2;
 constexpr std::size_t most = 1u << 20;  // numbers in one dataset
 
 using h5::Field;
@@ -33,6 +33,7 @@ constexpr Field softening{"softening", "1", "-ln(F/F_elastic) at the nodes of ea
 constexpr Field widening{"widening", "1", "ln(a/a_elastic) at the nodes of each material"};
 constexpr Field residual{"residual", "1", "-ln(1 - delta_r/delta_m) at the nodes of each material"};
 constexpr Field dissipation{"dissipation", "1", "-ln(W_u/W_L) at the nodes of each material"};
+constexpr Field foot{"foot", "1", "A - A_elastic of the unloading at the nodes of each material"};
 constexpr Field reach{"impact_reach", "1", "ln(X/v) at the speeds of each material"};
 constexpr Field impact_dissipation{"impact_dissipation", "1", "dissipation over the slow press's, less 1"};
 constexpr Field impact_residual{"impact_residual", "1", "residual over the slow press's, less 1"};
@@ -51,7 +52,8 @@ struct Curve
 constexpr Curve curves[] = {{softening, &LawShape::softening},
                             {widening, &LawShape::widening},
                             {residual, &LawShape::residual},
-                            {dissipation, &LawShape::dissipation}};
+                            {dissipation, &LawShape::dissipation},
+                            {foot, &LawShape::foot}};
 struct ImpactNumber
 {
   const Field& field;

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int most_rounds = 5;
 constexpr int resolutions[] = {24, 34, 48, 68};
+constexpr double coarse_speeds[] = {0.06, 0.15, 0.25};  // sqrt(I): where a survey begins
 
 void check(const BuildOptions& o)
 {
@@ -369,7 +370,7 @@ void Build::plastic()
   range.fastest = options_.fastest;
   SurveyPlan full = plan_survey(slow, range);
   range.stops = 2;
-  range.every = 2;
+  range.speeds = coarse_speeds;
   SurveyPlan plan = plan_survey(slow, range);
   for (SurveyPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, resolution_);
   plan.resolution = resolution_;

@@ -51,6 +51,12 @@ double dissipation_measure(const Pressing& p)
   return -std::log(std::clamp(p.work_ratio, 1e-6, 1.0));
 }
 
+/// A of an unloading from x along the elastic curve.
+double elastic_foot(const ElasticCorrection& elastic, double x)
+{
+  return elastic.unloading(std::pow(x, 0.25)).foot;
+}
+
 using Samples = std::vector<SmoothSpline::Sample>;
 
 /// What a shape over the same range says at shares of q below the first run.
@@ -64,9 +70,10 @@ void add_shallow(Samples& samples, const std::vector<double>* values, double q_f
       samples.push_back({q, (*values)[k], weight});
 }
 
-/// A turning point's function of q: few accurate points, about one knot interval for each.
-SmoothSpline turning_spline(std::span<const Pressing> presses, double onset, double q_end,
-                            double (*of)(const Pressing&), const std::vector<double>* shallow)
+/// A turning point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
+/// is only enough to bridge gaps.
+SmoothSpline turning_spline(std::span<const Pressing> presses, double onset, double q_end, const auto& of,
+                            const std::vector<double>* shallow, double smoothing = 0.03)
 {
   Samples samples;
   double q_first = q_end;
@@ -76,7 +83,7 @@ SmoothSpline turning_spline(std::span<const Pressing> presses, double onset, dou
   }
   add_shallow(samples, shallow, q_first, q_end, 1.0);
   const int intervals = std::max(4, static_cast<int>(samples.size()) - 2);
-  return {q_end, std::min(intervals, 24), samples, 0.03};  // 0.03: only enough to bridge gaps
+  return {q_end, std::min(intervals, 24), samples, smoothing};
 }
 
 std::vector<double> sampled(const SmoothSpline& spline, double q_end)
@@ -195,14 +202,25 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   const SmoothSpline residual = turning_spline(turns, onset, q_end, residual_measure, shallow_residual);
   const SmoothSpline dissipation =
       turning_spline(turns, onset, q_end, dissipation_measure, shallow_dissipation);
+  // The contact edge's ripple of a per cent of F moves a foot by 0.3.
+  const SmoothSpline foot = turning_spline(
+      turns, onset, q_end, [&](const Pressing& p) { return p.foot - elastic_foot(elastic, p.depth); },
+      shallow ? &shallow->foot : nullptr, 0.1);
 
   shape.softening = sampled(softening, q_end);
   shape.widening = sampled(widening, q_end);
   shape.residual = sampled(residual, q_end);
   shape.dissipation = sampled(dissipation, q_end);
+  shape.foot = sampled(foot, q_end);
   shape.inertia.clear();
-  for (const auto& [speed, impact] : survey.fast) {
-    const double q = q_of(impact.depth, onset);
+  for (const auto& [speed, computed] : survey.fast) {
+    const double q = q_of(computed.depth, onset);
+    // an impact's unloading swings with the body: it has the press's foot
+    Pressing impact = computed;
+    if (!impact.unloading.empty())
+      impact.residual =
+          std::max(0.0, residual_as_long(impact.unloading, impact.turn_force,
+                                         std::max(0.0, elastic_foot(elastic, impact.depth) + foot.value(q))));
     LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
                               inertia_force(impact, press_force)};
     // Where next to nothing is lost the ratios mean nothing.

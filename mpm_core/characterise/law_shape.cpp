@@ -13,7 +13,10 @@ namespace granulaw {
 
 namespace {
 
-constexpr double rounding_spare = 5e-4;    // of the work
+// Of the work: just past the onset, where next to nothing is lost, rounding must not give back more than was
+// put in. e is .01 % lower.
+constexpr double rounding_spare = 2e-4;
+constexpr double least_foot = 0.03;        // about: a smooth floor of A, whose cubics must not pass below 0
 constexpr double target_spacing = 0.0045;  // of table nodes in s: about 128 nodes to x = 0.1
 
 /// One function of a shape between its nodes, in q = ln(s/s_onset): the cubic spline through them.
@@ -93,13 +96,6 @@ ContactCurve::Table empty_table(double s_onset, double x_end, std::vector<double
   return table;
 }
 
-/// n of an elastic body: F x/W - 1, which makes the work of F_m u^n the work of loading.
-double elastic_exponent(const ElasticCorrection& e, double s)
-{
-  const double y = s * s;  // integral of x^1.5 (1 + c1 x^.5 + c2 x) = x^2.5 (1/2.5 + c1 x^.5/3 + c2 x/3.5)
-  return e.force_ratio(s) / (0.4 + e.c1 * y / 3 + e.c2 * y * y / 3.5) - 1;
-}
-
 void add_to(std::vector<double>& sum, double weight, const std::vector<double>& values)
 {
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * values[k];
@@ -110,7 +106,7 @@ void add_to(std::vector<double>& sum, double weight, const std::vector<double>& 
 LawShape LawShape::zero()
 {
   const std::vector<double> none(nodes, 0.0);
-  LawShape shape{{}, none, none, none, none, {}};
+  LawShape shape{{}, none, none, none, none, none, {}};
   for (const double v : inertia_speeds)
     shape.inertia.push_back({v, 0, 0, 0, std::vector<double>(Inertia::shares, 0.0)});
   return shape;
@@ -121,7 +117,8 @@ void LawShape::add(double weight, const LawShape& other)
   elastic.c1 += weight * other.elastic.c1;
   elastic.c2 += weight * other.elastic.c2;
   elastic.d1 += weight * other.elastic.d1;
-  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation})
+  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
+                      &LawShape::foot})
     add_to(this->*member, weight, other.*member);
   for (std::size_t k = 0; k < inertia.size(); ++k) {
     inertia[k].reach += weight * other.inertia[k].reach;
@@ -135,8 +132,8 @@ LawShape LawShape::stretched(double share) const
 {
   LawShape result = zero();
   result.elastic = elastic;
-  for (auto member :
-       {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation}) {
+  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
+                      &LawShape::foot}) {
     const ShapeFunction function(this->*member, 1.0);
     for (int k = 0; k < nodes; ++k)
       (result.*member)[static_cast<std::size_t>(k)] = function.value(std::min(1.0, share * k / (nodes - 1)));
@@ -192,7 +189,7 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
   const double s_onset = std::pow(onset, 0.25), q_end = 0.25 * std::log(shape_end / onset);
   const ShapeFunction softening(shape.softening, q_end), widening(shape.widening, q_end),
       residual(shape.residual, q_end, ShapeFunction::Kind::rising),
-      dissipation(shape.dissipation, q_end, ShapeFunction::Kind::rising);
+      dissipation(shape.dissipation, q_end, ShapeFunction::Kind::rising), foot(shape.foot, q_end);
   std::vector<double> nodes;
   ContactCurve::Table table = empty_table(s_onset, x_end, nodes);
   table.onset = onset;
@@ -214,41 +211,49 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
     table.residual_ratio.push_back(std::max(0.0, 1 - kept));
     table.residual_ratio_slope.push_back(kept * residual.slope(q) * per_s);
   }
-  // n needs the loading work of this very table: build it once with any exponent.
+  // n needs the loading work of this very table: build it once with any unloading.
   const std::size_t count = nodes.size();
-  table.exponent.assign(count, 1.5);
+  table.exponent.assign(count, UnloadingShape{}.exponent);
+  table.foot.assign(count, UnloadingShape{}.foot);
   table.exponent_slope.assign(count, 0.0);
+  table.foot_slope.assign(count, 0.0);
   const ContactCurve loading(table, "fitted curve");
-  // At its turn a contact unloads at least as stiffly as it loads, n >= x F'/F at the onset. A power of u
-  // cannot have both the elastic curve's work and its slope, so it gives a little less back, e by up to 0.2
-  // %, which fades with the overlap: faster than exp(-10 q) a contact turned later would give back more than
-  // was put in. Where the force grows ever more slowly (a stiff shell) the work's own n is stiffer already.
-  const ContactCurve::Loading first = loading.loading(onset);
-  const double needed = 1.2 * std::log(loading.work_loading(onset) *
-                                       (onset * first.stiffness / first.force + 1) / (first.force * onset));
-  // There nothing would be left for the rounding of n between its nodes (6e-5 of F was seen): e 0.025 %
-  // lower.
-  const double spare = needed > 0 ? 0.0 : rounding_spare;
-  const auto lost_at_onset = [&](double q) { return std::max(0.0, needed) * std::exp(-8 * q) + spare; };
-  const auto yielded_exponent = [&](double s) {
-    const double x = s * s * s * s, q = std::log(s / s_onset);
-    const double returned = loading.work_loading(x) * std::exp(-dissipation.value(q) - lost_at_onset(q));
-    return std::max(1.0, loading.loading(x).force * x * std::exp(-residual.value(q)) / returned - 1);
+  const auto yielded = [&](double s) {
+    const double x = s * s * s * s, q = std::log(s / s_onset), kept = std::exp(-residual.value(q));
+    const ContactCurve::Loading top = loading.loading(x);
+    const double returned = loading.work_loading(x) * std::exp(-dissipation.value(q) - rounding_spare);
+    const double work = returned / (top.force * x * kept);
+    const double fitted = el.unloading(s).foot + foot.value(q);
+    const double floored = 0.5 * (fitted + std::hypot(fitted, 2 * least_foot));
+    // The work is as computed whatever the foot; with it the foot may not be so small that at its turn the
+    // contact unloads less stiffly than it loads, nor so large that the unloading would fall.
+    const double bare = UnloadingShape::exponent_of(work, 0);
+    const double stiff = std::max(UnloadingShape::least_exponent, kept * x * top.stiffness / top.force);
+    const double smallest = 5 * (stiff - bare), largest = (2.4999 - bare) / 0.45;
+    const double a = std::clamp(std::max(floored, smallest), 0.0, std::max(0.0, largest));
+    return UnloadingShape{std::min(UnloadingShape::exponent_of(work, a), 2.4999), a};
   };
-  const auto elastic = [&](double s) { return elastic_exponent(el, s); };
+  const auto elastic = [&](double s) { return el.unloading(s); };
   for (std::size_t k = 0; k < count; ++k) {
     const double s = nodes[k], step = 0.02 * h;
     // one-sided at the ends; the onset's own slope must be the one of the plastic side
-    const auto fill = [&](const auto& n, bool begins, bool ends) {
-      table.exponent[k] = n(s);
-      table.exponent_slope[k] = begins ? (-3 * n(s) + 4 * n(s + step) - n(s + 2 * step)) / (2 * step)
-                                : ends ? (3 * n(s) - 4 * n(s - step) + n(s - 2 * step)) / (2 * step)
-                                       : (n(s + step) - n(s - step)) / (2 * step);
+    const auto fill = [&](const auto& unloading, bool begins, bool ends) {
+      const int from = begins ? 0 : ends ? -2 : -1;
+      const UnloadingShape at[3] = {unloading(s + from * step), unloading(s + (from + 1) * step),
+                                    unloading(s + (from + 2) * step)};
+      const auto slope = [&](double UnloadingShape::*of) {
+        const double a = at[0].*of, b = at[1].*of, c = at[2].*of;
+        return (begins ? -3 * a + 4 * b - c : ends ? a - 4 * b + 3 * c : c - a) / (2 * step);
+      };
+      table.exponent[k] = at[-from].exponent;
+      table.foot[k] = at[-from].foot;
+      table.exponent_slope[k] = slope(&UnloadingShape::exponent);
+      table.foot_slope[k] = slope(&UnloadingShape::foot);
     };
     if (k < at_onset)
       fill(elastic, k == 0, false);
     else
-      fill(yielded_exponent, k == at_onset, k + 1 == count);
+      fill(yielded, k == at_onset, k + 1 == count);
   }
   // 1e-7: returned work must not exceed the work put in just past the onset, not even by rounding.
   for (double& n : table.exponent) n += 1e-7;
@@ -267,11 +272,12 @@ ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_
     table.force_ratio_slope.push_back(elastic.force_ratio_slope(s));
     table.radius_ratio.push_back(elastic.radius_ratio(s));
     table.radius_ratio_slope.push_back(elastic.radius_ratio_slope(s));
-    table.exponent.push_back(elastic_exponent(elastic, s));
+    table.exponent.push_back(elastic.unloading(s).exponent);
+    table.foot.push_back(elastic.unloading(s).foot);
   }
   table.residual_ratio.assign(nodes.size(), 0.0);
   table.residual_ratio_slope = table.residual_ratio;
-  table.exponent_slope.assign(nodes.size(), 0.0);
+  table.exponent_slope = table.foot_slope = table.residual_ratio;
   return table;
 }
 

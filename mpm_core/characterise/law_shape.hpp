@@ -15,6 +15,12 @@ struct ElasticCorrection
   double force_ratio_slope(double s) const { return s * (2 * c1 + 4 * c2 * s * s); }
   double radius_ratio(double s) const { return 1 + d1 * s * s; }
   double radius_ratio_slope(double s) const { return 2 * d1 * s; }
+  /// Of unloading from s along the elastic curve itself: x^1.5 (1 + c1 sqrt(x) + c2 x).
+  UnloadingShape unloading(double s) const
+  {
+    const double a = 1 / force_ratio(s), b = a * c1 * s * s, c = 1 - a - b;
+    return {1.5 * a + 2 * b + 2.5 * c, a};
+  }
 };
 
 /// The law of a yielding body in the coordinates in which materials resemble each other: what the runs are
@@ -24,6 +30,7 @@ struct ElasticCorrection
 /// slope at the onset:
 ///     softening    -ln(F_L/F_elastic)               residual     -ln(1 - delta_r/delta_m)
 ///     widening      ln(a/a_elastic)                 dissipation  -ln(W_u/W_L) = -2 ln e
+///     foot          A - A_elastic of the unloading's shape
 /// Differences and means of shapes are shapes again: that is how they are interpolated between materials.
 struct LawShape
 {
@@ -42,7 +49,7 @@ struct LawShape
   };
 
   ElasticCorrection elastic;
-  std::vector<double> softening, widening, residual, dissipation;
+  std::vector<double> softening, widening, residual, dissipation, foot;
   std::vector<Inertia> inertia;  ///< ascending speed
 
   /// this += weight * other, whose speeds are the same.
@@ -56,7 +63,7 @@ struct LawShape
 };
 
 /// Speeds sqrt(I) at which the atlas knows the effect of inertia.
-inline constexpr double inertia_speeds[] = {0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3};
+inline constexpr double inertia_speeds[] = {0.015, 0.03, 0.06, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.3};
 
 /// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
 /// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the

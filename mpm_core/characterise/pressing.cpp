@@ -1,8 +1,11 @@
 #include "characterise/pressing.hpp"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <span>
+
+#include "law/unloading.hpp"
 
 namespace granulaw {
 
@@ -24,51 +27,112 @@ double force_before(const std::vector<TraceSample>& trace, std::size_t turn)
   return count ? sum / count / force_scale : 0;
 }
 
-/// int_0^1 du/sqrt(1 - u^(n+1)): duration of an unloading u^n over (x_m - r)/(speed of rebound).
-double duration_factor(double n)
+/// int_0^1 du/sqrt(1 - W(u)/W(1)): duration of an unloading over (x_m - r)/(speed of rebound).
+double duration_factor(const UnloadingShape& shape)
 {
-  const double a = 1 / (n + 1);
-  return a * std::tgamma(a) * std::sqrt(M_PI) / std::tgamma(a + 0.5);
+  // u = 1 - v^2: the integrand is smooth at the turn
+  const double all = shape.work();
+  return boost::math::quadrature::gauss<double, 30>::integrate(
+      [&](double v) { return 2 * v / std::sqrt(1 - shape.work(1 - v * v) / all); }, 0.0, 1.0);
 }
+
+/// A path's work, duration and force by overlap.
+class Unloaded
+{
+ public:
+  Unloaded(const UnloadingPath& path, double turn_force) : path_(path), turn_force_(turn_force)
+  {
+    // v^2 is as the work given back so far: int dx/sqrt(W), exact over an interval of constant force
+    for (std::size_t k = 1; k < path.size(); ++k) {
+      const double step = path[k - 1].x - path[k].x, before = work_;
+      work_ += 0.5 * (path[k - 1].force + path[k].force) * step;
+      if (work_ > 0) duration_ += 2 * step / (std::sqrt(before) + std::sqrt(work_));
+    }
+  }
+
+  /// `foot_of(span)`: of an unloading that ends `span` below the turn.
+  template <class FootOf>
+  UnloadingFit fit(const FootOf& foot_of) const
+  {
+    const double top = path_.front().x, span = top - path_.back().x;
+    const auto shape = [&](double s) {
+      const double foot = foot_of(s);
+      return UnloadingShape{UnloadingShape::exponent_of(work_ / (turn_force_ * s), foot), foot};
+    };
+    const auto told = [&](double s) { return s / std::sqrt(work_) * duration_factor(shape(s)); };
+    // the shorter the span the softer: below a half of Hertz's exponent no sphere unloads
+    const auto too_short = [&](double s) { return shape(s).exponent < 0.75; };
+    if (!(work_ > 0) || too_short(span)) return {path_.back().x, UnloadingShape{}.foot};
+    // the longer the span, the longer it takes; a fifth: no unloading of a sphere is further from the shape
+    double low = 0.8 * span, high = 1.2 * span;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (low + high);
+      (too_short(middle) || told(middle) < duration_ ? low : high) = middle;
+    }
+    return {top - high, foot_of(high)};
+  }
+
+  /// The foot that comes nearest to the path where it ends `span` below the turn: phi = phi_0 + A psi with
+  /// the work kept, so one linear unknown.
+  double nearest_foot(double span) const
+  {
+    const double work = work_ / (turn_force_ * span), end = path_.front().x - span;
+    constexpr int points = 200;
+    double product = 0, square = 0;
+    std::size_t next = 0;  // first path point below the overlap
+    for (int k = points; k > 0; --k) {
+      const double u = static_cast<double>(k) / points, x = end + u * span;
+      while (next < path_.size() && path_[next].x >= x) ++next;
+      const double force = next == 0              ? path_.front().force
+                           : next == path_.size() ? 0.0
+                                                  : between(path_[next - 1], path_[next], x);
+      const auto at = [&](double foot) {
+        return UnloadingShape{UnloadingShape::exponent_of(work, foot), foot}.at(u).value;
+      };
+      const double base = at(0), direction = at(1) - base;
+      product += direction * (force / turn_force_ - base);
+      square += direction * direction;
+    }
+    return std::clamp(product / square, 0.0, UnloadingShape::largest_foot);
+  }
+
+ private:
+  static double between(const PathPoint& above, const PathPoint& below, double x)
+  {
+    return below.force + (above.force - below.force) * (x - below.x) / (above.x - below.x);
+  }
+
+  const UnloadingPath& path_;
+  double turn_force_, work_ = 0, duration_ = 0;
+};
 
 }  // namespace
 
-double residual_as_long(const std::vector<PathPoint>& path, double turn_force)
+UnloadingFit fit_unloading(const UnloadingPath& path, double turn_force)
 {
-  const double end = path.back().x, span = path.front().x - end;
-  // v^2 is as the work given back so far: int dx/sqrt(W), exact over an interval of constant force
-  double work = 0, duration = 0;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const double step = path[k - 1].x - path[k].x, before = work;
-    work += 0.5 * (path[k - 1].force + path[k].force) * step;
-    if (work > 0) duration += 2 * step / (std::sqrt(before) + std::sqrt(work));
-  }
-  // n > 0: an r nearer to the turn could not give the work back
-  const double shortest = work / turn_force;
-  if (!(work > 0 && span > 1.05 * shortest)) return end;
-  const auto told = [&](double s) {
-    return s / std::sqrt(work) * duration_factor(turn_force * s / work - 1);
-  };
-  // the longer the span, the longer it takes; a fifth: no unloading of a sphere is further from u^n
-  double low = std::max(0.8 * span, 1.02 * shortest), high = 1.2 * span;
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (told(middle) < duration ? low : high) = middle;
-  }
-  return path.front().x - low;
+  const Unloaded unloaded(path, turn_force);
+  return unloaded.fit([&](double span) { return unloaded.nearest_foot(span); });
+}
+
+double residual_as_long(const UnloadingPath& path, double turn_force, double foot)
+{
+  return Unloaded(path, turn_force).fit([&](double) { return foot; }).residual;
 }
 
 namespace {
 
-/// Pressing::residual of an unloading from `depth` whose force ended at the overlap `touched`.
-double residual_of(std::span<const TraceSample> unloading, double depth, double turn_force, double touched)
+/// Residual, foot and path of an unloading whose force ended at the overlap `touched`.
+void set_unloading(Pressing& press, std::span<const TraceSample> unloading, double touched)
 {
-  if (turn_force <= 0) return std::max(0.0, touched);
-  std::vector<PathPoint> path{{depth, turn_force}};
+  press.residual = std::max(0.0, touched);
+  if (press.turn_force <= 0) return;
+  UnloadingPath& path = press.unloading = {{press.depth, press.turn_force}};
   for (const TraceSample& s : unloading)
     if (s.delta < path.back().x && s.delta > touched) path.push_back({s.delta, s.force / force_scale});
   path.push_back({touched, 0});
-  return std::max(0.0, residual_as_long(path, turn_force));
+  const UnloadingFit fit = fit_unloading(path, press.turn_force);
+  press.residual = std::max(0.0, fit.residual);
+  press.foot = fit.foot;
 }
 
 }  // namespace
@@ -88,8 +152,7 @@ Pressing pressing_from(const RunResult& result)
   const auto begins = std::find_if(t.rbegin(), t.rend(), [](const TraceSample& sample) {
                         return sample.branch != Branch::unload;
                       }).base();
-  press.residual =
-      residual_of({begins, t.end()}, press.depth, press.turn_force, result.summary.delta_residual);
+  set_unloading(press, {begins, t.end()}, result.summary.delta_residual);
   return press;
 }
 
@@ -121,15 +184,17 @@ std::vector<Pressing> partial_unloadings(const RunResult& result, double& loop)
     area += piece;
     if (t[k].branch == Branch::unload) {
       if (t[k - 1].branch != Branch::unload) {
-        turns.push_back({{}, t[k - 1].delta, t[k - 1].delta, 0, force_before(t, k - 1)});
+        Pressing turn;
+        turn.depth = turn.residual = t[k - 1].delta;
+        turn.turn_force = force_before(t, k - 1);
+        turns.push_back(std::move(turn));
         begins = k;
       }
       Pressing& turn = turns.back();
       turn.work_ratio -= piece / put_in;
       if (t[k].force > 0) turn.residual = t[k].delta;
       if (k + 1 < t.size() && t[k + 1].branch != Branch::unload)
-        turn.residual = residual_of(std::span(t).subspan(begins, k + 1 - begins), turn.depth, turn.turn_force,
-                                    turn.residual);
+        set_unloading(turn, std::span(t).subspan(begins, k + 1 - begins), turn.residual);
     }
   }
   if (!turns.empty()) turns.pop_back();  // its summary tells the last one better

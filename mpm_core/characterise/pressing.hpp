@@ -6,6 +6,25 @@
 
 namespace granulaw {
 
+/// Overlap/R and force in any unit, from the turn to where the force ends; overlaps descend.
+struct PathPoint
+{
+  double x, force;
+};
+using UnloadingPath = std::vector<PathPoint>;
+
+/// A computed unloading as the law has it: F = F_m phi(u), u = (x - r)/(x_m - r), phi an UnloadingShape.
+/// The exponent gives the same work back. The residual r is the one with which a free body needs the same
+/// time for it as for the computed one: contact times are what a particle code sees, and the last touch of a
+/// faint force falls here or there with the body's vibrations. The foot comes nearest to the path (least
+/// squares over the overlap), or is given.
+struct UnloadingFit
+{
+  double residual, foot;
+};
+UnloadingFit fit_unloading(const UnloadingPath& path, double turn_force);
+double residual_as_long(const UnloadingPath& path, double turn_force, double foot);
+
 /// One dimensionless collision (R = E* = rho = 1): virgin loading to `depth`, then unloading until the force
 /// ends. A press, an impact, or a partial unloading of a press (which has no loading of its own).
 struct Pressing
@@ -16,21 +35,12 @@ struct Pressing
   };                            ///< overlap/R; F/(4/3 E* R^2); a/R
   std::vector<Sample> loading;  ///< ascending x
   double depth = 0;             ///< x_m, largest overlap/R
-  double residual = 0;          ///< overlap/R at which u^n ends that takes as long as the unloading did
+  double residual = 0;          ///< overlap/R at which the law's unloading ends: UnloadingFit
+  double foot = 1;              ///< A of its shape
   double work_ratio = 0;        ///< work given back/work put in, W_u/W_L = e^2
   double turn_force = 0;        ///< as computed just before the turn, F/(4/3 E* R^2); 0: not known
+  UnloadingPath unloading;      ///< from the turn on, F/(4/3 E* R^2)
 };
-
-/// An unloading as the law has it: F = F_m u^n, u = (x - r)/(x_m - r), n so that it gives the same work back.
-/// Returns the r with which a free body needs the same time for it as for the computed one; the path says how
-/// the body gets there, but contact times are what a particle code sees, and the last touch of a faint force
-/// falls here or there with the body's vibrations.
-/// `path`: overlap/R and force in any unit, from the turn to where the force ends; overlaps descend.
-struct PathPoint
-{
-  double x, force;
-};
-double residual_as_long(const std::vector<PathPoint>& path, double turn_force);
 
 /// Takes a run of a sphere of unit radius, density and E* apart: its loading and its last unloading.
 Pressing pressing_from(const RunResult& result);

@@ -157,9 +157,8 @@ SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
     for (const double x : between(first, slowest_press, count))
       plan.slow_impacts.push_back(velocity_to(x, subject));
   }
-  for (std::size_t k = 0; k < std::size(inertia_speeds); ++k)
-    if (inertia_speeds[k] <= range.fastest * 1.0001 && (k + 1) % static_cast<std::size_t>(range.every) == 0)
-      plan.fast_speeds.push_back(inertia_speeds[k]);
+  for (const double speed : range.speeds)
+    if (speed <= range.fastest * 1.0001) plan.fast_speeds.push_back(speed);
   return plan;
 }
 

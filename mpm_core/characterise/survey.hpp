@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ struct SurveyRange
   double fastest = 0.3;      ///< sqrt(I) of the fastest impact, up to 0.3
   double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset tells
   int stops = 3;             ///< turning points a press, its end among them
-  int every = 1;             ///< of inertia_speeds, each so many-th
+  std::span<const double> speeds = inertia_speeds;  ///< sqrt(I) of impacts, those up to the fastest
 };
 
 SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range);
@@ -76,9 +77,9 @@ struct Survey
   };
   std::vector<Pressing> slow;  ///< rate-free: presses (a partial unloading has no loading of its own) and
                                ///< slow impacts; ascending depth
-  std::vector<Impact> fast;  ///< ascending speed
-  bool rate = false;         ///< the fast impacts are those of a rate-dependent body
-  double reload_loop = 0;    ///< largest area between a partial unloading and its reloading, over the work
+  std::vector<Impact> fast;    ///< ascending speed
+  bool rate = false;           ///< the fast impacts are those of a rate-dependent body
+  double reload_loop = 0;      ///< largest area between a partial unloading and its reloading, over the work
 };
 
 /// Adds what the runs of a plan found; a failed run adds nothing.

@@ -14,7 +14,7 @@ namespace granulaw {
 namespace {
 
 constexpr double speed_spacing = 0.02;   // of the nodes of X(v)
-constexpr double slice_spacing = 0.02;   // of X, about
+constexpr double slice_spacing = 0.0125;  // of X, about
 constexpr double slices_an_octave = 3;   // of a rate axis
 constexpr double share_spacing = 0.05;   // of xi = x/X
 constexpr double usual_ratio_end = 1.5;  // xi where the force is the press's again
@@ -159,10 +159,13 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
         std::pow(std::min(1.0, slow.work_unloading(x) / slow.work_loading(x)), more_dissipation);
     const double share = 1 + correction(xi),
                  share_slope = (correction(xi + 1e-4) - correction(xi - 1e-4)) / 2e-4;
-    const double n = top.force * share * kept * x / (work * returned) - 1;
+    const double n =
+        UnloadingShape::exponent_of(work * returned / (top.force * share * kept * x), top.shape.foot);
     // as in tabulate(): unloading at least as stiff as loading
     const double stiff = kept * (x * top.stiffness / top.force + xi * share_slope / share);
-    slice.exponent.push_back(std::max({n, stiff, 1.0}) - top.exponent);
+    const double most = UnloadingShape::largest_exponent(top.shape.foot);
+    slice.exponent.push_back(std::min(std::max({n, stiff, UnloadingShape::least_exponent}), most) -
+                             top.shape.exponent);
   }
   slice.exponent[0] = slice.exponent[1];
   return slice;
@@ -197,7 +200,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
         if (lacking <= -spare) continue;
         lacks = lacks || lacking > -0.2 * spare;
         const auto column = std::min(static_cast<std::size_t>(x / reach / share_spacing) + 1, columns - 1);
-        const double more = 1.2 * (lacking + 1.5 * spare) * (curve.turning(x, reach).exponent + 1);
+        const double more = 1.2 * (lacking + 1.5 * spare) * 10.5 * curve.turning(x, reach).shape.work();
         for (const std::size_t row : {(half + 1) / 2, half / 2})
           for (std::size_t l = 0; row > 0 && l < columns; ++l) {
             // fading out slowly: where the exponent falls, more comes back

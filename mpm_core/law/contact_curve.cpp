@@ -36,7 +36,10 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
       {"force_ratio", table.force_ratio, table.force_ratio_slope, 1e-5, 1e3, 1e-6, 2e3, &Interval::g},
       {"residual_ratio", table.residual_ratio, table.residual_ratio_slope, 0, 0.99999, -0.1, 0.999995,
        &Interval::rho},
-      {"exponent", table.exponent, table.exponent_slope, 1, 10, 0.9, 12, &Interval::n},
+      {"exponent", table.exponent, table.exponent_slope, UnloadingShape::least_exponent, 2.5, 0.9, 2.5,
+       &Interval::n},
+      {"foot", table.foot, table.foot_slope, 0, UnloadingShape::largest_foot, -1e-6,
+       UnloadingShape::largest_foot, &Interval::foot},
       {"radius_ratio", table.radius_ratio, table.radius_ratio_slope, 0, 1e3, 0, 2e3, &Interval::a}};
   for (const Function& f : functions) {
     constexpr double big = 1e12;
@@ -47,6 +50,7 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
       check_between(intervals_[k].*f.cubic, f.low_between, f.high_between, where, f.name, k);
     }
   }
+  check_unloading_rises(where);
   x_end_ = table.s_end * table.s_end * table.s_end * table.s_end;
 
   work_.assign(count, 0.0);
@@ -65,6 +69,22 @@ ContactCurve::ContactCurve(const Table& table, const InertiaAxis::Table& axis, c
 {
   axis_.emplace(axis, where);
   check_axis(where);
+}
+
+void ContactCurve::check_unloading_rises(const std::string& where) const
+{
+  // A + 4 n <= 10 between nodes, too: a cubic as A and n are
+  for (std::size_t k = 0; k < intervals_.size(); ++k) {
+    double sum[4];
+    for (int power = 0; power < 4; ++power)
+      sum[power] = intervals_[k].foot[power] + 4.0 * intervals_[k].n[power];
+    constexpr double most = 10.0 + 1e-9;  // rounding
+    for (const double at : {cubic(sum, 0.0), cubic(sum, 1.0)})
+      if (!(at <= most))
+        fail(where, fmt::format("the unloading would fall: 'foot' + 4 'exponent' about node {}", k),
+             fmt::format("{:.6g}", at), "up to 10");
+    check_between(sum, 0.0, most, where, "foot + 4 exponent", k);
+  }
 }
 
 void ContactCurve::check_axis(const std::string& where) const
@@ -88,13 +108,10 @@ void ContactCurve::check_axis(const std::string& where) const
       if (x <= onset_ || x > x_end_) continue;
       const Position p = locate(x);
       const InertiaAxis::TurnCorrection turn = axis_->turn(x, overlap);
-      const double residual = cubic(p.interval->rho, p.t) + turn.residual,
-                   n = cubic(p.interval->n, p.t) + turn.exponent;
+      const double residual = cubic(p.interval->rho, p.t) + turn.residual;
       if (!(residual >= -0.1 && residual <= 0.999995))  // between nodes, as the quasi-static ratio's
         fail(where, here("the residual ratio is out of range"), fmt::format("{:.6g}", residual),
              "-0.1 to 0.999995");
-      if (!(n >= 0.9 && n <= 12))
-        fail(where, here("the exponent is out of range"), fmt::format("{:.6g}", n), "0.9 to 12");
     }
 }
 
@@ -169,7 +186,7 @@ double ContactCurve::work_unloading(double x_m, double impact_overlap) const
 {
   if (x_m <= onset_) return work_loading(x_m, impact_overlap);
   const Turning top = turning(x_m, impact_overlap);
-  return top.force * (x_m - top.residual) / (top.exponent + 1.0);
+  return top.force * (x_m - top.residual) * top.shape.work();
 }
 
 double ContactCurve::admissibility_margin() const

@@ -9,32 +9,33 @@
 #include <vector>
 
 #include "law/cubic.hpp"
-#include "law/fast_pow.hpp"
 #include "law/inertia_axis.hpp"
 #include "law/pair.hpp"
+#include "law/unloading.hpp"
 
 namespace granulaw {
 
 /// The dimensionless contact law of one yielding body, tabulated.
 ///
-/// What is stored. Four functions of one overlap x = delta/(lambda R*), each as ratio to the Hertz value or
+/// What is stored. Five functions of one overlap x = delta/(lambda R*), each as ratio to the Hertz value or
 /// as a pure number, at nodes uniform in s = x^(1/4), s_k = k s_end/(count-1), k = 0..count-1:
 ///     force_ratio[k]     g = F_L(x) / F_Hertz(x)                  loading force;       g(0) = 1
 ///     residual_ratio[k]  rho = delta_r/delta_m                    residual overlap after a turn at x
-///     exponent[k]        n, unloading F = F_L(delta_m) u^n, u = (delta - delta_r)/(delta_m - delta_r)
+///     exponent[k]        n   unloading F = F_L(delta_m) phi(u), u = (delta - delta_r)/(delta_m - delta_r),
+///     foot[k]            A   phi by n and A: UnloadingShape
 ///     radius_ratio[k]    a(x) / a_Hertz(x), a_Hertz = R sqrt(x)   contact radius;      1 at x = 0
 /// Between nodes: cubic Hermite with the stored slopes (d/ds), so F, dF/dx are continuous.
 /// Half-open range 0 <= x < x_end = s_end^4. Beyond it the force goes on with the last stiffness, the other
-/// three keep their last value, and `in_range` says false: the caller counts and decides.
+/// four keep their last value, and `in_range` says false: the caller counts and decides.
 ///
 /// State of a contact: delta_max, the largest overlap since first touch, and, where the curve has an inertia
 /// axis, the impact overlap X latched at first touch (inertia_axis.hpp; dimensionless as x). The caller
 /// zeroes both when the geometric overlap ends. delta >= delta_max: loading. Else unloading and reloading
-/// follow the same curve F = F_L(delta_max) max(0,u)^n. While delta_max is below the onset of yield, F =
-/// F_L(delta) both ways.
+/// follow the same curve F = F_L(delta_max) phi(u), 0 for u < 0. While delta_max is below the onset of yield,
+/// F = F_L(delta) both ways.
 ///
 /// X = 0, which every function takes for the argument left out, is the quasi-static law, to the bit the law
-/// of a curve without an axis. Else F_L, rho and n have the corrections of x/X and X.
+/// of a curve without an axis. Else F_L, rho and n have the corrections of x/X and X; A has none.
 ///
 /// Admissible (no closed cycle gains energy) if dW_L/d(delta_m) >= dW_u/d(delta_m): see
 /// admissibility_margin().
@@ -49,6 +50,7 @@ class ContactCurve
     std::vector<double> force_ratio, force_ratio_slope;  ///< value and d/ds
     std::vector<double> residual_ratio, residual_ratio_slope;
     std::vector<double> exponent, exponent_slope;
+    std::vector<double> foot, foot_slope;
     std::vector<double> radius_ratio, radius_ratio_slope;
   };
 
@@ -79,7 +81,8 @@ class ContactCurve
   /// Turning point of a contact that reached x_m.
   struct Turning
   {
-    double force, stiffness, radius, residual, exponent;
+    double force, stiffness, radius, residual;
+    UnloadingShape shape;
   };
   Turning turning(double x_m, double impact_overlap = 0) const;
 
@@ -105,10 +108,10 @@ class ContactCurve
                         double impact_overlap = 0) const;
 
  private:
-  /// Cubic coefficients in t = (s - s_k)/h of the four functions over one interval: two cache lines.
+  /// Cubic coefficients in t = (s - s_k)/h of the five functions over one interval.
   struct Interval
   {
-    double g[4], a[4], rho[4], n[4];
+    double g[4], a[4], rho[4], n[4], foot[4];
   };
   struct Position
   {
@@ -123,12 +126,18 @@ class ContactCurve
     const auto k = std::min(static_cast<std::size_t>(position), intervals_.size() - 1);
     return {&intervals_[k], position - static_cast<double>(k), s, root};
   }
+  /// Between nodes the cubic of the foot may pass below 0 by rounding.
+  static UnloadingShape shape_at(const Position& p)
+  {
+    return {cubic(p.interval->n, p.t), std::max(0.0, cubic(p.interval->foot, p.t))};
+  }
   bool corrected(double impact_overlap) const { return axis_ && impact_overlap > InertiaAxis::negligible; }
   Loading quasi_static(double x) const;
   /// Loading work from node k to t_end within its interval.
   double interval_work(std::size_t k, double t_end) const;
   /// Work of the axis's part of the loading force up to x.
   double correction_work(double x, double impact_overlap) const;
+  void check_unloading_rises(const std::string& where) const;
   void check_axis(const std::string& where) const;
 
   std::vector<Interval> intervals_;
@@ -165,13 +174,14 @@ inline ContactCurve::Turning ContactCurve::turning(double x_m, double impact_ove
 {
   const Loading top = loading(x_m, impact_overlap);
   const Position p = locate(std::min(x_m, x_end_));
-  double ratio = cubic(p.interval->rho, p.t), n = cubic(p.interval->n, p.t);
+  double ratio = cubic(p.interval->rho, p.t);
+  UnloadingShape shape = shape_at(p);
   if (corrected(impact_overlap)) {
     const InertiaAxis::TurnCorrection turn = axis_->turn(x_m, impact_overlap);
     ratio = turn.corrected_residual(ratio);
-    n = turn.corrected_exponent(n);
+    shape = turn.corrected_shape(shape);
   }
-  return {top.force, top.stiffness, top.radius, x_m * ratio, n};
+  return {top.force, top.stiffness, top.radius, x_m * ratio, shape};
 }
 
 inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff, double delta,
@@ -188,23 +198,24 @@ inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff
   // turning(x_max) without what is not needed, from one position: this branch is where a dense flow spends
   // its time
   const Position p = locate(std::min(x_max, x_end_));
-  double residual = cubic(p.interval->rho, p.t), n = cubic(p.interval->n, p.t);  // residual: over delta_max
+  double residual = cubic(p.interval->rho, p.t);  // over delta_max
+  UnloadingShape shape = shape_at(p);
   double top = x_max <= x_end_ ? x_max * p.root * cubic(p.interval->g, p.t)
                                : end_.force + end_.stiffness * (x_max - x_end_);
   if (corrected(impact_overlap)) {
     const InertiaAxis::TurnCorrection turn = axis_->turn(x_max, impact_overlap);
     top *= 1.0 + turn.force;
     residual = turn.corrected_residual(residual);
-    n = turn.corrected_exponent(n);
+    shape = turn.corrected_shape(shape);
   }
   const double span = 1.0 - residual, u = (delta / delta_max - residual) / span;
   if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
   const double top_radius =
       p.root * cubic(p.interval->a, p.t) * (x_max <= x_end_ ? 1.0 : std::sqrt(x_max / x_end_));
-  // F = F_m u^n; dF/dx = n F/(u span); a = a_m u^(n-1), the radius at which dF/dx = 2 E* a keeps its ratio
-  const double below = fast_pow(u, n - 1.0);
-  return {force_scale * top * below * u, force_scale * per_length * n * top * below / (span * x_max),
-          radius_scale * top_radius * below, delta_max};
+  // a = a_m phi'(u)/phi'(1): dF/dx = 2 E* a keeps its ratio
+  const auto [value, slope] = shape.at(u);
+  return {force_scale * top * value, force_scale * per_length * top * slope / (span * x_max),
+          radius_scale * top_radius * slope / shape.exponent, delta_max};
 }
 
 }  // namespace granulaw

@@ -26,20 +26,20 @@ FastCurve::FastCurve(const ContactCurve& curve)
   if (x_end_ < lowest_) return;  // the curve answers alone
   const std::size_t count = index(x_end_) + 1;
   intervals_.resize(count);
-  work_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double low = std::bit_cast<double>(first_bits + (static_cast<std::uint64_t>(k) << shift));
     const double high = std::bit_cast<double>(first_bits + (static_cast<std::uint64_t>(k + 1) << shift));
     // the last interval is sampled up to x_end only: beyond, the curve's residual ratio and exponent stand
     // still
     const double width = std::min(high, x_end_) > low ? (std::min(high, x_end_) - low) / (high - low) : 1.0;
-    double radius[4], steepness[4], exponent[4], work[4];
+    double radius[4], steepness[4], exponent[4], foot[4], work[4];
     for (int p = 0; p < 4; ++p) {
       const double x = low + width * (high - low) * p / 3.0;
       const ContactCurve::Turning turning = curve.turning(x);
       radius[p] = turning.radius;
       steepness[p] = 1.0 / (1.0 - turning.residual / x);
-      exponent[p] = turning.exponent;
+      exponent[p] = turning.shape.exponent;
+      foot[p] = turning.shape.foot;
       work[p] = curve.work_loading(x) - curve.work_unloading(x);
     }
     double c[4];
@@ -49,7 +49,10 @@ FastCurve::FastCurve(const ContactCurve& curve)
     intervals_[k].turn.set(0, c);
     fit(exponent, width, c);
     intervals_[k].turn.set(1, c);
-    fit(work, width, work_[k].cubic);
+    fit(foot, width, c);
+    intervals_[k].rest.set(0, c);
+    fit(work, width, c);
+    intervals_[k].rest.set(1, c);
 
     const double h = width * (high - low);
     const ContactCurve::Loading begin = curve.loading(low), end = curve.loading(low + h);
@@ -61,12 +64,7 @@ FastCurve::FastCurve(const ContactCurve& curve)
 
 std::size_t FastCurve::bytes() const
 {
-  return intervals_.size() * sizeof(Interval) + work_.size() * sizeof(Work) + axis_.bytes();
-}
-
-double FastCurve::work(double x) const
-{
-  return cubic(work_[index(x)].cubic, position(x));
+  return intervals_.size() * sizeof(Interval) + axis_.bytes();
 }
 
 double FastCurve::dissipated(double from, double to, double impact_overlap) const
@@ -97,7 +95,7 @@ double FastCurve::far_unloading(double x_max, double ratio, double impact_overla
 {
   const ContactCurve::Turning turning = curve_->turning(x_max, impact_overlap);
   const double residual = turning.residual / x_max, u = (ratio - residual) / (1.0 - residual);
-  return u <= 0.0 ? 0.0 : turning.force * std::pow(u, turning.exponent);
+  return u <= 0.0 ? 0.0 : turning.force * turning.shape.at(u).value;
 }
 
 }  // namespace granulaw

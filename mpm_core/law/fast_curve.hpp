@@ -8,7 +8,6 @@
 
 #include "law/contact_curve.hpp"
 #include "law/fast_axis.hpp"
-#include "law/fast_pow.hpp"
 
 namespace granulaw {
 
@@ -22,9 +21,9 @@ namespace granulaw {
 ///                                exactly, and continuous
 ///     radius    a(x)             this and the following: equal to the curve at four equidistant points
 ///     steepness 1/(1 - rho), rho = delta_r/delta_m: u = 1 - (1 - delta/delta_m) steepness, no division
-///     exponent  n
+///     exponent  n, and foot A
 ///     work      W_load - W_unload: spent on plastic strain (quasi-static)
-/// One cache line for the loading branch, two for unloading. An inertia axis is laid out anew: FastAxis.
+/// One cache line for the loading branch, three for unloading. An inertia axis is laid out anew: FastAxis.
 /// Below 2^-40 and beyond x_end the curve itself answers. Errors against the curve:
 /// tests/unit/fast_curve_test.cpp; speed: tests/benchmarks/law_benchmark.cpp.
 ///
@@ -54,7 +53,7 @@ class FastCurve
     const Place p = at(x_max);
     const Turn turn = turn_at(p, p.force(), x_max, impact_overlap);
     const double u = 1.0 - (1.0 - ratio) * turn.steepness;
-    return u <= 0.0 ? 0.0 : turn.force * fast_pow(u, turn.exponent);
+    return u <= 0.0 ? 0.0 : turn.force * turn.shape.at(u).value;
   }
 
   /// As ContactCurve::evaluate.
@@ -77,10 +76,11 @@ class FastCurve
     const double per_delta_max = 1.0 / delta_max;
     const double u = 1.0 - (1.0 - delta * per_delta_max) * turn.steepness;
     if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
-    // F = F_m u^n; du/d(delta) = steepness/delta_max; a = a_m u^(n-1), as ContactCurve
-    const double below = fast_pow(u, turn.exponent - 1.0), force = force_scale * turn.force * below;
-    return {force * u, force * turn.exponent * turn.steepness * per_delta_max, radius_scale * top[1] * below,
-            delta_max};
+    // du/d(delta) = steepness/delta_max; a = a_m phi'(u)/phi'(1), as ContactCurve
+    const auto [value, slope] = turn.shape.at(u);
+    const double force = force_scale * turn.force;
+    return {force * value, force * slope * turn.steepness * per_delta_max,
+            radius_scale * top[1] * slope / turn.shape.exponent, delta_max};
   }
 
   /// Work spent on plastic strain by a quasi-static contact whose largest overlap is x_max: a function of
@@ -103,6 +103,7 @@ class FastCurve
   {
     CubicPair loading;  // force, radius
     CubicPair turn;     // steepness, exponent
+    CubicPair rest;     // foot, work
   };
 
   struct Place
@@ -113,7 +114,8 @@ class FastCurve
   };
   struct Turn
   {
-    double force, steepness, exponent;
+    double force, steepness;
+    UnloadingShape shape;
   };
 
   static constexpr std::uint64_t first_bits = static_cast<std::uint64_t>(1023 + lowest_exponent) << 52;
@@ -133,7 +135,11 @@ class FastCurve
   bool in_table(double x) const { return x >= lowest_ && x <= x_end_; }
   bool corrected(double impact_overlap) const { return impact_overlap > corrected_from_; }
   Place at(double x) const { return {intervals_[index(x)], position(x)}; }
-  double work(double x) const;
+  double work(double x) const
+  {
+    const Place p = at(x);
+    return p.i.rest.both(p.t)[1];
+  }
 
   ContactCurve::Loading loading(double x, double impact_overlap) const
   {
@@ -148,10 +154,11 @@ class FastCurve
   }
   Turn turn_at(const Place& p, double force, double x_max, double impact_overlap) const
   {
-    const Two shape = p.i.turn.both(p.t);
-    if (!corrected(impact_overlap)) return {force, shape[0], shape[1]};
+    const Two turn = p.i.turn.both(p.t);
+    const UnloadingShape shape{turn[1], std::max(0.0, p.i.rest.first(p.t))};
+    if (!corrected(impact_overlap)) return {force, turn[0], shape};
     const InertiaAxis::TurnCorrection c = axis_.turn(x_max, impact_overlap);
-    return {force * (1.0 + c.force), c.corrected_steepness(shape[0]), c.corrected_exponent(shape[1])};
+    return {force * (1.0 + c.force), c.corrected_steepness(turn[0]), c.corrected_shape(shape)};
   }
   // Beyond the table, out of line: the loop stays small.
   ContactCurve::Loading far_loading(double x, double impact_overlap) const;
@@ -160,11 +167,6 @@ class FastCurve
                             double impact_overlap) const;
 
   std::vector<Interval> intervals_;
-  struct Work
-  {
-    double cubic[4];
-  };
-  std::vector<Work> work_;  // read by ledgers only: apart
   const ContactCurve* curve_ = nullptr;
   FastAxis axis_;  // the curve's
   double lowest_ = 0, x_end_ = 0, onset_ = 0;

@@ -16,40 +16,40 @@ inline constexpr const char* format = "format";
 inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
-inline constexpr int major = 1;  ///< counts up where an old reader would misread the file
-inline constexpr int minor = 3;  ///< counts up where something is only added
+inline constexpr int major = 2;  ///< counts up where an old reader would misread the file
+inline constexpr int minor = 0;  ///< counts up where something is only added
 
 // Attributes of every dataset.
 inline constexpr const char* unit = "unit";
 inline constexpr const char* legend = "legend";
 
 // Groups and the one text dataset.
-inline constexpr const char* provenance = "provenance";    ///< group; string attributes
-inline constexpr const char* pairs = "pairs";              ///< dataset of "a:b" and "a:wall"
-inline constexpr const char* bodies = "bodies";            ///< group; one subgroup for each material
-inline constexpr const char* material = "material";        ///< bodies/<name>/material, scalars
-inline constexpr const char* curve = "curve";              ///< bodies/<name>/curve, nodes
-inline constexpr const char* certificate = "certificate";  ///< bodies/<name>/certificate, scalars
-inline constexpr const char* support = "support";          ///< string attribute of certificate
-inline constexpr const char* origin = "origin";            ///< the same, since minor 1: "runs" or "atlas"
-inline constexpr const char* body = "body";  ///< string attribute of bodies/<name>, since minor 1
-inline constexpr const char* inertia_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, since minor 1
+inline constexpr const char* provenance = "provenance";      ///< group; string attributes
+inline constexpr const char* pairs = "pairs";                ///< dataset of "a:b" and "a:wall"
+inline constexpr const char* bodies = "bodies";              ///< group; one subgroup for each material
+inline constexpr const char* material = "material";          ///< bodies/<name>/material, scalars
+inline constexpr const char* curve = "curve";                ///< bodies/<name>/curve, nodes
+inline constexpr const char* certificate = "certificate";    ///< bodies/<name>/certificate, scalars
+inline constexpr const char* support = "support";            ///< string attribute of certificate
+inline constexpr const char* origin = "origin";              ///< the same: "runs" or "atlas"
+inline constexpr const char* body = "body";                  ///< string attribute of bodies/<name>
+inline constexpr const char* inertia_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, if it has one
 inline constexpr const char* kind = "kind";                  ///< string attribute of it
 inline constexpr const char* kind_inertia = "inertia";
-inline constexpr const char* kind_rate = "logarithmic rate";  ///< since minor 3
+inline constexpr const char* kind_rate = "logarithmic rate";
 
-// Since minor 2: laws of pairs of their own
+// Laws of pairs of their own, if there are any
 inline constexpr const char* pair_laws = "pair_laws";  ///< group; one subgroup "a:b" for each, as in `pairs`
 inline constexpr Field radius_ratio_of_runs{"radius_ratio_of_runs", "1",
                                             "partner's radius over the yielding body's in the runs"};
 
-// Beside `pairs`, in its order, since minor 1.
+// Beside `pairs`, in its order.
 inline constexpr Field pair_reduction_error_force{
     "pair_reduction_error_force", "1", "relative error of F_max by the pair rule, for each of pairs"};
 inline constexpr Field pair_reduction_error_restitution{
     "pair_reduction_error_restitution", "1", "relative error of e by the pair rule, for each of pairs"};
 
-// bodies/<name>, since minor 1
+// bodies/<name>
 inline constexpr Field pole_radius{"pole_radius", "m",
                                    "radius of curvature at the pole, as computed; 0: any (spheres)"};
 inline constexpr Field mass_ratio{"mass_ratio", "1", "mass over density 4/3 pi R^3, R at the pole"};
@@ -70,8 +70,11 @@ inline constexpr Field force_ratio{"force_ratio", "1", "loading force over Hertz
 inline constexpr Field force_ratio_slope{"force_ratio_slope", "1", "d(force_ratio)/ds"};
 inline constexpr Field residual_ratio{"residual_ratio", "1", "residual overlap over largest overlap x"};
 inline constexpr Field residual_ratio_slope{"residual_ratio_slope", "1", "d(residual_ratio)/ds"};
-inline constexpr Field exponent{"exponent", "1", "n of the unloading F = F_m u^n"};
+inline constexpr Field exponent{"exponent", "1",
+                                "n = d ln F/d ln u at the turn, of the unloading F = F_m phi(u)"};
 inline constexpr Field exponent_slope{"exponent_slope", "1", "d(exponent)/ds"};
+inline constexpr Field foot{"foot", "1", "A of phi = A u^1.5 + B u^2 + C u^2.5"};
+inline constexpr Field foot_slope{"foot_slope", "1", "d(foot)/ds"};
 inline constexpr Field radius_ratio{"radius_ratio", "1", "contact radius over Hertz's R sqrt(x)"};
 inline constexpr Field radius_ratio_slope{"radius_ratio_slope", "1", "d(radius_ratio)/ds"};
 
@@ -118,7 +121,6 @@ inline constexpr Field verification_error_restitution{"verification_error_restit
 inline constexpr Field verification_impacts{"verification_impacts", "1",
                                             "number of impacts compared; 0: none"};
 inline constexpr Field max_inertia{"max_inertia", "1", "I = rho V^2/Y up to which the law holds"};
-// since minor 1
 inline constexpr Field axis_cost_force{
     "axis_cost_force", "1", "F_max without the inertia axis over F_max with it, less 1, at its end; signed"};
 inline constexpr Field axis_cost_restitution{

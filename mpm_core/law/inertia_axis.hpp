@@ -7,6 +7,7 @@
 
 #include "law/cubic.hpp"
 #include "law/slice_scale.hpp"
+#include "law/unloading.hpp"
 
 namespace granulaw {
 
@@ -41,7 +42,7 @@ namespace granulaw {
 ///                         with speed_begin() and counts
 ///         force_correction A      F_L = F_qs(x) (1 + A)
 ///         residual_correction B   residual ratio = rho_qs(x_m) + B, kept within 0 to 0.999995
-///         exponent_correction N   n = n_qs(x_m) + N, kept within 1 to 12
+///         exponent_correction N   n = n_qs(x_m) + N, kept where the unloading rises
 /// Cubic Hermite in xi, so that the stiffness is continuous; linear in X, or in octaves(X), in which nothing
 /// is ever derived. Beyond ratio_end: A = 0 (its last value and slope are), B and N keep their last values.
 /// The contact radius is not corrected.
@@ -113,7 +114,11 @@ class InertiaAxis
       const double rest = 1.0 - residual * steepness;
       return rest > 5e-6 * steepness ? std::max(steepness / rest, 1.0) : 2e5;
     }
-    double corrected_exponent(double n) const { return std::clamp(n + exponent, 1.0, 12.0); }
+    UnloadingShape corrected_shape(UnloadingShape s) const
+    {
+      const double most = UnloadingShape::largest_exponent(s.foot);
+      return {std::min(std::max(s.exponent + exponent, UnloadingShape::least_exponent), most), s.foot};
+    }
   };
   TurnCorrection turn(double x_m, double impact_overlap) const
   {

@@ -42,6 +42,8 @@ constexpr CurveField curve_fields[] = {{h5::force_ratio, &Table::force_ratio},
                                        {h5::residual_ratio_slope, &Table::residual_ratio_slope},
                                        {h5::exponent, &Table::exponent},
                                        {h5::exponent_slope, &Table::exponent_slope},
+                                       {h5::foot, &Table::foot},
+                                       {h5::foot_slope, &Table::foot_slope},
                                        {h5::radius_ratio, &Table::radius_ratio},
                                        {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
 
@@ -65,7 +67,6 @@ struct CertificateField
   const h5::Field& field;
   double Certificate::*value;
   bool is_signed = false;
-  int since_minor = 0;  // a file older than that has its default
 };
 constexpr CertificateField certificate_fields[] = {
     {h5::solver_error_force, &Certificate::solver_error_force},
@@ -80,10 +81,10 @@ constexpr CertificateField certificate_fields[] = {
     {h5::verification_error_restitution, &Certificate::verification_error_restitution},
     {h5::verification_impacts, &Certificate::verification_impacts},
     {h5::max_inertia, &Certificate::max_inertia},
-    {h5::axis_cost_force, &Certificate::axis_cost_force, true, 1},
-    {h5::axis_cost_restitution, &Certificate::axis_cost_restitution, true, 1},
-    {h5::atlas_error_force, &Certificate::atlas_error_force, false, 1},
-    {h5::atlas_error_restitution, &Certificate::atlas_error_restitution, false, 1}};
+    {h5::axis_cost_force, &Certificate::axis_cost_force, true},
+    {h5::axis_cost_restitution, &Certificate::axis_cost_restitution, true},
+    {h5::atlas_error_force, &Certificate::atlas_error_force},
+    {h5::atlas_error_restitution, &Certificate::atlas_error_restitution}};
 constexpr const char* origins[] = {"runs", "atlas"};
 
 struct PairField
@@ -223,8 +224,6 @@ InertiaAxis::Table read_axis(hid_t body, const std::string& where)
   const h5::Handle group = h5::open_group(body, h5::inertia_axis, where);
   InertiaAxis::Table axis;
   const std::string kind = h5::read_text_attribute(group, h5::kind, where);
-  if (kind == "rate")  // minors 1 and 2: evenly spaced slices from no rate at all
-    fail(where, "a rate-dependent law of an older version: build it again with `mpm table`");
   if (kind != h5::kind_inertia && kind != h5::kind_rate)
     fail(where, "unknown 'kind' of the inertia axis", shortened(kind),
          fmt::format("{}, {}", h5::kind_inertia, h5::kind_rate));
@@ -285,10 +284,9 @@ Certificate read_certificate(hid_t group, const std::string& where)
   const h5::Handle k = h5::open_group(group, h5::certificate, where);
   Certificate certificate;
   for (const CertificateField& f : certificate_fields)
-    if (f.since_minor == 0 || h5::has_link(k, f.field.name))
-      certificate.*f.value = h5::read_scalar(k, f.field, where);
+    certificate.*f.value = h5::read_scalar(k, f.field, where);
   certificate.support = h5::read_text_attribute(k, h5::support, where);
-  if (H5Aexists(k, h5::origin) > 0) certificate.origin = h5::read_text_attribute(k, h5::origin, where);
+  certificate.origin = h5::read_text_attribute(k, h5::origin, where);
   return certificate;
 }
 
@@ -317,11 +315,9 @@ BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
 
   body.curve = read_curve(group, where);
   body.certificate = read_certificate(group, where);
-  if (H5Aexists(group, h5::body) > 0) body.body = h5::read_text_attribute(group, h5::body, where);
-  if (h5::has_link(group, h5::pole_radius.name))
-    body.pole_radius = h5::read_scalar(group, h5::pole_radius, where);
-  if (h5::has_link(group, h5::mass_ratio.name))
-    body.mass_ratio = h5::read_scalar(group, h5::mass_ratio, where);
+  body.body = h5::read_text_attribute(group, h5::body, where);
+  body.pole_radius = h5::read_scalar(group, h5::pole_radius, where);
+  body.mass_ratio = h5::read_scalar(group, h5::mass_ratio, where);
 
   check_body(body, where);
   return body;
@@ -358,6 +354,8 @@ h5::Handle open_law(const std::string& path)
   if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != h5::format_value)
     fail(path, "is an HDF5 file but not a contact law of granulaw");
   const int major = h5::read_int_attribute(file, h5::version_major, path);
+  if (major == 1)
+    fail(path, "a law of an older version, with another unloading: build it again with `mpm table`");
   if (major != h5::major)
     fail(path, "the law file's major version is not the one this program reads", std::to_string(major),
          std::to_string(h5::major));
@@ -394,7 +392,6 @@ Law read_law(const std::string& path)
     law.pairs.push_back({pair.substr(0, colon), pair.substr(colon + 1)});
   }
   for (const PairField& f : pair_fields) {
-    if (!h5::has_link(file, f.field.name)) continue;
     const std::vector<double> errors = h5::read_vector(file, f.field, most_pairs, path);
     if (errors.size() != law.pairs.size())
       fail(path, fmt::format("'{}' has the wrong length", f.field.name), std::to_string(errors.size()),

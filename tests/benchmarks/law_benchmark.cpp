@@ -48,6 +48,11 @@ double exponent(double s)
   const double q = past(s);
   return 1.507 - 0.1 * q * q / (1 + q * q);
 }
+double foot(double s)
+{
+  const double q = past(s);
+  return 0.95 - 0.5 * q * q / (1 + q * q);
+}
 double radius(double s)
 {
   const double q = past(s);
@@ -69,6 +74,7 @@ ContactCurve::Table sampled()
   fill(force_ratio, t.force_ratio, t.force_ratio_slope);
   fill(residual, t.residual_ratio, t.residual_ratio_slope);
   fill(exponent, t.exponent, t.exponent_slope);
+  fill(foot, t.foot, t.foot_slope);
   fill(radius, t.radius_ratio, t.radius_ratio_slope);
   return t;
 }
@@ -107,7 +113,7 @@ double exact(double x, double x_m)
   const double f = std::pow(top, 1.5) * force_ratio(s);
   if (x >= x_m || x_m <= onset) return std::pow(x, 1.5) * force_ratio(std::pow(x, 0.25));
   const double u = (x / top - residual(s)) / (1 - residual(s));
-  return u <= 0 ? 0 : f * std::pow(u, exponent(s));
+  return u <= 0 ? 0 : f * granulaw::UnloadingShape{exponent(s), foot(s)}.at(u).value;
 }
 
 /// Contacts as a flow has them: overlaps spread over decades, the largest of them a tenth to 1.3 of X.

@@ -59,6 +59,7 @@ ContactCurve::Table thinned(ContactCurve::Table t, std::size_t nodes)
   resample(t.force_ratio, t.force_ratio_slope, nodes, h);
   resample(t.residual_ratio, t.residual_ratio_slope, nodes, h);
   resample(t.exponent, t.exponent_slope, nodes, h);
+  resample(t.foot, t.foot_slope, nodes, h);
   resample(t.radius_ratio, t.radius_ratio_slope, nodes, h);
   return t;
 }

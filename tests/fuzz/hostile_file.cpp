@@ -17,7 +17,7 @@ using Values = std::vector<double>;
 
 const std::vector<std::string> material = {"density", "youngs_modulus", "poisson_ratio", "yield_stress",
                                            "hardening_modulus"};
-const std::vector<std::string> lists = {"force_ratio", "residual_ratio", "exponent", "radius_ratio"};
+const std::vector<std::string> lists = {"force_ratio", "residual_ratio", "exponent", "foot", "radius_ratio"};
 const std::vector<std::string> certificate = {"held_out_error", "slow_press_force", "max_inertia",
                                               "axis_cost_force", "atlas_error_restitution"};
 const std::vector<std::string> axis = {

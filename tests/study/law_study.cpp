@@ -4,8 +4,8 @@
 //     overlaps: the largest |F_law - F|/F_max on loading and on un- and reloading, and the area of the reload
 //     loops, which the law leaves out, over the work put in.
 //
-//   law_study FOLDER --atlas ATLAS.h5 [--impacts N] [--threads N] [--seed N]    runs are kept in FOLDER and
-//   not made again
+//   law_study FOLDER --atlas ATLAS.h5 [--impacts N] [--threads N] [--seed N] [--each]    runs are kept in
+//   FOLDER and not made again
 //
 // Prints three lines a material. The force of a press is as computed, with the ripple of the contact edge.
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ std::string worst(std::vector<double> errors)
 
 /// Largest deviations of the law from the run's force along its path, over the run's largest force: on virgin
 /// loading, where the run has the ripple of the contact edge, and on unloading and reloading, where the law
-/// has u^n.
+/// has one curve.
 struct PathErrors
 {
   double loading = 0, unloading = 0;
@@ -64,7 +64,8 @@ PathErrors path_errors(const PairLaw& law, const RunResult& run)
   return {errors.loading / largest, errors.unloading / largest};
 }
 
-void study(const Atlas& atlas, const MaterialRatios& m, int impacts, std::mt19937& random, Farm& farm)
+void study(const Atlas& atlas, const MaterialRatios& m, int impacts, std::mt19937& random, Farm& farm,
+           bool each)
 {
   const LawMaterial material = dimensionless(m);
   const Subject subject = subject_of(m.stiffness, m.poisson_ratio, m.hardening);
@@ -101,6 +102,10 @@ void study(const Atlas& atlas, const MaterialRatios& m, int impacts, std::mt1993
     e.push_back(replay.restitution - run.restitution);
     force.push_back(replay.force_max / run.force_max - 1);
     time.push_back(replay.contact_time / run.contact_time - 1);
+    if (each)
+      fmt::print("  sqrt(I) {:.5f}  delta/R {:.5f}  e {:.4f} {:+.4f}  F {:+.2f} %  time {:+.2f} %\n",
+                 velocities[static_cast<std::size_t>(k)] * std::sqrt(m.stiffness), run.delta_max,
+                 run.restitution, e.back(), 100 * force.back(), 100 * time.back());
   }
   fmt::print("E*/Y {:g}, nu {:g}, H/E {:g}: {} impacts: e {}, F {}, time {}\n", m.stiffness, m.poisson_ratio,
              m.hardening, e.size(), worst(e), worst(force), worst(time));
@@ -125,11 +130,13 @@ int main(int argc, char** argv)
   std::string folder, atlas_file;
   int impacts = 50, threads = 1;
   unsigned seed = 1;
+  bool each = false;
   app.add_option("folder", folder)->required();
   app.add_option("--atlas", atlas_file)->required();
   app.add_option("--impacts", impacts)->check(CLI::Range(1, 1000));
   app.add_option("--threads", threads)->check(CLI::Range(1, 256));
   app.add_option("--seed", seed);
+  app.add_flag("--each", each, "a line for each impact, too");
   CLI11_PARSE(app, argc, argv);
   try {
     const Atlas atlas = read_atlas(atlas_file);
@@ -137,7 +144,7 @@ int main(int argc, char** argv)
     std::mt19937 random(seed);
     for (const MaterialRatios& m :
          {MaterialRatios{100, 0.3, 0}, {30, 0.3, 0}, {500, 0.25, 0.01}, {1500, 0.35, 0}})
-      study(atlas, m, impacts, random, farm);
+      study(atlas, m, impacts, random, farm, each);
   } catch (const Error& error) {
     fmt::print(stderr, "law_study: {}\n", error.what());
     return 2;

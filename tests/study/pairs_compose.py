@@ -48,8 +48,9 @@ class Body:
     def residual(self, x):
         return 0 * x if self.elastic else np.where(x <= self.onset, 0, self._value("residual_ratio", x))
 
-    def exponent(self, x):
-        return 1.5 + 0 * x if self.elastic else self._value("exponent", x)
+    def unloading_work(self, x):
+        """Given back, over F_m (x_m - x_r)."""
+        return 0.4 + 0 * x if self.elastic else (11 - 2 * self._value("exponent", x)) / 21 + self._value("foot", x) * 2 / 105
 
     def softer(self, x, a, flat, true):
         """Hardness at a/true over that at a/flat, where the body is plastic."""
@@ -79,7 +80,7 @@ def composed(s, h, radius_ratio, count=1500):
         low, high = np.where(higher, r_s, low), np.where(higher, high, r_s)
     force = np.pi * a**2 * p
     finite = -K * force * ((1 - 1 / r_s) / s.e_star + (1 / radius_ratio - 1 / r_h) / h.e_star)
-    back = [force * r * x * (1 - b.residual(x)) / (b.exponent(x) + 1) for b, x, r in ((s, x_s, r_s), (h, x_h, r_h))]
+    back = [force * r * x * (1 - b.residual(x)) * b.unloading_work(x) for b, x, r in ((s, x_s, r_s), (h, x_h, r_h))]
     return curve_of(force, r_s * x_s + r_h * x_h + finite, back[0] + back[1] + 0.5 * force * finite)
 
 
@@ -87,7 +88,7 @@ def present(s, stiffness, radius_ratio):
     x = np.geomspace(1e-6, s.end, 1500)
     lam, r_eff = (1 + 1 / stiffness) ** 2, 1 / (1 + 1 / radius_ratio)
     force, overlap = s.force(x) * lam * r_eff**2, lam * r_eff * x
-    return curve_of(force, overlap, force * overlap * (1 - s.residual(x)) / (s.exponent(x) + 1))
+    return curve_of(force, overlap, force * overlap * (1 - s.residual(x)) * s.unloading_work(x))
 
 
 def impact(curve, energy):

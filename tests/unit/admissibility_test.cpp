@@ -27,8 +27,9 @@ TEST(Admissibility, ANegativeMarginIsACycleThatGainsEnergy)
   // Softer exponent with depth: the unloading work grows faster than the loading work does.
   ContactCurve::Table table = SyntheticLaw{}.table();
   for (std::size_t k = 0; k < table.exponent.size(); ++k) {
-    table.exponent[k] = k > 100 ? 1.0 : 3.0;
-    table.exponent_slope[k] = 0;
+    table.exponent[k] = k > 100 ? 1.0 : 2.2;
+    table.foot[k] = 1;
+    table.exponent_slope[k] = table.foot_slope[k] = 0;
     table.residual_ratio[k] = 0;
     table.residual_ratio_slope[k] = 0;
   }

@@ -21,15 +21,17 @@ TEST(ContactCurve, ReproducesCubicsBetweenItsNodes)
   const auto g = [](double s) { return 1.0 + 0.3 * s - 0.8 * s * s + 0.5 * s * s * s; };
   const auto rho = [](double s) { return 0.9 * s * s; };
   const auto n = [](double s) { return 1.5 - 0.1 * s * s * s; };
+  const auto foot = [](double s) { return 1.0 + 0.5 * s * s - s * s * s; };
   const auto a = [](double s) { return 1.0 + s; };
-  const ContactCurve curve(sample_table(0.6, 0.0, 7, g, rho, n, a), "test");
+  const ContactCurve curve(sample_table(0.6, 0.0, 7, g, rho, n, foot, a), "test");
   for (int k = 1; k < 100; ++k) {
     const double s = 0.6 * k / 100, x = s * s * s * s;
     // 1e-9: sample_table's finite-difference slopes
     EXPECT_NEAR(curve.loading(x).force, std::pow(x, 1.5) * g(s), 1e-9 * std::pow(x, 1.5));
     EXPECT_NEAR(curve.loading(x).radius, std::sqrt(x) * a(s), 1e-9 * std::sqrt(x));
     EXPECT_NEAR(curve.turning(x).residual, x * rho(s), 1e-9 * x);
-    EXPECT_NEAR(curve.turning(x).exponent, n(s), 1e-9);
+    EXPECT_NEAR(curve.turning(x).shape.exponent, n(s), 1e-9);
+    EXPECT_NEAR(curve.turning(x).shape.foot, foot(s), 1e-9);
   }
 }
 
@@ -138,6 +140,9 @@ TEST(ContactCurve, RefusesUnusableTables)
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.exponent.pop_back(); }), "x"), Error);
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.residual_ratio[5] = 1.0; }), "x"), Error);
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.exponent[5] = 0.9; }), "x"), Error);
+  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.foot.pop_back(); }), "x"), Error);
+  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.foot[5] = -0.01; }), "x"), Error);
+  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.foot[5] = 4.5; }), "x"), Error);  // A + 4 n > 10
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.s_end = 0; }), "x"), Error);
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.onset = NAN; }), "x"), Error);
 }

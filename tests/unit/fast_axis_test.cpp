@@ -35,7 +35,7 @@ TEST_P(FastAxis, IsTheAxisToRounding)
     const InertiaAxis::TurnCorrection c = axis.turn(x, X), d = fast.turn(x, X);
     EXPECT_NEAR(c.force, d.force, 1e-13);
     EXPECT_NEAR(c.residual, d.residual, 1e-13);
-    EXPECT_NEAR(c.exponent, d.exponent, 1e-12);  // up to 10
+    EXPECT_NEAR(c.exponent, d.exponent, 1e-12);  // of order one
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -20,6 +21,7 @@ Pressing rippled_press(const ContactCurve& curve, double depth, double ripple, i
   Pressing press;
   press.depth = depth;
   press.residual = curve.turning(depth).residual;
+  press.foot = curve.turning(depth).shape.foot;
   press.work_ratio = curve.work_unloading(depth) / curve.work_loading(depth);
   const double a_max = curve.loading(depth).radius;
   for (int k = 1; k <= 400; ++k) {
@@ -112,37 +114,47 @@ TEST(FitCurve, ElasticFitRecoversItsCoefficients)
     EXPECT_NEAR(curve.loading(x).force / (std::pow(x, 1.5) * (1 + 0.87 * std::sqrt(x) + 0.4 * x)), 1, 1e-7);
 }
 
-/// u^n from x = 0.1 to `residual`, then nothing to the overlap `touched`.
-std::vector<PathPoint> power_law(double n, double residual, double touched)
+/// phi(u) from x = 0.1 to `residual`, then nothing to the overlap `touched`.
+UnloadingPath path_of(const UnloadingShape& shape, double residual, double touched)
 {
-  std::vector<PathPoint> path;
+  UnloadingPath path;
   constexpr int count = 2000;
   for (int k = 0; k <= count; ++k) {
     const double u = 1 - static_cast<double>(k) / count;
-    path.push_back({residual + (0.1 - residual) * u, std::pow(u, n)});
+    path.push_back({residual + (0.1 - residual) * u, shape.at(u).value});
   }
   if (touched < residual) path.push_back({touched, 0});
   return path;
 }
 
-TEST(Pressing, UnloadingThatIsAPowerLawKeepsItsResidual)
+TEST(Pressing, UnloadingOfTheLawsShapeIsRecovered)
 {
-  // the path's straight pieces leave 2e-7
-  for (const double n : {1.2, 1.5, 2.0})
-    EXPECT_NEAR(residual_as_long(power_law(n, 0.06, 0.06), 1), 0.06, 1e-6);
+  for (const UnloadingShape& shape :
+       {UnloadingShape{1.2, 1.5}, {1.5, 1.0}, {1.5, 0.3}, {1.9, 0.1}, {2.0, 0}}) {
+    const UnloadingPath path = path_of(shape, 0.06, 0.06);
+    const UnloadingFit fit = fit_unloading(path, 1);
+    // the path's straight pieces leave 2e-7; a foot is 50 times as sensitive
+    EXPECT_NEAR(fit.residual, 0.06, 1e-6);
+    EXPECT_NEAR(fit.foot, shape.foot, 1e-3);
+    EXPECT_NEAR(residual_as_long(path, 1, shape.foot), 0.06, 1e-6);
+  }
 }
 
 TEST(Pressing, UnloadingEndsWhereItTakesAsLong)
 {
-  // After u^n the body coasts over 0.002 at its speed of rebound: all that it adds to the time is 0.002/V,
-  // and with t(r) = (x_m - r)/V f(n), f = int du/sqrt(1 - u^(n+1)), n = (x_m - r)/W - 1, the r asked for
-  // obeys t(r) = t(0.06) + 0.002/V.
-  const double residual = residual_as_long(power_law(1.5, 0.06, 0.058), 1);
+  // After u^1.5 the body coasts over 0.002 at its speed of rebound: all that it adds to the time is 0.002/V,
+  // and with t(r) = (x_m - r)/V f, f = int du/sqrt(1 - W(u)/W(1)) of the shape that gives the work back over
+  // that span, the r asked for obeys t(r) = t(0.06) + 0.002/V.
+  const double residual = residual_as_long(path_of({1.5, 1}, 0.06, 0.058), 1, 1);
   const double work = 0.04 / 2.5;
   const auto time = [&](double r) {
-    const double p = (0.1 - r) / work;  // n + 1
-    return (0.1 - r) * std::beta(1 / p, 0.5) / p;
+    const UnloadingShape shape{UnloadingShape::exponent_of(work / (0.1 - r), 1), 1};
+    const auto of_v = [&](double v) { return 2 * v / std::sqrt(1 - shape.work(1 - v * v) / shape.work()); };
+    return (0.1 - r) *
+           boost::math::quadrature::gauss_kronrod<double, 61>::integrate(of_v, 0.0, 1.0, 10, 1e-10);
   };
+  // Hertz's rebound: f = int du/sqrt(1 - u^2.5) = beta(0.4, 0.5)/2.5
+  EXPECT_NEAR(time(0.06), 0.04 * std::beta(0.4, 0.5) / 2.5, 1e-8);
   EXPECT_NEAR(time(residual), time(0.06) + 0.002, 1e-6);
   EXPECT_LT(residual, 0.06);
   EXPECT_GT(residual, 0.055);

@@ -111,6 +111,7 @@ TEST_F(LawFile, RoundTripIsBitExact)
     EXPECT_TRUE(same_bits(a.residual_ratio, b.residual_ratio) &&
                 same_bits(a.residual_ratio_slope, b.residual_ratio_slope));
     EXPECT_TRUE(same_bits(a.exponent, b.exponent) && same_bits(a.exponent_slope, b.exponent_slope));
+    EXPECT_TRUE(same_bits(a.foot, b.foot) && same_bits(a.foot_slope, b.foot_slope));
     EXPECT_TRUE(same_bits(a.radius_ratio, b.radius_ratio) &&
                 same_bits(a.radius_ratio_slope, b.radius_ratio_slope));
   }
@@ -165,27 +166,19 @@ TEST_F(LawFile, TheAxisTheBodyAndThePairErrorsComeBackBitExact)
   }
 }
 
-TEST_F(LawFile, AFileOfMinorVersionZeroStillReads)
+TEST_F(LawFile, WhatIsMissingIsNamed)
 {
-  const std::string sentence = after([](hid_t f) {
-    const char* sets[] = {"pair_reduction_error_force",
-                          "pair_reduction_error_restitution",
-                          "bodies/powder/pole_radius",
-                          "bodies/powder/mass_ratio",
-                          "bodies/powder/certificate/axis_cost_force",
-                          "bodies/powder/certificate/axis_cost_restitution",
-                          "bodies/powder/certificate/atlas_error_force",
-                          "bodies/powder/certificate/atlas_error_restitution"};
-    for (const char* set : sets) ASSERT_GE(H5Ldelete(f, set, H5P_DEFAULT), 0) << set;
-    ASSERT_GE(H5Adelete_by_name(f, "bodies/powder", "body", H5P_DEFAULT), 0);
-    ASSERT_GE(H5Adelete_by_name(f, "bodies/powder/certificate", "origin", H5P_DEFAULT), 0);
-  });
-  ASSERT_EQ(sentence, "");
-  const BodyLaw powder = read_law(path_).bodies.at("powder");
-  EXPECT_TRUE(powder.is_sphere());
-  EXPECT_EQ(powder.mass_ratio, 1.0);
-  EXPECT_EQ(powder.certificate.origin, "runs");
-  EXPECT_EQ(powder.curve.axis(), nullptr);
+  for (const char* set : {"pair_reduction_error_force", "bodies/powder/pole_radius",
+                          "bodies/powder/curve/foot", "bodies/powder/certificate/axis_cost_force"}) {
+    const std::string sentence = after([&](hid_t f) { ASSERT_GE(H5Ldelete(f, set, H5P_DEFAULT), 0) << set; });
+    EXPECT_NE(sentence.find(fs::path(set).filename()), std::string::npos) << sentence;
+  }
+  for (const auto& [group, name] :
+       {std::pair{"bodies/powder", "body"}, {"bodies/powder/certificate", "origin"}}) {
+    const std::string sentence =
+        after([&](hid_t f) { ASSERT_GE(H5Adelete_by_name(f, group, name, H5P_DEFAULT), 0) << name; });
+    EXPECT_NE(sentence.find(name), std::string::npos) << sentence;
+  }
 }
 
 TEST_F(LawFile, UnusableAdditionsAreRefused)
@@ -277,14 +270,16 @@ TEST_F(LawFile, MissingAndForeignFilesAreRefused)
 
 TEST_F(LawFile, AnotherMajorVersionIsRefusedWithBothNumbers)
 {
-  const std::string sentence = after([](hid_t file) {
-    const hid_t attribute = H5Aopen(file, "version_major", H5P_DEFAULT);
-    const int next = 2;
-    H5Awrite(attribute, H5T_NATIVE_INT, &next);
-    H5Aclose(attribute);
-  });
-  EXPECT_NE(sentence.find("major version"), std::string::npos);
-  EXPECT_NE(sentence.find("found 2, allowed is 1"), std::string::npos) << sentence;
+  const auto of_version = [this](int version) {
+    return after([version](hid_t file) {
+      const hid_t attribute = H5Aopen(file, "version_major", H5P_DEFAULT);
+      H5Awrite(attribute, H5T_NATIVE_INT, &version);
+      H5Aclose(attribute);
+    });
+  };
+  EXPECT_NE(of_version(3).find("major version"), std::string::npos);
+  EXPECT_NE(of_version(3).find("found 3, allowed is 2"), std::string::npos) << of_version(3);
+  EXPECT_NE(of_version(1).find("older version"), std::string::npos) << of_version(1);
 }
 
 TEST_F(LawFile, UnusableNumbersAreRefused)

@@ -19,14 +19,14 @@ template <class Law>
 void stiffness_is_the_derivative(const Law& law, const ContactCurve& curve, double impact_overlap = 0)
 {
   const double s_m = curve.table().s_end * *rc::gen::inRange(1, 1150) / 1000.0, x_m = s_m * s_m * s_m * s_m;
-  const double x = x_m * *rc::gen::inRange(1, 2000) / 1000.0, step = 1e-6 * x;
+  const double x = x_m * *rc::gen::inRange(1, 2000) / 1000.0, step = 1e-7 * x;
   RC_PRE(std::abs(x - x_m) > 2 * step && std::abs(x - curve.x_end()) > 2 * step);
   const auto at = [&](double overlap) { return law.evaluate(unit_pair, 1.0, overlap, x_m, impact_overlap); };
   const ContactForce here = at(x);
   const double up = at(x + step).force, down = at(x - step).force;
   RC_PRE((up == 0) == (down == 0));
-  // central difference: truncation 1e-12, cancellation 1e-16/1e-6 of F/x; 1e-6 where a node's jump in F'' is
-  // crossed
+  // central difference: truncation 1e-14, cancellation 1e-16/1e-7 of F/x; up to 1e-7 times some where a
+  // node's jump in F'' is crossed
   RC_ASSERT(std::abs((up - down) / (2 * step) - here.stiffness) <= 1e-6 * (here.stiffness + here.force / x));
 }
 

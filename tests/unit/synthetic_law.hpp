@@ -13,6 +13,7 @@ inline ContactCurve::Table sample_table(double s_end, double onset, int count,
                                         const std::function<double(double)>& force_ratio,
                                         const std::function<double(double)>& residual_ratio,
                                         const std::function<double(double)>& exponent,
+                                        const std::function<double(double)>& foot,
                                         const std::function<double(double)>& radius_ratio)
 {
   ContactCurve::Table table;
@@ -30,30 +31,38 @@ inline ContactCurve::Table sample_table(double s_end, double onset, int count,
   fill(force_ratio, table.force_ratio, table.force_ratio_slope);
   fill(residual_ratio, table.residual_ratio, table.residual_ratio_slope);
   fill(exponent, table.exponent, table.exponent_slope);
+  fill(foot, table.foot, table.foot_slope);
   fill(radius_ratio, table.radius_ratio, table.radius_ratio_slope);
   return table;
 }
 
 /// A law with the features of a real one and nothing measured: past the onset, with q = ln(s/s_onset),
-/// F/F_Hertz falls as 1/sqrt(1 + b q^2 ...) towards F ~ x, the residual grows to `depth`, n stays near 1.5.
+/// F/F_Hertz falls as 1/sqrt(1 + b q^2 ...) towards F ~ x, the residual grows to `depth`, n and A stay near
+/// those of the elastic sphere.
 struct SyntheticLaw
 {
   double onset = 6.4e-4;  ///< of E*/Y = 100
   double x_end = 0.1;
   double softening = 1.6;  ///< ln(F/F_elastic) = -softening q^2/(1 + q)
   double depth = 1.1;      ///< residual ratio = 0.9999 (1 - exp(-depth q^2))
-  double bend = 0.05;      ///< exponent = elastic_exponent(s) + bend q^2/(1 + q^2)
+  double bend = 0.05;      ///< exponent = the elastic one + bend q^2/(1 + q^2); foot: less bend of it
 
   static constexpr double finite_sphere = 0.9;  ///< F_elastic = F_Hertz (1 + finite_sphere sqrt(x))
 
-  /// The n that makes the unloading work of F_m u^n equal to the loading work of F_elastic (plus 1e-9: an
-  /// admissible law must not return more than it took, not even by rounding).
-  static double elastic_exponent(double s)
+  /// Unloading along F_elastic itself (plus 1e-9: an admissible law must not return more than it took, not
+  /// even by rounding).
+  static UnloadingShape elastic_unloading(double s)
   {
     const double c = finite_sphere * s * s;
-    return (1 + c) / (0.4 + c / 3) - 1 + 1e-9;
+    return {(1.5 + 2 * c) / (1 + c) + 1e-9, 1 / (1 + c)};
   }
 
+  UnloadingShape unloading(double s) const
+  {
+    const double q = past(s, onset), more = bend * q * q / (1 + q * q);
+    const UnloadingShape elastic = elastic_unloading(s);
+    return {elastic.exponent + more, elastic.foot - more};
+  }
   double residual_ratio(double s) const
   {
     const double q = past(s, onset);
@@ -71,11 +80,8 @@ struct SyntheticLaw
           const double q = past(s, onset);
           return (1 + finite_sphere * s * s) * std::exp(-softening * q * q / (1 + q));
         },
-        [&](double s) { return residual_ratio(s); },
-        [&](double s) {
-          const double q = past(s, onset);
-          return elastic_exponent(s) + bend * q * q / (1 + q * q);
-        },
+        [&](double s) { return residual_ratio(s); }, [&](double s) { return unloading(s).exponent; },
+        [&](double s) { return unloading(s).foot; },
         [&](double s) {
           const double q = past(s, onset);
           return 1 + 0.3 * q * q / (1 + q);
@@ -160,7 +166,8 @@ struct SyntheticLaw
     glass.material = {"glass", 2500.0, 70e9, 0.2, std::numeric_limits<double>::infinity(), 0.0};
     ContactCurve::Table t = sample_table(
         0.5, std::numeric_limits<double>::infinity(), 33, [](double s) { return 1 + 0.9 * s * s; },
-        [](double) { return 0.0; }, [](double) { return 1.5; }, [](double) { return 1.0; });
+        [](double) { return 0.0; }, [](double s) { return elastic_unloading(s).exponent; },
+        [](double s) { return elastic_unloading(s).foot; }, [](double) { return 1.0; });
     glass.curve = ContactCurve(t, "glass");
     law.bodies["glass"] = glass;
     law.pairs = {

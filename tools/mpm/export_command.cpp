@@ -50,9 +50,10 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
          "# loading (overlap d not below the largest so far, d_m): force, stiffness, contact_radius of the "
          "row "
          "at d\n"
-         "# unloading and reloading (d < d_m): F = force(d_m) u^n, u = (d - d_r)/(d_m - d_r), 0 where u < "
+         "# unloading and reloading (d < d_m): F = force(d_m) phi(u), u = (d - d_r)/(d_m - d_r), 0 where u < "
          "0;\n"
-         "#   n = exponent, d_r = residual_overlap of the row at d_m; contact radius a(d_m) u^(n-1)\n"
+         "#   phi = A u^1.5 + B u^2 + C u^2.5, A = foot, B = 5 - 2 A - 2 n, C = A + 2 n - 4, n = exponent,\n"
+         "#   d_r = residual_overlap of the row at d_m; contact radius a(d_m) phi'(u)/n\n"
          "# while yielded = 0 at d_m the contact is elastic: loading, unloading and reloading are one curve\n"
          "# d_m is forgotten when the overlap ends; rows are uniform in overlap^(1/4): interpolate in that\n";
   if (r.dimensionless)
@@ -86,9 +87,9 @@ void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name,
     const double s = curve.table().s_end * k / r.points, x = std::min(s * s * s * s, curve.x_end());
     const ContactCurve::Turning t = curve.turning(x, impact_overlap);
     const bool yielded = x > curve.onset();
-    out << fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{}\n", name, length * x,
+    out << fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{}\n", name, length * x,
                        force * t.force, force / length * t.stiffness, radius * t.radius,
-                       yielded ? length * t.residual : 0.0, t.exponent, yielded ? 1 : 0);
+                       yielded ? length * t.residual : 0.0, t.shape.exponent, t.shape.foot, yielded ? 1 : 0);
   }
 }
 
@@ -119,9 +120,9 @@ void export_law(const ExportRequest& r)
     std::ofstream out(temporary);
     write_heading(out, law, r);
     out << (r.dimensionless
-                ? "pair,overlap,force,stiffness,contact_radius,residual_overlap,exponent,yielded\n"
+                ? "pair,overlap,force,stiffness,contact_radius,residual_overlap,exponent,foot,yielded\n"
                 : "pair,overlap_m,force_N,stiffness_N_per_m,contact_radius_m,residual_overlap_m,"
-                  "exponent,yielded\n");
+                  "exponent,foot,yielded\n");
     for (const auto& [a, b] : pairs) write_pair(out, resolve_pair(law, a, b, r.law), a + ":" + b, r);
     if (!out.flush()) fail(r.output, "cannot be written (disk full?)");
   });
@@ -136,7 +137,8 @@ void add_export(CLI::App& app)
   CLI::App* command = app.add_subcommand(
       "export",
       "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
-      "overlap, residual overlap and unloading exponent after a turn there. Lines that begin with # state "
+      "overlap, residual overlap, exponent and foot of the unloading after a turn there. Lines that begin "
+      "with # state "
       "the\n"
       "units and the formulas. Example: mpm export law.h5 -o law.csv --pair powder:wall --effective-radius "
       "2e-3");

@@ -40,13 +40,19 @@ class Body:
         """F/(4/3 E* R^2)."""
         return x ** 1.5 * self.of("force_ratio", x)
 
+    def unloading(self, x_m, u):
+        """F/F_m after a turn at x_m, u from 0 at the residual overlap to 1."""
+        n, a = self.of("exponent", x_m), self.of("foot", x_m)
+        return a * u ** 1.5 + (5 - 2 * a - 2 * n) * u ** 2 + (a + 2 * n - 4) * u ** 2.5
+
     def works(self):
         """x, loading work and returned work, in 4/3 E* R^3."""
         s = np.linspace(0, self.s_end, 4001)[1:]
         x = s ** 4
         integrand = 4 * s ** 3 * self.loading(x)
         loaded = np.cumsum(integrand) * (s[1] - s[0])
-        returned = self.loading(x) * x * (1 - self.of("residual_ratio", x)) / (self.of("exponent", x) + 1)
+        share = (11 - 2 * self.of("exponent", x)) / 21 + self.of("foot", x) * 2 / 105
+        returned = self.loading(x) * x * (1 - self.of("residual_ratio", x)) * share
         return x, loaded, np.where(x > self.onset, returned, loaded)
 
 
@@ -71,7 +77,7 @@ def main(law, picture):
                 residual = float(body.of("residual_ratio", x_m)) * x_m
                 u = np.linspace(0, 1, 100)
                 left.plot(residual + u * (x_m - residual),
-                          scale * float(body.loading(x_m)) * u ** float(body.of("exponent", x_m)), c, lw=0.8)
+                          scale * float(body.loading(x_m)) * body.unloading(x_m, u), c, lw=0.8)
             x, loaded, returned = body.works()
             # kinetic energy 2/3 pi rho R^3 V^2 = 4/3 E* R^3 loaded; rho V_y^2 = (pi/2)^4 (2/5) 1.6^5 Y^5/E*^4
             v_y = np.sqrt((np.pi / 2) ** 4 * 0.4 * 1.6 ** 5 * (body.yield_stress / body.e_star) ** 5)

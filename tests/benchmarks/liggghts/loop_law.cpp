@@ -28,11 +28,10 @@ double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curv
   };
   const auto force = [&](double x, double x_max) {
     if (x >= x_max || x_max <= shape.onset) return loading(x);
-    const double s = std::pow(x_max, 0.25), q = q_of(s);
+    const double s = std::pow(x_max, 0.25);
     const double residual = x_max * shape.residual_ratio(s);
-    const double n = shape.elastic_exponent(s) + shape.bend * q * q / (1 + q * q);
     const double u = (x - residual) / (x_max - residual);
-    return u <= 0 ? 0.0 : loading(x_max) * std::pow(u, n);
+    return u <= 0 ? 0.0 : loading(x_max) * shape.unloading(s).at(u).value;
   };
   const granulaw::FastCurve table(curve);
   std::mt19937 random(1);

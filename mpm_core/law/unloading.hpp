@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+
+namespace granulaw {
+
+/// How a yielded contact unloads and reloads: F = F_m phi(u), u = (delta - delta_r)/(delta_m - delta_r) from
+/// 0 where the force ends to 1 at the turn,
+///     phi = A u^1.5 + B u^2 + C u^2.5,   A + B + C = 1.
+///
+/// Why this form. Hertz's u^1.5 with the finite sphere's next two terms: the elastic sphere's own curve is
+/// one of them, F_Hertz (1 + c1 sqrt(x) + c2 x), so that unloading passes through the onset of yield without
+/// a jump in work or stiffness. Over the reference presses (E*/Y 20 to 500, to 0.2 R) it lies within 0.1 to
+/// 0.4 % of F_m, u^n within 0.2 to 1.5 %; and it needs one square root, no power.
+///
+/// Two numbers say which:
+///     exponent n = d ln F/d ln u at the turn = phi'(1)        B = 5 - 2 A - 2 n,  C = A + 2 n - 4
+///     foot     A = F/(F_m u^1.5) as u -> 0
+/// phi rises from 0 to 1, so that no force is negative, where A >= 0, A + 4 n <= 10 and n >= 0 (phi' is
+/// sqrt(u)/2 times a quadratic in sqrt(u) whose Bernstein coefficients are 3 A, 10 - A - 4 n and 2 n).
+struct UnloadingShape
+{
+  double exponent = 1.5, foot = 1.0;
+
+  static constexpr double least_exponent = 1.0, largest_foot = 6.0;
+  static double largest_exponent(double foot) { return 0.25 * (10.0 - foot); }
+  bool rises() const { return foot >= 0 && exponent >= 0 && exponent <= largest_exponent(foot); }
+
+  double second() const { return 5.0 - 2.0 * (foot + exponent); }
+  double third() const { return foot + 2.0 * exponent - 4.0; }
+
+  struct Point
+  {
+    double value, slope;  ///< phi, phi'
+  };
+  /// At 0 <= u <= 1.
+  Point at(double u) const
+  {
+    const double w = std::sqrt(u), b = second(), c = third();
+    return {u * w * (foot + w * (b + w * c)), w * (1.5 * foot + w * (2.0 * b + w * (2.5 * c)))};
+  }
+  /// Integral of phi from 0 to u.
+  double work(double u) const
+  {
+    const double w = std::sqrt(u);
+    return 2.0 * u * u * w * (foot / 5.0 + w * (second() / 6.0 + w * (third() / 7.0)));
+  }
+  /// work(1) = (11 - 2 n)/21 + 2 A/105: what the unloading gives back, over F_m (delta_m - delta_r).
+  double work() const { return (11.0 - 2.0 * exponent) / 21.0 + foot * (2.0 / 105.0); }
+  /// The n with which work() is `work`.
+  static double exponent_of(double work, double foot) { return 5.5 - 10.5 * work + 0.2 * foot; }
+};
+
+}  // namespace granulaw
