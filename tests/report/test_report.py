@@ -135,6 +135,7 @@ class Whole(unittest.TestCase):
         self.assertIn("+10.00 ± 0.96 %, **significant**", self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |"))  # 60 microseconds
         self.assertIn("11.00 ± 0.58", self.row("| hertz | 6 |"))  # wall-clock of 10, 11, 12 s
         self.assertIn("**Stopped.** mpm, stretched by 30: pair_style gran model mpm: stretch less.", self.markdown)
+        self.assertIn("**Stopped.** mpm, stretched by 100: stretch far less.", self.markdown)
         self.assertIn("LIGGGHTS-TEST 1.2", self.markdown)
 
     def test_contacts(self):

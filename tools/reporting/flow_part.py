@@ -3,6 +3,7 @@
 Reads what examples/*/run.py leave: DECK.csv (model, seed, quantity, value) and of each run, in MODEL-SEED[-ranksN], `log`, `cpu` and
 `screen`; and the hopper report of tools/demo (report.csv: quantity, unit, model, value, standard_error) with timing.csv beside it."""
 import math
+import pathlib
 import re
 import statistics
 
@@ -188,6 +189,10 @@ def read_all(folder):
             read_demo(decks, path)
         except files.Unreadable as error:
             broken.append(error)
+    for (parent, base, stem), deck in decks.items():  # a stretch that was stopped left no table
+        for other in sorted(pathlib.Path(parent).glob(f"{base}-*")):
+            if re.fullmatch(r"-(stretch)?[\d.]+", other.name[len(base):]) and not (other / f"{stem}.csv").exists():
+                find_stopped(deck, other)
     found = [d for d in decks.values() if d.quantities]
     for deck in found:  # runs of one deck in two places are told apart by their folders
         if sum(other.title == deck.title for other in found) > 1:
