@@ -130,9 +130,9 @@ class Whole(unittest.TestCase):
 
     def test_flow(self):
         # solid fraction: 0.59 ± 0.01/sqrt(3) against 0.6 ± 0: -1.67 %, error 0.00577/0.6 = 0.96 %, t = 1.73 with 2 degrees of freedom: p = 0.23
-        self.assertIn("−1.67 ± 0.96 %, not significant", self.row("| hertz | 6 |"))
+        self.assertIn("−1.67 ± 0.96 %<br>not significant", self.row("| hertz | 6 |"))
         # stretched: +10 %, error 0.00577/0.6, t = 10.4: p = 0.009; wall-clock 2 of 20 s
-        self.assertIn("+10.00 ± 0.96 %, **significant**", self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |"))  # 60 microseconds
+        self.assertIn("+10.00 ± 0.96 %<br>**significant**", self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |"))  # 60 microseconds
         self.assertIn("11.00 ± 0.58", self.row("| hertz | 6 |"))  # wall-clock of 10, 11, 12 s
         self.assertIn("**Stopped.** mpm, stretched by 30: pair_style gran model mpm: stretch less.", self.markdown)
         self.assertIn("**Stopped.** mpm, stretched by 100: stretch far less.", self.markdown)
