@@ -203,6 +203,19 @@ class Formulas(unittest.TestCase):
         self.assertEqual(page.number(None), "n/a")
 
 
+class Making(unittest.TestCase):
+    def test_what_fails_is_named_and_a_stopped_stretch_is_not(self):
+        recipes = module(ROOT / "tools" / "reporting" / "recipes.py")
+        with tempfile.TemporaryDirectory() as name:
+            script, lines = pathlib.Path(name, "run.py"), []
+            script.write_text("import sys\nsys.exit(\"'stretch 30' takes the overlap to 0.6 R*: stretch less\")\n")
+            recipes.PARTS = {"law": lambda out, quick: ["tools/no-such-program x", "true", f"/usr/bin/python3 {script}", f"/usr/bin/python3 {script} --stretch 30"]}
+            self.assertEqual(recipes.make(name, False, lines.append), ["tools/no-such-program x", f"/usr/bin/python3 {script}"])
+        said = "\n".join(lines)
+        self.assertIn("No such file", said)
+        self.assertIn("stopped: 'stretch 30' takes the overlap to 0.6 R*: stretch less", said)
+
+
 class Missing(unittest.TestCase):
     def test_each_part_names_its_commands(self):
         with tempfile.TemporaryDirectory() as name:

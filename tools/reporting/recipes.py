@@ -50,6 +50,18 @@ def hard_cases(out, quick):
 PARTS = {"solver": solver, "law": law, "flow": flow, "hard cases": hard_cases}
 
 
+def call(command):
+    """(exit code, what it said) of a command, run from the top folder."""
+    words = command.split()
+    if "/" in words[0] and not words[0].startswith("/"):
+        words[0] = str(ROOT / words[0])
+    try:
+        done = subprocess.run(words, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, errors="replace")
+    except OSError as error:  # not built
+        return 1, f"{words[0]}: {error.strerror}"
+    return done.returncode, done.stdout
+
+
 def make(out, quick, say, seeds=None):
     """Runs every command; one that fails is named and the rest go on. Returns those that failed. A stretched run that the plug-in stops is an
     answer, not a failure: the page gives its sentence."""
@@ -61,15 +73,13 @@ def make(out, quick, say, seeds=None):
             continue  # docs/hard-cases.json comes with the tree
         for command in commands(out, quick, seeds) if part == "flow" else commands(out, quick):
             say(f"{part}: {command}")
-            words = command.split()
-            done = subprocess.run(words if "/" not in words[0] or words[0].startswith("/") else [str(ROOT / words[0]), *words[1:]], cwd=ROOT,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, errors="replace")
-            stopped = re.search(r"'stretch \S+' takes.*", done.stdout)
-            if done.returncode and stopped and "--stretch " in command:
+            code, said = call(command)
+            stopped = re.search(r"'stretch \S+' takes.*", said)
+            if code and stopped and "--stretch " in command:
                 say(f"    stopped: {stopped.group()}")
-            elif done.returncode:
+            elif code:
                 failed.append(command)
-                say("    failed: " + (done.stdout.strip().splitlines() or ["no word said"])[-1])
+                say("    failed: " + (said.strip().splitlines() or ["no word said"])[-1])
                 if command.startswith("cmake"):
                     break
     return failed
