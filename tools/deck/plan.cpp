@@ -174,12 +174,12 @@ std::optional<Visited::Range> range_of(const PairPlan& p, const Visited& visited
   return range;
 }
 
-/// The cloud of the deck, if all of its particles are equal, start together at rest, and fall on one floor
-/// that stands still; walls along gravity may stand around it.
+/// The cloud of the deck, if all of its particles are equal, start together at random and at rest, and fall
+/// on one floor that stands still; walls along gravity may stand around it.
 std::optional<Cloud> cloud_of(const Scene& scene, const Vec3& upward)
 {
-  if (scene.sources.size() != 1 || scene.sources[0].together.empty() || !scene.unknown_particles.empty() ||
-      !scene.unknown_heights.empty() || !scene.unknown_speeds.empty())
+  if (scene.sources.size() != 1 || scene.sources[0].together.empty() || scene.sources[0].radius_max <= 0 ||
+      !scene.unknown_particles.empty() || !scene.unknown_heights.empty() || !scene.unknown_speeds.empty())
     return {};
   Cloud cloud;
   const Source& s = scene.sources[0];
@@ -201,6 +201,7 @@ std::optional<Cloud> cloud_of(const Scene& scene, const Vec3& upward)
   }
   if (!floor) return {};
   cloud.floor = *floor;
+  if (!at_random(cloud)) return {};
   return cloud;
 }
 

@@ -19,6 +19,11 @@ struct Cloud
   std::array<bool, 3> periodic{};
 };
 
+/// Whether the spheres of each column lie aside of each other as chance would have it (at most 0.1 between
+/// the cumulative shares of squared distances and even ones; 100 pairs at least): not so in a lattice, where
+/// hits are head-on or miss.
+bool at_random(const Cloud& cloud);
+
 /// Speed, m/s, that `expected` impacts on the floor exceed in one run, in the mean: the cloud shields its
 /// floor.
 ///
