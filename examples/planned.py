@@ -18,7 +18,7 @@ MARK = "planned.py"
 
 
 def variables(command):
-    """The deck and {name: value} of `-var name value...`; the command file joins a value's words by blanks."""
+    """The deck and {name: value} of `-var name value...`."""
     words, found, name = shlex.split(command), {}, None
     deck = words[words.index("-in") + 1]
     for word in words[words.index("-log") + 2:]:

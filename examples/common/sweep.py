@@ -5,6 +5,7 @@ import hashlib
 import os
 import pathlib
 import resource
+import shlex
 import shutil
 import subprocess
 import sys
@@ -93,7 +94,7 @@ def run(args, deck, model, folder, inputs=(), law=None, variables=None, more="")
         command = ["mpirun", "--oversubscribe", "-np", str(args.ranks)] + command
     for name, value in words.items():
         command += ["-var", name, str(value)]
-    (folder / "command").write_text(" ".join(command) + "\n")
+    (folder / "command").write_text(shlex.join(command) + "\n")
     environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
     start = told = time.monotonic()
     used = cpu_of_children()

@@ -20,7 +20,7 @@ from spread import write_tables  # noqa: E402
 # The particle and the orifice are the benchmark's in every size, so the rate is too; fewer particles: a narrower cylinder.
 RADIUS, ORIFICE, DENSITY, BULK = 2e-3, 0.030, 2500.0, 1500.0
 SIZES = {"full": dict(particles=100000, cylinder=0.100, fill=0.6, flow=5.0),
-         "usual": dict(particles=20000, cylinder=0.060, fill=0.4, flow=1.2),
+         "usual": dict(particles=20000, cylinder=0.060, fill=0.25, flow=0.6),
          "quick": dict(particles=250, cylinder=0.036, fill=0.06, flow=0.08)}
 
 

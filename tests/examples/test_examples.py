@@ -118,6 +118,11 @@ class Packing(Run):
             self.assertTrue(2 < self.mean(model, "coordination number, inside") < 8)
             self.assertLess(self.mean(model, "kinetic energy at the end / peak"), 0.01)
 
+    def test_the_cloud_shields_its_floor(self):
+        """An estimate that one run in a hundred exceeds (docs/plan.md); beside the whole fall it was 2.5 to 4 times too high."""
+        for model, _, bound, seen, _ in example("planned.py").compare(self.folder):
+            self.assertTrue(1 < bound["wall"] / seen["wall"] < 3, (model, bound, seen))
+
     def test_normal_contacts_take_a_share(self):
         for model in ("thornton", "mpm"):
             self.assertTrue(0.1 < self.mean(model, "of it in normal contacts") < 1)

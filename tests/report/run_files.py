@@ -120,6 +120,9 @@ def everything(root):
             {"mpm-stretch10": [2, 2, 2]}, label="packing-stretch10")
     run_folder(folder / "mpm-stretch30-1", 1.8e-4, 1, finished=False)
     (folder / "mpm-stretch30-1" / "screen").write_text("Step\nERROR on proc 0: pair_style gran model mpm: stretch less\n")
+    alone = root / "packing-stretch100" / "mpm-stretch100-1"  # stopped before there was any table
+    run_folder(alone, 6e-4, 1, finished=False)
+    (alone / "screen").write_text("ERROR on proc 0: stretch far less\n")
     hertz_law(folder / "law.h5")
     for seed in (1, 2, 3):
         content = stats([(0.01, 60), (1.0, 40)], [(1e-3, 60), (0.05, 40)])

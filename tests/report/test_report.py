@@ -130,11 +130,12 @@ class Whole(unittest.TestCase):
 
     def test_flow(self):
         # solid fraction: 0.59 ± 0.01/sqrt(3) against 0.6 ± 0: -1.67 %, error 0.00577/0.6 = 0.96 %, t = 1.73 with 2 degrees of freedom: p = 0.23
-        self.assertIn("−1.67 ± 0.96 %, not significant", self.row("| hertz | 6 |"))
+        self.assertIn("−1.67 ± 0.96 %<br>not significant", self.row("| hertz | 6 |"))
         # stretched: +10 %, error 0.00577/0.6, t = 10.4: p = 0.009; wall-clock 2 of 20 s
-        self.assertIn("+10.00 ± 0.96 %, **significant**", self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |"))  # 60 microseconds
+        self.assertIn("+10.00 ± 0.96 %<br>**significant**", self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |"))  # 60 microseconds
         self.assertIn("11.00 ± 0.58", self.row("| hertz | 6 |"))  # wall-clock of 10, 11, 12 s
         self.assertIn("**Stopped.** mpm, stretched by 30: pair_style gran model mpm: stretch less.", self.markdown)
+        self.assertIn("**Stopped.** mpm, stretched by 100: stretch far less.", self.markdown)
         self.assertIn("LIGGGHTS-TEST 1.2", self.markdown)
 
     def test_contacts(self):
@@ -200,6 +201,19 @@ class Formulas(unittest.TestCase):
         self.assertEqual(page.with_error(-1e-5, 2e-3, plus=True), "0.0000 ± 0.0020")
         self.assertEqual(page.number(0.04567), "0.0457")
         self.assertEqual(page.number(None), "n/a")
+
+
+class Making(unittest.TestCase):
+    def test_what_fails_is_named_and_a_stopped_stretch_is_not(self):
+        recipes = module(ROOT / "tools" / "reporting" / "recipes.py")
+        with tempfile.TemporaryDirectory() as name:
+            script, lines = pathlib.Path(name, "run.py"), []
+            script.write_text("import sys\nsys.exit(\"'stretch 30' takes the overlap to 0.6 R*: stretch less\")\n")
+            recipes.PARTS = {"law": lambda out, quick: ["tools/no-such-program x", "true", f"/usr/bin/python3 {script}", f"/usr/bin/python3 {script} --stretch 30"]}
+            self.assertEqual(recipes.make(name, False, lines.append), ["tools/no-such-program x", f"/usr/bin/python3 {script}"])
+        said = "\n".join(lines)
+        self.assertIn("No such file", said)
+        self.assertIn("stopped: 'stretch 30' takes the overlap to 0.6 R*: stretch less", said)
 
 
 class Missing(unittest.TestCase):

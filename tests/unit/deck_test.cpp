@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <random>
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "deck/plan.hpp"
 #include "deck/script.hpp"
+#include "deck/shielding.hpp"
 #include "deck/soften.hpp"
 
 namespace granulaw::deck {
@@ -189,6 +192,105 @@ TEST_F(Deck, BoundsSpeedsByTheFall)
   EXPECT_EQ(plan.particle_steps, 0.5 * 100 * 1000);  // the mean of none before the run and 100 after it
   EXPECT_FALSE(plan.complete());                     // the yield stress is not in the deck
   EXPECT_TRUE(table_command(plan, "m.toml").empty());
+}
+
+/// Spheres of radius 1 in a column on the floor z = 0, g = 1; `aside`: of the second one.
+Cloud column(std::size_t count, double aside = 0.1)
+{
+  Cloud c;
+  c.radius = 1, c.g = 1;
+  for (std::size_t k = 0; k < count; ++k)
+    c.centres.push_back({k == 1 ? aside : 0, 0, 2.0 + 2.1 * static_cast<double>(k)});
+  return c;
+}
+
+TEST(Shielding, ASphereWithNoneBelowLandsUnhindered)
+{
+  // centres at 2 and 4.1, two diameters aside; bisection to 1e-6
+  EXPECT_NEAR(landing_speed(column(2, 4)), std::sqrt(2 * 3.1), 1e-5);
+  // through a periodic side it has one below again
+  Cloud wrapped = column(2, 6.5);
+  wrapped.domain = {{0, 0, 0}, {7, 7, 9}};
+  EXPECT_NEAR(landing_speed(wrapped, 1.0), std::sqrt(2 * 3.1), 1e-5);
+  wrapped.periodic = {true, true, false};
+  // one collision: 2 (1 - u/v) carriers above u, 0.5 of them at 3/4 v
+  EXPECT_NEAR(landing_speed(wrapped, 0.5), 0.75 * std::sqrt(2 * 3.1), 1e-5);
+}
+
+TEST(Shielding, CarriersOfSpeedAreAsManyAsDiceGive)
+{
+  constexpr std::size_t m = 4;
+  Cloud c = column(m + 1);
+  const double u = landing_speed(c, 0.3), lowest = std::sqrt(2.0);
+  ASSERT_GT(u, lowest);  // so the lowest sphere takes no part
+  std::mt19937 dice(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  double sum = 0, squares = 0;
+  constexpr int runs = 100000;
+  for (int r = 0; r < runs; ++r) {
+    double count = 0;
+    for (std::size_t k = 1; k <= m; ++k) {
+      std::vector<double> speeds{std::sqrt(2 * (1 + 2.1 * static_cast<double>(k)))};
+      for (std::size_t hit = 0; hit < k; ++hit) {
+        std::vector<double> next;
+        for (const double v : speeds) {
+          const double x = share(dice);
+          next.push_back(x * v), next.push_back((1 - x) * v);
+        }
+        speeds = next;
+      }
+      for (const double v : speeds) count += v > u;
+    }
+    sum += count, squares += count * count;
+  }
+  const double mean = sum / runs, error = std::sqrt((squares / runs - mean * mean) / runs);
+  EXPECT_NEAR(mean, 0.3, 4 * error);  // one of 16,000 correct programs fails; the dice are the same each time
+  EXPECT_LT(error, 0.003);
+}
+
+/// A data file of 200 spheres of radius 2 mm, 5 mm apart in height, aside by `aside(k)` m in x and
+/// y.
+std::string tube(const std::function<std::array<double, 2>(int)>& aside)
+{
+  std::string text =
+      "cloud\n\n200 atoms\n1 atom types\n0 0.03 xlo xhi\n0 0.03 ylo yhi\n0 1 zlo zhi\n\nAtoms\n\n";
+  for (int k = 1; k <= 200; ++k) {
+    const auto [x, y] = aside(k);
+    text += std::to_string(k) + " 1 0.004 1000 " + std::to_string(0.015 + x) + " " +
+            std::to_string(0.015 + y) + " " + std::to_string(0.005 * k) + "\n";
+  }
+  return text;
+}
+
+TEST_F(Deck, ACloudShieldsItsFloor)
+{
+  std::mt19937 dice(1);
+  std::uniform_real_distribution<double> anywhere(-0.012, 0.012);
+  write("cloud", tube([&](int) { return std::array{anywhere(dice), anywhere(dice)}; }));
+  const std::string more =
+      "units si\nread_data cloud\nfix m1 all property/global youngsModulus peratomtype 91e6 210e9\n"
+      "fix m2 all property/global poissonsRatio peratomtype 0.3 0.3\nfix g all gravity 9.81 vector 0 0 -1\n"
+      "fix w all wall/gran model hertz primitive type 2 zplane 0.0\n";
+  const double fall = std::sqrt(2 * 9.81 * 1.0);
+  const auto wall = [&](const std::string& text) { return make_plan(scene(text), {}).pairs[1]; };
+  EXPECT_EQ(wall(more).speed_basis, "shielded fall");
+  EXPECT_LT(wall(more).speed, 0.9 * fall);
+  EXPECT_NEAR(make_plan(scene(more), {}).pairs[0].speed, 2 * fall, 1e-12);  // of pairs as ever
+  // what it is not made for: one bound for all, as without it
+  for (const char* other :
+       {"velocity all set 0 0 -0.1\n", "set atom 3 diameter 0.006\n", "set atom 3 density 2000\n",
+        "create_atoms 1 single 0 0 0.1\n", "fix w2 all wall/gran model hertz primitive type 2 zplane -0.1\n",
+        "fix w2 all wall/gran model hertz primitive type 2 zcylinder 0.1 0 0\n"})
+    EXPECT_EQ(wall(more + other).speed_basis, "fall") << other;
+  // in line they hand the whole fall on
+  write("cloud", tube([](int) { return std::array{0.0, 0.0}; }));
+  EXPECT_EQ(wall(more).speed_basis, "fall");
+  write("cloud", tube([&](int) { return std::array{anywhere(dice), anywhere(dice)}; }));
+  // a wall along gravity may be hit by anything; the floor under it stays shielded
+  const Plan sides =
+      make_plan(scene(more + "fix w2 all wall/gran model hertz primitive type 3 xplane 0.0\n"), {});
+  EXPECT_EQ(sides.pairs[1].speed_basis, "shielded fall");
+  EXPECT_EQ(sides.pairs[2].speed_basis, "fall");
 }
 
 TEST_F(Deck, MovingWallsAddTheirSpeed)

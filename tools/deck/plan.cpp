@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "deck/shielding.hpp"
 
 namespace granulaw::deck {
 
@@ -173,6 +174,37 @@ std::optional<Visited::Range> range_of(const PairPlan& p, const Visited& visited
   return range;
 }
 
+/// The cloud of the deck, if all of its particles are equal, start together at random and at rest, and fall
+/// on one floor that stands still; walls along gravity may stand around it.
+std::optional<Cloud> cloud_of(const Scene& scene, const Vec3& upward)
+{
+  if (scene.sources.size() != 1 || scene.sources[0].together.empty() || scene.sources[0].radius_max <= 0 ||
+      !scene.unknown_particles.empty() || !scene.unknown_heights.empty() || !scene.unknown_speeds.empty())
+    return {};
+  Cloud cloud;
+  const Source& s = scene.sources[0];
+  cloud.centres = s.together, cloud.radius = s.radius_max, cloud.g = norm(scene.gravity);
+  cloud.domain = scene.domain, cloud.periodic = scene.periodic;
+  const auto along = std::find_if(upward.begin(), upward.end(), [](double x) { return std::abs(x) == 1; });
+  if (along == upward.end()) return {};
+  cloud.axis = static_cast<std::size_t>(along - upward.begin()), cloud.up = *along;
+  const auto flat = [](const Wall& w, std::size_t k) { return w.box.low[k] == w.box.high[k]; };
+  std::optional<double> floor;
+  for (const Wall& w : scene.walls) {
+    if (w.speed > 0 || w.drag_speed > 0) return {};
+    if (flat(w, cloud.axis)) {
+      if (floor.value_or(w.box.low[cloud.axis]) != w.box.low[cloud.axis]) return {};
+      floor = w.box.low[cloud.axis];
+    } else if (!flat(w, (cloud.axis + 1) % 3) && !flat(w, (cloud.axis + 2) % 3)) {
+      return {};  // a slope, or a floor that is not plane: what slides down hits others from the side
+    }
+  }
+  if (!floor) return {};
+  cloud.floor = *floor;
+  if (!at_random(cloud)) return {};
+  return cloud;
+}
+
 }  // namespace
 
 double Meeting::one_body_density(double r_eff, double m_eff) const
@@ -261,6 +293,10 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
       if (f.known && std::isfinite(floor)) plan.fall = std::max(plan.fall, f.top - floor);
   if (options.drop_height) plan.fall = *options.drop_height;
 
+  std::optional<double> landing;  // m/s, on the floor that a cloud shields
+  if (!options.speed && !options.drop_height && g > 0)
+    if (const auto cloud = cloud_of(scene, upward)) landing = landing_speed(*cloud);
+
   // who meets whom
   std::set<int> unknown_yield;
   const auto add = [&](const Kind& a, const Kind& b, const Wall* wall, double speed) {
@@ -278,9 +314,10 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
         rigid ? PairMapping::rigid_partner(m.yields.e_star())
               : PairMapping::deformable_partner(m.yields.e_star(), (a_yields ? second : first).e_star());
     p.speed = options.speed.value_or(speed);
+    p.speed_basis = options.speed ? "given" : wall && landing == speed ? "shielded fall" : "fall";
     std::optional<Visited::Range> range;
     if (visited) range = range_of(p, *visited);
-    if (range) p.visited = range->met, p.speed = visited_margin * range->speed;
+    if (range) p.visited = range->met, p.speed = visited_margin * range->speed, p.speed_basis = "visited";
     over_sizes(p, a, wall ? nullptr : &b, options);
     const double overlap = range ? visited_margin * range->overlap / scene.stretch : 0.0;
     if (overlap > p.overlap) {  // pressed deeper than any impact goes
@@ -303,7 +340,8 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
     std::map<std::pair<int, bool>, std::pair<const Wall*, double>> by_type;
     for (const Wall* w : walls) {
       const double height = g > 0 ? w->box.bottom(upward) : 0.0;
-      const double v = speed_at(flights.at(type), height) + 2 * push + drag + w->speed + w->drag_speed;
+      double v = speed_at(flights.at(type), height) + 2 * push + drag + w->speed + w->drag_speed;
+      if (landing && w->box.bottom(upward) == w->box.top(upward)) v = std::min(v, *landing);
       const auto [at, fresh] = by_type.try_emplace({w->type, w->deformable}, w, v);
       if (!fresh) at->second.second = std::max(at->second.second, v);
     }

@@ -72,6 +72,7 @@ struct PairPlan
 {
   Meeting meeting;
   double speed = 0;           ///< m/s, largest approach speed
+  std::string speed_basis;    ///< "fall", "shielded fall" (deck/shielding.hpp), "given" or "visited"
   double onset = 0;           ///< m/s, where yield begins, the least over the sizes; infinity: never
   double yield_velocity = 0;  ///< m/s, customary V_y, the least over the sizes; infinity: elastic
   double inertia = 0;         ///< largest I = rho V^2/Y of the pair's one body
@@ -110,7 +111,8 @@ inline constexpr double steps_per_contact = 25;
 
 /// Plans a scene. Bound of the speeds: each particle starts at its source and falls to the lowest point of
 /// the wall, losing nothing; a wall that moves at U gives it up to 2U more (an elastic rebound), one that
-/// drags its surface U; two particles meet at most with the sum of their speeds.
+/// drags its surface U; two particles meet at most with the sum of their speeds. The floor under a cloud of
+/// equal spheres at rest is shielded by the lowest of them: `landing_speed`.
 Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* visited = nullptr);
 
 /// `mpm table` states a pair's error up to this ratio of radii.

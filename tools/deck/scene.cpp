@@ -187,32 +187,57 @@ Scene Reader::read(const std::string& deck, const Presets& presets)
 void Reader::execute(const Command& c)
 {
   // What these do has no bearing on a plan.
-  static const std::set<std::string> without_bearing{"atom_modify",    "bond_coeff",
-                                                     "bond_style",     "box",
-                                                     "boundary",       "change_box",
-                                                     "coarsegraining", "communicate",
-                                                     "compute",        "compute_modify",
-                                                     "debug",          "delete_atoms",
-                                                     "dielectric",     "dimension",
-                                                     "dump",           "dump_modify",
-                                                     "echo",           "fix_modify",
-                                                     "group",          "hard_particles",
-                                                     "info",           "log",
-                                                     "minimize",       "modify_timing",
-                                                     "neigh_modify",   "neighbor",
-                                                     "newton",         "pair_coeff",
-                                                     "partition",      "print",
-                                                     "processors",     "replicate",
-                                                     "restart",        "reset_timestep",
-                                                     "run_style",      "shell",
-                                                     "soft_particles", "thermo",
-                                                     "thermo_log",     "thermo_modify",
-                                                     "thermo_style",   "undump",
-                                                     "uncompute",      "write_data",
-                                                     "write_dump",     "write_restart",
-                                                     "quit",           "mass",
-                                                     "atom_style",     "min_style",
-                                                     "timer",          "suffix"};
+  static const std::set<std::string> without_bearing{"atom_modify",
+                                                     "bond_coeff",
+                                                     "bond_style",
+                                                     "box",
+                                                     "change_box",
+                                                     "coarsegraining",
+                                                     "communicate",
+                                                     "compute",
+                                                     "compute_modify",
+                                                     "debug",
+                                                     "delete_atoms",
+                                                     "dielectric",
+                                                     "dimension",
+                                                     "dump",
+                                                     "dump_modify",
+                                                     "echo",
+                                                     "fix_modify",
+                                                     "group",
+                                                     "hard_particles",
+                                                     "info",
+                                                     "log",
+                                                     "minimize",
+                                                     "modify_timing",
+                                                     "neigh_modify",
+                                                     "neighbor",
+                                                     "newton",
+                                                     "pair_coeff",
+                                                     "partition",
+                                                     "print",
+                                                     "processors",
+                                                     "replicate",
+                                                     "restart",
+                                                     "reset_timestep",
+                                                     "run_style",
+                                                     "shell",
+                                                     "soft_particles",
+                                                     "thermo",
+                                                     "thermo_log",
+                                                     "thermo_modify",
+                                                     "thermo_style",
+                                                     "undump",
+                                                     "uncompute",
+                                                     "write_data",
+                                                     "write_dump",
+                                                     "write_restart",
+                                                     "quit",
+                                                     "mass",
+                                                     "atom_style",
+                                                     "min_style",
+                                                     "timer",
+                                                     "suffix"};
   const std::string& name = c.words[0];
   if (without_bearing.contains(name)) {
     if (name == "atom_style" && c.words.size() > 1 && c.words[1] != "granular" && c.words[1] != "sphere")
@@ -225,7 +250,9 @@ void Reader::execute(const Command& c)
     Words w(c.words);
     if (name == "units")
       scene_.units = w.word();
-    else if (name == "timestep") {
+    else if (name == "boundary") {
+      for (bool& wraps : scene_.periodic) wraps = w.word() == "p";
+    } else if (name == "timestep") {
       dt_ = w.value();
       if (dt_ <= 0) misread("a time step must be positive");
     } else if (name == "fix")
@@ -262,7 +289,7 @@ void Reader::execute(const Command& c)
           x = w.value();
         else
           w.word();
-      for (Source& s : scene_.sources) s.speed = std::max(s.speed, norm(v));
+      for (Source& s : scene_.sources) s.speed = std::max(s.speed, norm(v)), s.together.clear();
     } else if (name == "pair_style") {
       for (std::size_t k = 1; k + 1 < c.words.size(); ++k) {
         if (c.words[k] == "model" && scene_.model.empty()) scene_.model = c.words[k + 1];
@@ -791,6 +818,7 @@ void Reader::read_data(const Command& c)
       if (s == of_id.end())
         fail(fmt::format("{}:{}", path, number_of_line), "Velocities of an atom that Atoms lacks", words[0]);
       s->second->speed = std::max(s->second->speed, norm(Vec3{v[1], v[2], v[3]}));
+      if (s->second->speed > 0) s->second->together.clear();
       continue;
     }
     if (!atoms) {
@@ -808,6 +836,12 @@ void Reader::read_data(const Command& c)
     numbers(v, "Atoms", "id type diameter density x y z");
     Source& s = by_type[static_cast<int>(std::clamp(v[1], 0.0, 1e6))];
     const double radius = 0.5 * v[2];
+    const bool alike = s.count == 0 || (static_cast<double>(s.together.size()) == s.count &&
+                                        radius == s.radius_max && v[3] == s.density);
+    if (alike)
+      s.together.push_back({v[4], v[5], v[6]});
+    else
+      s.together.clear();
     s.radius_min = s.count == 0 ? radius : std::min(s.radius_min, radius);
     s.radius_max = std::max(s.radius_max, radius);
     s.density = std::max(s.density, v[3]);
@@ -880,6 +914,7 @@ void Reader::set(const Command& c)
   }
   for (Source& s : scene_.sources) {
     if (of_type != 0 && s.type != of_type) continue;
+    s.together.clear();
     if (radius > 0) {
       s.radius_min =
           s.radius_min > 0 && kind != "group" && kind != "type" ? std::min(s.radius_min, radius) : radius;
@@ -943,6 +978,7 @@ void Reader::finish()
   for (Source& s : scene_.sources) {
     s.radius_min *= length, s.radius_max *= length, s.speed *= length, s.density *= density;
     scale(s.centres);
+    for (Vec3& p : s.together) p = length * p;
   }
   for (Wall& wall : scene_.walls) {
     wall.speed *= length, wall.drag_speed *= length;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ struct Source
   Box centres;                            ///< where they may start; empty: not known
   double speed = 0;                       ///< m/s, largest speed at the start
   double count = 0;                       ///< how many of them the runs bring in, at most; 0: not known
+  /// m, every centre, where all start at once, at rest, and are of one radius and density; else empty.
+  std::vector<Vec3> together;
 };
 
 /// A wall that particles can hit.
@@ -55,6 +58,7 @@ struct Scene
   std::string units = "lj";  ///< of the deck; LIGGGHTS's default
   Vec3 gravity{0, 0, 0};     ///< m/s^2
   Box domain;
+  std::array<bool, 3> periodic{};
   int types = 0;
   std::map<int, TypeMaterial> materials;  ///< by atom type
   std::vector<Source> sources;

@@ -62,6 +62,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
          {"deformable_wall", p.meeting.deformable},
          {"materials", {printable(p.meeting.name_a), printable(p.meeting.name_b)}},
          {"speed_max_m_per_s", json_number(p.speed)},
+         {"speed_by", p.speed_basis},
          {"onset_speed_m_per_s", p.meeting.known_yield ? json_number(p.onset) : ordered_json(nullptr)},
          {"yield_velocity_m_per_s",
           p.meeting.known_yield ? json_number(p.yield_velocity) : ordered_json(nullptr)},
@@ -145,6 +146,10 @@ void plan(const PlanRequest& r)
                known(p.onset), known(p.speed / p.onset), known(p.speed / p.yield_velocity), known(p.inertia),
                p.overlap, p.overlap_basis.empty() ? "-" : p.overlap_basis, verdict(p));
   }
+  for (const deck::PairPlan& p : plan.pairs)
+    if (p.speed_basis == "shielded fall")
+      fmt::print("  {}:wall {}: the lowest particles shield the floor from a fall of {:.3g} m/s\n",
+                 p.meeting.a, p.meeting.b, std::sqrt(2 * deck::norm(d.scene.gravity) * plan.fall));
   if (plan.inertia > 0)
     fmt::print("axes of the law: overlap; inertia {}\n",
                plan.axis_matters ? fmt::format("(I up to {:.2g})", plan.inertia)

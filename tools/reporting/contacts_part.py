@@ -221,6 +221,8 @@ def draw(figure, contacts, title):
     right.stairs(np.maximum(overlaps, 0.3), overlap, fill=True, color="tab:blue", alpha=0.55, baseline=0.3, orientation="horizontal")
     top.set(yscale="log", ylabel="contacts", title=title, ylim=(0.5, None))
     right.set(xscale="log", xlabel="contacts", xlim=(0.5, None))
+    for counts in (top.yaxis, right.xaxis):
+        counts.set_minor_formatter(plt.NullFormatter())  # within a decade they run into each other
     top.tick_params(labelbottom=False)
     right.tick_params(labelleft=False)
     return middle

@@ -3,6 +3,7 @@
 Reads what examples/*/run.py leave: DECK.csv (model, seed, quantity, value) and of each run, in MODEL-SEED[-ranksN], `log`, `cpu` and
 `screen`; and the hopper report of tools/demo (report.csv: quantity, unit, model, value, standard_error) with timing.csv beside it."""
 import math
+import pathlib
 import re
 import statistics
 
@@ -188,6 +189,10 @@ def read_all(folder):
             read_demo(decks, path)
         except files.Unreadable as error:
             broken.append(error)
+    for (parent, base, stem), deck in decks.items():  # a stretch that was stopped left no table
+        for other in sorted(pathlib.Path(parent).glob(f"{base}-*")):
+            if re.fullmatch(r"-(stretch)?[\d.]+", other.name[len(base):]) and not (other / f"{stem}.csv").exists():
+                find_stopped(deck, other)
     found = [d for d in decks.values() if d.quantities]
     for deck in found:  # runs of one deck in two places are told apart by their folders
         if sum(other.title == deck.title for other in found) > 1:
@@ -287,9 +292,10 @@ def write_deck(page, deck, k):
     page.heading(deck.title[0].upper() + deck.title[1:])
     names, models = observables(deck), deck.models
     base = deck.quantities.get(REFERENCE)
-    seeds = min((len(next(iter(q.values())).values) for q in deck.quantities.values() if q), default=0)
+    seeds = sorted({len(next(iter(q.values())).values) for q in deck.quantities.values() if q}) or [0]
     spread = ("from the spread within one run: windows of the flow, particles" if deck.within else
-              f"{seeds} seeds" if seeds > 1 else "one seed: no spread is known")
+              "one seed: no spread is known" if seeds[-1] < 2 else f"{seeds[-1]} seeds" if seeds[0] == seeds[-1] else
+              f"{seeds[0]} to {seeds[-1]} seeds; of one seed no spread is known")
     if base is None:
         page.text(f"No unstretched `mpm` runs here: nothing to hold {', '.join(models)} against.")
     elif names and deck.clock():
@@ -304,7 +310,8 @@ def write_deck(page, deck, k):
         row = [words(model), *[costs[model][k] for k in kept]]
         for _, name in names:
             mine = deck.quantities[model].get(name)
-            row.append(two_lines(cell(mine), "reference" if model == REFERENCE else against(mine, base and base.get(name), name)))
+            off = "reference" if model == REFERENCE else against(mine, base and base.get(name), name)
+            row.append(two_lines(cell(mine), off.replace(", ", "\n")))  # narrow, or the page is too
         rows.append(row)
     for model, sentence in deck.stopped.items():
         if model not in models:
