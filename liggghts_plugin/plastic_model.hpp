@@ -305,6 +305,8 @@ class PlasticModel : public NormalModelBase
       side.speed_max = std::max(side.speed_max, speed);
       side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
       if (speed > entry.contact.max_speed(r_eff, sidata.meff)) side.too_fast += weight;
+      // one without approach follows the law at no rate: the file holds that
+      if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, sidata.meff)) side.too_slow += weight;
       if (speed_offset_ >= 0) [[unlikely]]
         sidata.contact_history[speed_offset_] = speed;
     }
