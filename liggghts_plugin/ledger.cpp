@@ -147,8 +147,8 @@ ContactLedger::Side ContactLedger::Side::in_si(const DeckUnits& units) const
 {
   Side si = *this;
   for (double* energy : {&si.dissipated, &si.other_work}) *energy *= units.energy();
-  for (double* speed : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
-    *speed *= units.length;
+  for (double* one : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
+    *one *= units.length;
   return si;
 }
 
