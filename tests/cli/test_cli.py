@@ -400,7 +400,7 @@ def case_law():
     refused(["law", LAW, "--pair", "powder:wall", "--velocity", "200"], "range of overlaps", "5 %")
     refused(["law", LAW, "--velocity", "1"], "--pair", "powder:wall")
     refused(["law", LAW, "--pair", "powdr:wall", "--velocity", "1"], "did you mean 'powder'")
-    refused(["law", LAW, "--pair", "powder:wall", "--velocity", "0"], "--velocity", "over 0")
+    refused(["law", LAW, "--pair", "powder:wall", "--velocity", "0"], "--velocity", "1e-12 to 1e+06 m/s")
     data = Path(LAW).read_bytes()
     for command in (["check"], ["info"], ["law", "--pair", "powder:wall", "--velocity", "1"], ["plot", "-o", "x.png"]):
         Path("cut.h5").write_bytes(data[: len(data) // 2])
