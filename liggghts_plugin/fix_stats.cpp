@@ -200,7 +200,8 @@ double FixStats::compute_vector(int n)
                                      p.near + w.near,
                                      std::max(p.frequency2, w.frequency2),
                                      stored_energy(),
-                                     p.other_work + w.other_work};
+                                     p.other_work + w.other_work,
+                                     p.too_slow + w.too_slow};
   const bool is_sum = !((n >= 4 && n <= 7) || n == 9 || n == 12);
   double result = 0;
   MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
@@ -235,7 +236,12 @@ void FixStats::post_run()
                         all.near, 100 * near_edge, all.past);
   if (all.beyond > 0) line += fmt::format("; {:.0f} contact-steps beyond the law's table", all.beyond);
   if (all.too_fast > 0)
-    line += fmt::format("; {:.0f} contacts began faster than the law's inertia axis goes", all.too_fast);
+    line += fmt::format("; {:.0f} contacts began faster than the law's velocity axis goes", all.too_fast);
+  if (all.too_slow > 0)
+    line += fmt::format(
+        "; {:.0f} contacts began slower than the slowest impact that the rate-dependent law knows and "
+        "follow it as at that rate",
+        all.too_slow);
   if (session_->inertia_limit > 0 && all.inertia_max > session_->inertia_limit)
     line += fmt::format(
         "; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
@@ -272,7 +278,11 @@ void FixStats::restart(char* buffer)
   std::memcpy(&count, buffer, sizeof(double));
   std::vector<double> values(static_cast<std::size_t>(count));
   std::memcpy(values.data(), buffer + sizeof(double), values.size() * sizeof(double));
-  session_->ledger.unpack(values.data(), values.size(), comm->me == 0);
+  if (!session_->ledger.unpack(values.data(), values.size(), comm->me == 0) && comm->me == 0)
+    error->warning(FLERR, fmt::format("fix {} granulaw/stats: the restart file holds the counts of another "
+                                      "version of the plug-in: they begin at zero",
+                                      id)
+                              .c_str());
 }
 
 void FixStats::write_json(const ContactLedger& sum, const std::string& path) const

@@ -21,16 +21,17 @@ namespace granulaw::plugin {
 ///   7, 8   largest overlap/R*
 ///   9      contact-steps beyond the law's table
 ///   10     largest I = rho V^2/Y at first touch (0 for thornton)
-///   11     contacts that began faster than the law's inertia axis goes
+///   11     contacts that began faster than the law's inertia or rate axis goes
 ///   12     contacts that came deeper than 90 % of the table
 ///   13     time step allowed by the stiffest contact so far, s (0: no contact yet)
 ///   14     elastic energy that contacts hold now, J (energy on; else 0)
 ///   15     work taken by all forces but the normal law's (friction, ...), J (energy on; else 0)
+///   16     contacts that began slower than the slowest impact of a rate law
 /// Per atom with `energy on`, J: elastic energy now, dissipated by normal contacts, work of the other forces.
 class FixStats : public LAMMPS_NS::Fix
 {
  public:
-  static constexpr int vector_length = 15;
+  static constexpr int vector_length = 16;
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 

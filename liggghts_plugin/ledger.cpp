@@ -11,6 +11,8 @@ constexpr std::size_t key_length = 3;
 constexpr std::size_t side_length = key_length + ContactLedger::Side::sums + ContactLedger::Side::maxima +
                                     ContactLedger::Side::minima + 2 * LogHistogram::bins;
 
+/// First number of pack(); negative, as no kind of a key is.
+constexpr double layout = -static_cast<double>(side_length);
 constexpr int map_record = 100;  // added to the kind of a key in pack(): what follows is its map
 
 std::string histogram_json(const LogHistogram& histogram, const char* quantity)
@@ -90,6 +92,7 @@ std::string counts_json(const ContactLedger::Side& s, const std::string& indent)
       {"contacts_past_table", number(s.past)},
       {"contact_steps_beyond_table", number(s.beyond)},
       {"contacts_beyond_speed_axis", number(s.too_fast)},
+      {"contacts_below_speed_axis", number(s.too_slow)},
       {"time_step_allowed_s", number(s.dt_allowed())},
       {"impact_speed", histogram_json(s.speed, "approach speed at first touch, m/s")},
       {"largest_overlap_over_radius",
@@ -144,8 +147,8 @@ ContactLedger::Side ContactLedger::Side::in_si(const DeckUnits& units) const
 {
   Side si = *this;
   for (double* energy : {&si.dissipated, &si.other_work}) *energy *= units.energy();
-  for (double* speed : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
-    *speed *= units.length;
+  for (double* one : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
+    *one *= units.length;
   return si;
 }
 
@@ -166,7 +169,7 @@ ContactLedger::Side ContactLedger::total() const
 
 std::vector<double> ContactLedger::pack() const
 {
-  std::vector<double> values;
+  std::vector<double> values{layout};
   for (const auto& [key, side] : sides) {
     Side copy = side;
     values.insert(values.end(),
@@ -187,15 +190,16 @@ std::vector<double> ContactLedger::pack() const
   return values;
 }
 
-void ContactLedger::unpack(const double* values, std::size_t count, bool sums)
+bool ContactLedger::unpack(const double* values, std::size_t count, bool sums)
 {
+  if (count == 0 || values[0] != layout) return false;
   for (auto& [key, side] : sides) {
     Side fresh;
     fresh.info = side.info;
     if (!side.map.empty()) fresh.open_map();
     side = fresh;
   }
-  const double *v = values, *end = values + count;
+  const double *v = values + 1, *end = values + count;
   for (; v + side_length <= end && v[0] < map_record; v += side_length) {
     Side& side = sides[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}];
     const auto numbers = side.numbers();
@@ -206,7 +210,7 @@ void ContactLedger::unpack(const double* values, std::size_t count, bool sums)
     std::copy_n(from, LogHistogram::bins, side.speed.count.begin());
     std::copy_n(from + LogHistogram::bins, LogHistogram::bins, side.overlap.count.begin());
   }
-  if (!sums) return;
+  if (!sums) return true;
   while (v + key_length < end) {
     Side& side = sides[{static_cast<int>(v[0]) - map_record, static_cast<int>(v[1]), static_cast<int>(v[2])}];
     side.open_map();
@@ -216,6 +220,7 @@ void ContactLedger::unpack(const double* values, std::size_t count, bool sums)
         side.map[static_cast<std::size_t>(v[0])] = v[1];
     v = record_end;
   }
+  return true;
 }
 
 std::string to_json(const ContactLedger& ledger, const std::string& header, const DeckUnits& units)

@@ -77,7 +77,8 @@ struct ContactLedger
     double near = 0;         ///< contacts that came deeper than near_edge of the table
     double past = 0;         ///< contacts that went beyond the table
     double beyond = 0;       ///< contact-steps beyond the law's table
-    double too_fast = 0;     ///< contacts that began faster than the law's inertia axis goes
+    double too_fast = 0;     ///< contacts that began faster than the law's velocity axis goes
+    double too_slow = 0;     ///< contacts that began slower than the slowest impact of a rate law
     double speed_max = 0;    ///< m/s, largest approach speed at first touch
     double overlap_max = 0;  ///< largest overlap/R*
     double inertia_max = 0;  ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
@@ -92,13 +93,14 @@ struct ContactLedger
     double hardest = 0;  ///< R* delta/m*^2 of the contact that frequency2 is of (this rank's; not reduced)
     PairInfo info;
 
-    static constexpr int sums = 8, maxima = 4, minima = 2;
+    static constexpr int sums = 9, maxima = 4, minima = 2;
     /// The numbers above, first those that add up over ranks, then those of which the largest, the least
     /// counts.
     std::array<double*, sums + maxima + minima> numbers()
     {
-      return {&dissipated, &other_work, &touches,     &ended,       &near,       &past,      &beyond,
-              &too_fast,   &speed_max,  &overlap_max, &inertia_max, &frequency2, &speed_min, &overlap_min};
+      return {&dissipated,  &other_work,  &touches,    &ended,     &near,
+              &past,        &beyond,      &too_fast,   &too_slow,  &speed_max,
+              &overlap_max, &inertia_max, &frequency2, &speed_min, &overlap_min};
     }
     void add_to_map(double touch_speed, double largest_overlap, double weight)
     {
@@ -127,9 +129,9 @@ struct ContactLedger
   /// Everything that counts as plain numbers, for restart files, and back. Restoring replaces what is there,
   /// but keeps each side's info; `sums` false: only largest and least values (all ranks but one). A side is
   /// a key, its numbers and histograms; a map follows as a record of its own, of the bins that hold
-  /// something.
+  /// something. The first number tells the layout: unpack() of another one changes nothing and is false.
   std::vector<double> pack() const;
-  void unpack(const double* values, std::size_t count, bool sums);
+  bool unpack(const double* values, std::size_t count, bool sums);
 };
 
 /// `ledger` (summed over ranks, in the deck's units) as JSON, in SI; `header` is placed first ("\"key\":

@@ -35,10 +35,15 @@ struct MpmContact
     if (!law.curve->axis()) return 0.0;
     return law.impact_overlap(r_eff * units.length, m_eff * units.mass, speed * units.length);
   }
-  /// Where the law's inertia axis ends; infinity without one.
+  /// Where the law's inertia or rate axis ends; infinity without one.
   double max_speed(double r_eff, double m_eff) const
   {
     return law.max_speed(r_eff * units.length, m_eff * units.mass) / units.length;
+  }
+  /// Slowest impact that a rate law knows; 0: any.
+  double min_speed(double r_eff, double m_eff) const
+  {
+    return law.min_speed(r_eff * units.length, m_eff * units.mass) / units.length;
   }
   /// At overlap delta of a contact whose largest overlap so far is delta_max and which latched X.
   double force(double r_eff, double delta, double delta_max, double impact_overlap) const

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <vector>
 
 #include "liggghts_plugin/liggghts.hpp"
 
@@ -77,17 +79,21 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   }
 
  private:
+  /// A neighbour that touches, or did one step ago.
+  struct Candidate
+  {
+    int i, jj;  // index of the sphere; place in its list of neighbours
+  };
+  /// So many are collected before their forces are computed: what was read of them is still in the cache.
+  static constexpr std::size_t batch = 256;
+
   /// What inlining makes of this is the inner loop of the simulation.
+  ///
+  /// Collected first, because which neighbours touch no processor can foresee: as a branch around the force
+  /// it was wrong once for each contact. In collect() it is none.
   [[gnu::flatten]] void walk(PairGran* pair, bool observed, int addflag)
   {
-    const LAMMPS_NS::Atom& atom = *lmp_->atom;
     const LAMMPS_NS::NeighList& list = *pair->list;
-    const LAMMPS_NS::NeighList& history = *pair->listgranhistory;
-    const int values = pair->dnum(), nlocal = atom.nlocal;
-    const bool newton = lmp_->force->newton_pair;
-    const int* type = atom.type;
-    const double* radius = atom.radius;
-
     SurfacesIntersectData contact;
     ForceData on_i, on_j;
     contact.is_wall = false;
@@ -96,61 +102,82 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     contact.shearupdate = pair->shearupdate();
     model_.beginPass(contact, on_i, on_j);
 
+    std::size_t found = 0;
     for (int ii = 0; ii < list.inum; ++ii) {
-      const int i = list.ilist[ii];
-      const int* neighbours = list.firstneigh[i];
-      int* flags = history.firstneigh[i];
-      double* histories = history.firstdouble[i];
-      const double x = atom.x[i][0], y = atom.x[i][1], z = atom.x[i][2];
-      contact.i = i;
-      contact.radi = radius[i];
-      contact.itype = type[i];
-      contact.v_i = atom.v[i];
-      contact.omega_i = atom.omega[i];
-
-      for (int jj = 0; jj < list.numneigh[i]; ++jj) {
-        const int j = neighbours[jj] & NEIGHMASK;
-        const double dx = x - atom.x[j][0], dy = y - atom.x[j][1], dz = z - atom.x[j][2];
-        const double rsq = dx * dx + dy * dy + dz * dz;
-        const double radsum = contact.radi + radius[j];
-        const bool touching = rsq < radsum * radsum;
-        if (!touching && flags[jj] == 0) continue;
-
-        contact.j = j;
-        contact.jtype = type[j];
-        contact.radj = radius[j];
-        contact.radsum = radsum;
-        contact.rsq = rsq;
-        contact.delta[0] = dx;
-        contact.delta[1] = dy;
-        contact.delta[2] = dz;
-        contact.contact_flags = &flags[jj];
-        contact.contact_history = &histories[values * jj];
-        contact.v_j = atom.v[j];
-        contact.omega_j = atom.omega[j];
-        if (!touching) {
-          contact.has_force_update = false;
-          model_.surfacesClose(contact, on_i, on_j);
-          continue;
-        }
-        contact.r = std::sqrt(rsq);
-        contact.rinv = 1.0 / contact.r;
-        for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
-        set_masses(pair, contact);
-        on_i.reset();
-        on_j.reset();
-        model_.surfacesIntersect(contact, on_i, on_j);
-        model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
-        contact.has_force_update = true;
-        if (contact.computeflag) {
-          add(pair->relax(i), on_i, atom.f[i], atom.torque[i]);
-          if (newton || j < nlocal) add(pair->relax(j), on_j, atom.f[j], atom.torque[j]);
-        }
-        if (observed) [[unlikely]]
-          tell_observers(pair, contact, on_i, on_j, addflag);
-      }
+      found += collect(*pair, list.ilist[ii], found);
+      if (found < batch && ii + 1 < list.inum) continue;
+      for (std::size_t k = 0; k < found; ++k)
+        visit(pair, candidates_[k], contact, on_i, on_j, observed, addflag);
+      found = 0;
     }
     model_.endPass(contact, on_i, on_j);
+  }
+
+  /// Writes the candidates of sphere i to candidates_[at] and on. Returns how many there are.
+  std::size_t collect(const PairGran& pair, int i, std::size_t at)
+  {
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    const int* neighbours = pair.list->firstneigh[i];
+    const int* flags = pair.listgranhistory->firstneigh[i];
+    const int count = pair.list->numneigh[i];
+    if (candidates_.size() < at + static_cast<std::size_t>(count)) [[unlikely]]
+      candidates_.resize(2 * (at + static_cast<std::size_t>(count)));
+    const double *const *x = atom.x, *radius = atom.radius;
+    const double xi = x[i][0], yi = x[i][1], zi = x[i][2], ri = radius[i];
+    Candidate* const out = candidates_.data() + at;
+    std::size_t found = 0;
+    for (int jj = 0; jj < count; ++jj) {
+      const int j = neighbours[jj] & NEIGHMASK;
+      const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
+      const double rsq = dx * dx + dy * dy + dz * dz, radsum = ri + radius[j];
+      out[found] = {i, jj};
+      found += static_cast<std::size_t>((rsq < radsum * radsum) | (flags[jj] != 0));
+    }
+    return found;
+  }
+
+  void visit(PairGran* pair, const Candidate& candidate, SurfacesIntersectData& contact, ForceData& on_i,
+             ForceData& on_j, bool observed, int addflag)
+  {
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    const LAMMPS_NS::NeighList& history = *pair->listgranhistory;
+    const int i = candidate.i, jj = candidate.jj, j = pair->list->firstneigh[i][jj] & NEIGHMASK;
+    contact.i = i;
+    contact.itype = atom.type[i];
+    contact.radi = atom.radius[i];
+    contact.v_i = atom.v[i];
+    contact.omega_i = atom.omega[i];
+    contact.j = j;
+    contact.jtype = atom.type[j];
+    contact.radj = atom.radius[j];
+    contact.v_j = atom.v[j];
+    contact.omega_j = atom.omega[j];
+    for (int c = 0; c < 3; ++c) contact.delta[c] = atom.x[i][c] - atom.x[j][c];
+    contact.rsq = contact.delta[0] * contact.delta[0] + contact.delta[1] * contact.delta[1] +
+                  contact.delta[2] * contact.delta[2];
+    contact.radsum = contact.radi + contact.radj;
+    contact.contact_flags = &history.firstneigh[i][jj];
+    contact.contact_history = &history.firstdouble[i][pair->dnum() * jj];
+    if (!(contact.rsq < contact.radsum * contact.radsum)) {
+      contact.has_force_update = false;
+      model_.surfacesClose(contact, on_i, on_j);
+      return;
+    }
+    contact.r = std::sqrt(contact.rsq);
+    contact.rinv = 1.0 / contact.r;
+    for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
+    set_masses(pair, contact);
+    on_i.reset();
+    on_j.reset();
+    model_.surfacesIntersect(contact, on_i, on_j);
+    model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
+    contact.has_force_update = true;
+    if (contact.computeflag) {
+      add(pair->relax(i), on_i, atom.f[i], atom.torque[i]);
+      if (lmp_->force->newton_pair || j < atom.nlocal) add(pair->relax(j), on_j, atom.f[j], atom.torque[j]);
+    }
+    if (observed) [[unlikely]]
+      tell_observers(pair, contact, on_i, on_j, addflag);
   }
 
   /// The body's mass where a sphere is part of one; a frozen sphere leaves the other its own.
@@ -241,6 +268,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
 
   LAMMPS* lmp_;
   ContactModel model_;
+  std::vector<Candidate> candidates_;  // of walk(); kept for its memory
 };
 
 }  // namespace granulaw::plugin

@@ -134,12 +134,9 @@ class PlasticModel : public NormalModelBase
     const double radius =
         tangential_computed_ ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
     const double impedance = std::sqrt(root * sidata.meff);  // both dampings are proportional to it
-    double normal_force = law_force;
-    sidata.gamman = 0.0;
-    if (is_damped(entry, r_eff, delta, delta_max, sidata.vn)) {
-      sidata.gamman = entry.damping * impedance;
-      normal_force = std::max(0.0, law_force - sidata.gamman * sidata.vn);
-    }
+    // of an undamped contact the law's force itself, to the bit: it is never negative
+    sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
+    const double normal_force = std::max(0.0, law_force - sidata.gamman * sidata.vn);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
       advance(sidata, entry, r_eff, impact_overlap, delta_max);
@@ -204,13 +201,14 @@ class PlasticModel : public NormalModelBase
     return 2.0 * (2.0 - poisson_ratio) * (1.0 + poisson_ratio) / youngs_modulus;
   }
 
-  // Where the law is elastic: a contact that never yielded, both ways; a yielded one on its way back to
-  // delta_max, but not when it parts, so that the rebound of a plastic impact is the law's own.
-  static bool is_damped(const Entry& entry, double r_eff, double delta, double delta_max, double vn)
+  // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
+  // yielded one on its way back to delta_max, but not when it parts, so that the rebound of a plastic impact
+  // is the law's own. Without a branch: in a bed contacts approach and part at random.
+  static double damping_of(const Entry& entry, double r_eff, double delta, double delta_max, double vn)
   {
-    if (entry.damping == 0.0) return false;
-    if (delta < delta_max && vn < 0.0) return true;
-    return std::max(delta, delta_max) <= entry.yield_overlap * r_eff;
+    const bool returns = (delta < delta_max) & (vn < 0.0);
+    const bool elastic = std::max(delta, delta_max) <= entry.yield_overlap * r_eff;
+    return entry.damping * static_cast<double>(returns | elastic);
   }
 
   [[gnu::noinline, gnu::cold]] void check_stretched(const SurfacesIntersectData& sidata, double r_eff)
@@ -305,6 +303,8 @@ class PlasticModel : public NormalModelBase
       side.speed_max = std::max(side.speed_max, speed);
       side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
       if (speed > entry.contact.max_speed(r_eff, sidata.meff)) side.too_fast += weight;
+      // one without approach follows the law at no rate: the file holds that
+      if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, sidata.meff)) side.too_slow += weight;
       if (speed_offset_ >= 0) [[unlikely]]
         sidata.contact_history[speed_offset_] = speed;
     }

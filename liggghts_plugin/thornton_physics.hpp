@@ -34,6 +34,7 @@ struct ThorntonContact
     return dissipated(r_eff, per_stretch * to) - dissipated(r_eff, per_stretch * from);
   }
   double max_speed(double, double) const { return std::numeric_limits<double>::infinity(); }
+  static double min_speed(double, double) { return 0.0; }
   double largest_overlap() const
   {
     return std::numeric_limits<double>::max();

@@ -238,6 +238,50 @@ layers = [{material = "glass", thickness = 1e-4}]
     materials()
 
 
+def case_wrong_words():
+    """Numbers that are none or lie outside, empty words, options that mean nothing here: one sentence each, nothing written."""
+    name = materials()
+    assert Run("table", name, "--pair", "powder:wall", "--pair", "powder:powder", "-o", "law.h5").code == 0
+    Path("folder").mkdir()
+    Path("other.toml").write_text(GOOD.replace("powder", "flour"))
+    table, law = ["table", name, "-o", "new.h5"], ["law", "law.h5", "--pair", "powder:wall", "--velocity", "1"]
+    for depth in ("0.9", "0", "-0.1", "nan", "inf", "20 %"):
+        refused([*table, "--depth", depth], "--depth", f"found '{depth}'", "over 0, up to 0.5", code=2)
+    for option, allowed in (("--tolerance", "0.0001 to 0.5"), ("--inertia", "0 to 0.09"), ("--radius-ratio", "1 to 10"), ("--slowest", "over 0"),
+                            ("--jobs", "1 to 1024")):
+        for value in ("nan", "-1", "inf", "1e300", "x"):
+            if (option, value) != ("--slowest", "1e300"):
+                refused([*table, option, value], option, f"found '{value}'", allowed, code=2)
+    refused([*table, "--jobs", "1.5"], "--jobs", "found '1.5'", "whole number", code=2)
+    refused([*table, "--slowest", "0.1"], "--slowest", "no body of the pairs depends on the rate")
+    refused([*table, "--cache", name], "--cache", "is no folder")
+    for words in (["--drop-height", "1"], ["--var", "a", "1"], ["--materials", "powder"], ["--from", "x.json"]):
+        refused([*table, *words], words[0], "--deck", code=2)
+    refused([*table, "--pair", "powder:wall", "--pair", "wall:powder"], "--pair", "powder:wall", "one pair")
+    refused([*table, "--pair", "wall:wall"], "--pair", "'wall:wall'", "a:b or a:wall")
+    refused([*table, "--pair", "powder:"], "--pair", "'powder:'", "a:b or a:wall")
+    refused([*table, "--pair", "grian:wall"], "grian", "did you mean 'grain'", "glass")
+    refused(["impact", name, "--particle", "grain", "--velocity", "1e5"], "--velocity", "found 100000 m/s", "half the wave speed")
+    for words in (["impact", name, "--particle", "grain", "--velocity", ""], ["impact", name, *HIT, "-o", ""], ["impact", name, *HIT, "--checkpoint", ""],
+                  ["table", name, "-o", ""], ["law", "", "--velocity", "1"], [*law[:2], "--pair", "", "--velocity", "1"]):
+        refused(words, words[words.index("") - 1] + ":", "empty word", code=2)
+    for option, value in (("--radius", "0"), ("--radius", "nan"), ("--radius", "1e300"), ("--radius", "1e-300")):
+        refused([*law, option, value], option, "1e-09 to 1000 m")
+    for value in ("1e300", "1e-300", "nan", "0"):
+        refused([*law[:-1], value], "--velocity", "1e-12 to 1e+06 m/s")
+    refused(["law", "law.h5", "--pair", "powder:powder", "--velocity", "1", "--radius2", "0"], "--radius2", "1e-09 to 1000 m")
+    for words in (["none.toml", "no such file"], ["folder", "cannot be read as a file"], ["other.toml", "powder"]):
+        refused(["check", "law.h5", "--impacts", "1", "--materials", words[0]], *words)
+    refused(["check", "law.h5", "--impacts", "1.5"], "--impacts", "whole number", code=2)
+    refused(["plot", "law.h5", "-o", "/proc/x.png"], "/proc/x.png", "cannot be drawn")
+    refused(["plan", "in.deck", "--speed", "inf"], "--speed", "found 'inf'", "over 0", code=2)
+    refused(["soften", "in.deck", "--max-overlap", "nan"], "--max-overlap", "0.001 to 0.5", code=2)
+    # Python as the environment has it first does not matter: the plot's modules are Debian's
+    Path("folder/python3").symlink_to("/bin/false")
+    os.environ["PATH"] = f"{Path('folder').resolve()}:{os.environ['PATH']}"
+    assert Run("plot", "law.h5", "-o", "law.png").code == 0
+
+
 def case_usage():
     name = materials()
     refused(["impact", name], "required", code=2)
@@ -358,7 +402,7 @@ def case_law():
     refused(["law", LAW, "--pair", "powder:wall", "--velocity", "200"], "range of overlaps", "5 %")
     refused(["law", LAW, "--velocity", "1"], "--pair", "powder:wall")
     refused(["law", LAW, "--pair", "powdr:wall", "--velocity", "1"], "did you mean 'powder'")
-    refused(["law", LAW, "--pair", "powder:wall", "--velocity", "0"], "--velocity", "over 0")
+    refused(["law", LAW, "--pair", "powder:wall", "--velocity", "0"], "--velocity", "1e-12 to 1e+06 m/s")
     data = Path(LAW).read_bytes()
     for command in (["check"], ["info"], ["law", "--pair", "powder:wall", "--velocity", "1"], ["plot", "-o", "x.png"]):
         Path("cut.h5").write_bytes(data[: len(data) // 2])

@@ -46,6 +46,16 @@ class CopyToSrc(unittest.TestCase):
             done = subprocess.run(["mpicxx", *flags, "-fsyntax-only", str(self.src / f"granulaw_{name}")], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, f"{name}: {done.stderr[:2000]}")
 
+    def test_its_words_link_a_shared_library(self):
+        """As the rule `shlib` of Makefile.auto links, without LDFLAGS; nothing of HDF5 and fmt may stay undefined."""
+        words = dict(line.split(" = ", 1) for line in self.copy().splitlines() if " = " in line)
+        (self.src / "uses_hdf5.cpp").write_text("#include <hdf5.h>\nint version() { return H5open(); }\n")
+        flags = words["MPI_CCFLAGS_USR"].split() + ["-std=c++17"] + words["LMP_INC"].split() + ["-fPIC", "-shared", "-Wl,--no-undefined"]
+        libraries = ["-L" + words["MPI_LIB_USR"]] + words["MPI_ADDLIBS_USR"].split()
+        done = subprocess.run(["mpicxx", *flags, "-o", "libtest.so", "uses_hdf5.cpp", "granulaw_base_error.cpp", *libraries],
+                              capture_output=True, text=True, cwd=self.src)
+        self.assertEqual(done.returncode, 0, done.stderr[:2000])
+
     def test_refusals(self):
         self.assertIn("holds no contact_models.h", self.copy(".", status=1))
         (self.src / "version_liggghts.txt").write_text("4.0.0\n")

@@ -98,13 +98,13 @@ class MpmWithInertiaAxis(Mpm):
         found = self.result(text, "SPEED")[0] / speed
         self.assertGreater(abs(without / e - 1), 0.01)
         self.assertLess(abs(found - e), 0.2 * abs(found - without))
-        self.assertNotIn("inertia axis goes", text)
+        self.assertNotIn("velocity axis goes", text)
 
     def test_speeds_beyond_the_axis_are_counted(self):
         deck = wall_deck("mpm", f"law {self.law} materials powder beyondRange continue", POWDER, RADIUS, 20.0, 1e-8)
         out = '\nvariable d equal f_granulaw[11]\nprint "FAST ${d}"\n'
         text = self.run_deck(deck + out)
-        self.assertIn("1 contacts began faster than the law's inertia axis goes", text)
+        self.assertIn("1 contacts began faster than the law's velocity axis goes", text)
         self.assertEqual(self.result(text, "FAST")[0], 1)
 
 

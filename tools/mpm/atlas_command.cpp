@@ -8,6 +8,7 @@
 #include "characterise/atlas_build.hpp"
 #include "commands.hpp"
 #include "farm_options.hpp"
+#include "option_checks.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
@@ -64,7 +65,7 @@ void add_atlas(CLI::App& app)
       "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
   command->add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
   command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
-      ->check(CLI::Range(20, 100000))
+      ->check(whole_from_to(20, 100000))
       ->capture_default_str();
   command->add_option("--seed", r->seed, "seed of the random materials")->capture_default_str();
   r->farm.add_to(command);

@@ -17,6 +17,7 @@
 #include "law/replay.hpp"
 #include "material_hash.hpp"
 #include "materials_file.hpp"
+#include "option_checks.hpp"
 #include "solver/runs.hpp"
 #include "terminal.hpp"
 
@@ -95,12 +96,13 @@ std::optional<Subject> subject_for(const std::string& name, const Law& law, cons
   const auto made_from = law.provenance.find("material_hash." + name);
   const std::string hash = made_from == law.provenance.end() ? std::string() : made_from->second;
   const Material plain{m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
-  if (hash.empty() || hash == hash_of(plain)) return subject_of(plain);
-  if (r.materials.empty()) return {};
+  if (r.materials.empty())
+    return hash.empty() || hash == hash_of(plain) ? std::optional(subject_of(plain)) : std::nullopt;
   const MaterialsFile file = read_materials(r.materials);
   const bool is_particle = !file.materials.contains(name) && file.particles.contains(name);
   const Subject subject = is_particle ? subject_of(file.particle(name)) : subject_of(file.material(name));
-  if (hash != hash_of(subject) && !(subject.is_plain() && hash == hash_of(subject.particle.materials[0])))
+  if (!hash.empty() && hash != hash_of(subject) &&
+      !(subject.is_plain() && hash == hash_of(subject.particle.materials[0])))
     fail(r.materials, fmt::format("'{}' is not what the law was made from", name), hash_of(subject), hash);
   return subject;
 }
@@ -132,6 +134,7 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, const Subject& 
 void check(const CheckRequest& r)
 {
   const Law law = read_law(r.law);
+  if (!r.materials.empty()) read_materials(r.materials);  // said before any impact is made
   bool good = admissible(law, r.law);
   const unsigned seed = r.seed ? r.seed : std::random_device{}();
   std::mt19937 random(seed);
@@ -190,7 +193,7 @@ void add_check(CLI::App& app)
   command->add_option("LAW", r->law, "law file of mpm table")->required();
   command
       ->add_option("--impacts", r->impacts, "fresh impacts for each yielding material (default 2; 0: none)")
-      ->check(CLI::Range(0, 1000));
+      ->check(whole_from_to(0, 1000));
   command->add_option("--materials", r->materials,
                       "materials file that the law was made from: needed for the impacts of layered, shaped, "
                       "rate-dependent and nonlinearly hardening bodies");

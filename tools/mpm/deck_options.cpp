@@ -11,6 +11,7 @@
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
 #include "materials_file.hpp"
+#include "option_checks.hpp"
 
 namespace granulaw {
 
@@ -99,8 +100,9 @@ deck::Collide collide_by_atlas()
 
 }  // namespace
 
-void DeckOptions::add_to(CLI::App& command, bool own_materials)
+void DeckOptions::add_to(CLI::App& command, bool own_materials, CLI::Option* needed)
 {
+  const std::size_t before = command.get_options().size();
   command
       .add_option("--var", variables, "NAME VALUE: a variable of the deck, as liggghts -var; several times")
       ->type_size(2)
@@ -112,23 +114,25 @@ void DeckOptions::add_to(CLI::App& command, bool own_materials)
       "names of its materials, one for each atom type in their order (default: the words after "
       "'materials'\nin the deck's pair_style)");
   command.add_option("--drop-height", drop_height, "m, from which every particle falls to the lowest wall")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--radius", radius, "R or R_MIN R_MAX, m, of particles that the deck does not show")
       ->expected(1, 2)
-      ->check(CLI::PositiveNumber);
-  command.add_option("--density", density, "kg/m^3, of the same")->check(CLI::PositiveNumber);
+      ->check(above_zero());
+  command.add_option("--density", density, "kg/m^3, of the same")->check(above_zero());
   command.add_option("--speed", speed, "m/s, the largest approach speed of any two bodies")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--particles", particles, "how many there are, for the cost")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
+  command.add_option("--particles", particles, "how many there are, for the cost")->check(above_zero());
   command
       .add_option("--rate", rate, "particle-steps a second, for the cost (default: one core, dense hopper)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_option(
       "--from", visited,
       "JSON of fix granulaw/stats: what a run of this deck visited replaces what is foreseen, with a "
       "margin of 1.25");
+  if (!needed) return;
+  const auto options = command.get_options();
+  for (std::size_t k = before; k < options.size(); ++k) options[k]->needs(needed);
 }
 
 PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)

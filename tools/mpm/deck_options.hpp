@@ -20,8 +20,9 @@ struct DeckOptions
   double drop_height = -1, speed = -1, density = -1, particles = -1, rate = 2e6;
   std::string visited;
 
-  /// `own_materials`: with --materials-file (mpm table has its own).
-  void add_to(CLI::App& command, bool own_materials);
+  /// `own_materials`: with --materials-file (mpm table has its own). `needed`: an option without which these
+  /// mean nothing.
+  void add_to(CLI::App& command, bool own_materials, CLI::Option* needed = nullptr);
 };
 
 /// A deck read and planned.

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "option_checks.hpp"
 #include "ranks.hpp"
 
 namespace granulaw {
@@ -16,10 +17,16 @@ void FarmOptions::add_to(CLI::App* command)
   command
       ->add_option("--jobs", jobs,
                    "runs at the same time in each process (default: one for each core; under mpirun: one)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole_from_to(1, 1024));
   CLI::Option* folder =
       command->add_option("--cache", cache, "folder for finished runs")->capture_default_str();
   command->add_flag("--no-cache", no_cache, "keep no finished run and reuse none")->excludes(folder);
+}
+
+void FarmOptions::check() const
+{
+  if (!no_cache && std::filesystem::exists(cache) && !std::filesystem::is_directory(cache))
+    fail("--cache", "is no folder", fmt::format("'{}'", cache));
 }
 
 std::unique_ptr<Farm> FarmOptions::farm() const

@@ -17,6 +17,8 @@ struct FarmOptions
   bool no_cache = false;
 
   void add_to(CLI::App* command);
+  /// Throws Error if the cache cannot be a folder: before anything is computed.
+  void check() const;
   std::unique_ptr<Farm> farm() const;
 };
 

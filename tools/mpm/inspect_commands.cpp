@@ -105,18 +105,33 @@ void plot(const std::string& law, const std::string& output)
   read_law(law);  // its sentence is better than Python's
   const std::string script = own_file("plot_law.py");
   if (script.empty()) fail("mpm plot", "plot_law.py is not beside the program");
+  int complaints[2];
+  if (pipe(complaints) != 0) fail("mpm plot", "cannot make a pipe");
   const pid_t child = fork();
   if (child < 0) fail("mpm plot", "cannot start /usr/bin/python3");
   if (child == 0) {
-    execl("/usr/bin/python3", "python3", script.c_str(), law.c_str(), output.c_str(),
+    dup2(complaints[1], STDERR_FILENO);
+    close(complaints[0]);
+    close(complaints[1]);
+    // its whole path as its name: by "python3" alone Python looks for its modules beside the PATH's first one
+    execl("/usr/bin/python3", "/usr/bin/python3", script.c_str(), law.c_str(), output.c_str(),
           static_cast<char*>(nullptr));
     _exit(127);
   }
+  close(complaints[1]);
+  std::string said;
+  char part[4096];
+  for (ssize_t length; (length = read(complaints[0], part, sizeof part)) > 0;)
+    said.append(part, static_cast<std::size_t>(length));
+  close(complaints[0]);
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     fail("mpm plot", "/usr/bin/python3 is missing (Debian: python3-matplotlib, python3-h5py)");
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail("mpm plot", "the plotting script failed");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    while (said.ends_with('\n')) said.pop_back();  // a traceback's last line says what went wrong
+    fail(output, "cannot be drawn", said.substr(said.rfind('\n') + 1));
+  }
   fmt::print("wrote {}\n", output);
 }
 

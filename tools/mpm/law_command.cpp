@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
+#include <optional>
 
 #include "base/error.hpp"
 #include "claim.hpp"
@@ -20,7 +21,8 @@ namespace {
 struct LawRequest
 {
   std::string law, pair;
-  double radius = 0, radius2 = 0, velocity = 0;  ///< radius 0: not given
+  std::optional<double> radius, radius2;
+  double velocity = 0;
   bool json = false;
 };
 
@@ -55,29 +57,35 @@ double stated_error(const Law& law, const PairLaw& pair, const std::string& a, c
                   claim.restitution + (entry ? entry->reduction_error_restitution : 0.0));
 }
 
-void replay(LawRequest r)
+/// Wider than any particle or collision; within, no number of the replay leaves the range of a double.
+void require_within(const char* option, double value, const char* unit, double low, double high)
+{
+  if (!(value >= low && value <= high))
+    fail(option, "cannot be used", fmt::format("{:g} {}", value, unit),
+         fmt::format("{:g} to {:g} {}", low, high, unit));
+}
+
+void replay(const LawRequest& r)
 {
   const Law law = read_law(r.law);
   auto [a, b] = choose_pair(law, r);
   if (a == wall_name) std::swap(a, b);
   const PairLaw pair = resolve_pair(law, a, b, r.law);
-  if (r.radius == 0) r.radius = pair.only_radius() > 0 ? pair.only_radius() : 1e-3;
-  for (const auto& [option, value] : {std::pair("--radius", r.radius), std::pair("--velocity", r.velocity)})
-    if (!(value > 0 && std::isfinite(value)))
-      fail(option, "cannot be used", fmt::format("{:g}", value), "over 0");
+  const double radius = r.radius.value_or(pair.only_radius() > 0 ? pair.only_radius() : 1e-3);
+  const double radius2 = r.radius2.value_or(radius);
   const bool wall = b == wall_name;
-  if (wall && r.radius2 != 0) fail("--radius2", "a wall has no radius");
-  const double radius2 = r.radius2 == 0 ? r.radius : r.radius2;
-  if (!(radius2 > 0 && std::isfinite(radius2)))
-    fail("--radius2", "cannot be used", fmt::format("{:g} m", radius2), "over 0");
+  if (wall && r.radius2) fail("--radius2", "a wall has no radius");
+  require_within("--radius", radius, "m", 1e-9, 1e3);
+  require_within("--radius2", radius2, "m", 1e-9, 1e3);
+  require_within("--velocity", r.velocity, "m/s", 1e-12, 1e6);
 
   const std::string& yielding = pair.yielding->material.name;
-  if (a == yielding) check_size(pair, r.radius, "--radius");
+  if (a == yielding) check_size(pair, radius, "--radius");
   if (b == yielding) check_size(pair, radius2, "--radius2");
 
-  const double mass = body_mass(law.bodies.at(a), r.radius);
+  const double mass = body_mass(law.bodies.at(a), radius);
   const double m_eff = wall ? mass : effective_mass(mass, body_mass(law.bodies.at(b), radius2));
-  const double r_eff = wall ? r.radius : effective_radius(r.radius, radius2);
+  const double r_eff = wall ? radius : effective_radius(radius, radius2);
   const std::clock_t start = std::clock();
   const Replay result = replay_collision(pair, r_eff, m_eff, r.velocity);
   const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

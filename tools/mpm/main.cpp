@@ -50,6 +50,16 @@ std::string unknown_word(const CLI::App& app, int argc, char** argv)
   return {};
 }
 
+/// The first word that is empty; CLI11 would take it for a name, or for the number 0.
+std::string empty_word(int argc, char** argv)
+{
+  for (int k = 1; k < argc; ++k)
+    if (*argv[k] == '\0')
+      return fmt::format("{}: found an empty word, allowed is a name or a number",
+                         k > 1 ? printable(argv[k - 1]) : "the command");
+  return {};
+}
+
 /// Carries out the command line. Returns the exit code; `sentence` says why it is not 0.
 int run(int argc, char** argv, std::string& sentence)
 {
@@ -84,6 +94,8 @@ int run(int argc, char** argv, std::string& sentence)
 
   catch_interrupts();
   try {
+    sentence = empty_word(argc, argv);
+    if (!sentence.empty()) return 2;
     if (argc > 1) join_ranks(argv[1]);
     app.parse(argc, argv);
     return 0;
@@ -94,6 +106,9 @@ int run(int argc, char** argv, std::string& sentence)
     const auto colon = text.find(": ");
     sentence = fmt::format("{}: is no number, or not of the kind that is wanted",
                            printable(colon == std::string::npos ? text : text.substr(colon + 2)));
+    return 2;
+  } catch (const CLI::ValidationError& error) {  // "--depth: cannot be used: found '2', allowed is ..."
+    sentence = printable(error.what());
     return 2;
   } catch (const CLI::ParseError& error) {
     sentence = unknown_word(app, argc, argv);

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "field_file.hpp"
 #include "materials_file.hpp"
+#include "option_checks.hpp"
 #include "solver/accuracy.hpp"
 #include "solver/scene_builder.hpp"
 #include "terminal.hpp"
@@ -61,7 +62,7 @@ void add_common(CLI::App& command, RunRequest& r)
   auto* fields = command.add_option(
       "--fields", r.fields, "the deformed body over time for ParaView: NAME.xdmf, and NAME.h5 beside it");
   command.add_option("--frames", r.frames, "about so many moments in it, 2 to 10000 (default 40)")
-      ->check(CLI::Range(2, 10000))
+      ->check(whole_from_to(2, 10000))
       ->needs(fields);
   auto* checkpoint = command.add_option(
       "--checkpoint", r.checkpoint,
@@ -71,9 +72,9 @@ void add_common(CLI::App& command, RunRequest& r)
   command
       .add_option("--checkpoint-every", r.checkpoint_every,
                   "seconds between two states (default 30; 0: at every sample of the trace)")
-      ->check(CLI::Range(0.0, 86400.0))
+      ->check(from_to(0, 86400))
       ->needs(checkpoint);
-  command.add_option("--jobs", r.jobs, "threads (default 1)")->check(CLI::Range(1, 256));
+  command.add_option("--jobs", r.jobs, "threads (default 1)")->check(whole_from_to(1, 256));
   command.add_option(
       "--phases", r.phases,
       "runs on grids shifted against each other by equal parts of a cell, 1 to 64; results are "
@@ -115,6 +116,10 @@ void check_velocity(double velocity, double wave_speed)
 {
   if (!(velocity > 0 && std::isfinite(velocity)))
     fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "over 0");
+  if (velocity > 0.5 * wave_speed)
+    fail("--velocity", "is beyond what an impact of a particle can be resolved for",
+         fmt::format("{:g} m/s", velocity),
+         fmt::format("up to half the wave speed sqrt(E*/rho), {:.4g} m/s", 0.5 * wave_speed));
   if (velocity < slowest * wave_speed)
     fail("--velocity", "is too slow to be resolved (Hertz's law holds there)",
          fmt::format("{:g} m/s", velocity),

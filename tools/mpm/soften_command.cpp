@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "deck/soften.hpp"
 #include "deck_options.hpp"
+#include "option_checks.hpp"
 
 namespace granulaw {
 
@@ -109,23 +110,23 @@ void add_soften(CLI::App& app)
   command->add_option("DECK", r->deck, "LIGGGHTS input script")->required();
   r->options.add_to(*command, true);
   command->add_option("--max-overlap", r->limits.overlap, "largest s delta_max/R*")
-      ->check(CLI::Range(0.001, 0.5))
+      ->check(from_to(0.001, 0.5))
       ->capture_default_str();
   command
       ->add_option(
           "--time-fraction", r->limits.time_fraction,
           "longest contact over the flow's own time: a fall through one radius, a wall's way of one diameter")
-      ->check(CLI::Range(0.001, 10.0))
+      ->check(from_to(0.001, 10))
       ->capture_default_str();
   command
       ->add_option("--static-limit", r->limits.static_load,
                    "largest s P_static/F_y; above 1 the extra plastic set of the bed is stated")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(from_to(0.001, 1e6))
       ->capture_default_str();
   command
       ->add_option("--fill-height", r->limits.fill_height,
                    "m, of the bed (default: from particles and walls)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_flag("--json", r->json, "as JSON");
   command->callback([r] { soften(*r); });
 }

@@ -21,6 +21,7 @@
 #include "law/law_file.hpp"
 #include "material_hash.hpp"
 #include "materials_file.hpp"
+#include "option_checks.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
@@ -86,17 +87,25 @@ Pairs pairs_of(const TableRequest& r, const MaterialsFile& file)
 {
   Pairs pairs;
   const auto check = [&](const std::string& name) {
-    if (!file.particles.contains(name)) file.material(name);
+    if (file.particles.contains(name) || file.materials.contains(name)) return;
+    std::vector<std::string> names;
+    for (const auto& [known, m] : file.materials) names.push_back(known);
+    for (const auto& [known, p] : file.particles) names.push_back(known);
+    fail(file.path, fmt::format("no material or particle '{}'{}", name, did_you_mean(name, names)), {},
+         fmt::format("{}", fmt::join(names, ", ")));
   };
   for (const std::string& text : r.pairs) {
     const auto colon = text.find(':');
-    if (colon == std::string::npos)
+    std::string a = text.substr(0, colon), b = colon == std::string::npos ? "" : text.substr(colon + 1);
+    if (a == wall_name) std::swap(a, b);
+    if (a.empty() || b.empty() || a == wall_name)
       fail("--pair", "cannot be used", fmt::format("'{}'", text),
            "a:b or a:wall, with names of materials or particles");
-    std::string a = text.substr(0, colon), b = text.substr(colon + 1);
-    if (a == wall_name) std::swap(a, b);
     check(a);
     if (b != wall_name) check(b);
+    for (const auto& [c, d] : pairs)
+      if ((a == c && b == d) || (a == d && b == c))
+        fail("--pair", fmt::format("'{}:{}' and '{}:{}' are one pair", c, d, a, b), {}, "each pair once");
     pairs.emplace_back(a, b);
   }
   if (!pairs.empty()) return pairs;
@@ -205,6 +214,23 @@ bool may_have_own_law(const LawPair& pair, const std::map<std::string, Entry>& e
   return bodies_of(pair, law, 1).yielding.yields();
 }
 
+/// Throws where --slowest is of no use, or leaves the rate axis no room.
+void check_slowest(const TableRequest& r, const std::map<std::string, Entry>& entries)
+{
+  if (r.slowest == 0) return;
+  bool used = false;
+  for (const auto& [name, entry] : entries) {
+    if (!entry.subject.rate_dependent()) continue;
+    used = true;
+    const double fastest =
+        std::sqrt(r.inertia * entry.material.yield_stress / entry.material.density);  // on a wall
+    if (r.slowest > 0.7 * fastest)
+      fail("--slowest", fmt::format("is no slower than the fastest impact of '{}' (--inertia)", name),
+           fmt::format("{:g} m/s", r.slowest), fmt::format("up to {:.4g} m/s", 0.7 * fastest));
+  }
+  if (!used) fail("--slowest", "no body of the pairs depends on the rate: leave it out");
+}
+
 /// Throws for a pair of different bodies that the pair rule is not for: before anything is computed.
 void check_pairs(const std::vector<LawPair>& pairs, const std::map<std::string, Entry>& entries)
 {
@@ -222,6 +248,7 @@ void check_pairs(const std::vector<LawPair>& pairs, const std::map<std::string, 
 void build(const TableRequest& r)
 {
   check_output(r.output, ".h5");
+  r.farm.check();
   const MaterialsFile file = read_materials(r.materials);
   Law law;
   std::map<std::string, Entry> entries;
@@ -231,6 +258,7 @@ void build(const TableRequest& r)
       if (name != wall_name && !entries.contains(name)) entries[name] = entry_of(name, file);
   }
   check_pairs(law.pairs, entries);
+  check_slowest(r, entries);
 
   BuildOptions options = r.range;
   options.fastest = std::sqrt(r.inertia);
@@ -353,8 +381,9 @@ void add_table(CLI::App& app)
       "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
       "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5");
   command->add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
-  command->add_option("--deck", r->deck, "LIGGGHTS deck: only what its scene can reach (mpm plan)");
-  r->scene.add_to(*command, false);
+  CLI::Option* deck =
+      command->add_option("--deck", r->deck, "LIGGGHTS deck: only what its scene can reach (mpm plan)");
+  r->scene.add_to(*command, false, deck);
   command->add_option(
       "--pair", r->pairs,
       "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
@@ -363,12 +392,13 @@ void add_table(CLI::App& app)
       ->add_option("--tolerance", r->range.tolerance,
                    "relative error of force and e: of sampling, of the resolution, and below which an axis "
                    "is left out")
-      ->check(CLI::Range(1e-4, 0.5))
+      ->check(from_to(1e-4, 0.5))
       ->capture_default_str();
   command->add_option("--depth", r->range.depth, "largest overlap over the radius, up to 0.5")
+      ->check(above_zero_to(0.5))
       ->capture_default_str();
   command->add_option("--inertia", r->inertia, "largest I = rho V^2/Y, up to 0.09; 0: a rate-free law")
-      ->check(CLI::Range(0.0, 0.09))
+      ->check(from_to(0, 0.09))
       ->capture_default_str();
   command
       ->add_option(
@@ -376,11 +406,11 @@ void add_table(CLI::App& app)
           "speed, m/s on a wall, of the slowest impact that the law of a rate-dependent particle must\n"
           "know: slower ones count as this one (default: a fiftieth of the fastest, or the onset of "
           "yield)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--radius-ratio", r->radius_ratio,
                    "largest ratio of two radii in the scene: the pair rule's error is stated for it")
-      ->check(CLI::Range(1.0, 10.0))
+      ->check(from_to(1, 10))
       ->capture_default_str();
   command->add_flag("--own-law", r->own_law,
                     "compute a law of its own, by runs of the two bodies at equal radii, for each pair of\n"

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace granulaw {
+
+/// Checks of options that are numbers: what was found, what is allowed. CLI11's own let "nan" pass (it
+/// compares false with both ends), and write every digit of the largest double.
+
+/// The option's word as a number; NaN if it is none.
+inline double number_in(const std::string& word)
+{
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  return end != word.c_str() && *end == '\0' ? value : std::nan("");
+}
+
+inline CLI::Validator number_check(const std::string& allowed, bool (*good)(double, double, double),
+                                   double low, double high)
+{
+  return {[=](std::string& word) {
+            return good(number_in(word), low, high)
+                       ? std::string()
+                       : fmt::format("cannot be used: found '{}', allowed is {}", word, allowed);
+          },
+          allowed};
+}
+
+/// From `low` to `high`, both included.
+inline CLI::Validator from_to(double low, double high)
+{
+  return number_check(
+      fmt::format("a number from {:g} to {:g}", low, high),
+      [](double value, double least, double most) { return value >= least && value <= most; }, low, high);
+}
+/// A whole number, from `low` to `high`.
+inline CLI::Validator whole_from_to(int low, int high)
+{
+  return number_check(
+      fmt::format("a whole number from {} to {}", low, high),
+      [](double value, double least, double most) {
+        return value >= least && value <= most && value == std::floor(value);
+      },
+      low, high);
+}
+/// Over 0, up to `high`.
+inline CLI::Validator above_zero_to(double high)
+{
+  return number_check(
+      fmt::format("a number over 0, up to {:g}", high),
+      [](double value, double, double most) { return value > 0 && value <= most; }, 0, high);
+}
+/// Over 0, finite.
+inline CLI::Validator above_zero()
+{
+  return number_check(
+      "a number over 0", [](double value, double, double) { return value > 0 && std::isfinite(value); }, 0,
+      0);
+}
+
+}  // namespace granulaw
