@@ -107,9 +107,22 @@ std::vector<MaterialRatios> AtlasGrid::block() const
   return materials;
 }
 
-Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<AtlasCheck> checks)
-    : grid_(std::move(grid)), nodes_(std::move(nodes)), checks_(std::move(checks))
+std::vector<double> AtlasGrid::poisson_ratios() const
 {
+  return with(block_poisson_ratios, main_poisson_ratio);
+}
+
+Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere> elastic,
+             std::vector<AtlasCheck> checks)
+    : grid_(std::move(grid)),
+      nodes_(std::move(nodes)),
+      elastic_(std::move(elastic)),
+      checks_(std::move(checks))
+{
+  const std::vector<double> ratios = grid_.poisson_ratios();
+  if (!std::equal(elastic_.begin(), elastic_.end(), ratios.begin(), ratios.end(),
+                  [](const ElasticSphere& e, double nu) { return e.poisson_ratio == nu; }))
+    fail("atlas", "its elastic spheres are not those of its Poisson's ratios");
   std::vector<MaterialRatios> expected = grid_.main_plane();
   const std::vector<MaterialRatios> block = grid_.block();
   expected.insert(expected.end(), block.begin(), block.end());
@@ -137,7 +150,7 @@ std::string Atlas::why_not(const MaterialRatios& m) const
   };
   const double soft = grid_.stiffnesses.front(), stiff = grid_.stiffnesses.back(),
                flat = grid_.hardenings.front(), steep = grid_.hardenings.back();
-  const auto ratios = with(grid_.block_poisson_ratios, grid_.main_poisson_ratio);
+  const auto ratios = grid_.poisson_ratios();
   if (!(m.stiffness >= soft && m.stiffness <= stiff)) return outside("E*/Y", m.stiffness, soft, stiff);
   if (!(m.poisson_ratio >= ratios.front() && m.poisson_ratio <= ratios.back()))
     return outside("nu", m.poisson_ratio, ratios.front(), ratios.back());
@@ -145,9 +158,20 @@ std::string Atlas::why_not(const MaterialRatios& m) const
   return {};
 }
 
-ElasticCorrection Atlas::elastic(double poisson_ratio) const
+ElasticSphere Atlas::elastic(double poisson_ratio) const
 {
-  return shape({grid_.stiffnesses.front(), poisson_ratio, grid_.hardenings.front()}).elastic;
+  const std::vector<double> weights = interpolation_weights(grid_.poisson_ratios(), poisson_ratio);
+  ElasticSphere mean;
+  mean.poisson_ratio = poisson_ratio;
+  ElasticCorrection& sum = mean.fit.correction;
+  for (std::size_t k = 0; k < elastic_.size(); ++k) {
+    const ElasticCorrection& c = elastic_[k].fit.correction;
+    sum.c1 += weights[k] * c.c1, sum.c2 += weights[k] * c.c2, sum.c3 += weights[k] * c.c3;
+    sum.d1 += weights[k] * c.d1;
+    mean.fit.error = std::max(mean.fit.error, elastic_[k].fit.error);
+    mean.solver_error = std::max(mean.solver_error, elastic_[k].solver_error);
+  }
+  return mean;
 }
 
 LawShape Atlas::shape(const MaterialRatios& m) const
@@ -174,7 +198,7 @@ LawShape Atlas::shape(const MaterialRatios& m) const
     }
   }
 
-  const std::vector<double> ratios = with(grid_.block_poisson_ratios, grid_.main_poisson_ratio);
+  const std::vector<double> ratios = grid_.poisson_ratios();
   const std::vector<double> by_ratio = interpolation_weights(ratios, m.poisson_ratio);
   const std::vector<double> block_along =
       interpolation_weights(logarithms(grid_.block_stiffnesses), std::log(m.stiffness));

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "characterise/law_shape.hpp"
+#include "characterise/fit_curve.hpp"
 #include "law/law.hpp"
 
 namespace granulaw {
@@ -35,6 +35,16 @@ struct AtlasGrid
   std::vector<double> hardenings_at(double stiffness) const;
   std::vector<MaterialRatios> main_plane() const;  ///< ascending stiffness, then hardening
   std::vector<MaterialRatios> block() const;       ///< ascending stiffness, hardening, Poisson's ratio
+  std::vector<double> poisson_ratios() const;      ///< all, ascending
+};
+
+/// The law of a sphere that never yields.
+struct ElasticSphere
+{
+  static constexpr double depth = 0.2;  ///< overlap/R where it ends
+  double poisson_ratio = 0;
+  ElasticFit fit;
+  double solver_error = 0;  ///< of the press to that depth, by two resolutions
 };
 
 /// A fresh impact of a material between the atlas's own, and what the atlas said.
@@ -62,8 +72,10 @@ class Atlas
     LawShape shape;
   };
 
-  /// Nodes of grid.main_plane(), then grid.block(). Throws Error if they are not.
-  Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<AtlasCheck> checks = {});
+  /// Nodes of grid.main_plane(), then grid.block(), and elastic spheres of all its Poisson's ratios,
+  /// ascending. Throws Error if they are not.
+  Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere> elastic,
+        std::vector<AtlasCheck> checks = {});
 
   static constexpr double depth = 0.5;  ///< overlap/R where every law ends
 
@@ -73,8 +85,9 @@ class Atlas
 
   /// Why this material's law is not in the atlas, as the end of a sentence; empty: it is.
   std::string why_not(const MaterialRatios& m) const;
-  /// The finite-sphere correction of an elastic sphere.
-  ElasticCorrection elastic(double poisson_ratio) const;
+  const std::vector<ElasticSphere>& elastic_spheres() const { return elastic_; }
+  /// A sphere that never yields; of the errors the largest of all Poisson's ratios.
+  ElasticSphere elastic(double poisson_ratio) const;
   /// Its shape. Needs why_not() empty.
   LawShape shape(const MaterialRatios& m) const;
 
@@ -88,6 +101,7 @@ class Atlas
  private:
   AtlasGrid grid_;
   std::vector<Node> nodes_;
+  std::vector<ElasticSphere> elastic_;
   std::vector<AtlasCheck> checks_;
   double claimed_force_ = 0, claimed_restitution_ = 0, solver_error_ = 0;
 };

@@ -27,13 +27,6 @@ std::vector<MaterialRatios> all_materials(const AtlasGrid& grid)
   return all;
 }
 
-std::vector<double> all_poisson_ratios(const AtlasGrid& grid)
-{
-  std::vector<double> all = grid.block_poisson_ratios;
-  all.push_back(grid.main_poisson_ratio);
-  return all;
-}
-
 Subject sphere_of(const MaterialRatios& m)
 {
   return subject_of(m.stiffness, m.poisson_ratio, m.hardening);
@@ -45,9 +38,9 @@ double onset_of(const MaterialRatios& m)
 }
 
 /// A slow press without yield, for the finite-sphere correction.
-RunJob elastic_job(double poisson_ratio, const RunSource& source)
+RunJob elastic_job(double poisson_ratio, double depth, const RunSource& source)
 {
-  return press_job(subject_of(1.0, poisson_ratio, 0.0).elastic(), {elastic_depth, {}, 24, 2}, source);
+  return press_job(subject_of(1.0, poisson_ratio, 0.0).elastic(), {depth, {}, 24, 2}, source);
 }
 
 /// Functions of u are brought to the same delta/delta_onset in another material's range.
@@ -62,7 +55,10 @@ LawShape at_range_of(const MaterialRatios& to, const MaterialRatios& from, const
 std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source)
 {
   std::vector<RunJob> jobs;
-  for (const double nu : all_poisson_ratios(grid)) jobs.push_back(elastic_job(nu, source));
+  for (const double nu : grid.poisson_ratios()) {
+    jobs.push_back(elastic_job(nu, elastic_depth, source));
+    jobs.push_back(with_estimate(elastic_job(nu, ElasticSphere::depth, source)));
+  }
   for (const MaterialRatios& m : all_materials(grid))
     for (RunJob& job : survey_jobs(sphere_of(m), plan_survey(sphere_of(m), {}), source)) {
       job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
@@ -75,10 +71,16 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source)
 Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
 {
   std::size_t next = 0;
-  std::vector<ElasticCorrection> elastic;
-  const std::vector<double> ratios = all_poisson_ratios(grid);
-  for (std::size_t k = 0; k < ratios.size(); ++k)
-    elastic.push_back(fit_elastic(pressing_from(outcomes[next++].result)));
+  std::vector<ElasticCorrection> elastic;  // where yield comes first
+  std::vector<ElasticSphere> spheres;
+  const std::vector<double> ratios = grid.poisson_ratios();
+  for (const double nu : ratios) {
+    const Pressing shallow = pressing_from(outcomes[next++].result);
+    const RunResult& deep = outcomes[next++].result;
+    elastic.push_back(fit_elastic(shallow));
+    spheres.push_back(
+        {nu, fit_elastic(std::vector{shallow, pressing_from(deep)}), deep.summary.error_estimate});
+  }
   const auto elastic_at = [&](double nu) {
     return elastic[static_cast<std::size_t>(std::find(ratios.begin(), ratios.end(), nu) - ratios.begin())];
   };
@@ -143,7 +145,7 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
                                   begins_late ? &guide : nullptr)
                             .shape});
   }
-  return Atlas(grid, std::move(nodes));
+  return Atlas(grid, std::move(nodes), std::move(spheres));
 }
 
 std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, unsigned seed,

@@ -29,6 +29,9 @@ constexpr Field stiffness{"stiffness", "1", "E*/Y of each material"};
 constexpr Field poisson_ratio{"poisson_ratio", "1", "Poisson's ratio of each material"};
 constexpr Field hardening{"hardening", "1", "H/E of each material"};
 constexpr Field elastic{"elastic", "1", "c1, c2, d1 of each material"};
+constexpr Field elastic_spheres{"elastic_spheres", "1",
+                                "without yield, to 0.2 R: rows of Poisson's ratio, c1, c2, c3, d1, largest "
+                                "misfit of F, the solver's error"};
 constexpr Field softening{"softening", "1", "-ln(F/F_elastic) at the nodes of each material"};
 constexpr Field widening{"widening", "1", "ln(a/a_elastic) at the nodes of each material"};
 constexpr Field residual{"residual", "1", "-ln(1 - delta_r/delta_m) at the nodes of each material"};
@@ -116,6 +119,12 @@ void write_atlas(const Atlas& atlas, const std::string& path)
     gather(impact_force, [](const auto& node, auto& v) {
       for (const LawShape::Inertia& i : node.shape.inertia) v.insert(v.end(), i.force.begin(), i.force.end());
     });
+    std::vector<double> spheres;
+    for (const auto& [nu, fit, solver_error] : atlas.elastic_spheres())
+      for (const double v : {nu, fit.correction.c1, fit.correction.c2, fit.correction.c3, fit.correction.d1,
+                             fit.error, solver_error})
+        spheres.push_back(v);
+    h5::write_vector(file, elastic_spheres, spheres, path);
     std::vector<double> rows;
     for (const AtlasCheck& c : atlas.checks())
       for (const double v : {c.material.stiffness, c.material.poisson_ratio, c.material.hardening, c.speed,
@@ -172,14 +181,20 @@ Atlas read_atlas(const std::string& path)
   for (std::size_t i = 0; i < forces.size(); ++i)
     nodes[i / (speeds * shares)].shape.inertia[i / shares % speeds].force[i % shares] = forces[i];
 
+  std::vector<ElasticSphere> spheres;
+  const std::vector<double> rows =
+      read_numbers(file, elastic_spheres, 7 * grid.poisson_ratios().size(), path);
+  for (std::size_t i = 0; i < rows.size(); i += 7)
+    spheres.push_back(
+        {rows[i], {{rows[i + 1], rows[i + 2], rows[i + 4], rows[i + 3]}, rows[i + 5]}, rows[i + 6]});
+
   std::vector<AtlasCheck> made;
   if (h5::has_link(file, checks.name)) {
-    const std::vector<double> rows = h5::read_vector(file, checks, most, path);
-    for (std::size_t i = 0; i + 7 <= rows.size(); i += 7)
-      made.push_back(
-          {{rows[i], rows[i + 1], rows[i + 2]}, rows[i + 3], rows[i + 4], rows[i + 5], rows[i + 6]});
+    const std::vector<double> of = h5::read_vector(file, checks, most, path);
+    for (std::size_t i = 0; i + 7 <= of.size(); i += 7)
+      made.push_back({{of[i], of[i + 1], of[i + 2]}, of[i + 3], of[i + 4], of[i + 5], of[i + 6]});
   }
-  return Atlas(std::move(grid), std::move(nodes), std::move(made));
+  return Atlas(std::move(grid), std::move(nodes), std::move(spheres), std::move(made));
 }
 
 }  // namespace granulaw

@@ -331,15 +331,21 @@ void Build::elastic()
   resolution_ = choose_resolution([&](int r) {
     return press_job(subject_, {options_.depth, {}, r, 2}, source_);
   });
-  const RunOutcome outcome =
-      run({press_job(subject_, {options_.depth, {}, resolution_, 2}, source_)}, 1.0)[0];
-  if (outcome.failed()) fail("mpm table", "the elastic press fails: " + outcome.error);
-  const Pressing press = pressing_from(outcome.result);
-  law_.curve = ContactCurve(tabulate_elastic(fit_elastic(press), options_.depth), law_.material.name);
+  std::vector<RunJob> jobs;
+  for (const double share : {0.15, 1.0})  // the contact of the deep press begins with too few cells
+    jobs.push_back(press_job(subject_, {share * options_.depth, {}, resolution_, 2}, source_));
+  std::vector<Pressing> presses;
+  for (const RunOutcome& outcome : run(jobs, 1.0)) {
+    if (outcome.failed()) fail("mpm table", "the elastic press fails: " + outcome.error);
+    presses.push_back(pressing_from(outcome.result));
+  }
+  const ElasticFit fit = fit_elastic(presses);
+  law_.curve = ContactCurve(tabulate_elastic(fit.correction, options_.depth), law_.material.name);
+  c.interpolation_error = fit.error;
   double sum = 0;
   int count = 0;
-  for (const auto& [x, f, a] : press.loading)
-    if (x > 0.5 * press.depth) sum += std::pow(f / law_.curve.loading(x).force - 1, 2), ++count;
+  for (const auto& [x, f, a] : presses.back().loading)
+    if (x > 0.5 * presses.back().depth) sum += std::pow(f / law_.curve.loading(x).force - 1, 2), ++count;
   c.residual_scatter = count ? std::sqrt(sum / count) : 0;
   c.max_inertia = std::numeric_limits<double>::infinity();
   built_.runs_full = built_.runs;
@@ -452,10 +458,12 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOpt
   Certificate& c = law.certificate;
   c.origin = "atlas";
   if (!material.yields()) {
-    law.curve =
-        ContactCurve(tabulate_elastic(atlas.elastic(material.poisson_ratio), options.depth), material.name);
+    const ElasticSphere sphere = atlas.elastic(material.poisson_ratio);
+    const double depth = std::min(options.depth, ElasticSphere::depth);
+    law.curve = ContactCurve(tabulate_elastic(sphere.fit.correction, depth), material.name);
     c.max_inertia = std::numeric_limits<double>::infinity();
-    c.solver_error_force = c.solver_error_restitution = atlas.solver_error();
+    c.atlas_error_force = sphere.fit.error;  // e is 1
+    c.solver_error_force = sphere.solver_error;
     return law;
   }
   const MaterialRatios ratios = MaterialRatios::of(material);

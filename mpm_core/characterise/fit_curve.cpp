@@ -125,27 +125,63 @@ std::vector<double> inertia_force(const Pressing& impact, const auto& press_forc
 
 }  // namespace
 
-ElasticCorrection fit_elastic(const Pressing& press)
+namespace {
+
+/// `terms` of the force: 2 or 3.
+ElasticCorrection fit_elastic_terms(std::span<const Pressing> presses, int terms)
 {
-  std::vector<std::size_t> used;
-  for (std::size_t k = 0; k < press.loading.size(); ++k)
-    if (press.loading[k].x >= elastic_from * press.depth) used.push_back(k);
+  struct Used
+  {
+    const Pressing* press;
+    std::size_t k;
+  };
+  std::vector<Used> used;
+  for (const Pressing& press : presses)
+    for (std::size_t k = 0; k < press.loading.size(); ++k)
+      if (press.loading[k].x >= elastic_from * press.depth) used.push_back({&press, k});
   if (used.size() < 10)
     fail("fit", "too few samples in the elastic press", std::to_string(used.size()), "10 or more");
-  Eigen::MatrixXd a(used.size(), 2);
-  Eigen::VectorXd b(used.size()), root(used.size()), r(used.size());
-  for (std::size_t k = 0; k < used.size(); ++k) {
-    const auto& [x, f, radius] = press.loading[used[k]];
-    const double w = weight_of(press, used[k]);
-    const auto row = static_cast<Eigen::Index>(k);
-    a(row, 0) = w * std::sqrt(x);
-    a(row, 1) = w * x;
+  const auto rows = static_cast<Eigen::Index>(used.size());
+  Eigen::MatrixXd a(rows, terms);
+  Eigen::VectorXd b(rows), root(rows), r(rows);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const auto& [press, k] = used[static_cast<std::size_t>(row)];
+    const auto& [x, f, radius] = press->loading[k];
+    const double w = weight_of(*press, k);
+    for (int term = 0; term < terms; ++term) a(row, term) = w * std::pow(x, 0.5 * (term + 1));
     b(row) = w * (f / hertz_force(x) - 1);
     root(row) = w * std::sqrt(x);
     r(row) = w * (radius / std::sqrt(x) - 1);
   }
   const Eigen::VectorXd c = a.colPivHouseholderQr().solve(b);
-  return {c(0), c(1), root.dot(r) / root.dot(root)};
+  return {c(0), c(1), root.dot(r) / root.dot(root), terms > 2 ? c(2) : 0.0};
+}
+
+}  // namespace
+
+ElasticCorrection fit_elastic(const Pressing& press)
+{
+  return fit_elastic_terms({&press, 1}, 2);
+}
+
+ElasticFit fit_elastic(std::span<const Pressing> presses)
+{
+  ElasticFit fit{fit_elastic_terms(presses, 3)};
+  for (const Pressing& press : presses) {
+    constexpr int parts = 8;  // of the contact radius between a third of it and all: two cells and more each
+    double sum[parts] = {};
+    int count[parts] = {};
+    for (const auto& [x, f, radius] : press.loading) {
+      const double place = (std::sqrt(x / press.depth) - 1. / 3) * 1.5 * parts;
+      if (place < 0) continue;
+      const int part = std::min(static_cast<int>(place), parts - 1);
+      sum[part] += f / (hertz_force(x) * fit.correction.force_ratio(std::pow(x, 0.25))) - 1;
+      ++count[part];
+    }
+    for (int part = 0; part < parts; ++part)
+      if (count[part] > 0) fit.error = std::max(fit.error, std::abs(sum[part] / count[part]));
+  }
+  return fit;
 }
 
 FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,

@@ -1,12 +1,23 @@
 #pragma once
 
+#include <span>
+
 #include "characterise/law_shape.hpp"
 #include "characterise/survey.hpp"
 
 namespace granulaw {
 
-/// Weighted least squares through one elastic press.
+/// Weighted least squares through one elastic press, up to which the body yields: c3 = 0.
 ElasticCorrection fit_elastic(const Pressing& press);
+
+/// The same of a body that never yields, through presses of several depths, and how well it fits: the largest
+/// relative deviation of the force, averaged over parts of a press as long as the ripple of the contact edge.
+struct ElasticFit
+{
+  ElasticCorrection correction;
+  double error = 0;
+};
+ElasticFit fit_elastic(std::span<const Pressing> presses);
 
 /// How well a shape represents the runs it was fitted to; relative numbers.
 struct FitQuality

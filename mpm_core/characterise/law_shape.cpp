@@ -117,6 +117,7 @@ void LawShape::add(double weight, const LawShape& other)
   elastic.c1 += weight * other.elastic.c1;
   elastic.c2 += weight * other.elastic.c2;
   elastic.d1 += weight * other.elastic.d1;
+  elastic.c3 += weight * other.elastic.c3;
   for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
                       &LawShape::foot})
     add_to(this->*member, weight, other.*member);

@@ -7,15 +7,17 @@
 
 namespace granulaw {
 
-/// F/F_Hertz = 1 + c1 sqrt(x) + c2 x and a/a_Hertz = 1 + d1 sqrt(x) of the elastic body: the finite sphere.
+/// F/F_Hertz = 1 + c1 sqrt(x) + c2 x + c3 x^1.5 and a/a_Hertz = 1 + d1 sqrt(x) of the elastic body: the
+/// finite sphere. c3 is that of a law without yield, which goes on elastically to its end; 0 where yield
+/// comes first.
 struct ElasticCorrection
 {
-  double c1 = 0, c2 = 0, d1 = 0;
-  double force_ratio(double s) const { return 1 + s * s * (c1 + c2 * s * s); }
-  double force_ratio_slope(double s) const { return s * (2 * c1 + 4 * c2 * s * s); }
+  double c1 = 0, c2 = 0, d1 = 0, c3 = 0;
+  double force_ratio(double s) const { return 1 + s * s * (c1 + s * s * (c2 + s * s * c3)); }
+  double force_ratio_slope(double s) const { return s * (2 * c1 + s * s * (4 * c2 + s * s * 6 * c3)); }
   double radius_ratio(double s) const { return 1 + d1 * s * s; }
   double radius_ratio_slope(double s) const { return 2 * d1 * s; }
-  /// Of unloading from s along the elastic curve itself: x^1.5 (1 + c1 sqrt(x) + c2 x).
+  /// Of unloading from s along the elastic curve itself (c3 = 0): x^1.5 (1 + c1 sqrt(x) + c2 x).
   UnloadingShape unloading(double s) const
   {
     const double a = 1 / force_ratio(s), b = a * c1 * s * s, c = 1 - a - b;
@@ -63,7 +65,8 @@ struct LawShape
 };
 
 /// Speeds sqrt(I) at which the atlas knows the effect of inertia.
-inline constexpr double inertia_speeds[] = {0.015, 0.03, 0.06, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.3};
+inline constexpr double inertia_speeds[] = {0.015, 0.03, 0.06,  0.1,  0.125, 0.15,
+                                            0.175, 0.2,  0.225, 0.25, 0.3};
 
 /// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
 /// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the

@@ -13,11 +13,11 @@ namespace granulaw {
 
 namespace {
 
-constexpr double speed_spacing = 0.02;   // of the nodes of X(v)
+constexpr double speed_spacing = 0.02;    // of the nodes of X(v)
 constexpr double slice_spacing = 0.0125;  // of X, about
-constexpr double slices_an_octave = 3;   // of a rate axis
-constexpr double share_spacing = 0.05;   // of xi = x/X
-constexpr double usual_ratio_end = 1.5;  // xi where the force is the press's again
+constexpr double slices_an_octave = 3;    // of a rate axis
+constexpr double share_spacing = 0.05;    // of xi = x/X
+constexpr double usual_ratio_end = 1.5;   // xi where the force is the press's again
 
 /// y(x) = 0 by bracketing.
 template <class F>

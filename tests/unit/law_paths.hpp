@@ -48,8 +48,9 @@ class Path
   double work() const { return work_; }
   /// Largest force met, times x_m: above all work.
   double scale() const { return top_ * x_m_; }
-  /// What Simpson's rule leaves open of the work: what half as many pieces change, and rounding.
-  double open() const { return open_ + 1e-12 * scale(); }
+  /// What Simpson's rule leaves open of the work: what half as many pieces change (four times that: where the
+  /// force ends within a piece, the rule is not of its order), and rounding.
+  double open() const { return 4 * open_ + 1e-12 * scale(); }
 
  private:
   void piece(double to)

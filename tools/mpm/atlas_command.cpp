@@ -38,7 +38,8 @@ void build(const AtlasRequest& r)
   const AtlasGrid grid;
   const RunSource source;
   const Atlas bare = atlas_from(grid, farm->run(atlas_jobs(grid, source), share(0, 0.8)));
-  const Atlas atlas(grid, bare.nodes(), check_atlas(bare, *farm, r.checks, r.seed, share(0.8, 1)));
+  const Atlas atlas(grid, bare.nodes(), bare.elastic_spheres(),
+                    check_atlas(bare, *farm, r.checks, r.seed, share(0.8, 1)));
   if (rank() != 0) return;
   write_atlas(atlas, r.output);
   bar.clear();
