@@ -163,11 +163,8 @@ ElasticSphere Atlas::elastic(double poisson_ratio) const
   const std::vector<double> weights = interpolation_weights(grid_.poisson_ratios(), poisson_ratio);
   ElasticSphere mean;
   mean.poisson_ratio = poisson_ratio;
-  ElasticCorrection& sum = mean.fit.correction;
   for (std::size_t k = 0; k < elastic_.size(); ++k) {
-    const ElasticCorrection& c = elastic_[k].fit.correction;
-    sum.c1 += weights[k] * c.c1, sum.c2 += weights[k] * c.c2, sum.c3 += weights[k] * c.c3;
-    sum.d1 += weights[k] * c.d1;
+    mean.fit.correction.add(weights[k], elastic_[k].fit.correction);
     mean.fit.error = std::max(mean.fit.error, elastic_[k].fit.error);
     mean.solver_error = std::max(mean.solver_error, elastic_[k].solver_error);
   }

@@ -42,9 +42,10 @@ double q_of(double x, double onset)
   return 0.25 * std::log(x / onset);
 }
 
-double residual_measure(const Pressing& p)
+/// `ratio`: delta_r/delta_m.
+double residual_measure(double ratio)
 {
-  return -std::log(1 - std::clamp(p.residual / p.depth, 0.0, 0.99999));
+  return -std::log(1 - std::clamp(ratio, 0.0, 0.99999));
 }
 double dissipation_measure(const Pressing& p)
 {
@@ -235,7 +236,9 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
     if (p.turn_force > 0) p.work_ratio *= 1 + (press_force(p.depth) / p.turn_force - 1) * (1 - p.work_ratio);
   const auto* shallow_residual = shallow ? &shallow->residual : nullptr;
   const auto* shallow_dissipation = shallow ? &shallow->dissipation : nullptr;
-  const SmoothSpline residual = turning_spline(turns, onset, q_end, residual_measure, shallow_residual);
+  const SmoothSpline residual = turning_spline(
+      turns, onset, q_end, [](const Pressing& p) { return residual_measure(p.residual / p.depth); },
+      shallow_residual);
   const SmoothSpline dissipation =
       turning_spline(turns, onset, q_end, dissipation_measure, shallow_dissipation);
   // The contact edge's ripple of a per cent of F moves a foot by 0.3.
@@ -249,12 +252,12 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   shape.dissipation = sampled(dissipation, q_end);
   shape.foot = sampled(foot, q_end);
   shape.inertia.clear();
-  for (const auto& [speed, computed] : survey.fast) {
-    const double q = q_of(computed.depth, onset);
+  for (const auto& [speed, impact] : survey.fast) {
+    const double q = q_of(impact.depth, onset);
     // an impact's unloading swings with the body: it has the press's foot
-    Pressing impact = computed;
+    double residual_overlap = impact.residual;
     if (!impact.unloading.empty())
-      impact.residual =
+      residual_overlap =
           std::max(0.0, residual_as_long(impact.unloading, impact.turn_force,
                                          std::max(0.0, elastic_foot(elastic, impact.depth) + foot.value(q))));
     LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
@@ -263,7 +266,7 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
     if (const double slow = dissipation.value(q); slow > least_lost)
       inertia.dissipation = dissipation_measure(impact) / slow - 1;
     if (const double slow = residual.value(q); slow > least_lost)
-      inertia.residual = residual_measure(impact) / slow - 1;
+      inertia.residual = residual_measure(residual_overlap / impact.depth) / slow - 1;
     shape.inertia.push_back(std::move(inertia));
   }
   // There inertia changes nothing, but a rate as much as in the next faster impact: its yield begins later.

@@ -17,6 +17,7 @@ namespace {
 // put in. e is .01 % lower.
 constexpr double rounding_spare = 2e-4;
 constexpr double least_foot = 0.03;        // about: a smooth floor of A, whose cubics must not pass below 0
+constexpr double spare_foot = 2e-4;        // below what still rises: the rounding of cubics between nodes
 constexpr double target_spacing = 0.0045;  // of table nodes in s: about 128 nodes to x = 0.1
 
 /// One function of a shape between its nodes, in q = ln(s/s_onset): the cubic spline through them.
@@ -112,15 +113,19 @@ LawShape LawShape::zero()
   return shape;
 }
 
+const std::array<std::vector<double> LawShape::*, 5> LawShape::functions = {
+    &LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation, &LawShape::foot};
+
+void ElasticCorrection::add(double weight, const ElasticCorrection& other)
+{
+  c1 += weight * other.c1, c2 += weight * other.c2, c3 += weight * other.c3;
+  d1 += weight * other.d1;
+}
+
 void LawShape::add(double weight, const LawShape& other)
 {
-  elastic.c1 += weight * other.elastic.c1;
-  elastic.c2 += weight * other.elastic.c2;
-  elastic.d1 += weight * other.elastic.d1;
-  elastic.c3 += weight * other.elastic.c3;
-  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
-                      &LawShape::foot})
-    add_to(this->*member, weight, other.*member);
+  elastic.add(weight, other.elastic);
+  for (const auto member : functions) add_to(this->*member, weight, other.*member);
   for (std::size_t k = 0; k < inertia.size(); ++k) {
     inertia[k].reach += weight * other.inertia[k].reach;
     inertia[k].dissipation += weight * other.inertia[k].dissipation;
@@ -133,8 +138,7 @@ LawShape LawShape::stretched(double share) const
 {
   LawShape result = zero();
   result.elastic = elastic;
-  for (auto member : {&LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
-                      &LawShape::foot}) {
+  for (const auto member : functions) {
     const ShapeFunction function(this->*member, 1.0);
     for (int k = 0; k < nodes; ++k)
       (result.*member)[static_cast<std::size_t>(k)] = function.value(std::min(1.0, share * k / (nodes - 1)));
@@ -228,11 +232,12 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
     const double floored = 0.5 * (fitted + std::hypot(fitted, 2 * least_foot));
     // The work is as computed whatever the foot; with it the foot may not be so small that at its turn the
     // contact unloads less stiffly than it loads, nor so large that the unloading would fall.
-    const double bare = UnloadingShape::exponent_of(work, 0);
     const double stiff = std::max(UnloadingShape::least_exponent, kept * x * top.stiffness / top.force);
-    const double smallest = 5 * (stiff - bare), largest = (2.4999 - bare) / 0.45;
+    const double smallest = UnloadingShape::foot_of(work, stiff),
+                 largest = UnloadingShape::largest_foot_of(work) - spare_foot;
     const double a = std::clamp(std::max(floored, smallest), 0.0, std::max(0.0, largest));
-    return UnloadingShape{std::min(UnloadingShape::exponent_of(work, a), 2.4999), a};
+    return UnloadingShape{
+        std::min(UnloadingShape::exponent_of(work, a), UnloadingShape::largest_exponent(0) - spare_foot), a};
   };
   const auto elastic = [&](double s) { return el.unloading(s); };
   for (std::size_t k = 0; k < count; ++k) {

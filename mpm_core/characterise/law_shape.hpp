@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "law/contact_curve.hpp"
@@ -17,6 +18,8 @@ struct ElasticCorrection
   double force_ratio_slope(double s) const { return s * (2 * c1 + s * s * (4 * c2 + s * s * 6 * c3)); }
   double radius_ratio(double s) const { return 1 + d1 * s * s; }
   double radius_ratio_slope(double s) const { return 2 * d1 * s; }
+  /// this += weight * other.
+  void add(double weight, const ElasticCorrection& other);
   /// Of unloading from s along the elastic curve itself (c3 = 0): x^1.5 (1 + c1 sqrt(x) + c2 x).
   UnloadingShape unloading(double s) const
   {
@@ -52,7 +55,8 @@ struct LawShape
 
   ElasticCorrection elastic;
   std::vector<double> softening, widening, residual, dissipation, foot;
-  std::vector<Inertia> inertia;  ///< ascending speed
+  static const std::array<std::vector<double> LawShape::*, 5> functions;  ///< these
+  std::vector<Inertia> inertia;                                           ///< ascending speed
 
   /// this += weight * other, whose speeds are the same.
   void add(double weight, const LawShape& other);

@@ -200,7 +200,10 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
         if (lacking <= -spare) continue;
         lacks = lacks || lacking > -0.2 * spare;
         const auto column = std::min(static_cast<std::size_t>(x / reach / share_spacing) + 1, columns - 1);
-        const double more = 1.2 * (lacking + 1.5 * spare) * 10.5 * curve.turning(x, reach).shape.work();
+        const UnloadingShape now = curve.turning(x, reach).shape;
+        const double more =
+            UnloadingShape::exponent_of((1 - 1.2 * (lacking + 1.5 * spare)) * now.work(), now.foot) -
+            now.exponent;
         for (const std::size_t row : {(half + 1) / 2, half / 2})
           for (std::size_t l = 0; row > 0 && l < columns; ++l) {
             // fading out slowly: where the exponent falls, more comes back

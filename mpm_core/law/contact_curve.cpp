@@ -108,10 +108,13 @@ void ContactCurve::check_axis(const std::string& where) const
       if (x <= onset_ || x > x_end_) continue;
       const Position p = locate(x);
       const InertiaAxis::TurnCorrection turn = axis_->turn(x, overlap);
-      const double residual = cubic(p.interval->rho, p.t) + turn.residual;
+      const double residual = cubic(p.interval->rho, p.t) + turn.residual,
+                   n = cubic(p.interval->n, p.t) + turn.exponent;
       if (!(residual >= -0.1 && residual <= 0.999995))  // between nodes, as the quasi-static ratio's
         fail(where, here("the residual ratio is out of range"), fmt::format("{:.6g}", residual),
              "-0.1 to 0.999995");
+      if (!(n >= 0.9 && n <= 12))
+        fail(where, here("the exponent is out of range"), fmt::format("{:.6g}", n), "0.9 to 12");
     }
 }
 

@@ -49,6 +49,10 @@ struct UnloadingShape
   double work() const { return (11.0 - 2.0 * exponent) / 21.0 + foot * (2.0 / 105.0); }
   /// The n with which work() is `work`.
   static double exponent_of(double work, double foot) { return 5.5 - 10.5 * work + 0.2 * foot; }
+  /// The A with which it is that at this exponent.
+  static double foot_of(double work, double exponent) { return 5.0 * (exponent - exponent_of(work, 0.0)); }
+  /// The A beyond which exponent_of(work, A) is over largest_exponent(A).
+  static double largest_foot_of(double work) { return (2.5 - exponent_of(work, 0.0)) / 0.45; }
 };
 
 }  // namespace granulaw

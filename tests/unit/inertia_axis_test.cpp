@@ -322,6 +322,7 @@ TEST(InertiaAxis, RefusesUnusableTables)
   says([](Table& t) { t.exponent_correction[9] = NAN; }, "exponent_correction");
   says([](Table& t) { t.force_correction_slope[8] = -9; }, "loading force falls");
   says([](Table& t) { t.residual_correction[7 * 25 + 15] = 0.3; }, "residual ratio");
+  says([](Table& t) { t.exponent_correction[7 * 25 + 15] = -0.9; }, "exponent is out of range");
 }
 
 /// What is accepted evaluates to finite, never negative forces, however wild.

@@ -39,7 +39,9 @@ class Path
 
   void move(double to)
   {
-    if (x_ < x_m_ && to > x_m_) piece(x_m_);  // the force has a kink there
+    // Not across where the force ends, nor the turn: it has kinks there.
+    if ((force(x_) > 0) != (force(std::min(to, x_m_)) > 0)) piece(end_of_force(x_, std::min(to, x_m_)));
+    if (x_ < x_m_ && to > x_m_) piece(x_m_);
     piece(to);
     x_m_ = std::max(x_m_, to);
   }
@@ -48,18 +50,31 @@ class Path
   double work() const { return work_; }
   /// Largest force met, times x_m: above all work.
   double scale() const { return top_ * x_m_; }
-  /// What Simpson's rule leaves open of the work: what half as many pieces change (four times that: where the
-  /// force ends within a piece, the rule is not of its order), and rounding.
-  double open() const { return 4 * open_ + 1e-12 * scale(); }
+  /// What Simpson's rule leaves open of the work: what half as many pieces change, and rounding.
+  double open() const { return open_ + 1e-12 * scale(); }
 
  private:
+  double force(double x) const
+  {
+    return x > 0 ? law_->evaluate(unit_pair, 1.0, x, x_m_, impact_overlap_).force : 0.0;
+  }
+  /// Between two overlaps, one with force and one without.
+  double end_of_force(double a, double b) const
+  {
+    const bool at_a = force(a) > 0;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (a + b);
+      ((force(middle) > 0) == at_a ? a : b) = middle;
+    }
+    return a;
+  }
   void piece(double to)
   {
     constexpr int pieces = 1000;
     const double a = std::pow(x_, 0.25), h = (std::pow(to, 0.25) - a) / pieces;
     const auto integrand = [&](double s) {
       const double x = s * s * s * s;
-      const double f = x > 0 ? law_->evaluate(unit_pair, 1.0, x, x_m_, impact_overlap_).force : 0.0;
+      const double f = force(x);
       top_ = std::max(top_, f);
       return 4 * s * s * s * f;
     };
