@@ -369,6 +369,14 @@ def case_table():
         certificate = file["bodies/powder/certificate"]
         claimed = float(certificate["atlas_error_force"][()]), float(certificate["atlas_error_restitution"][()])
         assert np.asarray(certificate.attrs["origin"]).astype(str) == "atlas" and 0 < claimed[0] < 0.02 and 0 < claimed[1] < 0.02, claimed
+    # a homogeneous sphere asked for by its own name has its material's law, and either is found in the materials file
+    assert Run("table", "m.toml", "--pair", "grain:wall", "-o", "grain.h5").code == 0
+    with h5py.File("quick.h5") as a, h5py.File("grain.h5") as b:
+        a, b = a["bodies/powder"], b["bodies/grain"]
+        assert dict(a["material"].attrs) == dict(b["material"].attrs) and a["material/yield_stress"][()] == b["material/yield_stress"][()]
+        assert (a["curve/force_ratio"][:] == b["curve/force_ratio"][:]).all()
+    for law in ("quick.h5", "grain.h5"):
+        assert Run("check", law, "--materials", "m.toml", "--impacts", "1", "--seed", "1").code == 0
     for v in ("0.5", "3", "15"):
         by_runs, by_atlas = (Run("law", law, "--pair", "powder:wall", "--velocity", v, "--json").json() for law in ("law.h5", "quick.h5"))
         # each within 1 % of F and 0.01 of e of the solver (its tolerance; the atlas's claim, above)

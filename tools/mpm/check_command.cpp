@@ -101,9 +101,11 @@ std::optional<Subject> subject_for(const std::string& name, const Law& law, cons
   const MaterialsFile file = read_materials(r.materials);
   const bool is_particle = !file.materials.contains(name) && file.particles.contains(name);
   const Subject subject = is_particle ? subject_of(file.particle(name)) : subject_of(file.material(name));
-  if (!hash.empty() && hash != hash_of(subject) &&
-      !(subject.is_plain() && hash == hash_of(subject.particle.materials[0])))
-    fail(r.materials, fmt::format("'{}' is not what the law was made from", name), hash_of(subject), hash);
+  const std::string found =
+      !subject.is_plain() ? hash_of(subject)
+                          : hash_of(is_particle ? file.particle(name).materials[0] : file.material(name));
+  if (!hash.empty() && hash != found)
+    fail(r.materials, fmt::format("'{}' is not what the law was made from", name), found, hash);
   return subject;
 }
 
