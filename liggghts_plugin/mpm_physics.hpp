@@ -49,9 +49,8 @@ struct MpmContact
   double force(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
     const double per_length = per_lambda / r_eff;
-    const double ratio = delta < delta_max ? delta / delta_max : 1.0;
     return force_scale * r_eff * r_eff *
-           curve->force(delta * per_length, delta_max * per_length, ratio, impact_overlap);
+           curve->force(delta * per_length, delta_max * per_length, impact_overlap);
   }
   /// Of the real, unstretched contact.
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const

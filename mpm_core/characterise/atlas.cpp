@@ -171,34 +171,41 @@ ElasticSphere Atlas::elastic(double poisson_ratio) const
   return mean;
 }
 
-LawShape Atlas::shape(const MaterialRatios& m) const
+LawShape Atlas::main_shape(double stiffness, double hardening) const
 {
   LawShape result = LawShape::zero();
   std::size_t next = 0;
-  // shape of a node of the main plane that the block also needs
-  const auto main_node = [&](double stiffness, double hardening) -> const LawShape& {
-    for (const Node& node : nodes_)
-      if (same(node.material, {stiffness, grid_.main_poisson_ratio, hardening})) return node.shape;
-    fail("atlas", "the block holds a material whose partner in the main plane is missing");
-  };
-
-  const std::vector<double> along =
-      interpolation_weights(logarithms(grid_.stiffnesses), std::log(m.stiffness));
+  const std::vector<double> along = interpolation_weights(logarithms(grid_.stiffnesses), std::log(stiffness));
   for (std::size_t i = 0; i < grid_.stiffnesses.size(); ++i) {
     const double k = grid_.stiffnesses[i];
     const std::vector<double> hardenings = grid_.hardenings_at(k);
-    const auto across =
-        interpolation_weights(coordinates(k, hardenings), hardening_coordinate(k, m.hardening));
+    const auto across = interpolation_weights(coordinates(k, hardenings), hardening_coordinate(k, hardening));
     for (const double weight : across) {
       if (along[i] != 0 && weight != 0) result.add(along[i] * weight, nodes_[next].shape);
       ++next;
     }
   }
+  return result;
+}
 
+LawShape Atlas::partner(const MaterialRatios& m) const
+{
+  LawShape result = main_shape(m.stiffness, m.hardening);
+  const double same_ring = m.stiffness * (1 - m.poisson_ratio) / (1 - grid_.main_poisson_ratio);
+  result.inertia =
+      main_shape(std::clamp(same_ring, grid_.stiffnesses.front(), grid_.stiffnesses.back()), m.hardening)
+          .inertia;
+  return result;
+}
+
+LawShape Atlas::shape(const MaterialRatios& m) const
+{
+  LawShape result = partner(m);
   const std::vector<double> ratios = grid_.poisson_ratios();
   const std::vector<double> by_ratio = interpolation_weights(ratios, m.poisson_ratio);
-  const std::vector<double> block_along =
+  const std::vector<double> along =
       interpolation_weights(logarithms(grid_.block_stiffnesses), std::log(m.stiffness));
+  std::size_t next = grid_.main_plane().size();
   for (std::size_t i = 0; i < grid_.block_stiffnesses.size(); ++i) {
     const double k = grid_.block_stiffnesses[i];
     const auto across =
@@ -207,10 +214,10 @@ LawShape Atlas::shape(const MaterialRatios& m) const
       for (std::size_t r = 0; r < ratios.size(); ++r) {
         if (ratios[r] == grid_.main_poisson_ratio) continue;
         const Node& node = nodes_[next++];
-        const double weight = block_along[i] * across[j] * by_ratio[r];
+        const double weight = along[i] * across[j] * by_ratio[r];
         if (weight == 0) continue;
         result.add(weight, node.shape);
-        result.add(-weight, main_node(k, grid_.block_hardenings[j]));
+        result.add(-weight, partner(node.material));
       }
   }
   return result;

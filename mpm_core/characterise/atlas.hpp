@@ -24,7 +24,7 @@ struct MaterialRatios
 struct AtlasGrid
 {
   double main_poisson_ratio = 0.3;
-  std::vector<double> stiffnesses{20, 35, 60, 110, 200, 400, 900, 2000, 5000};
+  std::vector<double> stiffnesses{20, 27, 35, 47, 60, 80, 110, 150, 200, 400, 900, 2000, 5000};
   /// H/E; what is too weak to be seen at a stiffness is left out there.
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.3};
 
@@ -99,6 +99,12 @@ class Atlas
   double solver_error() const { return solver_error_; }
 
  private:
+  LawShape main_shape(double stiffness, double hardening) const;
+  /// What the main plane knows of a material with another Poisson's ratio. What inertia changes goes with the
+  /// sphere's ringing: its period with the shear wave's, E*/rho (1 - nu)/2, and the contact's time with
+  /// rho/Y; so it is that of the stiffness E*/Y (1 - nu) in the main plane.
+  LawShape partner(const MaterialRatios& m) const;
+
   AtlasGrid grid_;
   std::vector<Node> nodes_;
   std::vector<ElasticSphere> elastic_;

@@ -14,6 +14,7 @@ namespace granulaw {
 namespace {
 
 constexpr double least_lost = 0.02;  // -ln W_u/W_L, -ln(1 - delta_r/delta_m): less is not told from nothing
+constexpr double loss_noise = 0.05;  // of the same: where less is lost, ripple is more of it than inertia
 /// Share of an elastic press's depth below which the contact spans too few cells.
 constexpr double elastic_from = 0.1;
 /// The same where it yields. The contact spans 24 cells at the press's depth, 14 at a third of it; below, its
@@ -262,11 +263,12 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
                                          std::max(0.0, elastic_foot(elastic, impact.depth) + foot.value(q))));
     LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
                               inertia_force(impact, press_force)};
-    // Where next to nothing is lost the ratios mean nothing.
-    if (const double slow = dissipation.value(q); slow > least_lost)
-      inertia.dissipation = dissipation_measure(impact) / slow - 1;
-    if (const double slow = residual.value(q); slow > least_lost)
-      inertia.residual = residual_measure(residual_overlap / impact.depth) / slow - 1;
+    // Where next to nothing is lost the ratios mean nothing, and little where little is.
+    const auto change = [](double fast, double slow) {
+      return slow > least_lost ? (fast / slow - 1) / (1 + std::pow(loss_noise / slow, 2)) : 0.0;
+    };
+    inertia.dissipation = change(dissipation_measure(impact), dissipation.value(q));
+    inertia.residual = change(residual_measure(residual_overlap / impact.depth), residual.value(q));
     shape.inertia.push_back(std::move(inertia));
   }
   // There inertia changes nothing, but a rate as much as in the next faster impact: its yield begins later.

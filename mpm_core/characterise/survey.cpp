@@ -169,7 +169,8 @@ std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, 
   for (const double v : plan.slow_impacts)
     jobs.push_back(impact_job(subject, v, plan.resolution, plan.phases, source));
   for (const double v : plan.fast_speeds)
-    jobs.push_back(impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, plan.phases, source));
+    jobs.push_back(
+        impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, plan.fast_phases, source));
   return jobs;
 }
 

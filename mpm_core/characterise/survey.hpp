@@ -38,6 +38,7 @@ struct SurveyPlan
   std::vector<double> slow_impacts;  ///< velocities whose inertia does not count
   std::vector<double> fast_speeds;   ///< sqrt(I), I = rho V^2/Y
   int resolution = 24, phases = 2;   ///< of the impacts
+  int fast_phases = 2;               ///< of the fast ones
 
   std::size_t runs() const { return presses.size() + slow_impacts.size() + fast_speeds.size(); }
 };

@@ -14,10 +14,13 @@ namespace granulaw {
 namespace {
 
 constexpr double speed_spacing = 0.02;    // of the nodes of X(v)
-constexpr double slice_spacing = 0.0125;  // of X, about
+constexpr double slice_spacing = 0.0125;  // of X, about, beyond the first
 constexpr double slices_an_octave = 3;    // of a rate axis
-constexpr double share_spacing = 0.05;    // of xi = x/X
-constexpr double usual_ratio_end = 1.5;   // xi where the force is the press's again
+constexpr std::size_t first_slices = 3;   // within the first spacing
+constexpr double first_told = 1.5;      // X over the onset's overlap: nearer the certificate of admissibility
+                                        // (raise_exponents) takes more than inertia does
+constexpr double share_spacing = 0.05;  // of xi = x/X
+constexpr double usual_ratio_end = 1.5;  // xi where the force is the press's again
 
 /// y(x) = 0 by bracketing.
 template <class F>
@@ -179,7 +182,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
   const std::size_t columns = axis.ratio_nodes();
   constexpr int most_rounds = 40;
   constexpr double fading_nodes = 8;
-  constexpr double spare = 1e-3;                            // of the work: what may hide between the samples
+  constexpr double spare = 2e-4;                            // of the work: what may hide between the samples
   std::vector<double> overlaps{slow.onset() * (1 + 1e-9)};  // densely past the onset, then evenly in s
   for (int k = 1; k <= 60; ++k) overlaps.push_back(slow.onset() * (1 + 3e-4 * std::pow(1.13, k)));
   const std::vector<double> evenly =
@@ -206,8 +209,10 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
             now.exponent;
         for (const std::size_t row : {(half + 1) / 2, half / 2})
           for (std::size_t l = 0; row > 0 && l < columns; ++l) {
-            // fading out slowly: where the exponent falls, more comes back
-            const double share = l <= column ? 1.0 : 1 - static_cast<double>(l - column) / fading_nodes;
+            // fading out slowly: where the exponent falls, more comes back; contacts turned earlier keep
+            // theirs
+            const double away = static_cast<double>(l) - static_cast<double>(column);
+            const double share = away > 0 ? 1 - away / fading_nodes : std::min(1.0, 1 + (away + 2) / 2);
             double& there = raise[(row - 1) * columns + l];
             there = std::max(there, more * share);
           }
@@ -256,8 +261,10 @@ InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, con
                            std::max(1.0, std::round(slices_an_octave * (octaves(reach) - octaves(first)))));
     scale = SliceScale::by_octaves(table.slices, first, reach);
   } else {
-    table.slices = static_cast<std::size_t>(std::max(2.0, std::round(reach / slice_spacing)));
-    scale = SliceScale::even(table.slices, reach);
+    const double spacings = std::max(2.0, std::round(reach / slice_spacing));
+    table.first_slices = reach / spacings < first_slices * first_told * slow.onset() ? 1 : first_slices;
+    table.slices = static_cast<std::size_t>(spacings) + table.first_slices - 1;
+    scale = SliceScale::from_standstill(table.slices, table.first_slices, reach);
   }
   for (std::size_t k = 1; k <= table.slices; ++k) {
     const double x_reach = scale.overlap(static_cast<double>(k));

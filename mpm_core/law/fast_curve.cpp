@@ -4,7 +4,7 @@ namespace granulaw {
 
 namespace {
 
-/// Coefficients in t of the cubic through v[k] at t = width k/3.
+/// Coefficients in t of the cubic that is v[k] at t = width k/3.
 void fit(const double (&v)[4], double width, double (&c)[4])
 {
   c[0] = v[0];
@@ -16,25 +16,26 @@ void fit(const double (&v)[4], double width, double (&c)[4])
 
 }  // namespace
 
-FastCurve::FastCurve(const ContactCurve& curve)
-    : curve_(&curve), lowest_(std::ldexp(1.0, lowest_exponent)), x_end_(curve.x_end()), onset_(curve.onset())
+FastCurve::FastCurve(const ContactCurve& curve) : curve_(&curve), onset_(curve.onset())
 {
   if (curve.axis()) {
     axis_ = FastAxis(*curve.axis());
     corrected_from_ = InertiaAxis::negligible;
   }
-  if (x_end_ < lowest_) return;  // the curve answers alone
-  const std::size_t count = index(x_end_) + 1;
+  const double x_end = curve.x_end();
+  if (x_end < std::ldexp(1.0, lowest_exponent)) return;  // the curve answers alone
+  places_ = place(x_end) + 1;
+  const std::size_t count = index(x_end) + 1;
   intervals_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double low = std::bit_cast<double>(first_bits + (static_cast<std::uint64_t>(k) << shift));
     const double high = std::bit_cast<double>(first_bits + (static_cast<std::uint64_t>(k + 1) << shift));
     // the last interval is sampled up to x_end only: beyond, the curve's residual ratio and exponent stand
     // still
-    const double width = std::min(high, x_end_) > low ? (std::min(high, x_end_) - low) / (high - low) : 1.0;
+    const double width = (x_end > low ? std::min(high, x_end) : high) - low;
     double radius[4], steepness[4], exponent[4], foot[4], work[4];
     for (int p = 0; p < 4; ++p) {
-      const double x = low + width * (high - low) * p / 3.0;
+      const double x = low + width * p / 3.0;
       const ContactCurve::Turning turning = curve.turning(x);
       radius[p] = turning.radius;
       steepness[p] = 1.0 / (1.0 - turning.residual / x);
@@ -54,9 +55,8 @@ FastCurve::FastCurve(const ContactCurve& curve)
     fit(work, width, c);
     intervals_[k].rest.set(1, c);
 
-    const double h = width * (high - low);
-    const ContactCurve::Loading begin = curve.loading(low), end = curve.loading(low + h);
-    hermite(c, begin.force, end.force, h * begin.stiffness, h * end.stiffness);
+    const ContactCurve::Loading begin = curve.loading(low), end = curve.loading(low + width);
+    hermite(c, begin.force, end.force, width * begin.stiffness, width * end.stiffness);
     for (int power = 1; power < 4; ++power) c[power] /= std::pow(width, power);
     intervals_[k].loading.set(0, c);
   }
@@ -91,10 +91,10 @@ ContactForce FastCurve::far_evaluate(const PairMapping& pair, double r_eff, doub
   return curve_->evaluate(pair, r_eff, delta, delta_max, impact_overlap);
 }
 
-double FastCurve::far_unloading(double x_max, double ratio, double impact_overlap) const
+double FastCurve::far_unloading(double x, double x_max, double impact_overlap) const
 {
   const ContactCurve::Turning turning = curve_->turning(x_max, impact_overlap);
-  const double residual = turning.residual / x_max, u = (ratio - residual) / (1.0 - residual);
+  const double u = (x - turning.residual) / (x_max - turning.residual);
   return u <= 0.0 ? 0.0 : turning.force * turning.shape.at(u).value;
 }
 

@@ -15,12 +15,12 @@ namespace granulaw {
 /// interval.
 ///
 /// Nodes divide each octave of x = overlap/(lambda R*) into 8 equal parts from 2^-40 up to x_end, so that the
-/// bits of x give the interval and the position t in it. In each interval cubics in t, in the curve's units
-/// (Hertz force at x = 1):
+/// bits of x give the interval and the node below x. In each interval cubics in the distance t of x from that
+/// node, in the curve's units (Hertz force at x = 1):
 ///     force     F_L(x)           Hermite with the curve's stiffness: the stiffness is its derivative,
 ///                                exactly, and continuous
 ///     radius    a(x)             this and the following: equal to the curve at four equidistant points
-///     steepness 1/(1 - rho), rho = delta_r/delta_m: u = 1 - (1 - delta/delta_m) steepness, no division
+///     steepness 1/(1 - rho), rho = x_r/x_m: a turn at x_m unloads along u = 1 - (1 - x/x_m) steepness
 ///     exponent  n, and foot A
 ///     work      W_load - W_unload: spent on plastic strain (quasi-static)
 /// One cache line for the loading branch, three for unloading. An inertia axis is laid out anew: FastAxis.
@@ -39,8 +39,8 @@ class FastCurve
   /// Bytes of what evaluation reads, axis included.
   std::size_t bytes() const;
 
-  /// Force alone, in the curve's units; ratio = x/x_max.
-  double force(double x, double x_max, double ratio, double impact_overlap = 0) const
+  /// Force alone, in the curve's units.
+  double force(double x, double x_max, double impact_overlap = 0) const
   {
     if (x >= x_max || x_max <= onset_) {
       if (!in_table(x)) [[unlikely]]
@@ -49,10 +49,10 @@ class FastCurve
       return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
     }
     if (!in_table(x_max)) [[unlikely]]
-      return far_unloading(x_max, ratio, impact_overlap);
+      return far_unloading(x, x_max, impact_overlap);
     const Place p = at(x_max);
     const Turn turn = turn_at(p, p.force(), x_max, impact_overlap);
-    const double u = 1.0 - (1.0 - ratio) * turn.steepness;
+    const double u = 1.0 - (1.0 - x / x_max) * turn.steepness;
     return u <= 0.0 ? 0.0 : turn.force * turn.shape.at(u).value;
   }
 
@@ -73,13 +73,12 @@ class FastCurve
     const Place p = at(x_max);
     const Two top = p.i.loading.both(p.t);
     const Turn turn = turn_at(p, top[0], x_max, impact_overlap);
-    const double per_delta_max = 1.0 / delta_max;
-    const double u = 1.0 - (1.0 - delta * per_delta_max) * turn.steepness;
+    const double per_x_max = 1.0 / x_max, u = 1.0 - (1.0 - x * per_x_max) * turn.steepness;
     if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
-    // du/d(delta) = steepness/delta_max; a = a_m phi'(u)/phi'(1), as ContactCurve
+    // a = a_m phi'(u)/phi'(1), as ContactCurve
     const auto [value, slope] = turn.shape.at(u);
     const double force = force_scale * turn.force;
-    return {force * value, force * slope * turn.steepness * per_delta_max,
+    return {force * value, force * slope * turn.steepness * (per_x_max * per_length),
             radius_scale * top[1] * slope / turn.shape.exponent, delta_max};
   }
 
@@ -98,7 +97,6 @@ class FastCurve
  private:
   static constexpr int bits_per_octave = 3, lowest_exponent = -40;
   static constexpr int shift = 52 - bits_per_octave;
-  static constexpr std::uint64_t exponent_bits = 0x7ff0000000000000ULL;
   struct Interval
   {
     CubicPair loading;  // force, radius
@@ -119,22 +117,18 @@ class FastCurve
   };
 
   static constexpr std::uint64_t first_bits = static_cast<std::uint64_t>(1023 + lowest_exponent) << 52;
-  static std::size_t index(double x) { return (std::bit_cast<std::uint64_t>(x) - first_bits) >> shift; }
-  static double position(double x)
+  /// Rises with x >= 2^-40; larger than of any such x for all else, NaN included.
+  static std::uint64_t place(double x) { return std::bit_cast<std::uint64_t>(x) - first_bits; }
+  static std::size_t index(double x) { return place(x) >> shift; }
+  /// The node at or below x.
+  static double node(double x)
   {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) << bits_per_octave;
-    return std::bit_cast<double>((bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL) - 1.0;
-  }
-  /// 1/(width of x's interval): 8/2^e for x = m 2^e, 1 <= m < 2.
-  static double per_width(double x)
-  {
-    constexpr std::uint64_t top = static_cast<std::uint64_t>(2046 + bits_per_octave) << 52;
-    return std::bit_cast<double>(top - (std::bit_cast<std::uint64_t>(x) & exponent_bits));
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) >> shift << shift);
   }
 
-  bool in_table(double x) const { return x >= lowest_ && x <= x_end_; }
+  bool in_table(double x) const { return place(x) < places_; }
   bool corrected(double impact_overlap) const { return impact_overlap > corrected_from_; }
-  Place at(double x) const { return {intervals_[index(x)], position(x)}; }
+  Place at(double x) const { return {intervals_[index(x)], x - node(x)}; }
   double work(double x) const
   {
     const Place p = at(x);
@@ -147,7 +141,7 @@ class FastCurve
       return far_loading(x, impact_overlap);
     const Place p = at(x);
     const Two now = p.i.loading.both(p.t);
-    const double force = now[0], stiffness = p.i.loading.first_slope(p.t) * per_width(x);
+    const double force = now[0], stiffness = p.i.loading.first_slope(p.t);
     if (!corrected(impact_overlap)) return {force, stiffness, now[1]};
     const InertiaAxis::ForceCorrection a = axis_.force(x, impact_overlap);
     return {force * (1.0 + a.value), stiffness * (1.0 + a.value) + force * a.slope, now[1]};
@@ -162,14 +156,15 @@ class FastCurve
   }
   // Beyond the table, out of line: the loop stays small.
   ContactCurve::Loading far_loading(double x, double impact_overlap) const;
-  double far_unloading(double x_max, double ratio, double impact_overlap) const;
+  double far_unloading(double x, double x_max, double impact_overlap) const;
   ContactForce far_evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
                             double impact_overlap) const;
 
   std::vector<Interval> intervals_;
   const ContactCurve* curve_ = nullptr;
-  FastAxis axis_;  // the curve's
-  double lowest_ = 0, x_end_ = 0, onset_ = 0;
+  FastAxis axis_;             // the curve's
+  std::uint64_t places_ = 0;  // of x_end, and one; 0: no table
+  double onset_ = 0;
   double corrected_from_ = std::numeric_limits<double>::infinity();  // infinity: no axis
 };
 

@@ -16,7 +16,7 @@ inline constexpr const char* format = "format";
 inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
-inline constexpr int major = 2;  ///< counts up where an old reader would misread the file
+inline constexpr int major = 3;  ///< counts up where an old reader would misread the file
 inline constexpr int minor = 0;  ///< counts up where something is only added
 
 // Attributes of every dataset.
@@ -87,8 +87,8 @@ inline constexpr Field speed_end{"speed_end", "1",
 inline constexpr Field impact_overlap{"impact_overlap", "1",
                                       "X = overlap/(lambda R*) at which an impact at v turns"};
 inline constexpr Field impact_overlap_slope{"impact_overlap_slope", "1", "d(impact_overlap)/dv"};
-inline constexpr Field slices{
-    "slices", "1", "number K of slices; kind inertia: at X_k = k X_end/K, k = 1..K; rate: law-format.md"};
+inline constexpr Field slices{"slices", "1", "number K of slices; where they lie in X: law-format.md"};
+inline constexpr Field first_slices{"first_slices", "1", "how many of them divide the first spacing evenly"};
 inline constexpr Field ratio_end{"ratio_end", "1", "xi = x/X at the last node; nodes uniform in xi"};
 inline constexpr Field force_correction{"force_correction", "1",
                                         "A: loading force over the curve's, less 1; slice after slice"};

@@ -73,8 +73,13 @@ InertiaAxis::InertiaAxis(const Table& table, const std::string& where) : table_(
   overlap_end_ = table.impact_overlap.back();
 
   const std::size_t slices = table.slices, nodes = table.ratio_nodes();
-  if (slices < 1 || slices > 256)
-    fail(where, "an inertia axis has an unusable number of slices", std::to_string(slices), "1 to 256");
+  const std::size_t least = table.kind == Kind::rate ? 2 : 1;
+  if (slices < least || slices > 256)
+    fail(where, "an inertia axis has an unusable number of slices", std::to_string(slices),
+         fmt::format("{} to 256", least));
+  if (table.first_slices < 1 || table.first_slices > slices)
+    fail(where, "an inertia axis has an unusable number of slices in its first spacing ('first_slices')",
+         std::to_string(table.first_slices), fmt::format("1 to {}", slices));
   if (nodes < 2 || slices * nodes > 65536)
     fail(where, "an inertia axis has an unusable number of nodes a slice", std::to_string(nodes),
          fmt::format("2 to {}", 65536 / slices));
@@ -84,11 +89,10 @@ InertiaAxis::InertiaAxis(const Table& table, const std::string& where) : table_(
   per_spacing_ = 1.0 / h;
   columns_ = static_cast<double>(nodes - 1);
   cells_a_slice_ = static_cast<int>(nodes);
-  scale_ = SliceScale::even(slices, overlap_end_);
+  scale_ = SliceScale::from_standstill(slices, table.first_slices, overlap_end_);
   if (table.kind == Kind::rate) {
     const double first = overlap_at(table, table.speed_begin);
     check_number(first, 1e-24, 0.999 * overlap_end_, where, "impact_overlap at speed_begin");
-    if (slices < 2) fail(where, "a rate axis has too few slices", std::to_string(slices), "2 to 256");
     scale_ = SliceScale::by_octaves(slices, first, overlap_end_);
   }
   last_row_ = static_cast<int>(slices) - 1;

@@ -35,7 +35,9 @@ namespace granulaw {
 ///                         Beyond speed_end X is clamped: the caller compares with speed_end() and counts.
 ///     corrections         K slices, each at L nodes uniform in xi from 0 to ratio_end, value and d/dxi,
 ///                         slice after slice. X_end = X(speed_end);
-///                         inertia: X_k = k X_end/K, k = 1..K (slice 0: none, not stored)
+///                         inertia: n = first_slices of them divide the first h evenly, the others follow at
+///                         2 h, 3 h, ..., X_end: h = X_end/(K + 1 - n); no correction at X = 0 (slice 0, not
+///                         stored)
 ///                         rate: from X_1 = X(speed_begin) to X_K = X_end evenly in octaves() of SliceScale,
 ///                         since the flow stress goes with the logarithm of the rate, or slower. No impact is
 ///                         slower than speed_begin: X is clamped there, too, and the caller compares
@@ -63,6 +65,7 @@ class InertiaAxis
     double speed_end = 0;                                          ///< v at the last node
     std::vector<double> impact_overlap, impact_overlap_slope;      ///< X and dX/dv
     std::size_t slices = 0;                                        ///< K
+    std::size_t first_slices = 1;                                  ///< n; kind inertia only, else 1
     double ratio_end = 0;                                          ///< xi at the last node
     std::vector<double> force_correction, force_correction_slope;  ///< value and d/dxi
     std::vector<double> residual_correction, residual_correction_slope;
@@ -107,12 +110,14 @@ class InertiaAxis
   struct TurnCorrection
   {
     double force, residual, exponent;
-    double corrected_residual(double ratio) const { return std::clamp(ratio + residual, 0.0, 0.999995); }
-    /// The same for 1/(1 - ratio): 1/(1 - ratio - residual), kept within 1 to 1/(1 - 0.999995).
+    static constexpr double largest_ratio = 0.999995;
+    double corrected_residual(double ratio) const { return std::clamp(ratio + residual, 0.0, largest_ratio); }
+    /// The same for 1/(1 - ratio).
     double corrected_steepness(double steepness) const
     {
       const double rest = 1.0 - residual * steepness;
-      return rest > 5e-6 * steepness ? std::max(steepness / rest, 1.0) : 2e5;
+      return rest > (1.0 - largest_ratio) * steepness ? std::max(steepness / rest, 1.0)
+                                                      : 1.0 / (1.0 - largest_ratio);
     }
     UnloadingShape corrected_shape(UnloadingShape s) const
     {

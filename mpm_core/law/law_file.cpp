@@ -238,6 +238,13 @@ InertiaAxis::Table read_axis(hid_t body, const std::string& where)
   if (!(slices >= 1 && slices <= 256 && slices == std::floor(slices)))
     fail(where, "'slices' is out of range", fmt::format("{:.6g}", slices), "a whole number from 1 to 256");
   axis.slices = static_cast<std::size_t>(slices);
+  if (axis.kind == InertiaAxis::Kind::inertia) {
+    const double first = h5::read_scalar(group, h5::first_slices, where);
+    if (!(first >= 1 && first <= slices && first == std::floor(first)))
+      fail(where, "'first_slices' is out of range", fmt::format("{:.6g}", first),
+           fmt::format("a whole number from 1 to {:.0f}", slices));
+    axis.first_slices = static_cast<std::size_t>(first);
+  }
   for (const AxisField& f : axis_fields) axis.*f.values = h5::read_vector(group, f.field, most_nodes, where);
   return axis;
 }
@@ -254,6 +261,7 @@ void write_axis(hid_t body, const InertiaAxis::Table& axis, const std::string& p
   h5::write_scalar(group, h5::speed_end, axis.speed_end, path);
   h5::write_scalar(group, h5::ratio_end, axis.ratio_end, path);
   h5::write_scalar(group, h5::slices, static_cast<double>(axis.slices), path);
+  if (!rate) h5::write_scalar(group, h5::first_slices, static_cast<double>(axis.first_slices), path);
   for (const AxisField& f : axis_fields) h5::write_vector(group, f.field, axis.*f.values, path);
 }
 
@@ -354,8 +362,7 @@ h5::Handle open_law(const std::string& path)
   if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != h5::format_value)
     fail(path, "is an HDF5 file but not a contact law of granulaw");
   const int major = h5::read_int_attribute(file, h5::version_major, path);
-  if (major == 1)
-    fail(path, "a law of an older version, with another unloading: build it again with `mpm table`");
+  if (major < h5::major) fail(path, "a law of an older version of granulaw: build it again with `mpm table`");
   if (major != h5::major)
     fail(path, "the law file's major version is not the one this program reads", std::to_string(major),
          std::to_string(h5::major));

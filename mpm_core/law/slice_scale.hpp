@@ -21,41 +21,55 @@ inline double from_octaves(double q)
 
 /// Where the slices k = 1..K of an InertiaAxis lie in X, and the row, a slice's number with its fraction, at
 /// which an X lies between them.
-///     even        X_k = k X_end/K; row 0: X = 0
-///     by octaves  octaves(X_k) evenly from those of X_1 to those of X_end; an X below X_1 counts as X_1
+///     from standstill  evenly, h = X_end/(K + 1 - n) apart, but for n of them that divide the first h: what
+///                      inertia changes is there soon. Row 0: X = 0
+///     by octaves       octaves(X_k) evenly from those of X_1 to those of X_end; an X below X_1 counts as X_1
 /// An X beyond X_end counts as X_end.
 class SliceScale
 {
  public:
   SliceScale() = default;
-  static SliceScale even(std::size_t slices, double end) { return {slices, 0.0, end}; }
-  static SliceScale by_octaves(std::size_t slices, double first, double end) { return {slices, first, end}; }
+  static SliceScale from_standstill(std::size_t slices, std::size_t within_first, double end)
+  {
+    return {slices, within_first, 0.0, end};
+  }
+  static SliceScale by_octaves(std::size_t slices, double first, double end)
+  {
+    return {slices, 1, first, end};
+  }
 
   double row(double x) const
   {
-    const double at = by_octaves_ ? std::max(1.0, (octaves(x) - origin_) * per_slice_) : x * per_slice_;
-    return std::min(at, rows_);
+    if (by_octaves_) return std::min(std::max(1.0, (octaves(x) - origin_) * per_slice_), rows_);
+    const double even = x * per_slice_;
+    return std::min(std::min(within_first_ * even, even + (within_first_ - 1.0)), rows_);
   }
   /// X of a row.
   double overlap(double row) const
   {
     if (row >= rows_) return end_;
-    if (!by_octaves_) return end_ * row / rows_;
-    return row <= 1.0 ? first_ : from_octaves(origin_ + row / per_slice_);
+    if (by_octaves_) return row <= 1.0 ? first_ : from_octaves(origin_ + row / per_slice_);
+    return std::max(row / within_first_, row - (within_first_ - 1.0)) / per_slice_;
   }
   /// Row of the least X that is told from less: 0, or by octaves 1.
   double first_row() const { return by_octaves_ ? 1.0 : 0.0; }
 
  private:
-  SliceScale(std::size_t slices, double first, double end)
-      : by_octaves_(first > 0), rows_(static_cast<double>(slices)), first_(first), end_(end)
+  SliceScale(std::size_t slices, std::size_t within_first, double first, double end)
+      : by_octaves_(first > 0),
+        rows_(static_cast<double>(slices)),
+        within_first_(static_cast<double>(within_first)),
+        first_(first),
+        end_(end)
   {
-    per_slice_ = by_octaves_ ? (rows_ - 1.0) / (octaves(end) - octaves(first)) : rows_ / end;
+    per_slice_ =
+        by_octaves_ ? (rows_ - 1.0) / (octaves(end) - octaves(first)) : (rows_ - (within_first_ - 1.0)) / end;
     if (by_octaves_) origin_ = octaves(first) - 1.0 / per_slice_;
   }
 
   bool by_octaves_ = false;
-  double rows_ = 0, per_slice_ = 0, origin_ = 0;  // K; rows an octave, or over X; octaves at row 0
+  double rows_ = 0, per_slice_ = 0, origin_ = 0;  // K; rows an octave, or over X beyond h; octaves at row 0
+  double within_first_ = 1;                       // n
   double first_ = 0, end_ = 0;                    // X_1 (by octaves), X_end
 };
 

@@ -22,6 +22,7 @@ using granulaw::ContactForce;
 using granulaw::FastCurve;
 using granulaw::InertiaAxis;
 using granulaw::PairMapping;
+using granulaw::SliceScale;
 
 constexpr double onset = 6.4e-4, s_end = 0.5625, x_end = s_end * s_end * s_end * s_end;
 constexpr int nodes = 126;                   // as many as mpm table writes
@@ -86,11 +87,13 @@ InertiaAxis::Table sampled_axis()
   t.speed_end = 0.245;
   t.ratio_end = 1.5;
   t.slices = slices;
+  t.first_slices = 3;
   t.impact_overlap = {0, x_end};
   t.impact_overlap_slope = {x_end / t.speed_end, x_end / t.speed_end};
   for (int k = 1; k <= slices; ++k)
     for (int l = 0; l < ratio_nodes; ++l) {
-      const double part = static_cast<double>(k) / slices, xi = t.ratio_end * l / (ratio_nodes - 1);
+      const double part = SliceScale::from_standstill(slices, t.first_slices, 1.0).overlap(k),
+                   xi = t.ratio_end * l / (ratio_nodes - 1);
       const double rest = 1 - xi / t.ratio_end, cross = 1 - xi / 0.65;
       t.force_correction.push_back(0.5 * part * rest * rest * cross);
       t.force_correction_slope.push_back(0.5 * part * rest * (-2 / t.ratio_end * cross - rest / 0.65));
@@ -182,9 +185,7 @@ void force(benchmark::State& state, bool unloading, bool axis)
   const ContactCurve& curve = axis ? with_axis : quasi_static;
   const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
   const std::vector<Contact> all = flow(unloading, axis);
-  const auto evaluate = [&](const Contact& c) {
-    return table.force(c.x, c.x_max, c.x < c.x_max ? c.x / c.x_max : 1.0, c.impact_overlap);
-  };
+  const auto evaluate = [&](const Contact& c) { return table.force(c.x, c.x_max, c.impact_overlap); };
   double error = 0;
   for (const Contact& c : all)
     error = std::max(

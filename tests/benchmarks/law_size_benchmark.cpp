@@ -64,10 +64,13 @@ ContactCurve::Table thinned(ContactCurve::Table t, std::size_t nodes)
   return t;
 }
 
-/// Fewer slices (a divisor of those there are keeps them exactly; else linear in X, as the law reads them).
+/// Fewer slices, read from those there are as the law reads them: linear in X between two.
 InertiaAxis::Table thinned(InertiaAxis::Table t, std::size_t slices)
 {
   const std::size_t nodes = t.ratio_nodes(), from = t.slices;
+  const std::size_t at_first = std::min(t.first_slices, slices);
+  const SliceScale before = SliceScale::from_standstill(from, t.first_slices, 1.0),
+                   after = SliceScale::from_standstill(slices, at_first, 1.0);
   const auto at = [&](const std::vector<double>& all, double place, std::size_t l) {
     const auto k = std::min(static_cast<std::size_t>(place), from - 1);
     const double low = k == 0 ? 0.0 : all[(k - 1) * nodes + l], high = all[k * nodes + l];
@@ -78,10 +81,10 @@ InertiaAxis::Table thinned(InertiaAxis::Table t, std::size_t slices)
     std::vector<double> fewer;
     for (std::size_t k = 1; k <= slices; ++k)
       for (std::size_t l = 0; l < nodes; ++l)
-        fewer.push_back(at(*all, static_cast<double>(k * from) / static_cast<double>(slices), l));
+        fewer.push_back(at(*all, before.row(after.overlap(static_cast<double>(k))), l));
     *all = std::move(fewer);
   }
-  t.slices = slices;
+  t.slices = slices, t.first_slices = at_first;
   return t;
 }
 

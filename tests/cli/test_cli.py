@@ -417,8 +417,8 @@ def case_law():
         refused([command[0], "cut.h5", *command[1:]], "cut.h5", "cut off")
         Path("cut.h5").write_bytes(data)
         with h5py.File("cut.h5", "r+") as file:
-            file.attrs.modify("version_major", np.int32(3))
-        refused([command[0], "cut.h5", *command[1:]], "major version", "found 3", "allowed is 2")
+            file.attrs.modify("version_major", np.int32(4))
+        refused([command[0], "cut.h5", *command[1:]], "major version", "found 4", "allowed is 3")
     assert Run("plot", LAW, "-o", "law.png").code == 0 and Path("law.png").stat().st_size > 10000
 
 

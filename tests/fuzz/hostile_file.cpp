@@ -20,10 +20,15 @@ const std::vector<std::string> material = {"density", "youngs_modulus", "poisson
 const std::vector<std::string> lists = {"force_ratio", "residual_ratio", "exponent", "foot", "radius_ratio"};
 const std::vector<std::string> certificate = {"held_out_error", "slow_press_force", "max_inertia",
                                               "axis_cost_force", "atlas_error_restitution"};
-const std::vector<std::string> axis = {
-    "speed_end",           "impact_overlap",           "slices",
-    "ratio_end",           "force_correction",         "force_correction_slope",
-    "residual_correction", "exponent_correction_slope"};
+const std::vector<std::string> axis = {"speed_end",
+                                       "impact_overlap",
+                                       "slices",
+                                       "ratio_end",
+                                       "first_slices",
+                                       "force_correction",
+                                       "force_correction_slope",
+                                       "residual_correction",
+                                       "exponent_correction_slope"};
 
 // what only a file with a pair's own law has, and of what it shares with bodies enough to find another way in
 const std::string pair_law = "pair_laws/powder:glass";

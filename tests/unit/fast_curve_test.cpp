@@ -35,7 +35,7 @@ Worst compare(const ContactCurve& curve, double lowest, bool with_axis)
     const ContactForce expected = curve.evaluate(unit_pair, 1.0, x, x_max, X);
     const ContactForce found = fast.evaluate(unit_pair, 1.0, x, x_max, X);
     const ContactCurve::Loading top = curve.loading(std::max(x, x_max), X);
-    const double alone = fast.force(x, x_max, x / x_max, X);
+    const double alone = fast.force(x, x_max, X);
     EXPECT_GE(found.force, 0.0);
     EXPECT_EQ(found.delta_max, expected.delta_max);
     // two ways to the same force: rounding, which u^n near u = 0 does not amplify
@@ -109,8 +109,8 @@ TEST(FastCurve, WithoutAnImpactTheForceIsThatOfACurveWithoutAnAxisToTheBit)
   for (int k = 1; k < 1000; ++k)
     for (const double part : {0.7, 0.97, 1.1}) {
       const double x_max = 0.11 * std::pow(k / 1000.0, 5);
-      EXPECT_EQ(std::bit_cast<std::uint64_t>(a.force(part * x_max, x_max, std::min(part, 1.0))),
-                std::bit_cast<std::uint64_t>(b.force(part * x_max, x_max, std::min(part, 1.0), 0.0)));
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(a.force(part * x_max, x_max)),
+                std::bit_cast<std::uint64_t>(b.force(part * x_max, x_max, 0.0)));
     }
 }
 
@@ -141,8 +141,8 @@ TEST(FastCurve, ATableThatEndsBelowTheFirstOctaveIsLeftToTheCurve)
   law.x_end = 1e-20;
   const ContactCurve curve = law.curve();
   const FastCurve fast(curve);
-  EXPECT_EQ(fast.force(1e-21, 0.0, 1.0), curve.loading(1e-21).force);
-  EXPECT_EQ(fast.force(1e-19, 0.0, 1.0), curve.loading(1e-19).force);
+  EXPECT_EQ(fast.force(1e-21, 0.0), curve.loading(1e-21).force);
+  EXPECT_EQ(fast.force(1e-19, 0.0), curve.loading(1e-19).force);
 }
 
 TEST(FastCurve, IsSmall)

@@ -288,6 +288,8 @@ TEST(InertiaAxis, RefusesUnusableTables)
   says([](Table& t) { t.slices = 0; }, "slices");
   says([](Table& t) { t.slices = 1000; }, "slices");
   says([](Table& t) { t.slices = 7; }, "length");
+  says([](Table& t) { t.first_slices = 9; }, "first_slices");
+  says([](Table& t) { t.first_slices = 0; }, "first_slices");
   says([](Table& t) { t.speed_end = NAN; }, "speed_end");
   says([](Table& t) { t.ratio_end = 0; }, "ratio_end");
   says([](Table& t) { t.reference_radius = 1e-3; }, "reference_radius");

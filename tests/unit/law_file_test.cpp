@@ -149,6 +149,7 @@ TEST_F(LawFile, TheAxisTheBodyAndThePairErrorsComeBackBitExact)
     EXPECT_EQ(s.speed_end, t.speed_end);
     EXPECT_EQ(s.ratio_end, t.ratio_end);
     EXPECT_EQ(s.slices, t.slices);
+    EXPECT_EQ(s.first_slices, t.first_slices);
     using Values = std::vector<double> InertiaAxis::Table::*;
     using T = InertiaAxis::Table;
     for (const Values v : {&T::impact_overlap, &T::impact_overlap_slope, &T::force_correction,
@@ -194,6 +195,8 @@ TEST_F(LawFile, UnusableAdditionsAreRefused)
   };
   says([&](hid_t f) { overwrite(f, (axis + "slices").c_str(), set_all(2.5)); }, "slices");
   says([&](hid_t f) { overwrite(f, (axis + "slices").c_str(), set_all(1e300)); }, "slices");
+  says([&](hid_t f) { overwrite(f, (axis + "first_slices").c_str(), set_all(9)); }, "first_slices");
+  says([&](hid_t f) { H5Ldelete(f, (axis + "first_slices").c_str(), H5P_DEFAULT); }, "first_slices");
   says([&](hid_t f) { overwrite(f, (axis + "force_correction").c_str(), set_all(NAN)); }, "force_correction");
   says([&](hid_t f) { overwrite(f, (axis + "impact_overlap").c_str(), set_all(0)); }, "impact_overlap");
   says([&](hid_t f) { H5Ldelete(f, (axis + "ratio_end").c_str(), H5P_DEFAULT); }, "ratio_end");
@@ -277,8 +280,8 @@ TEST_F(LawFile, AnotherMajorVersionIsRefusedWithBothNumbers)
       H5Aclose(attribute);
     });
   };
-  EXPECT_NE(of_version(3).find("major version"), std::string::npos);
-  EXPECT_NE(of_version(3).find("found 3, allowed is 2"), std::string::npos) << of_version(3);
+  EXPECT_NE(of_version(4).find("major version"), std::string::npos);
+  EXPECT_NE(of_version(4).find("found 4, allowed is 3"), std::string::npos) << of_version(4);
   EXPECT_NE(of_version(1).find("older version"), std::string::npos) << of_version(1);
 }
 

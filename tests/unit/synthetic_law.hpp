@@ -98,14 +98,16 @@ struct SyntheticLaw
     table.speed_end = 0.066;  // 17 m/s of law()'s powder on a wall
     table.ratio_end = 1.5;
     table.slices = static_cast<std::size_t>(slices);
+    table.first_slices = std::min<std::size_t>(3, table.slices);
     for (int j = 0; j <= 16; ++j) {
       const double r = j / 16.0;
       table.impact_overlap.push_back(x_end * r * (0.6 + 0.4 * r));
       table.impact_overlap_slope.push_back(x_end * (0.6 + 0.8 * r) / table.speed_end);
     }
+    const SliceScale scale = SliceScale::from_standstill(table.slices, table.first_slices, 1.0);
     for (int k = 1; k <= slices; ++k)
       for (int l = 0; l < nodes; ++l) {
-        const double part = static_cast<double>(k) / slices, xi = table.ratio_end * l / (nodes - 1);
+        const double part = scale.overlap(k), xi = table.ratio_end * l / (nodes - 1);
         const double rest = 1 - xi / table.ratio_end, cross = 1 - xi / 0.65, bottom = 1 + xi * xi;
         table.force_correction.push_back(0.5 * part * rest * rest * cross);
         table.force_correction_slope.push_back(0.5 * part * rest *
@@ -121,6 +123,7 @@ struct SyntheticLaw
   InertiaAxis::Table rate_axis(double reference_radius, int slices = 8, int nodes = 25) const
   {
     InertiaAxis::Table table = axis(slices, nodes);
+    table.first_slices = 1;
     table.kind = InertiaAxis::Kind::rate;
     table.reference_radius = reference_radius;
     table.speed_begin = table.speed_end / 40;

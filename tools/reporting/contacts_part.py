@@ -63,7 +63,7 @@ class Contacts:
         files.rows_with(path, [entry], ("onset_speed_m_per_s", "overlap_over_radius_limit"))
         self.yield_speed, self.limit = onset * law.yield_per_onset, limit
         self.fastest = law.fastest(inertia) if inertia else None
-        self.begun = self.beyond = self.beyond_axis = 0.0
+        self.begun = self.beyond = self.beyond_axis = self.below_axis = 0.0
         self.speed, self.overlap = {}, {}
         self.joint, self.mapped = {}, True  # (bin of speed, of overlap): contacts that ended; of every run, or not at all
         self.speed_max = self.overlap_max = 0.0
@@ -74,6 +74,7 @@ class Contacts:
         self.begun += entry["contacts_begun"]
         self.beyond += entry["contact_steps_beyond_table"]
         self.beyond_axis += entry.get("contacts_beyond_speed_axis") or 0
+        self.below_axis += entry.get("contacts_below_speed_axis") or 0
         self.speed_max = max(self.speed_max, (entry["impact_speed_max_m_per_s"] or 0) / self.yield_speed)
         self.overlap_max = max(self.overlap_max, entry["overlap_over_radius_max"] or 0)
         for into, name in ((self.speed, "impact_speed"), (self.overlap, "largest_overlap_over_radius")):
@@ -262,9 +263,9 @@ def write(page, found):
             rows.append([deck, f"{'-'.join(c.materials)}, {c.kind}", f"{c.begun:.0f}", *[number(c.quantile("speed", p)) for p in (0.5, 0.995)],
                          number(c.speed_max), number(c.fastest) if c.fastest else "not stated", f"{100 * share:.0f} %",
                          *[number(c.quantile("overlap", p)) for p in (0.5, 0.995)], number(c.overlap_max), number(c.limit), f"{c.beyond:.0f}",
-                         f"{c.beyond_axis:.0f}"])
+                         f"{c.beyond_axis:.0f}", f"{c.below_axis:.0f}"])
     page.table(["deck", "pair", "contacts", "V/V_y: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
-                "law to", "steps beyond it", "too fast for it"], rows)
+                "law to", "steps beyond it", "too fast for it", "too slow for it"], rows)
     page.origin("Quantiles are read from bins a third of their value wide: good to about 15 %. V_y: yield velocity with the customary 1.6 Y "
-                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its inertia axis goes; below onset: slower than the true onset of yield. From the "
+                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its inertia axis goes; too slow for it: than the axis of a rate-dependent law begins; below onset: slower than the true onset of yield. From the "
                 "`stats.json` of each run (`fix granulaw/stats`) and the law file it names.")

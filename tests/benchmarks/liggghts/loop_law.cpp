@@ -39,7 +39,7 @@ double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curv
   double worst = 0;
   for (int k = 0; k < 200000; ++k) {
     const double x_max = std::exp(log_x(random)), x = std::min(x_max * part(random), shape.x_end);
-    const double found = table.force(x, x_max, x / x_max);
+    const double found = table.force(x, x_max);
     worst = std::max(worst, std::abs(found - force(x, x_max)) / loading(std::max(x, x_max)));
   }
   return worst;
