@@ -76,6 +76,22 @@ TEST(InertiaAxis, ImpactOverlapRisesFromZeroAndIsClamped)
   EXPECT_EQ(axis.impact_overlap(HUGE_VAL), axis.overlap_end());
 }
 
+TEST(InertiaAxis, TheFirstSlicesDivideTheFirstSpacing)
+{
+  // 5 slices, 3 of them within the first of 3 spacings: 0.01, 0.02, 0.03; 0.06, 0.09
+  const SliceScale scale = SliceScale::from_standstill(5, 3, 0.09);
+  const double places[] = {0, 0.01, 0.02, 0.03, 0.06, 0.09};
+  for (int k = 0; k <= 5; ++k) {
+    EXPECT_NEAR(scale.overlap(k), places[k], 1e-15);
+    EXPECT_NEAR(scale.row(places[k]), k, 1e-13);
+  }
+  EXPECT_NEAR(scale.row(0.015), 1.5, 1e-13);
+  EXPECT_NEAR(scale.row(0.045), 3.5, 1e-13);
+  EXPECT_EQ(scale.row(1.0), 5.0);
+  const SliceScale even = SliceScale::from_standstill(4, 1, 0.08);
+  for (int k = 0; k <= 4; ++k) EXPECT_NEAR(even.row(0.02 * k), k, 1e-13);
+}
+
 TEST(InertiaAxis, ARateAxisBeginsAtItsSlowestImpactAndIsLinearInOctaves)
 {
   InertiaAxis::Table t = SyntheticLaw{}.rate_axis(1e-3);
