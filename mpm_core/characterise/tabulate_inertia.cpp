@@ -17,9 +17,9 @@ constexpr double speed_spacing = 0.02;    // of the nodes of X(v)
 constexpr double slice_spacing = 0.0125;  // of X, about, beyond the first
 constexpr double slices_an_octave = 3;    // of a rate axis
 constexpr std::size_t first_slices = 3;   // within the first spacing
-constexpr double first_told = 1.5;      // X over the onset's overlap: nearer the certificate of admissibility
-                                        // (raise_exponents) takes more than inertia does
-constexpr double share_spacing = 0.05;  // of xi = x/X
+constexpr double first_told = 1.5;       // X of the first slice over the onset's overlap: nearer, keeping the
+                                         // law admissible (raise_exponents) takes more than inertia does
+constexpr double share_spacing = 0.05;   // of xi = x/X
 constexpr double usual_ratio_end = 1.5;  // xi where the force is the press's again
 
 /// y(x) = 0 by bracketing.
