@@ -212,7 +212,7 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
             // fading out slowly: where the exponent falls, more comes back; contacts turned earlier keep
             // theirs
             const double away = static_cast<double>(l) - static_cast<double>(column);
-            const double share = away > 0 ? 1 - away / fading_nodes : std::min(1.0, 1 + (away + 2) / 2);
+            const double share = away > 0 ? 1 - away / fading_nodes : std::min(1.0, 2 + away / 2);
             double& there = raise[(row - 1) * columns + l];
             there = std::max(there, more * share);
           }

@@ -102,8 +102,7 @@ std::optional<Subject> subject_for(const std::string& name, const Law& law, cons
   const bool is_particle = !file.materials.contains(name) && file.particles.contains(name);
   const Subject subject = is_particle ? subject_of(file.particle(name)) : subject_of(file.material(name));
   const std::string found =
-      !subject.is_plain() ? hash_of(subject)
-                          : hash_of(is_particle ? file.particle(name).materials[0] : file.material(name));
+      hash_of(subject, is_particle ? file.particle(name).materials[0] : file.material(name));
   if (!hash.empty() && hash != found)
     fail(r.materials, fmt::format("'{}' is not what the law was made from", name), found, hash);
   return subject;

@@ -30,4 +30,10 @@ inline std::string hash_of(const Subject& subject)
   return hash_of(subject.description);
 }
 
+/// Of the body and its material `m`, at the pole: what the provenance of a law keeps.
+inline std::string hash_of(const Subject& subject, const Material& m)
+{
+  return subject.is_plain() ? hash_of(m) : hash_of(subject);
+}
+
 }  // namespace granulaw

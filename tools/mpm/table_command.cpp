@@ -55,12 +55,6 @@ LawMaterial law_material(const std::string& name, const Material& m)
   return {name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
 }
 
-/// Of a body that its material and its sphericity determine.
-Entry plain_entry(const std::string& name, const Material& m, const Subject& subject)
-{
-  return {law_material(name, m), subject, sphere_name, hash_of(m)};
-}
-
 /// The entry that a name of --pair means: a material; else a particle, whose law is its material's if it is a
 /// homogeneous sphere and the law knows no size.
 Entry entry_of(const std::string& name, const MaterialsFile& file)
@@ -68,13 +62,14 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
   if (!file.materials.contains(name) && file.particles.contains(name)) {
     const Particle& p = file.particle(name);
     const Subject subject = subject_of(p);
-    if (subject.is_plain()) return plain_entry(name, p.materials[0], subject);
     const int skin = p.material_at(0.0, 1e-9 * subject.scale.length);
     const Material& m =
         p.materials[static_cast<std::size_t>(std::max(0, p.is_homogeneous_sphere() ? 0 : skin))];
     LawMaterial material = law_material(name, m);
-    if (subject.yields()) material.yield_stress = subject.yield * subject.scale.stress;
-    return {material, subject, p.is_homogeneous_sphere() ? sphere_name : name, hash_of(subject)};
+    // the weakest of several; a homogeneous sphere has its own, and a plain one's subject no dimensions
+    if (!p.is_homogeneous_sphere() && subject.yields())
+      material.yield_stress = subject.yield * subject.scale.stress;
+    return {material, subject, p.is_homogeneous_sphere() ? sphere_name : name, hash_of(subject, m)};
   }
   const Material& m = file.material(name);
   if (m.rate_dependent())
@@ -84,8 +79,7 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
              "particle of it, --pair PARTICLE:wall",
              m.rate.name));
   const Subject subject = subject_of(m);
-  if (subject.is_plain()) return plain_entry(name, m, subject);
-  return {law_material(name, m), subject, sphere_name, hash_of(subject)};
+  return {law_material(name, m), subject, sphere_name, hash_of(subject, m)};
 }
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
