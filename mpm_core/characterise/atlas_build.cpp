@@ -32,13 +32,9 @@ Subject sphere_of(const MaterialRatios& m)
   return subject_of(m.stiffness, m.poisson_ratio, m.hardening);
 }
 
-/// What a fast impact loses more than a slow press is a percent of the loss, as is the contact-edge ripple of
-/// two phases.
 SurveyPlan plan_of(const MaterialRatios& m)
 {
-  SurveyPlan plan = plan_survey(sphere_of(m), {});
-  plan.fast_phases = 4;
-  return plan;
+  return plan_survey(sphere_of(m), {});
 }
 
 double onset_of(const MaterialRatios& m)

@@ -19,27 +19,20 @@ constexpr double first_yielded =
 /// still spans about half the cells.
 constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
 
-/// Single precision changes e and F by less than 1e-6 and takes two thirds of the time; not every flow law
-/// has it.
-Precision precision_of(const Subject& s)
-{
-  return std::all_of(s.particle.materials.begin(), s.particle.materials.end(),
-                     [](const Material& m) { return m.hardening.name.empty() && m.rate.name.empty(); })
-             ? Precision::single
-             : Precision::full;
-}
+/// Single precision changes e and F by less than 1e-6 and takes two thirds of the time.
+constexpr Precision precision = Precision::single;
 
 std::string key(const Subject& s, int resolution, int phases, const std::string& what)
 {
-  return fmt::format("{} {} resolution={} phases={} {} solver={}", what, s.description, resolution, phases,
-                     precision_of(s) == Precision::single ? "single" : "full", solver_id());
+  return fmt::format("{} {} resolution={} phases={} single solver={}", what, s.description, resolution, phases,
+                     solver_id());
 }
 
-RunOptions own(RunOptions options, const Subject& subject, int resolution, int phases)
+RunOptions own(RunOptions options, int resolution, int phases)
 {
   options.resolution = resolution;
   options.phases = phases;
-  options.precision = precision_of(subject);
+  options.precision = precision;
   return options;
 }
 
@@ -107,7 +100,7 @@ RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const R
             PressPlan plan{press.depth * subject.scale.length, Support::free, press.stops, 0};
             for (double& stop : plan.partial_unloads) stop *= subject.scale.length;
             return dimensionless(
-                source.press(subject.particle, plan, own(options, subject, press.resolution, press.phases)),
+                source.press(subject.particle, plan, own(options, press.resolution, press.phases)),
                 subject.scale);
           }};
 }
@@ -121,7 +114,7 @@ RunJob impact_job(const Subject& subject, double velocity, int resolution, int p
           cost_of(subject, depth, 2 * depth / velocity, resolution, phases),
           [subject, velocity, resolution, phases, &source](const RunOptions& options) {
             return dimensionless(source.impact(subject.particle, velocity * subject.scale.velocity(),
-                                               own(options, subject, resolution, phases)),
+                                               own(options, resolution, phases)),
                                  subject.scale);
           }};
 }
@@ -170,7 +163,7 @@ std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, 
     jobs.push_back(impact_job(subject, v, plan.resolution, plan.phases, source));
   for (const double v : plan.fast_speeds)
     jobs.push_back(
-        impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, plan.fast_phases, source));
+        impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, fast_phases, source));
   return jobs;
 }
 

@@ -106,8 +106,8 @@ struct Body : PointArrays<double>
   double elapsed = 0;
 
   /// Single precision: weights and state of the points in float, used instead of the double ones where
-  /// filled. Nodes stay double. Closed-form flow laws only (perfect, linear hardening, no rate).
-  /// `fetch_state` copies the state back.
+  /// filled. Nodes stay double, and so do the equations of flow laws without a closed form. Not on the
+  /// `updated` grid. `fetch_state` copies the state back.
   PointArrays<float> single;
   bool is_single() const { return !single.br_p.empty(); }
   void use_single();

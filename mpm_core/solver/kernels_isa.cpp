@@ -170,13 +170,210 @@ struct ElasticWithState
 {
 };
 
+/// State of the points of one block, from its first.
+template <class Real>
+struct PointState
+{
+  Real* __restrict rr;  ///< of the plastic state as PointArrays keeps it
+  Real* __restrict zz;
+  Real* __restrict rz;
+  Real* __restrict hh;
+  Real* __restrict plastic_strain;
+  Real* __restrict plastic_work;
+  Real* __restrict energy;
+  const Real* __restrict volume;
+
+  GRANULAW_MEMBER PointState(PointArrays<Real>& points, int first)
+      : rr(points.crr_p.data() + first),
+        zz(points.czz_p.data() + first),
+        rz(points.crz_p.data() + first),
+        hh(points.chh_p.data() + first),
+        plastic_strain(points.plastic_strain_p.data() + first),
+        plastic_work(points.plastic_work_p.data() + first),
+        energy(points.elastic_energy_p.data() + first),
+        volume(points.volume_p.data() + first)
+  {
+  }
+};
+
+/// Of one point: the state with all plastic flow of the step undone.
+template <class Real>
+struct Trial
+{
+  Real x1, x2, xhh;      ///< principal values of the elastic left Cauchy-Green tensor minus identity
+  Real cosine, sine;     ///< of twice the angle of its principal axes
+  Real s1, s2, s3;       ///< deviators of the principal logarithmic strains
+  Real trace;            ///< and their sum, ln J
+  Real q, jacobian;      ///< bodies that yield: von Mises' equivalent of the Kirchhoff stress; J
+};
+
+/// What the points of a block flow in a step: equivalent plastic strain, and the Kirchhoff stress meanwhile.
+template <class Real>
+struct PlasticFlow
+{
+  Real strain, stress;
+};
+
+/// Both of a block.
+template <class Real>
+struct alignas(64) Trials
+{
+  using Values = Real[block_points];
+  Values x1, x2, xhh, cosine, sine, s1, s2, s3, trace, q, jacobian;
+  Values strain, stress;
+
+  GRANULAW_MEMBER void put(int p, const Trial<Real> t)
+  {
+    x1[p] = t.x1, x2[p] = t.x2, xhh[p] = t.xhh, cosine[p] = t.cosine, sine[p] = t.sine;
+    s1[p] = t.s1, s2[p] = t.s2, s3[p] = t.s3, trace[p] = t.trace, q[p] = t.q, jacobian[p] = t.jacobian;
+  }
+  GRANULAW_MEMBER Trial<Real> trial(int p) const
+  {
+    return {x1[p], x2[p], xhh[p],   cosine[p], sine[p],    s1[p],
+            s2[p], s3[p], trace[p], q[p],      jacobian[p]};
+  }
+  GRANULAW_MEMBER PlasticFlow<Real> flow(int p) const { return {strain[p], stress[p]}; }
+};
+
+/// Trial state of a point from its displacement gradient and the plastic state `c` before the step.
+template <bool has_state, bool yields, class Real>
+GRANULAW_INLINE Trial<Real> trial_state(const Block<Real>& block, const PointState<Real>& c, int p,
+                                        Real shear2)
+{
+  constexpr Real one = 1, tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
+  const Real hrr = block.hrr[p], hrz = block.hrz[p], hzr = block.hzr[p], hzz = block.hzz[p],
+             hhh = block.hhh[p];
+  const Real frr = one + hrr, fzz = one + hzz, fhh = one + hhh;
+  Real xrr = Real(2) * hrr + hrr * hrr + hrz * hrz;
+  Real xzz = Real(2) * hzz + hzz * hzz + hzr * hzr;
+  Real xrz = hrz + hzr + hrr * hzr + hrz * hzz;
+  Trial<Real> t;
+  t.xhh = Real(2) * hhh + hhh * hhh;
+  if constexpr (has_state) {
+    const Real c11 = c.rr[p], c22 = c.zz[p], c12 = c.rz[p];
+    const Real g11 = frr * c11 + hrz * c12, g12 = frr * c12 + hrz * c22;
+    const Real g21 = hzr * c11 + fzz * c12, g22 = hzr * c12 + fzz * c22;
+    xrr += g11 * frr + g12 * hrz;
+    xrz += g11 * hzr + g12 * fzz;
+    xzz += g21 * hzr + g22 * fzz;
+    t.xhh += fhh * fhh * c.hh[p];
+  }
+  const Real mean = Real(0.5) * (xrr + xzz), half = Real(0.5) * (xrr - xzz);
+  const Real radius = root_of(half * half + xrz * xrz);
+  const Real per_radius = one / (radius + tiny);
+  t.cosine = half * per_radius, t.sine = xrz * per_radius;
+  t.x1 = mean + radius, t.x2 = mean - radius;
+  const Real e1 = Real(0.5) * log_1p(t.x1), e2 = Real(0.5) * log_1p(t.x2), e3 = Real(0.5) * log_1p(t.xhh);
+  t.trace = e1 + e2 + e3;
+  const Real third = t.trace * Real(1.0 / 3.0);
+  t.s1 = e1 - third, t.s2 = e2 - third, t.s3 = e3 - third;
+  t.q = 0, t.jacobian = 1;
+  if constexpr (yields) {
+    t.q = shear2 * root_of(Real(1.5) * (t.s1 * t.s1 + t.s2 * t.s2 + t.s3 * t.s3));
+    t.jacobian = one + exp_m1(t.trace);
+  }
+  return t;
+}
+
+/// Finds what the points of a block flow; whether any does. Perfect and linear hardening in closed form;
+/// other laws by Newton steps from the tangent, and where these do not suffice, as at the steep start of a
+/// power or with a rate, by plastic_increment.
+template <class Real, class Hardening, class Rate>
+GRANULAW_INLINE bool find_flow(Trials<Real>& block, int count, const Real* __restrict plastic_strain,
+                               const Hardening hardening, const Rate rate, const Moduli& moduli,
+                               double per_dt)
+{
+  const Real least = Real(moduli.yield);  // no law softens
+  int beyond = 0;
+#pragma omp simd reduction(+ : beyond)
+  for (int p = 0; p < count; ++p) beyond += block.q[p] > block.jacobian[p] * least ? 1 : 0;
+  if (beyond == 0) return false;
+
+  const double shear3 = 3.0 * moduli.shear;
+  if constexpr (!std::is_same_v<Rate, flow::RateIndependent>) {
+  } else if constexpr (std::is_same_v<Hardening, flow::Linear>) {
+    // q - 3 G dg = J (sigma_y + H dg)
+    const Real yield = Real(moduli.yield), modulus = Real(moduli.hardening), stiffness = Real(shear3);
+#pragma omp simd
+    for (int p = 0; p < count; ++p) {
+      const Real jacobian = block.jacobian[p], stress = yield + modulus * plastic_strain[p];
+      const Real over = block.q[p] - jacobian * stress;
+      const Real strain = over > Real(0) ? over / (stiffness + jacobian * modulus) : Real(0);
+      block.strain[p] = strain;
+      block.stress[p] = jacobian * (stress + Real(0.5) * modulus * strain);
+    }
+    return true;
+  } else {
+    int failed = 0;
+#pragma omp simd reduction(+ : failed)
+    for (int p = 0; p < count; ++p) {
+      const flow::TangentIncrement found =
+          flow::tangent_increment(hardening, block.q[p], block.jacobian[p], shear3, plastic_strain[p]);
+      block.strain[p] = Real(found.strain), block.stress[p] = Real(found.stress);
+      failed += found.converged ? 0 : 1;
+    }
+    if (failed == 0) return true;
+  }
+#pragma omp simd
+  for (int p = 0; p < count; ++p) {
+    const double q = block.q[p], start = block.jacobian[p] * hardening(plastic_strain[p]).value;
+    const flow::PlasticIncrement found = flow::plastic_increment(hardening, rate, q, block.jacobian[p],
+                                                                 shear3, plastic_strain[p], per_dt);
+    const double strain = q > start ? found.strain : 0.0;
+    block.strain[p] = Real(strain);
+    block.stress[p] = Real(0.5 * (start * found.factor + q - shear3 * strain));
+  }
+  return true;
+}
+
+/// The point after its flow: plastic state, stored energy, first Piola-Kirchhoff stress.
+template <bool flows, class Real>
+GRANULAW_INLINE void finish_point(Block<Real>& block, const PointState<Real>& c, int p, Trial<Real> t,
+                                  const PlasticFlow<Real> flow, Real shear2, Real bulk)
+{
+  constexpr Real one = 1, tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
+  const Real hrr = block.hrr[p], hrz = block.hrz[p], hzr = block.hzr[p], hzz = block.hzz[p],
+             hhh = block.hhh[p];
+  const Real frr = one + hrr, fzz = one + hzz, fhh = one + hhh;
+  const Real det = frr * fzz - hrz * hzr;
+  const Real per_det = one / det, per_fhh = one / fhh;
+  if constexpr (flows) {
+    const Real shrink = Real(1.5) * shear2 * flow.strain / (t.q + tiny);
+    // plastic state: b_new - b_trial carried back through F
+    const Real d1 = (one + t.x1) * exp_m1(Real(-2) * shrink * t.s1);
+    const Real d2 = (one + t.x2) * exp_m1(Real(-2) * shrink * t.s2);
+    const Real d3 = (one + t.xhh) * exp_m1(Real(-2) * shrink * t.s3);
+    const Real dm = Real(0.5) * (d1 + d2), dd = Real(0.5) * (d1 - d2);
+    const Real drr = dm + dd * t.cosine, dzz = dm - dd * t.cosine, drz = dd * t.sine;
+    const Real g11 = fzz * drr - hrz * drz, g12 = fzz * drz - hrz * dzz;
+    const Real g21 = -hzr * drr + frr * drz, g22 = -hzr * drz + frr * dzz;
+    const Real per_det2 = per_det * per_det;
+    c.rr[p] += per_det2 * (g11 * fzz - g12 * hrz);
+    c.rz[p] += per_det2 * (-g11 * hzr + g12 * frr);
+    c.zz[p] += per_det2 * (-g21 * hzr + g22 * frr);
+    c.hh[p] += per_fhh * per_fhh * d3;
+    c.plastic_strain[p] += flow.strain;
+    c.plastic_work[p] += c.volume[p] * flow.stress * flow.strain;
+    t.s1 -= shrink * t.s1, t.s2 -= shrink * t.s2, t.s3 -= shrink * t.s3;
+  }
+  // Kirchhoff stress, then P = tau F^-T
+  const Real pressure = bulk * t.trace;
+  const Real t1 = shear2 * t.s1 + pressure, t2 = shear2 * t.s2 + pressure, t3 = shear2 * t.s3 + pressure;
+  const Real tm = Real(0.5) * (t1 + t2), td = Real(0.5) * (t1 - t2);
+  const Real trr = tm + td * t.cosine, tzz = tm - td * t.cosine, trz = td * t.sine;
+  block.prr[p] = (trr * fzz - trz * hrz) * per_det, block.prz[p] = (trz * frr - trr * hzr) * per_det;
+  block.pzr[p] = (trz * fzz - tzz * hrz) * per_det, block.pzz[p] = (tzz * frr - trz * hzr) * per_det;
+  block.phh[p] = t3 * per_fhh;
+  c.energy[p] = c.volume[p] * Real(0.5) *
+                (shear2 * (t.s1 * t.s1 + t.s2 * t.s2 + t.s3 * t.s3) + bulk * t.trace * t.trace);
+}
+
 /// Stress update of the points of one block.
 ///
 /// Multiplicative J2 plasticity with logarithmic elastic strain: trial b = F Cp^-1 F^T, its principal
 /// logarithmic strains, radial return, first Piola-Kirchhoff stress P = tau F^-T. Yield is on the Cauchy
 /// stress sigma = tau/J: q(tau) <= J sigma_y, with J from the trace (plastic flow keeps the volume).
 /// Everything is kept as difference from the identity.
-/// Perfect and linear hardening have their return in closed form; other flow laws take plastic_increment.hpp.
 template <class Real, class Hardening, class Rate>
 GRANULAW_INLINE void stress(Body& body, const Moduli& moduli, int first, int count, Block<Real>& block,
                             [[maybe_unused]] const Hardening hardening_law,
@@ -184,100 +381,25 @@ GRANULAW_INLINE void stress(Body& body, const Moduli& moduli, int first, int cou
 {
   constexpr bool has_state = !std::is_same_v<Hardening, Elastic>;
   constexpr bool yields = has_state && !std::is_same_v<Hardening, ElasticWithState>;
-  constexpr bool closed_form =
-      std::is_same_v<Hardening, flow::Linear> && std::is_same_v<Rate, flow::RateIndependent>;
-  [[maybe_unused]] const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
   const Real shear2 = Real(2.0 * moduli.shear), bulk = Real(moduli.bulk);
-  const Real yield = Real(moduli.yield), hardening = Real(moduli.hardening);
-  PointArrays<Real>& points = arrays<Real>(body);
-  const Real* __restrict volume = points.volume_p.data() + first;
-  Real* __restrict crr = points.crr_p.data() + first;
-  Real* __restrict czz = points.czz_p.data() + first;
-  Real* __restrict crz = points.crz_p.data() + first;
-  Real* __restrict chh = points.chh_p.data() + first;
-  Real* __restrict plastic_strain = points.plastic_strain_p.data() + first;
-  Real* __restrict plastic_work = points.plastic_work_p.data() + first;
-  Real* __restrict energy = points.elastic_energy_p.data() + first;
-  constexpr Real one = 1, tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
+  const PointState<Real> state(arrays<Real>(body), first);
 
+  Trials<Real> trials;
 #pragma omp simd
-  for (int p = 0; p < count; ++p) {
-    const Real hrr = block.hrr[p], hrz = block.hrz[p], hzr = block.hzr[p], hzz = block.hzz[p],
-               hhh = block.hhh[p];
-    const Real frr = one + hrr, fzz = one + hzz, fhh = one + hhh;
-    const Real det = frr * fzz - hrz * hzr;
-    const Real per_det = one / det, per_fhh = one / fhh;
-
-    // trial elastic left Cauchy-Green tensor minus identity
-    Real xrr = Real(2) * hrr + hrr * hrr + hrz * hrz;
-    Real xzz = Real(2) * hzz + hzz * hzz + hzr * hzr;
-    Real xrz = hrz + hzr + hrr * hzr + hrz * hzz;
-    Real xhh = Real(2) * hhh + hhh * hhh;
-    if constexpr (has_state) {
-      const Real c11 = crr[p], c22 = czz[p], c12 = crz[p];
-      const Real g11 = frr * c11 + hrz * c12, g12 = frr * c12 + hrz * c22;
-      const Real g21 = hzr * c11 + fzz * c12, g22 = hzr * c12 + fzz * c22;
-      xrr += g11 * frr + g12 * hrz;
-      xrz += g11 * hzr + g12 * fzz;
-      xzz += g21 * hzr + g22 * fzz;
-      xhh += fhh * fhh * chh[p];
-    }
-
-    // principal logarithmic strains; (cosine, sine) of twice the principal angle
-    const Real mean = Real(0.5) * (xrr + xzz), half = Real(0.5) * (xrr - xzz);
-    const Real radius = root_of(half * half + xrz * xrz);
-    const Real per_radius = one / (radius + tiny);
-    const Real cosine = half * per_radius, sine = xrz * per_radius;
-    const Real x1 = mean + radius, x2 = mean - radius;
-    const Real e1 = Real(0.5) * log_1p(x1), e2 = Real(0.5) * log_1p(x2), e3 = Real(0.5) * log_1p(xhh);
-    const Real trace = e1 + e2 + e3, third = trace * Real(1.0 / 3.0);
-    Real s1 = e1 - third, s2 = e2 - third, s3 = e3 - third;
-
-    if constexpr (yields) {
-      const Real jacobian = one + exp_m1(trace);
-      const Real q = shear2 * root_of(Real(1.5) * (s1 * s1 + s2 * s2 + s3 * s3));
-      Real step, mean_flow;
-      if constexpr (closed_form) {
-        // radial return: q - 3 G dg = J (sigma_y + H dg)
-        const Real flow = yield + hardening * plastic_strain[p];
-        const Real over = q - jacobian * flow;
-        step = over > Real(0) ? over / (Real(1.5) * shear2 + jacobian * hardening) : Real(0);
-        mean_flow = jacobian * (flow + Real(0.5) * hardening * step);
-      } else {
-        const double start = jacobian * hardening_law(plastic_strain[p]).value;
-        const flow::PlasticIncrement increment = flow::plastic_increment(
-            hardening_law, rate_law, q, jacobian, 1.5 * shear2, plastic_strain[p], per_dt);
-        step = q > start ? increment.strain : 0.0;
-        mean_flow = 0.5 * (start * increment.factor + q - 1.5 * shear2 * step);
-      }
-      const Real shrink = Real(1.5) * shear2 * step / (q + tiny);
-      // plastic state: b_new - b_trial carried back through F
-      const Real d1 = (one + x1) * exp_m1(Real(-2) * shrink * s1);
-      const Real d2 = (one + x2) * exp_m1(Real(-2) * shrink * s2);
-      const Real d3 = (one + xhh) * exp_m1(Real(-2) * shrink * s3);
-      const Real dm = Real(0.5) * (d1 + d2), dd = Real(0.5) * (d1 - d2);
-      const Real drr = dm + dd * cosine, dzz = dm - dd * cosine, drz = dd * sine;
-      const Real g11 = fzz * drr - hrz * drz, g12 = fzz * drz - hrz * dzz;
-      const Real g21 = -hzr * drr + frr * drz, g22 = -hzr * drz + frr * dzz;
-      const Real per_det2 = per_det * per_det;
-      crr[p] += per_det2 * (g11 * fzz - g12 * hrz);
-      crz[p] += per_det2 * (-g11 * hzr + g12 * frr);
-      czz[p] += per_det2 * (-g21 * hzr + g22 * frr);
-      chh[p] += per_fhh * per_fhh * d3;
-      plastic_strain[p] += step;
-      plastic_work[p] += volume[p] * mean_flow * step;
-      s1 -= shrink * s1, s2 -= shrink * s2, s3 -= shrink * s3;
-    }
-
-    // Kirchhoff stress, then P = tau F^-T
-    const Real pressure = bulk * trace;
-    const Real t1 = shear2 * s1 + pressure, t2 = shear2 * s2 + pressure, t3 = shear2 * s3 + pressure;
-    const Real tm = Real(0.5) * (t1 + t2), td = Real(0.5) * (t1 - t2);
-    const Real trr = tm + td * cosine, tzz = tm - td * cosine, trz = td * sine;
-    block.prr[p] = (trr * fzz - trz * hrz) * per_det, block.prz[p] = (trz * frr - trr * hzr) * per_det;
-    block.pzr[p] = (trz * fzz - tzz * hrz) * per_det, block.pzz[p] = (tzz * frr - trz * hzr) * per_det;
-    block.phh[p] = t3 * per_fhh;
-    energy[p] = volume[p] * Real(0.5) * (shear2 * (s1 * s1 + s2 * s2 + s3 * s3) + bulk * trace * trace);
+  for (int p = 0; p < count; ++p)
+    trials.put(p, trial_state<has_state, yields>(block, state, p, shear2));
+  bool flows = false;
+  if constexpr (yields)
+    flows = find_flow(trials, count, state.plastic_strain, hardening_law, rate_law, moduli,
+                      body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0);
+  if (yields && flows) {
+#pragma omp simd
+    for (int p = 0; p < count; ++p)
+      finish_point<true>(block, state, p, trials.trial(p), trials.flow(p), shear2, bulk);
+  } else {
+#pragma omp simd
+    for (int p = 0; p < count; ++p)
+      finish_point<false>(block, state, p, trials.trial(p), PlasticFlow<Real>{}, shear2, bulk);
   }
 }
 
@@ -378,23 +500,23 @@ __attribute__((noinline)) void update_region(Body& body, const Region& region, T
   }
 }
 
-template <class Rate, class... Hardening>
+template <class Real, class Rate, class... Hardening>
 void with_hardening(Body& body, const Region& region, Then then, flow::LawList<Hardening...>)
 {
   const flow::Flow& laws = region.moduli.flow;
   int k = 0;
-  ((k++ == laws.hardening ? update_region<double>(body, region, then,
-                                                  Hardening::from(region.moduli.yield, laws.hardening_values),
-                                                  Rate::from(laws.rate_values))
+  ((k++ == laws.hardening ? update_region<Real>(body, region, then,
+                                                Hardening::from(region.moduli.yield, laws.hardening_values),
+                                                Rate::from(laws.rate_values))
                           : void()),
    ...);
 }
 
-template <class... Rate>
+template <class Real, class... Rate>
 void with_rate(Body& body, const Region& region, Then then, flow::LawList<Rate...>)
 {
   int k = 0;
-  ((k++ == region.moduli.flow.rate ? with_hardening<Rate>(body, region, then, flow::HardeningLaws{})
+  ((k++ == region.moduli.flow.rate ? with_hardening<Real, Rate>(body, region, then, flow::HardeningLaws{})
                                    : void()),
    ...);
 }
@@ -402,7 +524,7 @@ void with_rate(Body& body, const Region& region, Then then, flow::LawList<Rate..
 constexpr flow::Linear linear{};
 constexpr flow::RateIndependent no_rate{};
 
-/// Every region under its own laws. Single precision has the closed forms only (see Body::use_single).
+/// Every region under its own laws.
 template <class Real>
 void update(Body& body, Then then)
 {
@@ -411,11 +533,10 @@ void update(Body& body, Then then)
       update_region<Real>(body, region, then, Elastic{}, no_rate);
     else if (!region.moduli.yields)
       update_region<Real>(body, region, then, ElasticWithState{}, no_rate);
-    else if ((region.moduli.flow.hardening == 0 && region.moduli.flow.rate == 0) ||
-             std::is_same_v<Real, float>)
+    else if (region.moduli.flow.hardening == 0 && region.moduli.flow.rate == 0)
       update_region<Real>(body, region, then, linear, no_rate);
     else
-      with_rate(body, region, then, flow::RateLaws{});
+      with_rate<Real>(body, region, then, flow::RateLaws{});
   }
   body.elapsed = 0.0;
 }

@@ -280,10 +280,8 @@ Scene Collision::build(double deepest, int cells, double shift) const
   }
   if (options_.precision == Precision::single)
     for (Body& body : scene.bodies) {
-      for (const Region& region : body.regions)
-        if (region.moduli.flow.hardening != 0 || region.moduli.flow.rate != 0 || body.moving)
-          fail("--precision", "single precision does reference grids with perfect or linear hardening only",
-               "single", "double");
+      if (body.moving)
+        fail("--precision", "the updated grid does double precision only", "single", "double");
       body.use_single();
     }
   if (scene.bodies.size() == 1 && scene.bodies.front().surface.corners == 1)

@@ -222,8 +222,10 @@ TEST(FlowLaws, RateDependenceUnderConstantRate)
 /// What the fixed number of Newton steps leaves of the local equation, over all laws and far beyond what runs
 /// meet: Y/E* from 2e-4 to 0.1, trial stresses from 1e-7 to 1 above the flow stress, exponents 0.05 to 1, any
 /// time step.
+/// `tangent`, if given: the largest that tangent_increment leaves where it says that it converged, and the share
+/// of cases in which it did.
 template <class MakeHardening, class MakeRate>
-double worst_residual(MakeHardening hardening, MakeRate rate)
+double worst_residual(MakeHardening hardening, MakeRate rate, std::pair<double, double>* tangent = nullptr)
 {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -239,6 +241,14 @@ double worst_residual(MakeHardening hardening, MakeRate rate)
     const double x = flow::plastic_increment(h, r, trial, jacobian, shear3, ep, per_dt).strain;
     const double left = shear3 * x + jacobian * h(ep + x).value * r(x * per_dt).value - trial;
     worst = std::max(worst, std::isfinite(left) ? std::abs(left) / trial : 1.0);
+    if (!tangent) continue;
+    const flow::TangentIncrement quick = flow::tangent_increment(h, trial, jacobian, shear3, ep);
+    if (!quick.converged) continue;
+    const double rest = shear3 * quick.strain + jacobian * h(ep + quick.strain).value - trial;
+    tangent->first = std::max(tangent->first, std::isfinite(rest) ? std::abs(rest) / trial : 1.0);
+    tangent->second += 1.0 / 40000;
+    EXPECT_GE(quick.stress, jacobian * h(ep).value * (1 - 1e-12));
+    EXPECT_LE(quick.stress, jacobian * h(ep + quick.strain).value * (1 + 1e-9));
   }
   return worst;
 }
@@ -284,13 +294,16 @@ TEST(FlowLaws, NewtonResidual)
     return CowperSymonds::from(v);
   };
   const auto check = [&](const char* name, auto hardening) {
-    const double left[] = {worst_residual(hardening, none), worst_residual(hardening, jc_rate),
+    std::pair<double, double> tangent{0, 0};
+    const double left[] = {worst_residual(hardening, none, &tangent), worst_residual(hardening, jc_rate),
                            worst_residual(hardening, cs_rate)};
     std::printf(
-        "largest residual over trial stress, %-12s rate-free %.1e, Johnson-Cook %.1e, Cowper-Symonds %.1e\n",
-        name, left[0], left[1], left[2]);
-    for (const double l : left)
+        "largest residual over trial stress, %-12s rate-free %.1e, Johnson-Cook %.1e, Cowper-Symonds %.1e; "
+        "from the tangent %.1e in %.0f %%\n",
+        name, left[0], left[1], left[2], tangent.first, 100 * tangent.second);
+    for (const double l : {left[0], left[1], left[2], tangent.first})
       EXPECT_LT(l, 1e-10) << name;  // the accuracy that HardeningAtLargeStrain asks for
+    EXPECT_GT(tangent.second, 0.2) << name;  // else it would be of no use
   };
   check("linear", linear);
   check("swift", swift);
@@ -368,6 +381,22 @@ TEST(FlowLaws, ImpactAgreesWithClosedForm)
 }
 
 /// Each refusal is one sentence.
+/// Single precision of the points under every pair of laws: what rounding leaves is 9e-8 here.
+TEST(FlowLaws, SinglePrecision)
+{
+  for (const Case& c : hardening_cases())
+    for (const FlowLaw& rate : {FlowLaw{}, rate_cases()[0].rate, rate_cases()[1].rate}) {
+      const Sphere sphere{1, material(c.hardening, rate)};
+      RunOptions options;
+      options.resolution = 12, options.phases = 1;
+      const RunSummary full = run_impact(sphere, 0.01, options).summary;
+      options.precision = Precision::single;
+      const RunSummary single = run_impact(sphere, 0.01, options).summary;
+      EXPECT_NEAR(single.restitution / full.restitution, 1, 5e-7) << c.name << " " << rate.name;
+      EXPECT_NEAR(single.force_max / full.force_max, 1, 5e-7) << c.name << " " << rate.name;
+    }
+}
+
 TEST(FlowLaws, Refusals)
 {
   const auto refused = [](const FlowLaw& hardening, const FlowLaw& rate = {}) {

@@ -62,4 +62,34 @@ GRANULAW_INLINE PlasticIncrement plastic_increment(const Hardening& hardening, c
   return {x, factor};
 }
 
+struct TangentIncrement
+{
+  double strain;   ///< plastic strain increment x, 0 below the yield stress
+  double stress;   ///< mean of J sigma_y before and after it
+  bool converged;  ///< else plastic_increment is needed
+};
+
+/// The same without rate dependence by three Newton steps, the first from ep. They suffice wherever x is small
+/// beside the strain over which the slope changes: everywhere but near the start of a steep law.
+template <class Hardening>
+GRANULAW_INLINE TangentIncrement tangent_increment(const Hardening& hardening, double trial, double jacobian,
+                                                   double shear3, double ep)
+{
+  constexpr double close = 1e-6;  // last step over x; what is left is its square over the one before
+  const ValueAndSlope first = hardening(ep);
+  const double start = jacobian * first.value;
+  const double excess = trial > start ? trial - start : 0.0;
+  double x = excess / (shear3 + jacobian * first.slope), step = 0.0;
+#pragma GCC unroll 2
+  for (int k = 0; k < 2; ++k) {
+    const ValueAndSlope s = hardening(ep + x);
+    const double missing = start + excess - shear3 * x - jacobian * s.value;
+    step = missing / (shear3 + jacobian * s.slope);
+    step = excess > 0.0 ? step : 0.0;
+    x += step;
+  }
+  const double size = step < 0.0 ? -step : step;
+  return {x, 0.5 * (start + (start + excess - shear3 * x)), size <= close * x};
+}
+
 }  // namespace granulaw::flow
