@@ -11,6 +11,7 @@
 #include "characterise/fit_curve.hpp"
 #include "characterise/interpolation.hpp"
 #include "law/replay.hpp"
+#include "solver/flow_laws.hpp"
 #include "solver/accuracy.hpp"
 
 namespace granulaw {
@@ -121,7 +122,7 @@ class Build
   std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, double until);
   int choose_resolution(const std::function<RunJob(int)>& job);
   ElasticCorrection elastic_correction(double depth, int resolution);
-  LawShape shallow_guide(const ElasticCorrection& elastic, const SurveyPlan& plan);
+  LawShape shallow_guide(const ElasticCorrection& elastic, double first);
   void survey_more(Survey& survey, const SurveyPlan& plan, const Subject& subject, double until);
   void heed_early_yield(const Survey& survey);
   FittedShape fit(const Survey& survey, const LawShape* shallow) const;
@@ -200,36 +201,97 @@ FittedShape Build::fit(const Survey& survey, const LawShape* shallow) const
   return fit_shape(survey, elastic_, subject_.onset, options_.depth, shallow);
 }
 
-/// Where runs near the onset of yield would need cells a thousandth of R, a less stiff sphere's law holds at
-/// the same delta/delta_onset, but for a term in Y/E*, which two of them tell (atlas_build.hpp).
-LawShape Build::shallow_guide(const ElasticCorrection& elastic, const SurveyPlan& plan)
+/// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones too:
+/// hardening is the same at strains over Y/E*.
+Subject softer_sphere(Material m, double share)
 {
-  const Material& m = subject_.particle.materials[0];
-  if (!subject_.is_plain())
-    fail("contact law",
-         "yields at overlaps too small to be run, and only a homogeneous, linearly hardening "
-         "sphere can be told from a less stiff one",
-         fmt::format("onset at delta/R = {:.2g}", subject_.onset), "about 1e-4 or more");
-  const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
-                                                 : expected_depth(plan.slow_impacts.front(), subject_);
-  const double reach = 2 * first / subject_.onset;  // delta/delta_onset that the guide must reach
-  std::vector<LawShape> shapes;
-  const double stiffnesses[] = {170, 85};
-  for (const double k : stiffnesses) {
-    const Subject softer = subject_of(k, subject_.poisson_ratio, m.hardening_modulus / m.youngs_modulus);
-    SurveyRange range;
-    range.depth = std::min(0.5, std::max(0.0075, reach * softer.onset));
-    range.fastest = 0;
-    Survey survey;
-    survey_more(survey, plan_survey(softer, range), softer, done_ + 0.1);
-    const LawShape shape = fit_shape(survey, elastic, softer.onset, range.depth).shape;
-    shapes.push_back(
-        shape.stretched(std::log(options_.depth / subject_.onset) / std::log(range.depth / softer.onset)));
+  m = with_strains_stretched(m, 1 / share);
+  m.youngs_modulus *= share;
+  m.rate = {};
+  return subject_of(m);
+}
+
+/// Linear hardening d(sigma_y)/d(ep) of least squares through the yield stress, over plastic strains up to
+/// `strain`; what it misses, largest, over the yield stress.
+struct NearlyLinear
+{
+  double modulus, missed;
+};
+
+NearlyLinear linear_hardening(const Material& m, double strain)
+{
+  constexpr int steps = 50;
+  double moment = 0, squares = 0;
+  for (int k = 1; k <= steps; ++k) {
+    const double ep = strain * k / steps;
+    moment += ep * (flow_stress(m, ep) - m.yield_stress), squares += ep * ep;
   }
-  const double slope = (subject_.yield - 1 / stiffnesses[0]) / (1 / stiffnesses[0] - 1 / stiffnesses[1]);
-  LawShape guide = LawShape::zero();
-  guide.add(1 + slope, shapes[0]);
-  guide.add(-slope, shapes[1]);
+  NearlyLinear line{moment / squares, 0};
+  for (int k = 1; k <= steps; ++k) {
+    const double ep = strain * k / steps;
+    line.missed = std::max(line.missed, std::abs(flow_stress(m, ep) - m.yield_stress - line.modulus * ep));
+  }
+  line.missed /= m.yield_stress;
+  return line;
+}
+
+/// Where runs near the onset of yield would need cells a thousandth of R, a less stiff sphere's law holds at
+/// the same delta/delta_onset, but for a term in Y/E*, which two of them tell (atlas_build.hpp). Of a body of
+/// another shape the contact sees the curvature at the pole only. The atlas tells the term without runs, and
+/// all of it if hardening is linear as far as these overlaps strain the material.
+LawShape Build::shallow_guide(const ElasticCorrection& elastic, double first)
+{
+  if (subject_.particle.materials.size() > 1)
+    fail("contact law",
+         "yields at overlaps too small to be run, and only a body of one material can be told from a less stiff "
+         "one",
+         fmt::format("onset at delta/R = {:.2g}", subject_.onset), "about 1e-4 or more");
+  const Material& m = subject_.particle.materials[0];
+  const double stiffness = 1 / subject_.yield;
+  const double range = std::log(options_.depth / subject_.onset);
+  // Tabor's representative strain is a fifth of a/R; near the edge of the contact it is more than twice that
+  const NearlyLinear line = linear_hardening(m, 0.5 * std::sqrt(2 * first));
+  const auto ratios = [&](double k) {
+    return MaterialRatios{k, m.poisson_ratio, line.modulus / m.youngs_modulus};
+  };
+  const auto known = [&](double k) { return options_.atlas && options_.atlas->why_not(ratios(k)).empty(); };
+  const auto of_atlas = [&](double k) {
+    const double onset = subject_of(k, m.poisson_ratio, 0).onset;
+    return options_.atlas->shape(ratios(k)).stretched(range / std::log(Atlas::depth / onset));
+  };
+  const auto of_runs = [&](double k) {
+    const Subject softer = softer_sphere(m, k / stiffness);
+    const double reach = 2 * first / subject_.onset;  // delta/delta_onset that the guide must reach
+    SurveyRange survey_range;
+    survey_range.depth = std::min(0.5, std::max(0.0075, reach * softer.onset));
+    survey_range.fastest = 0;
+    Survey survey;
+    survey_more(survey, plan_survey(softer, survey_range), softer, done_ + 0.1);
+    return fit_shape(survey, elastic, softer.onset, survey_range.depth)
+        .shape.stretched(range / std::log(survey_range.depth / softer.onset));
+  };
+
+  constexpr double nearly = 0.003;  // of the yield stress: a third of the tolerance of most laws
+  constexpr double less_stiff = 170, least_stiff = 85;
+  built_.shallow = fmt::format("below delta/R = {:.2g}: ", first);
+  if (known(stiffness) && line.missed < nearly) {
+    built_.shallow += fmt::format("atlas, at linear hardening H/E = {:.3g}", line.modulus / m.youngs_modulus);
+    return of_atlas(stiffness);
+  }
+  LawShape guide = of_runs(less_stiff);
+  built_.shallow += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
+  if (known(stiffness) && known(less_stiff)) {
+    built_.shallow += "its difference from the atlas";
+    guide.add(1, of_atlas(stiffness));
+    guide.add(-1, of_atlas(less_stiff));
+  } else {
+    const double slope = (subject_.yield - 1 / less_stiff) / (1 / less_stiff - 1 / least_stiff);
+    LawShape both = LawShape::zero();
+    both.add(1 + slope, guide);
+    both.add(-slope, of_runs(least_stiff));
+    guide = both;
+    built_.shallow += fmt::format("its difference by one of {:g}", least_stiff);
+  }
   return guide;
 }
 
@@ -392,7 +454,7 @@ void Build::plastic()
   std::optional<LawShape> guide;
   const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
                                                  : expected_depth(plan.slow_impacts.front(), slow);
-  if (first > 2 * subject_.onset) guide = shallow_guide(elastic_, plan);
+  if (first > 2 * subject_.onset) guide = shallow_guide(elastic_, first);
 
   Survey survey;
   survey.rate = subject_.rate_dependent();

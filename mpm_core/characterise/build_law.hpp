@@ -16,6 +16,7 @@ struct BuildOptions
                        ///< a fiftieth of `fastest`. Not below the onset of yield, where rates change nothing
   double tolerance = 0.01;  ///< of force and e, relative: sampling is refined until it adds no more than
                             ///< this, the resolution until two of them agree to this
+  const Atlas* atlas = nullptr;  ///< spares runs where a stiff body begins to yield; none: nothing but runs
   Farm* farm = nullptr;     ///< makes the runs; none: this thread
   Progress progress;        ///< may throw to stop
 };
@@ -26,6 +27,7 @@ struct BuiltLaw
   BodyLaw law;
   std::vector<std::string>
       holes;  ///< runs that failed twice, each with its sentence: the law has no sample there
+  std::string shallow;  ///< where the law comes from at overlaps too small to be run; empty: there are none
   double change_of_restitution = 0;  ///< largest relative change of the fitted e that admissibility took
   std::size_t runs = 0;              ///< that the adaptive survey asked for
   std::size_t runs_full = 0;         ///< that the densest one would have

@@ -164,6 +164,26 @@ double flow_stress(const Material& m, double ep)
   return stress;
 }
 
+Material with_strains_stretched(Material m, double by)
+{
+  m.hardening_modulus /= by;
+  with_law(flow::HardeningLaws{}, m.hardening.name, [&](auto chosen, int) {
+    using Law = decltype(chosen);
+    if constexpr (requires(double* v) { Law::stretch(v, by); }) {
+      std::vector<double> values;
+      for (const flow::Parameter& p : Law::parameters) values.push_back(m.hardening.values.at(p.key).front());
+      Law::stretch(values.data(), by);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        m.hardening.values.at(Law::parameters[k].key) = {values[k]};
+    } else {
+      for (const flow::Parameter& p : Law::parameters)
+        if (p.quantity == flow::Quantity::number)
+          for (double& strain : m.hardening.values.at(p.key)) strain *= by;
+    }
+  });
+  return m;
+}
+
 double rate_factor(const Material& m, double rate)
 {
   const flow::Flow laws = flow_of(m, 1, 1);

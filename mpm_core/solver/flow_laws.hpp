@@ -28,6 +28,10 @@ flow::Flow flow_of(const Material& material, double stress, double time);
 /// Static flow stress, Pa, at equivalent plastic strain `ep`; the material yields.
 double flow_stress(const Material& material, double ep);
 
+/// The material with every plastic strain of its hardening `by` times as large: its static flow stress at
+/// by ep is that of `material` at ep.
+Material with_strains_stretched(Material material, double by);
+
 /// Factor on it at a plastic strain rate of `rate`, 1/s; 1 for a rate-independent material.
 double rate_factor(const Material& material, double rate);
 

@@ -381,6 +381,21 @@ TEST(FlowLaws, ImpactAgreesWithClosedForm)
 }
 
 /// Each refusal is one sentence.
+TEST(FlowLaws, StretchedStrains)
+{
+  Material plain = material({});
+  plain.hardening_modulus = 0.03;
+  for (const double by : {0.2, 3.0}) {
+    EXPECT_NEAR(flow_stress(with_strains_stretched(plain, by), by * 0.1), flow_stress(plain, 0.1), 1e-15);
+    for (const Case& c : hardening_cases()) {
+      const Material stretched = with_strains_stretched(material(c.hardening), by);
+      validate_flow(stretched, "test");
+      for (const double ep : {0.0, 1e-6, 1e-3, 0.05, 0.7})
+        EXPECT_NEAR(flow_stress(stretched, by * ep) / c.stress(ep), 1, 1e-12) << c.name << " " << ep;
+    }
+  }
+}
+
 /// Single precision of the points under every pair of laws: what rounding leaves is 9e-8 here.
 TEST(FlowLaws, SinglePrecision)
 {

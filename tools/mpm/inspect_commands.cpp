@@ -17,7 +17,7 @@ namespace granulaw {
 
 namespace {
 
-void print_body(const BodyLaw& body)
+void print_body(const BodyLaw& body, const std::map<std::string, std::string>& provenance)
 {
   const LawMaterial& m = body.material;
   const Certificate& c = body.certificate;
@@ -33,8 +33,16 @@ void print_body(const BodyLaw& body)
       "{:.6g}\n",
       m.density, m.youngs_modulus, m.poisson_ratio);
   if (m.yields())
-    fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n  linear hardening     {:.6g} Pa\n",
-               m.yield_stress, m.e_star() / m.yield_stress, m.hardening_modulus);
+  {
+    fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n", m.yield_stress,
+               m.e_star() / m.yield_stress);
+    const auto own = provenance.find("hardening." + m.name), rate = provenance.find("rate." + m.name);
+    if (own != provenance.end())
+      fmt::print("  hardening            {}\n", own->second);
+    else
+      fmt::print("  linear hardening     {:.6g} Pa\n", m.hardening_modulus);
+    if (rate != provenance.end()) fmt::print("  rate                 {}\n", rate->second);
+  }
   else
     fmt::print("  elastic\n");
   fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
@@ -92,10 +100,10 @@ void info(const std::string& path)
                  own ? "at other radii" : "by the pair rule", 100 * pair.reduction_error_force,
                  100 * pair.reduction_error_restitution);
   }
-  for (const auto& entry : law.bodies) print_body(entry.second);
+  for (const auto& entry : law.bodies) print_body(entry.second, law.provenance);
   for (const auto& [name, own] : law.pair_laws) {
     fmt::print("pair {}, its own law; yielding ", name);
-    print_body(own.law);
+    print_body(own.law, law.provenance);
   }
 }
 

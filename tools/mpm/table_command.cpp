@@ -148,6 +148,27 @@ void print_certificate(const std::string& name, const BodyLaw& body)
   fmt::print("\n");
 }
 
+/// Says on standard error where sampling ended before the tolerance was reached.
+void warn_of_tolerance(const std::string& name, const BodyLaw& body, double tolerance)
+{
+  const Certificate& c = body.certificate;
+  const double worst =
+      std::max({c.held_out_error, c.verification_error_force, c.verification_error_restitution});
+  if (worst > tolerance)
+    fmt::print(stderr,
+               "mpm: {}: sampling ended before --tolerance {:g} was reached: error where nothing was sampled "
+               "{:.2g} (in the law's certificate)\n",
+               name, tolerance, worst);
+}
+
+/// A flow law as the materials file has it; empty: none.
+std::string text_of(const FlowLaw& law)
+{
+  std::string text = law.name;
+  for (const auto& [key, values] : law.values) text += fmt::format(", {} = {:g}", key, fmt::join(values, " "));
+  return text;
+}
+
 /// The pair as its two bodies, at this ratio of the partner's radius to the yielding body's.
 UnlikePair bodies_of(const LawPair& pair, const Law& law, double radius_ratio)
 {
@@ -266,6 +287,7 @@ void build(const TableRequest& r)
   options.fastest = std::sqrt(r.inertia);
   std::optional<Atlas> atlas;
   if (const std::string path = atlas_path(); !r.no_atlas && !path.empty()) atlas = read_atlas(path);
+  options.atlas = atlas ? &*atlas : nullptr;
   std::unique_ptr<Farm> farm;  // made when the first run is needed
   ProgressBar bar(rank() == 0);
   std::vector<std::string> remarks;
@@ -297,6 +319,12 @@ void build(const TableRequest& r)
         law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
       law.provenance["survey." + name] =
           fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
+      if (!built.shallow.empty()) law.provenance["shallow." + name] = built.shallow;
+      const auto& materials = entry.subject.particle.materials;
+      if (materials.size() == 1 && !materials[0].hardening.name.empty())
+        law.provenance["hardening." + name] = text_of(materials[0].hardening);
+      if (materials.size() == 1 && materials[0].rate_dependent())
+        law.provenance["rate." + name] = text_of(materials[0].rate);
       law.provenance["admissible." + name] =
           fmt::format("the fitted e changed by {:.2g} % at most", 100 * built.change_of_restitution);
       if (entry.subject.rate_dependent()) {
@@ -363,6 +391,8 @@ void build(const TableRequest& r)
   for (const auto& [name, body] : law.bodies) print_certificate(name, body);
   for (const auto& [name, own] : law.pair_laws) print_certificate(name, own.law);
   if (farm) print_count(farm->count());
+  for (const auto& [name, body] : law.bodies) warn_of_tolerance(name, body, options.tolerance);
+  for (const auto& [name, own] : law.pair_laws) warn_of_tolerance(name, own.law, options.tolerance);
 }
 
 }  // namespace

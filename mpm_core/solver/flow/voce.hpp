@@ -18,6 +18,7 @@ struct Voce
     return v[0] < yield_stress ? "'saturation_stress' is below yield_stress; softening is not supported"
                                : nullptr;
   }
+  static void stretch(double* v, double by) { v[1] *= by; }
   static GRANULAW_MEMBER Voce from(double yield_stress, const double* v)
   {
     return {yield_stress, v[0], 1.0 / v[1]};
