@@ -19,6 +19,7 @@ constexpr double slices_an_octave = 3;    // of a rate axis
 constexpr std::size_t first_slices = 3;   // within the first spacing
 constexpr double first_told = 1.5;       // X of the first slice over the onset's overlap: nearer, keeping the
                                          // law admissible (raise_exponents) takes more than inertia does
+constexpr double soft = 2;               // times the onset: less is the first spacing of a soft body
 constexpr double share_spacing = 0.05;   // of xi = x/X
 constexpr double usual_ratio_end = 1.5;  // xi where the force is the press's again
 
@@ -261,7 +262,11 @@ InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, con
                            std::max(1.0, std::round(slices_an_octave * (octaves(reach) - octaves(first)))));
     scale = SliceScale::by_octaves(table.slices, first, reach);
   } else {
-    const double spacings = std::max(2.0, std::round(reach / slice_spacing));
+    double spacings = std::round(reach / slice_spacing);
+    // A soft body's first slice stands just past the onset, and none before: half-way to an elastic slice no
+    // mixture of the two is admissible, and raising exponents there took 0.01 of e.
+    if (reach / spacings < soft * slow.onset()) spacings = std::floor(reach / (first_told * slow.onset()));
+    spacings = std::max(2.0, spacings);
     table.first_slices = reach / spacings < first_slices * first_told * slow.onset() ? 1 : first_slices;
     table.slices = static_cast<std::size_t>(spacings) + table.first_slices - 1;
     scale = SliceScale::from_standstill(table.slices, table.first_slices, reach);
