@@ -32,11 +32,6 @@ Subject sphere_of(const MaterialRatios& m)
   return subject_of(m.stiffness, m.poisson_ratio, m.hardening);
 }
 
-SurveyPlan plan_of(const MaterialRatios& m)
-{
-  return plan_survey(sphere_of(m), {});
-}
-
 double onset_of(const MaterialRatios& m)
 {
   return sphere_of(m).onset;
@@ -65,7 +60,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source)
     jobs.push_back(with_estimate(elastic_job(nu, ElasticSphere::depth, source)));
   }
   for (const MaterialRatios& m : all_materials(grid))
-    for (RunJob& job : survey_jobs(sphere_of(m), plan_of(m), source)) {
+    for (RunJob& job : survey_jobs(sphere_of(m), plan_survey(sphere_of(m), {}), source)) {
       job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
                               job.label);
       jobs.push_back(std::move(job));
@@ -139,7 +134,7 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
   };
 
   for (const MaterialRatios& m : all_materials(grid)) {
-    const SurveyPlan plan = plan_of(m);
+    const SurveyPlan plan = plan_survey(sphere_of(m), {});
     const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
     Survey survey;
     add_to(survey, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});

@@ -429,7 +429,7 @@ void Build::plastic()
   resolution_ = choose_resolution([&](int r) {
     return impact_job(
         subject_, std::min(0.1, options_.fastest > 0 ? options_.fastest : 0.1) * std::sqrt(subject_.yield), r,
-        4, source_);  // two shifted grids leave so much ripple that their difference is chance
+        fast_phases, source_);  // two shifted grids leave so much ripple that their difference is chance
   });
   elastic_ = elastic_correction(std::clamp(1.5 * subject_.onset, 0.02, 0.04), resolution_);
 
