@@ -11,8 +11,8 @@
 #include "characterise/fit_curve.hpp"
 #include "characterise/interpolation.hpp"
 #include "law/replay.hpp"
-#include "solver/flow_laws.hpp"
 #include "solver/accuracy.hpp"
+#include "solver/flow_laws.hpp"
 
 namespace granulaw {
 
@@ -201,8 +201,8 @@ FittedShape Build::fit(const Survey& survey, const LawShape* shallow) const
   return fit_shape(survey, elastic_, subject_.onset, options_.depth, shallow);
 }
 
-/// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones too:
-/// hardening is the same at strains over Y/E*.
+/// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones
+/// too: hardening is the same at strains over Y/E*.
 Subject softer_sphere(Material m, double share)
 {
   m = with_strains_stretched(m, 1 / share);
@@ -243,7 +243,8 @@ LawShape Build::shallow_guide(const ElasticCorrection& elastic, double first)
 {
   if (subject_.particle.materials.size() > 1)
     fail("contact law",
-         "yields at overlaps too small to be run, and only a body of one material can be told from a less stiff "
+         "yields at overlaps too small to be run, and only a body of one material can be told from a less "
+         "stiff "
          "one",
          fmt::format("onset at delta/R = {:.2g}", subject_.onset), "about 1e-4 or more");
   const Material& m = subject_.particle.materials[0];

@@ -24,8 +24,8 @@ constexpr Precision precision = Precision::single;
 
 std::string key(const Subject& s, int resolution, int phases, const std::string& what)
 {
-  return fmt::format("{} {} resolution={} phases={} single solver={}", what, s.description, resolution, phases,
-                     solver_id());
+  return fmt::format("{} {} resolution={} phases={} single solver={}", what, s.description, resolution,
+                     phases, solver_id());
 }
 
 RunOptions own(RunOptions options, int resolution, int phases)
@@ -162,8 +162,7 @@ std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, 
   for (const double v : plan.slow_impacts)
     jobs.push_back(impact_job(subject, v, plan.resolution, plan.phases, source));
   for (const double v : plan.fast_speeds)
-    jobs.push_back(
-        impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, fast_phases, source));
+    jobs.push_back(impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, fast_phases, source));
   return jobs;
 }
 

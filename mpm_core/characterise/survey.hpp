@@ -42,8 +42,8 @@ struct SurveyPlan
   std::size_t runs() const { return presses.size() + slow_impacts.size() + fast_speeds.size(); }
 };
 
-/// Shifted grids of a fast impact, which takes tenths of a second: what it loses more than a slow press is a per
-/// cent of the loss, as is the contact-edge ripple of two grids.
+/// Shifted grids of a fast impact, which takes tenths of a second: what it loses more than a slow press is a
+/// per cent of the loss, as is the contact-edge ripple of two grids.
 inline constexpr int fast_phases = 4;
 
 /// How far a law must reach, and how densely it is sampled.

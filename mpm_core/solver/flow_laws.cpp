@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <ranges>
 
 #include "base/error.hpp"
 
@@ -176,6 +177,8 @@ Material with_strains_stretched(Material m, double by)
       for (std::size_t k = 0; k < values.size(); ++k)
         m.hardening.values.at(Law::parameters[k].key) = {values[k]};
     } else {
+      static_assert(std::ranges::all_of(Law::parameters, &flow::Parameter::list),
+                    "a law with plain numbers says by stretch() which of them are strains");
       for (const flow::Parameter& p : Law::parameters)
         if (p.quantity == flow::Quantity::number)
           for (double& strain : m.hardening.values.at(p.key)) strain *= by;

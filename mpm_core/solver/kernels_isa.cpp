@@ -200,11 +200,11 @@ struct PointState
 template <class Real>
 struct Trial
 {
-  Real x1, x2, xhh;      ///< principal values of the elastic left Cauchy-Green tensor minus identity
-  Real cosine, sine;     ///< of twice the angle of its principal axes
-  Real s1, s2, s3;       ///< deviators of the principal logarithmic strains
-  Real trace;            ///< and their sum, ln J
-  Real q, jacobian;      ///< bodies that yield: von Mises' equivalent of the Kirchhoff stress; J
+  Real x1, x2, xhh;   ///< principal values of the elastic left Cauchy-Green tensor minus identity
+  Real cosine, sine;  ///< of twice the angle of its principal axes
+  Real s1, s2, s3;    ///< deviators of the principal logarithmic strains
+  Real trace;         ///< and their sum, ln J
+  Real q, jacobian;   ///< bodies that yield: von Mises' equivalent of the Kirchhoff stress; J
 };
 
 /// What the points of a block flow in a step: equivalent plastic strain, and the Kirchhoff stress meanwhile.
@@ -229,8 +229,7 @@ struct alignas(64) Trials
   }
   GRANULAW_MEMBER Trial<Real> trial(int p) const
   {
-    return {x1[p], x2[p], xhh[p],   cosine[p], sine[p],    s1[p],
-            s2[p], s3[p], trace[p], q[p],      jacobian[p]};
+    return {x1[p], x2[p], xhh[p], cosine[p], sine[p], s1[p], s2[p], s3[p], trace[p], q[p], jacobian[p]};
   }
   GRANULAW_MEMBER PlasticFlow<Real> flow(int p) const { return {strain[p], stress[p]}; }
 };
@@ -283,7 +282,7 @@ GRANULAW_INLINE bool find_flow(Trials<Real>& block, int count, const Real* __res
                                const Hardening hardening, const Rate rate, const Moduli& moduli,
                                double per_dt)
 {
-  const Real least = Real(moduli.yield);  // no law softens
+  const Real least = Real(hardening(0.0).value);  // no law softens
   int beyond = 0;
 #pragma omp simd reduction(+ : beyond)
   for (int p = 0; p < count; ++p) beyond += block.q[p] > block.jacobian[p] * least ? 1 : 0;
@@ -317,8 +316,8 @@ GRANULAW_INLINE bool find_flow(Trials<Real>& block, int count, const Real* __res
 #pragma omp simd
   for (int p = 0; p < count; ++p) {
     const double q = block.q[p], start = block.jacobian[p] * hardening(plastic_strain[p]).value;
-    const flow::PlasticIncrement found = flow::plastic_increment(hardening, rate, q, block.jacobian[p],
-                                                                 shear3, plastic_strain[p], per_dt);
+    const flow::PlasticIncrement found =
+        flow::plastic_increment(hardening, rate, q, block.jacobian[p], shear3, plastic_strain[p], per_dt);
     const double strain = q > start ? found.strain : 0.0;
     block.strain[p] = Real(strain);
     block.stress[p] = Real(0.5 * (start * found.factor + q - shear3 * strain));
@@ -386,8 +385,7 @@ GRANULAW_INLINE void stress(Body& body, const Moduli& moduli, int first, int cou
 
   Trials<Real> trials;
 #pragma omp simd
-  for (int p = 0; p < count; ++p)
-    trials.put(p, trial_state<has_state, yields>(block, state, p, shear2));
+  for (int p = 0; p < count; ++p) trials.put(p, trial_state<has_state, yields>(block, state, p, shear2));
   bool flows = false;
   if constexpr (yields)
     flows = find_flow(trials, count, state.plastic_strain, hardening_law, rate_law, moduli,
@@ -505,10 +503,10 @@ void with_hardening(Body& body, const Region& region, Then then, flow::LawList<H
 {
   const flow::Flow& laws = region.moduli.flow;
   int k = 0;
-  ((k++ == laws.hardening ? update_region<Real>(body, region, then,
-                                                Hardening::from(region.moduli.yield, laws.hardening_values),
-                                                Rate::from(laws.rate_values))
-                          : void()),
+  ((k++ == laws.hardening
+        ? update_region<Real>(body, region, then, Hardening::from(region.moduli.yield, laws.hardening_values),
+                              Rate::from(laws.rate_values))
+        : void()),
    ...);
 }
 

@@ -280,8 +280,7 @@ Scene Collision::build(double deepest, int cells, double shift) const
   }
   if (options_.precision == Precision::single)
     for (Body& body : scene.bodies) {
-      if (body.moving)
-        fail("--precision", "the updated grid does double precision only", "single", "double");
+      if (body.moving) fail("--precision", "the updated grid does double precision only", "single", "double");
       body.use_single();
     }
   if (scene.bodies.size() == 1 && scene.bodies.front().surface.corners == 1)

@@ -135,8 +135,21 @@ double stress_of(const Body& b)
   return std::sqrt(6 * shear * b.elastic_energy_p[0] / b.volume_p[0]);
 }
 
-/// Without rate dependence radial loading integrates to 3 G (t - ep) = sigma_y(ep) whatever the steps: to 150
-/// %.
+/// A law may start up to 0.1 % below `yield_stress` (validate_flow): it flows from there.
+TEST(FlowLaws, YieldsWhereTheLawStarts)
+{
+  const double low = 0.9992 * yield, between = 0.9996 * yield;
+  const FlowLaw swift{
+      "swift", {{"strength", {low / std::pow(0.004, 0.25)}}, {"exponent", {0.25}}, {"offset", {0.004}}}};
+  Body b = ring(material(swift));
+  compress(b, between / (3 * shear), 1);
+  const double slope = 0.25 * low / 0.004;
+  // q = 3 G (t - ep) = low + slope ep; the slope is that of the start: its change over ep is 1e-3 of ep
+  EXPECT_NEAR(b.plastic_strain_p[0] * (3 * shear + slope) / (between - low), 1, 2e-3);
+}
+
+/// Without rate dependence radial loading integrates to 3 G (t - ep) = sigma_y(ep) whatever the steps: to
+/// 150 %.
 TEST(FlowLaws, HardeningAtLargeStrain)
 {
   for (const Case& c : hardening_cases())
@@ -222,8 +235,8 @@ TEST(FlowLaws, RateDependenceUnderConstantRate)
 /// What the fixed number of Newton steps leaves of the local equation, over all laws and far beyond what runs
 /// meet: Y/E* from 2e-4 to 0.1, trial stresses from 1e-7 to 1 above the flow stress, exponents 0.05 to 1, any
 /// time step.
-/// `tangent`, if given: the largest that tangent_increment leaves where it says that it converged, and the share
-/// of cases in which it did.
+/// `tangent`, if given: the largest that tangent_increment leaves where it says that it converged, and the
+/// share of cases in which it did.
 template <class MakeHardening, class MakeRate>
 double worst_residual(MakeHardening hardening, MakeRate rate, std::pair<double, double>* tangent = nullptr)
 {
@@ -302,7 +315,7 @@ TEST(FlowLaws, NewtonResidual)
         "from the tangent %.1e in %.0f %%\n",
         name, left[0], left[1], left[2], tangent.first, 100 * tangent.second);
     for (const double l : {left[0], left[1], left[2], tangent.first})
-      EXPECT_LT(l, 1e-10) << name;  // the accuracy that HardeningAtLargeStrain asks for
+      EXPECT_LT(l, 1e-10) << name;           // the accuracy that HardeningAtLargeStrain asks for
     EXPECT_GT(tangent.second, 0.2) << name;  // else it would be of no use
   };
   check("linear", linear);

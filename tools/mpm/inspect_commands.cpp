@@ -32,8 +32,7 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
       "  density              {:.6g} kg/m^3\n  Young's modulus      {:.6g} Pa\n  Poisson's ratio      "
       "{:.6g}\n",
       m.density, m.youngs_modulus, m.poisson_ratio);
-  if (m.yields())
-  {
+  if (m.yields()) {
     fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n", m.yield_stress,
                m.e_star() / m.yield_stress);
     const auto own = provenance.find("hardening." + m.name), rate = provenance.find("rate." + m.name);
@@ -42,8 +41,7 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
     else
       fmt::print("  linear hardening     {:.6g} Pa\n", m.hardening_modulus);
     if (rate != provenance.end()) fmt::print("  rate                 {}\n", rate->second);
-  }
-  else
+  } else
     fmt::print("  elastic\n");
   fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
              body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());

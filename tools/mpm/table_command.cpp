@@ -165,7 +165,8 @@ void warn_of_tolerance(const std::string& name, const BodyLaw& body, double tole
 std::string text_of(const FlowLaw& law)
 {
   std::string text = law.name;
-  for (const auto& [key, values] : law.values) text += fmt::format(", {} = {:g}", key, fmt::join(values, " "));
+  for (const auto& [key, values] : law.values)
+    text += fmt::format(", {} = {:g}", key, fmt::join(values, " "));
   return text;
 }
 

@@ -69,8 +69,8 @@ struct TangentIncrement
   bool converged;  ///< else plastic_increment is needed
 };
 
-/// The same without rate dependence by three Newton steps, the first from ep. They suffice wherever x is small
-/// beside the strain over which the slope changes: everywhere but near the start of a steep law.
+/// The same without rate dependence by three Newton steps, the first from ep. They suffice wherever x is
+/// small beside the strain over which the slope changes: everywhere but near the start of a steep law.
 template <class Hardening>
 GRANULAW_INLINE TangentIncrement tangent_increment(const Hardening& hardening, double trial, double jacobian,
                                                    double shear3, double ep)
