@@ -216,6 +216,13 @@ class Making(unittest.TestCase):
         self.assertIn("stopped: 'stretch 30' takes the overlap to 0.6 R*: stretch less", said)
 
 
+    def test_decks_that_were_named(self):
+        recipes = module(ROOT / "tools" / "reporting" / "recipes.py")
+        lines = recipes.flow("out", False, 3, ["drop", "heap"])
+        self.assertEqual({line.split()[1] for line in lines[1:]}, {"examples/drop/run.py", "examples/heap/run.py"})
+        self.assertTrue(all(line.endswith("--seeds 3") for line in lines[1:]), lines)
+
+
 class Missing(unittest.TestCase):
     def test_each_part_names_its_commands(self):
         with tempfile.TemporaryDirectory() as name:

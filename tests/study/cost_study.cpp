@@ -2,6 +2,8 @@
 //
 //   cost_study OUT.json [quick]           quick: the plastic impact alone, coarser (half a minute)
 //
+// Written job by job; the same build, called again, keeps the jobs that are there.
+//
 // Two jobs, one core: the plastic impact E*/Y = 100, V/V_y = 100, and the elastic impact that Hertz would
 // stop at 0.002 R. Reference: the mapped grid at 56 cells, 8 shifted grids, Courant number 0.5; "reference"
 // holds the same at 40 cells: how good the reference is. Of each run, in the file: job, grid, precision,
@@ -115,6 +117,17 @@ std::string utc_now()
   return text;
 }
 
+/// The jobs that a study of this very build finished before it was stopped; none if there is no such file.
+json jobs_kept(const char* path, const json& now)
+{
+  std::ifstream file(path);
+  const json old = json::parse(file, nullptr, false);
+  if (!old.is_object() || !old.contains("jobs")) return json::array();
+  for (const char* key : {"study", "granulaw_version", "git_hash", "processor", "quick"})
+    if (!old.contains(key) || old[key] != now[key]) return json::array();
+  return old["jobs"];
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -128,14 +141,16 @@ int main(int argc, char** argv)
     json found = {{"study", "cost"},      {"granulaw_version", version()}, {"git_hash", git_hash()},
                   {"created", utc_now()}, {"processor", processor()},      {"quick", quick},
                   {"jobs", json::array()}};
-    const auto finished = [&](const json& job) {  // written job by job: a killed study keeps the first
-      found["jobs"].push_back(job);
+    const json kept = jobs_kept(argv[1], found);
+    const auto finish = [&](const std::string& name, const Sphere& sphere, double velocity) {
+      const auto old =
+          std::find_if(kept.begin(), kept.end(), [&](const json& j) { return j["name"] == name; });
+      found["jobs"].push_back(old != kept.end() ? *old : study(name, sphere, velocity, quick));
       write_atomically(argv[1],
                        [&](const std::string& path) { std::ofstream(path) << found.dump(1) << "\n"; });
     };
-    finished(study("plastic", reference::unit_sphere(100), 100 * yield_velocity(1, 0.01, 1), quick));
-    if (!quick)
-      finished(study("elastic", reference::unit_sphere(0), reference::elastic_impact_velocity(), quick));
+    finish("plastic", reference::unit_sphere(100), 100 * yield_velocity(1, 0.01, 1));
+    if (!quick) finish("elastic", reference::unit_sphere(0), reference::elastic_impact_velocity());
   } catch (const Error& error) {
     fmt::print(stderr, "cost_study: {}\n", error.what());
     return 2;
