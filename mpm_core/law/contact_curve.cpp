@@ -32,9 +32,10 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
     double low, high, low_between, high_between;
     double (Interval::*cubic)[4];
   };
+  constexpr double largest_ratio = InertiaAxis::TurnCorrection::largest_ratio;
   const Function functions[] = {
       {"force_ratio", table.force_ratio, table.force_ratio_slope, 1e-5, 1e3, 1e-6, 2e3, &Interval::g},
-      {"residual_ratio", table.residual_ratio, table.residual_ratio_slope, 0, 0.99999, -0.1, 0.999995,
+      {"residual_ratio", table.residual_ratio, table.residual_ratio_slope, 0, 0.99999, -0.1, largest_ratio,
        &Interval::rho},
       {"exponent", table.exponent, table.exponent_slope, UnloadingShape::least_exponent, 2.5, 0.9, 2.5,
        &Interval::n},
@@ -110,9 +111,10 @@ void ContactCurve::check_axis(const std::string& where) const
       const InertiaAxis::TurnCorrection turn = axis_->turn(x, overlap);
       const double residual = cubic(p.interval->rho, p.t) + turn.residual,
                    n = cubic(p.interval->n, p.t) + turn.exponent;
-      if (!(residual >= -0.1 && residual <= 0.999995))  // between nodes, as the quasi-static ratio's
+      constexpr double largest_ratio = InertiaAxis::TurnCorrection::largest_ratio;
+      if (!(residual >= -0.1 && residual <= largest_ratio))  // between nodes, as the quasi-static ratio's
         fail(where, here("the residual ratio is out of range"), fmt::format("{:.6g}", residual),
-             "-0.1 to 0.999995");
+             fmt::format("-0.1 to {:.6f}", largest_ratio));
       if (!(n >= 0.9 && n <= 12))
         fail(where, here("the exponent is out of range"), fmt::format("{:.6g}", n), "0.9 to 12");
     }

@@ -33,12 +33,12 @@ FastCurve::FastCurve(const ContactCurve& curve) : curve_(&curve), onset_(curve.o
     // the last interval is sampled up to x_end only: beyond, the curve's residual ratio and exponent stand
     // still
     const double width = (x_end > low ? std::min(high, x_end) : high) - low;
-    double radius[4], steepness[4], exponent[4], foot[4], work[4];
+    double radius[4], span[4], exponent[4], foot[4], work[4];
     for (int p = 0; p < 4; ++p) {
       const double x = low + width * p / 3.0;
       const ContactCurve::Turning turning = curve.turning(x);
       radius[p] = turning.radius;
-      steepness[p] = 1.0 / (1.0 - turning.residual / x);
+      span[p] = 1.0 - turning.residual / x;
       exponent[p] = turning.shape.exponent;
       foot[p] = turning.shape.foot;
       work[p] = curve.work_loading(x) - curve.work_unloading(x);
@@ -46,7 +46,7 @@ FastCurve::FastCurve(const ContactCurve& curve) : curve_(&curve), onset_(curve.o
     double c[4];
     fit(radius, width, c);
     intervals_[k].loading.set(1, c);
-    fit(steepness, width, c);
+    fit(span, width, c);
     intervals_[k].turn.set(0, c);
     fit(exponent, width, c);
     intervals_[k].turn.set(1, c);

@@ -20,7 +20,7 @@ namespace granulaw {
 ///     force     F_L(x)           Hermite with the curve's stiffness: the stiffness is its derivative,
 ///                                exactly, and continuous
 ///     radius    a(x)             this and the following: equal to the curve at four equidistant points
-///     steepness 1/(1 - rho), rho = x_r/x_m: a turn at x_m unloads along u = 1 - (1 - x/x_m) steepness
+///     span      1 - rho, rho = x_r/x_m: a turn at x_m unloads along u = (span - (1 - x/x_m))/span
 ///     exponent  n, and foot A
 ///     work      W_load - W_unload: spent on plastic strain (quasi-static)
 /// One cache line for the loading branch, three for unloading. An inertia axis is laid out anew: FastAxis.
@@ -52,8 +52,8 @@ class FastCurve
       return far_unloading(x, x_max, impact_overlap);
     const Place p = at(x_max);
     const Turn turn = turn_at(p, p.force(), x_max, impact_overlap);
-    const double u = 1.0 - (1.0 - x / x_max) * turn.steepness;
-    return u <= 0.0 ? 0.0 : turn.force * turn.shape.at(u).value;
+    const double rest = turn.span - (x_max - x) / x_max;
+    return rest <= 0.0 ? 0.0 : turn.force * turn.at(rest, 1.0 / turn.span).value;
   }
 
   /// As ContactCurve::evaluate.
@@ -73,13 +73,13 @@ class FastCurve
     const Place p = at(x_max);
     const Two top = p.i.loading.both(p.t);
     const Turn turn = turn_at(p, top[0], x_max, impact_overlap);
-    const double per_x_max = 1.0 / x_max, u = 1.0 - (1.0 - x * per_x_max) * turn.steepness;
-    if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+    const double per_delta_max = 1.0 / delta_max, rest = turn.span - (delta_max - delta) * per_delta_max;
+    if (rest <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+    const double per_span = 1.0 / turn.span;
+    const auto [value, slope] = turn.at(rest, per_span);
     // a = a_m phi'(u)/phi'(1), as ContactCurve
-    const auto [value, slope] = turn.shape.at(u);
-    const double force = force_scale * turn.force;
-    return {force * value, force * slope * turn.steepness * (per_x_max * per_length),
-            radius_scale * top[1] * slope / turn.shape.exponent, delta_max};
+    const double force = force_scale * turn.force, radius = radius_scale * top[1] / turn.shape.exponent;
+    return {force * value, force * per_delta_max * per_span * slope, radius * slope, delta_max};
   }
 
   /// Work spent on plastic strain by a quasi-static contact whose largest overlap is x_max: a function of
@@ -100,7 +100,7 @@ class FastCurve
   struct Interval
   {
     CubicPair loading;  // force, radius
-    CubicPair turn;     // steepness, exponent
+    CubicPair turn;     // span, exponent
     CubicPair rest;     // foot, work
   };
 
@@ -112,8 +112,14 @@ class FastCurve
   };
   struct Turn
   {
-    double force, steepness;
+    double force, span;
     UnloadingShape shape;
+
+    /// At u = rest/span > 0. sqrt(u) so that root and division run side by side.
+    UnloadingShape::Point at(double rest, double per_span) const
+    {
+      return shape.at(rest * per_span, std::sqrt(rest * span) * per_span);
+    }
   };
 
   static constexpr std::uint64_t first_bits = static_cast<std::uint64_t>(1023 + lowest_exponent) << 52;
@@ -152,7 +158,7 @@ class FastCurve
     const UnloadingShape shape{turn[1], std::max(0.0, p.i.rest.first(p.t))};
     if (!corrected(impact_overlap)) return {force, turn[0], shape};
     const InertiaAxis::TurnCorrection c = axis_.turn(x_max, impact_overlap);
-    return {force * (1.0 + c.force), c.corrected_steepness(turn[0]), c.corrected_shape(shape)};
+    return {force * (1.0 + c.force), c.corrected_span(turn[0]), c.corrected_shape(shape)};
   }
   // Beyond the table, out of line: the loop stays small.
   ContactCurve::Loading far_loading(double x, double impact_overlap) const;

@@ -112,12 +112,10 @@ class InertiaAxis
     double force, residual, exponent;
     static constexpr double largest_ratio = 0.999995;
     double corrected_residual(double ratio) const { return std::clamp(ratio + residual, 0.0, largest_ratio); }
-    /// The same for 1/(1 - ratio).
-    double corrected_steepness(double steepness) const
+    /// The same for span = 1 - ratio.
+    double corrected_span(double span) const
     {
-      const double rest = 1.0 - residual * steepness;
-      return rest > (1.0 - largest_ratio) * steepness ? std::max(steepness / rest, 1.0)
-                                                      : 1.0 / (1.0 - largest_ratio);
+      return std::min(std::max(span - residual, 1.0 - largest_ratio), 1.0);
     }
     UnloadingShape corrected_shape(UnloadingShape s) const
     {

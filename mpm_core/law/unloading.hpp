@@ -34,10 +34,12 @@ struct UnloadingShape
     double value, slope;  ///< phi, phi'
   };
   /// At 0 <= u <= 1.
-  Point at(double u) const
+  Point at(double u) const { return at(u, std::sqrt(u)); }
+  /// The same of a caller that has the root.
+  Point at(double u, double root) const
   {
-    const double w = std::sqrt(u), b = second(), c = third();
-    return {u * w * (foot + w * (b + w * c)), w * (1.5 * foot + w * (2.0 * b + w * (2.5 * c)))};
+    const double b = second(), c = third();
+    return {u * root * ((foot + root * b) + u * c), root * ((1.5 * foot + root * (2.0 * b)) + u * (2.5 * c))};
   }
   /// Integral of phi from 0 to u.
   double work(double u) const

@@ -20,6 +20,7 @@ namespace {
 struct AtlasRequest
 {
   std::string output;
+  std::string from;  ///< an atlas whose materials stay; empty: they are run
   int checks = 100;
   unsigned seed = 1;
   FarmOptions farm;
@@ -35,11 +36,13 @@ void build(const AtlasRequest& r)
       bar.update(from + (to - from) * done, what);
     };
   };
-  const AtlasGrid grid;
-  const RunSource source;
-  const Atlas bare = atlas_from(grid, farm->run(atlas_jobs(grid, source), share(0, 0.8)));
-  const Atlas atlas(grid, bare.nodes(), bare.elastic_spheres(),
-                    check_atlas(bare, *farm, r.checks, r.seed, share(0.8, 1)));
+  const auto from_runs = [&] {
+    const AtlasGrid grid;
+    return atlas_from(grid, farm->run(atlas_jobs(grid, RunSource{}), share(0, 0.8)));
+  };
+  const Atlas bare = r.from.empty() ? from_runs() : read_atlas(r.from);
+  const Atlas atlas(bare.grid(), bare.nodes(), bare.elastic_spheres(),
+                    check_atlas(bare, *farm, r.checks, r.seed, share(r.from.empty() ? 0.8 : 0, 1)));
   if (rank() != 0) return;
   write_atlas(atlas, r.output);
   bar.clear();
@@ -65,6 +68,8 @@ void add_atlas(CLI::App& app)
       "was.\n"
       "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
   command->add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
+  command->add_option("--from", r->from,
+                      "an atlas whose materials stay as they are: only the fresh impacts are run");
   command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
       ->check(whole_from_to(20, 100000))
       ->capture_default_str();
