@@ -115,12 +115,11 @@ PairInfo describe(const MpmContact& contact, const Setup& setup, const PairKey& 
 PairInfo describe(const ThorntonContact& contact, const Setup&, const PairKey& key, double r_eff,
                   double m_eff)
 {
-  PairInfo info;
-  info.a = "-";
-  info.b = key.kind == PairKey::rigid_wall ? wall_name : "-";
-  info.law = "thornton";
-  info.rule = "closed form";
-  info.error = fmt::format("time step at d/R* = {:.2g}", thornton_depth);
+  PairInfo info{.a = "-",
+                .b = key.kind == PairKey::rigid_wall ? wall_name : "-",
+                .law = "thornton",
+                .rule = "closed form",
+                .error = fmt::format("time step at d/R* = {:.2g}", thornton_depth)};
   info.stiffness_ratio = 1.6 * contact.law.e_star / contact.law.yield_pressure;
   info.overlap_limit = std::numeric_limits<double>::infinity();
   info.onset_speed = std::numeric_limits<double>::infinity();
