@@ -65,11 +65,6 @@ double confident_bound(std::vector<double> values)
   return std::max(values[static_cast<std::size_t>(k) - 1], 0.5 * values.back());
 }
 
-bool same(const MaterialRatios& a, const MaterialRatios& b)
-{
-  return a.stiffness == b.stiffness && a.poisson_ratio == b.poisson_ratio && a.hardening == b.hardening;
-}
-
 }  // namespace
 
 MaterialRatios MaterialRatios::of(const LawMaterial& m)
@@ -130,8 +125,7 @@ Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere>
     fail("atlas", "has the wrong number of materials", std::to_string(nodes_.size()),
          std::to_string(expected.size()));
   for (std::size_t k = 0; k < nodes_.size(); ++k)
-    if (!same(nodes_[k].material, expected[k]))
-      fail("atlas", fmt::format("material {} is not the grid's", k));
+    if (!(nodes_[k].material == expected[k])) fail("atlas", fmt::format("material {} is not the grid's", k));
   std::vector<double> force, restitution, solver;
   for (const AtlasCheck& c : checks_) {
     force.push_back(std::abs(c.error_force));

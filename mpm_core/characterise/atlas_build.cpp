@@ -43,6 +43,15 @@ RunJob elastic_job(double poisson_ratio, double depth, const RunSource& source)
   return press_job(subject_of(1.0, poisson_ratio, 0.0).elastic(), {depth, {}, 24, 2}, source);
 }
 
+/// Of a material that `known` has, else null.
+const LawShape* shape_in(const Atlas* known, const MaterialRatios& m)
+{
+  if (!known) return nullptr;
+  for (const Atlas::Node& node : known->nodes())
+    if (node.material == m) return &node.shape;
+  return nullptr;
+}
+
 /// Functions of u are brought to the same delta/delta_onset in another material's range.
 LawShape at_range_of(const MaterialRatios& to, const MaterialRatios& from, const LawShape& shape)
 {
@@ -52,23 +61,25 @@ LawShape at_range_of(const MaterialRatios& to, const MaterialRatios& from, const
 
 }  // namespace
 
-std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source)
+std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, const Atlas* known)
 {
   std::vector<RunJob> jobs;
   for (const double nu : grid.poisson_ratios()) {
     jobs.push_back(elastic_job(nu, elastic_depth, source));
     jobs.push_back(with_estimate(elastic_job(nu, ElasticSphere::depth, source)));
   }
-  for (const MaterialRatios& m : all_materials(grid))
+  for (const MaterialRatios& m : all_materials(grid)) {
+    if (shape_in(known, m)) continue;
     for (RunJob& job : survey_jobs(sphere_of(m), plan_survey(sphere_of(m), {}), source)) {
       job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
                               job.label);
       jobs.push_back(std::move(job));
     }
+  }
   return jobs;
 }
 
-Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
+Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes, const Atlas* known)
 {
   std::size_t next = 0;
   std::vector<ElasticCorrection> elastic;  // where yield comes first
@@ -134,6 +145,10 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes)
   };
 
   for (const MaterialRatios& m : all_materials(grid)) {
+    if (const LawShape* shape = shape_in(known, m)) {
+      nodes.push_back({m, *shape});
+      continue;
+    }
     const SurveyPlan plan = plan_survey(sphere_of(m), {});
     const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
     Survey survey;

@@ -598,6 +598,21 @@ def case_predict():
     assert worst < 0.01, worst  # the issue's figure
 
 
+def case_atlas():
+    """Fresh impacts thrown at an atlas that exists: its materials stay to the bit, what was not thrown before is."""
+    own = Path(SOURCE) / "mpm_core/characterise/atlas.h5"
+    refused(["atlas", "--from", "none.h5", "-o", "new.h5"], "none.h5", "no such file")
+    made = Run("atlas", "--from", own, "--checks", "20", "--seed", "77", "--cache", "runs", "-o", "new.h5")
+    assert made.code == 0 and "20 fresh impacts" in made.out, made.out + made.err
+    with h5py.File(own) as old, h5py.File("new.h5") as new:
+        assert set(old) == set(new), set(old) ^ set(new)
+        for name in set(old) - {"checks", "elastic_spheres"}:  # elastic presses are run again
+            assert np.array_equal(old[name][()], new[name][()]), name
+        assert np.allclose(old["elastic_spheres"][()], new["elastic_spheres"][()], rtol=1e-4), "other presses"
+        told = np.asarray(new["checks"]).reshape(20, 7)
+        assert np.median(np.abs(told[:, 4])) < 0.005 and np.median(np.abs(told[:, 5])) < 0.003, told  # measured .0018, .0009
+
+
 TUTORIALS = Path("/usr/share/doc/liggghts/examples/LIGGGHTS/Tutorials_public")
 
 

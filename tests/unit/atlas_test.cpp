@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "characterise/atlas_build.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/interpolation.hpp"
 
@@ -55,6 +57,23 @@ TEST(Atlas, GivesItsOwnMaterialsBack)
       EXPECT_NEAR(shape.dissipation[k], node.shape.dissipation[k], 1e-9);
     }
   }
+}
+
+TEST(Atlas, RunsOnlyMaterialsThatTheOneItStartsFromLacks)
+{
+  const RunSource source;
+  AtlasGrid grid = shipped().grid();
+  const std::size_t elastic = 2 * grid.poisson_ratios().size();
+  EXPECT_EQ(atlas_jobs(grid, source, &shipped()).size(), elastic);
+  grid.stiffnesses.insert(std::find(grid.stiffnesses.begin(), grid.stiffnesses.end(), 400), 300);
+  std::size_t lacking = 0;
+  for (const double h : grid.hardenings_at(300)) {
+    const Subject sphere = subject_of(300, grid.main_poisson_ratio, h);
+    lacking += survey_jobs(sphere, plan_survey(sphere, {}), source).size();
+  }
+  ASSERT_GT(lacking, 0u);
+  EXPECT_EQ(atlas_jobs(grid, source, &shipped()).size(), elastic + lacking);
+  EXPECT_GT(atlas_jobs(grid, source).size(), 100 * lacking / grid.hardenings_at(300).size());
 }
 
 /// Fresh presses of an elastic sphere between the atlas's Poisson's ratios: to half and to all of its depth.

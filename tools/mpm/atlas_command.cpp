@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "base/error.hpp"
 #include "characterise/atlas_build.hpp"
@@ -20,8 +21,8 @@ namespace {
 struct AtlasRequest
 {
   std::string output;
-  std::string from;  ///< an atlas whose materials stay; empty: they are run
-  int checks = 100;
+  std::string from;  ///< an atlas whose materials stay; empty: all are run
+  int checks = 500;
   unsigned seed = 1;
   FarmOptions farm;
 };
@@ -36,13 +37,13 @@ void build(const AtlasRequest& r)
       bar.update(from + (to - from) * done, what);
     };
   };
-  const auto from_runs = [&] {
-    const AtlasGrid grid;
-    return atlas_from(grid, farm->run(atlas_jobs(grid, RunSource{}), share(0, 0.8)));
-  };
-  const Atlas bare = r.from.empty() ? from_runs() : read_atlas(r.from);
-  const Atlas atlas(bare.grid(), bare.nodes(), bare.elastic_spheres(),
-                    check_atlas(bare, *farm, r.checks, r.seed, share(r.from.empty() ? 0.8 : 0, 1)));
+  const AtlasGrid grid;
+  std::optional<Atlas> known;
+  if (!r.from.empty()) known = read_atlas(r.from);
+  const Atlas* const of = known ? &*known : nullptr;
+  const Atlas bare = atlas_from(grid, farm->run(atlas_jobs(grid, RunSource{}, of), share(0, 0.8)), of);
+  const Atlas atlas(grid, bare.nodes(), bare.elastic_spheres(),
+                    check_atlas(bare, *farm, r.checks, r.seed, share(0.8, 1)));
   if (rank() != 0) return;
   write_atlas(atlas, r.output);
   bar.clear();
@@ -63,13 +64,14 @@ void add_atlas(CLI::App& app)
       "inertia, from\n"
       "which mpm table answers any homogeneous material at once. One comes with the program; this makes it "
       "anew, in\n"
-      "about two and a half CPU hours. Finished runs are kept (--cache): a build that was stopped goes on "
+      "about three CPU hours. Finished runs are kept (--cache): a build that was stopped goes on "
       "where it "
       "was.\n"
       "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
   command->add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
   command->add_option("--from", r->from,
-                      "an atlas whose materials stay as they are: only the fresh impacts are run");
+                      "an atlas whose materials stay as they are: only those that it lacks and the fresh "
+                      "impacts are run");
   command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
       ->check(whole_from_to(20, 100000))
       ->capture_default_str();
