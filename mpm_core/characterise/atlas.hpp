@@ -29,7 +29,7 @@ struct AtlasGrid
   /// H/E; what is too weak to be seen at a stiffness is left out there.
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.3};
 
-  std::vector<double> block_stiffnesses{20, 35, 60, 110, 200, 400, 900, 5000};
+  std::vector<double> block_stiffnesses{20, 35, 60, 110, 200, 400, 900};
   std::vector<double> block_hardenings{0, 0.005, 0.02, 0.3};
   std::vector<double> block_poisson_ratios{0, 0.15, 0.42, 0.49};  ///< besides the main one
 
