@@ -9,6 +9,12 @@
 
 namespace granulaw {
 
+namespace {
+
+constexpr double largest_ratio = InertiaAxis::TurnCorrection::largest_ratio;
+
+}  // namespace
+
 ContactCurve::ContactCurve(const Table& table, const std::string& where) : table_(table)
 {
   const std::size_t count = table.force_ratio.size();
@@ -32,7 +38,6 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
     double low, high, low_between, high_between;
     double (Interval::*cubic)[4];
   };
-  constexpr double largest_ratio = InertiaAxis::TurnCorrection::largest_ratio;
   const Function functions[] = {
       {"force_ratio", table.force_ratio, table.force_ratio_slope, 1e-5, 1e3, 1e-6, 2e3, &Interval::g},
       {"residual_ratio", table.residual_ratio, table.residual_ratio_slope, 0, 0.99999, -0.1, largest_ratio,
@@ -111,7 +116,6 @@ void ContactCurve::check_axis(const std::string& where) const
       const InertiaAxis::TurnCorrection turn = axis_->turn(x, overlap);
       const double residual = cubic(p.interval->rho, p.t) + turn.residual,
                    n = cubic(p.interval->n, p.t) + turn.exponent;
-      constexpr double largest_ratio = InertiaAxis::TurnCorrection::largest_ratio;
       if (!(residual >= -0.1 && residual <= largest_ratio))  // between nodes, as the quasi-static ratio's
         fail(where, here("the residual ratio is out of range"), fmt::format("{:.6g}", residual),
              fmt::format("-0.1 to {:.6f}", largest_ratio));

@@ -41,7 +41,8 @@ void build(const AtlasRequest& r)
   std::optional<Atlas> known;
   if (!r.from.empty()) known = read_atlas(r.from);
   const Atlas* const of = known ? &*known : nullptr;
-  const Atlas bare = atlas_from(grid, farm->run(atlas_jobs(grid, RunSource{}, of), share(0, 0.8)), of);
+  const RunSource source;
+  const Atlas bare = atlas_from(grid, farm->run(atlas_jobs(grid, source, of), share(0, 0.8)), of);
   const Atlas atlas(grid, bare.nodes(), bare.elastic_spheres(),
                     check_atlas(bare, *farm, r.checks, r.seed, share(0.8, 1)));
   if (rank() != 0) return;
