@@ -147,20 +147,23 @@ def kept_runs():
 
 def kills(count, most_runs, ranks_of):
     """Builds on one cache are killed (-9) at random moments: each when it has kept up to `most_runs` new runs, and a
-    while later. The one that is left to end makes no finished run again and writes the undisturbed law."""
+    moment later. The one that is left to end makes no finished run again and writes the undisturbed law."""
     Path("m.toml").write_text(CHEAP)
     seed = random.randrange(10**6)
     print("seed", seed)
     moments = random.Random(seed)
     killed = 0
+    with h5py.File(LAW) as file:
+        all_runs = int(file["provenance"].attrs["runs_made"]) + int(file["provenance"].attrs["runs_from_cache"])
     for k in range(count):
         ranks = ranks_of(k)
-        wanted = len(kept_runs()) + moments.randint(0, most_runs)
+        left = all_runs - len(kept_runs())  # shared out, so that the last build to be killed has a run left, however fast they are
+        wanted = len(kept_runs()) + moments.randint(0, min(most_runs, max(0, left - 1) // (count - k)))
         build = subprocess.Popen(launched(ranks, *table("law.h5", "--cache", "cache", "--jobs", "1" if ranks else "2")),
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while len(kept_runs()) < wanted and build.poll() is None:
             time.sleep(0.01)
-        time.sleep(moments.uniform(0, 0.5))
+        time.sleep(moments.uniform(0, 0.1))  # a run takes tenths of a second
         killed += build.poll() is None
         for pid in descendants(build.pid) + [build.pid]:  # mpirun's ranks and mpirun, at once
             try:
