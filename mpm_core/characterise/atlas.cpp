@@ -197,21 +197,27 @@ LawShape Atlas::shape(const MaterialRatios& m) const
   LawShape result = partner(m);
   const std::vector<double> ratios = grid_.poisson_ratios();
   const std::vector<double> by_ratio = interpolation_weights(ratios, m.poisson_ratio);
-  const std::vector<double> along =
-      interpolation_weights(logarithms(grid_.block_stiffnesses), std::log(m.stiffness));
+  const std::vector<double>& stiffnesses = grid_.block_stiffnesses;
+  const std::vector<double> turning(
+      stiffnesses.begin(),
+      std::upper_bound(stiffnesses.begin(), stiffnesses.end(), AtlasGrid::block_turning_end));
+  const std::vector<double> along = interpolation_weights(logarithms(stiffnesses), std::log(m.stiffness));
+  std::vector<double> along_turning = interpolation_weights(logarithms(turning), std::log(m.stiffness));
+  along_turning.resize(stiffnesses.size(), 0.0);
   std::size_t next = grid_.main_plane().size();
-  for (std::size_t i = 0; i < grid_.block_stiffnesses.size(); ++i) {
-    const double k = grid_.block_stiffnesses[i];
+  for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
+    const double k = stiffnesses[i];
     const auto across =
         interpolation_weights(coordinates(k, grid_.block_hardenings), hardening_coordinate(k, m.hardening));
     for (std::size_t j = 0; j < grid_.block_hardenings.size(); ++j)
       for (std::size_t r = 0; r < ratios.size(); ++r) {
         if (ratios[r] == grid_.main_poisson_ratio) continue;
         const Node& node = nodes_[next++];
-        const double weight = along[i] * across[j] * by_ratio[r];
-        if (weight == 0) continue;
-        result.add(weight, node.shape);
-        result.add(-weight, partner(node.material));
+        if (across[j] * by_ratio[r] == 0 || (along[i] == 0 && along_turning[i] == 0)) continue;
+        LawShape change = node.shape;
+        change.add(-1, partner(node.material));
+        result.add_loading(along[i] * across[j] * by_ratio[r], change);
+        result.add_turning(along_turning[i] * across[j] * by_ratio[r], change);
       }
   }
   return result;

@@ -29,7 +29,10 @@ struct AtlasGrid
   /// H/E; what is too weak to be seen at a stiffness is left out there.
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.3};
 
-  std::vector<double> block_stiffnesses{20, 35, 60, 110, 200, 400, 900};
+  std::vector<double> block_stiffnesses{20, 35, 60, 110, 200, 400, 900, 5000};
+  /// Up to here the block tells turns and inertia; stiffer ones the loading alone. Their e is known to 0.003
+  /// (24 cells, two grids), which is what another ratio changes there.
+  static constexpr double block_turning_end = 900;
   std::vector<double> block_hardenings{0, 0.005, 0.02, 0.3};
   std::vector<double> block_poisson_ratios{0, 0.15, 0.42, 0.49};  ///< besides the main one
 
@@ -62,8 +65,8 @@ struct AtlasCheck
 ///
 /// Along ln(E*/Y) and along ln(1 + 2 (H/E)(E*/Y)), in which a law changes evenly from perfectly plastic to
 /// dominated by hardening: cubic through the four nearest; the change with Poisson's ratio by one cubic
-/// through all of its nodes, times quadratics of the block's stiffnesses and hardenings. Beyond the block's
-/// last stiffness that change keeps its value.
+/// through all of its nodes, times quadratics of the block's stiffnesses and hardenings. Beyond
+/// AtlasGrid::block_turning_end the change of turns and inertia keeps its value.
 class Atlas
 {
  public:

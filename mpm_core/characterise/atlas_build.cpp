@@ -43,13 +43,24 @@ RunJob elastic_job(double poisson_ratio, double depth, const RunSource& source)
   return press_job(subject_of(1.0, poisson_ratio, 0.0).elastic(), {depth, {}, 24, 2}, source);
 }
 
-/// Of a material that `known` has, else null.
-const LawShape* shape_in(const Atlas* known, const MaterialRatios& m)
+/// Of a material that is known, else null.
+const LawShape* shape_in(const KnownAtlas& known, const MaterialRatios& m)
 {
-  if (!known) return nullptr;
-  for (const Atlas::Node& node : known->nodes())
+  if (!known.atlas) return nullptr;
+  for (const Atlas::Node& node : known.atlas->nodes())
     if (node.material == m) return &node.shape;
   return nullptr;
+}
+
+/// The runs of a material, but for what is known of it.
+SurveyPlan plan_for(const MaterialRatios& m, const KnownAtlas& known)
+{
+  SurveyPlan plan = plan_survey(sphere_of(m), {});
+  if (shape_in(known, m)) {
+    plan.presses.clear(), plan.slow_impacts.clear();
+    if (!known.impacts_anew) plan.fast_speeds.clear();
+  }
+  return plan;
 }
 
 /// Functions of u are brought to the same delta/delta_onset in another material's range.
@@ -61,7 +72,7 @@ LawShape at_range_of(const MaterialRatios& to, const MaterialRatios& from, const
 
 }  // namespace
 
-std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, const Atlas* known)
+std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, const KnownAtlas& known)
 {
   std::vector<RunJob> jobs;
   for (const double nu : grid.poisson_ratios()) {
@@ -69,8 +80,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
     jobs.push_back(with_estimate(elastic_job(nu, ElasticSphere::depth, source)));
   }
   for (const MaterialRatios& m : all_materials(grid)) {
-    if (shape_in(known, m)) continue;
-    for (RunJob& job : survey_jobs(sphere_of(m), plan_survey(sphere_of(m), {}), source)) {
+    for (RunJob& job : survey_jobs(sphere_of(m), plan_for(m, known), source)) {
       job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
                               job.label);
       jobs.push_back(std::move(job));
@@ -79,7 +89,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
   return jobs;
 }
 
-Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes, const Atlas* known)
+Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes, const KnownAtlas& known)
 {
   std::size_t next = 0;
   std::vector<ElasticCorrection> elastic;  // where yield comes first
@@ -145,15 +155,17 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
   };
 
   for (const MaterialRatios& m : all_materials(grid)) {
-    if (const LawShape* shape = shape_in(known, m)) {
-      nodes.push_back({m, *shape});
-      continue;
-    }
-    const SurveyPlan plan = plan_survey(sphere_of(m), {});
+    const SurveyPlan plan = plan_for(m, known);
     const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
     Survey survey;
     add_to(survey, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
     next += plan.runs();
+    if (const LawShape* shape = shape_in(known, m)) {
+      nodes.push_back({m, *shape});
+      if (known.impacts_anew)
+        nodes.back().shape.inertia = fit_inertia(survey.fast, false, *shape, onset_of(m), Atlas::depth);
+      continue;
+    }
     const bool begins_late = survey.slow.front().depth > 2 * onset_of(m);
     const LawShape guide = begins_late ? shallow_guide(m) : LawShape::zero();
     nodes.push_back({m, fit_shape(survey, elastic_at(m.poisson_ratio), onset_of(m), Atlas::depth,

@@ -6,16 +6,23 @@
 
 namespace granulaw {
 
-/// Every run that an atlas needs: elastic presses, then the surveys of all its materials, but those that
-/// `known`, if not null, has.
-std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, const Atlas* known = nullptr);
+/// What is known before an atlas is built.
+struct KnownAtlas
+{
+  const Atlas* atlas = nullptr;  ///< whose materials stay, are not run again; null: none
+  bool impacts_anew = false;     ///< they stay but for what inertia changes: their fast impacts are run
+};
+
+/// Every run that an atlas needs: elastic presses, then the surveys of all its materials, but for what is
+/// known.
+std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, const KnownAtlas& known = {});
 
 /// The atlas from these runs' results, in the order of atlas_jobs() with the same `known`. Very stiff
 /// materials yield at overlaps where no run is affordable: there the law of a less stiff one at the same
 /// delta/delta_onset holds, but for a term that goes as sqrt(delta/R), that is as Y/E*: two less stiff shapes
 /// tell it.
 Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
-                 const Atlas* known = nullptr);
+                 const KnownAtlas& known = {});
 
 /// Fresh impacts, each run as `mpm impact` would, of random materials and speeds, evenly in the logarithms of
 /// E*/Y and of the speed from 1.5 times the onset's to I = 0.06, evenly in nu, a quarter of them perfectly

@@ -51,4 +51,9 @@ struct FittedCurve
 FittedCurve fit_plastic(const std::vector<Pressing>& presses, const ElasticCorrection& elastic, double onset,
                         double x_end);
 
+/// What impacts change of a body whose slow presses have this shape, its own inertia apart; at the impacts'
+/// speeds. `rate`: where nothing is lost a rate still counts.
+std::vector<LawShape::Inertia> fit_inertia(std::span<const Survey::Impact> impacts, bool rate,
+                                           const LawShape& slow, double onset, double x_end);
+
 }  // namespace granulaw

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 #include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
+#include "characterise/shape_function.hpp"
 
 namespace granulaw {
 
@@ -19,69 +19,6 @@ constexpr double rounding_spare = 2e-4;
 constexpr double least_foot = 0.03;        // about: a smooth floor of A, whose cubics must not pass below 0
 constexpr double spare_foot = 2e-4;        // below what still rises: the rounding of cubics between nodes
 constexpr double target_spacing = 0.0045;  // of table nodes in s: about 128 nodes to x = 0.1
-
-/// One function of a shape between its nodes, in q = ln(s/s_onset): the cubic spline through them.
-class ShapeFunction
-{
- public:
-  enum class Kind {
-    any,
-    rising,  ///< never falls: nodes below an earlier one are raised to it, slopes limited where it would
-             ///< swing
-  };
-
-  ShapeFunction(std::vector<double> values, double q_end, Kind kind = Kind::any)
-      : values_(kind == Kind::rising ? raised(std::move(values)) : std::move(values)),
-        spacing_(q_end / static_cast<double>(values_.size() - 1)),
-        q_end_(q_end)
-  {
-    const boost::math::interpolators::cardinal_cubic_b_spline<double> spline(values_.begin(), values_.end(),
-                                                                             0.0, spacing_, 0.0);
-    for (std::size_t k = 0; k < values_.size(); ++k)
-      slopes_.push_back(k ? spline.prime(spacing_ * static_cast<double>(k)) : 0.0);
-    if (kind == Kind::rising) limit_slopes();
-  }
-  /// Beyond its end, where the last node of a table may lie, it goes on straight.
-  double value(double q) const
-  {
-    if (q > q_end_) return values_.back() + (q - q_end_) * slopes_.back();
-    return q > 0 ? at(q, false) : 0.0;
-  }
-  double slope(double q) const { return q > 0 ? at(std::min(q, q_end_), true) : 0.0; }
-
- private:
-  static std::vector<double> raised(std::vector<double> values)
-  {
-    double most = 0;
-    for (double& v : values) v = most = std::max(most, v);
-    return values;
-  }
-
-  /// A cubic between two nodes rises if neither slope is negative or over three times the chord's (Fritsch
-  /// and Carlson 1980, the sufficient square); slopes within that are left as they are.
-  void limit_slopes()
-  {
-    for (double& slope : slopes_) slope = std::max(0.0, slope);
-    for (std::size_t k = 0; k + 1 < values_.size(); ++k) {
-      const double most = 3 * (values_[k + 1] - values_[k]) / spacing_;
-      slopes_[k] = std::min(slopes_[k], most);
-      slopes_[k + 1] = std::min(slopes_[k + 1], most);
-    }
-  }
-
-  double at(double q, bool slope) const
-  {
-    const auto k = std::min(static_cast<std::size_t>(q / spacing_), values_.size() - 2);
-    const double t = q / spacing_ - static_cast<double>(k), chord = values_[k + 1] - values_[k];
-    const double first = spacing_ * slopes_[k], second = first + spacing_ * slopes_[k + 1] - 2 * chord;
-    const double c2 = chord - first - second, c3 = second;
-    if (slope) return (first + t * (2 * c2 + 3 * t * c3)) / spacing_;
-    return values_[k] + t * (first + t * (c2 + t * c3));
-  }
-
-  std::vector<double> values_, slopes_;
-  double spacing_, q_end_;
-};
 
 /// Nodes uniform in s, the onset on a node: everything is smooth on either side of it.
 ContactCurve::Table empty_table(double s_onset, double x_end, std::vector<double>& nodes)
@@ -124,8 +61,22 @@ void ElasticCorrection::add(double weight, const ElasticCorrection& other)
 
 void LawShape::add(double weight, const LawShape& other)
 {
+  add_loading(weight, other);
+  add_turning(weight, other);
+}
+
+void LawShape::add_loading(double weight, const LawShape& other)
+{
   elastic.add(weight, other.elastic);
-  for (const auto member : functions) add_to(this->*member, weight, other.*member);
+  add_to(softening, weight, other.softening);
+  add_to(widening, weight, other.widening);
+}
+
+void LawShape::add_turning(double weight, const LawShape& other)
+{
+  add_to(residual, weight, other.residual);
+  add_to(dissipation, weight, other.dissipation);
+  add_to(foot, weight, other.foot);
   for (std::size_t k = 0; k < inertia.size(); ++k) {
     inertia[k].reach += weight * other.inertia[k].reach;
     inertia[k].dissipation += weight * other.inertia[k].dissipation;

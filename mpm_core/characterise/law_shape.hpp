@@ -58,8 +58,11 @@ struct LawShape
   static const std::array<std::vector<double> LawShape::*, 5> functions;  ///< these
   std::vector<Inertia> inertia;                                           ///< ascending speed
 
-  /// this += weight * other, whose speeds are the same.
+  /// this += weight * other, whose speeds are the same; or only what loading is (elastic body, softening,
+  /// widening), or the turn and what inertia changes.
   void add(double weight, const LawShape& other);
+  void add_loading(double weight, const LawShape& other);
+  void add_turning(double weight, const LawShape& other);
   /// Its functions of u as functions of u/share: of the same delta/delta_onset in a range of overlaps whose
   /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is
   /// dropped.

@@ -46,8 +46,8 @@ struct Pressing
 Pressing pressing_from(const RunResult& result);
 
 /// Mean force of the loading samples within half a per cent below the largest overlap, in the trace's units.
-/// The largest force of a rate-dependent body, whose F/delta drops there with its speed: a summary's
-/// `force_max` is treated as if it did not, which is 2 % more at C = 0.03 of Johnson and Cook.
+/// The largest force that a law has of a rate-dependent body: its flow stress falls with its speed, so the
+/// force is largest before the turn (a summary's `force_max`), by 0.8 % at C = 0.03 of Johnson and Cook.
 double force_at_turn(const std::vector<TraceSample>& trace);
 
 /// The partial unloadings of such a press, in order; without its last. `loop` is raised to the largest area

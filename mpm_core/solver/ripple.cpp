@@ -71,4 +71,22 @@ double TreatedLoading::force(double delta) const
   return std::exp(coefficients_[0] + t * b1 - b2);
 }
 
+double smoothed_peak(std::span<const TraceSample> trace)
+{
+  const auto loading = std::count_if(trace.begin(), trace.end(),
+                                     [](const TraceSample& s) { return s.branch == Branch::load; });
+  const auto m = std::max<std::ptrdiff_t>(2, std::lround(0.02 * static_cast<double>(loading)));
+  const auto count = static_cast<std::ptrdiff_t>(trace.size());
+  const double scale = static_cast<double>((2 * m - 1) * (2 * m + 1) * (2 * m + 3));
+  double largest = 0;
+  for (std::ptrdiff_t k = m; k + m < count; ++k) {
+    double force = 0;  // at k, of the quadratic through the 2 m + 1 samples around it
+    for (std::ptrdiff_t j = -m; j <= m; ++j)
+      force += static_cast<double>(3 * (3 * m * m + 3 * m - 1 - 5 * j * j)) / scale *
+               trace[static_cast<std::size_t>(k + j)].force;
+    largest = std::max(largest, force);
+  }
+  return largest;
+}
+
 }  // namespace granulaw

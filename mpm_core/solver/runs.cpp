@@ -47,7 +47,7 @@ double default_ramp(double depth, double yield_over_e_star)
 constexpr double most_ripple = 0.05;
 
 /// Summary of one or several runs of the same job on shifted grids, whose mean trace is `result.trace`
-/// (ensemble.hpp); solver units. The loading force is treated for the ripple that is left (ripple.hpp).
+/// (ensemble.hpp); solver units. The loading force of a single grid is treated for its ripple (ripple.hpp).
 void summarise(RunResult& result, const std::vector<RunResult>& members)
 {
   RunSummary& s = result.summary;
@@ -81,9 +81,15 @@ void summarise(RunResult& result, const std::vector<RunResult>& members)
   s.restitution = s.restitution_raw;
   if (!treated.valid()) return;
   s.ripple = treated.ripple();
+  // The mean of shifted grids needs no fit: against twelve grids of 1.4 times the resolution its smoothed
+  // peak is off by 0.23, 0.15, 0.13 % (rms, 20 impacts, E*/Y 20 to 1800) with two, three, four of them. The
+  // fit is by 0.6 % however many there are, up to 1.6 %: the body rings, and the force with it.
+  if (members.size() > 1) {
+    if (const double peak = smoothed_peak(result.trace); peak > 0) s.force_max = peak;
+    return;
+  }
   if (s.ripple > most_ripple) return;  // no ripple about a smooth law any more: the raw peak stands
   s.force_max = treated.largest_force(s.delta_max);
-  if (members.size() > 1) return;
   // A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
   // What is elastic is given back whatever the phase: only the dissipated share is corrected.
   double raw_over_treated = 0;

@@ -19,14 +19,14 @@ struct TraceSample
   int segment;  ///< 0, 1, 2, ...: counts up at every turn of the drive
 };
 
-/// What one run found. Force and works are the treated ones (contact-edge ripple removed by a fit,
-/// ripple.hpp); the raw ones stand in the trace.
+/// What one run found. With a single grid force and works are the treated ones (contact-edge ripple removed
+/// by a fit, ripple.hpp), the raw ones stand in the trace; with more they are those of the mean trace.
 struct RunSummary
 {
-  double restitution = 0;         ///< treated; impact: |v after|/V; press: sqrt(work_unload/work_load)
+  double restitution = 0;         ///< impact: |v after|/V; press: sqrt(work_unload/work_load)
   double restitution_raw = 0;     ///< the same without the ripple treatment
   double restitution_spread = 0;  ///< largest deviation of a single shifted grid's e from their mean
-  double force_max = 0;           ///< N
+  double force_max = 0;           ///< N, largest of the trace, smoothed; one grid: of the treated loading
   double delta_max = 0;           ///< m
   double delta_residual = 0;      ///< m, delta at which the force has ended for good
   double contact_time = 0;        ///< s

@@ -4,8 +4,8 @@
 //     overlaps: the largest |F_law - F|/F_max on loading and on un- and reloading, and the area of the reload
 //     loops, which the law leaves out, over the work put in.
 //
-//   law_study FOLDER --atlas ATLAS.h5 [--impacts N] [--threads N] [--seed N] [--each]    runs are kept in
-//   FOLDER and not made again
+//   law_study FOLDER --atlas ATLAS.h5 [--impacts N] [--cells N] [--materials N] [--threads N] [--seed N]
+//   [--each] runs are kept in FOLDER and not made again; impacts have --cells across and four shifted grids
 //
 // Prints three lines a material. The force of a press is as computed, with the ripple of the contact edge.
 #include <fmt/format.h>
@@ -64,8 +64,8 @@ PathErrors path_errors(const PairLaw& law, const RunResult& run)
   return {errors.loading / largest, errors.unloading / largest};
 }
 
-void study(const Atlas& atlas, const MaterialRatios& m, int impacts, std::mt19937& random, Farm& farm,
-           bool each)
+void study(const Atlas& atlas, const MaterialRatios& m, int impacts, int cells, std::mt19937& random,
+           Farm& farm, bool each)
 {
   const LawMaterial material = dimensionless(m);
   const Subject subject = subject_of(m.stiffness, m.poisson_ratio, m.hardening);
@@ -85,7 +85,7 @@ void study(const Atlas& atlas, const MaterialRatios& m, int impacts, std::mt1993
   const double fastest = 0.245 / std::sqrt(m.stiffness);
   for (int k = 0; k < impacts; ++k) {
     velocities.push_back(slowest * std::pow(fastest / slowest, share(random)));
-    jobs.push_back(impact_job(subject, velocities.back(), 24, 2, source));
+    jobs.push_back(impact_job(subject, velocities.back(), cells, 4, source));
   }
   for (const double depth : {0.02, 0.15}) {
     SurveyPlan::Press press{depth, {}, 24, 4};
@@ -128,12 +128,14 @@ int main(int argc, char** argv)
 {
   CLI::App app("Laws of the atlas against fresh runs");
   std::string folder, atlas_file;
-  int impacts = 50, threads = 1;
+  int impacts = 50, cells = 24, materials = 4, threads = 1;
   unsigned seed = 1;
   bool each = false;
   app.add_option("folder", folder)->required();
   app.add_option("--atlas", atlas_file)->required();
   app.add_option("--impacts", impacts)->check(CLI::Range(1, 1000));
+  app.add_option("--cells", cells, "of the impacts")->check(CLI::Range(12, 96));
+  app.add_option("--materials", materials, "only the first N")->check(CLI::Range(1, 4));
   app.add_option("--threads", threads)->check(CLI::Range(1, 256));
   app.add_option("--seed", seed);
   app.add_flag("--each", each, "a line for each impact, too");
@@ -142,9 +144,9 @@ int main(int argc, char** argv)
     const Atlas atlas = read_atlas(atlas_file);
     ThreadFarm farm(threads, RunCache(folder));
     std::mt19937 random(seed);
-    for (const MaterialRatios& m :
-         {MaterialRatios{100, 0.3, 0}, {30, 0.3, 0}, {500, 0.25, 0.01}, {1500, 0.35, 0}})
-      study(atlas, m, impacts, random, farm, each);
+    const std::vector<MaterialRatios> all{{100, 0.3, 0}, {30, 0.3, 0}, {500, 0.25, 0.01}, {1500, 0.35, 0}};
+    for (int k = 0; k < materials; ++k)
+      study(atlas, all[static_cast<std::size_t>(k)], impacts, cells, random, farm, each);
   } catch (const Error& error) {
     fmt::print(stderr, "law_study: {}\n", error.what());
     return 2;

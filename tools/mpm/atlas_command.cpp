@@ -21,7 +21,8 @@ namespace {
 struct AtlasRequest
 {
   std::string output;
-  std::string from;  ///< an atlas whose materials stay; empty: all are run
+  std::string from;      ///< an atlas whose materials stay; empty: all are run
+  bool impacts = false;  ///< but their fast impacts, which are run
   int checks = 500;
   unsigned seed = 1;
   FarmOptions farm;
@@ -40,7 +41,7 @@ void build(const AtlasRequest& r)
   const AtlasGrid grid;
   std::optional<Atlas> known;
   if (!r.from.empty()) known = read_atlas(r.from);
-  const Atlas* const of = known ? &*known : nullptr;
+  const KnownAtlas of{known ? &*known : nullptr, r.impacts};
   const RunSource source;
   const Atlas bare = atlas_from(grid, farm->run(atlas_jobs(grid, source, of), share(0, 0.8)), of);
   const Atlas atlas(grid, bare.nodes(), bare.elastic_spheres(),
@@ -70,9 +71,16 @@ void add_atlas(CLI::App& app)
       "was.\n"
       "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
   command->add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
-  command->add_option("--from", r->from,
-                      "an atlas whose materials stay as they are: only those that it lacks and the fresh "
-                      "impacts are run");
+  CLI::Option* from =
+      command->add_option("--from", r->from,
+                          "an atlas whose materials stay as they are: only those that it lacks and the fresh "
+                          "impacts are run");
+  command
+      ->add_flag(
+          "--impacts", r->impacts,
+          "with --from: what inertia changes of its materials does not stay: their fast impacts are run "
+          "(a quarter of an hour of CPU)")
+      ->needs(from);
   command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
       ->check(whole_from_to(20, 100000))
       ->capture_default_str();
