@@ -13,8 +13,8 @@ using Run = std::function<RunResult(const RunOptions&)>;
 int coarse_partner(int resolution);
 
 /// Error of the finer of two runs of one job at resolutions N and coarse_partner(N), relative, of F_max and
-/// e, the larger. Measured on the cases of tests/verification/error_estimate_study.cpp (docs/method.md).
-double error_between(const RunSummary& fine, const RunSummary& coarse);
+/// e, the larger. Measured on the cases of tests/study/error_study.cpp (docs/method.md).
+double error_between(const RunResult& fine, const RunResult& coarse);
 
 /// Runs the job and its coarse partner; error_estimate filled, cost of both counted.
 RunResult run_with_estimate(const RunOptions& options, const Run& run);

@@ -102,15 +102,16 @@ int study(const std::string& folder, int threads)
     fine.precision =
         Precision::single;  // agrees with double to 1e-6 (docs/cost.md), for two thirds of the time
     const RunSummary reference = cached(cache, c, fine).summary;
-    RunSummary coarse{};
+    RunResult coarse;
     for (const int cells : {10, 14, 20}) {
       RunOptions o;
       o.resolution = cells, o.threads = threads, o.precision = Precision::single;
-      const RunSummary s = cached(cache, c, o).summary;
+      const RunResult run = cached(cache, c, o);
+      const RunSummary& s = run.summary;
       if (cells > 10) {
         const double force = deviation(s.force_max, reference.force_max);
         const double restitution = deviation(s.restitution, reference.restitution);
-        const double estimate = error_between(s, coarse), error = std::max(force, restitution);
+        const double estimate = error_between(run, coarse), error = std::max(force, restitution);
         ++count, over += error > estimate, far_over += error > 2 * estimate;
         fmt::print("  {:3d} cells: F {:.2e}  e {:.2e}  estimate {:.2e}{}\n", cells, force, restitution,
                    estimate,
@@ -119,9 +120,9 @@ int study(const std::string& folder, int threads)
                                         : "");
         std::fflush(stdout);
         table += fmt::format("\"{}\",{},{:.6g},{:.6g},{:.6g},{:.4g}\n", c.name, cells, force, restitution,
-                             estimate, s.cpu_s + coarse.cpu_s);
+                             estimate, s.cpu_s + coarse.summary.cpu_s);
       }
-      coarse = s;
+      coarse = run;
     }
   }
   std::ofstream(folder + "/errors.csv") << table;
