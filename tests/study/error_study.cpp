@@ -19,6 +19,7 @@
 #include "base/scales.hpp"
 #include "characterise/run_cache.hpp"
 #include "solver/accuracy.hpp"
+#include "solver/solver_id.hpp"
 
 namespace {
 
@@ -72,8 +73,8 @@ std::vector<Case> all_cases()
 
 RunResult cached(const RunCache& cache, const Case& c, const RunOptions& o)
 {
-  const std::string key = fmt::format("{} resolution={} phases={} courant={} slowness={}", c.name,
-                                      o.resolution, o.phases, o.courant, o.slowness);
+  const std::string key = fmt::format("{} resolution={} phases={} courant={} slowness={} solver={}", c.name,
+                                      o.resolution, o.phases, o.courant, o.slowness, solver_id());
   RunOutcome kept;
   if (cache.load(key, kept)) return kept.result;
   kept.result = c.run(o);

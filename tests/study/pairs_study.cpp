@@ -19,6 +19,7 @@
 #include "base/error.hpp"
 #include "characterise/reduction_error.hpp"
 #include "characterise/run_cache.hpp"
+#include "solver/solver_id.hpp"
 
 namespace {
 
@@ -122,11 +123,11 @@ class Runner
   {
     const auto one = [&](int cells) {
       const LawMaterial &s = c.pair.yielding, &h = c.pair.partner;
-      const std::string key =
-          fmt::format("{} {:.6g} {:.6g} {:.6g} | {:.6g} {:.6g} {:.6g} {:.6g} | {:.6g} {}={:.6g} cells={}",
-                      two_bodies ? "two" : "one", s.youngs_modulus, s.poisson_ratio, s.yield_stress,
-                      h.youngs_modulus, h.poisson_ratio, h.yield_stress, h.density, c.pair.radius_ratio,
-                      c.press > 0 ? "press" : "V/Vy", c.press > 0 ? c.press : c.v_over_vy, cells);
+      const std::string key = fmt::format(
+          "{} {:.6g} {:.6g} {:.6g} | {:.6g} {:.6g} {:.6g} {:.6g} | {:.6g} {}={:.6g} cells={} solver={}",
+          two_bodies ? "two" : "one", s.youngs_modulus, s.poisson_ratio, s.yield_stress, h.youngs_modulus,
+          h.poisson_ratio, h.yield_stress, h.density, c.pair.radius_ratio, c.press > 0 ? "press" : "V/Vy",
+          c.press > 0 ? c.press : c.v_over_vy, cells, solver_id());
       RunOutcome outcome;
       RunResult& kept = outcome.result;
       if (cache_.load(key, outcome)) return kept.summary;
