@@ -92,9 +92,10 @@ RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const R
   std::string stops;
   for (const double stop : press.stops) stops += fmt::format(" unload={:.17g}", stop);
   // as the solver chooses it
-  const double ramp = subject.yields() ? std::max({60.0, 60.0 * std::pow(0.01 / subject.yield, 0.25),
-                                                   0.5 * M_PI * press.depth / std::sqrt(4e-4 * subject.yield)})
-                                       : 40.0;
+  const double ramp = subject.yields()
+                          ? std::max({60.0, 60.0 * std::pow(0.01 / subject.yield, 0.25),
+                                      0.5 * M_PI * press.depth / std::sqrt(4e-4 * subject.yield)})
+                          : 40.0;
   return {fmt::format("press to {:.3g} R", press.depth),
           key(subject, press.resolution, press.phases,
               fmt::format("press free depth={:.17g}{}", press.depth, stops)),
