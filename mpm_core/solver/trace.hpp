@@ -20,13 +20,14 @@ struct TraceSample
 };
 
 /// What one run found. With a single grid force and works are the treated ones (contact-edge ripple removed
-/// by a fit, ripple.hpp), the raw ones stand in the trace; with more they are those of the mean trace.
+/// by a fit, ripple.hpp), the raw ones stand in the trace; with more they are those of the mean trace, but
+/// for the force of a press, which is always treated.
 struct RunSummary
 {
   double restitution = 0;         ///< impact: |v after|/V; press: sqrt(work_unload/work_load)
   double restitution_raw = 0;     ///< the same without the ripple treatment
   double restitution_spread = 0;  ///< largest deviation of a single shifted grid's e from their mean
-  double force_max = 0;           ///< N, largest of the trace, smoothed; one grid: of the treated loading
+  double force_max = 0;           ///< N; impact on several grids: of the trace, smoothed; else treated
   double delta_max = 0;           ///< m
   double delta_residual = 0;      ///< m, delta at which the force has ended for good
   double contact_time = 0;        ///< s
