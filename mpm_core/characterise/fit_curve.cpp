@@ -44,6 +44,12 @@ double q_of(double x, double onset)
   return 0.25 * std::log(x / onset);
 }
 
+/// Loading force of a slow press; `softening`: -ln(F/F_elastic) over q.
+double press_force_at(double x, const ElasticCorrection& elastic, const auto& softening, double onset)
+{
+  return hertz_force(x) * elastic.force_ratio(std::pow(x, 0.25)) * std::exp(-softening.value(q_of(x, onset)));
+}
+
 /// `ratio`: delta_r/delta_m.
 double residual_measure(double ratio)
 {
@@ -195,10 +201,7 @@ std::vector<LawShape::Inertia> fit_inertia(std::span<const Survey::Impact> impac
   const double q_end = q_of(x_end, onset);
   const ShapeFunction softening(slow.softening, q_end), residual(slow.residual, q_end),
       dissipation(slow.dissipation, q_end), foot(slow.foot, q_end);
-  const auto press_force = [&](double x) {
-    return hertz_force(x) * slow.elastic.force_ratio(std::pow(x, 0.25)) *
-           std::exp(-softening.value(q_of(x, onset)));
-  };
+  const auto press_force = [&](double x) { return press_force_at(x, slow.elastic, softening, onset); };
   std::vector<LawShape::Inertia> all;
   for (const auto& [speed, impact] : impacts) {
     const double q = q_of(impact.depth, onset);
@@ -259,10 +262,7 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   }
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
   const SmoothSpline softening(q_end, intervals, force, 0.02), widening(q_end, intervals, radius, 0.05);
-  const auto press_force = [&](double x) {
-    return hertz_force(x) * elastic.force_ratio(std::pow(x, 0.25)) *
-           std::exp(-softening.value(q_of(x, onset)));
-  };
+  const auto press_force = [&](double x) { return press_force_at(x, elastic, softening, onset); };
 
   // What is given back follows the force at the turn, and that swings with the contact edge about the law:
   // only the share that is lost depends on it.

@@ -88,10 +88,9 @@ void add_common(CLI::App& command, RunRequest& r)
       "--json", r.json,
       "print one JSON object instead of the summary, SI units; in it, e is corrected for the "
       "contact-edge ripple if there is one grid only, e_raw is not; force_max_N: of an impact the peak of "
-      "the "
-      "grids' mean trace, smoothed over 2 % of the loading; of a press or one grid that of a fit; ripple: "
-      "rms of raw over "
-      "fitted force, less 1; energy_error: |kinetic + elastic + plastic energy + contact loss "
+      "the grids' mean trace, smoothed over 2 % of the loading; of a press or one grid that of a fit; "
+      "ripple: rms of raw over fitted force, less 1; energy_error: |kinetic + elastic + plastic energy + "
+      "contact loss "
       "- work put in| over the energy put in, at the end; contact_loss: the part of it that nodes lost "
       "when they reached the other side and stopped, proportional to the cell size; hourglass: the part "
       "that the hourglass control holds at the end; plastic_strain_max: largest equivalent plastic "
