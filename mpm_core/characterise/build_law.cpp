@@ -121,8 +121,8 @@ class Build
  private:
   std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, double until);
   int choose_resolution(const std::function<RunJob(int)>& job);
-  ElasticCorrection elastic_correction(double depth, int resolution);
-  LawShape shallow_guide(const ElasticCorrection& elastic, double first);
+  ElasticCorrection elastic_correction(const Subject& subject);
+  LawShape shallow_guide(double first);
   void survey_more(Survey& survey, const SurveyPlan& plan, const Subject& subject, double until);
   void heed_early_yield(const Survey& survey);
   FittedShape fit(const Survey& survey, const LawShape* shallow) const;
@@ -174,10 +174,11 @@ int Build::choose_resolution(const std::function<RunJob(int)>& job)
        fmt::format("{:.2g}", reached), fmt::format("{:.2g} or more", reached));
 }
 
-ElasticCorrection Build::elastic_correction(double depth, int resolution)
+ElasticCorrection Build::elastic_correction(const Subject& subject)
 {
-  const Subject elastic = subject_.elastic();
-  const RunOutcome outcome = run({press_job(elastic, {depth, {}, resolution, 2}, source_)}, done_ + 0.05)[0];
+  const double depth = std::clamp(1.5 * subject.onset, 0.02, 0.04);
+  const RunOutcome outcome =
+      run({press_job(subject.elastic(), {depth, {}, resolution_, 2}, source_)}, done_ + 0.05)[0];
   if (outcome.failed()) fail("mpm table", "the elastic press fails: " + outcome.error);
   return fit_elastic(pressing_from(outcome.result));
 }
@@ -237,18 +238,24 @@ NearlyLinear linear_hardening(const Material& m, double strain)
 
 /// Where runs near the onset of yield would need cells a thousandth of R, a less stiff sphere's law holds at
 /// the same delta/delta_onset, but for a term in Y/E*, which two of them tell (atlas_build.hpp). Of a body of
-/// another shape the contact sees the curvature at the pole only. The atlas tells the term without runs, and
-/// all of it if hardening is linear as far as these overlaps strain the material.
-LawShape Build::shallow_guide(const ElasticCorrection& elastic, double first)
+/// another shape the contact sees the curvature at the pole only, of one of several materials its skin. The
+/// atlas tells the term without runs, and all of it if hardening is linear as far as these overlaps strain
+/// the material.
+LawShape Build::shallow_guide(double first)
 {
-  if (subject_.particle.materials.size() > 1)
+  const Material& m = subject_.particle.materials[static_cast<std::size_t>(subject_.pole_material)];
+  // Contact radii to the skin: what lies below changes the elastic part, which the body's own press tells.
+  constexpr double least_skin = 3;
+  const double skin = least_skin * std::sqrt(2 * first);
+  if (subject_.skin < skin || pole_onset(subject_) > subject_.onset)
     fail("contact law",
-         "yields at overlaps too small to be run, and only a body of one material can be told from a less "
-         "stiff "
-         "one",
-         fmt::format("onset at delta/R = {:.2g}", subject_.onset), "about 1e-4 or more");
-  const Material& m = subject_.particle.materials[0];
-  const double stiffness = 1 / subject_.yield;
+         "yields at overlaps too small to be run: there the body's law is that of its skin, which must yield "
+         "first and be thick",
+         fmt::format("onset at delta/R = {:.2g}, at the pole {:.2g}, skin {:.2g} R", subject_.onset,
+                     pole_onset(subject_), subject_.skin),
+         fmt::format("an onset of about 1e-4 or more, or a skin of {:.2g} R", skin));
+  const bool is_sphere = subject_.particle.is_homogeneous_sphere();
+  const double stiffness = subject_.scale.stress / m.yield_stress;
   const double range = std::log(options_.depth / subject_.onset);
   // Tabor's representative strain is a fifth of a/R; near the edge of the contact it is more than twice that
   const NearlyLinear line = linear_hardening(m, 0.5 * std::sqrt(2 * first));
@@ -268,6 +275,7 @@ LawShape Build::shallow_guide(const ElasticCorrection& elastic, double first)
     survey_range.fastest = 0;
     Survey survey;
     survey_more(survey, plan_survey(softer, survey_range), softer, done_ + 0.1);
+    const ElasticCorrection elastic = is_sphere ? elastic_ : elastic_correction(softer);
     return fit_shape(survey, elastic, softer.onset, survey_range.depth)
         .shape.stretched(range / std::log(survey_range.depth / softer.onset));
   };
@@ -275,25 +283,26 @@ LawShape Build::shallow_guide(const ElasticCorrection& elastic, double first)
   constexpr double nearly = 0.003;  // of the yield stress: a third of the tolerance of most laws
   constexpr double less_stiff = 170, least_stiff = 85;
   built_.shallow = fmt::format("below delta/R = {:.2g}: ", first);
+  LawShape guide = LawShape::zero();
   if (known(stiffness) && line.missed < nearly) {
     built_.shallow += fmt::format("atlas, at linear hardening H/E = {:.3g}", line.modulus / m.youngs_modulus);
-    return of_atlas(stiffness);
-  }
-  LawShape guide = of_runs(less_stiff);
-  built_.shallow += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
-  if (known(stiffness) && known(less_stiff)) {
-    built_.shallow += "its difference from the atlas";
-    guide.add(1, of_atlas(stiffness));
-    guide.add(-1, of_atlas(less_stiff));
+    guide = of_atlas(stiffness);
   } else {
-    const double slope = (subject_.yield - 1 / less_stiff) / (1 / less_stiff - 1 / least_stiff);
-    LawShape both = LawShape::zero();
-    both.add(1 + slope, guide);
-    both.add(-slope, of_runs(least_stiff));
-    guide = both;
-    built_.shallow += fmt::format("its difference by one of {:g}", least_stiff);
+    const LawShape softer = of_runs(less_stiff);
+    built_.shallow += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
+    if (known(stiffness) && known(less_stiff)) {
+      built_.shallow += "its difference from the atlas";
+      guide.add(1, softer);
+      guide.add(1, of_atlas(stiffness));
+      guide.add(-1, of_atlas(less_stiff));
+    } else {
+      built_.shallow += fmt::format("its difference by one of {:g}", least_stiff);
+      const double slope = (1 / stiffness - 1 / less_stiff) / (1 / less_stiff - 1 / least_stiff);
+      guide.add(1 + slope, softer);
+      guide.add(-slope, of_runs(least_stiff));
+    }
   }
-  return guide;
+  return is_sphere ? guide : guide.as_skin_of(elastic_, subject_.onset, options_.depth, 2 * first);
 }
 
 /// Halves the neighbourhood of what the law fitted without it was wrong about. `tried_overlaps` and
@@ -432,7 +441,7 @@ void Build::plastic()
         subject_, std::min(0.1, options_.fastest > 0 ? options_.fastest : 0.1) * std::sqrt(subject_.yield), r,
         fast_phases, source_);  // two shifted grids leave so much ripple that their difference is chance
   });
-  elastic_ = elastic_correction(std::clamp(1.5 * subject_.onset, 0.02, 0.04), resolution_);
+  elastic_ = elastic_correction(subject_);
 
   SurveyRange range;
   range.depth = options_.depth;
@@ -455,7 +464,7 @@ void Build::plastic()
   std::optional<LawShape> guide;
   const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
                                                  : expected_depth(plan.slow_impacts.front(), slow);
-  if (first > 2 * subject_.onset) guide = shallow_guide(elastic_, first);
+  if (first > 2 * subject_.onset) guide = shallow_guide(first);
 
   Survey survey;
   survey.rate = subject_.rate_dependent();

@@ -97,6 +97,33 @@ LawShape LawShape::stretched(double share) const
   return result;
 }
 
+LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const
+{
+  const ContactCurve sphere = tabulate(*this, onset, end, known);
+  const double compliance = 2.0 / 3.0 * (elastic.c1 - body.c1);
+  const double range = std::log(end / onset);
+  LawShape result = *this;
+  result.elastic = body;
+  result.inertia = zero().inertia;
+  for (std::size_t k = 1; k < nodes; ++k) {
+    const double x = onset * std::exp(range * static_cast<double>(k) / (nodes - 1));
+    if (x > known) {
+      for (const auto member : functions) (result.*member)[k] = (result.*member)[k - 1];
+      continue;
+    }
+    double skin = x;  // x'
+    for (int round = 0; round < 20; ++round) skin = x - compliance * sphere.loading(skin).force;
+    const ContactCurve::Turning top = sphere.turning(skin);
+    const double s = std::pow(x, 0.25), below = 0.5 * compliance * top.force * top.force;  // work
+    const double work = sphere.work_loading(skin), returned = sphere.work_unloading(skin);
+    result.softening[k] = -std::log(top.force / (std::pow(x, 1.5) * body.force_ratio(s)));
+    result.widening[k] = std::log(top.radius / (std::sqrt(x) * body.radius_ratio(s)));
+    result.residual[k] = -std::log1p(-top.residual / x);
+    result.dissipation[k] = -std::log((returned + below) / (work + below));
+  }
+  return result;
+}
+
 void require_admissible(const ContactCurve& curve)
 {
   for (int k = 1; k <= 1000; ++k) {

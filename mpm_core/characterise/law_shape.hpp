@@ -67,6 +67,12 @@ struct LawShape
   /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is
   /// dropped.
   LawShape stretched(double share) const;
+  /// Of a sphere, with its own elastic correction: that of a body with the same skin, which differs
+  /// elastically further below. A contact small against the skin adds to its overlap x' what the rest of the
+  /// body yields to its force F, x = x' + C F, C by the two corrections' c1; so its losses are those of the
+  /// sphere at x'. Functions of u end at `end`; beyond `known`, where nothing is known of the sphere, the
+  /// last value is kept. Inertia is dropped.
+  LawShape as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const;
   /// All zero at all inertia_speeds, ready for add().
   static LawShape zero();
 };

@@ -63,24 +63,30 @@ double mass_of(const Particle& p)
   return mass * p.volume() / volume;  // what the raster misses at the surface
 }
 
-/// Least distance of each material from the contact pole, over the length, by a raster of the meridian; 0:
-/// the pole's own, or too small to be found.
-std::vector<double> distances_from_pole(const Particle& p, double length)
+/// Least distances from the contact pole, over the length.
+struct PoleDistances
+{
+  std::vector<double> material;  ///< 0: the pole's own, or too small to be found
+  double pore = never;
+};
+
+/// By a raster of the meridian.
+PoleDistances distances_from_pole(const Particle& p, double length, int pole_material)
 {
   constexpr int cells = 400;
   const double dz = p.height() / cells, dr = p.radius / cells, diagonal = std::hypot(dr, dz);
-  std::vector<double> nearest(p.materials.size(), never);
+  PoleDistances nearest{std::vector<double>(p.materials.size(), never)};
   for (int i = 0; i < cells; ++i)
     for (int k = 0; k < cells; ++k) {
       const double r = (i + 0.5) * dr, z = (k + 0.5) * dz;
-      if (const int at = p.depth(r, z) < 0 ? -1 : p.material_at(r, z); at >= 0) {
-        double& d = nearest[static_cast<std::size_t>(at)];
-        d = std::min(d, std::max(0.0, std::hypot(r, z) - 0.5 * diagonal) / length);
-      }
+      if (p.depth(r, z) < 0) continue;
+      const int at = p.material_at(r, z);
+      double& d = at < 0 ? nearest.pore : nearest.material[static_cast<std::size_t>(at)];
+      d = std::min(d, std::max(0.0, std::hypot(r, z) - 0.5 * diagonal) / length);
     }
-  for (double& d : nearest)
+  for (double& d : nearest.material)
     if (d == never) d = 0;
-  nearest[static_cast<std::size_t>(std::max(0, p.material_at(0.0, 1e-9 * length)))] = 0;
+  nearest.material[static_cast<std::size_t>(pole_material)] = 0;
   return nearest;
 }
 
@@ -105,15 +111,17 @@ double buried_onset(double yield, double poisson_ratio, double distance)
 void fill_yield(Subject& s)
 {
   s.yield = s.onset = never;
-  const std::vector<double> distance = s.particle.materials.size() > 1
-                                           ? distances_from_pole(s.particle, s.scale.length)
-                                           : std::vector<double>{0.0};
+  PoleDistances distance{std::vector<double>(s.particle.materials.size(), 0.0)};
+  if (!s.particle.layers.empty() || !s.particle.inclusions.empty())
+    distance = distances_from_pole(s.particle, s.scale.length, s.pole_material);
+  s.skin = distance.pore;
   for (std::size_t k = 0; k < s.particle.materials.size(); ++k) {
+    if (static_cast<int>(k) != s.pole_material) s.skin = std::min(s.skin, distance.material[k]);
     const Material& m = s.particle.materials[k];
     if (!m.yields()) continue;
     const double yield = m.yield_stress / s.scale.stress;
     s.yield = std::min(s.yield, yield);
-    s.onset = std::min(s.onset, buried_onset(yield, m.poisson_ratio, distance[k]));
+    s.onset = std::min(s.onset, buried_onset(yield, m.poisson_ratio, distance.material[k]));
   }
 }
 
@@ -167,8 +175,8 @@ Subject subject_of(const Particle& particle)
     fail("contact law", "a body needs a rounded contact pole",
          fmt::format("radius of curvature {:.3g} m", pole),
          fmt::format("0.001 to 1000 times its radius {:.3g} m", particle.radius));
-  const int skin = particle.material_at(0.0, 1e-9 * pole);
-  const Material& m = particle.materials[static_cast<std::size_t>(std::max(0, skin))];
+  s.pole_material = std::max(0, particle.material_at(0.0, 1e-9 * pole));
+  const Material& m = particle.materials[static_cast<std::size_t>(s.pole_material)];
   s.scale = {pole, m.e_star(), m.density};
   s.poisson_ratio = m.poisson_ratio;
   s.mass = mass_of(particle) / s.scale.mass();
@@ -194,6 +202,12 @@ Subject subject_of(const Material& material)
   s.description = text_of(s.particle);
   fill_yield(s);
   return s;
+}
+
+double pole_onset(const Subject& s)
+{
+  const Material& m = s.particle.materials[static_cast<std::size_t>(s.pole_material)];
+  return m.yields() ? onset_overlap(1.0, m.yield_stress / s.scale.stress, m.poisson_ratio) : never;
 }
 
 Subject subject_of(double e_star_over_yield, double poisson_ratio, double hardening_over_e)

@@ -15,8 +15,11 @@ struct Subject
   double yield = 0;  ///< smallest yield stress in it over E*; infinity: elastic
   double poisson_ratio = 0;  ///< of the material at the pole
   double onset = 0;          ///< overlap/length at which it begins to yield; of several materials: about
-  double mass = 0;           ///< over density length^3; 4/3 pi: a sphere
-  std::string description;   ///< everything about it that determines a run, on one line
+  int pole_material = 0;     ///< index into particle.materials of the one at the pole
+  /// Distance from the pole, over the length, up to which there is that material only; infinity: everywhere.
+  double skin = std::numeric_limits<double>::infinity();
+  double mass = 0;          ///< over density length^3; 4/3 pi: a sphere
+  std::string description;  ///< everything about it that determines a run, on one line
 
   bool yields() const { return onset < std::numeric_limits<double>::infinity(); }
   /// The sphere of a material that hardens linearly and knows no rate is its own unit: R = rho = E* = 1.
@@ -35,6 +38,8 @@ struct Subject
 Subject subject_of(const Particle& particle);
 /// A homogeneous sphere; of unit radius where the law knows no size.
 Subject subject_of(const Material& material);
+/// Overlap/R at which a homogeneous sphere of the material at the pole would begin to yield.
+double pole_onset(const Subject& subject);
 /// The same of dimensionless numbers: E*/Y, nu, H/E.
 Subject subject_of(double e_star_over_yield, double poisson_ratio, double hardening_over_e);
 

@@ -189,18 +189,24 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
   const std::vector<double> evenly =
       ContactCurve(slow.table(), axis, "fitted curve").margin_overlaps(axis.impact_overlap.back());
   overlaps.insert(overlaps.end(), evenly.begin(), evenly.end());
+  // at the onset itself nothing is lost yet
+  std::erase_if(overlaps, [&](double x) { return x <= slow.onset() || x > slow.x_end(); });
+  const ContactCurve before(slow.table(), axis, "fitted curve");
+  const std::vector<double> reaches = before.axis()->examined_overlaps();
+  std::sort(overlaps.begin(), overlaps.end());
+  std::vector<std::vector<double>> works;  // of loading, by reach and overlap: no exponent changes them
+  for (const double reach : reaches) works.push_back(before.work_loading(overlaps, reach));
   for (int round = 0; round < most_rounds; ++round) {
     const ContactCurve curve(slow.table(), axis, "fitted curve");
-    const std::vector<double> reaches = curve.axis()->examined_overlaps();
     std::vector<double> raise(axis.exponent_correction.size(), 0.0);
     bool lacks = false;
     for (std::size_t k = 0; k < reaches.size(); ++k) {
       const double reach = reaches[k];
       const std::size_t half = 2 * axis.slices + 1 + k - reaches.size();  // of a slice; the last is at 2 K
-      for (const double x : overlaps) {
-        if (x <= slow.onset() || x > slow.x_end()) continue;  // at the onset itself nothing is lost yet
-        const double lacking = std::max(curve.work_unloading(x, reach) / curve.work_loading(x, reach) - 1,
-                                        -curve.margin_at(x, reach));
+      for (std::size_t i = 0; i < overlaps.size(); ++i) {
+        const double x = overlaps[i];
+        const double lacking =
+            std::max(curve.work_unloading(x, reach) / works[k][i] - 1, -curve.margin_at(x, reach));
         if (lacking <= -spare) continue;
         lacks = lacks || lacking > -0.2 * spare;
         const auto column = std::min(static_cast<std::size_t>(x / reach / share_spacing) + 1, columns - 1);

@@ -142,27 +142,44 @@ double gauss(double begin, double end, const Function& f)
 
 }  // namespace
 
-double ContactCurve::work_loading(double x, double impact_overlap) const
+double ContactCurve::quasi_static_work(double x) const
 {
-  const double correction = corrected(impact_overlap) ? correction_work(x, impact_overlap) : 0.0;
   if (x > x_end_) {
     const double beyond = x - x_end_;
-    return work_.back() + beyond * (end_.force + 0.5 * end_.stiffness * beyond) + correction;
+    return work_.back() + beyond * (end_.force + 0.5 * end_.stiffness * beyond);
   }
   const Position p = locate(x);
   const auto k = static_cast<std::size_t>(p.interval - intervals_.data());
-  return work_[k] + interval_work(k, p.t) + correction;
+  return work_[k] + interval_work(k, p.t);
 }
 
-double ContactCurve::correction_work(double x, double impact_overlap) const
+double ContactCurve::work_loading(double x, double impact_overlap) const
+{
+  return quasi_static_work(x) + (corrected(impact_overlap) ? correction_work(0.0, x, impact_overlap) : 0.0);
+}
+
+std::vector<double> ContactCurve::work_loading(std::span<const double> ascending, double impact_overlap) const
+{
+  std::vector<double> works;
+  double correction = 0, before = 0;
+  for (const double x : ascending) {
+    if (corrected(impact_overlap)) correction += correction_work(before, x, impact_overlap);
+    works.push_back(quasi_static_work(x) + correction);
+    before = x;
+  }
+  return works;
+}
+
+double ContactCurve::correction_work(double from, double to, double impact_overlap) const
 {
   // integral of F_qs A dx over s = x^(1/4), piece by piece between the nodes of curve and axis, where the
   // integrand is a polynomial (of degree 24: 7 points leave 1e-12 on so short pieces)
   const double ratio_end = axis_->table().ratio_end;
   const double per_ratio = static_cast<double>(axis_->table().ratio_nodes() - 1) / ratio_end;
-  const double s_stop = std::pow(std::min(x, ratio_end * impact_overlap), 0.25);
-  double sum = 0, s = 0;
-  std::size_t curve_node = 1, axis_node = 1;
+  const double s_stop = std::pow(std::min(to, ratio_end * impact_overlap), 0.25);
+  double sum = 0, s = std::pow(from, 0.25);
+  auto curve_node = static_cast<std::size_t>(s * per_h_) + 1,
+       axis_node = static_cast<std::size_t>(from / impact_overlap * per_ratio) + 1;
   while (s < s_stop) {
     const double s_curve = curve_node < intervals_.size() ? static_cast<double>(curve_node) / per_h_
                            : s < table_.s_end             ? table_.s_end

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,7 @@ class ContactCurve
   /// Work of loading to x, and work given back on complete unloading from x_m, in units of
   /// (Hertz force at x = 1) * length. With X > 0 the loading work is integrated anew: microseconds.
   double work_loading(double x, double impact_overlap = 0) const;
+  std::vector<double> work_loading(std::span<const double> ascending, double impact_overlap) const;
   double work_unloading(double x_m, double impact_overlap = 0) const;
 
   /// min over the table of (F_L - dW_u/d x_m)/F_L, and of (W_L - W_u)/W_L just past the onset; negative: some
@@ -135,8 +137,9 @@ class ContactCurve
   Loading quasi_static(double x) const;
   /// Loading work from node k to t_end within its interval.
   double interval_work(std::size_t k, double t_end) const;
-  /// Work of the axis's part of the loading force up to x.
-  double correction_work(double x, double impact_overlap) const;
+  double quasi_static_work(double x) const;
+  /// Work of the axis's part of the loading force.
+  double correction_work(double from, double to, double impact_overlap) const;
   void check_unloading_rises(const std::string& where) const;
   void check_axis(const std::string& where) const;
 

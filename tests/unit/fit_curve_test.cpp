@@ -96,6 +96,56 @@ TEST(FitCurve, DoesNotFollowTheContactEdgeRipple)
   EXPECT_LT(smooth.quality.scatter, 0.002);
 }
 
+/// A softening body's shape: numbers like those of E*/Y = 500.
+LawShape sphere_shape()
+{
+  LawShape shape = LawShape::zero();
+  shape.elastic = finite_sphere;
+  for (int k = 0; k < LawShape::nodes; ++k) {
+    const double u = k / (LawShape::nodes - 1.0);
+    const auto n = static_cast<std::size_t>(k);
+    shape.softening[n] = 3.0 * u * u, shape.widening[n] = 0.3 * u * u;
+    shape.residual[n] = 2.5 * u * u, shape.dissipation[n] = 2.0 * u * u;
+  }
+  return shape;
+}
+
+TEST(LawShape, ASkinOnTheSameBodyIsTheSphere)
+{
+  const double onset = 2.6e-5, end = 0.1, known = 4e-4, range = std::log(end / onset);
+  const LawShape sphere = sphere_shape(), skin = sphere.as_skin_of(sphere.elastic, onset, end, known);
+  for (std::size_t k = 0; onset * std::exp(range * static_cast<double>(k) / (LawShape::nodes - 1)) < known;
+       ++k) {
+    // 1e-3: of losses, the 2e-4 of the work that a table spares for rounding, and its cubics
+    EXPECT_NEAR(skin.softening[k], sphere.softening[k], 1e-4) << k;
+    EXPECT_NEAR(skin.widening[k], sphere.widening[k], 1e-4) << k;
+    EXPECT_NEAR(skin.residual[k], sphere.residual[k], 1e-4) << k;
+    EXPECT_NEAR(skin.dissipation[k], sphere.dissipation[k], 1e-3) << k;
+  }
+}
+
+/// On a softer body the same force needs more overlap, and loses the same energy.
+TEST(LawShape, ASkinOnASofterBodyLosesTheSameAtTheSameForce)
+{
+  const double onset = 2.6e-5, end = 0.1, known = 4e-4;
+  const LawShape sphere = sphere_shape();
+  ElasticCorrection body = sphere.elastic;
+  body.c1 = -4.5;
+  const double compliance = 2.0 / 3.0 * (sphere.elastic.c1 - body.c1);
+  const ContactCurve on_sphere = tabulate(sphere, onset, end, known),
+                     on_body = tabulate(sphere.as_skin_of(body, onset, end, known), onset, end, known);
+  for (const double x : {8e-5, 1.4e-4, 1.9e-4}) {  // to half of what is known, as it is used
+    const double force = on_sphere.loading(x).force, deeper = x + compliance * force;
+    // 1e-3: a cubic in x between 49 nodes over eight e-folds
+    EXPECT_NEAR(on_body.loading(deeper).force / force, 1.0, 1e-3) << x;
+    const auto lost = [](const ContactCurve& c, double at) {
+      return c.work_loading(at) - c.work_unloading(at);
+    };
+    EXPECT_NEAR(lost(on_body, deeper) / lost(on_sphere, x), 1.0, 1e-2) << x;
+    EXPECT_NEAR(on_body.turning(deeper).residual / on_sphere.turning(x).residual, 1.0, 5e-3) << x;
+  }
+}
+
 TEST(FitCurve, ElasticFitRecoversItsCoefficients)
 {
   Pressing press;

@@ -197,6 +197,24 @@ TEST(InertiaAxis, WorkFunctionsAreTheIntegralsOfTheForce)
     }
 }
 
+TEST(InertiaAxis, WorkOfManyOverlapsIsThatOfEach)
+{
+  const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
+  const double end = curve.x_end(), latched = 0.4 * curve.axis()->overlap_end();
+  // below the onset, on a node, twice the same, beyond ratio_end, beyond the table
+  const std::vector<double> overlaps{0.0,     1e-6,           1e-3,      1e-3, 0.3 * end, 0.31 * end,
+                                     latched, 1.01 * latched, 0.9 * end, end,  1.5 * end};
+  for (const double impact_overlap : {0.0, latched, curve.axis()->overlap_end()}) {
+    const std::vector<double> works = curve.work_loading(overlaps, impact_overlap);
+    ASSERT_EQ(works.size(), overlaps.size());
+    for (std::size_t k = 0; k < overlaps.size(); ++k) {
+      const double alone = curve.work_loading(overlaps[k], impact_overlap);
+      // the integrals are exact to 1e-12, piece by piece
+      EXPECT_NEAR(works[k], alone, 1e-11 * alone) << overlaps[k] << " " << impact_overlap;
+    }
+  }
+}
+
 TEST(InertiaAxis, AdmissibilityIsThatOfEveryImpactOverlap)
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
