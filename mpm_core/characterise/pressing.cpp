@@ -141,6 +141,7 @@ Pressing pressing_from(const RunResult& result)
 {
   Pressing press;
   press.depth = result.summary.delta_max;
+  press.peak = result.summary.force_max / force_scale;
   press.work_ratio = result.summary.work_unload / result.summary.work_load;
   const auto& t = result.trace;
   for (std::size_t k = 0; k < t.size(); ++k) {

@@ -39,6 +39,7 @@ struct Pressing
   double foot = 1;              ///< A of its shape
   double work_ratio = 0;        ///< work given back/work put in, W_u/W_L = e^2
   double turn_force = 0;        ///< as computed just before the turn, F/(4/3 E* R^2); 0: not known
+  double peak = 0;              ///< the summary's force_max, F/(4/3 E* R^2); 0: not known
   UnloadingPath unloading;      ///< from the turn on, F/(4/3 E* R^2)
 };
 
