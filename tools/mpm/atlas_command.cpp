@@ -66,7 +66,7 @@ void add_atlas(CLI::App& app)
       "inertia, from\n"
       "which mpm table answers any homogeneous material at once. One comes with the program; this makes it "
       "anew, in\n"
-      "about three CPU hours. Finished runs are kept (--cache): a build that was stopped goes on "
+      "about four CPU hours. Finished runs are kept (--cache): a build that was stopped goes on "
       "where it "
       "was.\n"
       "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
@@ -79,7 +79,7 @@ void add_atlas(CLI::App& app)
       ->add_flag(
           "--impacts", r->impacts,
           "with --from: what inertia changes of its materials does not stay: their fast impacts are run "
-          "(a quarter of an hour of CPU)")
+          "(some twenty CPU minutes)")
       ->needs(from);
   command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
       ->check(whole_from_to(20, 100000))
