@@ -64,9 +64,9 @@ struct AtlasCheck
 /// Dimensionless laws of all homogeneous materials within its range: shapes of few, interpolated.
 ///
 /// Along ln(E*/Y) and along ln(1 + 2 (H/E)(E*/Y)), in which a law changes evenly from perfectly plastic to
-/// dominated by hardening: cubic through the four nearest; the change with Poisson's ratio by one cubic
-/// through all of its nodes, times quadratics of the block's stiffnesses and hardenings. Beyond
-/// AtlasGrid::block_turning_end the change of turns and inertia keeps its value.
+/// dominated by hardening: cubic through the four nearest; the change with Poisson's ratio by such cubics
+/// along the block's ratios, stiffnesses and hardenings. Beyond AtlasGrid::block_turning_end the change of
+/// turns and inertia keeps its value.
 class Atlas
 {
  public:

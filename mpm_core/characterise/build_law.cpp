@@ -267,7 +267,7 @@ LawShape Build::shallow_guide(double first)
     const double onset = subject_of(k, m.poisson_ratio, 0).onset;
     return options_.atlas->shape(ratios(k)).stretched(range / std::log(Atlas::depth / onset));
   };
-  const auto of_runs = [&](double k) {
+  const auto of_runs = [&](double k, const ElasticCorrection& elastic) {
     const Subject softer = softer_sphere(m, k / stiffness);
     const double reach = 2 * first / subject_.onset;  // delta/delta_onset that the guide must reach
     SurveyRange survey_range;
@@ -275,7 +275,6 @@ LawShape Build::shallow_guide(double first)
     survey_range.fastest = 0;
     Survey survey;
     survey_more(survey, plan_survey(softer, survey_range), softer, done_ + 0.1);
-    const ElasticCorrection elastic = is_sphere ? elastic_ : elastic_correction(softer);
     return fit_shape(survey, elastic, softer.onset, survey_range.depth)
         .shape.stretched(range / std::log(survey_range.depth / softer.onset));
   };
@@ -288,7 +287,9 @@ LawShape Build::shallow_guide(double first)
     built_.shallow += fmt::format("atlas, at linear hardening H/E = {:.3g}", line.modulus / m.youngs_modulus);
     guide = of_atlas(stiffness);
   } else {
-    const LawShape softer = of_runs(less_stiff);
+    // an elastic sphere's own is the same at any stiffness
+    const ElasticCorrection elastic = is_sphere ? elastic_ : elastic_correction(softer_sphere(m, 1));
+    const LawShape softer = of_runs(less_stiff, elastic);
     built_.shallow += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
     if (known(stiffness) && known(less_stiff)) {
       built_.shallow += "its difference from the atlas";
@@ -299,7 +300,7 @@ LawShape Build::shallow_guide(double first)
       built_.shallow += fmt::format("its difference by one of {:g}", least_stiff);
       const double slope = (1 / stiffness - 1 / less_stiff) / (1 / less_stiff - 1 / least_stiff);
       guide.add(1 + slope, softer);
-      guide.add(-slope, of_runs(least_stiff));
+      guide.add(-slope, of_runs(least_stiff, elastic));
     }
   }
   return is_sphere ? guide : guide.as_skin_of(elastic_, subject_.onset, options_.depth, 2 * first);

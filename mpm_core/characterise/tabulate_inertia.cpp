@@ -186,12 +186,11 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
   constexpr double spare = 2e-4;                            // of the work: what may hide between the samples
   std::vector<double> overlaps{slow.onset() * (1 + 1e-9)};  // densely past the onset, then evenly in s
   for (int k = 1; k <= 60; ++k) overlaps.push_back(slow.onset() * (1 + 3e-4 * std::pow(1.13, k)));
-  const std::vector<double> evenly =
-      ContactCurve(slow.table(), axis, "fitted curve").margin_overlaps(axis.impact_overlap.back());
+  const ContactCurve before(slow.table(), axis, "fitted curve");
+  const std::vector<double> evenly = before.margin_overlaps(axis.impact_overlap.back());
   overlaps.insert(overlaps.end(), evenly.begin(), evenly.end());
   // at the onset itself nothing is lost yet
   std::erase_if(overlaps, [&](double x) { return x <= slow.onset() || x > slow.x_end(); });
-  const ContactCurve before(slow.table(), axis, "fitted curve");
   const std::vector<double> reaches = before.axis()->examined_overlaps();
   std::sort(overlaps.begin(), overlaps.end());
   std::vector<std::vector<double>> works;  // of loading, by reach and overlap: no exponent changes them
