@@ -78,8 +78,8 @@ struct LawShape
 };
 
 /// Speeds sqrt(I) at which the atlas knows the effect of inertia.
-inline constexpr double inertia_speeds[] = {0.005, 0.015, 0.03, 0.06,  0.1,  0.125,
-                                            0.15,  0.175, 0.2,  0.225, 0.25, 0.3};
+inline constexpr double inertia_speeds[] = {0.005, 0.015, 0.03,  0.045, 0.06,  0.08, 0.1,
+                                            0.125, 0.15,  0.175, 0.2,   0.225, 0.25, 0.3};
 
 /// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
 /// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the

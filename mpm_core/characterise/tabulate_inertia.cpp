@@ -157,17 +157,20 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
     }
     const double x = std::min(xi * x_reach, slow.x_end());
     const ContactCurve::Turning top = slow.turning(x);
-    const double kept = std::pow(1 - top.residual / x, more_residual);
-    slice.residual.push_back((1 - kept) - top.residual / x);
+    double kept = std::pow(1 - top.residual / x, more_residual);
     const double returned =
         std::pow(std::min(1.0, slow.work_unloading(x) / slow.work_loading(x)), more_dissipation);
     const double share = 1 + correction(xi),
                  share_slope = (correction(xi + 1e-4) - correction(xi - 1e-4)) / 2e-4;
-    const double n =
-        UnloadingShape::exponent_of(work * returned / (top.force * share * kept * x), top.shape.foot);
+    const double foot = top.shape.foot, most = UnloadingShape::largest_exponent(foot);
+    double n = UnloadingShape::exponent_of(work * returned / (top.force * share * kept * x), foot);
+    if (n > most) {  // no unloading that takes so long returns so little: what it returns goes first
+      kept *= UnloadingShape{n, foot}.work() / UnloadingShape{most, foot}.work();
+      n = most;
+    }
+    slice.residual.push_back((1 - kept) - top.residual / x);
     // as in tabulate(): unloading at least as stiff as loading
     const double stiff = kept * (x * top.stiffness / top.force + xi * share_slope / share);
-    const double most = UnloadingShape::largest_exponent(top.shape.foot);
     slice.exponent.push_back(std::min(std::max({n, stiff, UnloadingShape::least_exponent}), most) -
                              top.shape.exponent);
   }

@@ -2,7 +2,8 @@
 // error and the size of what is read on the same line.
 //
 //   law_benchmark       1-D: quasi-static; 2-D: with an inertia axis, each contact with an X of its own;
-//                       load: at its largest overlap; unload: below it; Hertz's formulas as yardstick
+//                       load: at its largest overlap; unload: below it, after yield (before, a contact
+//                       unloads along its loading curve); Hertz's formulas as yardstick
 //
 // `error_F`, `error_k`, `error_a`: largest relative difference of force, stiffness and contact radius from
 // the ContactCurve (fast, force) or, for the ContactCurve itself, of the force from the analytic law that it
@@ -127,7 +128,8 @@ struct Contact
 std::vector<Contact> flow(bool unloading, bool axis)
 {
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> decade(-5, -1), part(0.9, 1.0), ratio(0.1, 1.3);
+  std::uniform_real_distribution<double> decade(unloading ? std::log10(onset) : -5, -1), part(0.9, 1.0),
+      ratio(0.1, 1.3);
   std::vector<Contact> all(contacts);
   for (Contact& c : all) {
     c.x = c.x_max = std::pow(10.0, decade(random));

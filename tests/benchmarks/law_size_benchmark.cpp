@@ -93,14 +93,15 @@ struct Contact
   double x, x_max, impact_overlap;
 };
 
-/// Overlaps spread over decades, the largest of each a tenth to 1.3 of its X; unloading: down to nine tenths
-/// of the way back to the residual overlap.
+/// Overlaps spread over decades, the largest of each a tenth to 1.3 of its X; unloading, after yield: down to
+/// nine tenths of the way back to the residual overlap.
 std::vector<Contact> contacts_of_a_flow(const ContactCurve& law, bool unloading)
 {
   std::mt19937 random(1);
   const double end = std::log10(law.x_end());
-  std::uniform_real_distribution<double> decade(std::min(-5.0, end - 4), end), part(0.1, 1.0),
-      ratio(0.1, 1.3);
+  const bool yields = law.onset() < law.x_end();
+  const double begin = unloading && yields ? std::log10(law.onset()) : std::min(-5.0, end - 4);
+  std::uniform_real_distribution<double> decade(begin, end), part(0.1, 1.0), ratio(0.1, 1.3);
   std::vector<Contact> all(4096);
   for (Contact& c : all) {
     c.x = c.x_max = std::pow(10.0, decade(random));

@@ -602,7 +602,7 @@ def case_atlas():
     """Fresh impacts thrown at an atlas that exists: its materials stay to the bit, what was not thrown before is."""
     own = Path(SOURCE) / "mpm_core/characterise/atlas.h5"
     refused(["atlas", "--from", "none.h5", "-o", "new.h5"], "none.h5", "no such file")
-    refused(["atlas", "--impacts", "-o", "new.h5"], "--impacts", "--from")
+    refused(["atlas", "--impacts", "-o", "new.h5"], "--impacts", "--from", code=2)
     made = Run("atlas", "--from", own, "--checks", "20", "--seed", "77", "--cache", "runs", "-o", "new.h5")
     assert made.code == 0 and "20 fresh impacts" in made.out, made.out + made.err
     with h5py.File(own) as old, h5py.File("new.h5") as new:
