@@ -101,7 +101,8 @@ void require_admissible(const ContactCurve& curve);
 /// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at
 /// most the shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches
 /// the force goes over to the press's within half of it; residual and dissipation keep their ratio to the
-/// press's at any overlap. The axis ends before `fastest` where that would go deeper than `slow`'s table.
+/// press's at any overlap, the residual where an unloading's shape allows both. The axis ends before
+/// `fastest` where that would go deeper than `slow`'s table.
 InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                     double mass, double fastest);
 
