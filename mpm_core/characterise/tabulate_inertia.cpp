@@ -163,9 +163,10 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
     const double share = 1 + correction(xi),
                  share_slope = (correction(xi + 1e-4) - correction(xi - 1e-4)) / 2e-4;
     const double foot = top.shape.foot, most = UnloadingShape::largest_exponent(foot);
-    double n = UnloadingShape::exponent_of(work * returned / (top.force * share * kept * x), foot);
+    const double area = work * returned / (top.force * share * kept * x);  // under the unloading's shape
+    double n = UnloadingShape::exponent_of(area, foot);
     if (n > most) {  // no unloading that takes so long returns so little: what it returns goes first
-      kept *= UnloadingShape{n, foot}.work() / UnloadingShape{most, foot}.work();
+      kept *= area / UnloadingShape{most, foot}.work();
       n = most;
     }
     slice.residual.push_back((1 - kept) - top.residual / x);
