@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "law/law.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
@@ -45,12 +48,24 @@ struct MpmContact
   {
     return law.min_speed(r_eff * units.length, m_eff * units.mass) / units.length;
   }
-  /// At overlap delta of a contact whose largest overlap so far is delta_max and which latched X.
-  double force(double r_eff, double delta, double delta_max, double impact_overlap) const
+  using Turn = FastCurve::Turn;
+  /// Values that a contact keeps of its last turn, its overlap first: 0 where there is none.
+  static constexpr std::size_t turn_values = sizeof(Turn) / sizeof(double);
+  /// At overlap delta of a contact whose largest overlap so far is delta_max and which latched X. `kept`: its
+  /// turn, worked out anew where it is of another overlap.
+  double force(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
   {
     const double per_length = per_lambda / r_eff;
-    return force_scale * r_eff * r_eff *
-           curve->force(delta * per_length, delta_max * per_length, impact_overlap);
+    const double x = delta * per_length, x_max = delta_max * per_length;
+    const double scale = force_scale * r_eff * r_eff;
+    if (!curve->unloads(x, x_max)) return scale * curve->loading_force(x, impact_overlap);
+    if (kept[0] != x_max) [[unlikely]] {
+      const Turn turn = curve->turn(x_max, impact_overlap);
+      std::memcpy(kept, &turn, sizeof turn);
+    }
+    std::array<double, turn_values> values;
+    std::copy_n(kept, turn_values, values.begin());
+    return scale * std::bit_cast<Turn>(values).force_at(x);
   }
   /// Of the real, unstretched contact.
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const

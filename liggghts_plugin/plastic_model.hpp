@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -46,11 +47,13 @@ void refuse_multispheres(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 /// physics latches it, a second one, the impact overlap X of the law's inertia axis (over lambda R*), set in
 /// the first step from the approach speed. Both have newton flag "0" (the same number seen from either
 /// particle), advance only when the step does (computeflag and shearupdate), and return to zero when the
-/// geometric overlap ends.
+/// geometric overlap ends. What follows from them for un- and reloading, the turn, is kept beside them once
+/// it was worked out; without it the same is worked out again, to the bit.
 ///
 /// Physics is a value type without virtual calls:
 ///   name                                             "mpm", "thornton"
 ///   latches_impact                                   whether contacts keep X
+///   Contact::turn_values                             how many values they keep of their last turn
 ///   Contact                                          law of one pair of types: force, dissipated, ...
 ///   prepare(lmp, registry, setup, types)             checks of the deck against the law
 ///   resolve(i, j, rigid, where) -> Contact           throws Error where there is no law for the pair
@@ -71,6 +74,11 @@ class PlasticModel : public NormalModelBase
     if constexpr (Physics::latches_impact) {
       impact_offset_ = hsetup->add_history_value("impact_overlap", "0");
       cmb->add_history_offset("impact_overlap", impact_offset_);
+    }
+    if constexpr (keeps_turns) {
+      turn_offset_ = hsetup->add_history_value("turn_overlap", "0");
+      for (std::size_t k = 1; k < Physics::Contact::turn_values; ++k)
+        hsetup->add_history_value(fmt::format("turn_{}", k), "0");
     }
   }
 
@@ -103,6 +111,7 @@ class PlasticModel : public NormalModelBase
     const Types types = gather_types(lmp, registry, *setup_);
     physics_.prepare(lmp, registry, *setup_, types);
     refuse_unstated_restitution(lmp, *setup_);
+    first_step_ = update->ntimestep;
     resolve_all(types, damping_ratios(registry, *setup_, types));
     open_books(types);
     // Else surfacesClose is never called for pairs, and a pair that meets again keeps its old delta_max.
@@ -129,7 +138,11 @@ class PlasticModel : public NormalModelBase
     if constexpr (Physics::latches_impact)
       impact_overlap = delta_max == 0.0 ? entry.contact.impact_overlap(r_eff, sidata.meff, -sidata.vn)
                                         : sidata.contact_history[impact_offset_];
-    const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap);
+    double* const turn = sidata.contact_history + turn_offset_;
+    if constexpr (keeps_turns)
+      if (update->ntimestep == first_step_) [[unlikely]]
+        turn[0] = 0.0;  // what a restart brings may be of another law
+    const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap, turn);
     const double root = std::sqrt(r_eff * delta);
     const double radius =
         tangential_computed_ ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
@@ -177,12 +190,15 @@ class PlasticModel : public NormalModelBase
     }
     delta_max = 0.0;
     if constexpr (Physics::latches_impact) scdata.contact_history[impact_offset_] = 0.0;
+    if constexpr (keeps_turns) scdata.contact_history[turn_offset_] = 0.0;
   }
 
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
  private:
+  static constexpr bool keeps_turns = Physics::Contact::turn_values > 0;
+
   // One pair of types, in the deck's units; what every step reads lies in the first cache line.
   struct alignas(64) Entry
   {
@@ -379,7 +395,9 @@ class PlasticModel : public NormalModelBase
   std::vector<Entry> entries_;
   int stride_ = 0;
   int history_offset_ = -1, impact_offset_ = -1;
-  int speed_offset_ = -1;  // of the approach speed at first touch; only with `contactMap on`
+  int turn_offset_ = 0;               // of the values of its turn
+  LAMMPS_NS::bigint first_step_ = 0;  // of this run
+  int speed_offset_ = -1;             // of the approach speed at first touch; only with `contactMap on`
   double damping_ = 0.0, stretch_ = 1.0;
   DeckUnits units_;
   bool tangential_computed_ = false;

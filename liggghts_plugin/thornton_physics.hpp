@@ -13,7 +13,8 @@ struct ThorntonContact
   ThorntonPair law{};  // in the deck's units, unstretched
   double per_stretch = 1.0;
 
-  double force(double r_eff, double delta, double delta_max, double) const
+  static constexpr std::size_t turn_values = 0;  // a closed form keeps nothing
+  double force(double r_eff, double delta, double delta_max, double, double*) const
   {
     return per_stretch * law.evaluate(r_eff, per_stretch * delta, per_stretch * delta_max).force;
   }

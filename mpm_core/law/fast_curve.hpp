@@ -42,44 +42,85 @@ class FastCurve
   /// Force alone, in the curve's units.
   double force(double x, double x_max, double impact_overlap = 0) const
   {
-    if (x >= x_max || x_max <= onset_) {
-      if (!in_table(x)) [[unlikely]]
-        return far_loading(x, impact_overlap).force;
-      const double slow = at(x).force();
-      return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
-    }
-    if (!in_table(x_max)) [[unlikely]]
-      return far_unloading(x, x_max, impact_overlap);
-    const Place p = at(x_max);
-    const Turn turn = turn_at(p, p.force(), x_max, impact_overlap);
-    const double rest = turn.span - (x_max - x) / x_max;
-    return rest <= 0.0 ? 0.0 : turn.force * turn.at(rest, 1.0 / turn.span).value;
+    return unloads(x, x_max) ? turn(x_max, impact_overlap).force_at(x) : loading_force(x, impact_overlap);
   }
 
-  /// As ContactCurve::evaluate.
+  /// A turn at x_max: all that un- and reloading below it takes, worked out once. A contact that keeps it
+  /// needs no table for its force until it loads further. In the curve's units.
+  struct Turn
+  {
+    double x_max = 0;      ///< 0: none yet
+    double per_range = 0;  ///< 1/(x_m - x_r): u = 1 - (x_m - x) per_range
+    double force[3] = {};  ///< of u^1.5, u^2 and u^2.5: F_m times A, B and C of UnloadingShape
+
+    double force_at(double x) const
+    {
+      const double u = part(x);
+      return u <= 0.0 ? 0.0 : force_at(u, std::sqrt(u));
+    }
+    /// Given back on complete unloading.
+    double work() const { return (0.4 * force[0] + 1.0 / 3.0 * force[1] + 2.0 / 7.0 * force[2]) / per_range; }
+
+    double part(double x) const { return 1.0 - (x_max - x) * per_range; }  ///< u; negative: parted
+    double force_at(double u, double root) const
+    {
+      return u * root * ((force[0] + root * force[1]) + u * force[2]);
+    }
+    /// dF/du; at u = 1 it is F_m n.
+    double slope_at(double u, double root) const
+    {
+      return root * ((1.5 * force[0] + root * (2.0 * force[1])) + u * (2.5 * force[2]));
+    }
+  };
+  /// True if a contact at x follows the turn at x_max; else it loads, or never yielded.
+  bool unloads(double x, double x_max) const { return x < x_max && x_max > onset_; }
+  double loading_force(double x, double impact_overlap = 0) const
+  {
+    if (!in_table(x)) [[unlikely]]
+      return far_loading(x, impact_overlap).force;
+    const double slow = at(x).force();
+    return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
+  }
+  Turn turn(double x_max, double impact_overlap = 0) const
+  {
+    if (!in_table(x_max)) [[unlikely]]
+      return far_turn(x_max, impact_overlap);
+    const Place p = at(x_max);
+    const Two rest = p.i.turn.both(p.t);
+    double force = p.force(), span = rest[0];
+    UnloadingShape shape{rest[1], std::max(0.0, p.i.rest.first(p.t))};
+    if (corrected(impact_overlap)) {
+      const InertiaAxis::TurnCorrection c = axis_.turn(x_max, impact_overlap);
+      force *= 1.0 + c.force;
+      span = c.corrected_span(span);
+      shape = c.corrected_shape(shape);
+    }
+    return turn_of(x_max, force, span * x_max, shape);
+  }
+
+  /// Force, stiffness and contact radius in the curve's units, as ContactCurve::evaluate.
+  ContactCurve::Loading evaluate(double x, double x_max, double impact_overlap = 0) const
+  {
+    return unloads(x, x_max) ? evaluate(x, turn(x_max, impact_overlap)) : loading(x, impact_overlap);
+  }
+  /// The same of a contact that unloads and has kept its turn.
+  ContactCurve::Loading evaluate(double x, const Turn& turn) const
+  {
+    const double u = turn.part(x);
+    if (u <= 0.0) return {0.0, 0.0, 0.0};
+    const double root = std::sqrt(u), slope = turn.slope_at(u, root);
+    // a = a_m phi'(u)/phi'(1)
+    return {turn.force_at(u, root), slope * turn.per_range,
+            radius(turn.x_max) * slope / turn.slope_at(1.0, 1.0)};
+  }
+  /// As ContactCurve::evaluate: SI.
   ContactForce evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
                         double impact_overlap = 0) const
   {
-    const double length = pair.length(r_eff), per_length = 1.0 / length;
-    const double force_scale = pair.force(r_eff), radius_scale = pair.radius(r_eff);
-    const double x = delta * per_length, x_max = delta_max * per_length;
-    if (x >= x_max || x_max <= onset_) {
-      const ContactCurve::Loading now = loading(x, impact_overlap);
-      return {force_scale * now.force, force_scale * per_length * now.stiffness, radius_scale * now.radius,
-              std::max(delta, delta_max)};
-    }
-    if (!in_table(x_max)) [[unlikely]]
-      return far_evaluate(pair, r_eff, delta, delta_max, impact_overlap);
-    const Place p = at(x_max);
-    const Two top = p.i.loading.both(p.t);
-    const Turn turn = turn_at(p, top[0], x_max, impact_overlap);
-    const double per_delta_max = 1.0 / delta_max, rest = turn.span - (delta_max - delta) * per_delta_max;
-    if (rest <= 0.0) return {0.0, 0.0, 0.0, delta_max};
-    const double per_span = 1.0 / turn.span;
-    const auto [value, slope] = turn.at(rest, per_span);
-    // a = a_m phi'(u)/phi'(1), as ContactCurve
-    const double force = force_scale * turn.force, radius = radius_scale * top[1] / turn.shape.exponent;
-    return {force * value, force * per_delta_max * per_span * slope, radius * slope, delta_max};
+    const double per_length = 1.0 / pair.length(r_eff), force_scale = pair.force(r_eff);
+    const ContactCurve::Loading now = evaluate(delta * per_length, delta_max * per_length, impact_overlap);
+    return {force_scale * now.force, force_scale * per_length * now.stiffness,
+            pair.radius(r_eff) * now.radius, std::max(delta, delta_max)};
   }
 
   /// Work spent on plastic strain by a quasi-static contact whose largest overlap is x_max: a function of
@@ -110,18 +151,6 @@ class FastCurve
     double t;
     double force() const { return i.loading.first(t); }
   };
-  struct Turn
-  {
-    double force, span;
-    UnloadingShape shape;
-
-    /// At u = rest/span > 0. sqrt(u) so that root and division run side by side.
-    UnloadingShape::Point at(double rest, double per_span) const
-    {
-      return shape.at(rest * per_span, std::sqrt(rest * span) * per_span);
-    }
-  };
-
   static constexpr std::uint64_t first_bits = static_cast<std::uint64_t>(1023 + lowest_exponent) << 52;
   /// Rises with x >= 2^-40; larger than of any such x for all else, NaN included.
   static std::uint64_t place(double x) { return std::bit_cast<std::uint64_t>(x) - first_bits; }
@@ -152,19 +181,22 @@ class FastCurve
     const InertiaAxis::ForceCorrection a = axis_.force(x, impact_overlap);
     return {force * (1.0 + a.value), stiffness * (1.0 + a.value) + force * a.slope, now[1]};
   }
-  Turn turn_at(const Place& p, double force, double x_max, double impact_overlap) const
+  double radius(double x) const
   {
-    const Two turn = p.i.turn.both(p.t);
-    const UnloadingShape shape{turn[1], std::max(0.0, p.i.rest.first(p.t))};
-    if (!corrected(impact_overlap)) return {force, turn[0], shape};
-    const InertiaAxis::TurnCorrection c = axis_.turn(x_max, impact_overlap);
-    return {force * (1.0 + c.force), c.corrected_span(turn[0]), c.corrected_shape(shape)};
+    if (!in_table(x)) [[unlikely]]
+      return far_loading(x, 0.0).radius;
+    const Place p = at(x);
+    return p.i.loading.both(p.t)[1];
   }
+  static Turn turn_of(double x_max, double force, double range, const UnloadingShape& shape)
+  {
+    return {x_max, 1.0 / range, {force * shape.foot, force * shape.second(), force * shape.third()}};
+  }
+  /// Loading work with an axis, to 1e-4 of itself.
+  double loading_work(double x, double impact_overlap) const;
   // Beyond the table, out of line: the loop stays small.
   ContactCurve::Loading far_loading(double x, double impact_overlap) const;
-  double far_unloading(double x, double x_max, double impact_overlap) const;
-  ContactForce far_evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
-                            double impact_overlap) const;
+  Turn far_turn(double x_max, double impact_overlap) const;
 
   std::vector<Interval> intervals_;
   const ContactCurve* curve_ = nullptr;

@@ -3,11 +3,16 @@
 //
 //   law_benchmark       1-D: quasi-static; 2-D: with an inertia axis, each contact with an X of its own;
 //                       load: at its largest overlap; unload: below it, after yield (before, a contact
-//                       unloads along its loading curve); Hertz's formulas as yardstick
+//                       unloads along its loading curve)
+//     lookup            force, stiffness and contact radius from overlap, largest overlap and X
+//     kept              the same of contacts that have kept their turn, as in LIGGGHTS
+//     pair              lookup in SI, pair mapping included
+//     force             the force alone
+//     Hertz, reference  Hertz's formulas and the ContactCurve (1-D), in SI: yardsticks
 //
 // `error_F`, `error_k`, `error_a`: largest relative difference of force, stiffness and contact radius from
-// the ContactCurve (fast, force) or, for the ContactCurve itself, of the force from the analytic law that it
-// was sampled from.
+// the ContactCurve or, for the ContactCurve itself, of the force from the analytic law that it was sampled
+// from.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -123,7 +128,7 @@ double exact(double x, double x_m)
 /// Contacts as a flow has them: overlaps spread over decades, the largest of them a tenth to 1.3 of X.
 struct Contact
 {
-  double x, x_max, impact_overlap;
+  double x, x_max, impact_overlap, r_eff = 1.0;
 };
 std::vector<Contact> flow(bool unloading, bool axis)
 {
@@ -143,7 +148,7 @@ std::vector<Contact> flow(bool unloading, bool axis)
 
 const PairMapping pair_mapping = PairMapping::rigid_partner(0.75);
 
-template <class Evaluate>
+template <class Contact, class Evaluate>
 void time(benchmark::State& state, const std::vector<Contact>& flow, const Evaluate& evaluate)
 {
   std::size_t k = 0;
@@ -159,29 +164,64 @@ double off(double found, double expected)
   return expected == 0 ? std::abs(found) : std::abs(found / expected - 1);
 }
 
-/// Force, stiffness and contact radius by FastCurve.
-void fast(benchmark::State& state, bool unloading, bool axis)
+/// Times `evaluate`; `found` is its result for that contact, in SI.
+template <class Contact, class Evaluate, class Found>
+void compare(benchmark::State& state, const std::vector<Contact>& all, bool axis, const Evaluate& evaluate,
+             const Found& found)
 {
-  const ContactCurve& curve = axis ? with_axis : quasi_static;
-  const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
-  const std::vector<Contact> all = flow(unloading, axis);
   double force = 0, stiffness = 0, radius = 0;
   for (const Contact& c : all) {
-    const ContactForce expected = curve.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap),
-                       found = table.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap);
-    force = std::max(force, off(found.force, expected.force));
-    stiffness = std::max(stiffness, off(found.stiffness, expected.stiffness));
-    radius = std::max(radius, off(found.contact_radius, expected.contact_radius));
+    const ContactForce expected = (axis ? with_axis : quasi_static)
+                                      .evaluate(pair_mapping, c.r_eff, c.x, c.x_max, c.impact_overlap),
+                       f = found(evaluate(c));
+    force = std::max(force, off(f.force, expected.force));
+    stiffness = std::max(stiffness, off(f.stiffness, expected.stiffness));
+    radius = std::max(radius, off(f.contact_radius, expected.contact_radius));
   }
-  time(state, all,
-       [&](const Contact& c) { return table.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap); });
+  time(state, all, evaluate);
   state.counters["error_F"] = force;
   state.counters["error_k"] = stiffness;
   state.counters["error_a"] = radius;
-  state.counters["bytes"] = static_cast<double>(table.bytes());
+  state.counters["bytes"] = static_cast<double>((axis ? fast_with_axis : fast_quasi_static).bytes());
 }
 
-/// The force alone, as the plug-in asks for it.
+/// Of the curve's units in SI, where R* = 1 and the partner is rigid.
+ContactForce scaled(const ContactCurve::Loading& f)
+{
+  const double force = pair_mapping.force(1.0);
+  return {force * f.force, force * f.stiffness, f.radius, 0.0};
+}
+
+void lookup(benchmark::State& state, bool unloading, bool axis)
+{
+  const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
+  compare(
+      state, flow(unloading, axis), axis,
+      [&](const Contact& c) { return table.evaluate(c.x, c.x_max, c.impact_overlap); }, scaled);
+}
+
+void kept(benchmark::State& state, bool axis)
+{
+  const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
+  struct Keeping : Contact
+  {
+    FastCurve::Turn turn;
+  };
+  std::vector<Keeping> all;
+  for (const Contact& c : flow(true, axis)) all.push_back({c, table.turn(c.x_max, c.impact_overlap)});
+  compare(
+      state, all, axis, [&](const Keeping& c) { return table.evaluate(c.x, c.turn); }, scaled);
+}
+
+void pair(benchmark::State& state, bool unloading, bool axis)
+{
+  const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
+  compare(
+      state, flow(unloading, axis), axis,
+      [&](const Contact& c) { return table.evaluate(pair_mapping, c.r_eff, c.x, c.x_max, c.impact_overlap); },
+      [](const ContactForce& f) { return f; });
+}
+
 void force(benchmark::State& state, bool unloading, bool axis)
 {
   const ContactCurve& curve = axis ? with_axis : quasi_static;
@@ -191,7 +231,7 @@ void force(benchmark::State& state, bool unloading, bool axis)
   double error = 0;
   for (const Contact& c : all)
     error = std::max(
-        error, off(evaluate(c), curve.evaluate(pair_mapping, 1.0, c.x, c.x_max, c.impact_overlap).force));
+        error, off(evaluate(c), curve.evaluate(pair_mapping, c.r_eff, c.x, c.x_max, c.impact_overlap).force));
   time(state, all, evaluate);
   state.counters["error_F"] = error;
   state.counters["bytes"] = static_cast<double>(table.bytes());
@@ -203,9 +243,10 @@ void reference(benchmark::State& state, bool unloading)
   const std::vector<Contact> all = flow(unloading, false);
   double error = 0;
   for (const Contact& c : all)
-    error = std::max(error,
-                     off(quasi_static.evaluate(pair_mapping, 1.0, c.x, c.x_max).force, exact(c.x, c.x_max)));
-  time(state, all, [&](const Contact& c) { return quasi_static.evaluate(pair_mapping, 1.0, c.x, c.x_max); });
+    error = std::max(
+        error, off(quasi_static.evaluate(pair_mapping, c.r_eff, c.x, c.x_max).force, exact(c.x, c.x_max)));
+  time(state, all,
+       [&](const Contact& c) { return quasi_static.evaluate(pair_mapping, c.r_eff, c.x, c.x_max); });
   state.counters["error_F"] = error;
   state.counters["bytes"] = (nodes - 1) * 16.0 * sizeof(double);  // the coefficients
 }
@@ -214,7 +255,7 @@ void reference(benchmark::State& state, bool unloading)
 void hertz(benchmark::State& state)
 {
   time(state, flow(false, false), [](const Contact& c) {
-    const double e_star = pair_mapping.e_star_pair(), a = std::sqrt(c.x);
+    const double e_star = pair_mapping.e_star_pair(), a = std::sqrt(c.r_eff * c.x);
     return ContactForce{4.0 / 3.0 * e_star * a * c.x, 2.0 * e_star * a, a, c.x};
   });
   state.counters["error_F"] = 0;
@@ -222,10 +263,16 @@ void hertz(benchmark::State& state)
 }
 
 BENCHMARK(hertz)->Name("Hertz");
-BENCHMARK_CAPTURE(fast, 1D_load, false, false);
-BENCHMARK_CAPTURE(fast, 1D_unload, true, false);
-BENCHMARK_CAPTURE(fast, 2D_load, false, true);
-BENCHMARK_CAPTURE(fast, 2D_unload, true, true);
+BENCHMARK_CAPTURE(lookup, 1D_load, false, false);
+BENCHMARK_CAPTURE(lookup, 1D_unload, true, false);
+BENCHMARK_CAPTURE(lookup, 2D_load, false, true);
+BENCHMARK_CAPTURE(lookup, 2D_unload, true, true);
+BENCHMARK_CAPTURE(kept, 1D_unload, false);
+BENCHMARK_CAPTURE(kept, 2D_unload, true);
+BENCHMARK_CAPTURE(pair, 1D_load, false, false);
+BENCHMARK_CAPTURE(pair, 1D_unload, true, false);
+BENCHMARK_CAPTURE(pair, 2D_load, false, true);
+BENCHMARK_CAPTURE(pair, 2D_unload, true, true);
 BENCHMARK_CAPTURE(force, 1D_load, false, false);
 BENCHMARK_CAPTURE(force, 1D_unload, true, false);
 BENCHMARK_CAPTURE(force, 2D_load, false, true);

@@ -6,7 +6,9 @@
 //   law_fixture write FILE major N                           claims to be of major version N
 //   law_fixture write FILE axis                              the powder has an inertia axis
 //   law_fixture write FILE rate RADIUS                       the powder depends on the rate, made for RADIUS
+//   law_fixture write FILE depth D                           other residuals of the powder
 //   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
+//   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
 //   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
 //   law_fixture elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus
 //   E_STAR law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
@@ -45,7 +47,8 @@ int run(int argc, char** argv)
   const auto word = [&](int k) { return std::string(k < argc ? argv[k] : ""); };
   const auto number = [&](int k) { return std::strtod(word(k).c_str(), nullptr); };
   if (word(1) == "write") {
-    const granulaw::testing::SyntheticLaw synthetic;
+    granulaw::testing::SyntheticLaw synthetic;
+    if (word(3) == "depth") synthetic.depth = number(4);
     granulaw::Law law = word(3) == "axis" ? synthetic.law_with_axis() : synthetic.law();
     if (word(3) == "rate") {
       granulaw::BodyLaw& powder = law.bodies.at("powder");
@@ -75,6 +78,12 @@ int run(int argc, char** argv)
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
     print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
+    return 0;
+  }
+  if (word(1) == "force") {
+    const granulaw::Law law = granulaw::read_law(word(2));
+    const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
+    std::printf("%.10g\n", pair.evaluate(number(5), number(6), number(7), number(8)).force);
     return 0;
   }
   if (word(1) == "elastic") {

@@ -2,8 +2,9 @@
 import unittest
 
 import gas
-from harness import Deck
+from harness import POWDER, Deck, head, properties
 
+RADIUS = 1.7e-3
 STEPS = 5000  # every sphere has collided several times: the kinetic energy has fallen to a third
 
 
@@ -40,6 +41,49 @@ class History(Deck):
                     # another order of summation: 1e-16 a step, amplified by the collisions to 1e-9 or so;
                     # without the contact distance factor it shows at 2e-4, with newton flag "1" at 2e-3 (both tried)
                     self.assertAlmostEqual(value / expected, 1.0, delta=1e-6, msg=f"{model}, {name}")
+
+
+class KeptTurn(Deck):
+    """What a contact keeps of its turn is the law's answer of now, not of when it was worked out."""
+
+    PRINT = "dump d all custom 1 now.txt fz z radius f_history_w[1] f_history_w[2]\ndump_modify d format \"%.15g %.15g %.15g %.15g %.15g\"\n"
+
+    def rules(self, law):
+        return (properties([POWDER]) +
+                f"pair_style gran model mpm tangential off law {law} materials powder elasticDamping off\npair_coeff * *\n"
+                f"fix w all wall/gran model mpm tangential off primitive type 1 zplane 0.0 elasticDamping off\n"
+                f"fix i all nve/sphere\ntimestep {self.dt!r}\n")
+
+    def setUp(self):
+        super().setUp()
+        self.duration = self.fixture("mpm", self.law, "powder", "wall", RADIUS, 3.1e-5, 1.0)[1]
+        self.dt = self.duration / 200
+        self.start = (f"create_atoms 1 single 0 0 {RADIUS!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                      "velocity all set 0 0 -1.0\n")
+
+    def check(self, deck, law, run="run 0\n"):
+        self.run_deck(deck + self.PRINT + run)
+        force, z, radius, largest, impact = map(float, (self.folder / "now.txt").read_text().split("\n")[-2].split())
+        delta = radius - z
+        self.assertLess(delta, 0.999 * largest)  # it unloads
+        expected = self.fixture("force", law, "powder", "wall", repr(radius), repr(delta), repr(largest), repr(impact))[0]
+        # the loop's table against the curve: 2e-5 of the force at the turn (FastCurve.AgreesWithTheCurve)
+        self.assertAlmostEqual(force / expected, 1.0, delta=1e-4)
+        self.assertGreater(force, 1.0)
+
+    def test_another_law_after_a_restart(self):
+        other = self.folder / "other.h5"
+        self.fixture("write", other, "depth", 0.8)
+        self.check(head(half=20 * RADIUS) + self.rules(self.law) + self.start + "run 150\nwrite_restart half.restart\n", self.law)
+        again = head(half=20 * RADIUS).split("region box")[0] + "read_restart half.restart\n"
+        again += f"neighbor {RADIUS!r} bin\nneigh_modify delay 0\n"
+        self.check(again + self.rules(other), other)
+
+    def test_a_radius_that_changes(self):
+        """Grown by 1 % within a run, and lifted a little faster (fix adapt): the law's force of the radius of now."""
+        grow = (f"run 130\nvariable g equal {2 * RADIUS!r}*(1+0.01*(step-130)/25)\n"
+                f"fix a all adapt 1 atom diameter v_g\nvelocity all set 0 0 {0.01 * RADIUS / (25 * self.dt) + 0.1!r}\n")
+        self.check(head(half=20 * RADIUS) + self.rules(self.law) + self.start + grow, self.law, "run 25\n")
 
 
 if __name__ == "__main__":

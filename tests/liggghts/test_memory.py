@@ -6,6 +6,7 @@ from harness import POWDER, Deck, head, properties
 RADIUS = 1.7e-3
 HERTZ = "fix q1 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
 SHEAR, ENERGY = 3, 6  # tangential history; `energy on`
+MPM = 7  # largest overlap, impact overlap and the turn, of five
 
 
 class Memory(Deck):
@@ -23,8 +24,8 @@ class Memory(Deck):
         cases = (("hertz", "off", "tangential_damping off", 0), ("hertz", "history", "tangential_damping off", SHEAR),
                  ("thornton", "off", "elasticDamping off", 1), ("thornton", "history", "elasticDamping off", 1 + SHEAR),
                  ("thornton", "history", "elasticDamping off energy on", 1 + SHEAR + ENERGY),
-                 ("mpm", "off", law + "elasticDamping off", 2), ("mpm", "history", law + "elasticDamping off", 2 + SHEAR),
-                 ("mpm", "history", law + "elasticDamping off energy on", 2 + SHEAR + ENERGY))
+                 ("mpm", "off", law + "elasticDamping off", MPM), ("mpm", "history", law + "elasticDamping off", MPM + SHEAR),
+                 ("mpm", "history", law + "elasticDamping off energy on", MPM + SHEAR + ENERGY))
         for model, tangential, words, values in cases:
             pairs = "compute c all pair/gran/local history\ndump d all local 1 d.txt {}\nrun 1\n"
             walls = "compute m all reduce max {}\nthermo_style custom step c_m\nrun 1\n"

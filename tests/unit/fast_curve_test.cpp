@@ -102,6 +102,35 @@ TEST(FastCurve, IsContinuousAcrossItsNodes)
     }
 }
 
+TEST(FastCurve, ATurnThatIsKeptAnswersToTheBit)
+{
+  const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
+  const FastCurve fast(curve);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> log_x(std::log(curve.onset()), std::log(1.1 * curve.x_end())),
+      part(0.0, 1.0);
+  const auto same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
+  for (int k = 0; k < 20000; ++k) {
+    const double x_max = std::exp(log_x(random)),
+                 X = k % 3 ? curve.axis()->overlap_end() * part(random) : 0.0;
+    const FastCurve::Turn turn = fast.turn(x_max, X);
+    for (const double x : {x_max * part(random), std::nextafter(x_max, 0.0)}) {
+      ASSERT_TRUE(fast.unloads(x, x_max));
+      EXPECT_TRUE(same(turn.force_at(x), fast.force(x, x_max, X)));
+      const ContactCurve::Loading kept = fast.evaluate(x, turn), anew = fast.evaluate(x, x_max, X);
+      EXPECT_TRUE(same(kept.force, anew.force) && same(kept.stiffness, anew.stiffness) &&
+                  same(kept.radius, anew.radius));
+    }
+    // rounding only: what is divided by the range is 3e5 times smaller at its least (largest_ratio)
+    EXPECT_NEAR(turn.force_at(x_max), fast.loading_force(x_max, X), 1e-13 * fast.loading_force(x_max, X));
+    // the fast table's error of force and span: 2e-5 (AgreesWithTheCurve)
+    EXPECT_NEAR(turn.work(), curve.work_unloading(x_max, X), 1e-4 * curve.work_unloading(x_max, X));
+  }
+  EXPECT_FALSE(fast.unloads(0.9 * curve.onset(), curve.onset()));
+}
+
 TEST(FastCurve, WithoutAnImpactTheForceIsThatOfACurveWithoutAnAxisToTheBit)
 {
   const ContactCurve plain = SyntheticLaw{}.curve(), with = SyntheticLaw{}.curve_with_axis();

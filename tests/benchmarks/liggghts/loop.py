@@ -130,7 +130,7 @@ def contacts(text):
     return float(rows[-1])
 
 
-MODELS = {"dense": ("hertz", "hertz_granulaw", "hertz_loop", "mpm", "mpm_soft", "thornton", "thornton_soft",
+MODELS = {"dense": ("hertz", "hertz_granulaw", "hertz_loop", "mpm", "mpm_soft", "mpm_axis", "thornton", "thornton_soft",
                     "thornton_ning", "hooke_hysteresis"),
           "types": ("hertz", "mpm", "thornton"),
           "sparse": ("hertz", "mpm", "thornton")}
@@ -196,6 +196,7 @@ def main():
 
         error = {("dense", name): law("one", folder / f"{name}.h5", onset) for name, onset in ONSETS.items()}
         error["sparse", "mpm"] = error["dense", "mpm"]
+        error["dense", "mpm_axis"] = law("axis", folder / "mpm_axis.h5")
         error["types", "mpm"] = law("four", folder / "four.h5")
         prepare(folder, options.spheres)
         for scene in options.scenes:
