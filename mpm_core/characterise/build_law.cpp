@@ -122,10 +122,17 @@ class Build
   std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, double until);
   int choose_resolution(const std::function<RunJob(int)>& job);
   ElasticCorrection elastic_correction(const Subject& subject);
-  LawShape shallow_guide(double first);
+  /// What tells the law where runs would be too shallow.
+  struct Guide
+  {
+    LawShape shape;
+    double end = 1;         // overlap up to which it is asked: the first run's, or less
+    bool is_exact = false;  // as good as a run, that is of the atlas alone
+  };
+  Guide shallow_guide(double first);
   void survey_more(Survey& survey, const SurveyPlan& plan, const Subject& subject, double until);
   void heed_early_yield(const Survey& survey);
-  FittedShape fit(const Survey& survey, const LawShape* shallow) const;
+  FittedShape fit(const Survey& survey, const std::optional<Guide>& guide) const;
   SurveyPlan refinement(const FittedShape& fitted, const Survey& survey, const std::vector<double>& overlaps,
                         const std::vector<double>& speeds) const;
   std::vector<double> more_speeds(const std::vector<LawShape::Inertia>& found,
@@ -197,9 +204,10 @@ void Build::heed_early_yield(const Survey& survey)
     if (p.work_ratio < 1 - lost) subject_.onset = std::min(subject_.onset, 0.7 * p.depth);
 }
 
-FittedShape Build::fit(const Survey& survey, const LawShape* shallow) const
+FittedShape Build::fit(const Survey& survey, const std::optional<Guide>& guide) const
 {
-  return fit_shape(survey, elastic_, subject_.onset, options_.depth, shallow);
+  if (!guide) return fit_shape(survey, elastic_, subject_.onset, options_.depth);
+  return fit_shape(survey, elastic_, subject_.onset, options_.depth, &guide->shape, guide->end);
 }
 
 /// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones
@@ -241,7 +249,7 @@ NearlyLinear linear_hardening(const Material& m, double strain)
 /// another shape the contact sees the curvature at the pole only, of one of several materials its skin. The
 /// atlas tells the term without runs, and all of it if hardening is linear as far as these overlaps strain
 /// the material.
-LawShape Build::shallow_guide(double first)
+Build::Guide Build::shallow_guide(double first)
 {
   const Material& m = subject_.particle.materials[static_cast<std::size_t>(subject_.pole_material)];
   // Contact radii to the skin: what lies below changes the elastic part, which the body's own press tells.
@@ -286,6 +294,7 @@ LawShape Build::shallow_guide(double first)
   if (known(stiffness) && line.missed < nearly) {
     built_.shallow += fmt::format("atlas, at linear hardening H/E = {:.3g}", line.modulus / m.youngs_modulus);
     guide = of_atlas(stiffness);
+    if (is_sphere) return {guide, first, true};
   } else {
     // an elastic sphere's own is the same at any stiffness
     const ElasticCorrection elastic = is_sphere ? elastic_ : elastic_correction(softer_sphere(m, 1));
@@ -303,7 +312,7 @@ LawShape Build::shallow_guide(double first)
       guide.add(-slope, of_runs(least_stiff, elastic));
     }
   }
-  return is_sphere ? guide : guide.as_skin_of(elastic_, subject_.onset, options_.depth, 2 * first);
+  return {is_sphere ? guide : guide.as_skin_of(elastic_, subject_.onset, options_.depth, 2 * first)};
 }
 
 /// Halves the neighbourhood of what the law fitted without it was wrong about. `tried_overlaps` and
@@ -462,10 +471,13 @@ void Build::plastic()
     full.fast_speeds = by_factors(slowest, options_.fastest, std::sqrt(2.2));
   }
 
-  std::optional<LawShape> guide;
+  std::optional<Guide> guide;
   const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
                                                  : expected_depth(plan.slow_impacts.front(), slow);
   if (first > 2 * subject_.onset) guide = shallow_guide(first);
+  // the first impact would show what the atlas knows, for a third of the time
+  if (guide && guide->is_exact && !plan.slow_impacts.empty())
+    plan.slow_impacts.erase(plan.slow_impacts.begin());
 
   Survey survey;
   survey.rate = subject_.rate_dependent();
@@ -479,7 +491,7 @@ void Build::plastic()
     survey_more(survey, plan, slow, done_ + 0.5 * (0.9 - done_));
     survey_more(survey, impacts, subject_, done_ + 0.3 * (0.9 - done_));
     if (!subject_.particle.is_homogeneous_sphere()) heed_early_yield(survey);
-    fitted = fit(survey, guide ? &*guide : nullptr);
+    fitted = fit(survey, guide);
     for (const Pressing& p : survey.slow) tried_overlaps.push_back(p.depth);
     for (const Survey::Impact& i : survey.fast) tried_speeds.push_back(i.speed);
     plan = refinement(fitted, survey, tried_overlaps, tried_speeds);

@@ -80,12 +80,12 @@ void add_shallow(Samples& samples, const std::vector<double>* values, double q_f
 }
 
 /// A turning point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
-/// is only enough to bridge gaps.
+/// is only enough to bridge gaps. `q_shallow`: as far as `shallow` tells.
 SmoothSpline turning_spline(std::span<const Pressing> presses, double onset, double q_end, const auto& of,
-                            const std::vector<double>* shallow, double smoothing = 0.03)
+                            const std::vector<double>* shallow, double q_shallow, double smoothing = 0.03)
 {
   Samples samples;
-  double q_first = q_end;
+  double q_first = q_shallow;
   for (const Pressing& p : presses) {
     samples.push_back({q_of(p.depth, onset), of(p), 1.0});
     q_first = std::min(q_first, samples.back().q);
@@ -235,11 +235,11 @@ std::vector<LawShape::Inertia> fit_inertia(std::span<const Survey::Impact> impac
 }
 
 FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,
-                      const LawShape* shallow)
+                      const LawShape* shallow, double shallow_end)
 {
   if (survey.slow.size() < 3)
     fail("fit", "too few turning points", std::to_string(survey.slow.size()), "3 or more");
-  const double q_end = q_of(x_end, onset);
+  const double q_end = q_of(x_end, onset), q_shallow = std::min(q_end, q_of(shallow_end, onset));
   FittedShape fitted{LawShape::zero(), {}};
   LawShape& shape = fitted.shape;
   shape.elastic = elastic;
@@ -260,8 +260,8 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
     double weights = 0;
     for (const auto& s : force) weights += s.weight * s.weight;
     const double weight = std::sqrt(weights / (LawShape::nodes * std::max(0.1, 1 - q_first / q_end)));
-    add_shallow(force, &shallow->softening, q_first, q_end, weight);
-    add_shallow(radius, &shallow->widening, q_first, q_end, weight);
+    add_shallow(force, &shallow->softening, std::min(q_first, q_shallow), q_end, weight);
+    add_shallow(radius, &shallow->widening, std::min(q_first, q_shallow), q_end, weight);
   }
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
   const SmoothSpline softening(q_end, intervals, force, 0.02), widening(q_end, intervals, radius, 0.05);
@@ -284,13 +284,13 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
   const auto* shallow_dissipation = shallow ? &shallow->dissipation : nullptr;
   const SmoothSpline residual = turning_spline(
       turns, onset, q_end, [](const Pressing& p) { return residual_measure(p.residual / p.depth); },
-      shallow_residual);
+      shallow_residual, q_shallow);
   const SmoothSpline dissipation =
-      turning_spline(turns, onset, q_end, dissipation_measure, shallow_dissipation);
+      turning_spline(turns, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow);
   // The contact edge's ripple of a per cent of F moves a foot by 0.3.
   const SmoothSpline foot = turning_spline(
       turns, onset, q_end, [&](const Pressing& p) { return p.foot - elastic_foot(elastic, p.depth); },
-      shallow ? &shallow->foot : nullptr, 0.1);
+      shallow ? &shallow->foot : nullptr, q_shallow, 0.1);
 
   shape.softening = sampled(softening, q_end);
   shape.widening = sampled(widening, q_end);
@@ -319,7 +319,8 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
     if (k + 1 < turns.size() && turns.size() > 3) {
       std::vector<Pressing> others = turns;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      held_out = error_of_e(turning_spline(others, onset, q_end, dissipation_measure, shallow_dissipation));
+      held_out = error_of_e(
+          turning_spline(others, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow));
     }
     quality.held_out_each.push_back(held_out);
     quality.held_out = std::max(quality.held_out, held_out);

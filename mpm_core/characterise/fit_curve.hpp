@@ -36,10 +36,10 @@ struct FittedShape
 
 /// The law of a yielding sphere from its survey, by smooth splines that start with zero value and slope at
 /// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `shallow`: a
-/// shape over the same range that tells what the runs are too shallow for (similarity); may be null where the
-/// survey begins near the onset.
+/// shape over the same range that tells what the runs are too shallow for (similarity), up to the first of
+/// them or `shallow_end`; may be null where the survey begins near the onset.
 FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,
-                      const LawShape* shallow = nullptr);
+                      const LawShape* shallow = nullptr, double shallow_end = 1.0);
 
 /// The same from presses alone, tabulated: a rate-free curve to x_end.
 struct FittedCurve

@@ -239,6 +239,17 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
     else
       fill(yielded, k == at_onset, k + 1 == count);
   }
+  // A cubic whose values are not negative and whose slopes are 3/h of them at most passes nowhere below 0:
+  // between two nodes an unloading may meet the bounds of one that rises, foot >= 0 and foot + 4 exponent
+  // <= 10.
+  for (std::size_t k = 0; k < count; ++k) {
+    double &foot_slope = table.foot_slope[k], &exponent_slope = table.exponent_slope[k];
+    const double steepest = 3 / h * table.foot[k],
+                 room = 3 / h *
+                        std::max(0.0, UnloadingShape::largest_exponent(table.foot[k]) - table.exponent[k]);
+    foot_slope = std::clamp(foot_slope, -steepest, steepest);
+    exponent_slope = std::clamp(exponent_slope, -room - 0.25 * foot_slope, room - 0.25 * foot_slope);
+  }
   // 1e-7: returned work must not exceed the work put in just past the onset, not even by rounding.
   for (double& n : table.exponent) n += 1e-7;
   ContactCurve curve(table, "fitted curve");

@@ -146,6 +146,24 @@ TEST(LawShape, ASkinOnASofterBodyLosesTheSameAtTheSameForce)
   }
 }
 
+/// A foot that runs between its bounds (an unloading that rises, losses as computed) meets them anywhere
+/// between two nodes: none of these stiff bodies may be refused for it.
+TEST(LawShape, AnUnloadingMayMeetTheBoundsOfOneThatRisesBetweenNodes)
+{
+  for (const double residual : {1.0, 1.5, 2.0})
+    for (const double dissipation : {2.0, 3.0})
+      for (const double foot : {-1.0, 0.0, 2.0}) {
+        LawShape shape = sphere_shape();
+        for (int k = 0; k < LawShape::nodes; ++k) {
+          const double u = k / (LawShape::nodes - 1.0);
+          const auto n = static_cast<std::size_t>(k);
+          shape.residual[n] = residual * u * u, shape.dissipation[n] = dissipation * u * u;
+          shape.foot[n] = foot * u;
+        }
+        EXPECT_NO_THROW(tabulate(shape, 2.6e-7, 0.2, 0.2)) << residual << ' ' << dissipation << ' ' << foot;
+      }
+}
+
 TEST(FitCurve, ElasticFitRecoversItsCoefficients)
 {
   Pressing press;
