@@ -20,11 +20,11 @@ namespace granulaw {
 ///     force     F_L(x)           Hermite with the curve's stiffness: the stiffness is its derivative,
 ///                                exactly, and continuous
 ///     radius    a(x)             this and the following: equal to the curve at four equidistant points
-///     span      1 - rho, rho = x_r/x_m: a turn at x_m unloads along u = (span - (1 - x/x_m))/span
+///     span      1 - rho, rho = x_r/x_m: a turn at x_m unloads along u = 1 - (x_m - x)/(span x_m)
 ///     exponent  n, and foot A
 ///     work      W_load - W_unload: spent on plastic strain (quasi-static)
-/// One cache line for the loading branch, three for unloading. An inertia axis is laid out anew: FastAxis.
-/// Below 2^-40 and beyond x_end the curve itself answers. Errors against the curve:
+/// One cache line for the loading branch, three for a turn, none for a turn that was kept. An inertia axis is
+/// laid out anew: FastAxis. Below 2^-40 and beyond x_end the curve itself answers. Errors against the curve:
 /// tests/unit/fast_curve_test.cpp; speed: tests/benchmarks/law_benchmark.cpp.
 ///
 /// The arguments x, x_max and impact_overlap (X; 0: quasi-static) are ContactCurve's.
