@@ -4,10 +4,12 @@
 //     overlaps: the largest |F_law - F|/F_max on loading and on un- and reloading, and the area of the reload
 //     loops, which the law leaves out, over the work put in.
 //
-//   law_study FOLDER --atlas ATLAS.h5 [--impacts N] [--cells N] [--materials N] [--threads N] [--seed N]
-//   [--each] runs are kept in FOLDER and not made again; impacts have --cells across and four shifted grids
+//   law_study FOLDER --atlas ATLAS.h5 [--impacts N] [--cells N] [--press-cells N] [--press-grids N]
+//             [--materials N] [--threads N] [--seed N] [--each]
+//   runs are kept in FOLDER and not made again; impacts have --cells across and four shifted grids
 //
-// Prints three lines a material. The force of a press is as computed, with the ripple of the contact edge.
+// Prints three lines a material. The force of a press is as computed, with the ripple of the contact edge:
+// more cells and grids leave less of it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -64,7 +66,13 @@ PathErrors path_errors(const PairLaw& law, const RunResult& run)
   return {errors.loading / largest, errors.unloading / largest};
 }
 
-void study(const Atlas& atlas, const MaterialRatios& m, int impacts, int cells, std::mt19937& random,
+/// What the law is compared with.
+struct References
+{
+  int impacts = 50, cells = 24, press_cells = 24, press_grids = 4;
+};
+
+void study(const Atlas& atlas, const MaterialRatios& m, const References& references, std::mt19937& random,
            Farm& farm, bool each)
 {
   const LawMaterial material = dimensionless(m);
@@ -74,6 +82,7 @@ void study(const Atlas& atlas, const MaterialRatios& m, int impacts, int cells, 
   const BodyLaw law = law_from(atlas, material, options);
   const PairLaw pair{&law.curve, PairMapping::rigid_partner(1), &law};
 
+  const int impacts = references.impacts;
   const RunSource source;
   std::uniform_real_distribution<double> share(0, 1);
   std::vector<RunJob> jobs;
@@ -85,10 +94,10 @@ void study(const Atlas& atlas, const MaterialRatios& m, int impacts, int cells, 
   const double fastest = 0.245 / std::sqrt(m.stiffness);
   for (int k = 0; k < impacts; ++k) {
     velocities.push_back(slowest * std::pow(fastest / slowest, share(random)));
-    jobs.push_back(impact_job(subject, velocities.back(), cells, 4, source));
+    jobs.push_back(impact_job(subject, velocities.back(), references.cells, 4, source));
   }
   for (const double depth : {0.02, 0.15}) {
-    SurveyPlan::Press press{depth, {}, 24, 4};
+    SurveyPlan::Press press{depth, {}, references.press_cells, references.press_grids};
     for (int k = 0; k < 3; ++k) press.stops.push_back(depth * (0.1 + 0.3 * (k + share(random))));
     jobs.push_back(press_job(subject, press, source));
   }
@@ -128,13 +137,16 @@ int main(int argc, char** argv)
 {
   CLI::App app("Laws of the atlas against fresh runs");
   std::string folder, atlas_file;
-  int impacts = 50, cells = 24, materials = 4, threads = 1;
+  References references;
+  int materials = 4, threads = 1;
   unsigned seed = 1;
   bool each = false;
   app.add_option("folder", folder)->required();
   app.add_option("--atlas", atlas_file)->required();
-  app.add_option("--impacts", impacts)->check(CLI::Range(1, 1000));
-  app.add_option("--cells", cells, "of the impacts")->check(CLI::Range(12, 96));
+  app.add_option("--impacts", references.impacts)->check(CLI::Range(1, 1000));
+  app.add_option("--cells", references.cells, "of the impacts")->check(CLI::Range(12, 96));
+  app.add_option("--press-cells", references.press_cells)->check(CLI::Range(12, 96));
+  app.add_option("--press-grids", references.press_grids)->check(CLI::Range(1, 64));
   app.add_option("--materials", materials, "only the first N")->check(CLI::Range(1, 4));
   app.add_option("--threads", threads)->check(CLI::Range(1, 256));
   app.add_option("--seed", seed);
@@ -146,7 +158,7 @@ int main(int argc, char** argv)
     std::mt19937 random(seed);
     const std::vector<MaterialRatios> all{{100, 0.3, 0}, {30, 0.3, 0}, {500, 0.25, 0.01}, {1500, 0.35, 0}};
     for (int k = 0; k < materials; ++k)
-      study(atlas, all[static_cast<std::size_t>(k)], impacts, cells, random, farm, each);
+      study(atlas, all[static_cast<std::size_t>(k)], references, random, farm, each);
   } catch (const Error& error) {
     fmt::print(stderr, "law_study: {}\n", error.what());
     return 2;
