@@ -49,7 +49,7 @@ struct MpmContact
     return law.min_speed(r_eff * units.length, m_eff * units.mass) / units.length;
   }
   using Turn = FastCurve::Turn;
-  /// Values that a contact keeps of its last turn, its overlap first: 0 where there is none.
+  /// How many values a contact keeps of its last turn; the first is its overlap, 0 before there is one.
   static constexpr std::size_t turn_values = sizeof(Turn) / sizeof(double);
   /// At overlap delta of a contact whose largest overlap so far is delta_max and which latched X. `kept`: its
   /// turn, worked out anew where it is of another overlap.
