@@ -86,13 +86,15 @@ double FastCurve::dissipated(double from, double to, double impact_overlap) cons
 {
   if (!corrected(impact_overlap)) return dissipated(to) - dissipated(from);
   if (to <= onset_) return 0.0;
-  const double returned = turn(to, impact_overlap).work();
-  if (from <= onset_) return loading_work(to, impact_overlap) - returned;
-  const auto force = [&](double x) { return loading_force(x, impact_overlap); };
-  const double put_in = to > 1.25 * from
-                            ? loading_work(to, impact_overlap) - loading_work(from, impact_overlap)
-                            : (to - from) / 6.0 * (force(from) + 4.0 * force(0.5 * (from + to)) + force(to));
-  return put_in - (returned - turn(from, impact_overlap).work());
+  const Turn after = turn(to, impact_overlap);
+  if (from <= onset_) return loading_work(to, impact_overlap) - after.work();
+  const Turn before = turn(from, impact_overlap);
+  const double put_in =
+      to > 1.25 * from ? loading_work(to, impact_overlap) - loading_work(from, impact_overlap)
+                       : (to - from) / 6.0 *
+                             (before.force_at(from) + 4.0 * loading_force(0.5 * (from + to), impact_overlap) +
+                              after.force_at(to));
+  return put_in - (after.work() - before.work());
 }
 
 ContactCurve::Loading FastCurve::far_loading(double x, double impact_overlap) const

@@ -34,11 +34,9 @@ struct UnloadingShape
     double value, slope;  ///< phi, phi'
   };
   /// At 0 <= u <= 1.
-  Point at(double u) const { return at(u, std::sqrt(u)); }
-  /// The same of a caller that has the root.
-  Point at(double u, double root) const
+  Point at(double u) const
   {
-    const double b = second(), c = third();
+    const double root = std::sqrt(u), b = second(), c = third();
     return {u * root * ((foot + root * b) + u * c), root * ((1.5 * foot + root * (2.0 * b)) + u * (2.5 * c))};
   }
   /// Integral of phi from 0 to u.

@@ -2,7 +2,7 @@
 import unittest
 
 import gas
-from harness import POWDER, Deck, head, properties
+from harness import POWDER, Deck, head, properties, sphere_mass
 
 RADIUS = 1.7e-3
 STEPS = 5000  # every sphere has collided several times: the kinetic energy has fallen to a third
@@ -51,13 +51,13 @@ class KeptTurn(Deck):
     def rules(self, law):
         return (properties([POWDER]) +
                 f"pair_style gran model mpm tangential off law {law} materials powder elasticDamping off\npair_coeff * *\n"
-                f"fix w all wall/gran model mpm tangential off primitive type 1 zplane 0.0 elasticDamping off\n"
+                "fix w all wall/gran model mpm tangential off primitive type 1 zplane 0.0 elasticDamping off\n"
                 f"fix i all nve/sphere\ntimestep {self.dt!r}\n")
 
     def setUp(self):
         super().setUp()
-        self.duration = self.fixture("mpm", self.law, "powder", "wall", RADIUS, 3.1e-5, 1.0)[1]
-        self.dt = self.duration / 200
+        mass = sphere_mass(RADIUS, POWDER.density)
+        self.dt = self.fixture("mpm", self.law, "powder", "wall", RADIUS, mass, 1.0)[1] / 200
         self.start = (f"create_atoms 1 single 0 0 {RADIUS!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
                       "velocity all set 0 0 -1.0\n")
 

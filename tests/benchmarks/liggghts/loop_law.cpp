@@ -18,6 +18,22 @@ namespace {
 
 using granulaw::testing::SyntheticLaw;
 
+/// `exact`: force at x, x_max and X.
+double worst_error(const granulaw::ContactCurve& curve, const auto& exact)
+{
+  const granulaw::FastCurve table(curve);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> log_x(std::log(1e-7), std::log(curve.x_end())), part(0.0, 1.2);
+  double worst = 0;
+  for (int k = 0; k < 200000; ++k) {
+    const double x_max = std::exp(log_x(random)), x = std::min(x_max * part(random), curve.x_end());
+    const double X = curve.axis() ? std::min(x_max / part(random), curve.axis()->overlap_end()) : 0.0;
+    const double top = std::max(x, x_max);
+    worst = std::max(worst, std::abs(table.force(x, x_max, X) - exact(x, x_max, X)) / exact(top, top, X));
+  }
+  return worst;
+}
+
 double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curve)
 {
   const auto q_of = [&](double s) { return SyntheticLaw::past(s, shape.onset); };
@@ -26,23 +42,13 @@ double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curv
     return std::pow(x, 1.5) * (1 + shape.finite_sphere * s * s) *
            std::exp(-shape.softening * q * q / (1 + q));
   };
-  const auto force = [&](double x, double x_max) {
+  return worst_error(curve, [&](double x, double x_max, double) {
     if (x >= x_max || x_max <= shape.onset) return loading(x);
     const double s = std::pow(x_max, 0.25);
     const double residual = x_max * shape.residual_ratio(s);
     const double u = (x - residual) / (x_max - residual);
     return u <= 0 ? 0.0 : loading(x_max) * shape.unloading(s).at(u).value;
-  };
-  const granulaw::FastCurve table(curve);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> log_x(std::log(1e-7), std::log(shape.x_end)), part(0.0, 1.2);
-  double worst = 0;
-  for (int k = 0; k < 200000; ++k) {
-    const double x_max = std::exp(log_x(random)), x = std::min(x_max * part(random), shape.x_end);
-    const double found = table.force(x, x_max);
-    worst = std::max(worst, std::abs(found - force(x, x_max)) / loading(std::max(x, x_max)));
-  }
-  return worst;
+  });
 }
 
 constexpr double youngs_modulus = 9.1e7;  // as loop.py
@@ -67,20 +73,10 @@ double with_axis(const char* file)
   powder.material.youngs_modulus = youngs_modulus;
   powder.material.yield_stress *= 1e-2;  // as Young's modulus: the speeds of the flow are within the axis
   granulaw::write_law(law, file);
-  const granulaw::ContactCurve& curve = powder.curve;
   const auto unit_pair = granulaw::PairMapping::rigid_partner(0.75);  // of R* = 1: length and force 1
-  const granulaw::FastCurve table(curve);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> log_x(std::log(1e-7), std::log(curve.x_end())), part(0.0, 1.2);
-  double worst = 0;
-  for (int k = 0; k < 200000; ++k) {
-    const double x_max = std::exp(log_x(random)), x = std::min(x_max * part(random), curve.x_end());
-    const double X = std::min(x_max / part(random), curve.axis()->overlap_end());
-    const double expected = curve.evaluate(unit_pair, 1.0, x, x_max, X).force;
-    worst = std::max(
-        worst, std::abs(table.force(x, x_max, X) - expected) / curve.loading(std::max(x, x_max), X).force);
-  }
-  return worst;
+  return worst_error(powder.curve, [&](double x, double x_max, double X) {
+    return powder.curve.evaluate(unit_pair, 1.0, x, x_max, X).force;
+  });
 }
 
 double four(const char* file)
