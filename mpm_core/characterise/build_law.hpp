@@ -14,8 +14,10 @@ struct BuildOptions
   double fastest = 0.25;  ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
   double slowest = 0;  ///< of a rate-dependent body: sqrt(I) of the slowest impact that its law must know; 0:
                        ///< a fiftieth of `fastest`. Not below the onset of yield, where rates change nothing
-  double tolerance = 0.01;       ///< of force and e, relative: sampling is refined until it adds no more than
-                                 ///< this, the resolution until two of them agree to this
+  /// Of force and of e, relative, or of e < 0.5 over 0.5: an e of 0.07 is known to 0.005 where F is known to
+  /// 1
+  /// %. The resolution is raised until two of them agree to it, sampling refined until it adds no more.
+  double tolerance = 0.01;
   const Atlas* atlas = nullptr;  ///< spares runs where a stiff body begins to yield; none: nothing but runs
   Farm* farm = nullptr;          ///< makes the runs; none: this thread
   Progress progress;             ///< may throw to stop
@@ -29,6 +31,7 @@ struct BuiltLaw
       holes;            ///< runs that failed twice, each with its sentence: the law has no sample there
   std::string shallow;  ///< where the law comes from at overlaps too small to be run; empty: there are none
   double change_of_restitution = 0;  ///< largest relative change of the fitted e that admissibility took
+  double sampling_error = 0;         ///< largest where nothing was sampled, as it counts for the tolerance
   std::size_t runs = 0;              ///< that the adaptive survey asked for
   std::size_t runs_full = 0;         ///< that the densest one would have
 };

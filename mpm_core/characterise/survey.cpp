@@ -56,6 +56,19 @@ std::vector<double> between(double low, double high, int count)
   return values;
 }
 
+/// Loading time whose largest speed squared, over E*/rho, is this.
+double top_speed_ramp(double depth, double speed_squared)
+{
+  return 0.5 * M_PI * depth / std::sqrt(speed_squared);
+}
+
+/// Loading time of a press whose body yields or not, as the solver chooses it (runs.cpp).
+double solvers_ramp(const Subject& s, double depth)
+{
+  if (!s.yields()) return 40.0;
+  return std::max({60.0, 60.0 * std::pow(0.01 / s.yield, 0.25), top_speed_ramp(depth, 4e-4 * s.yield)});
+}
+
 /// A run's numbers over the subject's scales.
 RunResult dimensionless(RunResult run, const Scales& scale)
 {
@@ -87,21 +100,25 @@ double velocity_to(double x, const Subject& s)
                   x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
 }
 
+double brisk_ramp(const Subject& s, double depth)
+{
+  if (!s.yields()) return 0;
+  return std::max({60.0, 42.0 * std::pow(0.01 / s.yield, 0.25), top_speed_ramp(depth, 1.6e-3 * s.yield)});
+}
+
 RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const RunSource& source)
 {
-  std::string stops;
-  for (const double stop : press.stops) stops += fmt::format(" unload={:.17g}", stop);
-  // as the solver chooses it
-  const double ramp = subject.yields()
-                          ? std::max({60.0, 60.0 * std::pow(0.01 / subject.yield, 0.25),
-                                      0.5 * M_PI * press.depth / std::sqrt(4e-4 * subject.yield)})
-                          : 40.0;
+  std::string path;
+  for (const double stop : press.stops) path += fmt::format(" unload={:.17g}", stop);
+  if (press.ramp > 0) path += fmt::format(" ramp={:.17g}", press.ramp);
+  const double ramp = press.ramp > 0 ? press.ramp : solvers_ramp(subject, press.depth);
+  const auto stops = static_cast<double>(press.stops.size());  // off and on again takes 0.4 of the ramp each
   return {fmt::format("press to {:.3g} R", press.depth),
           key(subject, press.resolution, press.phases,
-              fmt::format("press free depth={:.17g}{}", press.depth, stops)),
-          cost_of(subject, press.depth, 1.4 * ramp, press.resolution, press.phases),
+              fmt::format("press free depth={:.17g}{}", press.depth, path)),
+          cost_of(subject, press.depth, (1.4 + 0.8 * stops) * ramp, press.resolution, press.phases),
           [subject, press, &source](const RunOptions& options) {
-            PressPlan plan{press.depth * subject.scale.length, Support::free, press.stops, 0};
+            PressPlan plan{press.depth * subject.scale.length, Support::free, press.stops, press.ramp};
             for (double& stop : plan.partial_unloads) stop *= subject.scale.length;
             return dimensionless(
                 source.press(subject.particle, plan, own(options, press.resolution, press.phases)),
@@ -141,8 +158,10 @@ SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
   double done = std::max(slowest_press, first);
   for (double depth : press_depths) {
     depth = std::min(depth, range.depth);
+    if (range.depth < 1.6 * depth) depth = range.depth;  // one that goes a little deeper spares the next
     if (depth < 1.3 * done) continue;
-    SurveyPlan::Press press{depth, between(done, depth, range.stops), 24, 2};
+    SurveyPlan::Press press{depth, between(done, depth, range.stops), 24, 2,
+                            range.brisk ? brisk_ramp(subject, depth) : 0.0};
     if (depth > 0.2) press.resolution = 20, press.phases = 1;  // no pair law is exact there anyway
     plan.presses.push_back(press);
     done = depth;

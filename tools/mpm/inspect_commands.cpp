@@ -61,7 +61,8 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
     fmt::print(" (force within {:.2g} %, e within {:.2g})", 100 * c.atlas_error_force,
                c.atlas_error_restitution);
   fmt::print("\n  support              {}\n", printable(c.support));
-  fmt::print("  solver error         {:.2g} % (force and e, two resolutions)\n", 100 * c.solver_error_force);
+  fmt::print("  solver error         force {:.2g} %, e {:.2g} % (two resolutions)\n",
+             100 * c.solver_error_force, 100 * c.solver_error_restitution);
   fmt::print("  interpolation error  {:.2g} %", 100 * c.interpolation_error);
   if (c.origin == "runs")
     fmt::print(

@@ -148,17 +148,14 @@ void print_certificate(const std::string& name, const BodyLaw& body)
   fmt::print("\n");
 }
 
-/// Says on standard error where sampling ended before the tolerance was reached.
-void warn_of_tolerance(const std::string& name, const BodyLaw& body, double tolerance)
+/// Where sampling ended before the tolerance was reached, a sentence; else nothing.
+std::string tolerance_missed(const std::string& name, const BuiltLaw& built, double tolerance)
 {
-  const Certificate& c = body.certificate;
-  const double worst =
-      std::max({c.held_out_error, c.verification_error_force, c.verification_error_restitution});
-  if (worst > tolerance)
-    fmt::print(stderr,
-               "mpm: {}: sampling ended before --tolerance {:g} was reached: error where nothing was sampled "
-               "{:.2g} (in the law's certificate)\n",
-               name, tolerance, worst);
+  if (built.sampling_error <= tolerance) return {};
+  return fmt::format(
+      "mpm: {}: sampling ended before --tolerance {:g} was reached: error where nothing was sampled {:.2g} "
+      "(in the law's certificate)\n",
+      name, tolerance, built.sampling_error);
 }
 
 /// A flow law as the materials file has it; empty: none.
@@ -292,6 +289,7 @@ void build(const TableRequest& r)
   std::unique_ptr<Farm> farm;  // made when the first run is needed
   ProgressBar bar(rank() == 0);
   std::vector<std::string> remarks;
+  std::string warnings;
   double finished = 0;
   for (const auto& [name, entry] : entries) {
     const bool plain = entry.subject.is_plain();
@@ -314,6 +312,7 @@ void build(const TableRequest& r)
       };
       BuiltLaw built = build_law(entry.material, entry.subject, options);
       law.bodies[name] = std::move(built.law);
+      warnings += tolerance_missed(name, built, options.tolerance);
       remarks.push_back(fmt::format("{}: by {} runs, {} of the densest survey ({})", name, built.runs,
                                     built.runs_full, why));
       for (std::size_t k = 0; k < built.holes.size(); ++k)
@@ -368,6 +367,7 @@ void build(const TableRequest& r)
     options.progress = [&](double done, const std::string& what) { bar.update(done, name + ": " + what); };
     BuiltLaw built = build_two_body_law(bodies_of(pair, law, 1), options);
     law.pair_laws[name] = {std::move(built.law), 1};
+    warnings += tolerance_missed(name, built, options.tolerance);
     for (std::size_t k = 0; k < built.holes.size(); ++k)
       law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
     remarks.push_back(fmt::format(
@@ -392,8 +392,7 @@ void build(const TableRequest& r)
   for (const auto& [name, body] : law.bodies) print_certificate(name, body);
   for (const auto& [name, own] : law.pair_laws) print_certificate(name, own.law);
   if (farm) print_count(farm->count());
-  for (const auto& [name, body] : law.bodies) warn_of_tolerance(name, body, options.tolerance);
-  for (const auto& [name, own] : law.pair_laws) warn_of_tolerance(name, own.law, options.tolerance);
+  fmt::print(stderr, "{}", warnings);
 }
 
 }  // namespace
@@ -422,9 +421,10 @@ void add_table(CLI::App& app)
       "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
       "materials");
   command
-      ->add_option("--tolerance", r->range.tolerance,
-                   "relative error of force and e: of sampling, of the resolution, and below which an axis "
-                   "is left out")
+      ->add_option(
+          "--tolerance", r->range.tolerance,
+          "relative error of force and e (of an e below 0.5, over 0.5): of sampling, of the resolution, "
+          "and below which an axis is left out")
       ->check(from_to(1e-4, 0.5))
       ->capture_default_str();
   command->add_option("--depth", r->range.depth, "largest overlap over the radius, up to 0.5")
