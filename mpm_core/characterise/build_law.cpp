@@ -180,7 +180,7 @@ class Build
   {
     LawShape shape;
     double end = 1;         // overlap up to which it is asked: the first run's, or less
-    bool is_exact = false;  // as good as a run, that is of the atlas alone
+    bool is_exact = false;  // as good as a run: of the atlas alone, for a body of one material
   };
   Guide shallow_guide(double first);
   void heed_early_yield(const Survey& survey);
@@ -395,44 +395,62 @@ Build::Guide Build::shallow_guide(double first)
     if (k <= stiffest) return at_ratio(k);
     return beyond(k, {stiffest, at_ratio(stiffest)}, {0.5 * stiffest, at_ratio(0.5 * stiffest)});
   };
-  const auto of_runs = [&](double k, const ElasticCorrection& elastic) {
-    const Subject softer = softer_sphere(m, k / stiffness);
-    const double reach = 2 * first / subject_.onset;  // delta/delta_onset that the guide must reach
-    SurveyRange survey_range;
-    survey_range.depth = std::min(0.5, std::max(0.0075, reach * softer.onset));
-    survey_range.fastest = 0;
-    survey_range.brisk = brisk();
-    Survey survey;
-    const SurveyPlan plan = plan_survey(softer, survey_range);
-    add_to(survey, plan, run(survey_jobs(softer, plan, source_), done_ + 0.1));
-    return fit_shape(survey, elastic, softer.onset, survey_range.depth)
-        .shape.stretched(range / std::log(survey_range.depth / softer.onset));
+  const auto of_runs = [&](const std::vector<double>& stiffnesses, const ElasticCorrection& elastic) {
+    std::vector<Subject> spheres;
+    std::vector<SurveyRange> ranges;
+    std::vector<RunJob> jobs;
+    for (const double k : stiffnesses) {
+      const Subject& softer = spheres.emplace_back(softer_sphere(m, k / stiffness));
+      const double reach = 2 * first / subject_.onset;  // delta/delta_onset that the guide must reach
+      SurveyRange& of = ranges.emplace_back();
+      of.depth = std::min(0.5, std::max(0.0075, reach * softer.onset));
+      of.fastest = 0, of.stops = 2, of.brisk = brisk();
+      for (RunJob& job : survey_jobs(softer, plan_survey(softer, of), source_))
+        jobs.push_back(std::move(job));
+    }
+    const std::vector<RunOutcome> outcomes = run(jobs, done_ + 0.2);
+    auto next = outcomes.begin();
+    std::vector<LawShape> shapes;
+    for (std::size_t j = 0; j < spheres.size(); ++j) {
+      const SurveyPlan plan = plan_survey(spheres[j], ranges[j]);
+      const auto end = next + static_cast<std::ptrdiff_t>(plan.runs());
+      Survey survey;
+      add_to(survey, plan, {next, end});
+      next = end;
+      const double onset = spheres[j].onset, depth = ranges[j].depth;
+      shapes.push_back(
+          fit_shape(survey, elastic, onset, depth).shape.stretched(range / std::log(depth / onset)));
+    }
+    return shapes;
   };
 
   constexpr double nearly = 0.003;  // of the yield stress: a third of the tolerance of most laws
   constexpr double less_stiff = 170, least_stiff = 85;
   built_.shallow = fmt::format("below delta/R = {:.2g}: ", first);
   LawShape guide = LawShape::zero();
+  bool atlas_alone = false;
   if (known(stiffness) && line.missed < nearly) {
     built_.shallow += fmt::format("atlas, at linear hardening H/E = {:.3g}", line.modulus / m.youngs_modulus);
     guide = of_atlas(stiffness);
-    if (is_sphere) return {guide, first, true};
+    atlas_alone = true;
   } else {
     // an elastic sphere's own is the same at any stiffness
     const ElasticCorrection elastic = is_sphere ? elastic_ : elastic_correction(softer_sphere(m, 1));
-    const LawShape softer = of_runs(less_stiff, elastic);
     built_.shallow += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
     if (known(stiffness) && known(less_stiff)) {
       built_.shallow += "its difference from the atlas";
-      guide.add(1, softer);
+      guide.add(1, of_runs({less_stiff}, elastic)[0]);
       guide.add(1, of_atlas(stiffness));
       guide.add(-1, of_atlas(less_stiff));
     } else {
       built_.shallow += fmt::format("its difference by one of {:g}", least_stiff);
-      guide = beyond(stiffness, {less_stiff, softer}, {least_stiff, of_runs(least_stiff, elastic)});
+      const std::vector<LawShape> softer = of_runs({less_stiff, least_stiff}, elastic);
+      guide = beyond(stiffness, {less_stiff, softer[0]}, {least_stiff, softer[1]});
     }
   }
-  return {is_sphere ? guide : guide.as_skin_of(elastic_, subject_.onset, options_.depth, 2 * first)};
+  if (!is_sphere) guide = guide.as_skin_of(elastic_, subject_.onset, options_.depth, 2 * first);
+  if (atlas_alone && std::isinf(subject_.skin)) return {guide, first, true};
+  return {guide};
 }
 
 /// Error of e at the k-th turning point of the law fitted without it, as it counts.
