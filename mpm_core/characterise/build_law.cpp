@@ -481,7 +481,7 @@ SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey,
       more.slow_impacts.push_back(velocity_to(overlaps[k], subject_));
     } else if (more.presses.empty() || more.presses.back().depth > 4 * overlaps[k]) {
       more.presses.push_back(
-          {overlaps[k], {}, press_cells_, 2, brisk() ? brisk_ramp(subject_, overlaps[k]) : 0.0});
+          {overlaps[k], {}, press_cells_, 2, brisk() ? brisk_ramp(slow_, overlaps[k]) : 0.0});
     } else if (auto& stops = more.presses.back().stops;
                overlaps[k] < 0.88 * (stops.empty() ? more.presses.back().depth : stops.front())) {
       stops.insert(stops.begin(), overlaps[k]);
