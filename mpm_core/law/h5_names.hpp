@@ -99,10 +99,9 @@ inline constexpr Field exponent_correction{"exponent_correction", "1", "N: added
 inline constexpr Field exponent_correction_slope{"exponent_correction_slope", "1", "dN/dxi"};
 
 // bodies/<name>/certificate
-inline constexpr Field solver_error_force{"solver_error_force", "1",
-                                          "relative, two resolutions, treated force"};
+inline constexpr Field solver_error_force{"solver_error_force", "1", "relative, of F, by two resolutions"};
 inline constexpr Field solver_error_restitution{"solver_error_restitution", "1",
-                                                "relative, two resolutions, e"};
+                                                "relative, of e, by two resolutions"};
 inline constexpr Field interpolation_error{"interpolation_error", "1",
                                            "relative, table against the fitted curve it was made from"};
 inline constexpr Field held_out_error{"held_out_error", "1",

@@ -27,8 +27,8 @@ struct LawMaterial
 /// Errors a law states about itself, relative (0.01 is 1 %), and the range it holds for.
 struct Certificate
 {
-  double solver_error_force = 0;        ///< two resolutions, treated force
-  double solver_error_restitution = 0;  ///< two resolutions, e
+  double solver_error_force = 0;        ///< of F, by two resolutions
+  double solver_error_restitution = 0;  ///< of e, by two resolutions
   double interpolation_error = 0;       ///< table against the fitted curve it was made from
   double held_out_error = 0;            ///< largest error of e at a press depth left out of the fit
   double residual_scatter = 0;          ///< rms of the runs about the fit: what the ripple treatment removed
