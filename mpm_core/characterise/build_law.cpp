@@ -163,6 +163,14 @@ class Build
 
  private:
   std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, double until);
+  /// A plan of a body, and the survey that its runs go to.
+  struct SurveyPart
+  {
+    const Subject& subject;
+    SurveyPlan plan;
+    Survey& survey;
+  };
+  void run(const std::vector<SurveyPart>& parts, double until);
   struct Probe
   {
     std::function<RunJob(int cells)> run;
@@ -217,6 +225,21 @@ std::vector<RunOutcome> Build::run(const std::vector<RunJob>& jobs, double until
   for (std::size_t k = 0; k < outcomes.size(); ++k)
     if (outcomes[k].failed()) built_.holes.push_back(jobs[k].label + ": " + outcomes[k].error);
   return outcomes;
+}
+
+/// The same of several plans, as one batch.
+void Build::run(const std::vector<SurveyPart>& parts, double until)
+{
+  std::vector<RunJob> jobs;
+  for (const SurveyPart& part : parts)
+    for (RunJob& job : survey_jobs(part.subject, part.plan, source_)) jobs.push_back(std::move(job));
+  const std::vector<RunOutcome> outcomes = run(jobs, until);
+  auto next = outcomes.begin();
+  for (const SurveyPart& part : parts) {
+    const auto end = next + static_cast<std::ptrdiff_t>(part.plan.runs());
+    add_to(part.survey, part.plan, {next, end});
+    next = end;
+  }
 }
 
 /// What shows the error of a plan's runs: the cheapest of its presses on shifted grids, which the survey
@@ -397,29 +420,25 @@ Build::Guide Build::shallow_guide(double first)
   };
   const auto of_runs = [&](const std::vector<double>& stiffnesses, const ElasticCorrection& elastic) {
     std::vector<Subject> spheres;
-    std::vector<SurveyRange> ranges;
-    std::vector<RunJob> jobs;
+    std::vector<double> depths;
     for (const double k : stiffnesses) {
-      const Subject& softer = spheres.emplace_back(softer_sphere(m, k / stiffness));
+      spheres.push_back(softer_sphere(m, k / stiffness));
       const double reach = 2 * first / subject_.onset;  // delta/delta_onset that the guide must reach
-      SurveyRange& of = ranges.emplace_back();
-      of.depth = std::min(0.5, std::max(0.0075, reach * softer.onset));
-      of.fastest = 0, of.stops = 2, of.brisk = brisk();
-      for (RunJob& job : survey_jobs(softer, plan_survey(softer, of), source_))
-        jobs.push_back(std::move(job));
+      depths.push_back(std::min(0.5, std::max(0.0075, reach * spheres.back().onset)));
     }
-    const std::vector<RunOutcome> outcomes = run(jobs, done_ + 0.2);
-    auto next = outcomes.begin();
+    std::vector<Survey> surveys(spheres.size());
+    std::vector<SurveyPart> parts;
+    for (std::size_t j = 0; j < spheres.size(); ++j) {
+      SurveyRange of;
+      of.depth = depths[j], of.fastest = 0, of.stops = 2, of.brisk = brisk();
+      parts.push_back({spheres[j], plan_survey(spheres[j], of), surveys[j]});
+    }
+    run(parts, done_ + 0.2);
     std::vector<LawShape> shapes;
     for (std::size_t j = 0; j < spheres.size(); ++j) {
-      const SurveyPlan plan = plan_survey(spheres[j], ranges[j]);
-      const auto end = next + static_cast<std::ptrdiff_t>(plan.runs());
-      Survey survey;
-      add_to(survey, plan, {next, end});
-      next = end;
-      const double onset = spheres[j].onset, depth = ranges[j].depth;
-      shapes.push_back(
-          fit_shape(survey, elastic, onset, depth).shape.stretched(range / std::log(depth / onset)));
+      const double onset = spheres[j].onset;
+      shapes.push_back(fit_shape(surveys[j], elastic, onset, depths[j])
+                           .shape.stretched(range / std::log(depths[j] / onset)));
     }
     return shapes;
   };
@@ -628,13 +647,7 @@ void Build::plastic()
     impacts.resolution = impact_cells_;
     plan.fast_speeds.clear();
     plan.resolution = press_cells_;
-    const std::vector<RunJob> slow_jobs = survey_jobs(slow_, plan, source_);
-    std::vector<RunJob> jobs = survey_jobs(subject_, impacts, source_);
-    jobs.insert(jobs.begin(), slow_jobs.begin(), slow_jobs.end());
-    const std::vector<RunOutcome> outcomes = run(jobs, done_ + 0.7 * (0.9 - done_));
-    const auto split = outcomes.begin() + static_cast<std::ptrdiff_t>(slow_jobs.size());
-    add_to(survey, plan, {outcomes.begin(), split});
-    add_to(survey, impacts, {split, outcomes.end()});
+    run({{slow_, plan, survey}, {subject_, impacts, survey}}, done_ + 0.7 * (0.9 - done_));
     if (!subject_.particle.is_homogeneous_sphere()) heed_early_yield(survey);
     fitted = fit(survey, guide);
     for (const Pressing& p : survey.slow) tried_overlaps.push_back(p.depth);

@@ -14,9 +14,8 @@ struct BuildOptions
   double fastest = 0.25;  ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
   double slowest = 0;  ///< of a rate-dependent body: sqrt(I) of the slowest impact that its law must know; 0:
                        ///< a fiftieth of `fastest`. Not below the onset of yield, where rates change nothing
-  /// Of force and of e, relative, or of e < 0.5 over 0.5: an e of 0.07 is known to 0.005 where F is known to
-  /// 1
-  /// %. The resolution is raised until two of them agree to it, sampling refined until it adds no more.
+  /// Relative, of force and of e, but of an e below 0.5 over 0.5: an e of 0.07 is then known to 0.005. Two
+  /// resolutions must agree to this, and sampling is refined until it adds no more.
   double tolerance = 0.01;
   const Atlas* atlas = nullptr;  ///< spares runs where a stiff body begins to yield; none: nothing but runs
   Farm* farm = nullptr;          ///< makes the runs; none: this thread

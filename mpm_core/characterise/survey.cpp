@@ -19,6 +19,9 @@ constexpr double first_yielded =
 /// still spans about half the cells.
 constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
 
+/// Overlap beyond which no pair law is exact, so that fewer cells and one grid will do.
+constexpr double exact_end = 0.2;
+
 /// Single precision changes e and F by less than 1e-6 and takes two thirds of the time.
 constexpr Precision precision = Precision::single;
 
@@ -158,11 +161,12 @@ SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
   double done = std::max(slowest_press, first);
   for (double depth : press_depths) {
     depth = std::min(depth, range.depth);
-    if (range.depth < 1.6 * depth) depth = range.depth;  // one that goes a little deeper spares the next
+    if (range.depth <= exact_end && range.depth < 1.6 * depth)
+      depth = range.depth;  // one that goes a little deeper spares the next
     if (depth < 1.3 * done) continue;
     SurveyPlan::Press press{depth, between(done, depth, range.stops), 24, 2,
                             range.brisk ? brisk_ramp(subject, depth) : 0.0};
-    if (depth > 0.2) press.resolution = 20, press.phases = 1;  // no pair law is exact there anyway
+    if (depth > exact_end) press.resolution = 20, press.phases = 1;
     plan.presses.push_back(press);
     done = depth;
   }

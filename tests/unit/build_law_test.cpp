@@ -152,10 +152,18 @@ TEST(BuildLaw, FindsTheLawThatItsRunsReplay)
   }
 }
 
-/// How many runs had so many cells.
-long with(int cells, const std::vector<KnownSphere::Asked>& runs)
+/// Of one kind of runs 24 cells were not enough and 34 were, of the other 24. `least`: runs of 34 cells.
+void expect_more_cells(const std::vector<KnownSphere::Asked>& finer,
+                       const std::vector<KnownSphere::Asked>& other, long least)
 {
-  return std::count_if(runs.begin(), runs.end(), [&](const auto& run) { return run.cells == cells; });
+  const auto with = [&](int cells) {
+    return std::count_if(finer.begin(), finer.end(), [&](const auto& run) { return run.cells == cells; });
+  };
+  for (const auto& run : other) EXPECT_LE(run.cells, 24);
+  EXPECT_EQ(with(17), 1);  // compared
+  EXPECT_EQ(with(24), 2);  // compared, once with 17 and once with 34
+  EXPECT_GE(with(34), least);
+  EXPECT_EQ(with(17) + with(24) + with(34), static_cast<long>(finer.size()));
 }
 
 // Between 34 cells and 24 a force off by 1 % (24/cells)^2 changes by 0.5 %, and 1.25 or 1.5 times that is
@@ -165,12 +173,7 @@ TEST(BuildLaw, ImpactsGetTheCellsThatTheirErrorAsksFor)
   KnownSphere sphere;
   sphere.peak_error = 0.01;
   sphere.build(0.01);
-  for (const auto& press : sphere.presses) EXPECT_LE(press.cells, 24);
-  const auto& impacts = sphere.impacts;
-  EXPECT_EQ(with(17, impacts), 1);  // compared
-  EXPECT_EQ(with(24, impacts), 2);  // compared, once with 17 and once with 34
-  EXPECT_GE(with(34, impacts), 7);  // compared, the survey's three or more, three that check the law
-  EXPECT_EQ(with(17, impacts) + with(24, impacts) + with(34, impacts), static_cast<long>(impacts.size()));
+  expect_more_cells(sphere.impacts, sphere.presses, 7);  // compared, three of the survey, three that check
 }
 
 TEST(BuildLaw, PressesGetTheCellsThatTheirErrorAsksFor)
@@ -178,12 +181,21 @@ TEST(BuildLaw, PressesGetTheCellsThatTheirErrorAsksFor)
   KnownSphere sphere;
   sphere.press_error = 0.01;
   sphere.build(0.01);
-  for (const auto& impact : sphere.impacts) EXPECT_LE(impact.cells, 24);
-  const auto& presses = sphere.presses;
-  EXPECT_EQ(with(17, presses), 1);
-  EXPECT_EQ(with(24, presses), 2);
-  EXPECT_GE(with(34, presses), 4);  // compared, the survey's
-  EXPECT_EQ(with(17, presses) + with(24, presses) + with(34, presses), static_cast<long>(presses.size()));
+  expect_more_cells(sphere.presses, sphere.impacts, 4);  // compared, the survey's
+}
+
+/// A press of one grid and fewer cells is only for overlaps that no pair law is exact at.
+TEST(PlanSurvey, CoarsePressesBeginBeyondTheOthers)
+{
+  for (const double depth : {0.05, 0.2, 0.205, 0.21, 0.3, 0.5}) {
+    SurveyRange range;
+    range.depth = depth, range.stops = 2;
+    for (const SurveyPlan::Press& press : plan_survey(subject_of(100, 0.3, 0), range).presses)
+      if (press.stops.front() < 0.1) {
+        EXPECT_EQ(press.phases, 2) << press.depth << " of " << depth;
+        EXPECT_EQ(press.resolution, 24) << press.depth << " of " << depth;
+      }
+  }
 }
 
 TEST(BuildLaw, AFineToleranceGetsTheSolversOwnRamp)
