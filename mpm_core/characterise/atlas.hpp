@@ -25,11 +25,11 @@ struct MaterialRatios
 struct AtlasGrid
 {
   double main_poisson_ratio = 0.3;
-  std::vector<double> stiffnesses{20, 27, 35, 47, 60, 80, 110, 150, 200, 283, 400, 600, 900, 2000, 5000};
+  std::vector<double> stiffnesses{20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 283, 400, 600, 900, 2000, 5000};
   /// H/E; what is too weak to be seen at a stiffness is left out there.
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.15, 0.3};
 
-  std::vector<double> block_stiffnesses{20, 27, 35, 47, 60, 80, 110, 150, 200, 400, 600, 900, 5000};
+  std::vector<double> block_stiffnesses{20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 400, 600, 900, 5000};
   /// Up to here the block tells turns and inertia; stiffer ones the loading alone. Their e is known to 0.003
   /// (24 cells, two grids), which is what another ratio changes there.
   static constexpr double block_turning_end = 900;

@@ -56,6 +56,7 @@ const LawShape* shape_in(const KnownAtlas& known, const MaterialRatios& m)
 SurveyPlan plan_for(const MaterialRatios& m, const KnownAtlas& known)
 {
   SurveyPlan plan = plan_survey(sphere_of(m), {});
+  plan.ringing_resolution = 36;
   if (shape_in(known, m)) {
     plan.presses.clear(), plan.slow_impacts.clear();
     if (!known.impacts_anew) plan.fast_speeds.clear();

@@ -10,9 +10,9 @@
 #include "base/error.hpp"
 #include "characterise/fit_curve.hpp"
 #include "characterise/interpolation.hpp"
+#include "characterise/shallow_guide.hpp"
 #include "law/replay.hpp"
 #include "solver/accuracy.hpp"
-#include "solver/flow_laws.hpp"
 #include "solver/ripple.hpp"
 
 namespace granulaw {
@@ -66,6 +66,17 @@ double error_of_peak(const RunResult& fine, const RunResult& coarse)
   const RunSummary &f = fine.summary, &c = coarse.summary;
   return std::max(
       {1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * f.ripple, 0.0035 * 24 / f.resolution});
+}
+
+/// The same of a body whose force falls with its rate before the turn: that, too, is scatter about the fit
+/// that tells the ripple, but both resolutions have it. Ripple falls as cells^1.65.
+double error_of_rated_peak(const RunResult& fine, const RunResult& coarse)
+{
+  const RunSummary &f = fine.summary, &c = coarse.summary;
+  const double fall = std::pow(static_cast<double>(c.resolution) / f.resolution, 2 * 1.65);
+  const double ripple =
+      std::sqrt(std::max(0.0, c.ripple * c.ripple - f.ripple * f.ripple) * fall / (1 - fall));
+  return std::max({1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * ripple, 0.0035 * 24 / f.resolution});
 }
 
 /// The same of a press's loading, where a law is fitted to it. The law passes through the ripple, which is no
@@ -155,6 +166,10 @@ class Build
         source_(source)
   {
     built_.law.material = material;
+    const bool linear = subject.particle.materials[0].hardening.name.empty();
+    if (subject.rate_dependent() && subject.particle.is_homogeneous_sphere() && linear && options.atlas)
+      if (const MaterialRatios ratios = MaterialRatios::of(material); options.atlas->why_not(ratios).empty())
+        known_ = options.atlas->shape(ratios);
   }
 
   void elastic();
@@ -162,12 +177,14 @@ class Build
   BuiltLaw take() { return std::move(built_); }
 
  private:
+  /// Where the shape's functions of u end.
+  double shape_end() const { return known_ ? Atlas::depth : options_.depth; }
   std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, double until);
   /// A plan of a body, and the survey that its runs go to.
   struct SurveyPart
   {
     const Subject& subject;
-    SurveyPlan plan;
+    const SurveyPlan& plan;
     Survey& survey;
   };
   void run(const std::vector<SurveyPart>& parts, double until);
@@ -181,18 +198,11 @@ class Build
   void choose_resolutions(std::vector<Probe> probes);
   /// What shorter ramps change is a tenth of a per cent.
   bool brisk() const { return options_.tolerance >= 0.005; }
-  RunJob elastic_press(const Subject& subject) const;
-  ElasticCorrection elastic_correction(const Subject& subject);
-  /// What tells the law where runs would be too shallow.
-  struct Guide
-  {
-    LawShape shape;
-    double end = 1;         // overlap up to which it is asked: the first run's, or less
-    bool is_exact = false;  // as good as a run: of the atlas alone, for a body of one material
-  };
-  Guide shallow_guide(double first);
+  RunJob elastic_press() const;
+  ElasticCorrection elastic_correction();
+  std::optional<ShallowGuide> shallow_guide(double first) const;
   void heed_early_yield(const Survey& survey);
-  FittedShape fit(const Survey& survey, const std::optional<Guide>& guide) const;
+  FittedShape fit(const Survey& survey, const std::optional<ShallowGuide>& guide) const;
   SurveyPlan refinement(const FittedShape& fitted, const Survey& survey, const std::vector<double>& overlaps,
                         const std::vector<double>& speeds) const;
   std::vector<double> more_speeds(const std::vector<LawShape::Inertia>& found,
@@ -206,6 +216,7 @@ class Build
   Subject slow_;     ///< the body at no rate: its law is the rate-free one, the speed axis brings the rate in
   const BuildOptions& options_;
   const RunSource& source_;
+  std::optional<LawShape> known_;  ///< a rate-dependent body's law at no rate, where the atlas tells it
   ElasticCorrection elastic_;
   int press_cells_ = resolutions[0], impact_cells_ = resolutions[0];
   double done_ = 0;
@@ -252,7 +263,7 @@ std::vector<Build::Probe> Build::probes(const SurveyPlan& plan)
   probes.push_back({[this, velocity = speed * std::sqrt(subject_.yield)](int cells) {
                       return impact_job(subject_, velocity, cells, fast_phases, source_);
                     },
-                    error_of_peak, &impact_cells_});
+                    subject_.rate_dependent() ? error_of_rated_peak : error_of_peak, &impact_cells_});
   const auto cost = [&](const SurveyPlan::Press& press) {
     return press.phases > 1 ? press_job(slow_, press, source_).cost : std::numeric_limits<double>::infinity();
   };
@@ -277,8 +288,8 @@ void Build::choose_resolutions(std::vector<Probe> probes)
     std::vector<RunJob> jobs;
     for (const Probe& probe : probes)
       for (const int cells : {resolution, coarse_partner(resolution)}) jobs.push_back(probe.run(cells));
-    const bool elastic = subject_.yields() && resolution == resolutions[0];
-    if (elastic) jobs.push_back(elastic_press(subject_));
+    const bool elastic = subject_.yields() && !known_ && resolution == resolutions[0];
+    if (elastic) jobs.push_back(elastic_press());
     const std::vector<RunOutcome> outcomes = run(jobs, 0.05);
     for (const RunOutcome& outcome : outcomes)
       if (outcome.failed()) fail("mpm table", "one of the first runs fails: " + outcome.error);
@@ -299,7 +310,7 @@ void Build::choose_resolutions(std::vector<Probe> probes)
     }
     probes = open;
     if (probes.empty()) {
-      if (subject_.yields() && press_cells_ > resolutions[0]) elastic_ = elastic_correction(subject_);
+      if (subject_.yields() && !known_ && press_cells_ > resolutions[0]) elastic_ = elastic_correction();
       return;
     }
   }
@@ -307,15 +318,14 @@ void Build::choose_resolutions(std::vector<Probe> probes)
        fmt::format("{:.2g}", reached), fmt::format("{:.2g} or more", reached));
 }
 
-RunJob Build::elastic_press(const Subject& subject) const
+RunJob Build::elastic_press() const
 {
-  const double depth = std::clamp(1.5 * subject.onset, 0.02, 0.04);
-  return press_job(subject.elastic(), {depth, {}, press_cells_, 2}, source_);
+  return press_job(subject_.elastic(), elastic_press_of(subject_, press_cells_), source_);
 }
 
-ElasticCorrection Build::elastic_correction(const Subject& subject)
+ElasticCorrection Build::elastic_correction()
 {
-  const RunOutcome outcome = run({elastic_press(subject)}, done_ + 0.05)[0];
+  const RunOutcome outcome = run({elastic_press()}, done_ + 0.05)[0];
   if (outcome.failed()) fail("mpm table", "the elastic press fails: " + outcome.error);
   return fit_elastic(pressing_from(outcome.result));
 }
@@ -329,147 +339,27 @@ void Build::heed_early_yield(const Survey& survey)
     if (p.work_ratio < 1 - lost) subject_.onset = std::min(subject_.onset, 0.7 * p.depth);
 }
 
-FittedShape Build::fit(const Survey& survey, const std::optional<Guide>& guide) const
+/// What tells the law below `first`, the overlap of the shallowest run planned, if that is far from the
+/// onset.
+std::optional<ShallowGuide> Build::shallow_guide(double first) const
 {
+  if (known_ || first <= 2 * subject_.onset) return {};
+  ShallowGuide::Needs needs;
+  needs.first = first, needs.depth = options_.depth;
+  needs.brisk = brisk(), needs.press_cells = press_cells_;
+  return ShallowGuide(subject_, needs, options_.atlas);
+}
+
+FittedShape Build::fit(const Survey& survey, const std::optional<ShallowGuide>& guide) const
+{
+  if (known_) {
+    FittedShape fitted{*known_, {}};
+    fitted.shape.inertia = fit_inertia(survey.fast, survey.rate, *known_, subject_.onset, shape_end());
+    return fitted;
+  }
   if (!guide) return fit_shape(survey, elastic_, subject_.onset, options_.depth);
-  return fit_shape(survey, elastic_, subject_.onset, options_.depth, &guide->shape, guide->end);
-}
-
-/// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones
-/// too: hardening is the same at strains over Y/E*.
-Subject softer_sphere(Material m, double share)
-{
-  m = with_strains_stretched(m, 1 / share);
-  m.youngs_modulus *= share;
-  m.rate = {};
-  return subject_of(m);
-}
-
-/// Linear hardening d(sigma_y)/d(ep) of least squares through the yield stress, over plastic strains up to
-/// `strain`; what it misses, largest, over the yield stress.
-struct NearlyLinear
-{
-  double modulus, missed;
-};
-
-NearlyLinear linear_hardening(const Material& m, double strain)
-{
-  constexpr int steps = 50;
-  double moment = 0, squares = 0;
-  for (int k = 1; k <= steps; ++k) {
-    const double ep = strain * k / steps;
-    moment += ep * (flow_stress(m, ep) - m.yield_stress), squares += ep * ep;
-  }
-  NearlyLinear line{moment / squares, 0};
-  for (int k = 1; k <= steps; ++k) {
-    const double ep = strain * k / steps;
-    line.missed = std::max(line.missed, std::abs(flow_stress(m, ep) - m.yield_stress - line.modulus * ep));
-  }
-  line.missed /= m.yield_stress;
-  return line;
-}
-
-/// A law's shape as linear in Y/E*, by those of two less stiff spheres, each after its E*/Y.
-using OfStiffness = std::pair<double, LawShape>;
-LawShape beyond(double stiffness, const OfStiffness& a, const OfStiffness& b)
-{
-  const double slope = (1 / stiffness - 1 / a.first) / (1 / a.first - 1 / b.first);
-  LawShape shape = LawShape::zero();
-  shape.add(1 + slope, a.second);
-  shape.add(-slope, b.second);
-  return shape;
-}
-
-/// Where runs near the onset of yield would need cells a thousandth of R, a less stiff sphere's law holds at
-/// the same delta/delta_onset, but for a term in Y/E*, which two of them tell (atlas_build.hpp). Of a body of
-/// another shape the contact sees the curvature at the pole only, of one of several materials its skin. The
-/// atlas tells the term without runs, and all of it if hardening is linear as far as these overlaps strain
-/// the material.
-Build::Guide Build::shallow_guide(double first)
-{
-  const Material& m = subject_.particle.materials[static_cast<std::size_t>(subject_.pole_material)];
-  // Contact radii to the skin: what lies below changes the elastic part, which the body's own press tells.
-  constexpr double least_skin = 3;
-  const double skin = least_skin * std::sqrt(2 * first);
-  if (subject_.skin < skin || pole_onset(subject_) > subject_.onset)
-    fail("contact law",
-         "yields at overlaps too small to be run: there the body's law is that of its skin, which must yield "
-         "first and be thick",
-         fmt::format("onset at delta/R = {:.2g}, at the pole {:.2g}, skin {:.2g} R", subject_.onset,
-                     pole_onset(subject_), subject_.skin),
-         fmt::format("an onset of about 1e-4 or more, or a skin of {:.2g} R", skin));
-  const bool is_sphere = subject_.particle.is_homogeneous_sphere();
-  const double stiffness = subject_.scale.stress / m.yield_stress;
-  const double range = std::log(options_.depth / subject_.onset);
-  // Tabor's representative strain is a fifth of a/R; near the edge of the contact it is more than twice that
-  const NearlyLinear line = linear_hardening(m, 0.5 * std::sqrt(2 * first));
-  const auto ratios = [&](double k) {
-    return MaterialRatios{k, m.poisson_ratio, line.modulus / m.youngs_modulus};
-  };
-  const double stiffest = options_.atlas ? options_.atlas->grid().stiffnesses.back() : 0;
-  const auto known = [&](double k) {
-    return options_.atlas && options_.atlas->why_not(ratios(std::min(k, stiffest))).empty();
-  };
-  const auto at_ratio = [&](double k) {
-    const double onset = subject_of(k, m.poisson_ratio, 0).onset;
-    return options_.atlas->shape(ratios(k)).stretched(range / std::log(Atlas::depth / onset));
-  };
-  const auto of_atlas = [&](double k) {
-    if (k <= stiffest) return at_ratio(k);
-    return beyond(k, {stiffest, at_ratio(stiffest)}, {0.5 * stiffest, at_ratio(0.5 * stiffest)});
-  };
-  const auto of_runs = [&](const std::vector<double>& stiffnesses, const ElasticCorrection& elastic) {
-    std::vector<Subject> spheres;
-    std::vector<double> depths;
-    for (const double k : stiffnesses) {
-      spheres.push_back(softer_sphere(m, k / stiffness));
-      const double reach = 2 * first / subject_.onset;  // delta/delta_onset that the guide must reach
-      depths.push_back(std::min(0.5, std::max(0.0075, reach * spheres.back().onset)));
-    }
-    std::vector<Survey> surveys(spheres.size());
-    std::vector<SurveyPart> parts;
-    for (std::size_t j = 0; j < spheres.size(); ++j) {
-      SurveyRange of;
-      of.depth = depths[j], of.fastest = 0, of.stops = 2, of.brisk = brisk();
-      parts.push_back({spheres[j], plan_survey(spheres[j], of), surveys[j]});
-    }
-    run(parts, done_ + 0.2);
-    std::vector<LawShape> shapes;
-    for (std::size_t j = 0; j < spheres.size(); ++j) {
-      const double onset = spheres[j].onset;
-      shapes.push_back(fit_shape(surveys[j], elastic, onset, depths[j])
-                           .shape.stretched(range / std::log(depths[j] / onset)));
-    }
-    return shapes;
-  };
-
-  constexpr double nearly = 0.003;  // of the yield stress: a third of the tolerance of most laws
-  constexpr double less_stiff = 170, least_stiff = 85;
-  built_.shallow = fmt::format("below delta/R = {:.2g}: ", first);
-  LawShape guide = LawShape::zero();
-  bool atlas_alone = false;
-  if (known(stiffness) && line.missed < nearly) {
-    built_.shallow += fmt::format("atlas, at linear hardening H/E = {:.3g}", line.modulus / m.youngs_modulus);
-    guide = of_atlas(stiffness);
-    atlas_alone = true;
-  } else {
-    // an elastic sphere's own is the same at any stiffness
-    const ElasticCorrection elastic = is_sphere ? elastic_ : elastic_correction(softer_sphere(m, 1));
-    built_.shallow += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
-    if (known(stiffness) && known(less_stiff)) {
-      built_.shallow += "its difference from the atlas";
-      guide.add(1, of_runs({less_stiff}, elastic)[0]);
-      guide.add(1, of_atlas(stiffness));
-      guide.add(-1, of_atlas(less_stiff));
-    } else {
-      built_.shallow += fmt::format("its difference by one of {:g}", least_stiff);
-      const std::vector<LawShape> softer = of_runs({less_stiff, least_stiff}, elastic);
-      guide = beyond(stiffness, {less_stiff, softer[0]}, {least_stiff, softer[1]});
-    }
-  }
-  if (!is_sphere) guide = guide.as_skin_of(elastic_, subject_.onset, options_.depth, 2 * first);
-  if (atlas_alone && std::isinf(subject_.skin)) return {guide, first, true};
-  return {guide};
+  const LawShape shape = guide->shape(elastic_);
+  return fit_shape(survey, elastic_, subject_.onset, options_.depth, &shape, guide->end());
 }
 
 /// Error of e at the k-th turning point of the law fitted without it, as it counts.
@@ -560,10 +450,9 @@ void Build::verify(const std::vector<double>& speeds)
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     if (outcomes[k].failed()) continue;
     const RunSummary& run = outcomes[k].result.summary;
-    const double found = subject_.rate_dependent() ? force_at_turn(outcomes[k].result.trace) : run.force_max;
     const Replay replay = replay_collision(wall, unit.length, subject_.mass * unit.mass(),
                                            speeds[k] * std::sqrt(subject_.yield) * unit.velocity());
-    const double force = std::abs(replay.force_max / unit.force() / found - 1),
+    const double force = std::abs(replay.force_max / unit.force() / run.force_max - 1),
                  e = std::abs(replay.restitution / run.restitution - 1);
     c.verification_error_force = std::max(c.verification_error_force, force);
     c.verification_error_restitution = std::max(c.verification_error_restitution, e);
@@ -617,6 +506,9 @@ void Build::plastic()
   range.stops = 2;
   range.speeds = coarse_speeds;
   SurveyPlan plan = plan_survey(slow_, range);
+  const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
+                                                 : expected_depth(plan.slow_impacts.front(), slow_);
+  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
   choose_resolutions(probes(plan));
   for (SurveyPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
   // The fastest asked for is always run: nothing may be extrapolated.
@@ -628,12 +520,9 @@ void Build::plastic()
     full.fast_speeds = by_factors(slowest, options_.fastest, std::sqrt(2.2));
   }
 
-  std::optional<Guide> guide;
-  const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
-                                                 : expected_depth(plan.slow_impacts.front(), slow_);
-  if (first > 2 * subject_.onset) guide = shallow_guide(first);
-  // the first impact would show what the atlas knows, for a third of the time
-  if (guide && guide->is_exact && !plan.slow_impacts.empty())
+  std::optional<ShallowGuide> guide = shallow_guide(first);
+  // the first impact would show what is known then, for a third of the time
+  if (guide && guide->spares_first() && !plan.slow_impacts.empty())
     plan.slow_impacts.erase(plan.slow_impacts.begin());
 
   Survey survey;
@@ -647,7 +536,11 @@ void Build::plastic()
     impacts.resolution = impact_cells_;
     plan.fast_speeds.clear();
     plan.resolution = press_cells_;
-    run({{slow_, plan, survey}, {subject_, impacts, survey}}, done_ + 0.7 * (0.9 - done_));
+    std::vector<SurveyPart> parts{{slow_, plan, survey}, {subject_, impacts, survey}};
+    if (guide && round == 0)
+      for (ShallowGuide::Sphere& sphere : guide->spheres())
+        parts.push_back({sphere.subject, sphere.plan, sphere.found});
+    run(parts, done_ + 0.7 * (0.9 - done_));
     if (!subject_.particle.is_homogeneous_sphere()) heed_early_yield(survey);
     fitted = fit(survey, guide);
     for (const Pressing& p : survey.slow) tried_overlaps.push_back(p.depth);
@@ -656,17 +549,25 @@ void Build::plastic()
     if (plan.runs() == 0) break;
   }
   built_.runs_full = full.runs();
+  if (guide) {
+    built_.shallow = guide->how();
+    for (const ShallowGuide::Sphere& sphere : guide->spheres()) built_.runs_full += sphere.plan.runs();
+  }
 
   Certificate& c = law_.certificate;
   c.max_inertia = options_.fastest * options_.fastest;
   c.reload_loop_area = survey.reload_loop;
   c.residual_scatter = fitted.quality.scatter;
   c.held_out_error = fitted.quality.held_out;
+  if (known_) {
+    built_.rate_free = "from the atlas";
+    c.atlas_error_force = options_.atlas->claimed_force();
+    c.atlas_error_restitution = options_.atlas->claimed_restitution();
+  }
   for (std::size_t k = 0; k < survey.slow.size(); ++k)
     built_.sampling_error = std::max(built_.sampling_error, held_out(fitted, survey, k));
-  c.interpolation_error = finish_curve(law_, fitted.shape, subject_, options_, options_.depth);
-  built_.change_of_restitution =
-      change_of_restitution(fitted.shape, subject_.onset, options_.depth, law_.curve);
+  c.interpolation_error = finish_curve(law_, fitted.shape, subject_, options_, shape_end());
+  built_.change_of_restitution = change_of_restitution(fitted.shape, subject_.onset, shape_end(), law_.curve);
   if (options_.fastest > 0) {
     const double fastest = std::sqrt(c.max_inertia);
     std::vector<double> speeds;

@@ -27,8 +27,9 @@ struct BuiltLaw
 {
   BodyLaw law;
   std::vector<std::string>
-      holes;            ///< runs that failed twice, each with its sentence: the law has no sample there
-  std::string shallow;  ///< where the law comes from at overlaps too small to be run; empty: there are none
+      holes;              ///< runs that failed twice, each with its sentence: the law has no sample there
+  std::string shallow;    ///< where the law comes from at overlaps too small to be run; empty: there are none
+  std::string rate_free;  ///< where a rate-dependent body's law at no rate comes from; empty: from runs
   double change_of_restitution = 0;  ///< largest relative change of the fitted e that admissibility took
   double sampling_error = 0;         ///< largest where nothing was sampled, as it counts for the tolerance
   std::size_t runs = 0;              ///< that the adaptive survey asked for

@@ -105,9 +105,9 @@ std::vector<double> sampled(const SmoothSpline& spline, double q_end)
 /// ln(F/F_press) of an impact at shares of its overlap: a least-squares polynomial in sqrt(share), which
 /// cannot follow the ripple, but follows the body's ringing: with six terms F_max of 314 checks was off by
 /// 0.40 % (rms), with eight by 0.37, with ten by 0.36. Below the first share that the grid resolves it keeps
-/// its value. At its turn it has the impact's peak, where that is wanted: which takes 700 checks of F_max
-/// from 0.27 % off to 0.23.
-std::vector<double> inertia_force(const Pressing& impact, const auto& press_force, bool peak_at_turn)
+/// its value. At its turn it has the impact's peak: which takes 700 checks of F_max from 0.27 % off to 0.23.
+/// A rate-dependent impact peaks before it turns, and falls; a law rises until then.
+std::vector<double> inertia_force(const Pressing& impact, const auto& press_force)
 {
   constexpr int terms = 10;
   constexpr double first = 0.04;
@@ -133,7 +133,7 @@ std::vector<double> inertia_force(const Pressing& impact, const auto& press_forc
     for (int k = 0; k < terms; ++k) value += c(k) * basis(share, k);
     values.push_back(value);
   }
-  if (peak_at_turn && impact.peak > 0) values.back() = std::log(impact.peak / press_force(impact.depth));
+  if (impact.peak > 0) values.back() = std::log(impact.peak / press_force(impact.depth));
   return values;
 }
 
@@ -215,7 +215,7 @@ std::vector<LawShape::Inertia> fit_inertia(std::span<const Survey::Impact> impac
           0.0, residual_as_long(impact.unloading, impact.turn_force,
                                 std::max(0.0, elastic_foot(slow.elastic, impact.depth) + foot.value(q))));
     LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
-                              inertia_force(impact, press_force, !rate)};  // a rate's peak comes before
+                              inertia_force(impact, press_force)};
     // Where next to nothing is lost the ratios mean nothing, and little where little is.
     const auto change = [](double fast, double press) {
       return press > least_lost ? (fast / press - 1) / (1 + std::pow(loss_noise / press, 2)) : 0.0;

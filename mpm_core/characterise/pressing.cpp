@@ -157,17 +157,6 @@ Pressing pressing_from(const RunResult& result)
   return press;
 }
 
-double force_at_turn(const std::vector<TraceSample>& trace)
-{
-  double depth = 0, sum = 0;
-  int count = 0;
-  for (const TraceSample& t : trace)
-    if (t.branch == Branch::load) depth = std::max(depth, t.delta);
-  for (const TraceSample& t : trace)
-    if (t.branch == Branch::load && t.delta >= 0.995 * depth) sum += t.force, ++count;
-  return count ? sum / count : 0;
-}
-
 std::vector<Pressing> partial_unloadings(const RunResult& result, double& loop)
 {
   std::vector<Pressing> turns;

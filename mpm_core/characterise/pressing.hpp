@@ -46,11 +46,6 @@ struct Pressing
 /// Takes a run of a sphere of unit radius, density and E* apart: its loading and its last unloading.
 Pressing pressing_from(const RunResult& result);
 
-/// Mean force of the loading samples within half a per cent below the largest overlap, in the trace's units.
-/// The largest force that a law has of a rate-dependent body: its flow stress falls with its speed, so the
-/// force is largest before the turn (a summary's `force_max`), by 0.8 % at C = 0.03 of Johnson and Cook.
-double force_at_turn(const std::vector<TraceSample>& trace);
-
 /// The partial unloadings of such a press, in order; without its last. `loop` is raised to the largest area
 /// between a partial unloading and its reloading over the work put in until then.
 std::vector<Pressing> partial_unloadings(const RunResult& result, double& loop);

@@ -133,9 +133,11 @@ RunJob impact_job(const Subject& subject, double velocity, int resolution, int p
                   const RunSource& source)
 {
   const double depth = expected_depth(velocity, subject);
+  // an elastic contact lasts 2.94 depth/velocity; what does not rebound, pi/2
+  const bool yields_much = depth > 20 * subject.onset;
   return {fmt::format("impact at {:.3g} c*", velocity),
           key(subject, resolution, phases, fmt::format("impact velocity={:.17g}", velocity)),
-          cost_of(subject, depth, 2 * depth / velocity, resolution, phases),
+          cost_of(subject, depth, (yields_much ? 1.6 : 2.9) * depth / velocity, resolution, phases),
           [subject, velocity, resolution, phases, &source](const RunOptions& options) {
             return dimensionless(source.impact(subject.particle, velocity * subject.scale.velocity(),
                                                own(options, resolution, phases)),
@@ -189,7 +191,7 @@ std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, 
   for (const double v : plan.slow_impacts)
     jobs.push_back(impact_job(subject, v, plan.resolution, plan.phases, source));
   for (const double v : plan.fast_speeds)
-    jobs.push_back(impact_job(subject, v * std::sqrt(subject.yield), plan.resolution, fast_phases, source));
+    jobs.push_back(impact_job(subject, v * std::sqrt(subject.yield), plan.cells_at(v), fast_phases, source));
   return jobs;
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "characterise/interpolation.hpp"
 #include "characterise/law_shape.hpp"
+#include "law/cubic.hpp"
 
 namespace granulaw {
 
@@ -101,14 +102,52 @@ std::vector<double> slopes_of(const std::vector<double>& y, double h)
   return slope;
 }
 
+/// Corrections of the force at the nodes, raised where it would fall: towards its turn an impact loses speed
+/// and with it rate, and a law's loading force rises. Returns the last node raised, 0: none.
+std::size_t keep_rising(std::vector<double>& correction, const ContactCurve& slow, double x_reach)
+{
+  double most = 0;
+  std::size_t last = 0;
+  for (std::size_t l = 1; l < correction.size(); ++l) {
+    const double press = slow.loading(share_spacing * static_cast<double>(l) * x_reach).force;
+    constexpr double least_rise = 1e-4;  // a node, of the force
+    const double force = (1 + correction[l]) * press, least = most * (1 + least_rise);
+    if (force < least) correction[l] = least / press - 1, last = l;
+    most = std::max(force, least);
+  }
+  return last;
+}
+
+/// What lies between the nodes, as the table has it.
+class BetweenNodes
+{
+ public:
+  explicit BetweenNodes(const std::vector<double>& nodes)
+      : nodes_(nodes), slopes_(slopes_of(nodes, share_spacing))
+  {
+  }
+  double operator()(double xi) const
+  {
+    const double place = xi / share_spacing;
+    const auto l = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);
+    double c[4];
+    hermite(c, nodes_[l], nodes_[l + 1], share_spacing * slopes_[l], share_spacing * slopes_[l + 1]);
+    return cubic(c, std::min(1.0, place - static_cast<double>(l)));
+  }
+
+ private:
+  std::vector<double> nodes_, slopes_;
+};
+
 /// One slice: the corrections of a contact that latched X.
 struct Slice
 {
   std::vector<double> force, residual, exponent;
+  std::size_t last_raised = 0;  // node up to which a rate's force was kept rising
 };
 
 Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& slow, double x_reach,
-               double slowest, double fastest, double ratio_end)
+               double slowest, double fastest, double ratio_end, bool rate)
 {
   const double v =
       root_of([&](double speed) { return speeds.reach(speed) - x_reach; }, 0.999 * slowest, 1.001 * fastest);
@@ -123,9 +162,10 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
 
   const boost::math::interpolators::cardinal_cubic_b_spline<double> within(
       log_force.begin(), log_force.end(), 0.0, 1.0 / (LawShape::Inertia::shares - 1));
-  // From the impact's own overlap on: the cubic with its value and slope there, and none at ratio_end.
-  const double end = within(1.0), end_slope = within.prime(1.0) * (ratio_end - 1);
-  const auto correction = [&](double xi) {
+  // From the impact's own overlap on: the cubic with its value and slope there, and none at ratio_end. Of a
+  // rate the slope is that of the fall before the turn, which the law does not follow.
+  const double end = within(1.0), end_slope = rate ? 0.0 : within.prime(1.0) * (ratio_end - 1);
+  const auto fitted = [&](double xi) {
     if (xi >= ratio_end) return 0.0;
     if (xi <= 1) return std::expm1(within(xi));
     const double t = (xi - 1) / (ratio_end - 1);
@@ -134,6 +174,10 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
 
   Slice slice;
   const auto count = static_cast<int>(std::lround(ratio_end / share_spacing));
+  for (int l = 0; l <= count; ++l) slice.force.push_back(fitted(share_spacing * l));
+  if (rate) slice.last_raised = keep_rising(slice.force, slow, x_reach);
+  const BetweenNodes raised(slice.force);
+  const auto correction = [&](double xi) { return rate ? raised(xi) : fitted(xi); };
   double work = 0;  // of loading from 0 to the node
   for (int l = 0; l <= count; ++l) {
     const double xi = share_spacing * l;
@@ -150,7 +194,6 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
                   (1 + correction(at));
         }
     }
-    slice.force.push_back(correction(xi));
     if (l == 0) {
       slice.residual.push_back(0), slice.exponent.push_back(0);
       continue;
@@ -240,17 +283,48 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
   }
 }
 
-/// The slice's force, raised where it would fall: towards its turn an impact loses speed and with it rate,
-/// and a law's loading force rises.
-void keep_rising(Slice& slice, const ContactCurve& slow, double x_reach)
+/// The same between the nodes and half-way between two slices, whose plateaus begin at different shares:
+/// lifts the node that follows in both slices until the force rises at every place that ContactCurve
+/// examines.
+void keep_rising_between(InertiaAxis::Table& table, const ContactCurve& slow)
 {
-  double most = 0;
-  for (std::size_t l = 1; l < slice.force.size(); ++l) {
-    const double press = slow.loading(share_spacing * static_cast<double>(l) * x_reach).force;
-    constexpr double least_rise = 2e-3;  // a node, of the force: the cubics between nodes rise as well
-    const double force = std::max((1 + slice.force[l]) * press, most * (1 + least_rise));
-    slice.force[l] = force / press - 1;
-    most = force;
+  constexpr int most_rounds = 100, samples = 8;  // an interval
+  constexpr double least = 1e-3;                 // d ln F/d ln x
+  const std::size_t columns = table.ratio_nodes();
+  for (int round = 0; round < most_rounds; ++round) {
+    const InertiaAxis axis(table, "fitted curve");
+    const std::vector<double> reaches = axis.examined_overlaps();
+    std::vector<double> lift(table.force_correction.size(), 0.0);
+    bool falls = false;
+    for (std::size_t k = 0; k < reaches.size(); ++k) {
+      const std::size_t half = k + 2;  // of a slice: the first stands at row 1
+      for (std::size_t i = 1; i < samples * (columns - 1); ++i) {
+        const double xi = share_spacing * static_cast<double>(i) / samples, x = xi * reaches[k];
+        const ContactCurve::Loading press = slow.loading(x);
+        const InertiaAxis::ForceCorrection c = axis.force(x, reaches[k]);
+        const double force = press.force * (1 + c.value),
+                     stiffness = press.stiffness * (1 + c.value) + press.force * c.slope;
+        const double lacking = (least - stiffness * x / force) * share_spacing / xi;
+        const std::size_t next = i / samples + 1;
+        if (lacking <= 0 || next + 1 >= columns) continue;
+        falls = true;
+        for (const std::size_t row : {half / 2, (half + 1) / 2}) {
+          double& there = lift[(row - 1) * columns + next];
+          there = std::max(there, 0.5 * lacking + 1e-5);
+        }
+      }
+    }
+    if (!falls) return;
+    for (std::size_t j = 0; j < lift.size(); ++j)
+      table.force_correction[j] += lift[j] * (1 + table.force_correction[j]);
+    for (std::size_t row = 0; row < table.slices; ++row) {
+      const auto first = table.force_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);
+      std::vector<double> slope =
+          slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, share_spacing);
+      slope.back() = 0;
+      std::copy(slope.begin(), slope.end(),
+                table.force_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
+    }
   }
 }
 
@@ -280,10 +354,25 @@ InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, con
     table.slices = static_cast<std::size_t>(spacings) + table.first_slices - 1;
     scale = SliceScale::from_standstill(table.slices, table.first_slices, reach);
   }
-  for (std::size_t k = 1; k <= table.slices; ++k) {
-    const double x_reach = scale.overlap(static_cast<double>(k));
-    Slice slice = slice_at(speeds, shape, slow, x_reach, table.speed_begin, fastest, table.ratio_end);
-    if (rate) keep_rising(slice, slow, x_reach);
+  const auto all_slices = [&] {
+    std::vector<Slice> slices;
+    for (std::size_t k = 1; k <= table.slices; ++k)
+      slices.push_back(slice_at(speeds, shape, slow, scale.overlap(static_cast<double>(k)), table.speed_begin,
+                                fastest, table.ratio_end, rate));
+    return slices;
+  };
+  std::vector<Slice> slices = all_slices();
+  // further out, where a force kept rising is not yet the press's
+  const auto is_raised_at_end = [](const Slice& s) { return s.last_raised + 3 >= s.force.size(); };
+  constexpr double farthest = 12;
+  while (std::any_of(slices.begin(), slices.end(), is_raised_at_end)) {
+    table.ratio_end = share_spacing * std::ceil(1.2 * table.ratio_end / share_spacing);
+    if (table.ratio_end > farthest)
+      fail("fit", "a rate raises the force so much that it is the press's again only far beyond the impacts",
+           fmt::format("over {:g} of their overlap", farthest));
+    slices = all_slices();
+  }
+  for (const Slice& slice : slices) {
     const auto append = [&](const std::vector<double>& values, std::vector<double>& all,
                             std::vector<double>& slopes, bool ends_flat) {
       std::vector<double> slope = slopes_of(values, share_spacing);
@@ -295,6 +384,7 @@ InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, con
     append(slice.residual, table.residual_correction, table.residual_correction_slope, false);
     append(slice.exponent, table.exponent_correction, table.exponent_correction_slope, false);
   }
+  if (rate) keep_rising_between(table, slow);
   raise_exponents(table, slow);
   return table;
 }
@@ -342,9 +432,7 @@ InertiaAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow
   if (!(table.speed_begin < 0.7 * table.speed_end))
     fail("fit", "the slowest and the fastest impact of a rate-dependent law are too near to each other",
          fmt::format("sqrt(I) = {:.4g} and {:.4g}", table.speed_begin, table.speed_end), "1.5 times or more");
-  double raised = 1;  // force of an impact at its turn, over the press's
-  for (const LawShape::Inertia& i : shape.inertia) raised = std::max(raised, std::exp(i.force.back()));
-  table.ratio_end = share_spacing * std::ceil(usual_ratio_end * raised / share_spacing - 1e-9);
+  table.ratio_end = usual_ratio_end;
   // X(v) is as v^0.8 to v: an eighth of the first speed a step, and one table for all
   const double steps = std::clamp(8 * table.speed_end / table.speed_begin, 16.0, 2048.0);
   return tabulate(shape, slow, speeds, table, static_cast<int>(steps));

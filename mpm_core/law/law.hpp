@@ -43,7 +43,7 @@ struct Certificate
   double axis_cost_force =
       0;  ///< F_max without the inertia axis over F_max with it, less 1, at its end; 0: none
   double axis_cost_restitution = 0;    ///< the same of e (both signed)
-  double atlas_error_force = 0;        ///< of an interpolated law, relative; 0: computed by runs
+  double atlas_error_force = 0;        ///< of what the atlas tells, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
   std::string support = "free";        ///< how the characterising press held the body
   std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas

@@ -9,7 +9,6 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/pressing.hpp"
 #include "characterise/reduction_error.hpp"
 #include "claim.hpp"
 #include "commands.hpp"
@@ -118,9 +117,7 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, const Subject& 
     ProgressBar bar;
     RunOptions options;
     options.progress = [&](double done) { bar.update(done, "check " + name); };
-    const RunResult result = run_impact(subject.particle, velocity * subject.scale.velocity(), options);
-    run = result.summary;
-    if (subject.rate_dependent()) run.force_max = force_at_turn(result.trace);
+    run = run_impact(subject.particle, velocity * subject.scale.velocity(), options).summary;
   }
   run.force_max /= subject.scale.force();
   const Scales unit{subject.scale.length, m.e_star(), m.density};

@@ -58,7 +58,8 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
   }
   fmt::print("  origin               {}", printable(c.origin));
   if (c.atlas_error_force > 0 || c.atlas_error_restitution > 0)
-    fmt::print(" (force within {:.2g} %, e within {:.2g})", 100 * c.atlas_error_force,
+    fmt::print(" ({}force within {:.2g} %, e within {:.2g})",
+               c.origin == "atlas" ? "" : "at no rate the atlas: ", 100 * c.atlas_error_force,
                c.atlas_error_restitution);
   fmt::print("\n  support              {}\n", printable(c.support));
   fmt::print("  solver error         force {:.2g} %, e {:.2g} % (two resolutions)\n",

@@ -320,6 +320,7 @@ void build(const TableRequest& r)
       law.provenance["survey." + name] =
           fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
       if (!built.shallow.empty()) law.provenance["shallow." + name] = built.shallow;
+      if (!built.rate_free.empty()) law.provenance["rate_free." + name] = built.rate_free;
       const auto& materials = entry.subject.particle.materials;
       if (materials.size() == 1 && !materials[0].hardening.name.empty())
         law.provenance["hardening." + name] = text_of(materials[0].hardening);

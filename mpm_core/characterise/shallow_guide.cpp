@@ -1,0 +1,195 @@
+#include "characterise/shallow_guide.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "characterise/fit_curve.hpp"
+#include "solver/flow_laws.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// E*/Y of the spheres that are run.
+constexpr double less_stiff = 170, least_stiff = 85;
+
+const Material& pole_material(const Subject& s)
+{
+  return s.particle.materials[static_cast<std::size_t>(s.pole_material)];
+}
+
+/// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones
+/// too: hardening is the same at strains over Y/E*.
+Subject softer_sphere(Material m, double share)
+{
+  m = with_strains_stretched(m, 1 / share);
+  m.youngs_modulus *= share;
+  m.rate = {};
+  return subject_of(m);
+}
+
+/// Linear hardening d(sigma_y)/d(ep) of least squares through the yield stress, over plastic strains up to
+/// `strain`; what it misses, largest, over the yield stress.
+struct NearlyLinear
+{
+  double modulus, missed;
+};
+
+NearlyLinear linear_hardening(const Material& m, double strain)
+{
+  constexpr int steps = 50;
+  double moment = 0, squares = 0;
+  for (int k = 1; k <= steps; ++k) {
+    const double ep = strain * k / steps;
+    moment += ep * (flow_stress(m, ep) - m.yield_stress), squares += ep * ep;
+  }
+  NearlyLinear line{moment / squares, 0};
+  for (int k = 1; k <= steps; ++k) {
+    const double ep = strain * k / steps;
+    line.missed = std::max(line.missed, std::abs(flow_stress(m, ep) - m.yield_stress - line.modulus * ep));
+  }
+  line.missed /= m.yield_stress;
+  return line;
+}
+
+/// A law's shape as linear in Y/E*, by those of two less stiff spheres, each after its E*/Y.
+using OfStiffness = std::pair<double, LawShape>;
+LawShape beyond(double stiffness, const OfStiffness& a, const OfStiffness& b)
+{
+  const double slope = (1 / stiffness - 1 / a.first) / (1 / a.first - 1 / b.first);
+  LawShape shape = LawShape::zero();
+  shape.add(1 + slope, a.second);
+  shape.add(-slope, b.second);
+  return shape;
+}
+
+void require_thick_skin(const Subject& subject, double first)
+{
+  // Contact radii to the skin: what lies below changes the elastic part, which the body's own press tells.
+  constexpr double least_skin = 3;
+  const double skin = least_skin * std::sqrt(2 * first);
+  if (subject.skin < skin || pole_onset(subject) > subject.onset)
+    fail("contact law",
+         "yields at overlaps too small to be run: there the body's law is that of its skin, which must yield "
+         "first and be thick",
+         fmt::format("onset at delta/R = {:.2g}, at the pole {:.2g}, skin {:.2g} R", subject.onset,
+                     pole_onset(subject), subject.skin),
+         fmt::format("an onset of about 1e-4 or more, or a skin of {:.2g} R", skin));
+}
+
+}  // namespace
+
+SurveyPlan::Press elastic_press_of(const Subject& subject, int cells)
+{
+  return {std::clamp(1.5 * subject.onset, 0.02, 0.04), {}, cells, 2};
+}
+
+ShallowGuide::ShallowGuide(const Subject& subject, const Needs& needs, const Atlas* atlas)
+    : subject_(subject),
+      needs_(needs),
+      atlas_(atlas),
+      is_sphere_(subject.particle.is_homogeneous_sphere()),
+      is_uniform_(std::isinf(subject.skin))
+{
+  require_thick_skin(subject, needs.first);
+  const Material& m = pole_material(subject);
+  const double stiffness = subject.scale.stress / m.yield_stress;
+  // Tabor's representative strain is a fifth of a/R; near the edge of the contact it is more than twice that
+  const NearlyLinear line = linear_hardening(m, 0.5 * std::sqrt(2 * needs.first));
+  ratios_ = {stiffness, m.poisson_ratio, line.modulus / m.youngs_modulus};
+  const auto known = [&](double k) {
+    if (!atlas) return false;
+    MaterialRatios ratios = ratios_;
+    ratios.stiffness = std::min(k, atlas->grid().stiffnesses.back());
+    return atlas->why_not(ratios).empty();
+  };
+  how_ = fmt::format("below delta/R = {:.2g}: ", needs.first);
+
+  constexpr double nearly = 0.003;  // of the yield stress: a third of the tolerance of most laws
+  if (known(stiffness) && line.missed < nearly) {
+    how_ += fmt::format("atlas, at linear hardening H/E = {:.3g}", ratios_.hardening);
+    return;
+  }
+  knows_term_ = known(stiffness) && known(less_stiff);
+  how_ += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
+  how_ += knows_term_ ? "its difference from the atlas"
+                      : fmt::format("its difference by one of {:g}", least_stiff);
+  const auto add = [&](double k) {
+    Sphere sphere;
+    sphere.subject = softer_sphere(m, k / stiffness);
+    const double reach = 2 * needs.first / subject.onset;  // delta/delta_onset that it must reach
+    sphere.depth = std::clamp(reach * sphere.subject.onset, 0.0075, 0.5);
+    SurveyRange range;
+    range.depth = sphere.depth, range.fastest = 0, range.stops = 2, range.brisk = needs.brisk;
+    sphere.plan = plan_survey(sphere.subject, range);
+    spheres_.push_back(std::move(sphere));
+  };
+  add(less_stiff);
+  if (!knows_term_) add(least_stiff);
+  if (is_sphere_) return;
+  // an elastic sphere's correction is the same at any stiffness; a sphere's own is the body's
+  Sphere elastic;
+  const Subject skin = softer_sphere(m, 1);
+  elastic.subject = skin.elastic();
+  elastic.plan.presses.push_back(elastic_press_of(skin, needs.press_cells));
+  spheres_.push_back(std::move(elastic));
+  runs_elastic_ = true;
+}
+
+/// ln of the body's range of overlaps from the onset on.
+double ShallowGuide::range() const
+{
+  return std::log(needs_.depth / subject_.onset);
+}
+
+LawShape ShallowGuide::of_atlas(double stiffness) const
+{
+  const auto at = [&](double k) {
+    MaterialRatios ratios = ratios_;
+    ratios.stiffness = k;
+    const double onset = subject_of(k, ratios.poisson_ratio, 0).onset;
+    return atlas_->shape(ratios).stretched(range() / std::log(Atlas::depth / onset));
+  };
+  const double stiffest = atlas_->grid().stiffnesses.back();
+  if (stiffness <= stiffest) return at(stiffness);
+  return beyond(stiffness, {stiffest, at(stiffest)}, {0.5 * stiffest, at(0.5 * stiffest)});
+}
+
+LawShape ShallowGuide::of_runs(const Sphere& sphere, const ElasticCorrection& elastic) const
+{
+  const double onset = sphere.subject.onset;
+  return fit_shape(sphere.found, elastic, onset, sphere.depth)
+      .shape.stretched(range() / std::log(sphere.depth / onset));
+}
+
+LawShape ShallowGuide::shape(const ElasticCorrection& elastic) const
+{
+  const double stiffness = ratios_.stiffness;
+  LawShape guide = LawShape::zero();
+  if (spheres_.empty()) {
+    guide = of_atlas(stiffness);
+  } else {
+    ElasticCorrection of_sphere = elastic;
+    if (runs_elastic_) {
+      const std::vector<Pressing>& press = spheres_.back().found.slow;
+      if (press.empty()) fail("contact law", "the elastic press of a sphere of its skin failed");
+      of_sphere = fit_elastic(press.front());
+    }
+    const LawShape softer = of_runs(spheres_[0], of_sphere);
+    if (knows_term_) {
+      guide.add(1, softer);
+      guide.add(1, of_atlas(stiffness));
+      guide.add(-1, of_atlas(less_stiff));
+    } else {
+      guide = beyond(stiffness, {less_stiff, softer}, {least_stiff, of_runs(spheres_[1], of_sphere)});
+    }
+  }
+  if (!is_sphere_) guide = guide.as_skin_of(elastic, subject_.onset, needs_.depth, 2 * needs_.first);
+  return guide;
+}
+
+}  // namespace granulaw
