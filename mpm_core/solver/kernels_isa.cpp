@@ -274,9 +274,55 @@ GRANULAW_INLINE Trial<Real> trial_state(const Block<Real>& block, const PointSta
   return t;
 }
 
+/// Which points of a block flow and are yet to be searched, closed up: their increments by Newton steps side
+/// by side until none moves any more.
+template <class Real, class Hardening, class Rate>
+GRANULAW_INLINE void search_flow(Trials<Real>& block, int count, const int (&open)[block_points],
+                                 const Real* __restrict plastic_strain, const Hardening hardening,
+                                 const Rate rate, double shear3, double per_dt)
+{
+  int point[block_points + 8], found = 0;
+  for (int p = 0; p < count; ++p) {
+    point[found] = p;
+    found += open[p];
+  }
+  if (found == 0) return;
+  const int lanes = (found + 7) / 8 * 8;  // whole vectors
+  for (int i = found; i < lanes; ++i) point[i] = point[found - 1];
+
+  alignas(64) double trial[block_points], jacobian[block_points], ep[block_points], start[block_points],
+      top[block_points], u[block_points], low[block_points], high[block_points], strain[block_points],
+      factor[block_points];
+  for (int i = 0; i < lanes; ++i) {
+    trial[i] = block.q[point[i]], jacobian[i] = block.jacobian[point[i]];
+    ep[i] = plastic_strain[point[i]];
+  }
+#pragma omp simd
+  for (int i = 0; i < lanes; ++i) {
+    const flow::Search s = flow::begin_search(hardening, rate, trial[i], jacobian[i], shear3, ep[i], per_dt);
+    start[i] = s.start, top[i] = s.top, u[i] = s.u, low[i] = s.low, high[i] = s.high;
+    strain[i] = s.strain, factor[i] = s.factor;
+  }
+  for (int step = 0; step < flow::newton_steps; ++step) {
+    int moving = 0;
+#pragma omp simd reduction(+ : moving)
+    for (int i = 0; i < lanes; ++i) {
+      flow::Search s{trial[i], jacobian[i], ep[i],   start[i],  top[i],
+                     u[i],     low[i],      high[i], strain[i], factor[i]};
+      moving += flow::newton_step(s, hardening, rate, shear3, per_dt) ? 0 : 1;
+      u[i] = s.u, low[i] = s.low, high[i] = s.high, strain[i] = s.strain, factor[i] = s.factor;
+    }
+    if (moving == 0) break;
+  }
+  for (int i = 0; i < found; ++i) {
+    block.strain[point[i]] = Real(strain[i]);
+    block.stress[point[i]] = Real(0.5 * (start[i] * factor[i] + trial[i] - shear3 * strain[i]));
+  }
+}
+
 /// Finds what the points of a block flow; whether any does. Perfect and linear hardening in closed form;
 /// other laws by Newton steps from the tangent, and where these do not suffice, as at the steep start of a
-/// power or with a rate, by plastic_increment.
+/// power or with a rate, by a search.
 template <class Real, class Hardening, class Rate>
 GRANULAW_INLINE bool find_flow(Trials<Real>& block, int count, const Real* __restrict plastic_strain,
                                const Hardening hardening, const Rate rate, const Moduli& moduli,
@@ -289,8 +335,7 @@ GRANULAW_INLINE bool find_flow(Trials<Real>& block, int count, const Real* __res
   if (beyond == 0) return false;
 
   const double shear3 = 3.0 * moduli.shear;
-  if constexpr (!std::is_same_v<Rate, flow::RateIndependent>) {
-  } else if constexpr (std::is_same_v<Hardening, flow::Linear>) {
+  if constexpr (std::is_same_v<Hardening, flow::Linear> && std::is_same_v<Rate, flow::RateIndependent>) {
     // q - 3 G dg = J (sigma_y + H dg)
     const Real yield = Real(moduli.yield), modulus = Real(moduli.hardening), stiffness = Real(shear3);
 #pragma omp simd
@@ -301,26 +346,25 @@ GRANULAW_INLINE bool find_flow(Trials<Real>& block, int count, const Real* __res
       block.strain[p] = strain;
       block.stress[p] = jacobian * (stress + Real(0.5) * modulus * strain);
     }
-    return true;
   } else {
-    int failed = 0;
-#pragma omp simd reduction(+ : failed)
-    for (int p = 0; p < count; ++p) {
-      const flow::TangentIncrement found =
-          flow::tangent_increment(hardening, block.q[p], block.jacobian[p], shear3, plastic_strain[p]);
-      block.strain[p] = Real(found.strain), block.stress[p] = Real(found.stress);
-      failed += found.converged ? 0 : 1;
-    }
-    if (failed == 0) return true;
-  }
+    int open[block_points];
+    if constexpr (std::is_same_v<Rate, flow::RateIndependent>) {
 #pragma omp simd
-  for (int p = 0; p < count; ++p) {
-    const double q = block.q[p], start = block.jacobian[p] * hardening(plastic_strain[p]).value;
-    const flow::PlasticIncrement found =
-        flow::plastic_increment(hardening, rate, q, block.jacobian[p], shear3, plastic_strain[p], per_dt);
-    const double strain = q > start ? found.strain : 0.0;
-    block.strain[p] = Real(strain);
-    block.stress[p] = Real(0.5 * (start * found.factor + q - shear3 * strain));
+      for (int p = 0; p < count; ++p) {
+        const flow::TangentIncrement found =
+            flow::tangent_increment(hardening, block.q[p], block.jacobian[p], shear3, plastic_strain[p]);
+        block.strain[p] = Real(found.strain), block.stress[p] = Real(found.stress);
+        open[p] = found.converged ? 0 : 1;
+      }
+    } else {
+#pragma omp simd
+      for (int p = 0; p < count; ++p) {
+        const double q = block.q[p];
+        block.strain[p] = Real(0), block.stress[p] = Real(q);
+        open[p] = q > block.jacobian[p] * hardening(plastic_strain[p]).value ? 1 : 0;
+      }
+    }
+    search_flow(block, count, open, plastic_strain, hardening, rate, shear3, per_dt);
   }
   return true;
 }

@@ -232,7 +232,7 @@ TEST(FlowLaws, RateDependenceUnderConstantRate)
       }
 }
 
-/// What the fixed number of Newton steps leaves of the local equation, over all laws and far beyond what runs
+/// What the Newton steps of a search leave of the local equation, over all laws and far beyond what runs
 /// meet: Y/E* from 2e-4 to 0.1, trial stresses from 1e-7 to 1 above the flow stress, exponents 0.05 to 1, any
 /// time step.
 /// `tangent`, if given: the largest that tangent_increment leaves where it says that it converged, and the
@@ -251,7 +251,10 @@ double worst_residual(MakeHardening hardening, MakeRate rate, std::pair<double, 
     const double ep = u() < 0.2 ? 0 : std::pow(10, -8 + 8.3 * u());
     const double shear3 = 1.05, jacobian = 0.8 + 0.4 * u(), per_dt = std::pow(10, 1 + 3 * u());
     const double trial = jacobian * h(ep).value * (1 + std::pow(10, -7 + 7 * u()));
-    const double x = flow::plastic_increment(h, r, trial, jacobian, shear3, ep, per_dt).strain;
+    flow::Search search = flow::begin_search(h, r, trial, jacobian, shear3, ep, per_dt);
+    for (int step = 0; step < flow::newton_steps; ++step)
+      if (flow::newton_step(search, h, r, shear3, per_dt)) break;
+    const double x = search.strain;
     const double left = shear3 * x + jacobian * h(ep + x).value * r(x * per_dt).value - trial;
     worst = std::max(worst, std::isfinite(left) ? std::abs(left) / trial : 1.0);
     if (!tangent) continue;
