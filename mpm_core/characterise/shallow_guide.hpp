@@ -42,7 +42,7 @@ class ShallowGuide
   /// Those to be run.
   std::vector<Sphere>& spheres() { return spheres_; }
   /// Whether the shallowest run planned would tell nothing more. Of a sphere of E*/Y = 500 whose yield stress
-  /// goes as ep^0.3 the law without it is off by 0.0011 in e, 0.47 % in F at most from 9e-5 to 1.5e-3 R, with
+  /// goes as ep^0.3 the law without it is off by 0.0015 in e, 0.57 % in F at most from 9e-5 to 1.5e-3 R, with
   /// it by 0.0016, 0.57 %; under a skin e would be 0.0045 off.
   bool spares_first() const { return is_uniform_; }
   /// Overlap up to which it is asked: the body's first run, or less.

@@ -12,9 +12,6 @@ namespace granulaw {
 namespace {
 
 constexpr double slowest_press = 1e-3;  // overlap: below, slow impacts are cheaper than presses
-constexpr double first_yielded =
-    1.25;  // over the onset's overlap: nearer to it nothing can be told from elastic
-
 /// Ends of the presses: each a quarter of the next, so that the contact of its shallowest partial unloading
 /// still spans about half the cells.
 constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
@@ -159,7 +156,7 @@ RunJob with_estimate(RunJob job)
 SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
 {
   SurveyPlan plan;
-  const double first = std::max(range.shallowest, first_yielded * subject.onset);
+  const double first = std::max(range.shallowest, range.from_onset * subject.onset);
   double done = std::max(slowest_press, first);
   for (double depth : press_depths) {
     depth = std::min(depth, range.depth);

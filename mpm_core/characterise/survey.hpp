@@ -63,6 +63,7 @@ struct SurveyRange
   double depth = 0.5;        ///< overlap of the deepest press, up to 0.5
   double fastest = 0.3;      ///< sqrt(I) of the fastest impact, up to 0.3
   double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset tells
+  double from_onset = 1.25;  ///< overlap over the onset's nearer to which nothing is run
   bool brisk = false;        ///< presses load in brisk_ramp()
   int stops = 3;             ///< turning points a press, its end among them
   std::span<const double> speeds = inertia_speeds;  ///< sqrt(I) of impacts, those up to the fastest

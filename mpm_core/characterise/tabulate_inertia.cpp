@@ -103,14 +103,18 @@ std::vector<double> slopes_of(const std::vector<double>& y, double h)
 }
 
 /// Corrections of the force at the nodes, raised where it would fall: towards its turn an impact loses speed
-/// and with it rate, and a law's loading force rises. Returns the last node raised, 0: none.
+/// and with it rate, and a law's loading force rises. At the turn it is the impact's peak: before, no more.
+/// Returns the last node raised, 0: none.
 std::size_t keep_rising(std::vector<double>& correction, const ContactCurve& slow, double x_reach)
 {
+  const auto turn = static_cast<std::size_t>(std::lround(1 / share_spacing));
+  const double peak = (1 + correction[turn]) * slow.loading(x_reach).force;
   double most = 0;
   std::size_t last = 0;
   for (std::size_t l = 1; l < correction.size(); ++l) {
     const double press = slow.loading(share_spacing * static_cast<double>(l) * x_reach).force;
     constexpr double least_rise = 1e-4;  // a node, of the force
+    if (l < turn) correction[l] = std::min(correction[l], peak / press - 1);
     const double force = (1 + correction[l]) * press, least = most * (1 + least_rise);
     if (force < least) correction[l] = least / press - 1, last = l;
     most = std::max(force, least);
@@ -118,12 +122,34 @@ std::size_t keep_rising(std::vector<double>& correction, const ContactCurve& slo
   return last;
 }
 
+/// Slopes of such corrections: three-point differences, but where the force ceases to rise no more than keeps
+/// a cubic from passing above its nodes (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980); none at the
+/// end.
+std::vector<double> rising_slopes(const std::vector<double>& correction, const ContactCurve& slow,
+                                  double x_reach)
+{
+  std::vector<double> slopes = slopes_of(correction, share_spacing);
+  const auto press = [&](std::size_t l) {
+    return slow.loading(share_spacing * static_cast<double>(l) * x_reach);
+  };
+  const auto force = [&](std::size_t l) { return (1 + correction[l]) * press(l).force; };
+  for (std::size_t l = 1; l + 1 < correction.size(); ++l) {
+    const double below = force(l) - force(l - 1), above = force(l + 1) - force(l);
+    const double most = 3 * std::max(0.0, std::min(below, above)) / share_spacing;
+    const ContactCurve::Loading p = press(l);
+    const double of_press = (1 + correction[l]) * p.stiffness * x_reach;  // dF/dxi = P dA/dxi + this
+    slopes[l] = std::min(slopes[l], (most - of_press) / p.force);
+  }
+  slopes.back() = 0;
+  return slopes;
+}
+
 /// What lies between the nodes, as the table has it.
 class BetweenNodes
 {
  public:
-  explicit BetweenNodes(const std::vector<double>& nodes)
-      : nodes_(nodes), slopes_(slopes_of(nodes, share_spacing))
+  BetweenNodes(std::vector<double> nodes, std::vector<double> slopes)
+      : nodes_(std::move(nodes)), slopes_(std::move(slopes))
   {
   }
   double operator()(double xi) const
@@ -142,7 +168,7 @@ class BetweenNodes
 /// One slice: the corrections of a contact that latched X.
 struct Slice
 {
-  std::vector<double> force, residual, exponent;
+  std::vector<double> force, force_slope, residual, exponent;
   std::size_t last_raised = 0;  // node up to which a rate's force was kept rising
 };
 
@@ -175,8 +201,14 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
   Slice slice;
   const auto count = static_cast<int>(std::lround(ratio_end / share_spacing));
   for (int l = 0; l <= count; ++l) slice.force.push_back(fitted(share_spacing * l));
-  if (rate) slice.last_raised = keep_rising(slice.force, slow, x_reach);
-  const BetweenNodes raised(slice.force);
+  if (rate) {
+    slice.last_raised = keep_rising(slice.force, slow, x_reach);
+    slice.force_slope = rising_slopes(slice.force, slow, x_reach);
+  } else {
+    slice.force_slope = slopes_of(slice.force, share_spacing);
+    slice.force_slope.back() = 0;
+  }
+  const BetweenNodes raised(slice.force, slice.force_slope);
   const auto correction = [&](double xi) { return rate ? raised(xi) : fitted(xi); };
   double work = 0;  // of loading from 0 to the node
   for (int l = 0; l <= count; ++l) {
@@ -319,9 +351,9 @@ void keep_rising_between(InertiaAxis::Table& table, const ContactCurve& slow)
       table.force_correction[j] += lift[j] * (1 + table.force_correction[j]);
     for (std::size_t row = 0; row < table.slices; ++row) {
       const auto first = table.force_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);
-      std::vector<double> slope =
-          slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, share_spacing);
-      slope.back() = 0;
+      const std::vector<double> slope =
+          rising_slopes({first, first + static_cast<std::ptrdiff_t>(columns)}, slow,
+                        axis.scale().overlap(static_cast<double>(row + 1)));
       std::copy(slope.begin(), slope.end(),
                 table.force_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
     }
@@ -373,16 +405,14 @@ InertiaAxis::Table tabulate(const LawShape& shape, const ContactCurve& slow, con
     slices = all_slices();
   }
   for (const Slice& slice : slices) {
-    const auto append = [&](const std::vector<double>& values, std::vector<double>& all,
-                            std::vector<double>& slopes, bool ends_flat) {
-      std::vector<double> slope = slopes_of(values, share_spacing);
-      if (ends_flat) slope.back() = 0;
+    const auto append = [](const std::vector<double>& values, std::vector<double>& all) {
       all.insert(all.end(), values.begin(), values.end());
-      slopes.insert(slopes.end(), slope.begin(), slope.end());
     };
-    append(slice.force, table.force_correction, table.force_correction_slope, true);
-    append(slice.residual, table.residual_correction, table.residual_correction_slope, false);
-    append(slice.exponent, table.exponent_correction, table.exponent_correction_slope, false);
+    append(slice.force, table.force_correction), append(slice.force_slope, table.force_correction_slope);
+    append(slice.residual, table.residual_correction);
+    append(slopes_of(slice.residual, share_spacing), table.residual_correction_slope);
+    append(slice.exponent, table.exponent_correction);
+    append(slopes_of(slice.exponent, share_spacing), table.exponent_correction_slope);
   }
   if (rate) keep_rising_between(table, slow);
   raise_exponents(table, slow);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "characterise/shallow_guide.hpp"
 #include "law/replay.hpp"
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"
@@ -18,7 +19,8 @@ using testing::unit_pair;
 
 constexpr double force_unit = 4.0 / 3.0;  // Hertz's force at x = 1 over E* R^2
 
-/// A sphere of E*/Y = 100 whose presses and impacts replay a law; what was asked for.
+/// A sphere of E*/Y = 100 whose presses and impacts replay a law; what was asked for. One whose yield stress
+/// depends on the rate replays the same law, at all rates.
 class KnownSphere
 {
  public:
@@ -30,8 +32,18 @@ class KnownSphere
   std::vector<Asked> presses, impacts;  ///< of the yielding sphere; of the impacts those at sqrt(I) > 0.02
   double press_error = 0;               ///< of a press's force with 24 cells; falls with the cells' square
   double peak_error = 0;                ///< the same of an impact's
+  double scatter = 0;                   ///< of an impact's loading about the fit, at any number of cells
+  bool rated = false;
+  const Atlas* atlas = nullptr;
 
-  Subject subject() const { return subject_of(100, 0.3, 0); }
+  Subject subject() const
+  {
+    const Subject plain = subject_of(100, 0.3, 0);
+    if (!rated) return plain;
+    Sphere sphere{1.0, plain.particle.materials[0]};
+    sphere.material.rate = {"johnson-cook", {{"coefficient", {0.03}}, {"reference_rate", {1e-3}}}};
+    return subject_of(Particle::from(sphere));
+  }
   LawMaterial material() const
   {
     const Material m = subject().particle.materials[0];
@@ -48,6 +60,7 @@ class KnownSphere
   {
     BuildOptions options;
     options.tolerance = tolerance;
+    options.atlas = atlas;
     RunSource source;
     source.press = [this](const Particle& p, const PressPlan& plan, const RunOptions& o) {
       return press(p, plan, o);
@@ -125,6 +138,7 @@ class KnownSphere
     s.delta_residual = replay.delta_residual, s.contact_time = replay.contact_time;
     s.work_load = replay.work_load, s.work_unload = replay.work_unload;
     finish(s, options);
+    s.ripple = scatter;
     return run;
   }
 
@@ -182,6 +196,64 @@ TEST(BuildLaw, PressesGetTheCellsThatTheirErrorAsksFor)
   sphere.press_error = 0.01;
   sphere.build(0.01);
   expect_more_cells(sphere.presses, sphere.impacts, 4);  // compared, the survey's
+}
+
+/// At no rate the body is one that the atlas knows: no press is made of it.
+TEST(BuildLaw, TheAtlasTellsARateDependentSphereAtNoRate)
+{
+  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
+  KnownSphere sphere;
+  sphere.rated = true;
+  sphere.build(0.01);
+  EXPECT_FALSE(sphere.presses.empty());
+  sphere.presses.clear();
+  sphere.atlas = &atlas;
+  const BuiltLaw built = sphere.build(0.01);
+  EXPECT_TRUE(sphere.presses.empty());
+  EXPECT_FALSE(built.rate_free.empty());
+  EXPECT_EQ(built.law.certificate.atlas_error_force, atlas.claimed_force());
+  // impacts that took no part: to what the survey is refined to
+  EXPECT_LT(built.law.certificate.verification_error_force, 0.01);
+  EXPECT_LT(built.law.certificate.verification_error_restitution, 0.01);
+}
+
+/// The force of a rate-dependent body falls before the turn: scatter about the fit that no cells take away is
+/// no error of theirs.
+TEST(BuildLaw, WhatNoCellsTakeAwayAsksForNone)
+{
+  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
+  KnownSphere sphere;
+  sphere.rated = true, sphere.atlas = &atlas, sphere.scatter = 0.03;
+  sphere.build(0.01);
+  for (const auto& run : sphere.impacts) EXPECT_LE(run.cells, 24);
+}
+
+/// Less stiff spheres are run only where the atlas does not tell all.
+TEST(ShallowGuide, RunsWhatTheAtlasDoesNotTell)
+{
+  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
+  const auto sphere = [](const FlowLaw& hardening, double modulus) {
+    Material m;
+    m.density = 1200, m.youngs_modulus = 9.1e9, m.poisson_ratio = 0.3, m.yield_stress = 2e7;
+    m.hardening = hardening, m.hardening_modulus = modulus;
+    return subject_of(m);
+  };
+  const Subject linear = sphere({}, 9.1e7),
+                voce = sphere({"voce", {{"saturation_stress", {3e7}}, {"strain", {0.1}}}}, 0),
+                steep = sphere({"johnson-cook", {{"strength", {2.6e7}}, {"exponent", {0.3}}}}, 0);
+  const auto spheres = [](const Subject& subject, const Atlas* from) {
+    ShallowGuide::Needs needs;
+    needs.first = 2e-4, needs.depth = 0.2;
+    return ShallowGuide(subject, needs, from).spheres();
+  };
+  EXPECT_EQ(spheres(linear, &atlas).size(), 0u);
+  EXPECT_EQ(spheres(voce, &atlas).size(), 0u);  // straight as far as these overlaps strain it
+  EXPECT_EQ(spheres(steep, &atlas).size(), 1u);
+  EXPECT_EQ(spheres(linear, nullptr).size(), 2u);
+  for (const ShallowGuide::Sphere& s : spheres(steep, nullptr)) {
+    EXPECT_GE(s.depth, 2e-4 * s.subject.onset / steep.onset);  // as deep over the onset
+    for (const double v : s.plan.slow_impacts) EXPECT_GT(expected_depth(v, s.subject), 2 * s.subject.onset);
+  }
 }
 
 /// A press of one grid and fewer cells is only for overlaps that no pair law is exact at.
