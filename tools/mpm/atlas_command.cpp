@@ -66,7 +66,7 @@ void add_atlas(CLI::App& app)
       "inertia, from\n"
       "which mpm table answers any homogeneous material at once. One comes with the program; this makes it "
       "anew, in\n"
-      "about four CPU hours. Finished runs are kept (--cache): a build that was stopped goes on "
+      "about five CPU hours. Finished runs are kept (--cache): a build that was stopped goes on "
       "where it "
       "was.\n"
       "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...");
