@@ -79,7 +79,7 @@ void add_atlas(CLI::App& app)
       ->add_flag(
           "--impacts", r->impacts,
           "with --from: what inertia changes of its materials does not stay: their fast impacts are run "
-          "(some twenty CPU minutes)")
+          "(an hour of CPU time)")
       ->needs(from);
   command->add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
       ->check(whole_from_to(20, 100000))
