@@ -166,10 +166,10 @@ class Build
         source_(source)
   {
     built_.law.material = material;
-    const bool linear = subject.particle.materials[0].hardening.name.empty();
-    if (subject.rate_dependent() && subject.particle.is_homogeneous_sphere() && linear && options.atlas)
-      if (const MaterialRatios ratios = MaterialRatios::of(material); options.atlas->why_not(ratios).empty())
-        known_ = options.atlas->shape(ratios);
+    if (!subject.rate_dependent() || !slow_.is_plain()) return;
+    if (!options.atlas || options.tolerance < options.atlas->claimed_force()) return;
+    if (const MaterialRatios ratios = MaterialRatios::of(material); options.atlas->why_not(ratios).empty())
+      known_ = options.atlas->shape(ratios);
   }
 
   void elastic();
