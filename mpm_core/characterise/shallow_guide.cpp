@@ -23,6 +23,9 @@ constexpr double less_stiff = 170, least_stiff = 85;
 constexpr double from_onset = 2.5;
 constexpr int slow_cells = 17;
 
+/// Overlap/R beyond which a sphere's finite size, not its onset, tells its law.
+constexpr double similar = 0.2;
+
 const Material& pole_material(const Subject& s)
 {
   return s.particle.materials[static_cast<std::size_t>(s.pole_material)];
@@ -99,7 +102,7 @@ ShallowGuide::ShallowGuide(const Subject& subject, const Needs& needs, const Atl
       needs_(needs),
       atlas_(atlas),
       is_sphere_(subject.particle.is_homogeneous_sphere()),
-      is_uniform_(std::isinf(subject.skin))
+      spares_first_(std::isinf(subject.skin))
 {
   require_thick_skin(subject, needs.first);
   const Material& m = pole_material(subject);
@@ -127,9 +130,10 @@ ShallowGuide::ShallowGuide(const Subject& subject, const Needs& needs, const Atl
   const auto add = [&](double k) {
     Sphere sphere;
     sphere.subject = softer_sphere(m, k / stiffness);
-    // delta/delta_onset that it must reach: what lies below a skin adds to the overlap
-    const double reach = (is_uniform_ ? 1.2 : 2.0) * needs.first / subject.onset;
+    // delta/delta_onset that it must reach: the rest of a body that is no sphere changes the overlap
+    const double reach = (is_sphere_ ? 1.2 : 2.0) * needs.first / subject.onset;
     sphere.depth = std::clamp(reach * sphere.subject.onset, 0.0075, 0.5);
+    if (reach * sphere.subject.onset > similar) spares_first_ = false;
     SurveyRange range;
     range.depth = sphere.depth, range.fastest = 0, range.stops = 2, range.brisk = needs.brisk;
     range.from_onset = from_onset;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,12 +40,13 @@ class ShallowGuide
 
   /// Those to be run.
   std::vector<Sphere>& spheres() { return spheres_; }
-  /// Whether the shallowest run planned would tell nothing more. Of a sphere of E*/Y = 500 whose yield stress
-  /// goes as ep^0.3 the law without it is off by 0.0015 in e, 0.57 % in F at most from 9e-5 to 1.5e-3 R, with
-  /// it by 0.0016, 0.57 %; under a skin e would be 0.0045 off.
-  bool spares_first() const { return is_uniform_; }
+  /// Whether the shallowest run planned would tell nothing more: not of a body of several materials, nor of
+  /// one so stiff that a less stiff sphere at the same delta/delta_onset is pressed to over 0.2 R. Of a
+  /// sphere of E*/Y = 500 whose yield stress goes as ep^0.3 the law without it is off by 0.0015 in e, 0.57 %
+  /// in F at most from 9e-5 to 1.5e-3 R, with it by 0.0016, 0.57 %; under a skin e would be 0.0045 off.
+  bool spares_first() const { return spares_first_; }
   /// Overlap up to which it is asked: the body's first run, or less.
-  double end() const { return is_uniform_ ? needs_.first : 1.0; }
+  double end() const { return spares_first_ ? needs_.first : 1.0; }
   /// The guide, as functions of u over the body's range; `elastic`: the body's own. Needs the runs' findings.
   LawShape shape(const ElasticCorrection& elastic) const;
   /// A clause for people.
@@ -60,7 +60,7 @@ class ShallowGuide
   const Subject subject_;
   const Needs needs_;
   const Atlas* atlas_;
-  bool is_sphere_, is_uniform_;
+  bool is_sphere_, spares_first_;
   MaterialRatios ratios_;        ///< of the pole's material, hardening as if linear
   std::vector<Sphere> spheres_;  ///< the less stiff ones to be run, and ...
   bool runs_elastic_ = false;    ///< ... last, whether the elastic press of one

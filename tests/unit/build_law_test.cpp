@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "characterise/shallow_guide.hpp"
 #include "law/replay.hpp"
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"
@@ -229,34 +228,6 @@ TEST(BuildLaw, WhatNoCellsTakeAwayAsksForNone)
   sphere.rated = true, sphere.atlas = &atlas, sphere.scatter = 0.03;
   sphere.build(0.01);
   for (const auto& run : sphere.impacts) EXPECT_LE(run.cells, 24);
-}
-
-/// Less stiff spheres are run only where the atlas does not tell all.
-TEST(ShallowGuide, RunsWhatTheAtlasDoesNotTell)
-{
-  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
-  const auto sphere = [](const FlowLaw& hardening, double modulus) {
-    Material m;
-    m.density = 1200, m.youngs_modulus = 9.1e9, m.poisson_ratio = 0.3, m.yield_stress = 2e7;
-    m.hardening = hardening, m.hardening_modulus = modulus;
-    return subject_of(m);
-  };
-  const Subject linear = sphere({}, 9.1e7),
-                voce = sphere({"voce", {{"saturation_stress", {3e7}}, {"strain", {0.1}}}}, 0),
-                steep = sphere({"johnson-cook", {{"strength", {2.6e7}}, {"exponent", {0.3}}}}, 0);
-  const auto spheres = [](const Subject& subject, const Atlas* from) {
-    ShallowGuide::Needs needs;
-    needs.first = 2e-4, needs.depth = 0.2;
-    return ShallowGuide(subject, needs, from).spheres();
-  };
-  EXPECT_EQ(spheres(linear, &atlas).size(), 0u);
-  EXPECT_EQ(spheres(voce, &atlas).size(), 0u);  // straight as far as these overlaps strain it
-  EXPECT_EQ(spheres(steep, &atlas).size(), 1u);
-  EXPECT_EQ(spheres(linear, nullptr).size(), 2u);
-  for (const ShallowGuide::Sphere& s : spheres(steep, nullptr)) {
-    EXPECT_GE(s.depth, 2e-4 * s.subject.onset / steep.onset);  // as deep over the onset
-    for (const double v : s.plan.slow_impacts) EXPECT_GT(expected_depth(v, s.subject), 2 * s.subject.onset);
-  }
 }
 
 /// A press of one grid and fewer cells is only for overlaps that no pair law is exact at.
