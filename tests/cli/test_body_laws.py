@@ -68,11 +68,20 @@ layers = [{material = "skin", thickness = 1e-4}]
 radius = 1e-3
 material = "glass"
 profile = {shape = "ellipsoid", aspect = 1.5}
+[material.creeping]
+density = 1200
+youngs_modulus = 5.46e9
+poisson_ratio = 0.3
+yield_stress = 2e7
+rate = {law = "cowper-symonds", reference_rate = 1e4, exponent = 5}
+[particle.viscous]
+radius = 1e-3
+material = "creeping"
 [particle.ball]
 radius = 1e-3
 material = "rated"
 """
-RADIUS = {"capsule": 1e-3, "bead": 1e-3 / 1.5, "ball": 1e-3, "stiff": 1e-3, "steeper": 1e-3, "coated": 1e-3}  # of curvature at the pole
+RADIUS = {"capsule": 1e-3, "bead": 1e-3 / 1.5, "ball": 1e-3, "viscous": 1e-3, "stiff": 1e-3, "steeper": 1e-3, "coated": 1e-3}  # of curvature at the pole
 
 
 def mpm(*words, ok=True):
@@ -111,14 +120,16 @@ def layered():
 
 
 def rated():
-    # e: the table's tolerance. F: between the run's own and the treated one that `mpm impact` prints, 1.8 % apart
-    # (docs/particles.md).
-    end_to_end("ball", 3, 0.05, 0.01, 0.02, 0.01)
+    # Bounds: the table's tolerance.
+    end_to_end("ball", 3, 0.05, 0.01, 0.01, 0.01)
     assert "rate-dependent: holds for R = 0.001 m" in mpm("info", "law.h5")
     assert "holds for one size" in mpm("law", "law.h5", "--radius", 2e-3, "--velocity", 3, ok=False)
     assert "holds for one size" in mpm("export", "law.h5", "-o", "law.csv", "--effective-radius", 2e-3, ok=False)
     slow = json.loads(mpm("law", "law.h5", "--velocity", 0.01, "--json"))  # its radius is the law's own
     assert slow["below_velocity_axis"] and slow["e"] > 0.999  # elastic at that speed, at any rate
+    # The force falls by a seventh before this one turns; at no rate the atlas tells its law. 0.1 % seen.
+    end_to_end("viscous", 12, 0.2, 0.0625, 0.01, 0.01)
+    assert "rate_free.viscous = from the atlas" in mpm("info", "law.h5")
 
 
 def stiff():
