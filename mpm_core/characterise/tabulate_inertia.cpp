@@ -188,13 +188,16 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
 
   const boost::math::interpolators::cardinal_cubic_b_spline<double> within(
       log_force.begin(), log_force.end(), 0.0, 1.0 / (LawShape::Inertia::shares - 1));
-  // From the impact's own overlap on: the cubic with its value and slope there, and none at ratio_end. Of a
-  // rate the slope is that of the fall before the turn, which the law does not follow.
-  const double end = within(1.0), end_slope = rate ? 0.0 : within.prime(1.0) * (ratio_end - 1);
+  // From the impact's own overlap on: the cubic with its value and slope there, and none where it ends. Of a
+  // rate the slope is that of the fall before the turn, which the law does not follow; and it ends as soon as
+  // that of inertia, so that its peak, kept from falling, lasts no longer than until the press's force is as
+  // large.
+  const double told_end = rate ? usual_ratio_end : ratio_end;
+  const double end = within(1.0), end_slope = rate ? 0.0 : within.prime(1.0) * (told_end - 1);
   const auto fitted = [&](double xi) {
-    if (xi >= ratio_end) return 0.0;
+    if (xi >= told_end) return 0.0;
     if (xi <= 1) return std::expm1(within(xi));
-    const double t = (xi - 1) / (ratio_end - 1);
+    const double t = (xi - 1) / (told_end - 1);
     return std::expm1((1 - t) * (1 - t) * (end * (1 + 2 * t) + end_slope * t));
   };
 
