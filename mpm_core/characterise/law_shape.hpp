@@ -107,8 +107,9 @@ InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& s
                                     double mass, double fastest);
 
 /// The same of a rate-dependent body whose `slow` law is that of no rate: an axis from the slowest impact of
-/// the shape on, by the logarithm of the speed; at a body of this radius (m). The force goes over to `slow`'s
-/// within so much more than half of the overlap reached that it never falls.
+/// the shape on, by the logarithm of the speed; at a body of this radius (m). The force, which falls before
+/// such an impact turns, rises to its last share's and stays there until `slow`'s is as large. Throws Error
+/// where that is beyond 12 times the overlap reached.
 InertiaAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                  double mass, double fastest, double reference_radius);
 
