@@ -61,11 +61,14 @@ double counted(double error, double restitution)
 /// Error of F_max of the finer of two impacts of four grids, relative. In 52 (sqrt(I) = 0.1, E*/Y 30 to 4900,
 /// nu 0 to 0.45, H/E 0 to 0.2) 24 cells were off 48 by up to 0.6 %, and by no more than this: runs agree by
 /// chance to less than 0.35 %.
-double error_of_peak(const RunResult& fine, const RunResult& coarse)
+double peak_error(const RunResult& fine, const RunResult& coarse, double ripple)
 {
   const RunSummary &f = fine.summary, &c = coarse.summary;
-  return std::max(
-      {1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * f.ripple, 0.0035 * 24 / f.resolution});
+  return std::max({1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * ripple, 0.0035 * 24 / f.resolution});
+}
+double error_of_peak(const RunResult& fine, const RunResult& coarse)
+{
+  return peak_error(fine, coarse, fine.summary.ripple);
 }
 
 /// The same of a body whose force falls with its rate before the turn: that, too, is scatter about the fit
@@ -74,9 +77,8 @@ double error_of_rated_peak(const RunResult& fine, const RunResult& coarse)
 {
   const RunSummary &f = fine.summary, &c = coarse.summary;
   const double fall = std::pow(static_cast<double>(c.resolution) / f.resolution, 2 * 1.65);
-  const double ripple =
-      std::sqrt(std::max(0.0, c.ripple * c.ripple - f.ripple * f.ripple) * fall / (1 - fall));
-  return std::max({1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * ripple, 0.0035 * 24 / f.resolution});
+  const double square = std::max(0.0, c.ripple * c.ripple - f.ripple * f.ripple) * fall / (1 - fall);
+  return peak_error(fine, coarse, std::sqrt(square));
 }
 
 /// The same of a press's loading, where a law is fitted to it. The law passes through the ripple, which is no

@@ -12,6 +12,7 @@ namespace granulaw {
 namespace {
 
 constexpr double slowest_press = 1e-3;  // overlap: below, slow impacts are cheaper than presses
+
 /// Ends of the presses: each a quarter of the next, so that the contact of its shallowest partial unloading
 /// still spans about half the cells.
 constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};

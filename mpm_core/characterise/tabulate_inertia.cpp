@@ -257,6 +257,17 @@ Slice slice_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& 
   return slice;
 }
 
+/// One slice's nodes among those of all.
+std::vector<double> row_of(const std::vector<double>& all, std::size_t row, std::size_t columns)
+{
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(row * columns);
+  return {first, first + static_cast<std::ptrdiff_t>(columns)};
+}
+void put_row(std::vector<double>& all, std::size_t row, const std::vector<double>& values)
+{
+  std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(row * values.size()));
+}
+
 /// Where a contact is turned at a small share of its X the table's nodes in xi are too far apart to follow
 /// the onset of yield. Raises the exponents there until no closed cycle gains energy in any slice or half-way
 /// between two: that only takes more energy from contacts turned so early.
@@ -309,16 +320,13 @@ void raise_exponents(InertiaAxis::Table& axis, const ContactCurve& slow)
     if (!lacks) return;
     for (std::size_t k = 0; k < raise.size(); ++k) axis.exponent_correction[k] += raise[k];
     for (std::size_t row = 0; row < axis.slices; ++row) {
-      const auto first = axis.exponent_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);
-      const std::vector<double> slope =
-          slopes_of({first, first + static_cast<std::ptrdiff_t>(columns)}, share_spacing);
-      std::copy(slope.begin(), slope.end(),
-                axis.exponent_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
+      const std::vector<double> exponents = row_of(axis.exponent_correction, row, columns);
+      put_row(axis.exponent_correction_slope, row, slopes_of(exponents, share_spacing));
     }
   }
 }
 
-/// The same between the nodes and half-way between two slices, whose plateaus begin at different shares:
+/// keep_rising() between the nodes and half-way between two slices, whose plateaus begin at different shares:
 /// lifts the node that follows in both slices until the force rises at every place that ContactCurve
 /// examines.
 void keep_rising_between(InertiaAxis::Table& table, const ContactCurve& slow)
@@ -353,12 +361,9 @@ void keep_rising_between(InertiaAxis::Table& table, const ContactCurve& slow)
     for (std::size_t j = 0; j < lift.size(); ++j)
       table.force_correction[j] += lift[j] * (1 + table.force_correction[j]);
     for (std::size_t row = 0; row < table.slices; ++row) {
-      const auto first = table.force_correction.begin() + static_cast<std::ptrdiff_t>(row * columns);
-      const std::vector<double> slope =
-          rising_slopes({first, first + static_cast<std::ptrdiff_t>(columns)}, slow,
-                        axis.scale().overlap(static_cast<double>(row + 1)));
-      std::copy(slope.begin(), slope.end(),
-                table.force_correction_slope.begin() + static_cast<std::ptrdiff_t>(row * columns));
+      const double reach = axis.scale().overlap(static_cast<double>(row + 1));
+      put_row(table.force_correction_slope, row,
+              rising_slopes(row_of(table.force_correction, row, columns), slow, reach));
     }
   }
 }
