@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstring>
+#include <memory>
 
+#include "liggghts_plugin/heat_conduction.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
 
@@ -28,11 +31,81 @@ void check_liggghts(LAMMPS_NS::LAMMPS* lmp, const void* parent, std::size_t pare
   // Only builds with superquadrics have this class, and their structures are laid out differently.
   if (dlsym(RTLD_DEFAULT, "_ZTVN9LAMMPS_NS19AtomVecSuperquadricE"))
     refuse(lmp, "this LIGGGHTS was built with superquadrics");
-  // malloc rounds up to 16 bytes and keeps a word for itself: the block is at most 24 bytes larger than
-  // asked.
+  // Allocators round up, each in its own way: an object of the expected size tells by how much. glibc's may
+  // leave 24 bytes more to the one that it finds first.
   const std::size_t block = malloc_usable_size(const_cast<void*>(parent));
-  if (block < parent_size || block > parent_size + 24)
+  const std::unique_ptr<char[]> alike(new char[parent_size]);
+  const std::size_t expected = std::max(malloc_usable_size(alike.get()), parent_size) + 24;
+  if (block < parent_size || block > expected)
     refuse(lmp, fmt::format("its {} takes {} bytes, {} expected", what, block, parent_size));
+}
+
+namespace {
+
+/// LIGGGHTS allots the histories of a particle's neighbours, `one` of them, out of pages of `page` numbers,
+/// and crashes where they do not fit.
+void check_pages(const LAMMPS_NS::Neighbor& neighbor, const Setup& setup, int dnum)
+{
+  if (setup.wall && !setup.wall->is_mesh_wall()) return;  // a primitive has one history for each particle
+  const long needed = static_cast<long>(dnum) * neighbor.oneatom;
+  if (needed > neighbor.pgsize)
+    fail(
+        setup.where,
+        fmt::format("a contact keeps {} values, and {} neighbours of a particle do not fit into a page of {}",
+                    dnum, neighbor.oneatom, neighbor.pgsize),
+        {}, fmt::format("neigh_modify page {} or more, or a smaller 'one'", needed));
+}
+
+/// A wall takes what its own command leaves open from the pair style: from the one that stands before it.
+void check_inherited(const Setup& setup)
+{
+  const Session& session = *setup.session;
+  if (!setup.wall || !session.pair_options) return;
+  Options now = setup.own;
+  now.inherit(*session.pair_options);
+  const bool other_law = setup.law && setup.own.law_path.empty() && setup.law != session.pair_law;
+  if (now != setup.options || other_law || setup.energy != (session.energy != nullptr) ||
+      setup.contact_map != session.contact_map)
+    fail(setup.where,
+         "it stands before the pair_style whose words it should take (energy, contactMap, stretch, damping, "
+         "law, "
+         "materials): put it behind");
+}
+
+/// Histories of another combination of models would be read as what they are not, unless their number
+/// differs.
+void check_restarted(const Setup& setup)
+{
+  std::map<std::string, long>& restarted = setup.session->restarted;
+  const auto found = restarted.find(setup.wall ? setup.wall->id : "pair");
+  if (found == restarted.end()) return;
+  if (found->second != setup.combination)
+    fail(setup.where,
+         "the restart file was written with other models, whose contact histories mean something else",
+         describe_combination(setup.combination), describe_combination(found->second));
+  restarted.erase(found);
+}
+
+}  // namespace
+
+void check_run(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, int dnum)
+{
+  constexpr int multi = 2;  // Neighbor::style of `neighbor ... multi`
+  if (lmp->neighbor->style == multi)
+    fail(setup.where,
+         "'neighbor ... multi' lets spheres of unlike size pass through each other: use 'neighbor ... bin'");
+  check_pages(*lmp->neighbor, setup, dnum);
+  check_inherited(setup);
+  check_heat(lmp, setup);
+  check_restarted(setup);
+  const bool respa =
+      lmp->update->integrate_style && std::strncmp(lmp->update->integrate_style, "respa", 5) == 0;
+  if (respa && setup.wall)
+    fail(setup.where,
+         "'run_style respa' of this LIGGGHTS does not call fix wall/gran, of no model: spheres would fall "
+         "through the wall; use 'run_style verlet'");
+  if (respa && setup.energy)
+    fail(setup.where, "'energy on' books one force a step: it needs 'run_style verlet', not respa");
 }
 
 }  // namespace granulaw::plugin

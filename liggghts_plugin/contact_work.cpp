@@ -44,15 +44,10 @@ double stored_energy(const MpmContact& contact, double r_eff, double delta, doub
   return u > 0.0 ? unit * top.force * span * top.shape.work(u) : 0.0;
 }
 
+// F(d/S)/S does the same work to S times the overlap, and is softer by S^2.
 double stored_energy(const ThorntonContact& contact, double r_eff, double delta, double delta_max, double)
 {
-  const ThorntonPair& law = contact.law;
-  const double reached = std::max(delta, delta_max), top = law.evaluate(r_eff, reached, reached).force;
-  if (reached <= law.yield_overlap(r_eff)) return 0.4 * law.evaluate(r_eff, delta, delta).force * delta;
-  // unloading is Hertz of another radius: 1.5 F_m/(slope at the top) is the elastic part of the overlap
-  const double elastic = 1.5 * top / stiffness(contact, r_eff, reached, 0.0);
-  const double part = (delta - (reached - elastic)) / elastic;
-  return part > 0.0 ? 0.4 * top * elastic * part * part * std::sqrt(part) : 0.0;
+  return contact.law.stored_energy(r_eff, contact.per_stretch * delta, contact.per_stretch * delta_max);
 }
 
 double stiffness(const MpmContact& contact, double r_eff, double delta, double impact_overlap)
@@ -68,13 +63,10 @@ double stiffness(const MpmContact& contact, double r_eff, double delta, double i
 
 double stiffness(const ThorntonContact& contact, double r_eff, double delta, double)
 {
-  const ThorntonPair& law = contact.law;
-  const ContactForce top = law.evaluate(r_eff, delta, delta);
-  if (delta <= law.yield_overlap(r_eff)) return top.stiffness;
-  // 2 E* a of the flattened contact: the area of ThorntonPair::evaluate
-  const double f_y = law.evaluate(r_eff, law.yield_overlap(r_eff), 0.0).force;
-  const double area = (2.0 * top.force + f_y) / (2.0 * M_PI * law.yield_pressure);
-  return std::max(top.stiffness, 2.0 * law.e_star * std::sqrt(area));
+  const double real = contact.per_stretch * delta;
+  return contact.per_stretch * contact.per_stretch *
+         std::max(contact.law.evaluate(r_eff, real, real).stiffness,
+                  contact.law.unloading_stiffness(r_eff, real));
 }
 
 PairInfo describe(const MpmContact& contact, const Setup& setup, const PairKey& key, double r_eff,
@@ -124,9 +116,10 @@ PairInfo describe(const ThorntonContact& contact, const Setup&, const PairKey& k
   info.overlap_limit = std::numeric_limits<double>::infinity();
   info.onset_speed = std::numeric_limits<double>::infinity();
   if (!(r_eff > 0)) return info;
-  const double onset = contact.law.yield_overlap(r_eff);
+  const double onset = contact.yield_overlap() * r_eff;
   info.onset_speed = std::sqrt(2.0 * stored_energy(contact, r_eff, onset, onset, 0.0) / m_eff);
-  info.dt_limit = time_step(stiffness(contact, r_eff, thornton_depth * r_eff, 0.0), m_eff);
+  info.dt_limit =
+      time_step(stiffness(contact, r_eff, thornton_depth * r_eff / contact.per_stretch, 0.0), m_eff);
   return info;
 }
 

@@ -8,7 +8,8 @@ struct MpmContact;
 struct ThorntonContact;
 struct Setup;
 
-// What the books need of a law beyond its force. Overlaps in m, `impact_overlap` is the latched X.
+// What the books need of a law beyond its force. Overlaps are the contact's own, stretched; `impact_overlap`
+// is the latched X.
 
 /// J, elastic energy that a contact holds at overlap `delta`: what it gives back on complete unloading.
 double stored_energy(const MpmContact& contact, double r_eff, double delta, double delta_max,

@@ -20,19 +20,17 @@ class EnergyBooks
   /// Values of contact history that account() keeps: force and couple of the last step, newton flag "1".
   static constexpr int history_values = 6;
 
-  double** per_atom = nullptr;          ///< rows of `columns`; null: not there yet
-  double law_force = 0;                 ///< N, of the law alone, in the contact computed last
+  double** per_atom = nullptr;  ///< rows of `columns`; null: not there yet
+  double** dissipated_energy =
+      nullptr;           ///< LIGGGHTS's property of that name, energy first; null: not asked for
+  double law_force = 0;  ///< N, of the law alone, in the contact computed last
   ContactLedger::Side* side = nullptr;  ///< of that contact
 
   void share(const SurfacesIntersectData& sidata, Column column, double energy, int nlocal) const
   {
     if (!per_atom) return;
-    if (sidata.is_wall) {
-      per_atom[sidata.i][column] += energy;
-      return;
-    }
-    per_atom[sidata.i][column] += 0.5 * energy;
-    if (sidata.j < nlocal) per_atom[sidata.j][column] += 0.5 * energy;
+    add(sidata.i, column, sidata.is_wall ? energy : 0.5 * energy);
+    if (!sidata.is_wall && sidata.j < nlocal) add(sidata.j, column, 0.5 * energy);
   }
 
   /// Books the work that the contact took from the particles over the last step, but for the normal law's:
@@ -73,6 +71,12 @@ class EnergyBooks
   }
 
  private:
+  void add(int particle, Column column, double energy) const
+  {
+    per_atom[particle][column] += energy;
+    if (dissipated_energy && column != stored) dissipated_energy[particle][0] += energy;
+  }
+
   static void cross(const double* a, const double* b, double* out)
   {
     out[0] = a[1] * b[2] - a[2] * b[1];

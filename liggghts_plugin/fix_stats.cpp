@@ -44,6 +44,15 @@ void reduce(ContactLedger::Side& side, MPI_Comm world)
 }
 
 constexpr const char* energy_name = "granulaw_energy";
+/// Of `computeDissipatedEnergy on`, as LIGGGHTS's own models make it: energy, and six places that they work
+/// with.
+constexpr const char *dissipated_id = "dissipated_energy_", *dissipated_name = "dissipated_energy";
+
+LAMMPS_NS::FixPropertyAtom* dissipated_property(LAMMPS_NS::LAMMPS* lmp)
+{
+  return static_cast<LAMMPS_NS::FixPropertyAtom*>(
+      lmp->modify->find_fix_property(dissipated_name, "property/atom", "vector", 0, 0, style_name, false));
+}
 
 /// The per-atom property that EnergyBooks fills; it moves with the particles and into restart files.
 LAMMPS_NS::FixPropertyAtom* energy_property(LAMMPS_NS::LAMMPS* lmp)
@@ -60,6 +69,14 @@ void provide_energy_property(LAMMPS_NS::LAMMPS* lmp)
   lmp->modify->add_fix_property_atom(11, const_cast<char**>(arg), style_name);
 }
 
+void provide_dissipated_property(LAMMPS_NS::LAMMPS* lmp)
+{
+  if (!Session::of(lmp)->dissipated_energy || dissipated_property(lmp)) return;
+  const char* arg[] = {dissipated_id, "all", "property/atom", dissipated_name, "vector", "yes", "yes", "no",
+                       "0.0",         "0.0", "0.0",           "0.0",           "0.0",    "0.0", "0.0"};
+  lmp->modify->add_fix_property_atom(15, const_cast<char**>(arg), style_name);
+}
+
 }  // namespace
 
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
@@ -67,6 +84,7 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
   register_fix_style(lmp, style_name, &make_fix);
   if (!lmp->domain->box_exist) return;
   provide_energy_property(lmp);
+  provide_dissipated_property(lmp);
   if (lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw", "all", style_name};
   lmp->modify->add_fix(3, const_cast<char**>(arg));
@@ -75,10 +93,12 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
 FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
     : Fix(lmp_, narg, arg), session_(Session::of(lmp_))
 {
-  scalar_flag = vector_flag = 1;
+  scalar_flag = vector_flag = array_flag = 1;
   size_vector = vector_length;
+  size_array_rows = rows_of_types(atom->ntypes);
+  size_array_cols = array_columns;
   global_freq = 1;
-  extscalar = extvector = 0;  // totals, never to be divided by the number of particles
+  extscalar = extvector = extarray = 0;  // totals, never to be divided by the number of particles
   restart_global = 1;
   if (session_->energy) {
     peratom_flag = 1;
@@ -128,10 +148,32 @@ void FixStats::print(const std::string& text) const
     if (out) std::fprintf(out, "%s", text.c_str());
 }
 
+void FixStats::warn(const std::string& what, const std::string& text) const
+{
+  if (session_->first_time(what) && comm->me == 0) error->warning(FLERR, text.c_str());
+}
+
+void FixStats::warn_of_clumps() const
+{
+  int overlap = Bodies::overlap_themselves(lmp) ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &overlap, 1, MPI_INT, MPI_MAX, world);
+  if (overlap)
+    warn("overlapping clumps",
+         "granulaw: spheres of a clump overlap each other; where a partner touches two of them both answer, "
+         "and the "
+         "contact is up to twice as stiff as the law's");
+}
+
 void FixStats::setup(int)
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
   if (!speaks()) return;
+  warn_of_clumps();
+  for (const auto& [wall, combination] : session_->restarted)
+    warn("restarted " + wall, fmt::format("granulaw: the restart file holds contacts of fix {} wall/gran "
+                                          "({}), which this deck has not: their "
+                                          "dents are lost; give the walls their old ids",
+                                          wall, describe_combination(combination)));
   std::string table = start_table(session_->ledger, deck_units());
   if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
   last_table_ = table;
@@ -151,20 +193,34 @@ void FixStats::setup(int)
 
 void FixStats::pre_force(int)
 {
+  session_->bodies.update(lmp);
+  step_of_rows_ = -1;
   if (!session_->energy) return;
   // the property's array moves when particles come in
   LAMMPS_NS::FixPropertyAtom* property = energy_property(lmp);
   session_->books.per_atom = property ? property->array_atom : nullptr;
+  LAMMPS_NS::FixPropertyAtom* dissipated = session_->dissipated_energy ? dissipated_property(lmp) : nullptr;
+  session_->books.dissipated_energy = dissipated ? dissipated->array_atom : nullptr;
   if (peratom_flag) array_atom = session_->books.per_atom;
   if (!property) return;
   for (int a = 0; a < atom->nlocal; ++a) session_->books.per_atom[a][EnergyBooks::stored] = 0.0;
 }
 
-ContactLedger FixStats::total() const
+ContactLedger FixStats::sum_of_ranks(bool with_open) const
 {
   ContactLedger sum = session_->ledger;
-  for (auto& [key, side] : sum.sides) reduce(side, world);
+  if (!with_open)
+    for (const auto& [wall, style] : session_->styles) style->take_out_open(sum);
+  for (auto& [key, side] : sum.sides) {
+    reduce(side, world);
+    if (!with_open) side.count_ended();
+  }
   return sum;
+}
+
+ContactLedger FixStats::total() const
+{
+  return sum_of_ranks(false);
 }
 
 double FixStats::stored_energy() const
@@ -201,12 +257,28 @@ double FixStats::compute_vector(int n)
                                      std::max(p.frequency2, w.frequency2),
                                      stored_energy(),
                                      p.other_work + w.other_work,
-                                     p.too_slow + w.too_slow};
+                                     p.too_slow + w.too_slow,
+                                     p.sudden + w.sudden,
+                                     p.brought + w.brought};
   const bool is_sum = !((n >= 4 && n <= 7) || n == 9 || n == 12);
   double result = 0;
   MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
   if (n == 12) return result > 0 ? dt_fraction * 2.0 * M_PI / std::sqrt(result) : 0.0;
   return result;
+}
+
+double FixStats::compute_array(int row, int column)
+{
+  if (step_of_rows_ != update->ntimestep) {
+    rows_ = total();
+    step_of_rows_ = update->ntimestep;
+  }
+  ContactLedger::Side side;  // walls of both kinds together
+  for (const auto& [key, counted] : rows_.sides)
+    if (row_of_types(key, atom->ntypes) == row) side.merge(counted);
+  const double values[array_columns] = {side.touches,   side.ended,       side.dissipated, side.other_work,
+                                        side.speed_max, side.overlap_max, side.sudden};
+  return values[column];
 }
 
 void FixStats::end_of_step()
@@ -242,6 +314,12 @@ void FixStats::post_run()
         "; {:.0f} contacts began slower than the slowest impact that the rate-dependent law knows and "
         "follow it as at that rate",
         all.too_slow);
+  if (all.sudden > 0)
+    line += fmt::format(
+        "; {:.0f} contacts began deeper than the motion of a step can bring them (particles inserted into "
+        "each other, "
+        "edges of a mesh): they brought {:.6g} J, and none of it is in what was dissipated",
+        all.sudden, all.brought);
   if (session_->inertia_limit > 0 && all.inertia_max > session_->inertia_limit)
     line += fmt::format(
         "; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
@@ -263,8 +341,16 @@ void FixStats::write_files(const ContactLedger& sum) const
 // Restart files keep the sums of all ranks: rank 0 takes them up again, the others start at zero.
 void FixStats::write_restart(FILE* file)
 {
-  std::vector<double> values = total().pack();
+  // with the open contacts, which go on after the restart
+  std::vector<double> values = sum_of_ranks(true).pack();
   if (comm->me != 0) return;
+  values.insert(values.begin(), static_cast<double>(values.size()));
+  // each command: number of its models and words, length and letters of its name
+  values.push_back(static_cast<double>(session_->combinations.size()));
+  for (const auto& [name, combination] : session_->combinations) {
+    values.insert(values.end(), {static_cast<double>(combination), static_cast<double>(name.size())});
+    values.insert(values.end(), name.begin(), name.end());
+  }
   values.insert(values.begin(), static_cast<double>(values.size()));
   const int size = static_cast<int>(values.size() * sizeof(double));
   std::fwrite(&size, sizeof(int), 1, file);
@@ -278,7 +364,19 @@ void FixStats::restart(char* buffer)
   std::memcpy(&count, buffer, sizeof(double));
   std::vector<double> values(static_cast<std::size_t>(count));
   std::memcpy(values.data(), buffer + sizeof(double), values.size() * sizeof(double));
-  if (!session_->ledger.unpack(values.data(), values.size(), comm->me == 0) && comm->me == 0)
+  const auto counts = values.empty() ? 0 : static_cast<std::size_t>(values[0]);
+  for (std::size_t k = counts + 2; k + 1 < values.size();) {
+    const auto length = static_cast<std::size_t>(values[k + 1]);
+    if (k + 2 + length > values.size()) break;
+    const auto name = values.begin() + static_cast<std::ptrdiff_t>(k + 2);
+    std::string text;
+    for (std::size_t c = 0; c < length; ++c) text += static_cast<char>(name[static_cast<std::ptrdiff_t>(c)]);
+    session_->restarted[text] = static_cast<long>(values[k]);
+    k += 2 + length;
+  }
+  const bool known = counts > 0 && counts < values.size() &&
+                     session_->ledger.unpack(values.data() + 1, counts, comm->me == 0);
+  if (!known && comm->me == 0)
     error->warning(FLERR, fmt::format("fix {} granulaw/stats: the restart file holds the counts of another "
                                       "version of the plug-in: they begin at zero",
                                       id)

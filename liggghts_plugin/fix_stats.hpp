@@ -27,11 +27,16 @@ namespace granulaw::plugin {
 ///   14     elastic energy that contacts hold now, J (energy on; else 0)
 ///   15     work taken by all forces but the normal law's (friction, ...), J (energy on; else 0)
 ///   16     contacts that began slower than the slowest impact of a rate law
-/// Per atom with `energy on`, J: elastic energy now, dissipated by normal contacts, work of the other forces.
+///   17     contacts that began deeper than one step's motion can bring them (inserted into each other, mesh
+///   edges) 18     elastic energy that those held when they began, J
+/// Global array: a row for each pair of atom types, then one for each atom type with each wall's
+/// (row_of_types); columns: contacts begun, ended, energy dissipated by them (J), work of the other forces
+/// (J, energy on), largest approach speed (m/s), largest overlap/R*, contacts of f[17]. Per atom with `energy
+/// on`, J: elastic energy now, dissipated by normal contacts, work of the other forces.
 class FixStats : public LAMMPS_NS::Fix
 {
  public:
-  static constexpr int vector_length = 16;
+  static constexpr int vector_length = 18, array_columns = 7;
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 
@@ -43,16 +48,22 @@ class FixStats : public LAMMPS_NS::Fix
   void post_run() override;
   double compute_scalar() override;
   double compute_vector(int n) override;
+  double compute_array(int row, int column) override;
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
 
  private:
   /// The ledger summed (or its largest values) over ranks. Collective.
   ContactLedger total() const;
+  /// `with_open`: as the ranks keep it, with the contacts that are open (ContactLedger::Side::overlap).
+  ContactLedger sum_of_ranks(bool with_open) const;
   double stored_energy() const;
   void write_json(const ContactLedger& sum, const std::string& path) const;
   void write_files(const ContactLedger& sum) const;
   void print(const std::string& text) const;
+  /// Once for each `what`.
+  void warn(const std::string& what, const std::string& text) const;
+  void warn_of_clumps() const;
   /// True in the one fix that speaks, if a deck has several.
   bool speaks() const;
   DeckUnits deck_units() const;
@@ -60,6 +71,8 @@ class FixStats : public LAMMPS_NS::Fix
   std::shared_ptr<Session> session_;
   std::string path_, last_table_;
   double largest_dt_ = 0;
+  ContactLedger rows_;  // of compute_array: total() of step_of_rows_
+  LAMMPS_NS::bigint step_of_rows_ = -1;
 };
 
 }  // namespace granulaw::plugin

@@ -1,27 +1,34 @@
 #include "liggghts_plugin/fix_style.hpp"
 
+#include "liggghts_plugin/private_members.hpp"
+
 namespace granulaw::plugin {
 
-namespace {
-
-// Modify::fix_map is private, and LIGGGHTS has no call that adds a fix style. An explicit instantiation may
-// name private members ([temp.spec]), so it can hand out the pointer to member.
-template <class Tag, auto member>
-struct Expose
-{
-  friend auto exposed(Tag) { return member; }
-};
+// Modify's maps are private, and LIGGGHTS has no call that adds a style.
 struct FixMapTag
 {
   friend auto exposed(FixMapTag);
 };
 template struct Expose<FixMapTag, &LAMMPS_NS::Modify::fix_map>;
-
-}  // namespace
+struct ComputeMapTag
+{
+  friend auto exposed(ComputeMapTag);
+};
+template struct Expose<ComputeMapTag, &LAMMPS_NS::Modify::compute_map>;
 
 void register_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator create)
 {
   (lmp->modify->*exposed(FixMapTag{}))->emplace(name, create);
+}
+
+void replace_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator create)
+{
+  (*(lmp->modify->*exposed(FixMapTag{})))[name] = create;
+}
+
+void replace_compute_style(LAMMPS_NS::LAMMPS* lmp, const char* name, ComputeCreator create)
+{
+  (*(lmp->modify->*exposed(ComputeMapTag{})))[name] = create;
 }
 
 UnfinishedFix::UnfinishedFix(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::Fix* unfinished) : modify_(lmp->modify)

@@ -9,6 +9,12 @@ using FixCreator = LAMMPS_NS::Fix* (*)(LAMMPS_NS::LAMMPS*, int, char**);
 /// Makes `name` a fix style of this LIGGGHTS; a style that is there already stays.
 void register_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator create);
 
+/// Makes `create` what the deck's fix or compute `name` is from now on: for classes that do what LIGGGHTS's
+/// own do and more.
+using ComputeCreator = LAMMPS_NS::Compute* (*)(LAMMPS_NS::LAMMPS*, int iarg, int, char**);
+void replace_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator create);
+void replace_compute_style(LAMMPS_NS::LAMMPS* lmp, const char* name, ComputeCreator create);
+
 /// While it lives, Modify's list can be searched and other fixes can be added although the constructor of
 /// `unfinished` is still running. Modify enters a fix in its list after that: it would give the place to the
 /// other, or, where it replaces a fix of the same id, hold a null pointer there that its searches follow.

@@ -93,6 +93,8 @@ std::string counts_json(const ContactLedger::Side& s, const std::string& indent)
       {"contact_steps_beyond_table", number(s.beyond)},
       {"contacts_beyond_speed_axis", number(s.too_fast)},
       {"contacts_below_speed_axis", number(s.too_slow)},
+      {"contacts_begun_overlapping", number(s.sudden)},
+      {"energy_of_overlapping_starts_J", number(s.brought)},
       {"time_step_allowed_s", number(s.dt_allowed())},
       {"impact_speed", histogram_json(s.speed, "approach speed at first touch, m/s")},
       {"largest_overlap_over_radius",
@@ -127,6 +129,22 @@ std::string pair_json(const PairKey& key, const ContactLedger::Side& s)
 
 }  // namespace
 
+const std::array<double, LogHistogram::bins> LogHistogram::upper_ratio = [] {
+  std::array<double, bins> ratio{};
+  for (int b = 0; b < bins; ++b) ratio[static_cast<std::size_t>(b)] = std::pow(10.0, (b + 1.0) / per_decade);
+  ratio.back() = std::numeric_limits<double>::infinity();
+  return ratio;
+}();
+
+const std::array<std::size_t, LogHistogram::octaves> LogHistogram::first_of_octave = [] {
+  std::array<std::size_t, octaves> first{};
+  for (std::size_t k = 0; k < octaves; ++k)
+    while (first[k] + 1 < bins && std::pow(10.0, (static_cast<double>(first[k]) + 1.0) / per_decade) <=
+                                      std::ldexp(1.0, static_cast<int>(k)))
+      ++first[k];
+  return first;
+}();
+
 void ContactLedger::Side::merge(const Side& other)
 {
   Side copy = other;
@@ -143,10 +161,23 @@ void ContactLedger::Side::merge(const Side& other)
   for (std::size_t k = 0; k < map.size(); ++k) map[k] += other.map[k];
 }
 
+void ContactLedger::Side::count_ended()
+{
+  ended = 0;
+  overlap_min = std::numeric_limits<double>::infinity();
+  // a contact may be older than the counts, which begin at zero where a restart file holds none
+  for (double& one : overlap.count) one = std::max(0.0, one);
+  for (double& one : map) one = std::max(0.0, one);
+  for (int b = LogHistogram::bins - 1; b >= 0; --b) {
+    ended += overlap.count[static_cast<std::size_t>(b)];
+    if (overlap.count[static_cast<std::size_t>(b)] > 0) overlap_min = overlap.lower_edge(b);
+  }
+}
+
 ContactLedger::Side ContactLedger::Side::in_si(const DeckUnits& units) const
 {
   Side si = *this;
-  for (double* energy : {&si.dissipated, &si.other_work}) *energy *= units.energy();
+  for (double* energy : {&si.dissipated, &si.other_work, &si.brought}) *energy *= units.energy();
   for (double* one : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
     *one *= units.length;
   return si;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <compare>
 #include <cstdint>
@@ -23,13 +24,25 @@ struct LogHistogram
   std::array<double, bins> count{};
 
   explicit LogHistogram(double lower_edge) : first(lower_edge) {}
+  /// Without a logarithm: each contact that grows deeper asks.
   std::size_t bin(double value) const
   {
-    const double position = value > first ? per_decade * std::log10(value / first) : 0.0;
-    return static_cast<std::size_t>(std::min(position, bins - 1.0));
+    const double ratio = value / first;
+    if (!(ratio > 1.0)) return 0;
+    // floor(log2 ratio), the exponent of the number, tells the bin but for the two behind it
+    const auto octave = static_cast<std::size_t>((std::bit_cast<std::uint64_t>(ratio) >> 52) - 1023);
+    std::size_t found = first_of_octave[std::min(octave, octaves - 1)];
+    while (ratio >= upper_ratio[found]) ++found;
+    return found;
   }
   void add(double value, double weight) { count[bin(value)] += weight; }
   double lower_edge(int bin) const { return first * std::pow(10.0, static_cast<double>(bin) / per_decade); }
+
+ private:
+  static constexpr std::size_t octaves = 64;
+  static const std::array<double, bins>
+      upper_ratio;  ///< of each bin's upper edge to `first`; the last: infinity
+  static const std::array<std::size_t, octaves> first_of_octave;  ///< bin of 2^octave
 };
 
 /// Which contacts share one line of the ledger: those of a pair of atom types, or of a type with a wall's.
@@ -41,6 +54,19 @@ struct PairKey
 
   auto operator<=>(const PairKey&) const = default;
 };
+
+/// Rows of a table of `types` atom types: first pairs i <= j of particles (1 1, 1 2, ..., 2 2, ...), then
+/// each particle type with each wall type (1 1, 1 2, ..., 2 1, ...). From 0; both kinds of walls share a row.
+constexpr int rows_of_types(int types)
+{
+  return types * (types + 1) / 2 + types * types;
+}
+constexpr int row_of_types(const PairKey& key, int types)
+{
+  if (key.kind == PairKey::particles)
+    return (key.i - 1) * types - (key.i - 1) * (key.i - 2) / 2 + key.j - key.i;
+  return types * (types + 1) / 2 + (key.i - 1) * types + key.j - 1;
+}
 
 /// What the law says about a pair of types when a run begins. Not counted, not reduced: alike on all ranks.
 struct PairInfo
@@ -73,40 +99,51 @@ struct ContactLedger
     double dissipated = 0;   ///< J: loading work minus recoverable work, from the law's own work functions
     double other_work = 0;   ///< J, taken by all but the normal law (friction, rolling, ...); energy on only
     double touches = 0;      ///< contacts that began
-    double ended = 0;        ///< contacts that ended
+    double ended = 0;        ///< contacts that ended; known once the open ones are out (count_ended)
     double near = 0;         ///< contacts that came deeper than near_edge of the table
     double past = 0;         ///< contacts that went beyond the table
     double beyond = 0;       ///< contact-steps beyond the law's table
     double too_fast = 0;     ///< contacts that began faster than the law's velocity axis goes
     double too_slow = 0;     ///< contacts that began slower than the slowest impact of a rate law
+    double sudden = 0;       ///< contacts that began deeper than one step's motion can bring them
+    double brought = 0;      ///< J, elastic energy that those held when they began
     double speed_max = 0;    ///< m/s, largest approach speed at first touch
     double overlap_max = 0;  ///< largest overlap/R*
     double inertia_max = 0;  ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
     double frequency2 = 0;   ///< 1/s^2, largest stiffness over effective mass
-    double speed_min = std::numeric_limits<double>::infinity();  ///< m/s, slowest first touch
-    double overlap_min =
-        std::numeric_limits<double>::infinity();  ///< least largest overlap/R* of an ended one
-    LogHistogram speed{1e-6};                     ///< approach speed at first touch, m/s
-    LogHistogram overlap{1e-10};                  ///< largest overlap/R* of each contact that ended
-    /// Each contact that ended by both, at [bin of speed * bins + bin of overlap]; empty: `contactMap off`.
+    double speed_min = std::numeric_limits<double>::infinity();    ///< m/s, slowest first touch
+    double overlap_min = std::numeric_limits<double>::infinity();  ///< lower edge of the lowest bin of
+                                                                   ///< `overlap` that holds an ended one
+    LogHistogram speed{1e-6};                                      ///< approach speed at first touch, m/s
+    /// Largest overlap/R* so far of each contact, ended or open: LIGGGHTS does not always tell when one ends.
+    /// The open ones are taken out when the ledger is read (take_out_open), which leaves those that ended.
+    LogHistogram overlap{1e-10};
+    /// Each contact by both, at [bin of speed * bins + bin of overlap]; empty: `contactMap off`.
     std::vector<double> map;
     double hardest = 0;  ///< R* delta/m*^2 of the contact that frequency2 is of (this rank's; not reduced)
     PairInfo info;
 
-    static constexpr int sums = 9, maxima = 4, minima = 2;
+    static constexpr int sums = 11, maxima = 4, minima = 2;
     /// The numbers above, first those that add up over ranks, then those of which the largest, the least
     /// counts.
     std::array<double*, sums + maxima + minima> numbers()
     {
-      return {&dissipated,  &other_work,  &touches,    &ended,     &near,
-              &past,        &beyond,      &too_fast,   &too_slow,  &speed_max,
+      return {&dissipated,  &other_work,  &touches,    &ended,     &near,       &past,
+              &beyond,      &too_fast,    &too_slow,   &sudden,    &brought,    &speed_max,
               &overlap_max, &inertia_max, &frequency2, &speed_min, &overlap_min};
     }
-    void add_to_map(double touch_speed, double largest_overlap, double weight)
+    /// Counts a contact in its bin of overlap, with `contactMap on` (touch_speed >= 0) in the map; a negative
+    /// weight takes it out. A pair that two ranks see counts half on each, and may have begun on one of them
+    /// alone: only the sum over ranks need not be negative.
+    void count(std::size_t overlap_bin, double touch_speed, double weight)
     {
+      overlap.count[overlap_bin] += weight;
+      if (touch_speed < 0.0) return;
       if (map.empty()) open_map();
-      map[speed.bin(touch_speed) * LogHistogram::bins + overlap.bin(largest_overlap)] += weight;
+      map[speed.bin(touch_speed) * LogHistogram::bins + overlap_bin] += weight;
     }
+    /// What follows from the histogram, summed over ranks, once the open contacts are out.
+    void count_ended();
     void open_map() { map.resize(static_cast<std::size_t>(LogHistogram::bins * LogHistogram::bins)); }
     /// The same in SI; the contact loops count in the deck's units.
     Side in_si(const DeckUnits& units) const;

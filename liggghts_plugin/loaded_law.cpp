@@ -1,38 +1,55 @@
 #include "liggghts_plugin/loaded_law.hpp"
 
+#include <fstream>
+#include <iterator>
+
 #include "base/error.hpp"
 #include "law/law_file.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 
 namespace granulaw::plugin {
 
+namespace {
+
+/// From rank 0 to all others.
+void broadcast(LAMMPS_NS::LAMMPS* lmp, std::string& text)
+{
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp->world);
+}
+
+}  // namespace
+
 std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::string& path,
                                           const std::string& where)
 {
   auto loaded = std::make_shared<LoadedLaw>();
-  std::string message;
-  try {
-    loaded->path = path;
-    loaded->law = read_law(path);
-    const auto add = [&](const BodyLaw& body) { loaded->curves.emplace(&body.curve, FastCurve(body.curve)); };
-    for (const auto& [name, body] : loaded->law.bodies) add(body);
-    for (const auto& [name, own] : loaded->law.pair_laws) add(own.law);
-  } catch (const std::exception& error) {
-    message = error.what();
-  }
-
-  // The lowest rank that failed speaks for all.
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(lmp->world, &rank);
-  MPI_Comm_size(lmp->world, &ranks);
-  int failed = message.empty() ? ranks : rank, first = ranks;
-  MPI_Allreduce(&failed, &first, 1, MPI_INT, MPI_MIN, lmp->world);
-  if (first == ranks) return loaded;
-  int length = static_cast<int>(message.size());
-  MPI_Bcast(&length, 1, MPI_INT, first, lmp->world);
-  message.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(message.data(), length, MPI_CHAR, first, lmp->world);
-  fail(where, message);
+  loaded->path = path;
+  std::string message, image;
+  if (lmp->comm->me == 0) try {
+      std::ifstream file(path, std::ios::binary);
+      image.assign(std::istreambuf_iterator<char>(file), {});
+      loaded->law = read_law(path);
+    } catch (const std::exception& error) {
+      message = error.what();
+    }
+  broadcast(lmp, message);
+  if (!message.empty()) fail(where, message);
+  if (lmp->comm->nprocs > 1) broadcast(lmp, image);
+  if (lmp->comm->me != 0) try {
+      loaded->law = read_law_image(image, path);
+    } catch (const std::exception& error) {
+      message = error.what();
+    }
+  int failed = message.empty() ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, lmp->world);
+  if (failed) fail(where, "a rank could not take over the law that rank 0 read", path);
+  const auto add = [&](const BodyLaw& body) { loaded->curves.emplace(&body.curve, FastCurve(body.curve)); };
+  for (const auto& [name, body] : loaded->law.bodies) add(body);
+  for (const auto& [name, own] : loaded->law.pair_laws) add(own.law);
+  return loaded;
 }
 
 }  // namespace granulaw::plugin

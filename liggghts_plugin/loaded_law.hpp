@@ -21,8 +21,8 @@ struct LoadedLaw
   std::map<const ContactCurve*, FastCurve> curves;  ///< of each curve of `law`, of bodies and of pairs
 };
 
-/// Reads `path` on every rank. Throws the same Error on all ranks if any rank cannot read it, so that an MPI
-/// run stops with one sentence.
+/// Collective. Rank 0 reads `path` and hands the file's bytes to the others. Throws the same Error on all
+/// ranks if it cannot be read, so that an MPI run stops with one sentence.
 std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::string& path,
                                           const std::string& where);
 

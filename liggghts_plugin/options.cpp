@@ -86,7 +86,7 @@ const char* model_name(Model model)
 
 Words keywords(Model model, bool is_wall)
 {
-  Words words = {"tangentialDampingRatio", "tangentialStiffness", "elasticDamping", "stretch",
+  Words words = {"tangentialDampingRatio",  "tangentialStiffness", "elasticDamping", "stretch", "heatArea",
                  is_wall ? "wall" : "stats"};
   if (!is_wall) words.insert(words.end(), {"energy", "contactMap"});
   if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
@@ -106,6 +106,7 @@ void Options::inherit(const Options& pair)
   take(elastic_damping, pair.elastic_damping);
   take(stretch, pair.stretch);
   take(stop_beyond_range, pair.stop_beyond_range);
+  take(heat_by_law, pair.heat_by_law);
 }
 
 Options parse_options(Model model, bool is_wall, const std::string& where, const Words& words, Words& rest)
@@ -143,12 +144,16 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
       options.stats_path = value;
     else if (key == "energy")
       options.energy = choice(value, "on", "off", where, key);
+    else if (key == "computeDissipatedEnergy")
+      options.dissipated_energy = choice(value, "on", "off", where, key);
     else if (key == "contactMap")
       options.contact_map = choice(value, "on", "off", where, key);
     else if (key == "wall")
       options.deformable_wall = choice(value, "deformable", "rigid", where, key);
     else if (key == "beyondRange")
       options.stop_beyond_range = choice(value, "stop", "continue", where, key);
+    else if (key == "heatArea")
+      options.heat_by_law = choice(value, "law", "overlap", where, key);
     else if (key == "tangentialDampingRatio") {
       options.tangential_damping = number(value, where, key);
       if (!(*options.tangential_damping >= 0 && *options.tangential_damping <= 1))

@@ -15,6 +15,8 @@ struct ElasticDamping
 {
   double ratio = 0.001;  ///< fraction of critical; an elastic impact then has e = exp(-pi Z/sqrt(1-Z^2))
   bool from_restitution = false;  ///< Z of each pair of types from the deck's coefficientRestitution
+
+  bool operator==(const ElasticDamping&) const = default;
 };
 
 /// Fraction of R* at which a stretched contact stops the run: deeper, spheres slip through each other.
@@ -35,9 +37,12 @@ struct Options
   std::optional<double> stretch;                  ///< `stretch S`: F_s(d) = F(d/S)/S
   std::string stats_path;                 ///< `stats FILE` (pair): JSON written at the end of each run
   bool energy = false;                    ///< `energy on|off` (pair): energies per particle, friction
+  bool dissipated_energy = false;         ///< LIGGGHTS's own `computeDissipatedEnergy on|off`
   bool contact_map = false;               ///< `contactMap on|off` (pair): counts of speed and overlap, joint
   std::optional<bool> stop_beyond_range;  ///< `beyondRange stop|continue` (mpm)
+  std::optional<bool> heat_by_law;        ///< `heatArea overlap|law`: the area that heat passes through
 
+  bool operator==(const Options&) const = default;
   /// What a wall's command leaves open is taken from the pair style's.
   void inherit(const Options& pair);
 };

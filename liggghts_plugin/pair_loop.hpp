@@ -1,11 +1,15 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <vector>
 
+#include "liggghts_plugin/bodies.hpp"
 #include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/session.hpp"
 
 namespace granulaw::plugin {
 
@@ -77,6 +81,26 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     if (pair->storeContactForces()) pair->fix_contact_forces()->do_forward_comm();
     if (pair->storeContactForcesStress()) pair->fix_contact_forces_stress()->do_forward_comm();
   }
+
+ protected:
+  /// Calls visit(i, j, weight, history) for each contact that is open now. One between a sphere of this rank
+  /// and a ghost is seen twice, with weight 1/2.
+  template <class Visit>
+  void each_open_contact(PairGran& pair, Visit&& visit) const
+  {
+    if (!pair.list || !pair.listgranhistory) return;
+    const LAMMPS_NS::NeighList &list = *pair.list, &history = *pair.listgranhistory;
+    for (int ii = 0; ii < list.inum; ++ii) {
+      const int i = list.ilist[ii];
+      for (int jj = 0; jj < list.numneigh[i]; ++jj)
+        if (history.firstneigh[i][jj]) {
+          const int j = list.firstneigh[i][jj] & NEIGHMASK;
+          visit(i, j, j < lmp_->atom->nlocal ? 1.0 : 0.5, &history.firstdouble[i][pair.dnum() * jj]);
+        }
+    }
+  }
+  /// From where the masses of rigid bodies come.
+  void set_bodies(const Bodies* bodies) { bodies_ = bodies; }
 
  private:
   /// A neighbour that touches, or did one step ago.
@@ -158,20 +182,37 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     contact.radsum = contact.radi + contact.radj;
     contact.contact_flags = &history.firstneigh[i][jj];
     contact.contact_history = &history.firstdouble[i][pair->dnum() * jj];
+    on_i.reset();
+    on_j.reset();
     if (!(contact.rsq < contact.radsum * contact.radsum)) {
       contact.has_force_update = false;
       model_.surfacesClose(contact, on_i, on_j);
+      // a liquid bridge may still pull
+      if (contact.has_force_update) [[unlikely]]
+        apply(pair, contact, on_i, on_j, observed, addflag);
       return;
     }
+    if (contact.rsq == 0.0) [[unlikely]]
+      stop_one(lmp_,
+               fmt::format("step {}: particles {} and {} are at one place ({:.6g}, {:.6g}, {:.6g}): two that "
+                           "lie upon each other have no contact normal",
+                           lmp_->update->ntimestep, atom.tag[i], atom.tag[j], atom.x[i][0], atom.x[i][1],
+                           atom.x[i][2]));
     contact.r = std::sqrt(contact.rsq);
     contact.rinv = 1.0 / contact.r;
     for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
     set_masses(pair, contact);
-    on_i.reset();
-    on_j.reset();
     model_.surfacesIntersect(contact, on_i, on_j);
     model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
     contact.has_force_update = true;
+    apply(pair, contact, on_i, on_j, observed, addflag);
+  }
+
+  void apply(PairGran* pair, SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j, bool observed,
+             int addflag)
+  {
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    const int i = contact.i, j = contact.j;
     if (contact.computeflag) {
       add(pair->relax(i), on_i, atom.f[i], atom.torque[i]);
       if (lmp_->force->newton_pair || j < atom.nlocal) add(pair->relax(j), on_j, atom.f[j], atom.torque[j]);
@@ -180,17 +221,17 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
       tell_observers(pair, contact, on_i, on_j, addflag);
   }
 
-  /// The body's mass where a sphere is part of one; a frozen sphere leaves the other its own.
+  /// The body's mass where a sphere is part of one: fix multisphere has it in rmass; that of fix rigid is
+  /// with Bodies, for ghosts, too. A frozen sphere leaves the other its own.
   void set_masses(PairGran* pair, SurfacesIntersectData& contact) const
   {
     const LAMMPS_NS::Atom& atom = *lmp_->atom;
     const int i = contact.i, j = contact.j;
     double mass_i = atom.rmass ? atom.rmass[i] : atom.mass[contact.itype];
     double mass_j = atom.rmass ? atom.rmass[j] : atom.mass[contact.jtype];
-    if (pair->fr_pair()) [[unlikely]] {
-      const double* of_body = pair->mr_pair();
-      if (of_body[i] > 0.0) mass_i = of_body[i];
-      if (of_body[j] > 0.0) mass_j = of_body[j];
+    if (pair->fr_pair() && bodies_ && bodies_->known()) [[unlikely]] {  // fix rigid
+      if (bodies_->mass(i) > 0.0) mass_i = bodies_->mass(i);
+      if (bodies_->mass(j) > 0.0) mass_j = bodies_->mass(j);
     }
     contact.mi = mass_i;
     contact.mj = mass_j;
@@ -268,6 +309,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
 
   LAMMPS* lmp_;
   ContactModel model_;
+  const Bodies* bodies_ = nullptr;
   std::vector<Candidate> candidates_;  // of walk(); kept for its memory
 };
 

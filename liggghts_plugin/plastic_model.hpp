@@ -37,9 +37,10 @@ Types gather_types(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Set
 void refuse_unstated_restitution(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 /// The damping ratio Z of each pair of types, at [i * (count + 1) + j].
 std::vector<double> damping_ratios(PropertyRegistry& registry, const Setup& setup, const Types& types);
-/// Throws Error if the deck has multispheres: LIGGGHTS gives a contact the mass of the single sphere, and a
-/// law with an inertia axis needs the body's.
-void refuse_multispheres(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
+/// A contact that begins deeper than so many times what the motion of a step can bring did not begin by
+/// motion: particles were inserted into each other, or an edge of a mesh handed a pressed sphere over. Walls
+/// may move at another point of the step than spheres, so that twice the motion is possible.
+inline constexpr double sudden_start = 2.0;
 
 /// The history policy that `mpm` and `thornton` share, and everything else that is not the law itself.
 ///
@@ -63,7 +64,7 @@ void refuse_multispheres(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 /// and the ledger's overlaps are the deck's own, S times the real ones; work needs no conversion, because
 /// F(d/S)/S does the same work to S times the overlap. X stays the unstretched law's.
 template <class Physics>
-class PlasticModel : public NormalModelBase
+class PlasticModel : public NormalModelBase, public ContactInquiry
 {
  public:
   PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* cmb)
@@ -87,17 +88,18 @@ class PlasticModel : public NormalModelBase
     settings.registerOnOff("tangential_damping", tangential_damping_, true);
     settings.registerOnOff("limitForce", limit_force_);  // the force is never attractive: nothing to limit
     settings.registerOnOff("computeElasticPotential", elastic_potential_, false);
-    settings.registerOnOff("computeDissipatedEnergy", dissipated_energy_, false);
   }
 
   void postSettings(IContactHistorySetup* hsetup, ContactModelBase*)
   {
     setup_ = Setup::current;
+    setup_->contacts = this;
     if (setup_->session->contact_map) speed_offset_ = hsetup->add_history_value("impact_speed", "0");
-    if (elastic_potential_ || dissipated_energy_)
+    if (elastic_potential_)
       fail(setup_->where,
-           "'computeElasticPotential' and 'computeDissipatedEnergy' are not available with this model; "
-           "fix granulaw/stats gives the energy dissipated by normal contacts");
+           "'computeElasticPotential' is not available with this model: 'energy on' gives the elastic energy "
+           "of each "
+           "particle's contacts, f_granulaw[1] in a dump");
     damping_ =
         tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
     tangential_computed_ = setup_->options.tangential_computed.value_or(false);
@@ -112,10 +114,9 @@ class PlasticModel : public NormalModelBase
     physics_.prepare(lmp, registry, *setup_, types);
     refuse_unstated_restitution(lmp, *setup_);
     first_step_ = update->ntimestep;
-    resolve_all(types, damping_ratios(registry, *setup_, types));
+    const bool any_needs_mass = resolve_all(types, damping_ratios(registry, *setup_, types));
+    Bodies::provide(lmp, any_needs_mass);
     open_books(types);
-    // Else surfacesClose is never called for pairs, and a pair that meets again keeps its old delta_max.
-    neighbor->register_contact_dist_factor(1.01);
   }
 
   double stressStrainExponent() { return 1.5; }
@@ -124,7 +125,7 @@ class PlasticModel : public NormalModelBase
   {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = sidata.is_wall ? sidata.radi : granulaw::effective_radius(sidata.radi, sidata.radj);
-    const Entry& entry = entries_[static_cast<std::size_t>(sidata.itype * stride_ + sidata.jtype)];
+    const Entry& entry = this->entry(sidata.itype, sidata.jtype);
     const double delta = sidata.deltan;
     double& delta_max = sidata.contact_history[history_offset_];
     if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
@@ -136,8 +137,9 @@ class PlasticModel : public NormalModelBase
 
     double impact_overlap = 0.0;
     if constexpr (Physics::latches_impact)
-      impact_overlap = delta_max == 0.0 ? entry.contact.impact_overlap(r_eff, sidata.meff, -sidata.vn)
-                                        : sidata.contact_history[impact_offset_];
+      impact_overlap = delta_max == 0.0
+                           ? entry.contact.impact_overlap(r_eff, contact_mass(sidata), -sidata.vn)
+                           : sidata.contact_history[impact_offset_];
     double* const turn = sidata.contact_history + turn_offset_;
     if constexpr (keeps_turns)
       if (update->ntimestep == first_step_) [[unlikely]]
@@ -148,7 +150,7 @@ class PlasticModel : public NormalModelBase
         tangential_computed_ ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
     const double impedance = std::sqrt(root * sidata.meff);  // both dampings are proportional to it
     // of an undamped contact the law's force itself, to the bit: it is never negative
-    sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
+    sidata.gamman = damping_of(entry, r_eff, delta, delta_max, law_force, sidata.vn) * impedance;
     const double normal_force = std::max(0.0, law_force - sidata.gamman * sidata.vn);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
@@ -177,20 +179,30 @@ class PlasticModel : public NormalModelBase
     if (!scdata.contact_history) return;
     double& delta_max = scdata.contact_history[history_offset_];
     if (delta_max == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
-    const double r_eff = scdata.is_wall ? scdata.radi : granulaw::effective_radius(scdata.radi, scdata.radj);
-    const int itype = atom->type[scdata.i], jtype = scdata.is_wall ? scdata.jtype : atom->type[scdata.j];
-    ContactLedger::Side& side = *entries_[static_cast<std::size_t>(itype * stride_ + jtype)].side;
-    const double weight = this->weight(scdata), overlap = delta_max / r_eff;
-    side.ended += weight;
-    side.overlap_min = std::min(side.overlap_min, overlap);
-    side.overlap.add(overlap, weight);
-    if (speed_offset_ >= 0) [[unlikely]] {
-      side.add_to_map(scdata.contact_history[speed_offset_], overlap, weight);
+    // it stays in the histogram, at its largest overlap
+    if (speed_offset_ >= 0) [[unlikely]]
       scdata.contact_history[speed_offset_] = 0.0;
-    }
     delta_max = 0.0;
     if constexpr (Physics::latches_impact) scdata.contact_history[impact_offset_] = 0.0;
     if constexpr (keeps_turns) scdata.contact_history[turn_offset_] = 0.0;
+  }
+
+  ContactState state(const ContactPlace& contact) const override
+  {
+    const Entry& pair = entry(contact.itype, contact.jtype);
+    const double delta_max = contact.history[history_offset_];
+    double impact_overlap = 0.0;
+    if constexpr (Physics::latches_impact) impact_overlap = contact.history[impact_offset_];
+    return {pair.contact.contact_radius(contact.r_eff, contact.overlap, delta_max, impact_overlap), delta_max,
+            pair.contact.dissipated(contact.r_eff, 0.0, delta_max, impact_overlap)};
+  }
+
+  void take_out(ContactLedger& ledger, const ContactPlace& contact, double weight) const override
+  {
+    const double delta_max = contact.history[history_offset_];
+    if (delta_max > 0.0)
+      count(ledger.sides[key(contact.itype, contact.jtype)], contact.history, delta_max, contact.r_eff,
+            -weight);
   }
 
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
@@ -217,12 +229,26 @@ class PlasticModel : public NormalModelBase
     return 2.0 * (2.0 - poisson_ratio) * (1.0 + poisson_ratio) / youngs_modulus;
   }
 
-  // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
-  // yielded one on its way back to delta_max, but not when it parts, so that the rebound of a plastic impact
-  // is the law's own. Without a branch: in a bed contacts approach and part at random.
-  static double damping_of(const Entry& entry, double r_eff, double delta, double delta_max, double vn)
+  Entry& entry(int itype, int jtype) { return entries_[static_cast<std::size_t>(itype * stride_ + jtype)]; }
+  const Entry& entry(int itype, int jtype) const
   {
-    const bool returns = (delta < delta_max) & (vn < 0.0);
+    return entries_[static_cast<std::size_t>(itype * stride_ + jtype)];
+  }
+
+  PairKey key(int itype, int jtype) const
+  {
+    if (!setup_->wall) return {PairKey::particles, std::min(itype, jtype), std::max(itype, jtype)};
+    return {setup_->options.deformable_wall ? PairKey::deformable_wall : PairKey::rigid_wall, itype, jtype};
+  }
+
+  // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
+  // yielded one that carries force on its way back to delta_max, but not when it parts, so that the rebound
+  // of a plastic impact is the law's own, nor below the residual overlap, where nothing touches. Without a
+  // branch: in a bed contacts approach and part at random.
+  static double damping_of(const Entry& entry, double r_eff, double delta, double delta_max, double law_force,
+                           double vn)
+  {
+    const bool returns = (delta < delta_max) & (vn < 0.0) & (law_force > 0.0);
     const bool elastic = std::max(delta, delta_max) <= entry.yield_overlap * r_eff;
     return entry.damping * static_cast<double>(returns | elastic);
   }
@@ -236,8 +262,10 @@ class PlasticModel : public NormalModelBase
                                 -sidata.vn * units_.length, stretched_overlap_limit));
   }
 
-  void resolve_all(const Types& types, const std::vector<double>& damping_ratio)
+  /// True if the law of any pair asks for the mass of the bodies.
+  bool resolve_all(const Types& types, const std::vector<double>& damping_ratio)
   {
+    bool needs_mass = false;
     units_ = types.units;
     const bool is_wall = setup_->wall != nullptr, rigid = is_wall && !setup_->options.deformable_wall;
     stride_ = types.count + 1;
@@ -253,7 +281,7 @@ class PlasticModel : public NormalModelBase
           if (needed) throw;
           continue;  // beyond_table() says so if such particles meet after all
         }
-        if (needed && entry.contact.needs_mass()) refuse_multispheres(lmp, *setup_);
+        needs_mass = needs_mass || entry.contact.needs_mass();
         entry.largest_overlap = entry.contact.largest_overlap();
         if (stretch_ > 1.0) entry.largest_overlap = std::min(entry.largest_overlap, stretched_overlap_limit);
         entry.yield_overlap = entry.contact.yield_overlap();
@@ -271,6 +299,7 @@ class PlasticModel : public NormalModelBase
         entry.damping = std::sqrt(5.0) * damping_ratio[static_cast<std::size_t>(i * stride_ + j)] *
                         std::sqrt(4.0 / 3.0 * entry.contact.pair_modulus()) * std::pow(stretch_, -1.25);
       }
+    return needs_mass;
   }
 
   /// Finds each pair of types its line in the ledger, and writes there what the law says about it.
@@ -282,9 +311,7 @@ class PlasticModel : public NormalModelBase
       for (int j = 1; j <= types.count; ++j) {
         Entry& entry = entries_[static_cast<std::size_t>(i * stride_ + j)];
         if (entry.largest_overlap < 0) continue;
-        PairKey key{PairKey::particles, std::min(i, j), std::max(i, j)};
-        if (is_wall)
-          key = {setup_->options.deformable_wall ? PairKey::deformable_wall : PairKey::rigid_wall, i, j};
+        const PairKey key = this->key(i, j);
         entry.side = &setup_->session->ledger.sides[key];
         if (!is_wall && j < i) continue;  // described as i, j
         const double other_radius = is_wall ? 0.0 : sizes.radius[j];
@@ -299,6 +326,21 @@ class PlasticModel : public NormalModelBase
     energy_ = setup_->session->energy;
   }
 
+  /// kg, the mass that the contact's normal velocity sees: where a sphere is part of a rigid body and is hit
+  /// beside its centre, less than the body's.
+  double contact_mass(const SurfacesIntersectData& sidata) const
+  {
+    const Bodies& bodies = setup_->session->bodies;
+    if (!bodies.known()) [[likely]]
+      return sidata.meff;
+    if (sidata.is_wall) return 1.0 / bodies.inverse_mass(sidata.i, sidata.en, sidata.mi);
+    // a frozen sphere leaves the other's mass as the effective one
+    double inverse = 0.0;
+    if (sidata.meff != sidata.mj) inverse += bodies.inverse_mass(sidata.i, sidata.en, sidata.mi);
+    if (sidata.meff != sidata.mi) inverse += bodies.inverse_mass(sidata.j, sidata.en, sidata.mj);
+    return inverse > 0.0 ? 1.0 / inverse : sidata.meff;
+  }
+
   /// Part of a contact that this rank accounts for: see ContactLedger.
   double weight(const SurfacesCloseData& scdata) const
   {
@@ -311,6 +353,8 @@ class PlasticModel : public NormalModelBase
   {
     ContactLedger::Side& side = *entry.side;
     const double weight = this->weight(sidata);
+    const double delta = sidata.deltan;
+    bool sudden = false;
     if (delta_max == 0.0) {
       const double speed = std::max(0.0, -sidata.vn);
       side.touches += weight;
@@ -318,13 +362,14 @@ class PlasticModel : public NormalModelBase
       side.speed_min = std::min(side.speed_min, speed);
       side.speed_max = std::max(side.speed_max, speed);
       side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
-      if (speed > entry.contact.max_speed(r_eff, sidata.meff)) side.too_fast += weight;
+      const double mass = contact_mass(sidata);
+      if (speed > entry.contact.max_speed(r_eff, mass)) side.too_fast += weight;
       // one without approach follows the law at no rate: the file holds that
-      if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, sidata.meff)) side.too_slow += weight;
+      if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, mass)) side.too_slow += weight;
       if (speed_offset_ >= 0) [[unlikely]]
         sidata.contact_history[speed_offset_] = speed;
+      sudden = delta > sudden_start * overlap_of_a_step(sidata);
     }
-    const double delta = sidata.deltan;
     if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
     if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
       if (delta_max <= near_edge * entry.largest_overlap * r_eff) side.near += weight;
@@ -334,14 +379,41 @@ class PlasticModel : public NormalModelBase
     // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
     if (r_eff * delta > side.hardest * sidata.meff * sidata.meff) [[unlikely]] {
       side.hardest = r_eff * delta / (sidata.meff * sidata.meff);
-      side.frequency2 =
-          std::max(side.frequency2, stiffness(entry.contact, r_eff, delta, impact_overlap) / sidata.meff);
+      side.frequency2 = std::max(
+          side.frequency2, stiffness(entry.contact, r_eff, delta, impact_overlap) / contact_mass(sidata));
     }
-    const double dissipated = entry.contact.dissipated(r_eff, delta_max, delta, impact_overlap);
-    side.dissipated += weight * dissipated;
-    if (energy_) [[unlikely]]
-      energy_->share(sidata, EnergyBooks::dissipated, dissipated, atom->nlocal);
+    if (delta_max > 0.0) count(side, sidata.contact_history, delta_max, r_eff, -weight);
+    count(side, sidata.contact_history, delta, r_eff, weight);
+    if (sudden) [[unlikely]] {  // no motion paid for what it holds
+      side.sudden += weight;
+      side.brought += weight * stored_energy(entry.contact, r_eff, delta, delta, impact_overlap);
+    } else {
+      const double dissipated = entry.contact.dissipated(r_eff, delta_max, delta, impact_overlap);
+      side.dissipated += weight * dissipated;
+      if (energy_) [[unlikely]]
+        energy_->share(sidata, EnergyBooks::dissipated, dissipated, atom->nlocal);
+    }
     delta_max = delta;
+  }
+
+  /// The largest overlap that the motion of the last step can have brought two spheres to that did not touch
+  /// before: of |d n + v dt|^2 >= (d + delta)^2, with the velocities of the half step behind.
+  double overlap_of_a_step(const SurfacesIntersectData& sidata) const
+  {
+    double speed2 = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const double v = sidata.v_i[c] - sidata.v_j[c];
+      speed2 += v * v;
+    }
+    const double dt = update->dt;
+    return std::abs(sidata.vn) * dt + 0.5 * speed2 * dt * dt / sidata.r;
+  }
+
+  /// Counts a contact of largest overlap `delta` in the histograms: see ContactLedger::Side::overlap.
+  void count(ContactLedger::Side& side, const double* history, double delta, double r_eff,
+             double weight) const
+  {
+    side.count(side.overlap.bin(delta / r_eff), speed_offset_ >= 0 ? history[speed_offset_] : -1.0, weight);
   }
 
   /// Only with `energy on`: what the contact holds now, and the law's force for EnergyBooks::account.
@@ -381,9 +453,10 @@ class PlasticModel : public NormalModelBase
   /// In a library with another layout of SurfacesIntersectData these two would not agree.
   [[gnu::noinline, gnu::cold]] void check_layout(const SurfacesIntersectData& sidata)
   {
-    layout_checked_ = true;
     const double distance = std::sqrt(sidata.delta[0] * sidata.delta[0] + sidata.delta[1] * sidata.delta[1] +
                                       sidata.delta[2] * sidata.delta[2]);
+    if (distance == 0.0) return;  // on the axis of a cylinder, where LIGGGHTS gives no normal
+    layout_checked_ = true;
     if (std::abs(sidata.radi - distance - sidata.deltan) > 1e-6 * sidata.radi)
       stop_one(lmp, fmt::format("{}: this LIGGGHTS lays out its contact data differently (was it built with "
                                 "superquadrics?)",
@@ -402,8 +475,7 @@ class PlasticModel : public NormalModelBase
   DeckUnits units_;
   bool tangential_computed_ = false;
   EnergyBooks* energy_ = nullptr;  // null: energy off
-  bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false,
-       dissipated_energy_ = false;
+  bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false;
   bool layout_checked_ = false;
 };
 

@@ -31,8 +31,26 @@ const std::vector<int> surface_ids = {
 };
 
 constexpr const char* refusal =
-    "models mpm and thornton are built for tangential off, history, no_history; cohesion off, sjkr, sjkr2; "
-    "rolling_friction off, cdt, epsd, epsd2; surface default: choose among these";
+    "models mpm and thornton are built for tangential off, history, no_history; cohesion off, sjkr, sjkr2, "
+    "easo/capillary/viscous, washino/capillary/viscous; rolling_friction off, cdt, epsd, epsd2, epsd3; "
+    "surface "
+    "default: choose among these";
+
+const std::map<int, std::string> tangential_names = {
+#define TANGENTIAL_MODEL(identifier, name, id) {id, #name},
+#include "style_tangential_model.h"
+#undef TANGENTIAL_MODEL
+};
+const std::map<int, std::string> cohesion_names = {
+#define COHESION_MODEL(identifier, name, id) {id, #name},
+#include "style_cohesion_model.h"
+#undef COHESION_MODEL
+};
+const std::map<int, std::string> rolling_names = {
+#define ROLLING_MODEL(identifier, name, id) {id, #name},
+#include "style_rolling_model.h"
+#undef ROLLING_MODEL
+};
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
 {
@@ -64,6 +82,24 @@ struct Registration
 } registration;
 
 }  // namespace
+
+std::string describe_combination(long combination)
+{
+  // six bits each, as in LIGGGHTS's GranStyle
+  const auto part = [&](int place) { return static_cast<int>(combination >> 6 * place & 63); };
+  std::string text =
+      fmt::format("model {}", part(0) == mpm_id ? model_name(Model::mpm) : model_name(Model::thornton));
+  const auto add = [&](const char* kind, const std::map<int, std::string>& names, int id) {
+    if (const auto found = names.find(id); found != names.end())
+      text += fmt::format(" {} {}", kind, found->second);
+  };
+  add("tangential", tangential_names, part(1));
+  add("cohesion", cohesion_names, part(2));
+  add("rolling_friction", rolling_names, part(3));
+  if (combination & combination_energy) text += ", energy on";
+  if (combination & combination_contact_map) text += ", contactMap on";
+  return text;
+}
 
 void register_refusals(int id)
 {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "liggghts_plugin/bodies.hpp"
 #include "liggghts_plugin/energy_books.hpp"
 #include "liggghts_plugin/ledger.hpp"
 #include "liggghts_plugin/loaded_law.hpp"
@@ -17,6 +19,42 @@ class FixWallGran;
 
 namespace granulaw::plugin {
 
+/// What one contact is in, out of its history. Lengths and energies in the deck's units.
+struct ContactState
+{
+  double contact_radius = 0;   ///< the law's own, of the real, unstretched contact
+  double largest_overlap = 0;  ///< since first touch; stretched, as the overlap itself
+  double dissipated = 0;       ///< by the normal law since first touch
+};
+
+/// A contact as LIGGGHTS's lists name it.
+struct ContactPlace
+{
+  int itype = 0, jtype = 0;  ///< atom types; at a wall j is the wall's
+  double r_eff = 0, overlap = 0;
+  const double* history = nullptr;
+};
+
+/// A contact model, asked about single contacts.
+class ContactInquiry
+{
+ public:
+  virtual ~ContactInquiry() = default;
+  virtual ContactState state(const ContactPlace& contact) const = 0;
+  /// Takes a contact that is open out of the ledger's histogram: see ContactLedger::Side::overlap.
+  virtual void take_out(ContactLedger& ledger, const ContactPlace& contact, double weight) const = 0;
+};
+
+/// A pair style or wall of ours.
+class CountedStyle
+{
+ public:
+  virtual ~CountedStyle() = default;
+  /// Takes the contacts that are open on this rank out of the ledger's histograms.
+  virtual void take_out_open(ContactLedger& ledger) const = 0;
+  virtual const ContactInquiry* contacts() const = 0;
+};
+
 /// What the pair style, the walls and the statistics fix of one LIGGGHTS instance share.
 class Session
 {
@@ -25,16 +63,33 @@ class Session
   static std::shared_ptr<Session> of(LAMMPS_NS::LAMMPS* lmp);
 
   ContactLedger ledger;
-  EnergyBooks* energy = nullptr;  ///< &books with `energy on`, else null
-  bool contact_map = false;       ///< `contactMap on`
+  EnergyBooks* energy = nullptr;   ///< &books with `energy on`, else null
+  bool contact_map = false;        ///< `contactMap on`
+  bool dissipated_energy = false;  ///< `computeDissipatedEnergy on`
   EnergyBooks books;
+  Bodies bodies;
 
   /// What walls of model `mpm` inherit: set by the pair style.
   std::optional<Options> pair_options;
   std::shared_ptr<const LoadedLaw> pair_law;
 
+  /// Our pair style (key null) and walls.
+  std::map<const LAMMPS_NS::FixWallGran*, const CountedStyle*> styles;
+  /// Who knows the contacts of `wall`, null: those between particles. Null: another model.
+  const ContactInquiry* contacts_of(const LAMMPS_NS::FixWallGran* wall) const
+  {
+    const auto found = styles.find(wall);
+    return found == styles.end() ? nullptr : found->second->contacts();
+  }
+
   /// Largest inertia number the laws in use answer for; 0 if none says.
   double inertia_limit = 0;
+
+  /// Which models and words the restart file was written with that this deck continues (Setup::combination),
+  /// by command: "pair" or the wall's id. A command that has been compared is taken out.
+  std::map<std::string, long> restarted;
+  /// Those of the commands of this deck.
+  std::map<std::string, long> combinations;
 
   /// True the first time it is asked about `what`: a warning is given once.
   bool first_time(const std::string& what) { return warned_.insert(what).second; }
@@ -43,6 +98,9 @@ class Session
   std::set<std::string> warned_;
 };
 
+/// Bits of Setup::combination, above those of LIGGGHTS's models.
+inline constexpr long combination_energy = 1l << 32, combination_contact_map = 1l << 33;
+
 /// One command's setup, handed to the contact model: LIGGGHTS builds the model before it reads the words, and
 /// keeps it out of reach. The wrapper (styles.hpp) owns the setup and makes it `current` while it calls the
 /// model's postSettings; it outlives the model's use of it.
@@ -50,9 +108,15 @@ struct Setup
 {
   std::shared_ptr<Session> session;
   Options options;
-  std::shared_ptr<const LoadedLaw> law;    ///< mpm only
-  std::string where;                       ///< "pair_style gran model mpm", "fix w wall/gran model mpm"
-  LAMMPS_NS::FixWallGran* wall = nullptr;  ///< null for pairs
+  std::shared_ptr<const LoadedLaw> law;      ///< mpm only
+  std::string where;                         ///< "pair_style gran model mpm", "fix w wall/gran model mpm"
+  LAMMPS_NS::FixWallGran* wall = nullptr;    ///< null for pairs
+  Options own;                               ///< what the command itself says, before a wall inherits
+  bool energy = false, contact_map = false;  ///< whether contacts keep what these need
+  /// What the history values of a contact mean: LIGGGHTS's number of the five models, and ours for the words
+  /// that add values. Restart files keep it.
+  long combination = 0;
+  mutable const ContactInquiry* contacts = nullptr;  ///< the model, once it has read its words
 
   static const Setup* current;
 };
@@ -67,6 +131,13 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp);
 /// Ends the run from one rank. Unlike error->one it reaches the user from every rank and through a pipe: that
 /// one prints to a stream which MPI_Abort never flushes and other ranks than 0 do not have.
 [[noreturn]] void stop_one(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
+
+/// In words: "model mpm tangential history rolling_friction epsd2, energy on".
+std::string describe_combination(long combination);
+
+/// Throws Error where a run would go wrong with what the deck says around the contact models. `dnum`: history
+/// values of a contact.
+void check_run(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, int dnum);
 
 /// Stops with one sentence unless this is the LIGGGHTS the plug-in was built for. `parent_size` is sizeof of
 /// the pair style or fix as the plug-in's headers have it, `parent` the object LIGGGHTS allocated (most

@@ -5,11 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "liggghts_plugin/contact_list.hpp"
 #include "liggghts_plugin/fix_style.hpp"
+#include "liggghts_plugin/heat_conduction.hpp"
 #include "liggghts_plugin/model_ids.hpp"
 #include "liggghts_plugin/pair_loop.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
 #include "liggghts_plugin/runaway.hpp"
+#include "liggghts_plugin/wall_loop.hpp"
 
 namespace granulaw::plugin {
 
@@ -35,6 +38,7 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
   const std::vector<std::string> words(args, args + std::max(0, nargs));
   setup.options = parse_options(model, setup.wall != nullptr, setup.where, words, rest);
   Session& session = *setup.session;
+  setup.own = setup.options;
   Options& options = setup.options;
   if (setup.wall && session.pair_options) {
     const bool own_switch = options.tangential_damping_on.has_value();
@@ -53,12 +57,18 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
     }
     if (options.materials.empty()) fail(setup.where, "'materials' is missing: one name for each atom type");
   }
+  if (options.dissipated_energy && setup.wall && !session.dissipated_energy)
+    fail(setup.where, "'computeDissipatedEnergy on' counts walls with the pair style's: say it there");
   if (!setup.wall) {
+    session.dissipated_energy = options.dissipated_energy;
+    options.energy = options.energy || options.dissipated_energy;
     session.pair_options = options;
     session.pair_law = setup.law;
     session.energy = options.energy ? &session.books : nullptr;
     session.contact_map = options.contact_map;
   }
+  setup.energy = session.energy != nullptr;
+  setup.contact_map = session.contact_map;
 }
 
 /// Calls LIGGGHTS's own settings() with `rest`, our setup being current for the model's postSettings.
@@ -85,6 +95,17 @@ void refuse_no_friction(const Setup& setup, const std::vector<std::string>& rest
   }
 }
 
+/// Liquid bridges pull across a gap, and EnergyBooks books what happens in contact.
+template <class Style>
+void refuse_out_of_reach(const Setup& setup)
+{
+  constexpr bool bridges = Style::COHESION == cm::COHESION_EASO_CAPILLARY_VISCOUS ||
+                           Style::COHESION == cm::COHESION_WASHINO_CAPILLARY_VISCOUS;
+  if (bridges && setup.energy)
+    fail(setup.where,
+         "'energy on' does not book the work of liquid bridges that pull across a gap: leave it out");
+}
+
 template <class Style>
 void warn_stretched_cohesion(LAMMPS* lmp, const Setup& setup)
 {
@@ -105,6 +126,10 @@ void settle(LAMMPS* lmp, Setup& setup, int nargs, char** args, Call&& call)
 {
   std::vector<std::string> rest;
   read_setup(lmp, model, setup, nargs, args, rest);
+  setup.combination = Style::HASHCODE | (setup.energy ? combination_energy : 0) |
+                      (setup.contact_map ? combination_contact_map : 0);
+  setup.session->combinations[setup.wall ? setup.wall->id : "pair"] = setup.combination;
+  refuse_out_of_reach<Style>(setup);
   refuse_no_friction<Style, model>(setup, rest);
   warn_stretched_cohesion<Style>(lmp, setup);
   with_setup(setup, rest, std::forward<Call>(call));
@@ -157,18 +182,38 @@ class BookedModel : public cm::ContactModel<Style>
 /// The fixes that come with our models.
 inline void provide_fixes(LAMMPS* lmp)
 {
+  provide_heat_conduction(lmp);
+  provide_contact_list(lmp);
   provide_stats_fix(lmp);
   provide_runaway_fix(lmp);
 }
 
 /// pair_style gran with one of our models.
 template <class Style, Model model>
-class PairStyle final : public PairLoop<BookedModel<Style>>
+class PairStyle final : public PairLoop<BookedModel<Style>>, public CountedStyle
 {
   using Base = PairLoop<BookedModel<Style>>;
 
  public:
-  PairStyle(LAMMPS* lmp, PairGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp) {}
+  PairStyle(LAMMPS* lmp, PairGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp), parent_(parent)
+  {
+  }
+  ~PairStyle() override
+  {
+    if (!setup_.session) return;
+    const auto own = setup_.session->styles.find(nullptr);
+    if (own != setup_.session->styles.end() && own->second == this) setup_.session->styles.erase(own);
+  }
+
+  const ContactInquiry* contacts() const override { return setup_.contacts; }
+  void take_out_open(ContactLedger& ledger) const override
+  {
+    this->each_open_contact(*parent_, [&](int i, int j, double weight, const double* history) {
+      const LAMMPS_NS::Atom& atom = *lmp_->atom;
+      const double r_eff = granulaw::effective_radius(atom.radius[i], atom.radius[j]);
+      setup_.contacts->take_out(ledger, {atom.type[i], atom.type[j], r_eff, 0.0, history}, weight);
+    });
+  }
 
   void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
   {
@@ -177,6 +222,8 @@ class PairStyle final : public PairLoop<BookedModel<Style>>
       setup_.where = fmt::format("pair_style gran model {}", model_name(model));
       settle<Style, model>(lmp_, setup_, nargs, args,
                            [&](int n, char** words) { Base::settings(n, words, hsetup); });
+      setup_.session->styles[nullptr] = this;
+      this->set_bodies(&setup_.session->bodies);
       provide_fixes(lmp_);
     });
   }
@@ -185,25 +232,52 @@ class PairStyle final : public PairLoop<BookedModel<Style>>
   {
     guarded(lmp_, [&] {
       Base::init_granular();
+      check_run(lmp_, setup_, parent_->dnum());
       provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
     });
   }
 
  private:
   LAMMPS* lmp_;
+  PairGran* parent_;
   Setup setup_;
 };
 
 /// fix wall/gran with one of our models.
 template <class Style, Model model>
-class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
+class WallStyle final : public WallLoop<BookedModel<Style>>, public CountedStyle
 {
-  using Base = LIGGGHTS::Walls::Granular<BookedModel<Style>>;
+  using Base = WallLoop<BookedModel<Style>>;
 
  public:
   WallStyle(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
       : Base(lmp, parent, hash), lmp_(lmp), parent_(parent)
   {
+  }
+  ~WallStyle() override
+  {
+    if (setup_.session) setup_.session->styles.erase(parent_);
+  }
+
+  const ContactInquiry* contacts() const override { return setup_.contacts; }
+
+  void take_out_open(ContactLedger& ledger) const override
+  {
+    this->each_open_contact([&](int i, int wall_type, const double* history) {
+      setup_.contacts->take_out(ledger, {lmp_->atom->type[i], wall_type, lmp_->atom->radius[i], 0.0, history},
+                                1.0);
+    });
+  }
+
+  double heat_overlap(const cm::SurfacesIntersectData& contact) const override
+  {
+    if (!setup_.options.heat_by_law.value_or(false)) return contact.deltan;
+    // area pi a^2 of the law's own contact radius, which is less than R
+    const double r = contact.radi;
+    const double a =
+        setup_.contacts->state({contact.itype, contact.jtype, r, contact.deltan, contact.contact_history})
+            .contact_radius;
+    return r - std::sqrt(std::max(0.0, r * r - a * a));
   }
 
   void settings(int nargs, char** args, LIGGGHTS::IContactHistorySetup* hsetup) override
@@ -215,13 +289,17 @@ class WallStyle final : public LIGGGHTS::Walls::Granular<BookedModel<Style>>
       setup_.where = fmt::format("fix {} wall/gran model {}", parent_->id, model_name(model));
       settle<Style, model>(lmp_, setup_, nargs, args,
                            [&](int n, char** words) { Base::settings(n, words, hsetup); });
+      setup_.session->styles[parent_] = this;
       provide_fixes(lmp_);
     });
   }
 
   void init_granular() override
   {
-    guarded(lmp_, [&] { Base::init_granular(); });
+    guarded(lmp_, [&] {
+      Base::init_granular();
+      check_run(lmp_, setup_, parent_->dnum());
+    });
   }
 
  private:
@@ -249,8 +327,10 @@ using Ids = std::integer_sequence<int, ids...>;
 
 /// What is built: every combination of these.
 using BuiltTangential = Ids<cm::TANGENTIAL_OFF, cm::TANGENTIAL_HISTORY, cm::TANGENTIAL_NO_HISTORY>;
-using BuiltCohesion = Ids<cm::COHESION_OFF, cm::COHESION_SJKR, cm::COHESION_SJKR2>;
-using BuiltRolling = Ids<cm::ROLLING_OFF, cm::ROLLING_CDT, cm::ROLLING_EPSD, cm::ROLLING_EPSD2>;
+using BuiltCohesion = Ids<cm::COHESION_OFF, cm::COHESION_SJKR, cm::COHESION_SJKR2,
+                          cm::COHESION_EASO_CAPILLARY_VISCOUS, cm::COHESION_WASHINO_CAPILLARY_VISCOUS>;
+using BuiltRolling =
+    Ids<cm::ROLLING_OFF, cm::ROLLING_CDT, cm::ROLLING_EPSD, cm::ROLLING_EPSD2, cm::ROLLING_EPSD3>;
 
 template <int... ids>
 constexpr bool contains(Ids<ids...>, int id)

@@ -13,19 +13,6 @@ VectorProperty* create_yield_stress(PropertyRegistry& registry, const char* call
 
 }  // namespace
 
-double ThorntonContact::dissipated(double r_eff, double delta_max) const
-{
-  const double d_y = law.yield_overlap(r_eff);
-  if (delta_max <= d_y) return 0.0;
-  const double hertz = 4.0 / 3.0 * law.e_star, f_y = hertz * std::sqrt(r_eff * d_y) * d_y;
-  const double k_p = M_PI * law.yield_pressure * r_eff, plastic = delta_max - d_y;
-  const double f_m = f_y + k_p * plastic;
-  const double loading = 0.4 * f_y * d_y + plastic * (f_y + 0.5 * k_p * plastic);
-  // unloading: 2/5 F_m (d_m - d_p) with d_m - d_p = 3 F_m/(4 E* sqrt A), A = (2 F_m + F_y)/(2 pi p_y)
-  const double area = (2.0 * f_m + f_y) / (2.0 * M_PI * law.yield_pressure);
-  return loading - 0.4 * f_m * f_m / (hertz * std::sqrt(area));
-}
-
 void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, const Setup& setup,
                               const Types& types)
 {

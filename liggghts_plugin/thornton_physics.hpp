@@ -28,11 +28,10 @@ struct ThorntonContact
   /// E* of the pair.
   double pair_modulus() const { return law.e_star; }
   static bool needs_mass() { return false; }
-  /// Spent on plastic strain up to the largest real overlap delta_max.
-  double dissipated(double r_eff, double delta_max) const;
+  /// Spent on plastic strain while the largest overlap grew from `from` to `to`.
   double dissipated(double r_eff, double from, double to, double) const
   {
-    return dissipated(r_eff, per_stretch * to) - dissipated(r_eff, per_stretch * from);
+    return law.dissipated(r_eff, per_stretch * to) - law.dissipated(r_eff, per_stretch * from);
   }
   double max_speed(double, double) const { return std::numeric_limits<double>::infinity(); }
   static double min_speed(double, double) { return 0.0; }

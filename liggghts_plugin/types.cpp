@@ -93,12 +93,4 @@ std::vector<double> damping_ratios(PropertyRegistry& registry, const Setup& setu
   return ratios;
 }
 
-void refuse_multispheres(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
-{
-  if (lmp->modify->find_fix_style("multisphere", 0))
-    fail(setup.where,
-         "fix multisphere needs a law without inertia axis ('mpm info' says): the axis needs the mass of the "
-         "body, and LIGGGHTS gives a contact that of the single sphere");
-}
-
 }  // namespace granulaw::plugin

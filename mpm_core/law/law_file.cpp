@@ -369,12 +369,8 @@ h5::Handle open_law(const std::string& path)
   return file;
 }
 
-}  // namespace
-
-Law read_law(const std::string& path)
+Law read_open(const h5::Handle& file, const std::string& path)
 {
-  const h5::Silence silence;
-  const h5::Handle file = open_law(path);
   Law law;
 
   const h5::Handle bodies = h5::open_group(file, h5::bodies, path);
@@ -433,6 +429,27 @@ Law read_law(const std::string& path)
 
   check_pairs(law, path);
   return law;
+}
+
+}  // namespace
+
+Law read_law(const std::string& path)
+{
+  const h5::Silence silence;
+  return read_open(open_law(path), path);
+}
+
+Law read_law_image(std::span<const char> image, const std::string& path)
+{
+  const h5::Silence silence;
+  std::vector<char> copy(image.begin(), image.end());  // HDF5 copies it again
+  const h5::Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_fapl_core(access, 1u << 16, 0);  // in memory, nothing is written back
+  H5Pset_file_image(access, copy.data(), copy.size());
+  // HDF5 gives an image a name and refuses that of a file that exists
+  const h5::Handle file(H5Fopen((path + "/image in memory").c_str(), H5F_ACC_RDONLY, access));
+  if (!file.ok()) fail(path, "the bytes that rank 0 read are no law file");
+  return read_open(file, path);
 }
 
 void write_law(const Law& law, const std::string& path)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "law/law.hpp"
@@ -9,6 +10,9 @@ namespace granulaw {
 /// Reads a law file (HDF5; layout in docs/law-format.md, every name in h5_names.hpp). Any file that is not a
 /// whole, sane law of this major version gives one sentence as Error; never a crash or a large allocation.
 Law read_law(const std::string& path);
+
+/// The same out of `image`, the bytes of a law file that read_law(path) accepts: for the other ranks of an MPI run.
+Law read_law_image(std::span<const char> image, const std::string& path);
 
 /// Writes to PATH.tmp.<pid> and renames: a reader sees the old file or the new one, never a part.
 void write_law(const Law& law, const std::string& path);

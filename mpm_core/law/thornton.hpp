@@ -53,6 +53,40 @@ struct ThorntonPair
     const double root_part = std::sqrt(part), a = edge * root_part;  // sqrt(R_p (d - d_p))
     return {f_m * part * root_part, 2.0 * e_star * a, a, delta_max};
   }
+
+  /// J, elastic energy that a contact holds at overlap `delta` (m): what it gives back on complete unloading.
+  double stored_energy(double r_eff, double delta, double delta_max) const
+  {
+    const double reached = std::max(delta, delta_max);
+    if (reached <= yield_overlap(r_eff)) return 0.4 * evaluate(r_eff, delta, delta).force * delta;
+    // unloading is Hertz of another radius: 1.5 F_m/(its slope at the top) is the elastic part of the overlap
+    const double top = evaluate(r_eff, reached, reached).force;
+    const double elastic = 1.5 * top / unloading_stiffness(r_eff, reached);
+    const double part = (delta - (reached - elastic)) / elastic;
+    return part > 0.0 ? 0.4 * top * elastic * part * part * std::sqrt(part) : 0.0;
+  }
+
+  /// J, spent on plastic strain until the largest overlap is `delta_max` (m): loading work minus what is
+  /// stored.
+  double dissipated(double r_eff, double delta_max) const
+  {
+    const double d_y = yield_overlap(r_eff);
+    if (delta_max <= d_y) return 0.0;
+    const double f_y = evaluate(r_eff, d_y, 0.0).force, plastic = delta_max - d_y;
+    const double loading = 0.4 * f_y * d_y + plastic * (f_y + 0.5 * M_PI * yield_pressure * r_eff * plastic);
+    return loading - stored_energy(r_eff, delta_max, delta_max);
+  }
+
+  /// N/m, slope of the unloading curve at its top, the largest overlap `delta_max` (m): 2 E* a of the
+  /// flattened contact, in the elastic range Hertz's.
+  double unloading_stiffness(double r_eff, double delta_max) const
+  {
+    const ContactForce top = evaluate(r_eff, delta_max, delta_max);
+    if (delta_max <= yield_overlap(r_eff)) return top.stiffness;
+    const double f_y = evaluate(r_eff, yield_overlap(r_eff), 0.0).force;
+    const double area = (2.0 * top.force + f_y) / (2.0 * M_PI * yield_pressure);
+    return 2.0 * e_star * std::sqrt(area);
+  }
 };
 
 /// Thornton's closed form e(V/V_y) (his eq. 41, with x = V_y/V <= 1): 1 below the yield velocity.

@@ -5,8 +5,8 @@
 //
 // Counters: cpu_s  CPU seconds of one run (all shifted grids), Mupd_s  million point updates a second on one
 // core, err_F_pct and err_e_pct  deviation of the treated largest force and of e from the reference in
-// percent. References (tests/verification/references.hpp): plastic impact: this solver at 40 cells and 8
-// grids, which 32 cells change by 0.05 %; elastic impact: three formulations' common result, good to 0.2 %;
+// percent. References (tests/verification/references.hpp): plastic impact: this solver at 56 (F) and 40 (e) cells and
+// 8 grids, which 32 cells and 4 grids change by 0.03 %; elastic impact: three formulations' common result, good to 0.2 %;
 // press: finite elements, 0.4 %.
 #include <benchmark/benchmark.h>
 

@@ -68,7 +68,7 @@ class Deck(unittest.TestCase):
         command = [launcher or LAUNCHER, "-in", str(path), "-log", str(self.folder / "log.liggghts")]
         if ranks > 1:
             command = [MPIRUN, "--oversubscribe", "-np", str(ranks)] + command
-        done = subprocess.run(command, capture_output=True, text=True, errors="backslashreplace", cwd=self.folder, timeout=300,
+        done = subprocess.run(command, capture_output=True, text=True, errors="backslashreplace", cwd=self.folder, timeout=int(os.environ.get("GRANULAW_DECK_TIMEOUT", "300")),
                               env={**os.environ, **(environment or {})})
         text = done.stdout + done.stderr
         if expect_failure:

@@ -9,6 +9,8 @@
 //   law_fixture write FILE depth D                           other residuals of the powder
 //   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
 //   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
+//   law_fixture radius FILE A B R_EFF DELTA DELTA_MAX X      prints contact radius (m)
+//   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X that a contact latches
 //   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
 //   law_fixture elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus
 //   E_STAR law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
@@ -84,6 +86,18 @@ int run(int argc, char** argv)
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
     std::printf("%.10g\n", pair.evaluate(number(5), number(6), number(7), number(8)).force);
+    return 0;
+  }
+  if (word(1) == "impact") {
+    const granulaw::Law law = granulaw::read_law(word(2));
+    const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
+    std::printf("%.10g\n", pair.impact_overlap(number(5), number(6), number(7)));
+    return 0;
+  }
+  if (word(1) == "radius") {
+    const granulaw::Law law = granulaw::read_law(word(2));
+    const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
+    std::printf("%.10g\n", pair.evaluate(number(5), number(6), number(7), number(8)).contact_radius);
     return 0;
   }
   if (word(1) == "elastic") {

@@ -65,7 +65,10 @@ class BadInput(Deck):
         self.refused(self.deck(self.good(), wall_words="wall soft"), "'wall'", "deformable, rigid")
         self.refused(self.deck(self.good(), wall="", wall_words="wall rigid primitive type 1 zplane 0.0"),
                      "'primitive' must stand before")
-        self.refused(self.deck(self.good() + " computeDissipatedEnergy on"), "not available", "granulaw/stats")
+        self.refused(self.deck(self.good() + " computeElasticPotential on"), "not available", "f_granulaw[1]")
+        self.refused(self.deck(self.good() + " computeDissipatedEnergy yes"), "'computeDissipatedEnergy' has an unknown value", "on, off")
+        self.refused(self.deck(self.good(), wall_words="computeDissipatedEnergy on"), "say it there")
+        self.refused(self.deck(self.good() + " heatArea some"), "'heatArea' has an unknown value", "law, overlap")
         self.refused(self.deck(self.good() + " tangential_damping off", tangential="no_history"), "no friction")
 
     def test_units(self):

@@ -1,5 +1,6 @@
 """`stretch S`, F_s(d) = F(d/S)/S: the same impacts, S times slower."""
 import math
+import re
 import unittest
 
 from collisions import pair_deck, wall_deck
@@ -155,6 +156,44 @@ class Stretch(Deck):
                                                "LOSS")
         self.assertGreater(plain, 0)
         self.assertAlmostEqual(stretched / plain, 1.0, delta=ROUNDING)
+
+    def energies(self, deck, start):
+        """Kinetic + elastic + dissipated energy over what there was at the start, at every step; the last row's f_ID[13]."""
+        every = ("thermo_style custom step ke f_granulaw f_granulaw[14] f_granulaw[13]\nthermo_modify norm no\nthermo 1\n")
+        deck = re.sub(r"thermo 1000?\n", every, deck)
+        rows = [[float(w) for w in line.split()] for line in self.run_deck(deck).splitlines()
+                if re.fullmatch(r"\s*\d+(\s+[-+.\deE]+){4}\s*", line)]
+        self.assertGreater(len(rows), 100)
+        return [(ke + dissipated + stored) / start for _, ke, dissipated, stored, _ in rows], rows[-1][4]
+
+    def test_energy_is_kept_at_every_stretch(self):
+        """Wall and pair, both models, a law with an inertia axis: what is kinetic, elastic and dissipated adds up at every step,
+        stretched or not, and the time step that the stiffest contact allows grows as the stretch."""
+        mass, speed, steps = sphere_mass(RADIUS, POWDER.density), 1.0, 200
+        self.fixture("write", self.folder / "axis.h5", "axis")
+        for model, law in (("mpm", self.law), ("mpm", self.folder / "axis.h5"), ("thornton", None)):
+            for partner, m_eff in (("wall", mass), ("pair", mass / 2)):
+                allowed = {}
+                for s in (1, 3, 17.7):
+                    words = (f"law {law} materials powder " if law else "") + f"stretch {s} energy on elasticDamping off"
+                    dt = s * 3.2e-6 / steps  # a contact lasts 3 us here
+                    deck = (wall_deck(model, words, POWDER, RADIUS, speed, dt) if partner == "wall" else
+                            pair_deck(model, words, (POWDER, POWDER), (RADIUS, RADIUS), speed, dt))
+                    total, allowed[s] = self.energies(deck.replace("run 120", f"run {2 * steps}"), 0.5 * m_eff * speed**2)
+                    said = f"{model} {law} {partner} {s}"
+                    # LIGGGHTS's kinetic energy is that of a whole step: velocity Verlet's own error, 1/steps^2 of the exchange
+                    self.assertLess(max(abs(t - 1) for t in total), 2e-3, said)
+                    self.assertAlmostEqual(allowed[s] / allowed[1], s, delta=1e-6 * s, msg=said)
+
+    def test_start_up_time_step_moves_with_the_stretch(self):
+        """The limit that the table of the laws prints: 1/20 of the period of the stiffest contact."""
+        for model in ("mpm", "thornton"):
+            limits = []
+            for s in (1, 10):
+                text = self.run_deck(wall_deck(model, self.words(s, model), POWDER, RADIUS, 0.1, 1e-8))
+                line = next(l for l in text.splitlines() if " - wall 1 " in l)
+                limits.append(float(line.split(model if model == "thornton" else " mpm ")[0].split()[-1]))
+            self.assertAlmostEqual(limits[1] / limits[0], 10.0, delta=0.01, msg=model)  # four printed digits
 
 
 if __name__ == "__main__":

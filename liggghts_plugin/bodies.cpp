@@ -1,0 +1,185 @@
+#include "liggghts_plugin/bodies.hpp"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "fix_multisphere.h"
+#include "fix_rigid.h"
+#include "fix_template_multisphere.h"
+#include "liggghts_plugin/private_members.hpp"
+
+namespace granulaw::plugin {
+
+// fix rigid gives its mass and body numbers away (extract), but not the rest.
+struct RigidCentre
+{
+  friend auto exposed(RigidCentre);
+};
+struct RigidInertia
+{
+  friend auto exposed(RigidInertia);
+};
+struct RigidEx
+{
+  friend auto exposed(RigidEx);
+};
+struct RigidEy
+{
+  friend auto exposed(RigidEy);
+};
+struct RigidEz
+{
+  friend auto exposed(RigidEz);
+};
+template struct Expose<RigidCentre, &LAMMPS_NS::FixRigid::xcm>;
+template struct Expose<RigidInertia, &LAMMPS_NS::FixRigid::inertia>;
+template struct Expose<RigidEx, &LAMMPS_NS::FixRigid::ex_space>;
+template struct Expose<RigidEy, &LAMMPS_NS::FixRigid::ey_space>;
+template struct Expose<RigidEz, &LAMMPS_NS::FixRigid::ez_space>;
+struct TemplateCentres
+{
+  friend auto exposed(TemplateCentres);
+};
+struct TemplateRadii
+{
+  friend auto exposed(TemplateRadii);
+};
+template struct Expose<TemplateCentres, &LAMMPS_NS::FixTemplateMultiplespheres::x_sphere>;
+template struct Expose<TemplateRadii, &LAMMPS_NS::FixTemplateMultiplespheres::r_sphere>;
+
+namespace {
+
+constexpr const char* property_name = "granulaw_body";
+
+template <class Fix>
+Fix* next_fix(LAMMPS_NS::LAMMPS* lmp, int& f)
+{
+  while (f < lmp->modify->nfix)
+    if (Fix* found = dynamic_cast<Fix*>(lmp->modify->fix[f++])) return found;
+  return nullptr;
+}
+
+LAMMPS_NS::FixPropertyAtom* property(LAMMPS_NS::LAMMPS* lmp)
+{
+  return static_cast<LAMMPS_NS::FixPropertyAtom*>(
+      lmp->modify->find_fix_property(property_name, "property/atom", "vector", 0, 0, property_name, false));
+}
+
+}  // namespace
+
+void Bodies::provide(LAMMPS_NS::LAMMPS* lmp, bool inertia)
+{
+  int from = 0, from_clumps = 0;
+  const bool rigid = next_fix<LAMMPS_NS::FixRigid>(lmp, from);
+  const bool clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, from_clumps);
+  if (property(lmp) || !(rigid || (clumps && inertia))) return;
+  // not in restart files; to ghosts and, since a body may belong to another rank than its sphere, back from
+  // them
+  const char* arg[] = {property_name, "all", "property/atom", property_name, "vector", "no",
+                       "yes",         "yes", "0.0",           "0.0",         "0.0",    "0.0",
+                       "0.0",         "0.0", "0.0",           "0.0",         "0.0",    "0.0"};
+  lmp->modify->add_fix_property_atom(8 + columns, const_cast<char**>(arg), property_name);
+}
+
+bool Bodies::overlap_themselves(LAMMPS_NS::LAMMPS* lmp)
+{
+  const auto overlap = [](const double* a, double radius_a, const double* b, double radius_b) {
+    const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]}, sum = radius_a + radius_b;
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < sum * sum * (1.0 - 1e-12);
+  };
+  int f = 0;
+  while (auto* clump = next_fix<LAMMPS_NS::FixTemplateMultisphere>(lmp, f)) {
+    double** x = clump->*exposed(TemplateCentres{});
+    const double* r = clump->*exposed(TemplateRadii{});
+    for (int i = 0; i < clump->number_spheres(); ++i)
+      for (int j = 0; j < i; ++j)
+        if (overlap(x[i], r[i], x[j], r[j])) return true;
+  }
+  f = 0;
+  const LAMMPS_NS::Atom& atom = *lmp->atom;
+  while (auto* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
+    std::map<int, std::vector<int>> of_body;
+    for (int i = 0; i < atom.nlocal; ++i)
+      if (clumps->belongs_to(i) >= 0) of_body[clumps->belongs_to(i)].push_back(i);
+    for (const auto& [tag, spheres] : of_body)
+      for (const int i : spheres)
+        for (const int j : spheres)
+          if (j < i && overlap(atom.x[i], atom.radius[i], atom.x[j], atom.radius[j])) return true;
+  }
+  return false;
+}
+
+void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
+{
+  LAMMPS_NS::FixPropertyAtom* values = property(lmp);
+  per_atom_ = values ? values->array_atom : nullptr;
+  if (!per_atom_) return;
+  LAMMPS_NS::Atom& atom = *lmp->atom;
+  const int all = atom.nlocal + atom.nghost;
+  for (int i = 0; i < all; ++i) std::fill_n(per_atom_[i], static_cast<int>(columns), 0.0);
+
+  int f = 0;
+  while (LAMMPS_NS::FixRigid* rigid = next_fix<LAMMPS_NS::FixRigid>(lmp, f)) {
+    int dim = 0;
+    const int* body = static_cast<int*>(rigid->extract("body", dim));
+    const double* mass = static_cast<double*>(rigid->extract("masstotal", dim));
+    for (int i = 0; i < atom.nlocal; ++i)
+      if (const int b = body[i]; b >= 0)
+        fill(lmp, i, mass[b], (rigid->*exposed(RigidCentre{}))[b], (rigid->*exposed(RigidInertia{}))[b],
+             (rigid->*exposed(RigidEx{}))[b], (rigid->*exposed(RigidEy{}))[b],
+             (rigid->*exposed(RigidEz{}))[b]);
+  }
+  f = 0;
+  while (LAMMPS_NS::FixMultisphere* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
+    LAMMPS_NS::Multisphere& bodies = clumps->data();
+    const auto vectors = [&](const char* name) { return bodies.extract_double_vector(name); };
+    double **centre = vectors("xcm"), **inertia = vectors("inertia"), **ex = vectors("ex_space"),
+           **ey = vectors("ey_space"), **ez = vectors("ez_space");
+    for (int i = 0; i < all; ++i) {
+      const int tag = clumps->belongs_to(i);
+      const int b = tag >= 0 ? bodies.map(tag) : -1;  // -1: the body belongs to another rank
+      // of a sphere and its periodic images one is filled, and the others hear of it
+      if (b < 0 || atom.map(atom.tag[i]) != i) continue;
+      fill(lmp, i, bodies.mass(b), centre[b], inertia[b], ex[b], ey[b], ez[b]);
+    }
+  }
+  values->do_reverse_comm();  // sums: each sphere was filled once, on the rank of its body
+  values->do_forward_comm();
+}
+
+void Bodies::fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre,
+                  const double* moments, const double* ex, const double* ey, const double* ez)
+{
+  double* row = per_atom_[i];
+  row[mass_column] = body_mass;
+  double* r = row + arm;
+  for (int c = 0; c < 3; ++c) r[c] = lmp->atom->x[i][c] - centre[c];
+  lmp->domain->minimum_image(r[0], r[1], r[2]);
+  // I^-1 = sum of e e^T/I over the principal axes; a moment of zero (a body on a line) does not turn about it
+  const double* axes[3] = {ex, ey, ez};
+  double* inverse = row + inverse_inertia;
+  for (int k = 0; k < 3; ++k) {
+    if (!(moments[k] > 0.0)) continue;
+    const double* e = axes[k];
+    inverse[0] += e[0] * e[0] / moments[k];
+    inverse[1] += e[1] * e[1] / moments[k];
+    inverse[2] += e[2] * e[2] / moments[k];
+    inverse[3] += e[0] * e[1] / moments[k];
+    inverse[4] += e[0] * e[2] / moments[k];
+    inverse[5] += e[1] * e[2] / moments[k];
+  }
+}
+
+double Bodies::inverse_mass(int i, const double* n, double sphere_mass) const
+{
+  const double* row = per_atom_[i];
+  if (!(row[mass_column] > 0.0)) return 1.0 / sphere_mass;
+  const double *r = row + arm, *v = row + inverse_inertia;
+  const double t[3] = {r[1] * n[2] - r[2] * n[1], r[2] * n[0] - r[0] * n[2], r[0] * n[1] - r[1] * n[0]};
+  // n.[(I^-1 t) x r] = t.(I^-1 t)
+  return 1.0 / row[mass_column] + v[0] * t[0] * t[0] + v[1] * t[1] * t[1] + v[2] * t[2] * t[2] +
+         2.0 * (v[3] * t[0] * t[1] + v[4] * t[0] * t[2] + v[5] * t[1] * t[2]);
+}
+
+}  // namespace granulaw::plugin

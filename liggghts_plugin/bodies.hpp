@@ -1,0 +1,43 @@
+#pragma once
+
+#include "liggghts_plugin/liggghts.hpp"
+
+namespace granulaw::plugin {
+
+/// Mass and inertia of the rigid bodies that spheres are part of (fix multisphere, fix rigid), for each
+/// sphere of this rank, ghosts included, whichever rank holds the body. A sphere that is released from its
+/// body (broken clumps, boundaries) counts alone from the next step on.
+class Bodies
+{
+ public:
+  /// Adds the per-atom property that carries the numbers if the deck has bodies; collective. `inertia`:
+  /// whether an effective mass at the point of contact will be asked for; else only fix rigid needs the
+  /// property.
+  static void provide(LAMMPS_NS::LAMMPS* lmp, bool inertia);
+
+  /// True if spheres of one clump overlap, of templates or of clumps on this rank: a partner that touches
+  /// both there feels both. Not collective.
+  static bool overlap_themselves(LAMMPS_NS::LAMMPS* lmp);
+
+  /// Before the forces of each step. Collective.
+  void update(LAMMPS_NS::LAMMPS* lmp);
+
+  /// False: no sphere is part of a body, as far as contacts must know.
+  bool known() const { return per_atom_ != nullptr; }
+  /// kg, of the body that sphere `i` is part of; 0: none.
+  double mass(int i) const { return per_atom_[i][mass_column]; }
+  /// 1/kg at a point of contact on sphere `i` with unit normal n: 1/m + n.[I^-1 (r x n) x r], r from the
+  /// body's centre of mass to the sphere's centre. What an impulse along n changes the normal velocity there
+  /// by. `sphere_mass` counts where the sphere is no part of a body.
+  double inverse_mass(int i, const double* n, double sphere_mass) const;
+
+ private:
+  enum Column : int { mass_column, arm, inverse_inertia = 4, columns = 10 };  // xx yy zz xy xz yz
+
+  void fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre, const double* moments,
+            const double* ex, const double* ey, const double* ez);
+
+  double** per_atom_ = nullptr;
+};
+
+}  // namespace granulaw::plugin

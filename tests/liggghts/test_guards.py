@@ -1,0 +1,164 @@
+"""Decks that LIGGGHTS accepts and that would go wrong without a word: refused in one sentence, or right."""
+import math
+import os
+import pathlib
+import unittest
+
+from collisions import pair_deck, wall_deck
+from harness import POWDER, Deck, head, properties, sphere_mass
+
+RADIUS = 1.7e-3
+DT = 2e-7
+MODELS = ("mpm", "thornton")
+
+
+class Guards(Deck):
+    def words(self, model, more=""):
+        return (f"law {self.law} materials powder " if model == "mpm" else "") + more
+
+    def deck(self, model, more="", **keywords):
+        return wall_deck(model, self.words(model, more), POWDER, RADIUS, 1.0, DT, **keywords)
+
+    def refused(self, deck, *sentences, ranks=1):
+        """One sentence, the same whoever asks."""
+        text = self.run_deck(deck, ranks=ranks, expect_failure=True)
+        errors = [line for line in text.splitlines() if line.startswith("ERROR")]
+        self.assertEqual(len(errors), 1, text[-2000:])
+        for sentence in sentences:
+            self.assertIn(sentence, errors[0])
+
+    def test_pages_too_small(self):
+        """A page must hold the values of `one` neighbours: 4 (thornton) and 10 (mpm) of them, more with energy and contactMap."""
+        small = "neigh_modify delay 0 one 5000 page 50000"
+        for model, more, values in (("mpm", "", 0), ("mpm", "energy on", 16), ("mpm", "energy on contactMap on", 17),
+                                    ("thornton", "energy on contactMap on", 11)):
+            deck = self.deck(model, more).replace("neigh_modify delay 0", small)
+            if values:
+                self.refused(deck, f"keeps {values} values", f"neigh_modify page {values * 5000} or more")
+                self.run_deck(deck.replace("page 50000", f"page {values * 5000}"))
+            else:
+                self.run_deck(deck)
+
+    def test_pages_too_small_for_a_rolling_model(self):
+        deck = self.deck("mpm", tangential="history rolling_friction epsd2").replace("neigh_modify delay 0", "neigh_modify delay 0 one 5000 page 50000")
+        self.refused(deck, "neigh_modify page")
+
+    def test_multi(self):
+        for model in MODELS:
+            deck = self.deck(model)
+            line = next(l for l in deck.splitlines() if l.startswith("neighbor "))
+            self.refused(deck.replace(line, line.replace("bin", "multi")), "'neighbor ... multi' lets spheres of unlike size")
+
+    def test_respa(self):
+        """Pairs work at every level; walls and energies do not: LIGGGHTS calls no wall there, not stock Hertz's either."""
+        for model in MODELS:
+            pair = lambda more="", style="": pair_deck(model, self.words(model, more), (POWDER, POWDER), (RADIUS, RADIUS), 1.0,
+                                                       DT).replace("timestep", f"{style}\ntimestep")
+            plain, *levels = (self.result(self.run_deck(pair(style=style)), "SPEED")[0]
+                              for style in ("", "run_style respa 1", "run_style respa 2 2 pair 2", "run_style respa 2 2 pair 1"))
+            for e, delta in zip(levels, (1e-12, 1e-12, 1e-3)):  # the last has half the step: its own error in e
+                self.assertAlmostEqual(e / plain, 1.0, delta=delta)
+            self.refused(self.deck(model).replace("timestep", "run_style respa 1\ntimestep"), "does not call fix wall/gran")
+            self.refused(pair("energy on", "run_style respa 1"), "run_style verlet")
+
+    def test_wall_before_the_pair_style(self):
+        """A wall that stands first cannot take what the pair style says later."""
+        for model in MODELS:
+            for more in ("energy on", "contactMap on", "stretch 3", "elasticDamping 0.1"):
+                deck = self.deck(model, more)
+                wall = next(l for l in deck.splitlines() if l.startswith("fix w "))
+                first = deck.replace(wall + "\n", "").replace("pair_style", wall + " " + self.words(model) + "\npair_style")
+                self.refused(first, "put it behind")
+            deck = self.deck(model)
+            wall = next(l for l in deck.splitlines() if l.startswith("fix w "))
+            first = deck.replace(wall + "\n", "").replace("pair_style", wall + " " + self.words(model) + "\npair_style")
+            if model == "thornton":  # has nothing to take
+                self.assertEqual(self.result(self.run_deck(first), "SPEED"), self.result(self.run_deck(deck), "SPEED"))
+
+    def test_pair_style_again_with_other_words(self):
+        for model in MODELS:
+            deck = self.deck(model)
+            again = f"pair_style gran model {model} tangential history {self.words(model, 'stretch 3')}\npair_coeff * *\ntimestep"
+            self.refused(deck.replace("timestep", again), "put it behind")
+
+    def test_two_spheres_at_one_place(self):
+        for model in MODELS:
+            place = "0.001 0.002 0.003"
+            deck = (head(half=20 * RADIUS) + properties([POWDER]) +
+                    f"pair_style gran model {model} tangential history {self.words(model)}\npair_coeff * *\n" +
+                    f"create_atoms 1 single {place} units box\n" * 2 +
+                    f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nfix i all nve/sphere\ntimestep {DT}\nrun 1\n")
+            text = self.run_deck(deck, expect_failure=True)
+            self.assertIn("particles 1 and 2 are at one place (0.001, 0.002, 0.003)", text)
+            self.assertNotIn("nan", text.lower())
+
+    def test_axis_of_a_cylinder(self):
+        """On the axis of a narrow pipe a sphere touches nothing, whatever LIGGGHTS calls it; later it hits the wall as any other."""
+        big = 1.6 * RADIUS
+        for model in MODELS:
+            found = []
+            for x in (0.0, 1e-3 * RADIUS):
+                deck = (head(half=20 * RADIUS) + properties([POWDER]) +
+                        f"pair_style gran model {model} tangential history {self.words(model)}\npair_coeff * *\n"
+                        f"fix w all wall/gran model {model} tangential history primitive type 1 zcylinder {big!r} 0.0 0.0\n"
+                        f"create_atoms 1 single {x!r} 0.0 0.0 units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                        f"fix i all nve/sphere\ntimestep {DT}\nvariable v equal vcm(all,x)\nrun 10\n"
+                        "velocity all set 3.0 0.0 0.0\n" f"run {int(0.9 * RADIUS / 3.0 / DT)}\n"
+                        'print "SPEED ${v}"\n')
+                found.append(self.result(self.run_deck(deck), "SPEED")[0])
+            self.assertLess(found[0], -1.0)
+            # the phase of the step at first touch differs: its error in e, 1e-3 at 25 steps a contact
+            self.assertAlmostEqual(found[0] / found[1], 1.0, delta=5e-3)
+
+    def test_restart_of_another_combination(self):
+        """Histories of as many values are not those of another model."""
+        for model in MODELS:
+            viscous = "fix p6 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.1\nfix p1"
+            base = self.deck(model).replace("run 120", "run 20").replace("fix p1", viscous)
+            write = base.replace("history ", "history rolling_friction epsd2 ") + "write_restart r.bin\n"
+            self.run_deck(write)
+            text = write[write.index("fix p6"):write.index("create_atoms")]
+            read = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+                    f"communicate single vel yes\nread_restart r.bin\nneighbor {RADIUS / 2} bin\n" + text +
+                    f"fix i all nve/sphere\ntimestep {DT!r}\nrun 10\n")
+            self.run_deck(read)
+            other = read.replace("rolling_friction epsd2", "rolling_friction epsd")
+            self.refused(other, "written with other models", "rolling_friction epsd2", "found model mpm tangential history rolling_friction epsd,".replace("mpm", model))
+
+    def test_other_allocators(self):
+        """jemalloc and tcmalloc round sizes up in their own way."""
+        libraries = pathlib.Path("/usr/lib/x86_64-linux-gnu")
+        found = [libraries / name for name in ("libjemalloc.so.2", "libtcmalloc_minimal.so.4") if (libraries / name).exists()]
+        self.assertTrue(found, "tools/setup installs libjemalloc2")
+        deck = self.deck("mpm")
+        expected = self.result(self.run_deck(deck), "SPEED")
+        for library in found:
+            self.assertEqual(self.result(self.run_deck(deck, environment={"LD_PRELOAD": str(library)}), "SPEED"), expected)
+
+
+class GapDamping(Deck):
+    def test_no_force_below_the_residual_overlap(self):
+        """`elasticDamping` works where the law carries force: not in the gap of a dent, neither on the way out nor in."""
+        for model in MODELS:
+            law = f"law {self.law} materials powder " if model == "mpm" else ""
+            # down, up until the force is gone, and back in within the same overlap, without friction and with
+            deck = (head(half=20 * RADIUS) + properties([POWDER], 0.5) +
+                    f"pair_style gran model {model} tangential history {law}elasticDamping 0.2\npair_coeff * *\n"
+                    f"fix w all wall/gran model {model} tangential history primitive type 1 zplane 0.0\n"
+                    f"create_atoms 1 single 0.0 0.0 {RADIUS!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                    f"timestep {DT!r}\nfix m all move linear 0.0 0.0 -1.0\nvariable f equal fcm(all,z)\nvariable z equal xcm(all,z)\n"
+                    "thermo_style custom step\nrun 200\n"   # 40 um down: 2 % of R, far beyond yield
+                    "unfix m\nfix m all move linear 0.0 0.0 1.0\nrun 180\n")  # 4 um below the first touch
+            deck += ('print "OUT ${z} ${f}"\nunfix m\nfix m all move linear 1.0 0.0 -1.0\nrun 5\nvariable t equal fcm(all,x)\n'
+                     'print "IN ${z} ${f} ${t}"\n')
+            text = self.run_deck(deck)
+            z, force = self.result(text, "OUT")
+            self.assertLess(z, RADIUS)  # they overlap still
+            self.assertEqual(force, 0.0, model)
+            z, force, friction = self.result(text, "IN")
+            self.assertLess(z, RADIUS)
+            self.assertEqual((force, friction), (0.0, 0.0), model)
+
+
+if __name__ == "__main__":
+    unittest.main()

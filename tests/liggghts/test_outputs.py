@@ -1,0 +1,137 @@
+"""What can be asked of single contacts and of pairs of types: compute pair/gran/local and wall/gran/local, f_ID[row][column],
+computeDissipatedEnergy, contacts that begin overlapping."""
+import json
+import math
+import unittest
+
+from collisions import pair_deck, wall_deck
+from harness import GLASS, POWDER, Deck, head, plane_stl, properties, sphere_mass
+
+RADIUS = 1.7e-3
+DT = 2e-8
+MODELS = ("mpm", "thornton")
+
+
+def thornton_radius(r_eff, share, delta, largest):
+    """Contact radius on the way out after yield; `share` of E* that the pair has: 1 on a rigid wall, 1/2 between like spheres."""
+    hertz, p_y = 4 / 3 * POWDER.e_star * share, 1.6 * POWDER.yield_stress
+    d_y = (math.pi * p_y / (2 * POWDER.e_star * share))**2 * r_eff
+    f_y = hertz * math.sqrt(r_eff) * d_y**1.5
+    f_m = f_y + math.pi * p_y * r_eff * (largest - d_y)
+    edge = math.sqrt((2 * f_m + f_y) / (2 * math.pi * p_y))
+    elastic = f_m / (hertz * edge)
+    return edge * math.sqrt((delta - (largest - elastic)) / elastic)
+
+
+class Outputs(Deck):
+    def words(self, model, more="", names="powder"):
+        return (f"law {self.law} materials {names} " if model == "mpm" else "") + "elasticDamping off " + more
+
+    def rows(self, name="rows.dump"):
+        """The last frame of a local dump that holds a contact, of those with a radius one that still carries force."""
+        frames, lines = [], (self.folder / name).read_text().splitlines()
+        for k, line in enumerate(lines):
+            if line == "ITEM: NUMBER OF ENTRIES":
+                count = int(lines[k + 1])
+            elif line.startswith("ITEM: ENTRIES") and count:
+                frames.append([[float(w) for w in row.split()] for row in lines[k + 1:k + 1 + count]])
+        return [f for f in frames if len(f[0]) < 7 or f[0][4] > 0][-1]
+
+    def test_columns_of_single_contacts(self):
+        """contactRadius, largestOverlap and dissipatedEnergy stand behind LIGGGHTS's own columns; on the way out of an impact they are
+        the law's: of the present overlap, of the largest one, and what the ledger has."""
+        for model in MODELS:
+            for kind in ("pair", "wall"):
+                make = "wall/gran/local" if kind == "wall" else "pair/gran/local"
+                ours = (f"compute c all {make} delta id contactRadius largestOverlap dissipatedEnergy\n"
+                        "dump d all local 10 rows.dump c_c[1] c_c[2] c_c[3] c_c[4] c_c[5] c_c[6] c_c[7]\n"
+                        'dump_modify d format "%.12g %.12g %.12g %.12g %.12g %.12g %.12g"\nvariable l equal f_granulaw\n')
+                if kind == "wall":
+                    (self.folder / "plane.stl").write_text(plane_stl())
+                    deck = wall_deck(model, self.words(model), POWDER, RADIUS, 3.0, DT, wall="mesh n_meshes 1 meshes cad",
+                                     before_wall="fix cad all mesh/surface file plane.stl type 1\n")
+                    r_eff, partner = RADIUS, "wall"
+                else:
+                    deck = pair_deck(model, self.words(model), (POWDER, POWDER), (RADIUS, RADIUS), 3.0, DT)
+                    r_eff, partner = RADIUS / 2, "powder"
+                run = 'run 900\nprint "LOSS ${l}"\n'
+                text = self.run_deck(deck.replace("run 120", ours + run))
+                loss = self.result(text, "LOSS")[0]
+                (*ids, delta, a, largest, dissipated), = self.rows()
+                self.assertEqual(sorted(int(i) for i in ids)[-1], 2 if kind == "pair" else 1)
+                self.assertLess(delta, largest)
+                self.assertGreater(delta, 0)
+                if model == "mpm":
+                    expected = self.fixture("radius", self.law, "powder", partner, r_eff, delta, largest, 0)[0]
+                    self.assertAlmostEqual(a / expected, 1.0, delta=1e-5)  # FastCurve against the curve
+                else:
+                    self.assertAlmostEqual(a / thornton_radius(r_eff, 1 if kind == "wall" else 0.5, delta, largest), 1.0, delta=1e-9)
+                self.assertAlmostEqual(dissipated / loss, 1.0, delta=1e-9)
+
+    def test_words_alone_and_of_other_models(self):
+        deck = pair_deck("mpm", self.words("mpm"), (POWDER, POWDER), (RADIUS, RADIUS), 3.0, DT)
+        ours = "compute c all pair/gran/local largestOverlap\ndump d all local 10 rows.dump c_c[1] c_c[2] c_c[3] c_c[4]\n"
+        self.run_deck(deck.replace("run 120", ours + "run 50"))
+        (*ids, periodic, largest), = self.rows()
+        self.assertEqual((sorted(ids), periodic), ([1, 2], 0))
+        self.assertGreater(largest, 0)
+        one = "fix p6 all property/global coefficientRestitution peratomtypepair 1 1.0\nfix p1"
+        walls = f"fix w all wall/gran model mpm tangential history primitive type 1 zplane -0.01 {self.words('mpm')}\n"
+        hertz = pair_deck("hertz", "", (POWDER, POWDER), (RADIUS, RADIUS), 3.0, DT).replace("fix p1", one).replace("create_atoms", walls + "create_atoms", 1)
+        text = self.run_deck(hertz.replace("run 120", ours + "run 50"), expect_failure=True)
+        self.assertIn("are known of contacts of the models mpm and thornton", text)
+
+    def test_pairs_of_types_in_thermo(self):
+        """f_granulaw[row][column]: rows 1-1, 1-2, 2-2, then the walls of each type."""
+        for ranks in (1, 2):
+            deck = pair_deck("mpm", self.words("mpm", names="powder glass"), (POWDER, GLASS), (RADIUS, RADIUS), 2.0, 5e-8, run="run 600")
+            names = [f"f_granulaw[{r}][{c}]" for r in range(1, 8) for c in (1, 2, 3, 5)]
+            out = "".join(f"variable q{k} equal {n}\n" for k, n in enumerate(names))
+            text = self.run_deck(deck + out + 'print "ROWS ' + " ".join(f"${{q{k}}}" for k in range(len(names))) + '"\n'.replace("\n", "\n"),
+                                 ranks=ranks)
+            values = self.result(text, "ROWS")
+            rows = [values[4 * k:4 * k + 4] for k in range(7)]
+            for k, row in enumerate(rows):
+                self.assertEqual(row[0], 1 if k == 1 else 0, rows)
+            self.assertEqual(rows[1][1], 1)  # it has ended
+            self.assertGreater(rows[1][2], 0)
+            self.assertAlmostEqual(rows[1][3], 2.0, delta=1e-6)
+
+    def test_compute_dissipated_energy(self):
+        """LIGGGHTS's own property dissipated_energy of each particle, out of the ledger."""
+        for model in MODELS:
+            deck = wall_deck(model, self.words(model, "computeDissipatedEnergy on"), POWDER, RADIUS, 1.0, DT)
+            out = ("compute e all reduce sum f_dissipated_energy_[1]\nvariable e equal c_e\nvariable l equal f_granulaw\n"
+                   "thermo_style custom step c_e f_granulaw\n")
+            text = self.run_deck(deck.replace("run 120", out + "run 1500") + 'print "LOSS ${e} ${l}"\n')
+            speed = self.result(text, "SPEED")[0]
+            lost = 0.5 * sphere_mass(RADIUS, POWDER.density) * (1 - speed**2)
+            dissipated, ledger = self.result(text, "LOSS")
+            self.assertAlmostEqual(dissipated / ledger, 1.0, delta=1e-9)
+            self.assertAlmostEqual(dissipated / lost, 1.0, delta=1e-3)  # 200 steps a contact: the step's error
+
+    def test_contacts_that_begin_overlapping(self):
+        """Two spheres put into each other, and none that moved there: counted, with what they brought; the balance closes with it."""
+        for model in MODELS:
+            for depth in (1e-4, 0.02):  # below yield, and beyond
+                x = (1 - depth / 2) * RADIUS
+                deck = (head(half=20 * RADIUS) + properties([POWDER]) +
+                        f"pair_style gran model {model} tangential off {self.words(model, 'energy on stats s.json')}\npair_coeff * *\n"
+                        f"create_atoms 1 single {-x!r} 0 0 units box\ncreate_atoms 1 single {x!r} 0 0 units box\n"
+                        f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nfix i all nve/sphere\ntimestep {DT!r}\n"
+                        "variable k equal ke\nvariable n equal f_granulaw[17]\nvariable b equal f_granulaw[18]\nvariable l equal f_granulaw\n"
+                        'variable s equal f_granulaw[14]\nthermo_style custom step ke\nthermo_modify norm no\nrun 1500\n'
+                        'print "BROUGHT ${n} ${b} ${k} ${s} ${l}"\n')
+                text = self.run_deck(deck)
+                count, brought, kinetic, stored, dissipated = self.result(text, "BROUGHT")
+                self.assertEqual((count, dissipated), (1, 0))
+                self.assertAlmostEqual((kinetic + stored) / brought, 1.0, delta=1e-3)  # the step's error
+                self.assertIn("1 contacts began deeper than the motion of a step can bring them", text)
+                stats = json.loads((self.folder / "s.json").read_text())["pair"]
+                self.assertEqual(stats["contacts_begun_overlapping"], 1)
+            text = self.run_deck(pair_deck(model, self.words(model), (POWDER, POWDER), (RADIUS, RADIUS), 5.0, DT))
+            self.assertNotIn("began deeper", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
