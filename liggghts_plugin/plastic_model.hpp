@@ -15,6 +15,7 @@
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/particle_sizes.hpp"
 #include "liggghts_plugin/session.hpp"
+#include "liggghts_plugin/superquadric.hpp"
 
 namespace granulaw::plugin {
 
@@ -80,6 +81,8 @@ class PlasticModel : public NormalModelBase
       for (std::size_t k = 1; k < Physics::Contact::turn_values; ++k)
         hsetup->add_history_value(fmt::format("turn_{}", k), "0");
     }
+    if (superquadrics_built && atom->superquadric_flag)
+      radius_offset_ = hsetup->add_history_value("curvature_radius", "0");
   }
 
   void registerSettings(Settings& settings)
@@ -123,7 +126,7 @@ class PlasticModel : public NormalModelBase
   void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces)
   {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
-    const double r_eff = sidata.is_wall ? sidata.radi : granulaw::effective_radius(sidata.radi, sidata.radj);
+    const double r_eff = effective_radius(sidata);
     const Entry& entry = entries_[static_cast<std::size_t>(sidata.itype * stride_ + sidata.jtype)];
     const double delta = sidata.deltan;
     double& delta_max = sidata.contact_history[history_offset_];
@@ -169,6 +172,7 @@ class PlasticModel : public NormalModelBase
       i_forces.delta_F[c] += force * sidata.en[c];
       if (!sidata.is_wall) j_forces.delta_F[c] -= force * sidata.en[c];
     }
+    add_normal_torque(sidata, atom->x, force, i_forces, j_forces);
   }
 
   void surfacesClose(SurfacesCloseData& scdata, ForceData&, ForceData&)
@@ -177,7 +181,8 @@ class PlasticModel : public NormalModelBase
     if (!scdata.contact_history) return;
     double& delta_max = scdata.contact_history[history_offset_];
     if (delta_max == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
-    const double r_eff = scdata.is_wall ? scdata.radi : granulaw::effective_radius(scdata.radi, scdata.radj);
+    double r_eff = scdata.is_wall ? scdata.radi : granulaw::effective_radius(scdata.radi, scdata.radj);
+    if (superquadrics_built && radius_offset_ >= 0) r_eff = scdata.contact_history[radius_offset_];
     const int itype = atom->type[scdata.i], jtype = scdata.is_wall ? scdata.jtype : atom->type[scdata.j];
     ContactLedger::Side& side = *entries_[static_cast<std::size_t>(itype * stride_ + jtype)].side;
     const double weight = this->weight(scdata), overlap = delta_max / r_eff;
@@ -294,6 +299,7 @@ class PlasticModel : public NormalModelBase
         PairInfo info = describe(entry.contact, *setup_, key, r_eff, m_eff);
         info.needed = types.of_particles[i] && (is_wall ? types.of_wall[j] : types.of_particles[j]);
         if (info.needed) physics_.check_sizes(i, j, is_wall, entry.contact, sizes);
+        if (info.needed) refuse_rated(lmp, *setup_, entry.contact.min_speed(1.0, 1.0) > 0);
         entry.side->info = info;
       }
     energy_ = setup_->session->energy;
@@ -341,6 +347,7 @@ class PlasticModel : public NormalModelBase
     side.dissipated += weight * dissipated;
     if (energy_) [[unlikely]]
       energy_->share(sidata, EnergyBooks::dissipated, dissipated, atom->nlocal);
+    if (superquadrics_built && radius_offset_ >= 0) sidata.contact_history[radius_offset_] = r_eff;
     delta_max = delta;
   }
 
@@ -382,6 +389,7 @@ class PlasticModel : public NormalModelBase
   [[gnu::noinline, gnu::cold]] void check_layout(const SurfacesIntersectData& sidata)
   {
     layout_checked_ = true;
+    if (sidata.is_non_spherical) return;
     const double distance = std::sqrt(sidata.delta[0] * sidata.delta[0] + sidata.delta[1] * sidata.delta[1] +
                                       sidata.delta[2] * sidata.delta[2]);
     if (std::abs(sidata.radi - distance - sidata.deltan) > 1e-6 * sidata.radi)
@@ -397,6 +405,7 @@ class PlasticModel : public NormalModelBase
   int history_offset_ = -1, impact_offset_ = -1;
   int turn_offset_ = 0;               // of the values of its turn
   LAMMPS_NS::bigint first_step_ = 0;  // of this run
+  int radius_offset_ = -1;            // of R* at the largest overlap; superquadrics only
   int speed_offset_ = -1;             // of the approach speed at first touch; only with `contactMap on`
   double damping_ = 0.0, stretch_ = 1.0;
   DeckUnits units_;

@@ -30,24 +30,28 @@ const std::vector<int> surface_ids = {
 #undef SURFACE_MODEL
 };
 
-constexpr const char* refusal =
-    "models mpm and thornton are built for tangential off, history, no_history; cohesion off, sjkr, sjkr2; "
-    "rolling_friction off, cdt, epsd, epsd2; surface default: choose among these";
+std::string refusal()
+{
+  return fmt::format(
+      "models mpm and thornton are built for tangential off, history, no_history; cohesion off, sjkr, sjkr2; "
+      "rolling_friction off, cdt, epsd, epsd2; {}: choose among these",
+      built_surfaces);
+}
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
 {
-  stop_all(lmp, refusal);
+  stop_all(lmp, refusal());
 }
 
 lg::Walls::IGranularWall* refuse_wall(LAMMPS* lmp, FixWallGran*, int64_t)
 {
-  stop_all(lmp, refusal);
+  stop_all(lmp, refusal());
 }
 
 bool is_built(int tangential, int cohesion, int rolling, int surface)
 {
   return contains(BuiltTangential{}, tangential) && contains(BuiltCohesion{}, cohesion) &&
-         contains(BuiltRolling{}, rolling) && surface == cm::SURFACE_DEFAULT;
+         contains(BuiltRolling{}, rolling) && surface_is_built(surface, cohesion);
 }
 
 /// Registers everything when the library is loaded. Runs in Open MPI's helper processes as well, which
