@@ -17,9 +17,10 @@ function(liggghts_style_headers include_dir output_dir)
   file(CONFIGURE OUTPUT ${output_dir}/style_contact_model.h CONTENT "" @ONLY)
 endfunction()
 
-# liggghts_find(ROOT): sets LIGGGHTS_INCLUDE_DIR and LIGGGHTS_LIBRARY from a source tree or install prefix,
-# or from the system where ROOT is empty.
+# liggghts_find(ROOT): sets LIGGGHTS_INCLUDE_DIR, LIGGGHTS_LIBRARY and LIGGGHTS_FLAGS from a source tree or install
+# prefix, or from the system where ROOT is empty.
 macro(liggghts_find root)
+  set(LIGGGHTS_FLAGS "")
   if("${root}" STREQUAL "")
     find_path(LIGGGHTS_INCLUDE_DIR contact_models.h PATH_SUFFIXES liggghts DOC "LIGGGHTS headers (libliggghts-dev)")
     find_library(LIGGGHTS_LIBRARY liggghts DOC "LIGGGHTS library (libliggghts-dev)")
@@ -46,7 +47,8 @@ macro(liggghts_find root)
   endif()
 endmacro()
 
-# The library itself says how its structures are laid out: by the symbols that it has. One sentence each.
+# The library itself says how its structures are laid out: by the symbols that it has. One sentence each for what is
+# refused; the flags that superquadrics need go to LIGGGHTS_FLAGS.
 function(liggghts_check_layout headers library)
   set(versions ${headers}/version_liggghts.txt)
   if(EXISTS ${versions})
@@ -59,9 +61,10 @@ function(liggghts_check_layout headers library)
   if(failed)
     message(FATAL_ERROR "${library} cannot be read as a shared library: ${why}")
   endif()
+  set(shapes "spheres only")
   if(symbols MATCHES "_ZTVN9LAMMPS_NS19AtomVecSuperquadricE")
-    message(FATAL_ERROR "${library} was built with superquadrics, which change what a contact model is given: build it with "
-                        "USE_SUPERQUADRICS = \"OFF\" (Makefile.user) or -DENABLE_SQ=OFF; the models are for spheres")
+    set(shapes "superquadrics")
+    set(LIGGGHTS_FLAGS SUPERQUADRIC_ACTIVE_FLAG NONSPHERICAL_ACTIVE_FLAG PARENT_SCOPE)
   endif()
   if(symbols MATCHES "AtomVecConvexHullC")
     message(FATAL_ERROR "${library} was built with convex particles: build it without CONVEX_ACTIVE_FLAG")
@@ -70,7 +73,7 @@ function(liggghts_check_layout headers library)
   if(NOT symbols MATCHES "_ZN9LAMMPS_NS6Domain5remapEPdRi" OR NOT symbols MATCHES "_ZN9LAMMPS_NS6Update14reset_timestepEl")
     message(FATAL_ERROR "${library} was not built with LAMMPS_SMALLBIG, LIGGGHTS's default (32-bit ids, 64-bit steps): rebuild it")
   endif()
-  message(STATUS "LIGGGHTS: headers ${headers}, library ${library} (spheres only, SMALLBIG)")
+  message(STATUS "LIGGGHTS: headers ${headers}, library ${library} (${shapes}, SMALLBIG)")
 endfunction()
 
 # liggghts_link_headers(INCLUDE_DIR OUTPUT_DIR): links to every header but the style lists of the tree's own build.

@@ -9,6 +9,10 @@
 #include "liggghts_plugin/heat_conduction.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
+#include "liggghts_plugin/shapes.hpp"
+
+/// Virtual functions of LIGGGHTS's AtomVecSuperquadric; null where there is no such class.
+extern "C" [[gnu::weak]] const char superquadric_functions[] __asm__("_ZTVN9LAMMPS_NS19AtomVecSuperquadricE");
 
 namespace granulaw::plugin {
 
@@ -16,10 +20,21 @@ namespace {
 
 constexpr const char* built_for = "LIGGGHTS-PUBLIC 3.8.0";
 
+constexpr const char* built_shapes =
+    superquadrics_built ? "with superquadrics" : "without superquadrics (Debian's liggghts)";
+
 [[noreturn]] void refuse(LAMMPS_NS::LAMMPS* lmp, const std::string& why)
 {
-  stop_all(lmp, fmt::format("granulaw was built for {} without superquadrics (Debian's liggghts): {}",
-                            built_for, why));
+  stop_all(lmp, fmt::format("granulaw was built for {} {}: {}", built_for, built_shapes, why));
+}
+
+/// Whether the LIGGGHTS that made `parent`, an object with virtual functions, has superquadrics: the class is
+/// then in the file that has the parent's own functions (a second LIGGGHTS may have been loaded with us).
+bool has_superquadrics(const void* parent)
+{
+  Dl_info of_class{}, of_parent{};
+  if (!superquadric_functions || !dladdr(superquadric_functions, &of_class)) return false;
+  return dladdr(*static_cast<void* const*>(parent), &of_parent) && of_class.dli_fbase == of_parent.dli_fbase;
 }
 
 }  // namespace
@@ -28,9 +43,10 @@ void check_liggghts(LAMMPS_NS::LAMMPS* lmp, const void* parent, std::size_t pare
 {
   const char* version = lmp->universe && lmp->universe->version ? lmp->universe->version : "unknown";
   if (!std::strstr(version, built_for)) refuse(lmp, fmt::format("this is '{}'", version));
-  // Only builds with superquadrics have this class, and their structures are laid out differently.
-  if (dlsym(RTLD_DEFAULT, "_ZTVN9LAMMPS_NS19AtomVecSuperquadricE"))
-    refuse(lmp, "this LIGGGHTS was built with superquadrics");
+  // Builds with superquadrics lay out their structures differently.
+  if (has_superquadrics(parent) != superquadrics_built)
+    refuse(lmp, superquadrics_built ? "this LIGGGHTS was built without superquadrics"
+                                    : "this LIGGGHTS was built with superquadrics");
   // Allocators round up, each in its own way: an object of the expected size tells by how much. glibc's may
   // leave 24 bytes more to the one that it finds first.
   const std::size_t block = malloc_usable_size(const_cast<void*>(parent));

@@ -54,6 +54,10 @@ const ContactInquiry* ContactList::contacts() const
 void ContactList::init()
 {
   ComputePairGranLocal::init();
+  if ((radius_ || overlap_ || dissipated_) && atom->superquadric_flag)
+    stop_all(lmp,
+             fmt::format("compute {} {}: contactRadius, largestOverlap and dissipatedEnergy are for spheres",
+                         id, style));
   if ((radius_ || overlap_ || dissipated_) && !contacts())
     stop_all(
         lmp,

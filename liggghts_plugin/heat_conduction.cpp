@@ -48,6 +48,8 @@ void check_heat(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
                      .c_str());
     return;
   }
+  if (lmp->atom->superquadric_flag)
+    fail(setup.where, "'heatArea law' is for spheres: leave it out, or say atom_style granular");
   if (setup.wall) {
     if (setup.wall->heattransfer_flag() && setup.wall->*exposed(WallAreaMode{}) != area_of_overlap)
       fail(setup.where, "'heatArea law' and another 'contact_area' than overlap exclude each other");

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "liggghts_plugin/bodies.hpp"
-#include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
+#include "liggghts_plugin/shapes.hpp"
 
 namespace granulaw::plugin {
 
-/// The loop over neighbouring spheres, in the place of LIGGGHTS's own (PairStyles::Granular): the same forces
-/// to the bit, in the same order, in less time.
+/// The loop over neighbouring particles, in the place of LIGGGHTS's own (PairStyles::Granular): the same
+/// forces to the bit, in the same order, in less time.
 ///
 /// A neighbour that does not touch costs its distance and one flag, not a cleared set of forces and a visit
 /// to its history: contact_flags says which models hold history, so surfacesClose is called in the step in
@@ -184,7 +184,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     contact.contact_history = &history.firstdouble[i][pair->dnum() * jj];
     on_i.reset();
     on_j.reset();
-    if (!(contact.rsq < contact.radsum * contact.radsum)) {
+    if (!(contact.rsq < contact.radsum * contact.radsum) || !surfaces_meet(pair, contact)) {
       contact.has_force_update = false;
       model_.surfacesClose(contact, on_i, on_j);
       // a liquid bridge may still pull
@@ -200,7 +200,8 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
                            atom.x[i][2]));
     contact.r = std::sqrt(contact.rsq);
     contact.rinv = 1.0 / contact.r;
-    for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
+    if constexpr (!is_superquadric<ContactModel>)
+      for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
     set_masses(pair, contact);
     model_.surfacesIntersect(contact, on_i, on_j);
     model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
@@ -219,6 +220,19 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     }
     if (observed) [[unlikely]]
       tell_observers(pair, contact, on_i, on_j, addflag);
+  }
+
+  /// Narrow phase. The bounding spheres meet; the surface model of superquadrics says whether the surfaces
+  /// do, and finds contact point, normal, overlap and R*.
+  bool surfaces_meet(PairGran* pair, SurfacesIntersectData& contact)
+  {
+    if constexpr (is_superquadric<ContactModel>) {
+      contact.radi = volume_radius(*lmp_->atom, contact.i);
+      contact.radj = volume_radius(*lmp_->atom, contact.j);
+      set_masses(pair, contact);
+      return model_.checkSurfaceIntersect(contact);
+    }
+    return true;
   }
 
   /// The body's mass where a sphere is part of one: fix multisphere has it in rmass; that of fix rigid is
@@ -260,9 +274,11 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
       if (newton || j < nlocal) *pair->get_sum_normal_force_ptr(j) += normal;
     }
     if (pair->cpl() && addflag) pair->cpl_add_pair(contact, on_i);
-    if (pair->evflag)
-      pair->ev_tally_xyz(i, j, nlocal, newton, 0.0, 0.0, force[0], force[1], force[2], contact.delta[0],
-                         contact.delta[1], contact.delta[2]);
+    if (pair->evflag) {  // not contact.delta, in which the narrow phase leaves the overlap
+      const double *xi = lmp_->atom->x[i], *xj = lmp_->atom->x[j];
+      pair->ev_tally_xyz(i, j, nlocal, newton, 0.0, 0.0, force[0], force[1], force[2], xi[0] - xj[0],
+                         xi[1] - xj[1], xi[2] - xj[2]);
+    }
     if (pair->storeContactForces() && lmp_->update->ntimestep % pair->storeContactForcesEvery() == 0) {
       store_force(*pair->fix_contact_forces(), i, j, on_i);
       store_force(*pair->fix_contact_forces(), j, i, on_j);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fix_template_sphere.h"
-#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/shapes.hpp"
 
 namespace granulaw::plugin {
 
@@ -17,18 +17,22 @@ ParticleSizes particle_sizes(LAMMPS_NS::LAMMPS* lmp)
                       std::vector<double>(n, 0.0)};
   for (int a = 0; a < atom.nlocal; ++a) {
     const int t = atom.type[a];
-    sizes.radius[t] = std::min(sizes.radius[t], atom.radius[a]);
-    sizes.largest_radius[t] = std::max(sizes.largest_radius[t], atom.radius[a]);
+    const double radius = volume_radius(atom, a);
+    sizes.radius[t] = std::min(sizes.radius[t], radius);
+    sizes.largest_radius[t] = std::max(sizes.largest_radius[t], radius);
     if (atom.rmass) sizes.mass[t] = std::min(sizes.mass[t], atom.rmass[a]);
   }
   for (int f = 0; f < lmp->modify->nfix; ++f) {
     auto* particle = dynamic_cast<LAMMPS_NS::FixTemplateSphere*>(lmp->modify->fix[f]);
     if (!particle || particle->is_relative()) continue;
-    const double radius = particle->min_rad(), density = particle->massexpect() / particle->volexpect();
+    const double density = particle->massexpect() / particle->volexpect();
+    double radius = particle->min_rad(), largest = particle->max_rad();
+    if (superquadrics_built && atom.superquadric_flag)  // these two are of bounding spheres then
+      radius = largest = std::cbrt(0.75 / M_PI * particle->volexpect());
     if (!(radius > 0) || !(density > 0)) continue;
     for (int t = particle->mintype(); t <= particle->maxtype(); ++t) {
       sizes.radius[t] = std::min(sizes.radius[t], radius);
-      sizes.largest_radius[t] = std::max(sizes.largest_radius[t], particle->max_rad());
+      sizes.largest_radius[t] = std::max(sizes.largest_radius[t], largest);
       sizes.mass[t] = std::min(sizes.mass[t], 4.0 / 3.0 * M_PI * radius * radius * radius * density);
     }
   }

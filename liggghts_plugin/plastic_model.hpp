@@ -15,6 +15,7 @@
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/particle_sizes.hpp"
 #include "liggghts_plugin/session.hpp"
+#include "liggghts_plugin/superquadric.hpp"
 
 namespace granulaw::plugin {
 
@@ -81,6 +82,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       for (std::size_t k = 1; k < Physics::Contact::turn_values; ++k)
         hsetup->add_history_value(fmt::format("turn_{}", k), "0");
     }
+    if (superquadrics_built && atom->superquadric_flag)
+      radius_offset_ = hsetup->add_history_value("curvature_radius", "0");
   }
 
   void registerSettings(Settings& settings)
@@ -124,7 +127,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces)
   {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
-    const double r_eff = sidata.is_wall ? sidata.radi : granulaw::effective_radius(sidata.radi, sidata.radj);
+    const double r_eff = effective_radius(sidata);
     const Entry& entry = this->entry(sidata.itype, sidata.jtype);
     const double delta = sidata.deltan;
     double& delta_max = sidata.contact_history[history_offset_];
@@ -171,6 +174,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       i_forces.delta_F[c] += force * sidata.en[c];
       if (!sidata.is_wall) j_forces.delta_F[c] -= force * sidata.en[c];
     }
+    add_normal_torque(sidata, atom->x, force, i_forces, j_forces);
   }
 
   void surfacesClose(SurfacesCloseData& scdata, ForceData&, ForceData&)
@@ -201,8 +205,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   {
     const double delta_max = contact.history[history_offset_];
     if (delta_max > 0.0)
-      count(ledger.sides[key(contact.itype, contact.jtype)], contact.history, delta_max, contact.r_eff,
-            -weight);
+      count(ledger.sides[key(contact.itype, contact.jtype)], contact.history, delta_max,
+            radius_at_largest(contact.history, contact.r_eff), -weight);
   }
 
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
@@ -321,6 +325,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
         PairInfo info = describe(entry.contact, *setup_, key, r_eff, m_eff);
         info.needed = types.of_particles[i] && (is_wall ? types.of_wall[j] : types.of_particles[j]);
         if (info.needed) physics_.check_sizes(i, j, is_wall, entry.contact, sizes);
+        if (info.needed) refuse_rated(lmp, *setup_, entry.contact.min_speed(1.0, 1.0) > 0);
         entry.side->info = info;
       }
     energy_ = setup_->session->energy;
@@ -368,7 +373,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, mass)) side.too_slow += weight;
       if (speed_offset_ >= 0) [[unlikely]]
         sidata.contact_history[speed_offset_] = speed;
-      sudden = delta > sudden_start * overlap_of_a_step(sidata);
+      // of superquadrics rotations bring overlap, too
+      sudden = !sidata.is_non_spherical && delta > sudden_start * overlap_of_a_step(sidata);
     }
     if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
     if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
@@ -382,8 +388,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       side.frequency2 = std::max(
           side.frequency2, stiffness(entry.contact, r_eff, delta, impact_overlap) / contact_mass(sidata));
     }
-    if (delta_max > 0.0) count(side, sidata.contact_history, delta_max, r_eff, -weight);
-    count(side, sidata.contact_history, delta, r_eff, weight);
+    double* const history = sidata.contact_history;
+    if (delta_max > 0.0) count(side, history, delta_max, radius_at_largest(history, r_eff), -weight);
+    count(side, history, delta, r_eff, weight);
+    if (superquadrics_built && radius_offset_ >= 0) history[radius_offset_] = r_eff;
     if (sudden) [[unlikely]] {  // no motion paid for what it holds
       side.sudden += weight;
       side.brought += weight * stored_energy(entry.contact, r_eff, delta, delta, impact_overlap);
@@ -407,6 +415,12 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     }
     const double dt = update->dt;
     return std::abs(sidata.vn) * dt + 0.5 * speed2 * dt * dt / sidata.r;
+  }
+
+  /// R* at the contact's largest overlap, where that of superquadrics was another.
+  double radius_at_largest(const double* history, double r_eff) const
+  {
+    return superquadrics_built && radius_offset_ >= 0 ? history[radius_offset_] : r_eff;
   }
 
   /// Counts a contact of largest overlap `delta` in the histograms: see ContactLedger::Side::overlap.
@@ -453,6 +467,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   /// In a library with another layout of SurfacesIntersectData these two would not agree.
   [[gnu::noinline, gnu::cold]] void check_layout(const SurfacesIntersectData& sidata)
   {
+    if (sidata.is_non_spherical) return;
     const double distance = std::sqrt(sidata.delta[0] * sidata.delta[0] + sidata.delta[1] * sidata.delta[1] +
                                       sidata.delta[2] * sidata.delta[2]);
     if (distance == 0.0) return;  // on the axis of a cylinder, where LIGGGHTS gives no normal
@@ -470,6 +485,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   int history_offset_ = -1, impact_offset_ = -1;
   int turn_offset_ = 0;               // of the values of its turn
   LAMMPS_NS::bigint first_step_ = 0;  // of this run
+  int radius_offset_ = -1;            // of R* at the largest overlap; superquadrics only
   int speed_offset_ = -1;             // of the approach speed at first touch; only with `contactMap on`
   double damping_ = 0.0, stretch_ = 1.0;
   DeckUnits units_;

@@ -30,11 +30,14 @@ const std::vector<int> surface_ids = {
 #undef SURFACE_MODEL
 };
 
-constexpr const char* refusal =
-    "models mpm and thornton are built for tangential off, history, no_history; cohesion off, sjkr, sjkr2, "
-    "easo/capillary/viscous, washino/capillary/viscous; rolling_friction off, cdt, epsd, epsd2, epsd3; "
-    "surface "
-    "default: choose among these";
+std::string refusal()
+{
+  return fmt::format(
+      "models mpm and thornton are built for tangential off, history, no_history; cohesion off, sjkr, sjkr2, "
+      "easo/capillary/viscous, washino/capillary/viscous; rolling_friction off, cdt, epsd, epsd2, epsd3; {}: "
+      "choose among these",
+      built_surfaces);
+}
 
 const std::map<int, std::string> tangential_names = {
 #define TANGENTIAL_MODEL(identifier, name, id) {id, #name},
@@ -54,18 +57,18 @@ const std::map<int, std::string> rolling_names = {
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
 {
-  stop_all(lmp, refusal);
+  stop_all(lmp, refusal());
 }
 
 lg::Walls::IGranularWall* refuse_wall(LAMMPS* lmp, FixWallGran*, int64_t)
 {
-  stop_all(lmp, refusal);
+  stop_all(lmp, refusal());
 }
 
 bool is_built(int tangential, int cohesion, int rolling, int surface)
 {
   return contains(BuiltTangential{}, tangential) && contains(BuiltCohesion{}, cohesion) &&
-         contains(BuiltRolling{}, rolling) && surface == cm::SURFACE_DEFAULT;
+         contains(BuiltRolling{}, rolling) && surface_is_built(surface, cohesion);
 }
 
 /// Registers everything when the library is loaded. Runs in Open MPI's helper processes as well, which

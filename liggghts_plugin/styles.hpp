@@ -12,11 +12,10 @@
 #include "liggghts_plugin/pair_loop.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
 #include "liggghts_plugin/runaway.hpp"
+#include "liggghts_plugin/superquadric.hpp"
 #include "liggghts_plugin/wall_loop.hpp"
 
 namespace granulaw::plugin {
-
-namespace cm = LIGGGHTS::ContactModels;
 
 /// Runs `work`; what it throws ends the run on all ranks with one sentence. Nothing that a single rank may
 /// fail at is thrown here without the ranks having agreed on it (load_law).
@@ -125,11 +124,16 @@ template <class Style, Model model, class Call>
 void settle(LAMMPS* lmp, Setup& setup, int nargs, char** args, Call&& call)
 {
   std::vector<std::string> rest;
-  read_setup(lmp, model, setup, nargs, args, rest);
+  std::vector<char*> words(args, args + std::max(0, nargs));
+  std::vector<std::string> of_surface;
+  if constexpr (is_superquadric<Style>) of_surface = take_curvature_words(setup.where, words);
+  read_setup(lmp, model, setup, static_cast<int>(words.size()), words.data(), rest);
+  rest.insert(rest.end(), of_surface.begin(), of_surface.end());
   setup.combination = Style::HASHCODE | (setup.energy ? combination_energy : 0) |
                       (setup.contact_map ? combination_contact_map : 0);
   setup.session->combinations[setup.wall ? setup.wall->id : "pair"] = setup.combination;
   refuse_out_of_reach<Style>(setup);
+  refuse_shape<Style>(lmp, setup);
   refuse_no_friction<Style, model>(setup, rest);
   warn_stretched_cohesion<Style>(lmp, setup);
   with_setup(setup, rest, std::forward<Call>(call));
@@ -312,6 +316,7 @@ template <class Style, Model model>
 LIGGGHTS::PairStyles::IGranularPairStyle* make_pair_style(LAMMPS* lmp, PairGran* parent, int64_t hash)
 {
   check_liggghts(lmp, dynamic_cast<void*>(parent), sizeof(PairGranProxy), "pair style");
+  check_particles<Style>(lmp);
   return new PairStyle<Style, model>(lmp, parent, hash);
 }
 
@@ -319,6 +324,7 @@ template <class Style, Model model>
 LIGGGHTS::Walls::IGranularWall* make_wall_style(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
 {
   check_liggghts(lmp, dynamic_cast<void*>(parent), sizeof(FixWallGran), "fix wall/gran");
+  check_particles<Style>(lmp);
   return new WallStyle<Style, model>(lmp, parent, hash);
 }
 
@@ -338,12 +344,14 @@ constexpr bool contains(Ids<ids...>, int id)
   return ((ids == id) || ...);
 }
 
-template <int id, Model model, int tangential, int cohesion, int rolling>
+template <int id, Model model, int tangential, int cohesion, int rolling, int surface = cm::SURFACE_DEFAULT>
 void add_combination()
 {
-  using Style = cm::GranStyle<id, tangential, cohesion, rolling, cm::SURFACE_DEFAULT>;
+  using Style = cm::GranStyle<id, tangential, cohesion, rolling, surface>;
   LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", Style::HASHCODE, &make_pair_style<Style, model>);
   LIGGGHTS::Walls::Factory::instance().addStyle("gran", Style::HASHCODE, &make_wall_style<Style, model>);
+  if constexpr (surface == cm::SURFACE_DEFAULT && surface_is_built(cm::SURFACE_SUPERQUADRIC, cohesion))
+    add_combination<id, model, tangential, cohesion, rolling, cm::SURFACE_SUPERQUADRIC>();
 }
 
 template <int id, Model model, int tangential, int cohesion, int... rolling>

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
-#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/shapes.hpp"
 
 namespace granulaw::plugin {
 
@@ -62,11 +63,17 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
     contact.itype = atom.type[i];
     contact.jtype = wall->atom_type_wall();
     contact.contact_flags = nullptr;
-    contact.radsum = contact.radi;
     contact.r = contact.radi - contact.deltan;
     contact.rsq = contact.r * contact.r;
     contact.rinv = 1.0 / contact.r;
-    for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
+    double normal_per_delta = contact.rinv;
+    if (superquadrics_built && atom.superquadric_flag) {  // delta ends in the surface, not at the centre
+      const double* d = contact.delta;
+      normal_per_delta = 1.0 / std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      contact.radi = volume_radius(atom, i);
+    }
+    contact.radsum = contact.radi;
+    for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * normal_per_delta;
     contact.area_ratio = 1.0;
     contact.meff = contact.mi = mass(*wall, i);
     contact.computeflag = wall->computeflag();
@@ -154,6 +161,9 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
       point[c] = lmp_->atom->x[contact.i][c] - contact.delta[c];
       normal[c] = -contact.en[c];
     }
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+    if (lmp_->atom->superquadric_flag) std::copy_n(contact.contact_point, 3, point);
+#endif
     LAMMPS_NS::ComputePairGranLocal* rows = wall->compute_wall_gran_local();
     rows->add_wall_1(mesh_number, triangle_id, contact.i, point, wall_velocity);
     const double *f = on_i.delta_F, *t = on_i.delta_torque;

@@ -1,0 +1,204 @@
+"""Superquadrics, with a LIGGGHTS that has them: GRANULAW_SUPERQUADRIC_LIGGGHTS names its source tree or install prefix
+(docs/own-liggghts.md). Builds the plug-in against it, then: a superquadric that is a sphere moves as the sphere does in the plug-in
+at hand, an ellipsoid on its pole rebounds as the law of the local curvature says, tilted elastic ellipsoids move as under LIGGGHTS's
+own Hertz, LIGGGHTS's tutorial runs, and what cannot work is refused."""
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+LIGGGHTS = os.environ.get("GRANULAW_SUPERQUADRIC_LIGGGHTS", "")
+if not LIGGGHTS:
+    print("skipped: GRANULAW_SUPERQUADRIC_LIGGGHTS names no LIGGGHTS with superquadrics (docs/own-liggghts.md)")
+    sys.exit(77)
+
+import harness
+from harness import POWDER, Deck
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ["GRANULAW_SUPERQUADRIC_BUILD"])
+WITH_SHAPES = BUILD / "liggghts_plugin" / "liggghts-mpm"
+TUTORIAL = pathlib.Path(LIGGGHTS) / "examples" / "LIGGGHTS" / "Tutorials_public" / "superquadric" / "in.particle_particle"
+GAUSSIAN, MEAN = (f"{kind}Curvature yes curvatureLimitFactor 100" for kind in ("gaussian", "mean"))
+
+
+def setUpModule():
+    for command in (["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DGRANULAW_BUILD_TESTS=OFF",
+                     "-DGRANULAW_BUILD_BENCHMARKS=OFF", f"-DGRANULAW_LIGGGHTS_ROOT={LIGGGHTS}"],
+                    ["cmake", "--build", BUILD, "--target", "liggghts-mpm"]):
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(f"the plug-in was not built against {LIGGGHTS}:\n{(done.stdout + done.stderr)[-3000:]}")
+
+
+def mass(shape):
+    return 4 / 3 * math.pi * math.prod(shape) * POWDER.density
+
+
+class Impact:
+    """A particle, half-axes `shape` (m), that falls on a wall at z = 0, or two that meet at the origin."""
+
+    def __init__(self, shape, partner="wall", model="mpm", words="", wall_words="", curvature=GAUSSIAN, turn="", friction=0.0):
+        self.shape, self.partner, self.model, self.words, self.wall_words = shape, partner, model, words, wall_words
+        self.curvature, self.turn, self.friction = curvature, turn, friction
+        self.surface, self.height, self.aside = "superquadric", shape[2], "0 0"
+        # not over the edge between the mesh's triangles: there LIGGGHTS lets a superquadric touch both, each with the whole force
+        self.place = "0.003 -0.002" if partner == "mesh" else "0 0"
+
+    def deck(self, speed, dt, steps, every=1):
+        shapes = self.surface == "superquadric"
+        models = f"model {self.model} tangential history" + (f" surface {self.surface}" if shapes else "")
+        curvature = self.curvature if shapes else ""
+        text = harness.head(half=0.02, skin=1e-3).replace("atom_style granular", f"atom_style {'superquadric' if shapes else 'granular'}")
+        text += harness.properties([POWDER], self.friction)
+        if self.model == "hertz":
+            text += "fix p9 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
+            curvature = self.curvature
+        text += f"pair_style gran {models} {self.words} {curvature}\npair_coeff * *\n"
+        z = self.height + 0.3 * dt * speed
+        if self.partner == "wall":
+            text += f"fix w all wall/gran {models} primitive type 1 zplane 0.0 {self.wall_words} {curvature}\n"
+        if self.partner == "mesh":
+            text += (f"fix m all mesh/surface file plane.stl type 1\n"
+                     f"fix w all wall/gran {models} mesh n_meshes 1 meshes m {self.wall_words} {curvature}\n")
+        text += f"create_atoms 1 single {self.place} {z!r} units box\n"
+        if self.partner == "pair":
+            text += f"create_atoms 1 single {self.aside} {-z!r} units box\nset atom 2 vz {speed}\n"
+        text += f"set atom 1 vz {-speed}\n"
+        if shapes:
+            text += (f"set group all shape {' '.join(map(repr, self.shape))} blockiness 2 2\nset group all density {POWDER.density}\n"
+                     + (f"set group all quat {self.turn}\n" if self.turn else ""))
+        else:
+            text += f"set group all diameter {2 * self.shape[0]!r} density {POWDER.density}\n"
+        energies = f"compute r all erotate/{'superquadric' if shapes else 'sphere'}\ncompute k all ke\n"
+        text += (f"fix i all nve/{'superquadric' if shapes else 'sphere'}\ntimestep {dt!r}\n{energies}"
+                 "variable z equal z[1]\nvariable v equal vz[1]\nvariable f equal fz[1]\nvariable r equal c_r\nvariable k equal c_k\n"
+                 f'fix out all print {every} "PATH $z $v $f $k $r"\nthermo {steps}\n'
+                 f"thermo_style custom step c_k c_r\nrun {steps}\n")
+        if self.model != "hertz":
+            text += 'variable d equal f_granulaw[7]+f_granulaw[8]\nprint "DEPTH $d"\n'
+        return text
+
+
+class Shapes(Deck):
+    def path(self, impact, speed, dt, steps, every=1, launcher=WITH_SHAPES):
+        (self.folder / "plane.stl").write_text(harness.plane_stl())
+        self.text = self.run_deck(impact.deck(speed, dt, steps, every), launcher=launcher)
+        return self.results(self.text, "PATH")
+
+    def words(self, model, material="powder"):
+        return f"law {self.law} materials {material}" if model == "mpm" else ""
+
+    def difference(self, one, other):
+        """Largest differences of each column of two paths, over its largest value."""
+        self.assertEqual(len(one), len(other))
+        return [max(abs(a[c] - b[c]) for a, b in zip(one, other)) / max(1e-300, *(abs(a[c]) for a in one))
+                for c in range(len(one[0]))]
+
+    def test_sphere(self):
+        """Against the plug-in for spheres and its LIGGGHTS: the same path, velocity and force; measured 1e-13."""
+        for model in ("mpm", "thornton"):
+            for partner in ("wall", "mesh", "pair"):
+                for turn in ("", "1 1 0 37"):
+                    impact = Impact((2.5e-3,) * 3, partner, model, self.words(model), turn=turn)
+                    found = self.path(impact, 1.0, 2e-7, 400)
+                    impact.surface = "default"
+                    expected = self.path(impact, 1.0, 2e-7, 400, launcher=harness.LAUNCHER)
+                    self.assertGreater(found[-1][1], 0.5)  # it did rebound
+                    for what, off in zip(("place", "velocity", "force"), self.difference(expected, found)):
+                        self.assertLess(off, 1e-9, f"{model}, {partner}, turned '{turn}': {what}")
+
+    def test_pole_of_an_ellipsoid(self):
+        """e and largest overlap are the replayed law's at R* of the pole, a b/c or 2/(c/a^2 + c/b^2)."""
+        for a, b, c in ((2e-3, 2e-3, 4e-3), (4e-3, 4e-3, 2e-3), (2e-3, 4e-3, 3e-3)):
+            for curvature, radius in ((GAUSSIAN, a * b / c), (MEAN, 2 / (c / a**2 + c / b**2))):
+                for partner, share in (("wall", 1.0), ("pair", 0.5)):
+                    other = "wall" if partner == "wall" else "powder"
+                    e, duration, deepest = self.fixture("mpm", self.law, "powder", other, share * radius, share * mass((a, b, c)), 1 / share)
+                    impact = Impact((a, b, c), partner, "mpm", self.words("mpm") + " elasticDamping off", curvature=curvature)
+                    path = self.path(impact, 1.0, duration / 400, 500)
+                    where = f"half-axes {a} {b} {c}, {curvature}, {partner}"
+                    self.assertAlmostEqual(path[-1][1] / e, 1, delta=2e-5, msg=where)  # measured 4e-6, 400 steps a contact
+                    self.assertAlmostEqual(self.result(self.text, "DEPTH")[0] * share * radius / deepest, 1, delta=2e-5, msg=where)
+
+    def test_tilted_against_stock_hertz(self):
+        """Elastic and off the centre: force, torque and friction as LIGGGHTS's own Hertz gives them; measured 2e-7."""
+        for friction in (0.0, 0.3):
+            for partner in ("wall", "mesh", "pair"):
+                impact = Impact((2e-3, 3e-3, 4e-3), partner, "hertz", turn="1 2 0.5 31", friction=friction)
+                if partner == "pair":
+                    impact.height, impact.aside = 2.65e-3, "0.0008 0.0007"
+                expected = self.path(impact, 1.0, 1e-7, 16000, 5)
+                impact.model = "mpm"
+                impact.words = self.words("mpm", "elastic") + " elasticDamping off tangentialDampingRatio 0"
+                impact.wall_words = "wall deformable"
+                found = self.path(impact, 1.0, 1e-7, 16000, 5)
+                self.assertGreater(max(row[4] for row in found), 1e-3 * found[0][3])  # it turns
+                for off in self.difference(expected, found):
+                    self.assertLess(off, 1e-5, f"{partner}, friction {friction}")
+
+    def test_tutorial(self):
+        """LIGGGHTS's own deck (without its VTK dump), the models' names and words changed; on 2 ranks as on 1."""
+        if not TUTORIAL.exists():
+            self.skipTest(f"no {TUTORIAL}: {LIGGGHTS} is no source tree")
+        materials, law = self.folder / "soft.toml", self.folder / "soft.h5"
+        materials.write_text("[material.soft]\ndensity = 2500\nyoungs_modulus = 1e7\npoisson_ratio = 0.3\nyield_stress = 1e5\n"
+                             "[particle.grain]\nradius = 2.5e-3\nmaterial = \"soft\"\n")
+        subprocess.run([os.environ["GRANULAW_MPM"], "table", materials, "-o", law], check=True, capture_output=True)
+        kept = [line for line in TUTORIAL.read_text().splitlines()
+                if not line.startswith(("dump", "shell")) and "coefficientRestitution" not in line]
+        curvature = "gaussianCurvature yes curvatureLimitFactor 10"
+        for model, words in (("mpm", f"law {law} materials soft soft"), ("thornton", "")):
+            text = "\n".join(kept).replace("model hertz", f"model {model}").replace("#Hertzian without cohesion", f"{words} {curvature}")
+            text = re.sub(r"(primitive .*)", rf"\1 {curvature}", text).replace("cpu time", "f_granulaw")
+            text = text.replace("pair_style", "fix y all property/global yieldStress peratomtype 1e5 1e5\npair_style", 1)
+            for name, value in (("blockiness1", "4"), ("blockiness2", "4"), ("angle", "30")):
+                text = text.replace(f"${{{name}}}", value)
+            text += '\nvariable a equal f_granulaw\nvariable b equal f_granulaw[3]\nvariable c equal f_granulaw[4]\n'
+            text += 'variable k equal c_kin_e+c_rke\nprint "END $b $c $a $k"\n'
+            one, two = (self.result(self.run_deck(text, ranks=ranks, launcher=WITH_SHAPES), "END") for ranks in (1, 2))
+            self.assertEqual(one[0], 1.0, "the two particles meet once")
+            self.assertGreater(one[2], 0.0, "they yield")
+            for a, b in zip(one, two):
+                self.assertAlmostEqual(b / a, 1.0, delta=1e-6, msg=model)
+
+    def test_refusals(self):
+        sphere = (2.5e-3,) * 3
+
+        def refused(sentence, deck, **more):
+            self.assertIn(sentence, self.run_deck(deck, expect_failure=True, launcher=WITH_SHAPES, **more))
+
+        for curvature in ("", "curvatureLimitFactor 10", "meanCurvature yes", "gaussianCurvature no curvatureLimitFactor 10",
+                          "meanCurvature yes gaussianCurvature yes curvatureLimitFactor 10", "meanCurvature yes curvatureLimitFactor 0"):
+            refused("needs the local curvature", Impact(sphere, words=self.words("mpm"), curvature=curvature).deck(1.0, 1e-7, 1))
+        deck = Impact(sphere, words=self.words("mpm")).deck(1.0, 1e-7, 1)
+        refused("fix w wall/gran model mpm: 'surface superquadric' needs the local curvature",
+                deck.replace(f"zplane 0.0  {GAUSSIAN}", "zplane 0.0"))
+        refused("'energy on' is for spheres", deck.replace("materials powder", "materials powder energy on"))
+        refused("with cohesion off also superquadric", deck.replace("tangential history", "tangential history cohesion sjkr"))
+        refused("atom_style superquadric needs 'surface superquadric'",
+                deck.replace(" surface superquadric", "").replace(GAUSSIAN, ""))
+        refused("needs atom_style superquadric", re.sub("atom_style superquadric", "atom_style granular", deck))
+        self.fixture("write", self.law, "rate", sphere[0])
+        refused("superquadrics have another at each point", deck)
+
+    def test_other_library(self):
+        """Each plug-in refuses the other LIGGGHTS, loaded before its own."""
+        def library(launcher):
+            text = subprocess.run(["ldd", launcher], capture_output=True, text=True, check=True).stdout
+            return re.search(r"libliggghts\S* => (\S+)", text).group(1)
+
+        impact = Impact((2.5e-3,) * 3, model="thornton")
+        impact.surface = "default"
+        deck = impact.deck(1.0, 1e-7, 1)
+        for launcher, other, sentence in ((harness.LAUNCHER, WITH_SHAPES, "this LIGGGHTS was built with superquadrics"),
+                                          (WITH_SHAPES, harness.LAUNCHER, "this LIGGGHTS was built without superquadrics")):
+            self.assertIn(sentence, self.run_deck(deck, expect_failure=True, launcher=launcher,
+                                                  environment={"LD_PRELOAD": library(other)}))
+
+
+if __name__ == "__main__":
+    unittest.main()

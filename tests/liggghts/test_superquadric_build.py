@@ -1,0 +1,76 @@
+"""What a build against a LIGGGHTS with superquadrics decides when it is configured, by libraries that have only the symbols; and
+that the plug-in's sources compile with the flags, against the headers at hand. Runs without such a LIGGGHTS."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
+STYLES = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_STYLES"])  # the generated style_*_model.h
+SMALLBIG = ["_ZN9LAMMPS_NS6Domain5remapEPdRi", "_ZN9LAMMPS_NS6Update14reset_timestepEl"]
+SUPERQUADRIC = "_ZTVN9LAMMPS_NS19AtomVecSuperquadricE"
+CONVEX = "_ZN9LAMMPS_NS17AtomVecConvexHullC1EPNS_6LAMMPSE"
+SCRIPT = """set(CMAKE_NM nm)
+set(CMAKE_FIND_LIBRARY_PREFIXES lib)
+set(CMAKE_FIND_LIBRARY_SUFFIXES .so)
+include({styles})
+liggghts_find({root})
+message(STATUS "flags=${{LIGGGHTS_FLAGS}}")
+"""
+
+
+class Configure(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-superquadric-")
+        self.folder = pathlib.Path(self._folder.name)
+
+    def tearDown(self):
+        self._folder.cleanup()
+
+    def configure(self, symbols, version="3.8.0"):
+        """Exit status and text of liggghts_find() for a library that defines `symbols`."""
+        (self.folder / "contact_models.h").write_text("")
+        (self.folder / "version_liggghts.txt").write_text(version + "\n")
+        (self.folder / "library.c").write_text("".join(f"char {symbol} = 1;\n" for symbol in symbols))
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", "libliggghts.so", "library.c"], cwd=self.folder, check=True)
+        (self.folder / "find.cmake").write_text(
+            SCRIPT.format(styles=ROOT / "liggghts_plugin" / "LiggghtsStyles.cmake", root=self.folder))
+        done = subprocess.run(["cmake", "-P", "find.cmake"], cwd=self.folder, capture_output=True, text=True)
+        return done.returncode, " ".join((done.stdout + done.stderr).split())
+
+    def test_spheres(self):
+        status, text = self.configure(SMALLBIG)
+        self.assertEqual(status, 0, text)
+        self.assertIn("(spheres only, SMALLBIG)", text)
+        self.assertTrue(text.endswith("flags="), text)
+
+    def test_superquadrics(self):
+        status, text = self.configure([*SMALLBIG, SUPERQUADRIC])
+        self.assertEqual(status, 0, text)
+        self.assertIn("(superquadrics, SMALLBIG)", text)
+        self.assertIn("flags=SUPERQUADRIC_ACTIVE_FLAG;NONSPHERICAL_ACTIVE_FLAG", text)
+
+    def test_refusals(self):
+        for symbols, version, sentence in (([*SMALLBIG, SUPERQUADRIC, CONVEX], "3.8.0", "was built with convex particles"),
+                                           ([SUPERQUADRIC], "3.8.0", "was not built with LAMMPS_SMALLBIG"),
+                                           ([*SMALLBIG, SUPERQUADRIC], "4.0.0", "the plug-in is written for 3.8.0")):
+            status, text = self.configure(symbols, version)
+            self.assertNotEqual(status, 0, text)
+            self.assertIn(sentence, text)
+
+    def test_sources_compile(self):
+        """With the flags, as an object: the library at hand has not what it needs to be linked."""
+        words = ["-std=c++20", "-O0", "-c", "-o", str(self.folder / "object.o"), "-DOMPI_SKIP_MPICXX", "-DMPICH_SKIP_MPICXX",
+                 "-DSUPERQUADRIC_ACTIVE_FLAG", "-DNONSPHERICAL_ACTIVE_FLAG", f"-I{ROOT}", f"-I{ROOT / 'mpm_core'}",
+                 f"-isystem{STYLES}", f"-isystem{HEADERS}"]
+        for name in ("checks", "registration", "particle_sizes", "register_thornton"):
+            done = subprocess.run(["mpicxx", *words, str(ROOT / "liggghts_plugin" / f"{name}.cpp")], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, f"{name}: {done.stderr[:2000]}")
+        symbols = subprocess.run(["nm", self.folder / "object.o"], capture_output=True, text=True, check=True).stdout
+        self.assertTrue("extended_overlap_algorithm" in symbols, "the pair loop has no narrow phase")
+
+
+if __name__ == "__main__":
+    unittest.main()
