@@ -1,0 +1,164 @@
+#!/usr/bin/python3
+"""Every command of LIGGGHTS that touches a contact, a particle or a wall, with mpm and thornton beside stock Hertz.
+
+matrix.py [--page FILE] [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 where a defect is not in KNOWN.
+The environment is that of the other tests (CMakeLists.txt); matrix_scene.py has the scene, matrix_contacts.py, matrix_fixes.py and matrix_runs.py the features."""
+import argparse
+import sys
+import time
+
+import matrix_contacts
+import matrix_fixes
+import matrix_runs
+from matrix_compare import difference, run_all
+from matrix_known import KNOWN
+from matrix_scene import Variant
+
+FEATURES = matrix_contacts.FEATURES + matrix_fixes.FEATURES + matrix_runs.FEATURES
+MODELS = ("mpm", "thornton")
+# mpm's elastic law is Hertz's formula from a table, 3e-6 off; a chain of two or three impacts makes some 1e-4 of it. thornton's is the formula itself.
+TWIN = {"mpm": 1e-4, "thornton": 1e-9}
+RANKS = 1e-6   # one rank against two: the order of sums, and two or three impacts
+ENERGY = 1e-3  # of the energy at the start; velocity Verlet at 40 steps in the shortest contact
+
+PLAIN, ENERGY_ON, STRETCH, ALL = (False, False), (False, True), (True, False), (True, True)
+NAMES = {PLAIN: "plain", ENERGY_ON: "energy, contactMap", STRETCH: "stretch", ALL: "stretch, energy, contactMap"}
+# Elastic: against Hertz with the same ranks and softness. Plastic: finite, energy, one rank against two.
+ELASTIC = {"mpm": ((PLAIN, 1), (PLAIN, 2), (ENERGY_ON, 2), (STRETCH, 1), (ALL, 2)),
+           "thornton": ((PLAIN, 1), (PLAIN, 2), (ENERGY_ON, 1), (STRETCH, 2), (ALL, 1))}
+PLASTIC = {"mpm": ((ALL, 1), (ALL, 2)), "thornton": ((ALL, 1), (ALL, 2))}
+
+
+class Row:
+    """What became of one feature: outcome of Hertz, of mpm, of thornton, each {words: where}; 'same' where nothing else is said."""
+
+    def __init__(self, feature):
+        self.feature, self.runs, self.worst = feature, 0, {"mpm": 0.0, "thornton": 0.0}
+        self.found = {"mpm": [], "thornton": []}  # (outcome, where)
+
+    def run_all(self):
+        """All runs of the feature, by variant: four processes where nothing ends one."""
+        ours = [Variant(model, law, *words, ranks) for model in MODELS for law, cases in (("elastic", ELASTIC), ("plastic", PLASTIC))
+                for words, ranks in cases[model]]
+        stock = [Variant("hertz", "elastic", stretch, False, ranks) for stretch in (False, True) for ranks in (1, 2)]
+        runs = {}
+        for variants in (stock, ours):
+            for ranks in (1, 2):
+                runs.update(run_all(self.feature, [v for v in variants if v.ranks == ranks]))
+        self.runs = len(runs)
+        return runs
+
+    def outcome(self, run, stock):
+        """What is to be said about a run that ended with an error, or that shows what is no number; None: nothing."""
+        if run.status == 0:
+            wrong = run.not_numbers()
+            if wrong and not (stock and stock.not_numbers()):
+                return f"DEFECT: not a number in {wrong[0]}"
+            return None
+        sentence = run.sentence()
+        if stock and stock.status != 0 and (sentence == stock.sentence() or sentence is None):
+            return f"as hertz: {sentence}" if sentence else f"as hertz: ends with {stock.status} and no sentence" if stock.sentence() is None else \
+                f"DEFECT: ends with {run.status} and no sentence; hertz: {stock.sentence()}"
+        if sentence is None:
+            return f"DEFECT: ends with status {run.status} and no sentence"
+        wanted = self.feature.refused
+        if stock and stock.status != 0 or wanted is not None and wanted in sentence:
+            return f"refused: {sentence}"
+        return f"DEFECT: refused: {sentence}"
+
+    def examine(self):
+        runs = self.run_all()
+        plain = {ranks: runs["hertz", "elastic", False, False, ranks] for ranks in (1, 2)}
+        for model in MODELS:
+            for (stretch, energy), ranks in ELASTIC[model]:
+                stock = runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])
+                run = runs.get((model, "elastic", stretch, energy, ranks))
+                if run is None:
+                    continue
+                said = self.outcome(run, stock) or self.twin(model, run, stock, stretch) or self.energy(run)
+                self.note(model, said, f"elastic, {NAMES[stretch, energy]}, ranks {ranks}")
+            plastic = []
+            for (stretch, energy), ranks in PLASTIC[model]:
+                run = runs.get((model, "plastic", stretch, energy, ranks))
+                if run is None:
+                    continue
+                plastic.append(run)
+                said = self.outcome(run, runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])) or self.energy(run)
+                self.note(model, said, f"plastic, {NAMES[stretch, energy]}, ranks {ranks}")
+            if self.feature.alike and len(plastic) == 2 and all(r.status == 0 for r in plastic):
+                apart, _ = difference({"state.txt": plastic[1].tables.get("state.txt", [])}, {"state.txt": plastic[0].tables.get("state.txt", [])}, RANKS)
+                said = apart and "DEFECT: two ranks and one: " + apart.replace("hertz", "one rank")
+                self.note(model, said, "plastic, ranks 1 and 2")
+        return self
+
+    def twin(self, model, run, stock, stretch):
+        if stock.status != 0:
+            return f"DEFECT: runs where hertz ends: {stock.sentence()}"
+        if not self.feature.twin or stretch and self.feature.twin == "plain":
+            return None
+        apart, worst = difference(run.tables, stock.tables, TWIN[model], self.feature.skip)
+        self.worst[model] = max(self.worst[model], worst or 0.0)
+        return apart and f"DEFECT: {apart}"
+
+    def energy(self, run):
+        if not run.energies or not self.feature.conserved:
+            return None
+        held, lost = run.energies[0]
+        drift = max(abs(a + b - held - lost) for a, b in run.energies) / abs(held)
+        return f"DEFECT: energy drifts by {drift:.2g} of its start" if not drift <= ENERGY else None
+
+    def note(self, model, said, where):
+        if said:
+            self.found[model].append((said, where))
+
+    def cell(self, model):
+        """The outcome of one model in words."""
+        found = self.found[model]
+        if not found:
+            return "same" if self.feature.twin else "runs"
+        total = len(ELASTIC[model]) + len(PLASTIC[model])
+        cells = {}
+        for said, where in found:
+            cells.setdefault(said, []).append(where)
+        return "; ".join(said if len(places) >= total or not said.startswith("DEFECT") else f"{said} [{' / '.join(places)}]" for said, places in cells.items())
+
+    def defects(self):
+        return [(model, said, where) for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")]
+
+
+def known(feature, model, said):
+    return next((why for name, models, part, why in KNOWN if name in ("*", feature.name) and model in models and part in said), None)
+
+
+def runs_of_a_feature():
+    return 4 + sum(len(cases[model]) for cases in (ELASTIC, PLASTIC) for model in MODELS)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--page")
+    parser.add_argument("words", nargs="*")
+    options = parser.parse_args()
+    chosen = [f for f in FEATURES if not options.words or any(w in f.group or w in f.name for w in options.words)]
+    started, rows, new = time.time(), [], []
+    for feature in chosen:
+        row = Row(feature).examine()
+        rows.append(row)
+        for model, said, where in row.defects():
+            if known(feature, model, said) is None:
+                new.append((feature, model, said, where))
+        worst = ", ".join(f"{v:.1e}" for v in row.worst.values())
+        print(f"{feature.group}: {feature.name} [{worst}; {time.time() - started:.0f} s]", flush=True)
+        for model in row.found:
+            if row.found[model]:
+                print(f"    {model}: {row.cell(model)}", flush=True)
+    seconds = time.time() - started
+    print(f"{len(rows)} features, {sum(r.runs for r in rows)} runs, {seconds:.0f} s, {len(new)} defects that are not known")
+    if options.page:
+        import matrix_page
+        matrix_page.write(options.page, rows, {"runs": runs_of_a_feature(), "mpm": TWIN["mpm"], "thornton": TWIN["thornton"], "energy": ENERGY, "ranks": RANKS})
+    sys.exit(1 if new else 0)
+
+
+if __name__ == "__main__":
+    main()
