@@ -1,14 +1,18 @@
 #!/usr/bin/python3
 """Every command of LIGGGHTS that touches a contact, a particle or a wall, with mpm and thornton beside stock Hertz.
 
-matrix.py [--page FILE] [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 where a defect is not in KNOWN.
+matrix.py [--page FILE] [--rows FILE] [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 where a defect is not in KNOWN.
 The environment is that of the other tests (CMakeLists.txt); matrix_scene.py has the scene, matrix_contacts.py, matrix_fixes.py and matrix_runs.py the features."""
 import argparse
+import json
+import pathlib
+import re
 import sys
 import time
 
 import matrix_contacts
 import matrix_fixes
+import matrix_page
 import matrix_runs
 from matrix_compare import difference, run_all
 from matrix_known import KNOWN
@@ -96,7 +100,7 @@ class Row:
             return f"DEFECT: runs where hertz ends: {stock.sentence()}"
         if not self.feature.twin or stretch and self.feature.twin == "plain":
             return None
-        apart, worst = difference(run.tables, stock.tables, TWIN[model], self.feature.skip)
+        apart, worst = difference(run.tables, stock.tables, max(TWIN[model], self.feature.tolerance), self.feature.skip)
         self.worst[model] = max(self.worst[model], worst or 0.0)
         return apart and f"DEFECT: {apart}"
 
@@ -118,6 +122,10 @@ class Row:
             return "same" if self.feature.twin else "runs"
         total = len(ELASTIC[model]) + len(PLASTIC[model])
         cells = {}
+        everywhere = [entry for entry in KNOWN if entry[0] == ".*"]
+        found = [(said, where) for said, where in found if known(self.feature, model, said) not in everywhere]
+        if not found:
+            return "same but for the defect of all features" if self.feature.twin else "runs but for the defect of all features"
         for said, where in found:
             cells.setdefault(said, []).append(where)
         return "; ".join(said if len(places) >= total or not said.startswith("DEFECT") else f"{said} [{' / '.join(places)}]" for said, places in cells.items())
@@ -127,7 +135,8 @@ class Row:
 
 
 def known(feature, model, said):
-    return next((why for name, models, part, why in KNOWN if name in ("*", feature.name) and model in models and part in said), None)
+    """The entry of KNOWN that a defect belongs to; None: it is new."""
+    return next((entry for entry in KNOWN if re.fullmatch(entry[0], feature.name) and model in entry[1] and entry[2] in said), None)
 
 
 def runs_of_a_feature():
@@ -136,28 +145,43 @@ def runs_of_a_feature():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--page")
+    parser.add_argument("--page", help="file to write the page to")
+    parser.add_argument("--rows", help="file of rows: what was run is added, and the page shows rows of it for what was not")
     parser.add_argument("words", nargs="*")
     options = parser.parse_args()
-    chosen = [f for f in FEATURES if not options.words or any(w in f.group or w in f.name for w in options.words)]
-    started, rows, new = time.time(), [], []
+    chosen = [f for f in FEATURES if not options.words or any(w in f"{f.group}: {f.name}" for w in options.words)]
+    started, new, shown = time.time(), 0, set()
+    rows = read_rows(options.rows)
     for feature in chosen:
         row = Row(feature).examine()
-        rows.append(row)
         for model, said, where in row.defects():
-            if known(feature, model, said) is None:
-                new.append((feature, model, said, where))
-        worst = ", ".join(f"{v:.1e}" for v in row.worst.values())
-        print(f"{feature.group}: {feature.name} [{worst}; {time.time() - started:.0f} s]", flush=True)
-        for model in row.found:
-            if row.found[model]:
-                print(f"    {model}: {row.cell(model)}", flush=True)
-    seconds = time.time() - started
-    print(f"{len(rows)} features, {sum(r.runs for r in rows)} runs, {seconds:.0f} s, {len(new)} defects that are not known")
+            entry = known(feature, model, said)
+            shown.add(entry)
+            if entry is None:
+                new += 1
+                print(f"DEFECT, not known: {feature.group}: {feature.name}: {model}: {said} [{where}]", flush=True)
+        rows[feature.group, feature.name] = found = {"group": feature.group, "name": feature.name, "runs": row.runs,
+                                                     "cells": {model: row.cell(model) for model in MODELS}}
+        if options.rows:
+            with open(options.rows, "a") as out:
+                out.write(json.dumps(found) + "\n")
+        print(f"{feature.group}: {feature.name} [{', '.join(f'{v:.1e}' for v in row.worst.values())}; {time.time() - started:.0f} s]", flush=True)
+    if not options.words:
+        for entry in KNOWN:
+            if entry not in shown:
+                print(f"no run shows this known defect any more, remove it from matrix_known.py: {entry}")
+    print(f"{len(chosen)} features, {time.time() - started:.0f} s, {new} defects that are not known")
     if options.page:
-        import matrix_page
-        matrix_page.write(options.page, rows, {"runs": runs_of_a_feature(), "mpm": TWIN["mpm"], "thornton": TWIN["thornton"], "energy": ENERGY, "ranks": RANKS})
+        matrix_page.write(options.page, [rows[f.group, f.name] for f in FEATURES if (f.group, f.name) in rows],
+                          {"runs": runs_of_a_feature(), "mpm": TWIN["mpm"], "thornton": TWIN["thornton"], "energy": ENERGY, "ranks": RANKS})
     sys.exit(1 if new else 0)
+
+
+def read_rows(path):
+    """{(group, name): row} of a file of rows; later ones count."""
+    lines = pathlib.Path(path).read_text().splitlines() if path and pathlib.Path(path).exists() else []
+    found = [json.loads(line) for line in lines]
+    return {(row["group"], row["name"]): row for row in found}
 
 
 if __name__ == "__main__":

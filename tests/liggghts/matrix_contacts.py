@@ -1,4 +1,5 @@
 """The matrix's features of contacts: models and keywords of the pair style, of walls, of meshes (matrix_scene.py: what a part and @P mean)."""
+import matrix_scene
 from harness import plane_stl
 from matrix_scene import RADIUS, Feature
 
@@ -181,4 +182,39 @@ MESHES = [
     mesh("module liquidtransfer", walls=MESH.format("wall_thickness 0.001 initial_liquid_content 1e-9").replace("mesh/surface", "mesh/surface/liquidtransfer", 1)),
 ]
 
-FEATURES = PAIR + WALL + MESHES
+def own(name, **words):
+    return Feature("The models' own words and fixes", name, **words)
+
+
+def only_ours(line, stock=""):
+    """A part that stock hertz does not know."""
+    return lambda variant: stock if variant.model == "hertz" else line
+
+
+def other_walls(variant):
+    """Walls of the other of the two models."""
+    if variant.model == "hertz":
+        return FLOOR.format("")
+    other = "thornton" if variant.model == "mpm" else "mpm"
+    words = "law powder.h5 materials " + ("elastic elastic" if variant.law == "elastic" else "powder glass") if other == "mpm" else ""
+    return f"fix floor all wall/gran model {other} tangential history primitive type 1 zplane 0.0 {words} wall deformable"
+
+
+AGAIN = "run 300\npair_style gran @P @p {}\npair_coeff * *\nrun 300"
+OWN = [
+    own("tangentialStiffness computed", own="tangentialStiffness computed"),
+    own("beyondRange (mpm), stats FILE", own="stats found.json", skip=("found.json",)),
+    own("fix granulaw/stats of the deck", before_atoms=only_ours("fix books all granulaw/stats file found.json every 100"), skip=("found.json",), conserved=False,
+        output=lambda variant: matrix_scene.output_lines(Feature("", ""), variant).replace("f_granulaw", "f_books")),
+    own("unfix of fix granulaw/stats between runs", conserved=False, run=only_ours("run 300\nunfix own\nunfix granulaw\nrun 300", "run 300\nrun 300"),
+        output=lambda variant: matrix_scene.output_lines(Feature("", ""), variant) + ("" if variant.energy else "\nfix own all print 600 OWN")),
+    own("unfix of fix granulaw/runaway between runs", run=only_ours("run 300\nunfix granulaw_runaway\nrun 300", "run 300\nrun 300")),
+    own("walls of the other model", walls=other_walls, tolerance=1e-4),
+    own("energy on from the second run on", run=lambda variant: AGAIN.format("" if variant.model == "hertz" or variant.energy else "energy on contactMap on"), conserved=False),
+    own("law and materials repeated at the wall", walls=FLOOR.format("").replace("@w", "@f")),
+    own("timestep 0", time_step="timestep 0.0", conserved=False),
+    own("spinning spheres", more_walls="set group all omegax 1000.0 omegay -500.0 omegaz 300.0"),
+    own("fast impacts", more_walls="variable fast atom 8.0*sin(17*id)\nvelocity all set v_fast v_fast NULL", time_step="timestep 5e-8"),
+]
+
+FEATURES = OWN + PAIR + WALL + MESHES

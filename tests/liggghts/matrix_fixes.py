@@ -17,7 +17,7 @@ def work(name, line, **words):
 
 
 MOTION = [
-    work("fix adapt, diameter", "variable d atom 2*0.0017*(1.0+0.00002*step/100)\nvariable grown atom 0.0034\nfix grow all adapt 100 atom diameter v_grown"),
+    work("fix adapt, diameter", "compute size all property/atom radius\nvariable grown atom 2.0*c_size*1.001\nfix grow all adapt 100 atom diameter v_grown"),
     work("fix addforce", "fix push half addforce 0.1 0.0 0.0", before_atoms="", more_walls=HALF, columns="f_push[1] f_push[2]"),
     work("fix aveforce", "fix push half aveforce 0.1 NULL NULL", more_walls=HALF, columns="f_push[1] f_push[2]"),
     work("fix buoyancy", "fix lift all buoyancy level 0.006 dim z density 1000"),
@@ -75,11 +75,10 @@ OBSERVERS = [
     observer("fix ave/histo", "fix mean all ave/histo 10 5 100 -3.0 3.0 10 vx vy mode vector file mean.txt"),
     observer("fix ave/spatial", "fix mean all ave/spatial 10 5 100 z lower 0.002 vx density/mass file mean.txt units box"),
     observer("fix ave/time", "", more_output="fix mean all ave/time 10 5 100 c_rot c_height file mean.txt"),
-    observer("fix ave/euler", "fix mean all ave/euler nevery 100 cell_size_relative 3.0 parallel yes", more_output=
-             "dump euler all euler/vtk 200 euler*.vtk"),
+    observer("fix ave/euler", "fix mean all ave/euler nevery 100 cell_size_relative 3.0 parallel yes", run="run 100\ndump euler all euler/vtk 200 euler*.vtk\nrun 500"),
     observer("fix ave/euler/stress", "fix mean all ave/euler/stress nevery 100 cell_size_relative 3.0 parallel no"),
-    observer("fix continuum/weighted", "fix mean all continuum/weighted kernel_radius 0.004 kernel_type Wendland compute stress"),
-    observer("fix continuum/weighted, stress_strain", "fix mean all continuum/weighted kernel_radius 0.004 kernel_type Wendland compute stress_strain"),
+    observer("fix continuum/weighted", "", before_atoms="fix mean all continuum/weighted kernel_radius 0.004 kernel_type Wendland compute stress", dump="f_stressTensor_[1] f_stressTensor_[3]"),
+    observer("fix continuum/weighted, stress_strain", "", before_atoms="fix mean all continuum/weighted kernel_radius 0.004 kernel_type Wendland compute stress_strain", dump="f_stressTensor_[1] f_strainTensor_[3]"),
     observer("fix check/timestep/gran", "fix check all check/timestep/gran 50 0.1 0.1", columns="f_check[1] f_check[2] f_check[3]"),
     observer("fix check/timestep/gran, error yes", "fix check all check/timestep/gran 50 0.0001 0.0001 error yes", refused=""),
     observer("fix property/atom, scalar and vector", "fix s all property/atom smell scalar yes yes no 1.0\nfix u all property/atom wind vector yes no no 0.0 1.0 2.0", dump="f_s f_u[2]"),
@@ -93,7 +92,7 @@ OBSERVERS = [
     observer("fix print", 'variable k equal ke\nfix say all print 100 "${k}" file said.txt screen no'),
     observer("fix heat/gran", "", more_properties=HEAT, more_walls="fix heat all heat/gran initial_temperature 300.0", **HOT, dump="f_Temp f_heatFlux f_heatSource", columns="f_heat"),
     observer("fix heat/gran/conduction, area_correction", "", more_properties=HEAT + "\nfix h3 all property/global youngsModulusOriginal peratomtype 9.1e10 7e11",
-             more_walls="fix heat all heat/gran/conduction initial_temperature 300.0 area_correction yes", **HOT,
+             more_walls="fix heat all heat/gran/conduction initial_temperature 300.0 area_correction yes", twin="plain", **HOT,
              dump="f_Temp f_heatFlux"),
     observer("fix heat/gran/conduction, contact_area projection", "", more_properties=HEAT,
              more_walls="fix heat all heat/gran/conduction initial_temperature 300.0 contact_area projection", **HOT, dump="f_Temp f_heatFlux"),
@@ -115,23 +114,23 @@ OBSERVERS = [
 TEMPLATES = ("fix t1 all particletemplate/sphere 15485863 atom_type 1 density constant 1500 radius constant 0.0008\n"
              "fix t2 all particletemplate/sphere 15485867 atom_type 2 density constant 2500 radius constant 0.0006\n"
              "fix dist all particledistribution/discrete 32452843 2 t1 0.5 t2 0.5\n")
-ABOVE = TEMPLATES + "region above block -0.006 0.006 -0.006 0.006 0.008 0.012 units box\n"
-INSERT = "fix ins all insert/{} seed 32452867 distributiontemplate dist vel constant 0.0 0.0 -5.0 overlapcheck yes all_in yes {}"
-FACE = {"face.stl": plane_stl(0.004, 0.0105)}
+ABOVE = TEMPLATES + "region above block -0.006 0.006 -0.006 0.006 0.0072 0.0115 units box\n"
+INSERT = "fix ins all insert/{} seed 32452867 distributiontemplate dist vel constant 0.0 0.0 -10.0 overlapcheck yes all_in yes {}"
+FACE = {"face.stl": plane_stl(0.004, 0.0080)}
 STREAM = ABOVE + "fix face all mesh/surface/planar file face.stl type 1\n"
 SMALL = "timestep 1e-7"
 
 
 def insertion(name, *lines, **words):
-    return Feature("Insertion, templates, clumps", name, more_walls="\n".join(lines), **{"conserved": False, "alike": False, "time_step": SMALL, **words})
+    return Feature("Insertion, templates, clumps", name, more_walls="\n".join(lines), **{"conserved": False, "alike": False, "time_step": SMALL, "run": "run 1200", **words})
 
 
 CLUMP = f"{-RADIUS / 2} 0 0 {RADIUS}\n{RADIUS / 2} 0 0 {RADIUS}\n"
 CLUMPS = ("fix t1 all particletemplate/multisphere 15485863 atom_type 1 density constant 1500 nspheres 2 ntry 10000 spheres file clump.txt scale 1.0 type 1\n"
           "fix dist all particledistribution/discrete 15485867 1 t1 1.0\nregion above block -0.007 0.007 -0.007 0.007 0.0 0.013 units box\n"
           "fix ins all insert/pack seed 32452843 distributiontemplate dist vel uniform 0. 0. -2.0 2.0 2.0 2.0 insert_every once overlapcheck yes all_in yes "
-          "particles_in_region 8 region above")
-IN_CLUMPS = dict(atoms="", files={"clump.txt": CLUMP}, time_step="timestep 2e-7")
+          "particles_in_region 20 region above")
+IN_CLUMPS = dict(atoms="", files={"clump.txt": CLUMP}, time_step="timestep 2e-7", run="run 2000")
 
 INSERTION = [
     insertion("insert/pack", ABOVE, INSERT.format("pack", "insert_every once particles_in_region 10 region above"), columns="f_ins[1] f_ins[2]"),
@@ -144,7 +143,7 @@ INSERTION = [
     insertion("insert, overlapcheck no", ABOVE, INSERT.format("pack", "insert_every once particles_in_region 4 region above").replace("overlapcheck yes", "overlapcheck no"), twin=True),
     insertion("particledistribution/discrete/numberbased", ABOVE.replace("discrete", "discrete/numberbased"), INSERT.format("pack", "insert_every once particles_in_region 10 region above")),
     insertion("particledistribution/discrete/massbased", ABOVE.replace("discrete", "discrete/massbased"), INSERT.format("pack", "insert_every once particles_in_region 10 region above")),
-    insertion("unfix of an insertion between runs", ABOVE, INSERT.format("pack", "insert_every once particles_in_region 10 region above"), run="run 100\nunfix ins\nrun 500"),
+    insertion("unfix of an insertion between runs", ABOVE, INSERT.format("pack", "insert_every once particles_in_region 10 region above"), run="run 300\nunfix ins\nrun 900"),
     insertion("fix multisphere", CLUMPS, integrate="fix integrate all multisphere", **IN_CLUMPS),
     insertion("fix multisphere and computes", CLUMPS, integrate="fix integrate all multisphere", columns="c_kem c_rotm c_most",
               extra="compute kem all ke/multisphere\ncompute rotm all erotate/multisphere\ncompute m all rigid property masstotal\ncompute most all reduce max c_m", **IN_CLUMPS),
@@ -152,7 +151,43 @@ INSERTION = [
               **IN_CLUMPS),
     insertion("fix multisphere, a clump on a mesh", CLUMPS, integrate="fix integrate all multisphere",
               walls="fix cad all mesh/surface file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w", **IN_CLUMPS),
-    insertion("particletemplate/multiplespheres", CLUMPS.replace("particletemplate/multisphere", "particletemplate/multiplespheres").replace(" type 1\n", "\n"), **IN_CLUMPS),
+    insertion("particletemplate/multiplespheres", CLUMPS.replace("particletemplate/multisphere", "particletemplate/multiplespheres").replace(" type 1\n", "\n"),
+              **{**IN_CLUMPS, "files": {"clump.txt": f"{-RADIUS} 0 0 {RADIUS}\n{RADIUS} 0 0 {RADIUS}\n"}}),
 ]
 
-FEATURES = MOTION + OBSERVERS + INSERTION
+
+def together(name, **words):
+    return Feature("Features together", name, **{"conserved": False, **words})
+
+
+MESH = "fix cad all mesh/surface file plane.stl type 1 {}\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"
+HEATED = dict(more_properties=HEAT, dump="f_Temp f_heatFlux")
+TOGETHER = [
+    together("heat/gran, moving mesh", walls=MESH.format(""), more_walls="fix heat all heat/gran initial_temperature 300.0\nfix move all move/mesh mesh cad wiggle amplitude "
+             "0.0 0.0 0.0002 period 0.0002", **HEATED, **HOT),
+    together("heat/gran, rolling friction, cohesion", models="tangential history cohesion sjkr2 rolling_friction epsd2", both="heating_tracking on",
+             more_walls="fix heat all heat/gran initial_temperature 300.0", dump="f_Temp", **HOT,
+             more_properties=HEAT + "\nfix c1 all property/global cohesionEnergyDensity peratomtypepair 2 1e5 1e5 1e5 1e5"),
+    together("fix deform, periodic box, heat/gran", boundary="boundary p p p", box="region box block -0.0053 0.0053 -0.00525 0.00525 -0.001 0.0068 units box\ncreate_box 2 box",
+             walls="", more_walls="fix heat all heat/gran initial_temperature 300.0\nfix shrink all deform 10 x vel -2.0 y vel -2.0", **HEATED, **HOT),
+    together("fix rigid, fix freeze, a moving mesh", walls=MESH.format(""), more_walls="group ice id 17 18\ngroup solid id 1 2 4 5\ngroup rest subtract all solid\n"
+             "fix move all move/mesh mesh cad linear 0.0 0.0 2.0\nfix held ice freeze", integrate="fix body solid rigid single\nneigh_modify exclude group solid solid\nfix integrate rest nve/sphere"),
+    together("fix multisphere, moving mesh, heat/gran", walls=MESH.format(""), alike=False, **{**IN_CLUMPS, "run": "run 1500"},
+             more_walls=CLUMPS + "\nfix heat all heat/gran initial_temperature 300.0\nfix move all move/mesh mesh cad linear 0.0 0.0 0.5",
+             integrate="fix integrate all multisphere", **HEATED),
+    together("insertion, massflow/mesh that deletes", alike=False, files=FACE, time_step=SMALL, run="run 1200", more_walls="fix face all mesh/surface/planar file face.stl type 1\n" + ABOVE +
+             INSERT.format("pack", "insert_every 200 particles_in_region 10 region above") + "\nfix flow all massflow/mesh mesh face vec_side 0.0 0.0 -1.0 count once delete_atoms yes",
+             columns="f_flow[1] f_flow[2]", more_output="thermo_modify lost ignore"),
+    together("insertion, servo mesh", alike=False, time_step=SMALL, run="run 1200", files={"lid.stl": plane_stl(0.0075, 0.0125)},
+             walls="fix cad all mesh/surface file plane.stl type 1\nfix lid all mesh/surface/stress/servo file lid.stl type 2 com 0.0 0.0 0.0125 ctrlPV force axis 0.0 0.0 1.0 "
+             "target_val -1.0 vel_max 1.0 kp 5.0\nfix floor all wall/gran @P mesh n_meshes 2 meshes cad lid @w",
+             more_walls=ABOVE + INSERT.format("pack", "insert_every once particles_in_region 10 region above"), columns="f_lid[3] f_lid[9]"),
+    together("pair_style hybrid of two gran", pair="pair_style hybrid gran @P @p gran model hooke tangential off\npair_coeff 1 1 gran 1\npair_coeff 2 2 gran 1\npair_coeff 1 2 gran 2",
+             more_properties="fix v1 all property/global characteristicVelocity scalar 2.0", twin="plain"),
+    together("hertz in a hybrid beside the model", pair="pair_style hybrid gran @P @p gran model hertz tangential off\npair_coeff 1 1 gran 1\npair_coeff 2 2 gran 1\npair_coeff 1 2 gran 2", twin="plain"),
+    together("respa, rolling friction", models="tangential history rolling_friction epsd2", conserved=True,
+             time_step="run_style respa 2 2 pair 1\ntimestep 2e-7"),
+    together("setforce, freeze, adapt, between runs", run="run 300\ngroup a id 1:9\nfix hold a setforce 0.0 0.0 0.0\nrun 150\nunfix hold\nfix ice a freeze\nrun 150"),
+]
+
+FEATURES = MOTION + OBSERVERS + INSERTION + TOGETHER

@@ -35,26 +35,25 @@ def plain(text):
 
 
 def write(path, rows, limits):
+    """rows: {"group", "name", "cells": {model: outcome}} in the order of the page."""
+    models = list(rows[0]["cells"])
     kinds = {}
     for row in rows:
-        for model in row.found:
-            kind = row.cell(model).split(":")[0].split(" [")[0]
-            kinds.setdefault(kind, {}).setdefault(model, 0)
-            kinds[kind][model] += 1
-    counts = ["| outcome | " + " | ".join(rows[0].found) + " |", "|---|---|---|"]
-    counts += [f"| {kind} | " + " | ".join(str(each.get(model, 0)) for model in rows[0].found) + " |" for kind, each in sorted(kinds.items())]
+        for model, cell in row["cells"].items():
+            kind = next(k for k in ("DEFECT", "refused", "as hertz", "same", "runs") if k in cell)
+            kinds.setdefault(kind, dict.fromkeys(models, 0))[model] += 1
+    counts = ["| outcome | " + " | ".join(models) + " |", "|---|---|---|"]
+    counts += [f"| {kind} | " + " | ".join(str(each[model]) for model in models) + " |" for kind, each in sorted(kinds.items())]
     text = [INTRO.format(counts="\n".join(counts), **limits)]
     if KNOWN:
         text += ["## Known defects", "", "| feature | models | what is seen | why it stands |", "|---|---|---|---|"]
-        text += [f"| {'all' if name == '*' else plain(name)} | {', '.join(models)} | {plain(part)} | {plain(why)} |" for name, models, part, why in KNOWN] + [""]
+        text += [f"| {'all features' if name == '.*' else plain(name.replace('.*', '...'))} | {', '.join(who)} | {plain(part)} | {plain(why)} |" for name, who, part, why in KNOWN]
+        text.append("")
     group = None
     for row in rows:
-        if row.feature.group != group:
-            group = row.feature.group
-            text += [f"## {group}", "", "| feature | mpm | thornton |", "|---|---|---|"]
-        cells = [plain(row.cell(model)) for model in row.found]
-        text.append(f"| {plain(row.feature.name)} | {cells[0]} | {'the same' if cells[1] == cells[0] and len(cells[0]) > 40 else cells[1]} |")
-        following = rows[rows.index(row) + 1:][:1]
-        if not following or following[0].feature.group != group:
-            text.append("")
-    pathlib.Path(path).write_text("\n".join(text).rstrip("\n") + "\n")
+        if row["group"] != group:
+            text += ([""] if group else []) + [f"## {row['group']}", "", "| feature | " + " | ".join(models) + " |", "|---|---|---|"]
+            group = row["group"]
+        first, second = (plain(cell) for cell in row["cells"].values())
+        text.append(f"| {plain(row['name'])} | {first} | {'the same words' if second == first and len(first) > 40 else second} |")
+    pathlib.Path(path).write_text("\n".join(text) + "\n")

@@ -5,6 +5,7 @@ import matrix_scene
 from harness import plane_stl
 from matrix_scene import RADIUS, Feature
 
+BARE = {"neighbor": "neighbor 0.0004 bin\nneigh_modify delay 0"}  # with a contact_distance_factor hertz lists spheres near a wall
 LOCAL = "dump local all local 100 local.txt {}"
 
 
@@ -21,11 +22,11 @@ def pair_local(keyword, values, **words):
 def wall_local(keyword, values, **words):
     columns = " ".join(f"c_l[{k + 1}]" for k in range(values))
     return compute(f"wall/gran/local {keyword}", f"compute l all wall/gran/local {keyword}", **{
+        **BARE,
         "walls": "fix cad all mesh/surface file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w",
         "more_output": f"{LOCAL.format(columns if values > 1 else 'c_l')}\ndump_modify local format \"{' '.join(['%.12g'] * values)}\"", **words})
 
 
-BARE = {"neighbor": "neighbor 0.0004 bin\nneigh_modify delay 0"}  # hertz with a contact_distance_factor lists walls that are near
 HEATED = dict(more_properties="fix h1 all property/global thermalConductivity peratomtype 100.0 50.0\nfix h2 all property/global thermalCapacity peratomtype 10.0 20.0",
               more_walls="fix heat all heat/gran/conduction initial_temperature 300.0", run="run 0\ngroup hot id 1:5\nset group hot property/atom Temp 400.0\nrun 600", **BARE)
 
@@ -38,7 +39,7 @@ COMPUTES = [
     wall_local("id contactArea", 4), wall_local("id delta", 4), wall_local("id contactPoint", 6), wall_local("id history", 4, twin=False),
     wall_local("id heatFlux", 4, **{**HEATED, "walls": "fix cad all mesh/surface file plane.stl type 1 temperature 400.0\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"}),
     compute("contact/atom", "compute n all contact/atom\ncompute total all reduce sum c_n", dump="c_n", columns="c_total"),
-    compute("contact/atom/gran", "compute n all contact/atom/gran", dump="c_n"),
+    compute("contact/atom/gran (hertz counts pairs that have just parted)", "compute n all contact/atom/gran", dump="c_n", twin=False),
     compute("coord/atom", "compute n all coord/atom 0.0036", dump="c_n"),
     compute("coord/gran", "compute n all coord/gran", dump="c_n"),
     compute("cluster/atom", "compute n all cluster/atom 0.003", dump="c_n"),
@@ -82,15 +83,15 @@ DUMPS = [
     dump("atom/vtk", "dump d all atom/vtk 300 d*.vtk"),
     dump("local/gran/vtk", "compute l all pair/gran/local pos id force torque delta contactArea\ndump d all local/gran/vtk 200 d*.vtk l"),
     dump("local/gran/vtk with history", "compute l all pair/gran/local pos vel id force history\ndump d all local/gran/vtk 200 d*.vtp l", twin=False),
-    dump("local/gran/vtk of walls", "compute l all wall/gran/local pos id force\ndump d all local/gran/vtk 200 d*.vtk l",
+    dump("local/gran/vtk of walls", "compute l all wall/gran/local pos id force\ndump d all local/gran/vtk 200 d*.vtk l", **BARE,
          walls="fix cad all mesh/surface file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"),
     dump("mesh/stl", "dump d all mesh/stl 200 d*.stl", walls="fix cad all mesh/surface file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"),
     dump("mesh/vtk", "dump d all mesh/vtk 200 d*.vtk cad id", walls="fix cad all mesh/surface file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"),
     dump("mesh/gran/VTK stress", "dump d all mesh/gran/VTK 200 d*.vtk stress cad",
          walls="fix cad all mesh/surface/stress file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"),
-    dump("mesh/vtm", "dump d all mesh/vtm 200 d*.vtm meshes id cad", walls="fix cad all mesh/surface file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"),
+    dump("mesh/vtm", "dump d all mesh/vtm 200 d*.vtm meshes all", walls="fix cad all mesh/surface file plane.stl type 1\nfix floor all wall/gran @P mesh n_meshes 1 meshes cad @w"),
     dump("decomposition/vtk", "dump d all decomposition/vtk 200 d*.vtk"),
-    dump("image", "dump d all image 300 d*.ppm type type"),
+    dump("image", "dump d all image 600 d*.ppm type type size 64 64"),
     dump("xyz", "dump d all xyz 200 d.xyz"),
     dump("custom with dump_modify thresh, region, every", "region low block INF INF INF INF INF 0.004 units box\ndump d all custom 100 d.txt id vx fx\ndump_modify d thresh vz < 0.0 region low sort id first yes"),
     dump("undump, write_dump", "dump d all custom 100 d.txt id x\nundump d\n", end="write_dump all custom w.txt id x vx fx modify sort id"),
@@ -106,12 +107,13 @@ NEIGHBOR = [
     neighbor("neighbor nsq", f"neighbor 0.0004 nsq\n{FACTOR}"),
     neighbor("neighbor multi", f"neighbor 0.0004 multi\n{FACTOR}", refused=""),
     neighbor("a small skin", f"neighbor 0.00001 bin\n{FACTOR}"),
+    neighbor("no skin", f"neighbor 0.0 bin\n{FACTOR}"),
     neighbor("a large skin", f"neighbor 0.003 bin\n{FACTOR}"),
     neighbor("neigh_modify delay 10", "neighbor 0.0004 bin\nneigh_modify delay 10 every 5 contact_distance_factor 1.01"),
     neighbor("neigh_modify every 1 check no", "neighbor 0.0004 bin\nneigh_modify delay 0 every 1 check no contact_distance_factor 1.01"),
     neighbor("neigh_modify once yes", "neighbor 0.003 bin\nneigh_modify delay 0 once yes contact_distance_factor 1.01"),
     neighbor("neigh_modify one 5000 page 50000", "neighbor 0.0004 bin\nneigh_modify delay 0 one 5000 page 50000 contact_distance_factor 1.01", refused=""),
-    neighbor("the same, rolling_friction epsd2", "neighbor 0.0004 bin\nneigh_modify delay 0 one 5000 page 50000 contact_distance_factor 1.01",
+    neighbor("neigh_modify one 5000 page 50000, rolling_friction epsd2", "neighbor 0.0004 bin\nneigh_modify delay 0 one 5000 page 50000 contact_distance_factor 1.01",
              models="tangential history rolling_friction epsd2", refused=""),
     neighbor("neigh_modify one 200 page 10000", "neighbor 0.0004 bin\nneigh_modify delay 0 one 200 page 10000 contact_distance_factor 1.01"),
     neighbor("neigh_modify binsize", f"neighbor 0.0004 bin\n{FACTOR} binsize 0.002"),
@@ -173,7 +175,6 @@ FRAMES = [
     frame("dielectric, dimension 3, lattice", first="dimension 3\nlattice none 1.0\ndielectric 1.0"),
     frame("mass (atoms without density)", extra="mass 1 1.0", refused=""),
     frame("change_box", run="run 300\nchange_box all z final -0.002 0.015 units box\nrun 300"),
-    frame("three atom types, one unused", box=CUBE.replace("create_box 2", "create_box 2")),
 ]
 
 
@@ -186,7 +187,7 @@ RUNS = [
     run("run N every M", run='run 600 every 100 "print HERE"'),
     run("run pre no post no", run="run 300 post no\nrun 300 pre no post no"),
     run("run start stop", run="run 600 start 0 stop 1000"),
-    run("run 0", run="run 0\nrun 600"),
+    run("run 0, twice", run="run 0\nrun 0\nrun 600"),
     run("run_time", run="run_time 1.2e-4"),
     run("a split run", run="run 1\nrun 299\nrun 300"),
     run("run_style verlet", time_step="run_style verlet\ntimestep 2e-7"),

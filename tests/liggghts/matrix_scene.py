@@ -42,15 +42,16 @@ class Feature:
     models: the models behind `model NAME`. columns, dump: further thermo values and columns of the dump of particles. files: what the deck
     reads, {name: text}. twin: compare with Hertz number by number; "plain": not with `stretch`. conserved: energy is conserved but for the contacts' losses. alike: one rank
     and two give the same trajectory. refused: part of the sentence that refuses it. damped: the twin has e = 0.5. skip: files not compared.
-    both: words behind the pair style and behind each wall. alone: each deck in a process of its own."""
+    both: words behind the pair style and behind each wall. own: words behind the pair style of
+    mpm and thornton alone. alone: each deck in a process of its own. tolerance: at least this one."""
 
     def __init__(self, group, name, models=MODELS, columns="", dump="", files=None, twin=True, conserved=True, alike=True, refused=None,
-                 damped=False, skip=(), both="", alone=False, **parts):
+                 damped=False, skip=(), both="", own="", alone=False, tolerance=0.0, **parts):
         unknown = set(parts) - set(PARTS)
         assert not unknown, f"{name}: no such part: {unknown}"
         self.group, self.name, self.models, self.columns, self.dump = group, name, models, columns, dump
         self.files, self.twin, self.conserved, self.alike, self.refused = files or {}, twin, conserved, alike, refused
-        self.damped, self.skip, self.both, self.alone, self.parts = damped, tuple(skip), both, alone, parts
+        self.damped, self.skip, self.both, self.own, self.alone, self.tolerance, self.parts = damped, tuple(skip), both, own, alone, tolerance, parts
 
 
 def sphere_lines(length=1.0, density=1.0):
@@ -120,6 +121,8 @@ def deck(feature, variant):
     parts["output"] = output_lines(feature, variant)
     parts.update({name: made(variant) if callable(made) else made for name, made in feature.parts.items()})
     pair, wall, alone = (f"{own} {feature.both}".strip() for own in words(variant, feature.damped))
+    if variant.model != "hertz" and feature.own:
+        pair = f"{pair} {feature.own}"
     text = "\n".join(parts[name] for name in PARTS if parts.get(name)) + "\n"
     text = text.replace("@ALL", text.split("@ALL")[0].replace("clear", "log liggghts.log append"))
     for sign, stands in (("@P", f"model {variant.model} {feature.models}"), ("@M", variant.model), ("@p", pair), ("@w", wall), ("@f", alone)):
