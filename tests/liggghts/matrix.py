@@ -123,7 +123,7 @@ class Row:
         total = len(ELASTIC[model]) + len(PLASTIC[model])
         cells = {}
         everywhere = [entry for entry in KNOWN if entry[0] == ".*"]
-        found = [(said, where) for said, where in found if known(self.feature, model, said) not in everywhere]
+        found = [(said, where) for said, where in found if known(self.feature, model, said, where) not in everywhere]
         if not found:
             return "same but for the defect of all features" if self.feature.twin else "runs but for the defect of all features"
         for said, where in found:
@@ -134,9 +134,9 @@ class Row:
         return [(model, said, where) for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")]
 
 
-def known(feature, model, said):
+def known(feature, model, said, where):
     """The entry of KNOWN that a defect belongs to; None: it is new."""
-    return next((entry for entry in KNOWN if re.fullmatch(entry[0], feature.name) and model in entry[1] and entry[2] in said), None)
+    return next((entry for entry in KNOWN if re.fullmatch(entry[0], feature.name) and model in entry[1] and re.search(entry[2], f"{said} [{where}]")), None)
 
 
 def runs_of_a_feature():
@@ -155,7 +155,7 @@ def main():
     for feature in chosen:
         row = Row(feature).examine()
         for model, said, where in row.defects():
-            entry = known(feature, model, said)
+            entry = known(feature, model, said, where)
             shown.add(entry)
             if entry is None:
                 new += 1

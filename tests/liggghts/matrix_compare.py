@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
 
@@ -9,7 +10,7 @@ import matrix_scene
 from harness import FIXTURE, LAUNCHER, MPIRUN
 
 STOCK = os.environ.get("GRANULAW_STOCK", "liggghts")
-LIMIT = 120  # s
+LIMIT = 60  # s
 NOTHING = 1e-9  # the largest value of a column that counts as zero: torques of no friction, N m
 BINARY = (".restart", ".h5", ".own", ".log", ".deck", ".png", ".jpg", ".ppm", ".bin", ".cite")
 NOT_A_NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?(nan|inf)(?![A-Za-z_])", re.I)
@@ -90,9 +91,12 @@ def process(top, variant):
     if variant.ranks > 1:
         command = [MPIRUN, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-np", str(variant.ranks)] + command
     with open(top / "stdout", "w") as out, open(top / "stderr", "w") as errors:
+        running = subprocess.Popen(command, stdout=out, stderr=errors, cwd=top, start_new_session=True)
         try:
-            status = subprocess.run(command, stdout=out, stderr=errors, cwd=top, timeout=LIMIT).returncode
+            status = running.wait(timeout=LIMIT)
         except subprocess.TimeoutExpired:
+            os.killpg(running.pid, signal.SIGKILL)  # mpirun and its ranks
+            running.wait()
             status = "late"
     return status, (top / "stdout").read_text(errors="backslashreplace"), (top / "stderr").read_text(errors="backslashreplace")
 
