@@ -47,7 +47,7 @@ class Row:
         stock = [Variant("hertz", "elastic", stretch, False, ranks) for stretch in (False, True) for ranks in (1, 2)]
         runs = {}
         for variants in (stock, ours):
-            for ranks in (1, 2):
+            for ranks in self.feature.ranks:
                 runs.update(run_all(self.feature, [v for v in variants if v.ranks == ranks]))
         self.runs = len(runs)
         return runs
@@ -72,13 +72,13 @@ class Row:
 
     def examine(self):
         runs = self.run_all()
-        plain = {ranks: runs["hertz", "elastic", False, False, ranks] for ranks in (1, 2)}
+        plain = {ranks: runs["hertz", "elastic", False, False, ranks] for ranks in self.feature.ranks}
         for model in MODELS:
             for (stretch, energy), ranks in ELASTIC[model]:
-                stock = runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])
                 run = runs.get((model, "elastic", stretch, energy, ranks))
                 if run is None:
                     continue
+                stock = runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])
                 said = self.outcome(run, stock) or self.twin(model, run, stock, stretch) or self.energy(run)
                 self.note(model, said, f"elastic, {NAMES[stretch, energy]}, ranks {ranks}")
             plastic = []
@@ -91,6 +91,9 @@ class Row:
                 self.note(model, said, f"plastic, {NAMES[stretch, energy]}, ranks {ranks}")
             if self.feature.alike and len(plastic) == 2 and all(r.status == 0 for r in plastic):
                 apart, _ = difference({"state.txt": plastic[1].tables.get("state.txt", [])}, {"state.txt": plastic[0].tables.get("state.txt", [])}, RANKS)
+                one, two = (r.energies for r in plastic)
+                if not apart and any(abs(a - b) > RANKS * abs(one[0][0]) for row, other in zip(one, two) for a, b in zip(row, other)):
+                    apart = f"energies {two[-1]}, hertz {one[-1]}"
                 said = apart and "DEFECT: two ranks and one: " + apart.replace("hertz", "one rank")
                 self.note(model, said, "plastic, ranks 1 and 2")
         return self
@@ -126,9 +129,9 @@ class Row:
         found = [(said, where) for said, where in found if known(self.feature, model, said, where) not in everywhere]
         if not found:
             return "same but for the defect of all features" if self.feature.twin else "runs but for the defect of all features"
-        for said, where in found:
-            cells.setdefault(said, []).append(where)
-        return "; ".join(said if len(places) >= total or not said.startswith("DEFECT") else f"{said} [{' / '.join(places)}]" for said, places in cells.items())
+        for said, where in found:  # those that differ in their numbers only are one
+            cells.setdefault(re.sub(r"-?\d[\d.e+-]*", "#", said), (said, []))[1].append(where)
+        return "; ".join(said if len(places) >= total or not said.startswith("DEFECT") else f"{said} [{' / '.join(places)}]" for said, places in cells.values())
 
     def defects(self):
         return [(model, said, where) for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")]

@@ -212,6 +212,7 @@ OWN = [
     own("walls of the other model", walls=other_walls, tolerance=1e-4),
     own("energy on from the second run on", run=lambda variant: AGAIN.format("" if variant.model == "hertz" or variant.energy else "energy on contactMap on"), conserved=False),
     own("law and materials repeated at the wall", walls=FLOOR.format("").replace("@w", "@f")),
+    own("stretch at the wall only", walls=lambda variant: FLOOR.format("") + ("" if variant.model == "hertz" or variant.stretch else " stretch 2"), twin=False),
     own("timestep 0", time_step="timestep 0.0", conserved=False),
     own("spinning spheres", more_walls="set group all omegax 1000.0 omegay -500.0 omegaz 300.0"),
     own("fast impacts", more_walls="variable fast atom 8.0*sin(17*id)\nvelocity all set v_fast v_fast NULL", time_step="timestep 5e-8"),
