@@ -73,6 +73,7 @@ class Row:
     def examine(self):
         runs = self.run_all()
         plain = {ranks: runs["hertz", "elastic", False, False, ranks] for ranks in self.feature.ranks}
+        alike = self.feature.alike and len(plain) == 2 and not states_apart(plain[1], plain[2])  # fix adapt: hertz's ranks differ as well
         for model in MODELS:
             for (stretch, energy), ranks in ELASTIC[model]:
                 run = runs.get((model, "elastic", stretch, energy, ranks))
@@ -89,8 +90,8 @@ class Row:
                 plastic.append(run)
                 said = self.outcome(run, runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])) or self.energy(run)
                 self.note(model, said, f"plastic, {NAMES[stretch, energy]}, ranks {ranks}")
-            if self.feature.alike and len(plastic) == 2 and all(r.status == 0 for r in plastic):
-                apart, _ = difference({"state.txt": plastic[1].tables.get("state.txt", [])}, {"state.txt": plastic[0].tables.get("state.txt", [])}, RANKS)
+            if alike and len(plastic) == 2 and all(r.status == 0 for r in plastic):
+                apart = states_apart(*plastic)
                 one, two = (r.energies for r in plastic)
                 if not apart and any(abs(a - b) > RANKS * abs(one[0][0]) for row, other in zip(one, two) for a, b in zip(row, other)):
                     apart = f"energies {two[-1]}, hertz {one[-1]}"
@@ -135,6 +136,11 @@ class Row:
 
     def defects(self):
         return [(model, said, where) for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")]
+
+
+def states_apart(one, two):
+    """Where the trajectory on two ranks is not that on one; None: it is."""
+    return difference({"state": two.tables.get("state.txt", [])}, {"state": one.tables.get("state.txt", [])}, RANKS)[0]
 
 
 def known(feature, model, said, where):
