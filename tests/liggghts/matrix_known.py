@@ -13,7 +13,6 @@ KNOWN = (
     (".*local/gran/vtk of walls", BOTH, "vtk", NEAR),
     ("neigh_modify one 5000 page 50000.*", BOTH, "ends with", "LIGGGHTS's pages of contact history hold less than one sphere's values"),
     ("run_style respa.*|respa, .*", BOTH, "energy drifts", "the work of the other forces is measured once a step, and respa does not call the fix that does it"),
-    ("two spheres at one place", BOTH, "not a number|no sentence", "the direction of the contact is no number"),
     ("walls before pair_style", BOTH, "energy drifts", "a wall that stands before the pair style with `energy on` keeps no books"),
     ("stretch at the wall only", ("thornton",), "energy drifts", "thornton with `stretch` books the energies of the unstretched contact"),
 )
