@@ -1,0 +1,197 @@
+#!/usr/bin/python3
+"""Every command of LIGGGHTS that touches a contact, a particle or a wall, with mpm and thornton beside stock Hertz.
+
+matrix.py [--page FILE] [--rows FILE] [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 where a defect is not in KNOWN.
+The environment is that of the other tests (CMakeLists.txt); matrix_scene.py has the scene, matrix_contacts.py, matrix_fixes.py and matrix_runs.py the features."""
+import argparse
+import json
+import pathlib
+import re
+import sys
+import time
+
+import matrix_contacts
+import matrix_fixes
+import matrix_page
+import matrix_runs
+from matrix_compare import difference, run_all
+from matrix_known import KNOWN
+from matrix_scene import Variant
+
+FEATURES = matrix_contacts.FEATURES + matrix_fixes.FEATURES + matrix_runs.FEATURES
+MODELS = ("mpm", "thornton")
+# mpm's elastic law is Hertz's formula from a table, 3e-6 off; a chain of two or three impacts makes some 1e-4 of it. thornton's is the formula itself.
+TWIN = {"mpm": 1e-4, "thornton": 1e-9}
+RANKS = 1e-6   # one rank against two: the order of sums, and two or three impacts
+ENERGY = 1e-3  # of the energy at the start; velocity Verlet at 40 steps in the shortest contact
+
+PLAIN, ENERGY_ON, STRETCH, ALL = (False, False), (False, True), (True, False), (True, True)
+NAMES = {PLAIN: "plain", ENERGY_ON: "energy, contactMap", STRETCH: "stretch", ALL: "stretch, energy, contactMap"}
+# Elastic: against Hertz with the same ranks and softness. Plastic: finite, energy, one rank against two.
+ELASTIC = {"mpm": ((PLAIN, 1), (PLAIN, 2), (ENERGY_ON, 2), (STRETCH, 1), (ALL, 2)),
+           "thornton": ((PLAIN, 1), (PLAIN, 2), (ENERGY_ON, 1), (STRETCH, 2), (ALL, 1))}
+PLASTIC = {"mpm": ((ALL, 1), (ALL, 2)), "thornton": ((ALL, 1), (ALL, 2))}
+
+
+class Row:
+    """What became of one feature: outcome of Hertz, of mpm, of thornton, each {words: where}; 'same' where nothing else is said."""
+
+    def __init__(self, feature):
+        self.feature, self.runs, self.worst = feature, 0, {"mpm": 0.0, "thornton": 0.0}
+        self.found = {"mpm": [], "thornton": []}  # (outcome, where)
+
+    def run_all(self):
+        """All runs of the feature, by variant: four processes where nothing ends one."""
+        ours = [Variant(model, law, *words, ranks) for model in MODELS for law, cases in (("elastic", ELASTIC), ("plastic", PLASTIC))
+                for words, ranks in cases[model]]
+        stock = [Variant("hertz", "elastic", stretch, False, ranks) for stretch in (False, True) for ranks in (1, 2)]
+        runs = {}
+        for variants in (stock, ours):
+            for ranks in self.feature.ranks:
+                runs.update(run_all(self.feature, [v for v in variants if v.ranks == ranks]))
+        self.runs = len(runs)
+        return runs
+
+    def outcome(self, run, stock):
+        """What is to be said about a run that ended with an error, or that shows what is no number; None: nothing."""
+        if run.status == 0:
+            wrong = run.not_numbers()
+            if wrong and not (stock and stock.not_numbers()):
+                return f"DEFECT: not a number in {wrong[0]}"
+            return None
+        sentence = run.sentence()
+        if stock and stock.status != 0 and (sentence == stock.sentence() or sentence is None):
+            return f"as hertz: {sentence}" if sentence else f"as hertz: ends with {stock.status} and no sentence" if stock.sentence() is None else \
+                f"DEFECT: ends with {run.status} and no sentence; hertz: {stock.sentence()}"
+        if sentence is None:
+            return f"DEFECT: ends with status {run.status} and no sentence"
+        wanted = self.feature.refused
+        if stock and stock.status != 0 or wanted is not None and wanted in sentence:
+            return f"refused: {sentence}"
+        return f"DEFECT: refused: {sentence}"
+
+    def examine(self):
+        runs = self.run_all()
+        plain = {ranks: runs["hertz", "elastic", False, False, ranks] for ranks in self.feature.ranks}
+        alike = self.feature.alike and len(plain) == 2 and not states_apart(plain[1], plain[2])  # fix adapt: hertz's ranks differ as well
+        for model in MODELS:
+            for (stretch, energy), ranks in ELASTIC[model]:
+                run = runs.get((model, "elastic", stretch, energy, ranks))
+                if run is None:
+                    continue
+                stock = runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])
+                said = self.outcome(run, stock) or self.twin(model, run, stock, stretch) or self.energy(run)
+                self.note(model, said, f"elastic, {NAMES[stretch, energy]}, ranks {ranks}")
+            plastic = []
+            for (stretch, energy), ranks in PLASTIC[model]:
+                run = runs.get((model, "plastic", stretch, energy, ranks))
+                if run is None:
+                    continue
+                plastic.append(run)
+                said = self.outcome(run, runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])) or self.energy(run)
+                self.note(model, said, f"plastic, {NAMES[stretch, energy]}, ranks {ranks}")
+            if alike and len(plastic) == 2 and all(r.status == 0 for r in plastic):
+                apart = states_apart(*plastic)
+                one, two = (r.energies for r in plastic)
+                if not apart and any(abs(a - b) > RANKS * abs(one[0][0]) for row, other in zip(one, two) for a, b in zip(row, other)):
+                    apart = f"energies {two[-1]}, hertz {one[-1]}"
+                said = apart and "DEFECT: two ranks and one: " + apart.replace("hertz", "one rank")
+                self.note(model, said, "plastic, ranks 1 and 2")
+        return self
+
+    def twin(self, model, run, stock, stretch):
+        if stock.status != 0:
+            return f"DEFECT: runs where hertz ends: {stock.sentence()}"
+        if not self.feature.twin or stretch and self.feature.twin == "plain":
+            return None
+        apart, worst = difference(run.tables, stock.tables, max(TWIN[model], self.feature.tolerance), self.feature.skip)
+        self.worst[model] = max(self.worst[model], worst or 0.0)
+        return apart and f"DEFECT: {apart}"
+
+    def energy(self, run):
+        if not run.energies or not self.feature.conserved:
+            return None
+        held, lost = run.energies[0]
+        drift = max(abs(a + b - held - lost) for a, b in run.energies) / abs(held)
+        return f"DEFECT: energy drifts by {drift:.2g} of its start" if not drift <= ENERGY else None
+
+    def note(self, model, said, where):
+        if said:
+            self.found[model].append((said, where))
+
+    def cell(self, model):
+        """The outcome of one model in words."""
+        found = self.found[model]
+        if not found:
+            return "same" if self.feature.twin else "runs"
+        total = len(ELASTIC[model]) + len(PLASTIC[model])
+        cells = {}
+        everywhere = [entry for entry in KNOWN if entry[0] == ".*"]
+        found = [(said, where) for said, where in found if known(self.feature, model, said, where) not in everywhere]
+        if not found:
+            return "same but for the defect of all features" if self.feature.twin else "runs but for the defect of all features"
+        for said, where in found:  # those that differ in their numbers only are one
+            cells.setdefault(re.sub(r"-?\d[\d.e+-]*", "#", said), (said, []))[1].append(where)
+        return "; ".join(said if len(places) >= total or not said.startswith("DEFECT") else f"{said} [{' / '.join(places)}]" for said, places in cells.values())
+
+    def defects(self):
+        return [(model, said, where) for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")]
+
+
+def states_apart(one, two):
+    """Where the trajectory on two ranks is not that on one; None: it is."""
+    return difference({"state": two.tables.get("state.txt", [])}, {"state": one.tables.get("state.txt", [])}, RANKS)[0]
+
+
+def known(feature, model, said, where):
+    """The entry of KNOWN that a defect belongs to; None: it is new."""
+    return next((entry for entry in KNOWN if re.fullmatch(entry[0], feature.name) and model in entry[1] and re.search(entry[2], f"{said} [{where}]")), None)
+
+
+def runs_of_a_feature():
+    return 4 + sum(len(cases[model]) for cases in (ELASTIC, PLASTIC) for model in MODELS)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--page", help="file to write the page to")
+    parser.add_argument("--rows", help="file of rows: what was run is added, and the page shows rows of it for what was not")
+    parser.add_argument("words", nargs="*")
+    options = parser.parse_args()
+    chosen = [f for f in FEATURES if not options.words or any(w in f"{f.group}: {f.name}" for w in options.words)]
+    started, new, shown = time.time(), 0, set()
+    rows = read_rows(options.rows)
+    for feature in chosen:
+        row = Row(feature).examine()
+        for model, said, where in row.defects():
+            entry = known(feature, model, said, where)
+            shown.add(entry)
+            if entry is None:
+                new += 1
+                print(f"DEFECT, not known: {feature.group}: {feature.name}: {model}: {said} [{where}]", flush=True)
+        rows[feature.group, feature.name] = found = {"group": feature.group, "name": feature.name, "runs": row.runs,
+                                                     "cells": {model: row.cell(model) for model in MODELS}}
+        if options.rows:
+            with open(options.rows, "a") as out:
+                out.write(json.dumps(found) + "\n")
+        print(f"{feature.group}: {feature.name} [{', '.join(f'{v:.1e}' for v in row.worst.values())}; {time.time() - started:.0f} s]", flush=True)
+    if not options.words:
+        for entry in KNOWN:
+            if entry not in shown:
+                print(f"no run shows this known defect any more, remove it from matrix_known.py: {entry}")
+    print(f"{len(chosen)} features, {time.time() - started:.0f} s, {new} defects that are not known")
+    if options.page:
+        matrix_page.write(options.page, [rows[f.group, f.name] for f in FEATURES if (f.group, f.name) in rows],
+                          {"runs": runs_of_a_feature(), "mpm": TWIN["mpm"], "thornton": TWIN["thornton"], "energy": ENERGY, "ranks": RANKS})
+    sys.exit(1 if new else 0)
+
+
+def read_rows(path):
+    """{(group, name): row} of a file of rows; later ones count."""
+    lines = pathlib.Path(path).read_text().splitlines() if path and pathlib.Path(path).exists() else []
+    found = [json.loads(line) for line in lines]
+    return {(row["group"], row["name"]): row for row in found}
+
+
+if __name__ == "__main__":
+    main()
