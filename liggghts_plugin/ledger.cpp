@@ -132,7 +132,6 @@ std::string pair_json(const PairKey& key, const ContactLedger::Side& s)
 const std::array<double, LogHistogram::bins> LogHistogram::upper_ratio = [] {
   std::array<double, bins> ratio{};
   for (int b = 0; b < bins; ++b) ratio[static_cast<std::size_t>(b)] = std::pow(10.0, (b + 1.0) / per_decade);
-  ratio.back() = std::numeric_limits<double>::infinity();
   return ratio;
 }();
 

@@ -32,7 +32,7 @@ struct LogHistogram
     // floor(log2 ratio), the exponent of the number, tells the bin but for the two behind it
     const auto octave = static_cast<std::size_t>((std::bit_cast<std::uint64_t>(ratio) >> 52) - 1023);
     std::size_t found = first_of_octave[std::min(octave, octaves - 1)];
-    while (ratio >= upper_ratio[found]) ++found;
+    while (found + 1 < bins && ratio >= upper_ratio[found]) ++found;
     return found;
   }
   void add(double value, double weight) { count[bin(value)] += weight; }
@@ -40,8 +40,7 @@ struct LogHistogram
 
  private:
   static constexpr std::size_t octaves = 64;
-  static const std::array<double, bins>
-      upper_ratio;  ///< of each bin's upper edge to `first`; the last: infinity
+  static const std::array<double, bins> upper_ratio;  ///< of each bin's upper edge to `first`
   static const std::array<std::size_t, octaves> first_of_octave;  ///< bin of 2^octave
 };
 

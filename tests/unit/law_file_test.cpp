@@ -44,6 +44,11 @@ class LawFile : public ::testing::Test
     H5Fclose(file);
     return refusal();
   }
+  std::string bytes() const
+  {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
   std::string refusal()
   {
     try {
@@ -85,6 +90,23 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b)
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
   });
+}
+
+TEST_F(LawFile, ImageIsTheFile)
+{
+  write_law(SyntheticLaw{}.law_with_axis(), path_);
+  const Law law = read_law(path_), image = read_law_image(bytes(), path_);
+  ASSERT_EQ(image.bodies.size(), law.bodies.size());
+  ASSERT_EQ(image.pairs.size(), law.pairs.size());
+  for (const auto& [name, body] : law.bodies) {
+    const ContactCurve &curve = body.curve, &copy = image.bodies.at(name).curve;
+    for (const double x : {1e-6, 1e-4, 1e-2, 0.05}) {
+      EXPECT_EQ(copy.loading(x, 0.01).force, curve.loading(x, 0.01).force) << name;
+      EXPECT_EQ(copy.onset(), curve.onset());
+    }
+  }
+  EXPECT_THROW(read_law_image(bytes().substr(0, 1000), path_), Error);
+  EXPECT_THROW(read_law_image("", path_), Error);
 }
 
 TEST_F(LawFile, RoundTripIsBitExact)

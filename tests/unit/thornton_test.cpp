@@ -46,6 +46,30 @@ TEST(Thornton, ForceAndRadiusAreContinuousAtYieldAndAtTheTurn)
   EXPECT_NEAR(loading.contact_radius, unloading.contact_radius, 1e-9 * loading.contact_radius);
 }
 
+TEST(Thornton, WorkAndStiffnessAreThoseOfTheForce)
+{
+  const ThorntonPair pair{10e9, 1.6e8};
+  const double r = 0.002, d_y = pair.yield_overlap(r);
+  for (const double d_m : {0.5 * d_y, 3 * d_y, 40 * d_y}) {
+    const int steps = 20000;
+    double loading = 0, stored = 0;
+    for (int k = 0; k < steps; ++k) {  // midpoint rule: 1e-8 of it, but for the roots at the ends
+      const double d = (k + 0.5) / steps * d_m;
+      loading += pair.evaluate(r, d, d).force * d_m / steps;
+      stored += pair.evaluate(r, d, d_m).force * d_m / steps;
+    }
+    EXPECT_NEAR(pair.stored_energy(r, d_m, d_m) / stored, 1.0, 1e-5);
+    EXPECT_NEAR(pair.dissipated(r, d_m), loading - stored, 1e-5 * loading);
+    // half-way out the contact holds what it gives back from there
+    double rest = 0;
+    const double half = 0.9 * d_m;
+    for (int k = 0; k < steps; ++k) rest += pair.evaluate(r, (k + 0.5) / steps * half, d_m).force * half / steps;
+    EXPECT_NEAR(pair.stored_energy(r, half, d_m), rest, 1e-5 * stored);
+    const double top = pair.evaluate(r, d_m, d_m).force, below = pair.evaluate(r, d_m * (1 - 1e-6), d_m).force;
+    EXPECT_NEAR(pair.unloading_stiffness(r, d_m) / ((top - below) / (1e-6 * d_m)), 1.0, 1e-4);
+  }
+}
+
 TEST(Replay, ElasticCollisionOfALawIsHertz)
 {
   // The synthetic law at 1e-8 of an overlap is Hertz to 0.9 sqrt(1e-8) = 1e-4.

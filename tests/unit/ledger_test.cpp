@@ -1,0 +1,81 @@
+#include "liggghts_plugin/ledger.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace granulaw::plugin {
+namespace {
+
+TEST(LogHistogram, BinsAreThoseOfTheLogarithm)
+{
+  const LogHistogram overlap{1e-10};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> exponent(-11.0, 1.5);
+  for (int k = 0; k < 100000; ++k) {
+    const double value = std::pow(10.0, exponent(random));
+    const double position = LogHistogram::per_decade * std::log10(value / overlap.first);
+    if (std::abs(position - std::round(position)) < 1e-9) continue;  // on an edge the logarithm rounds either way
+    const auto expected = static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, LogHistogram::bins - 1.0));
+    ASSERT_EQ(overlap.bin(value), expected) << value;
+  }
+}
+
+TEST(LogHistogram, OuterBinsCatchTheRest)
+{
+  const LogHistogram speed{1e-6};
+  EXPECT_EQ(speed.bin(0.0), 0u);
+  EXPECT_EQ(speed.bin(-1.0), 0u);
+  EXPECT_EQ(speed.bin(1e-300), 0u);
+  EXPECT_EQ(speed.bin(1e300), LogHistogram::bins - 1u);
+  EXPECT_EQ(speed.bin(std::numeric_limits<double>::infinity()), LogHistogram::bins - 1u);
+  for (int b = 1; b < LogHistogram::bins; ++b) {
+    EXPECT_EQ(speed.bin(speed.lower_edge(b) * (1 + 1e-12)), static_cast<std::size_t>(b));
+    EXPECT_EQ(speed.bin(speed.lower_edge(b) * (1 - 1e-12)), static_cast<std::size_t>(b - 1));
+  }
+}
+
+TEST(Ledger, WhatEndedIsWhatBeganLessWhatIsOpen)
+{
+  ContactLedger::Side side;
+  const auto shallow = side.overlap.bin(1e-5), deep = side.overlap.bin(1e-2);
+  for (int k = 0; k < 3; ++k) side.count(shallow, 0.5, 1.0);  // three begin
+  side.count(shallow, 0.5, -1.0);                             // one of them grows deeper
+  side.count(deep, 0.5, 1.0);
+  side.count(shallow, 0.5, -1.0);  // one is open still
+  side.count_ended();
+  EXPECT_EQ(side.ended, 2);
+  EXPECT_EQ(side.overlap.count[shallow], 1);
+  EXPECT_EQ(side.overlap.count[deep], 1);
+  EXPECT_LE(side.overlap_min, 1e-5);
+  EXPECT_GT(side.overlap_min * std::pow(10.0, 1.0 / LogHistogram::per_decade), 1e-5);
+}
+
+TEST(Ledger, ContactsOlderThanTheCountsLeaveNoneNegative)
+{
+  ContactLedger::Side side;
+  side.count(5, -1.0, -1.0);
+  side.count(7, -1.0, 1.0);
+  side.count_ended();
+  EXPECT_EQ(side.overlap.count[5], 0);
+  EXPECT_EQ(side.ended, 1);
+}
+
+TEST(Ledger, RowsOfTypesAreEachPairOnce)
+{
+  for (const int types : {1, 2, 3, 5}) {
+    std::vector<int> seen(static_cast<std::size_t>(rows_of_types(types)));
+    for (int i = 1; i <= types; ++i)
+      for (int j = 1; j <= types; ++j) {
+        if (i <= j) ++seen.at(static_cast<std::size_t>(row_of_types({PairKey::particles, i, j}, types)));
+        ++seen.at(static_cast<std::size_t>(row_of_types({PairKey::rigid_wall, i, j}, types)));
+      }
+    for (const int count : seen) EXPECT_EQ(count, 1);
+  }
+  EXPECT_EQ(row_of_types({PairKey::particles, 1, 2}, 2), 1);
+  EXPECT_EQ(row_of_types({PairKey::deformable_wall, 1, 1}, 2), 3);
+}
+
+}  // namespace
+}  // namespace granulaw::plugin
