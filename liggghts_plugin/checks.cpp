@@ -79,7 +79,8 @@ void check_inherited(const Setup& setup)
   if (!setup.wall || !session.pair_options) return;
   Options now = setup.own;
   now.inherit(*session.pair_options);
-  const bool other_law = setup.law && setup.own.law_path.empty() && setup.law != session.pair_law;
+  const bool other_law = setup.law && setup.own.law_path.empty() && session.pair_law &&
+                         setup.law->path != session.pair_law->path;
   if (now != setup.options || other_law || setup.energy != (session.energy != nullptr) ||
       setup.contact_map != session.contact_map)
     fail(setup.where,

@@ -108,6 +108,10 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   {
     int i, jj;  // index of the sphere; place in its list of neighbours
   };
+  /// Whether spheres that do not touch may feel each other (liquid bridges): all within LIGGGHTS's contact distance
+  /// are visited then.
+  static constexpr bool acts_at_distance = requires { requires ContactModel::acts_at_distance; };
+
   /// So many are collected before their forces are computed: what was read of them is still in the cache.
   static constexpr std::size_t batch = 256;
 
@@ -149,13 +153,16 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     const double *const *x = atom.x, *radius = atom.radius;
     const double xi = x[i][0], yi = x[i][1], zi = x[i][2], ri = radius[i];
     Candidate* const out = candidates_.data() + at;
+    double reach2 = 1.0;  // of the squared sum of radii
+    if constexpr (acts_at_distance)
+      reach2 = lmp_->neighbor->contactDistanceFactor * lmp_->neighbor->contactDistanceFactor;
     std::size_t found = 0;
     for (int jj = 0; jj < count; ++jj) {
       const int j = neighbours[jj] & NEIGHMASK;
       const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
       const double rsq = dx * dx + dy * dy + dz * dz, radsum = ri + radius[j];
       out[found] = {i, jj};
-      found += static_cast<std::size_t>((rsq < radsum * radsum) | (flags[jj] != 0));
+      found += static_cast<std::size_t>((rsq < reach2 * (radsum * radsum)) | (flags[jj] != 0));
     }
     return found;
   }

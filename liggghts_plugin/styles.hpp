@@ -94,13 +94,16 @@ void refuse_no_friction(const Setup& setup, const std::vector<std::string>& rest
   }
 }
 
-/// Liquid bridges pull across a gap, and EnergyBooks books what happens in contact.
+/// Liquid bridges pull across a gap.
+template <class Style>
+inline constexpr bool has_bridges = Style::COHESION == cm::COHESION_EASO_CAPILLARY_VISCOUS ||
+                                    Style::COHESION == cm::COHESION_WASHINO_CAPILLARY_VISCOUS;
+
+/// EnergyBooks books what happens in contact.
 template <class Style>
 void refuse_out_of_reach(const Setup& setup)
 {
-  constexpr bool bridges = Style::COHESION == cm::COHESION_EASO_CAPILLARY_VISCOUS ||
-                           Style::COHESION == cm::COHESION_WASHINO_CAPILLARY_VISCOUS;
-  if (bridges && setup.energy)
+  if (has_bridges<Style> && setup.energy)
     fail(setup.where,
          "'energy on' does not book the work of liquid bridges that pull across a gap: leave it out");
 }
@@ -146,6 +149,8 @@ class BookedModel : public cm::ContactModel<Style>
   using Base = cm::ContactModel<Style>;
 
  public:
+  static constexpr bool acts_at_distance = has_bridges<Style>;
+
   BookedModel(LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, bool is_wall, int64_t hash)
       : Base(lmp, hsetup, is_wall, hash), lmp_(lmp)
   {

@@ -100,10 +100,10 @@ class Row:
         return self
 
     def twin(self, model, run, stock, stretch):
-        if stock.status != 0:
-            return f"DEFECT: runs where hertz ends: {stock.sentence()}"
         if not self.feature.twin or stretch and self.feature.twin == "plain":
             return None
+        if stock.status != 0:
+            return f"DEFECT: runs where hertz ends: {stock.sentence()}"
         apart, worst = difference(run.tables, stock.tables, max(TWIN[model], self.feature.tolerance), self.feature.skip)
         self.worst[model] = max(self.worst[model], worst or 0.0)
         return apart and f"DEFECT: {apart}"

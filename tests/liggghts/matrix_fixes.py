@@ -185,7 +185,7 @@ TOGETHER = [
     together("pair_style hybrid of two gran", pair="pair_style hybrid gran @P @p gran model hooke tangential off\npair_coeff 1 1 gran 1\npair_coeff 2 2 gran 1\npair_coeff 1 2 gran 2",
              more_properties="fix v1 all property/global characteristicVelocity scalar 2.0", twin="plain"),
     together("hertz in a hybrid beside the model", pair="pair_style hybrid gran @P @p gran model hertz tangential off\npair_coeff 1 1 gran 1\npair_coeff 2 2 gran 1\npair_coeff 1 2 gran 2", twin="plain"),
-    together("respa, rolling friction", models="tangential history rolling_friction epsd2", conserved=True,
+    together("respa, rolling friction", refused="does not call fix wall/gran", models="tangential history rolling_friction epsd2", conserved=True,
              time_step="run_style respa 2 2 pair 1\ntimestep 2e-7"),
     together("setforce, freeze, adapt, between runs", run="run 300\ngroup a id 1:9\nfix hold a setforce 0.0 0.0 0.0\nrun 150\nunfix hold\nfix ice a freeze\nrun 150"),
 ]

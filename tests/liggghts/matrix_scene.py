@@ -110,7 +110,7 @@ def output_lines(feature, variant):
              "thermo_modify norm no lost error format float %.12g",
              f"dump state all custom 100 state.txt {columns}", f'dump_modify state sort id format "{form}"']
     if variant.model != "hertz" and variant.energy:
-        lines += ["variable held equal ke+c_rot+c_height+f_granulaw[14]", "variable lost equal f_granulaw+f_granulaw[15]",
+        lines += ["variable held equal ke+c_rot+c_height+f_granulaw[14]", "variable lost equal f_granulaw+f_granulaw[15]-f_granulaw[18]",
                   'fix own all print 50 "${held} ${lost}" file energy.own screen no']
     return "\n".join(lines)
 

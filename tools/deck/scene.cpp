@@ -308,7 +308,15 @@ void Reader::execute(const Command& c)
                                                     "beyondRange",
                                                     "tangentialDampingRatio",
                                                     "tangentialStiffness",
-                                                    "elasticDamping"};
+                                                    "elasticDamping",
+                                                    "heatArea",
+                                                    "computeElasticPotential",
+                                                    "computeDissipatedEnergy",
+                                                    "tangential_reduce",
+                                                    "heating_tracking",
+                                                    "heating_tangential_history",
+                                                    "heating_tangential_no_history",
+                                                    "torsionTorque"};
         scene_.material_names.clear();
         for (std::size_t n = k + 1; n < c.words.size() && !keywords.contains(c.words[n]); ++n)
           scene_.material_names.push_back(c.words[n]);
