@@ -403,6 +403,15 @@ def case_law():
     # a like pair closing at V is, for each sphere, a wall hit at V/2; replay: 1e-6
     assert abs(like["e"] / wall["e"] - 1) < 1e-5 and abs(like["force_max_N"] / wall["force_max_N"] - 1) < 1e-5
     assert abs(like["inertia"] / wall["inertia"] - 1) < 1e-9 and not wall["needs_velocity_axis"]
+    assert abs(wall["inertia"] / (1500 * 3**2 / 100e6) - 1) < 1e-12  # rho V^2/Y, rounded
+    # All of the kinetic energy goes in and e^2 of it comes back. Both integrals are trapezia over some 2e4 steps: an error of
+    # the order of (1/2e4)^2 = 2.5e-9, found up to 6e-9.
+    for pair, speed, radii in (("powder:wall", 0.2, (1e-3,)), ("powder:wall", 20, (1e-3,)), ("powder:powder", 6, (1e-3, 2e-3))):
+        hit = Run("law", LAW, "--pair", pair, "--velocity", speed, "--radius", radii[0],
+                  *(["--radius2", radii[1]] if radii[1:] else []), "--json").json()
+        m_eff = 1 / sum(1 / (1500 * 4 / 3 * np.pi * r**3) for r in radii)
+        assert abs(hit["work_load_J"] / (0.5 * m_eff * speed**2) - 1) < 5e-8, (pair, speed, hit)
+        assert abs(hit["work_unload_J"] / hit["work_load_J"] / hit["e"]**2 - 1) < 5e-8, (pair, speed, hit)
     fast = Run("law", LAW, "--pair", "powder:wall", "--velocity", "20", "--json")
     assert not fast.json()["needs_velocity_axis"] and not fast.json()["beyond_velocity_axis"] and fast.err == ""
     fast = Run("law", LAW, "--pair", "powder:wall", "--velocity", "46", "--json")  # I = 0.032: just past its axis
