@@ -309,6 +309,37 @@ TEST_F(Deck, MovingWallsAddTheirSpeed)
   EXPECT_EQ(unknown.unknown_speeds.size(), 1u);
 }
 
+TEST_F(Deck, KnowsEveryRegion)
+{
+  struct Case
+  {
+    std::string text;
+    double volume;
+    Vec3 low, high;
+  };
+  const double cone = M_PI / 3 * (0.03 * 0.03 + 0.03 * 0.06 + 0.06 * 0.06) * 0.1;
+  const std::string two = "region a block 0 0.3 0 0.2 0.1 0.2 units box\nregion b block 0.1 0.5 -0.2 0.1 0 0.15 units box\nregion r ";
+  for (const Case& c :
+       {Case{"region r block 0 0.1 -0.2 0.2 0.3 0.4 units box", 0.004, {0, -0.2, 0.3}, {0.1, 0.2, 0.4}},
+        Case{"region r block EDGE 0 -0.5 EDGE INF INF units box", 1.5, {-1, -0.5, 0}, {0, 1, 1}},
+        Case{"region r cylinder x 0.1 0.5 0.05 0.2 0.4 units box", M_PI * 0.0005, {0.2, 0.05, 0.45}, {0.4, 0.15, 0.55}},
+        Case{"region r cylinder y 0.1 0.5 0.05 0.2 0.4 units box", M_PI * 0.0005, {0.05, 0.2, 0.45}, {0.15, 0.4, 0.55}},
+        Case{"region r cone z 0.1 0.2 0.03 0.06 0.5 0.6 units box", cone, {0.04, 0.14, 0.5}, {0.16, 0.26, 0.6}},
+        Case{"region r sphere 0.1 0.2 0.5 0.1 units box", 4.0 / 3.0 * M_PI * 1e-3, {0, 0.1, 0.4}, {0.2, 0.3, 0.6}},
+        Case{two + "union 2 a b", 0.3 * 0.2 * 0.1 + 0.4 * 0.3 * 0.15, {0, -0.2, 0}, {0.5, 0.2, 0.2}},
+        Case{two + "intersect 2 a b", 0.2 * 0.1 * 0.05, {0.1, 0, 0.1}, {0.3, 0.1, 0.15}}}) {
+    std::string text = falling("", "volumefraction_region 0.3 region r");
+    text.insert(text.find("fix m1"), c.text + "\n");
+    const Scene s = scene(text);
+    ASSERT_EQ(s.sources.size(), 1u) << c.text;
+    EXPECT_NEAR(s.count() / (0.3 * c.volume / (4.0 / 3.0 * M_PI * 8e-9)), 1, 1e-12) << c.text;  // rounding
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(s.sources[0].centres.low[k], c.low[k], 1e-15) << c.text;
+      EXPECT_NEAR(s.sources[0].centres.high[k], c.high[k], 1e-15) << c.text;
+    }
+  }
+}
+
 TEST_F(Deck, CountsInsertedParticles)
 {
   const double ball = 4.0 / 3.0 * M_PI * 8e-9, region = M_PI * 0.05 * 0.05 * 0.1;
