@@ -352,13 +352,18 @@ TEST_F(Deck, CountsInsertedParticles)
 TEST_F(Deck, ReadsDataAndSet)
 {
   write("cloud",
-        "title\n\n2 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms\n\n"
-        "1 1 0.002 900 0.5 0.5 0.1\n2 1 0.004 900 0.5 0.5 0.7\n");
+        "7 atom types\n\n2 atoms\n2 atom types\n-1 2 xlo xhi\n-3 4 ylo yhi\n-5 6 zlo zhi\n\nAtoms\n\n"
+        "1 1 0.002 900 0.5 0.5 0.1\n2 1 0.004 800 0.6 0.4 0.7\n");
   const Scene s = scene("units si\nread_data cloud");
   ASSERT_EQ(s.sources.size(), 1u);
   EXPECT_EQ(s.sources[0].radius_min, 0.001);
   EXPECT_EQ(s.sources[0].radius_max, 0.002);
-  EXPECT_EQ(s.sources[0].centres.high[2], 0.7);
+  EXPECT_EQ(s.sources[0].centres.low, (Vec3{0.5, 0.4, 0.1}));
+  EXPECT_EQ(s.sources[0].centres.high, (Vec3{0.6, 0.5, 0.7}));
+  EXPECT_EQ(s.sources[0].density, 900);
+  EXPECT_EQ(s.domain.low, (Vec3{-1, -3, -5}));
+  EXPECT_EQ(s.domain.high, (Vec3{2, 4, 6}));
+  EXPECT_EQ(s.types, 2);  // not the title's
   EXPECT_EQ(s.count(), 2);
   EXPECT_EQ(s.sources[0].speed, 0);
   write("moving",
