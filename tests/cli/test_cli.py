@@ -403,6 +403,8 @@ def case_law():
     # a like pair closing at V is, for each sphere, a wall hit at V/2; replay: 1e-6
     assert abs(like["e"] / wall["e"] - 1) < 1e-5 and abs(like["force_max_N"] / wall["force_max_N"] - 1) < 1e-5
     assert abs(like["inertia"] / wall["inertia"] - 1) < 1e-9 and not wall["needs_velocity_axis"]
+    turned = Run("law", LAW, "--pair", "wall:powder", "--velocity", "3", "--radius", "1e-3", "--json").json()
+    assert {**turned, "cpu_s": 0} == {**wall, "cpu_s": 0}  # a pair has no order
     assert abs(wall["inertia"] / (1500 * 3**2 / 100e6) - 1) < 1e-12  # rho V^2/Y, rounded
     # All of the kinetic energy goes in and e^2 of it comes back. Both integrals are trapezia over some 2e4 steps: an error of
     # the order of (1/2e4)^2 = 2.5e-9, found up to 6e-9.
