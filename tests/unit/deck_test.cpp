@@ -318,14 +318,28 @@ TEST_F(Deck, KnowsEveryRegion)
     Vec3 low, high;
   };
   const double cone = M_PI / 3 * (0.03 * 0.03 + 0.03 * 0.06 + 0.06 * 0.06) * 0.1;
-  const std::string two = "region a block 0 0.3 0 0.2 0.1 0.2 units box\nregion b block 0.1 0.5 -0.2 0.1 0 0.15 units box\nregion r ";
+  const std::string two =
+      "region a block 0 0.3 0 0.2 0.1 0.2 units box\nregion b block 0.1 0.5 -0.2 0.1 0 0.15 units "
+      "box\nregion r ";
   for (const Case& c :
        {Case{"region r block 0 0.1 -0.2 0.2 0.3 0.4 units box", 0.004, {0, -0.2, 0.3}, {0.1, 0.2, 0.4}},
         Case{"region r block EDGE 0 -0.5 EDGE INF INF units box", 1.5, {-1, -0.5, 0}, {0, 1, 1}},
-        Case{"region r cylinder x 0.1 0.5 0.05 0.2 0.4 units box", M_PI * 0.0005, {0.2, 0.05, 0.45}, {0.4, 0.15, 0.55}},
-        Case{"region r cylinder y 0.1 0.5 0.05 0.2 0.4 units box", M_PI * 0.0005, {0.05, 0.2, 0.45}, {0.15, 0.4, 0.55}},
-        Case{"region r cone z 0.1 0.2 0.03 0.06 0.5 0.6 units box", cone, {0.04, 0.14, 0.5}, {0.16, 0.26, 0.6}},
-        Case{"region r sphere 0.1 0.2 0.5 0.1 units box", 4.0 / 3.0 * M_PI * 1e-3, {0, 0.1, 0.4}, {0.2, 0.3, 0.6}},
+        Case{"region r cylinder x 0.1 0.5 0.05 0.2 0.4 units box",
+             M_PI * 0.0005,
+             {0.2, 0.05, 0.45},
+             {0.4, 0.15, 0.55}},
+        Case{"region r cylinder y 0.1 0.5 0.05 0.2 0.4 units box",
+             M_PI * 0.0005,
+             {0.05, 0.2, 0.45},
+             {0.15, 0.4, 0.55}},
+        Case{"region r cone z 0.1 0.2 0.03 0.06 0.5 0.6 units box",
+             cone,
+             {0.04, 0.14, 0.5},
+             {0.16, 0.26, 0.6}},
+        Case{"region r sphere 0.1 0.2 0.5 0.1 units box",
+             4.0 / 3.0 * M_PI * 1e-3,
+             {0, 0.1, 0.4},
+             {0.2, 0.3, 0.6}},
         Case{two + "union 2 a b", 0.3 * 0.2 * 0.1 + 0.4 * 0.3 * 0.15, {0, -0.2, 0}, {0.5, 0.2, 0.2}},
         Case{two + "intersect 2 a b", 0.2 * 0.1 * 0.05, {0.1, 0, 0.1}, {0.3, 0.1, 0.15}}}) {
     std::string text = falling("", "volumefraction_region 0.3 region r");
@@ -554,7 +568,8 @@ TEST_F(Deck, SoftenStatesItsNumbers)
     const Softening at = soften(s, plan, options, limits);
     const double bound = std::min(at.pairs[0].by_overlap, at.pairs[1].by_overlap);
     ASSERT_GT(bound, 1);
-    EXPECT_LE(at.stretch, bound * (1 + 1e-11)) << overlap;  // a bound of two digits itself is not rounded: 1e-12
+    EXPECT_LE(at.stretch, bound * (1 + 1e-11))
+        << overlap;  // a bound of two digits itself is not rounded: 1e-12
     EXPECT_GT(at.stretch * 1.1, bound) << overlap;
     const double digits = at.stretch / std::pow(10.0, std::floor(std::log10(at.stretch * (1 + 1e-9))) - 1);
     EXPECT_NEAR(digits, std::round(digits), 1e-9) << overlap;

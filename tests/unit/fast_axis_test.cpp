@@ -11,7 +11,8 @@ namespace {
 
 using testing::SyntheticLaw;
 
-/// Of which kind the axis is, by its name in the test's name (a table itself would be printed there, addresses and all).
+/// Of which kind the axis is, by its name in the test's name (a table itself would be printed there,
+/// addresses and all).
 class FastAxis : public ::testing::TestWithParam<std::string>
 {
  protected:

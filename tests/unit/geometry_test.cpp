@@ -45,7 +45,8 @@ TEST(Box, TopAndBottomAreThoseOfItsCorners)
 {
   for (const Vec3& axis : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.6, 0, 0.8}, Vec3{-0.48, 0.6, -0.64}}) {
     double top = -Box::infinity, bottom = Box::infinity;
-    for (const Vec3& p : wide.corners()) top = std::max(top, dot(p, axis)), bottom = std::min(bottom, dot(p, axis));
+    for (const Vec3& p : wide.corners())
+      top = std::max(top, dot(p, axis)), bottom = std::min(bottom, dot(p, axis));
     EXPECT_NEAR(wide.top(axis), top, 1e-14);  // sums of three, rounded
     EXPECT_NEAR(wide.bottom(axis), bottom, 1e-14);
   }
