@@ -722,6 +722,31 @@ def case_plan():
     refused(["table", "materials.toml", "--deck", *words[:-2], "--var", "refill", "0", "-o", "no.h5"], "--radius")
 
 
+def case_deck_law():
+    """The law that a deck names: read where it exists, for the materials; where it is still to be made, the plan does without it."""
+    deck = """units si
+region box block -1 1 -1 1 0 1 units box
+create_box 1 box
+fix m1 all property/global youngsModulus peratomtype 2.73e9
+fix m2 all property/global poissonsRatio peratomtype 0.3
+pair_style gran model mpm tangential history law law.h5 materials powder
+create_atoms 1 single 0 0 0.5
+set type 1 diameter 0.004 density 1500
+fix g all gravity 9.81 vector 0 0 -1
+fix w all wall/gran model mpm tangential history primitive type 1 zplane 0.0
+timestep 1e-6
+run 1000
+"""
+    Path("in.deck").write_text(deck)
+    without = Run("plan", "in.deck", "--json").json()
+    assert not without["complete"] and "yield_stress_Pa" not in without["types"][0], without
+    Path("law.h5").write_bytes(Path(LAW).read_bytes())
+    found = Run("plan", "in.deck", "--json").json()
+    assert found["complete"] and found["types"][0]["yield_stress_Pa"] == 100e6 and found["types"][0]["material"] == "powder", found
+    assert found["pairs"][-1]["speed_max_m_per_s"] == without["pairs"][-1]["speed_max_m_per_s"]
+    refused(["plan", "in.deck", "--materials", "powdr"], "--materials", "powdr")
+
+
 def case_soften():
     words = hopper()
     result = Run("soften", *words, "--json").json()
