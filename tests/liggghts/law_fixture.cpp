@@ -6,6 +6,7 @@
 //   law_fixture write FILE major N                           claims to be of major version N
 //   law_fixture write FILE axis                              the powder has an inertia axis
 //   law_fixture write FILE rate RADIUS                       the powder depends on the rate, made for RADIUS
+//   law_fixture write FILE certificate ORIGIN N              the powder states errors, of N fresh impacts
 //   law_fixture write FILE depth D                           other residuals of the powder
 //   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
 //   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
@@ -64,6 +65,13 @@ int run(int argc, char** argv)
       own.law = law.bodies.at("powder");
       own.law.curve = granulaw::ContactCurve(other.table(), other.axis(), "law_fixture");
       own.radius_ratio = 2;
+    }
+    if (word(3) == "certificate") {
+      granulaw::Certificate& c = law.bodies.at("powder").certificate;
+      c.origin = word(4);
+      c.verification_impacts = number(5);
+      c.verification_error_force = 0.012, c.verification_error_restitution = 0.034;
+      c.atlas_error_force = 0.056, c.atlas_error_restitution = 0.078;
     }
     if (word(3) == "pairs") {
       law.pairs.clear();

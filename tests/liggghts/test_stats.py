@@ -65,6 +65,25 @@ class Stats(Deck):
         self.assertAlmostEqual(below, 1.0, delta=1e-6)  # the replay's own step error
         self.assertLess(above, 1 - 1e-4)
 
+    def test_start_table(self):
+        """What the log says of the powder on a wall before the run: its law's errors and limits, number for number."""
+        m = sphere_mass(RADIUS, POWDER.density)
+        for words, error in ((("runs", 3), "F 1.2 %, e 3.4 % against fresh impacts"), (("atlas", 3), "F 1.2 %, e 3.4 % (atlas)"),
+                             (("atlas", 0), "F 5.6 %, e 0.078 (atlas)"), (("runs", 0), "not stated")):
+            self.fixture("write", self.law, "certificate", *words)
+            deck = wall_deck("mpm", f"law {self.law} materials powder stats s.json", POWDER, RADIUS, 1.0, 2e-8)
+            text = self.run_deck(deck)
+            rows = [line for line in text.splitlines() if "1 powder - wall 1 wall" in line]
+            self.assertEqual(len(rows), 1, text[-2000:])
+            law, found = rows[0].split(str(self.law))
+            self.assertEqual(found, "; " + error)
+            info = next(p for p in json.loads((self.folder / "s.json").read_text())["pairs"] if p["kind"] == "rigid wall")
+            numbers = [float(w) for w in law.split()[-6:-1]]  # then `mpm` and the path
+            # four digits
+            for value, exact in zip(numbers, (POWDER.e_star / POWDER.yield_stress, info["overlap_over_radius_limit"], 0.002,
+                                              info["onset_speed_m_per_s"], info["time_step_limit_of_law_s"])):
+                self.assertAlmostEqual(value / exact, 1.0, delta=5.1e-4, msg=rows[0])
+
     def test_edge_of_the_table(self):
         """The law's table ends at 0.1 R on the wall: contacts that stop short of 0.09, between, and beyond."""
         m = sphere_mass(RADIUS, POWDER.density)

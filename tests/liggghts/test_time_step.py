@@ -33,6 +33,38 @@ class TimeStep(Deck):
         self.assertNotIn("is over", text)
         self.assertEqual(stats["time_step_used_s"], 1e-8)
 
+    def test_yielded_contact(self):
+        """Powder on a wall: the limit is that of the steepest branch, loading or unloading from a turn, of 64 overlaps.
+
+        Slopes by three points h = 1e-3 of the overlap apart: an error of the order of (h/(overlap - residual))^2, 2e-5 where
+        the unloading is shortest; the forces are printed with ten digits, 1e-7 of the slope.
+        """
+        words = f"law {self.law} materials powder stats s.json"
+        m = sphere_mass(RADIUS, POWDER.density)
+        _, stats = self.stats(wall_deck("mpm", words, POWDER, RADIUS, 0.5, 1e-8))
+        wall = next(p for p in stats["pairs"] if p["kind"] == "rigid wall")
+
+        def force(delta, largest):
+            return self.fixture("force", self.law, "powder", "wall", RADIUS, repr(delta), repr(largest), 0)[0]
+
+        slopes = []
+        for k in range(1, 65):
+            d = k / 64 * wall["overlap_over_radius_limit"] * RADIUS
+            h, top = 1e-3 * d, force(d, d)
+            for at in (lambda x: force(x, x), lambda x: force(x, d)):
+                slopes.append((3 * top - 4 * at(d - h) + at(d - 2 * h)) / (2 * h))
+        self.assertGreater(max(slopes[1::2]), 1.2 * max(slopes[::2]))  # it is an unloading
+        allowed = FRACTION * 2 * math.pi * math.sqrt(m / max(slopes))
+        self.assertAlmostEqual(wall["time_step_limit_of_law_s"] / allowed, 1.0, delta=1e-4)
+
+    def test_largest_step_used(self):
+        """Of two runs the longer step is stated, whichever was the first."""
+        words = f"law {self.law} materials powder stats s.json"
+        for first, second in ((1e-8, 4e-9), (4e-9, 1e-8)):
+            deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, first)
+            _, stats = self.stats(deck.replace("run 120", f"run 60\ntimestep {second!r}\nrun 60"))
+            self.assertEqual(stats["time_step_used_s"], 1e-8)
+
     def test_warning(self):
         """Just below the limit no word, just above one warning with both numbers; the smallest particle counts."""
         words = f"law {self.law} materials powder stats s.json"

@@ -309,6 +309,77 @@ TEST_F(Deck, MovingWallsAddTheirSpeed)
   EXPECT_EQ(unknown.unknown_speeds.size(), 1u);
 }
 
+TEST_F(Deck, KeepsWhatARunVisitedByTypes)
+{
+  const auto entry = [](const std::string& kind, int a, int b, double speed, double overlap, double inertia) {
+    return "{\"kind\": \"" + kind + "\", \"types\": [" + std::to_string(a) + ", " + std::to_string(b) +
+           "], \"contacts_begun\": 2, \"impact_speed_max_m_per_s\": " + std::to_string(speed) +
+           ", \"overlap_over_radius_max\": " + std::to_string(overlap) +
+           ", \"inertia_number_max\": " + std::to_string(inertia) + "}";
+  };
+  const Visited v =
+      read_visited(write("s.json", "{\"pairs\": [" + entry("particles", 1, 2, 0.5, 0.25, 0.125) + ", " +
+                                       entry("particles", 3, 2, 1.5, 0.75, 0.375) + ", " +
+                                       entry("rigid wall", 2, 1, 4, 0.5, 0.0625) + ", " +
+                                       entry("deformable wall", 2, 1, 2, 0.625, 0.03125) + "]}"));
+  ASSERT_EQ(v.pairs.size(), 2u);
+  ASSERT_EQ(v.walls.size(), 1u);
+  const auto expect = [](const Visited::Range& r, double speed, double overlap, double inertia) {
+    EXPECT_EQ(r.speed, speed);
+    EXPECT_EQ(r.overlap, overlap);
+    EXPECT_EQ(r.inertia, inertia);
+    EXPECT_TRUE(r.met);
+  };
+  expect(v.pairs.at({1, 2}), 0.5, 0.25, 0.125);
+  expect(v.pairs.at({2, 3}), 1.5, 0.75, 0.375);
+  expect(v.walls.at({2, 1}), 4, 0.625, 0.0625);  // both walls of a type are one meeting: the larger of each
+}
+
+TEST_F(Deck, KnowsEveryRegion)
+{
+  struct Case
+  {
+    std::string text;
+    double volume;
+    Vec3 low, high;
+  };
+  const double cone = M_PI / 3 * (0.03 * 0.03 + 0.03 * 0.06 + 0.06 * 0.06) * 0.1;
+  const std::string two =
+      "region a block 0 0.3 0 0.2 0.1 0.2 units box\nregion b block 0.1 0.5 -0.2 0.1 0 0.15 units "
+      "box\nregion r ";
+  for (const Case& c :
+       {Case{"region r block 0 0.1 -0.2 0.2 0.3 0.4 units box", 0.004, {0, -0.2, 0.3}, {0.1, 0.2, 0.4}},
+        Case{"region r block EDGE 0 -0.5 EDGE INF INF units box", 1.5, {-1, -0.5, 0}, {0, 1, 1}},
+        Case{"region r cylinder x 0.1 0.5 0.05 0.2 0.4 units box",
+             M_PI * 0.0005,
+             {0.2, 0.05, 0.45},
+             {0.4, 0.15, 0.55}},
+        Case{"region r cylinder y 0.1 0.5 0.05 0.2 0.4 units box",
+             M_PI * 0.0005,
+             {0.05, 0.2, 0.45},
+             {0.15, 0.4, 0.55}},
+        Case{"region r cone z 0.1 0.2 0.03 0.06 0.5 0.6 units box",
+             cone,
+             {0.04, 0.14, 0.5},
+             {0.16, 0.26, 0.6}},
+        Case{"region r sphere 0.1 0.2 0.5 0.1 units box",
+             4.0 / 3.0 * M_PI * 1e-3,
+             {0, 0.1, 0.4},
+             {0.2, 0.3, 0.6}},
+        Case{two + "union 2 a b", 0.3 * 0.2 * 0.1 + 0.4 * 0.3 * 0.15, {0, -0.2, 0}, {0.5, 0.2, 0.2}},
+        Case{two + "intersect 2 a b", 0.2 * 0.1 * 0.05, {0.1, 0, 0.1}, {0.3, 0.1, 0.15}}}) {
+    std::string text = falling("", "volumefraction_region 0.3 region r");
+    text.insert(text.find("fix m1"), c.text + "\n");
+    const Scene s = scene(text);
+    ASSERT_EQ(s.sources.size(), 1u) << c.text;
+    EXPECT_NEAR(s.count() / (0.3 * c.volume / (4.0 / 3.0 * M_PI * 8e-9)), 1, 1e-12) << c.text;  // rounding
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(s.sources[0].centres.low[k], c.low[k], 1e-15) << c.text;
+      EXPECT_NEAR(s.sources[0].centres.high[k], c.high[k], 1e-15) << c.text;
+    }
+  }
+}
+
 TEST_F(Deck, CountsInsertedParticles)
 {
   const double ball = 4.0 / 3.0 * M_PI * 8e-9, region = M_PI * 0.05 * 0.05 * 0.1;
@@ -321,13 +392,18 @@ TEST_F(Deck, CountsInsertedParticles)
 TEST_F(Deck, ReadsDataAndSet)
 {
   write("cloud",
-        "title\n\n2 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms\n\n"
-        "1 1 0.002 900 0.5 0.5 0.1\n2 1 0.004 900 0.5 0.5 0.7\n");
+        "Atoms of a cloud\n\n2 atoms\n2 atom types\n-1 2 xlo xhi\n-3 4 ylo yhi\n-5 6 zlo zhi\n\nAtoms\n\n"
+        "1 1 0.002 900 0.5 0.5 0.1\n2 1 0.004 800 0.6 0.4 0.7\n");
   const Scene s = scene("units si\nread_data cloud");
   ASSERT_EQ(s.sources.size(), 1u);
   EXPECT_EQ(s.sources[0].radius_min, 0.001);
   EXPECT_EQ(s.sources[0].radius_max, 0.002);
-  EXPECT_EQ(s.sources[0].centres.high[2], 0.7);
+  EXPECT_EQ(s.sources[0].centres.low, (Vec3{0.5, 0.4, 0.1}));
+  EXPECT_EQ(s.sources[0].centres.high, (Vec3{0.6, 0.5, 0.7}));
+  EXPECT_EQ(s.sources[0].density, 900);
+  EXPECT_EQ(s.domain.low, (Vec3{-1, -3, -5}));
+  EXPECT_EQ(s.domain.high, (Vec3{2, 4, 6}));
+  EXPECT_EQ(s.types, 2);
   EXPECT_EQ(s.count(), 2);
   EXPECT_EQ(s.sources[0].speed, 0);
   write("moving",
@@ -469,6 +545,61 @@ TEST_F(Deck, SoftensWithinEachLimit)
   EXPECT_EQ(all().stretch, 1);  // never below: the law itself
   ASSERT_FALSE(by_overlap.naive.empty());
   EXPECT_GT(by_overlap.naive[0].e_naive, by_overlap.naive[0].e);  // a softer sphere yields less
+}
+
+/// Each number by its definition in soften.hpp, for spheres of R = 2 mm and wax that yields.
+TEST_F(Deck, SoftenStatesItsNumbers)
+{
+  PlanOptions options;
+  options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
+  options.materials[2] = {"steel", 7800, 210e9, 0.3, 1e9, 0};
+  const Scene s = scene(falling(""));
+  const Plan plan = make_plan(s, options);
+  const double r = 0.002, d = 2 * r, g = 9.81, rho = 1000, ball = 4.0 / 3.0 * M_PI * r * r * r;
+  const double rounding = 1e-12;
+  SoftenLimits limits{0.3, 0.2, 1e6, 0, 0.6};
+  const Softening own = soften(s, plan, options, limits);
+  EXPECT_NEAR(own.fill_height / (100 * ball / 0.6 / 4), 1, rounding);  // 100 spheres on 2 m by 2 m
+  EXPECT_NEAR(own.flow_time / std::sqrt(d / g), 1, rounding);
+  ASSERT_EQ(own.pairs.size(), 2u);
+  for (const PairStretch& q : own.pairs) {
+    const double r_eff = q.pair->meeting.wall ? r : r / 2, m_eff = r_eff / r * rho * ball;
+    const double speed = std::sqrt(2 * g * d), e_star = q.pair->meeting.mapping.e_star_pair();
+    EXPECT_NEAR(q.slow_speed / speed, 1, rounding);  // a fall through one diameter
+    EXPECT_NEAR(q.contact_time / hertz_time(e_star, r_eff, m_eff, speed), 1, rounding);
+    EXPECT_NEAR(q.by_time / (0.2 * own.flow_time / q.contact_time), 1, rounding);
+    EXPECT_NEAR(q.by_overlap / (0.3 / q.pair->overlap), 1, rounding);
+    EXPECT_NEAR(q.static_load / (0.6 * rho * g * own.fill_height * d * d), 1, rounding);
+    EXPECT_NEAR(q.by_static / (1e6 * q.yield_load / q.static_load), 1, rounding);
+    // Hertz at the onset: the largest contact pressure 3 F/(2 pi a^2), a^2 = R* delta, is C(nu) Y
+    const double force_per_area = 3 * q.yield_load / (2 * M_PI * r_eff);
+    const double overlap = std::pow(q.yield_load / (4.0 / 3.0 * e_star * std::sqrt(r_eff)), 2.0 / 3.0);
+    EXPECT_NEAR(force_per_area / overlap / (1.295 * std::exp(0.736 * 0.3) * 1e6), 1, rounding);
+  }
+  // a bed so high that its foot yields: the set is the load beyond yield over pi p_y R*, p_y = 1.6 Y, over R*
+  limits = {0.5, 10, 1e6, 20, 0.6};
+  const Softening high = soften(s, plan, options, limits);
+  double ratio = 0, set = 0;
+  for (const PairStretch& q : high.pairs) {
+    const double r_eff = q.pair->meeting.wall ? r : r / 2, load = high.stretch * q.static_load;
+    ratio = std::max(ratio, load / q.yield_load);
+    set = std::max(set, high.stretch * (load - q.yield_load) / (M_PI * 1.6 * 1e6 * r_eff * r_eff));
+  }
+  ASSERT_GT(ratio, 1);
+  EXPECT_NEAR(high.static_ratio / ratio, 1, rounding);
+  EXPECT_NEAR(high.extra_set / set, 1, rounding);
+  // the stretch is the smallest bound, rounded down to two digits
+  for (double overlap = 0.2; overlap < 0.4; overlap *= 1.003) {
+    limits = {overlap, 10, 1e6, 0.01, 0.6};
+    const Softening at = soften(s, plan, options, limits);
+    const double bound = std::min(at.pairs[0].by_overlap, at.pairs[1].by_overlap);
+    ASSERT_GT(bound, 1);
+    EXPECT_LE(at.stretch, bound * (1 + 1e-11))
+        << overlap;  // a bound of two digits itself is not rounded: 1e-12
+    EXPECT_GT(at.stretch * 1.1, bound) << overlap;
+    const double digits = at.stretch / std::pow(10.0, std::floor(std::log10(at.stretch * (1 + 1e-9))) - 1);
+    EXPECT_NEAR(digits, std::round(digits), 1e-9) << overlap;
+  }
 }
 
 }  // namespace
