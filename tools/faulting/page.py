@@ -1,0 +1,83 @@
+"""The results of tools/faults in words: a table for the terminal, a page for docs."""
+from collections import Counter
+
+from faulting.rules import FOLDERS, KINDS
+
+VERDICTS = ("caught", "survived", "no change seen", "not compiled")
+
+
+def score(results):
+    """(caught, all that change a result)."""
+    count = Counter(r["verdict"] for r in results)
+    return count["caught"], count["caught"] + count["survived"]
+
+
+def counts(results, key, names):
+    count = Counter((r[key], r["verdict"]) for r in results)
+    return [(name, [count[name, v] for v in VERDICTS]) for name in names if any(count[name, v] for v in VERDICTS)]
+
+
+def total(results):
+    count = Counter(r["verdict"] for r in results)
+    return ("all", [count[v] for v in VERDICTS])
+
+
+def table(results):
+    rows = counts(results, "kind", KINDS) + counts(results, "folder", FOLDERS) + [total(results)]
+    lines = [f"{'':24}" + "".join(f"{v:>16}" for v in VERDICTS)]
+    lines += [f"{name:24}" + "".join(f"{n:>16}" for n in numbers) for name, numbers in rows]
+    for verdict in VERDICTS[1:3]:
+        for r in (r for r in results if r["verdict"] == verdict):
+            lines += [f"{verdict}: {r['file']}:{r['line']}", f"    {r['before']}", f"    {r['after']}"]
+            lines += [f"    changes {', '.join(r['changed'])}"] if r["changed"] else []
+    caught, changing = score(results)
+    lines.append(f"{caught} of {changing} faults that change a result are caught")
+    return "\n".join(lines)
+
+
+def code(text):
+    """Code inside a cell of a Markdown table."""
+    text = text.replace("|", "\\|")
+    return f"`` {text} ``" if "`" in text else f"`{text}`"
+
+
+def change(before, after):
+    """What differs between the two lines, with its surroundings up to a word's end on both sides."""
+    start = 0
+    while start < min(len(before), len(after)) and before[start] == after[start]:
+        start += 1
+    end = 0
+    while end < min(len(before), len(after)) - start and before[-1 - end] == after[-1 - end]:
+        end += 1
+    start, end = max(0, start - 24), max(0, end - 24)
+    cut = lambda t: ("..." if start else "") + t[start:len(t) - end].strip() + ("..." if end else "")
+    return cut(before), cut(after)
+
+
+def rows(results, last):
+    for r in sorted(results, key=lambda r: (FOLDERS.index(r["folder"]), r["file"], r["line"])):
+        old, new = change(r["before"], r["after"])
+        yield f"| {r['kind']}{' (by hand)' if r['named'] else ''} | `{r['file']}` | {code(old)} | {code(new)} | {last(r)} |"
+
+
+def page(results, seed):
+    caught, changing = score(results)
+    by = lambda verdict: [r for r in results if r["verdict"] == verdict]
+    lines = ["# Faults put in by hand: what the quick tests notice",
+             f"`tools/faults --seed {seed}` puts {len(results)} faults into a copy of the sources, one line and one fault at a time, and runs the",
+             "quick tests on each. The seed picks the places; five faults are chosen by hand. This page is its `--page`.", "",
+             f"**The tests catch {caught} of the {changing} faults that change a result ({100 * caught / max(1, changing):.0f} %).**", "",
+             "- *Caught*: a test fails, or takes five times as long as it should.",
+             "- *Survived*: every quick test passes, yet a number changes in the output of a battery of commands (`tools/faulting/battery.py`).",
+             "- *No change seen*: the tests near the fault pass, and no output of the battery differs by more than 1e-9.",
+             "- *Not compiled*: the compiler is the test.", "",
+             "| | " + " | ".join(VERDICTS) + " |", "|---|" + "---|" * len(VERDICTS)]
+    for name, numbers in counts(results, "kind", KINDS) + counts(results, "folder", FOLDERS) + [total(results)]:
+        lines.append(f"| {name} | " + " | ".join(map(str, numbers)) + " |")
+    for verdict, head, last in (("survived", "changes", lambda r: ", ".join(r["changed"])),
+                                ("caught", "by", lambda r: f"`{r['by']}`"),
+                                ("no change seen", "", lambda r: ""),
+                                ("not compiled", "the compiler says", lambda r: code(r["by"][:60]))):
+        if by(verdict):
+            lines += ["", f"## {verdict.capitalize()}", f"| kind | file | line | with the fault | {head} |", "|---|---|---|---|---|", *rows(by(verdict), last)]
+    return "\n".join(lines) + "\n"
