@@ -57,6 +57,14 @@ class TimeStep(Deck):
         allowed = FRACTION * 2 * math.pi * math.sqrt(m / max(slopes))
         self.assertAlmostEqual(wall["time_step_limit_of_law_s"] / allowed, 1.0, delta=1e-4)
 
+    def test_largest_step_used(self):
+        """Of two runs the longer step is stated, whichever was the first."""
+        words = f"law {self.law} materials powder stats s.json"
+        for first, second in ((1e-8, 4e-9), (4e-9, 1e-8)):
+            deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, first)
+            _, stats = self.stats(deck.replace("run 120", f"run 60\ntimestep {second!r}\nrun 60"))
+            self.assertEqual(stats["time_step_used_s"], 1e-8)
+
     def test_warning(self):
         """Just below the limit no word, just above one warning with both numbers; the smallest particle counts."""
         words = f"law {self.law} materials powder stats s.json"
