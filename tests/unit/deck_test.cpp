@@ -392,7 +392,7 @@ TEST_F(Deck, CountsInsertedParticles)
 TEST_F(Deck, ReadsDataAndSet)
 {
   write("cloud",
-        "7 atom types\n\n2 atoms\n2 atom types\n-1 2 xlo xhi\n-3 4 ylo yhi\n-5 6 zlo zhi\n\nAtoms\n\n"
+        "Atoms of a cloud\n\n2 atoms\n2 atom types\n-1 2 xlo xhi\n-3 4 ylo yhi\n-5 6 zlo zhi\n\nAtoms\n\n"
         "1 1 0.002 900 0.5 0.5 0.1\n2 1 0.004 800 0.6 0.4 0.7\n");
   const Scene s = scene("units si\nread_data cloud");
   ASSERT_EQ(s.sources.size(), 1u);
@@ -403,7 +403,7 @@ TEST_F(Deck, ReadsDataAndSet)
   EXPECT_EQ(s.sources[0].density, 900);
   EXPECT_EQ(s.domain.low, (Vec3{-1, -3, -5}));
   EXPECT_EQ(s.domain.high, (Vec3{2, 4, 6}));
-  EXPECT_EQ(s.types, 2);  // not the title's
+  EXPECT_EQ(s.types, 2);
   EXPECT_EQ(s.count(), 2);
   EXPECT_EQ(s.sources[0].speed, 0);
   write("moving",
