@@ -36,6 +36,8 @@ struct LogHistogram
     return found;
   }
   void add(double value, double weight) { count[bin(value)] += weight; }
+  /// Whether the bin's upper edge is above `value`.
+  bool ends_above(std::size_t bin, double value) const { return value / first < upper_ratio[bin]; }
   double lower_edge(int bin) const { return first * std::pow(10.0, static_cast<double>(bin) / per_decade); }
 
  private:

@@ -388,10 +388,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       side.frequency2 = std::max(
           side.frequency2, stiffness(entry.contact, r_eff, delta, impact_overlap) / contact_mass(sidata));
     }
-    double* const history = sidata.contact_history;
-    if (delta_max > 0.0) count(side, history, delta_max, radius_at_largest(history, r_eff), -weight);
-    count(side, history, delta, r_eff, weight);
-    if (superquadrics_built && radius_offset_ >= 0) history[radius_offset_] = r_eff;
+    move_in_histogram(side, sidata.contact_history, delta_max, delta, r_eff, weight);
     if (sudden) [[unlikely]] {  // no motion paid for what it holds
       side.sudden += weight;
       side.brought += weight * stored_energy(entry.contact, r_eff, delta, delta, impact_overlap);
@@ -421,6 +418,20 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   double radius_at_largest(const double* history, double r_eff) const
   {
     return superquadrics_built && radius_offset_ >= 0 ? history[radius_offset_] : r_eff;
+  }
+
+  /// Moves a contact that grows from `from` to `to` (0: it begins) to its bin: see ContactLedger::Side::overlap.
+  void move_in_histogram(ContactLedger::Side& side, double* history, double from, double to, double r_eff,
+                         double weight) const
+  {
+    if (from > 0.0) {
+      const double was = from / radius_at_largest(history, r_eff);
+      // most steps stay within a bin; R* of superquadrics may change
+      if (!superquadrics_built && side.overlap.ends_above(side.overlap.bin(was), to / r_eff)) return;
+      count(side, history, from, radius_at_largest(history, r_eff), -weight);
+    }
+    count(side, history, to, r_eff, weight);
+    if (superquadrics_built && radius_offset_ >= 0) history[radius_offset_] = r_eff;
   }
 
   /// Counts a contact of largest overlap `delta` in the histograms: see ContactLedger::Side::overlap.

@@ -60,22 +60,27 @@ def rows(results, last):
         yield f"| {r['kind']}{' (by hand)' if r['named'] else ''} | `{r['file']}` | {code(old)} | {code(new)} | {last(r)} |"
 
 
-def page(results, seed):
+def page(results, seed, picked):
+    """`picked`: how many faults there are, done or not."""
     caught, changing = score(results)
     by = lambda verdict: [r for r in results if r["verdict"] == verdict]
+    done = f"{len(results)} of {picked} are done" if len(results) < picked else f"All {picked} are done"
     lines = ["# Faults put in by hand: what the quick tests notice",
-             f"`tools/faults --seed {seed}` puts {len(results)} faults into a copy of the sources, one line and one fault at a time, and runs the",
-             "quick tests on each. The seed picks the places; five faults are chosen by hand. This page is its `--page`.", "",
+             f"`tools/faults --seed {seed}` puts faults into a copy of the sources, one line and one fault at a time, and runs the quick",
+             f"tests on each. The seed picks the places; {sum(r['named'] for r in results)} faults are chosen by hand. {done}. `--page` writes this page.", "",
              f"**The tests catch {caught} of the {changing} faults that change a result ({100 * caught / max(1, changing):.0f} %).**", "",
+             "Tests were added for faults of this seed that got through. How many of all faults are caught, only a seed that nobody has",
+             "worked on can say.", "",
              "- *Caught*: a test fails, or takes five times as long as it should.",
              "- *Survived*: every quick test passes, yet a number changes in the output of a battery of commands (`tools/faulting/battery.py`).",
-             "- *No change seen*: the tests near the fault pass, and no output of the battery differs by more than 1e-9.",
+             "- *No change seen*: the tests near the fault pass, and no output of the battery differs by more than 1e-9. Most of",
+             "  these lines do the same with the fault; the others lie where neither quick tests nor battery go.",
              "- *Not compiled*: the compiler is the test.", "",
              "| | " + " | ".join(VERDICTS) + " |", "|---|" + "---|" * len(VERDICTS)]
     for name, numbers in counts(results, "kind", KINDS) + counts(results, "folder", FOLDERS) + [total(results)]:
         lines.append(f"| {name} | " + " | ".join(map(str, numbers)) + " |")
     for verdict, head, last in (("survived", "changes", lambda r: ", ".join(r["changed"])),
-                                ("caught", "by", lambda r: f"`{r['by']}`"),
+                                ("caught", "by", lambda r: f"`{r['by'].split('  #')[0]}`"),
                                 ("no change seen", "", lambda r: ""),
                                 ("not compiled", "the compiler says", lambda r: code(r["by"][:60]))):
         if by(verdict):

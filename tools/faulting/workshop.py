@@ -44,7 +44,7 @@ MIRRORED = {
 }
 NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer")  # they run none of the six folders
 CHEAP = 2.0  # s; tests up to it come before the battery
-FAIR = 12.0  # s; up to it they are run where the battery shows no change, too
+FAIR = 20.0  # s; up to it they are run where the battery shows no change, too
 
 
 class Broken(Exception):
