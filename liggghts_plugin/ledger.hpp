@@ -42,7 +42,7 @@ struct LogHistogram
 
  private:
   static constexpr std::size_t octaves = 64;
-  static const std::array<double, bins> upper_ratio;  ///< of each bin's upper edge to `first`
+  static const std::array<double, bins> upper_ratio;              ///< of each bin's upper edge to `first`
   static const std::array<std::size_t, octaves> first_of_octave;  ///< bin of 2^octave
 };
 

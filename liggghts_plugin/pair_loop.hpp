@@ -108,8 +108,8 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   {
     int i, jj;  // index of the sphere; place in its list of neighbours
   };
-  /// Whether spheres that do not touch may feel each other (liquid bridges): all within LIGGGHTS's contact distance
-  /// are visited then.
+  /// Whether spheres that do not touch may feel each other (liquid bridges): all within LIGGGHTS's contact
+  /// distance are visited then.
   static constexpr bool acts_at_distance = requires { requires ContactModel::acts_at_distance; };
 
   /// So many are collected before their forces are computed: what was read of them is still in the cache.
@@ -189,27 +189,26 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     contact.radsum = contact.radi + contact.radj;
     contact.contact_flags = &history.firstneigh[i][jj];
     contact.contact_history = &history.firstdouble[i][pair->dnum() * jj];
-    on_i.reset();
-    on_j.reset();
+    if constexpr (acts_at_distance) {
+      on_i.reset();
+      on_j.reset();
+    }
     if (!(contact.rsq < contact.radsum * contact.radsum) || !surfaces_meet(pair, contact)) {
       contact.has_force_update = false;
       model_.surfacesClose(contact, on_i, on_j);
-      // a liquid bridge may still pull
-      if (contact.has_force_update) [[unlikely]]
-        apply(pair, contact, on_i, on_j, observed, addflag);
+      if constexpr (acts_at_distance)
+        if (contact.has_force_update) apply(pair, contact, on_i, on_j, observed, addflag);
       return;
     }
     if (contact.rsq == 0.0) [[unlikely]]
-      stop_one(lmp_,
-               fmt::format("step {}: particles {} and {} are at one place ({:.6g}, {:.6g}, {:.6g}): two that "
-                           "lie upon each other have no contact normal",
-                           lmp_->update->ntimestep, atom.tag[i], atom.tag[j], atom.x[i][0], atom.x[i][1],
-                           atom.x[i][2]));
+      stop_at_one_place(i, j);
     contact.r = std::sqrt(contact.rsq);
     contact.rinv = 1.0 / contact.r;
     if constexpr (!is_superquadric<ContactModel>)
       for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
     set_masses(pair, contact);
+    on_i.reset();
+    on_j.reset();
     model_.surfacesIntersect(contact, on_i, on_j);
     model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
     contact.has_force_update = true;
@@ -267,6 +266,16 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
       force[c] += share * part.delta_F[c];
       torque[c] += share * part.delta_torque[c];
     }
+  }
+
+  [[noreturn, gnu::noinline, gnu::cold]] void stop_at_one_place(int i, int j) const
+  {
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    stop_one(lmp_,
+             fmt::format("step {}: particles {} and {} are at one place ({:.6g}, {:.6g}, {:.6g}): two that "
+                         "lie upon each other have no contact normal",
+                         lmp_->update->ntimestep, atom.tag[i], atom.tag[j], atom.x[i][0], atom.x[i][1],
+                         atom.x[i][2]));
   }
 
   [[gnu::noinline, gnu::cold]] void tell_observers(PairGran* pair, SurfacesIntersectData& contact,

@@ -153,8 +153,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
         tangential_computed_ ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
     const double impedance = std::sqrt(root * sidata.meff);  // both dampings are proportional to it
     // of an undamped contact the law's force itself, to the bit: it is never negative
-    sidata.gamman = damping_of(entry, r_eff, delta, delta_max, law_force, sidata.vn) * impedance;
-    const double normal_force = std::max(0.0, law_force - sidata.gamman * sidata.vn);
+    sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
+    // below the residual overlap of a dent nothing touches, and nothing is damped
+    const double normal_force = law_force > 0.0 ? std::max(0.0, law_force - sidata.gamman * sidata.vn) : 0.0;
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
       advance(sidata, entry, r_eff, impact_overlap, delta_max);
@@ -246,13 +247,11 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   }
 
   // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
-  // yielded one that carries force on its way back to delta_max, but not when it parts, so that the rebound
-  // of a plastic impact is the law's own, nor below the residual overlap, where nothing touches. Without a
-  // branch: in a bed contacts approach and part at random.
-  static double damping_of(const Entry& entry, double r_eff, double delta, double delta_max, double law_force,
-                           double vn)
+  // yielded one on its way back to delta_max, but not when it parts, so that the rebound of a plastic impact
+  // is the law's own. Without a branch: in a bed contacts approach and part at random.
+  static double damping_of(const Entry& entry, double r_eff, double delta, double delta_max, double vn)
   {
-    const bool returns = (delta < delta_max) & (vn < 0.0) & (law_force > 0.0);
+    const bool returns = (delta < delta_max) & (vn < 0.0);
     const bool elastic = std::max(delta, delta_max) <= entry.yield_overlap * r_eff;
     return entry.damping * static_cast<double>(returns | elastic);
   }
@@ -420,16 +419,22 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return superquadrics_built && radius_offset_ >= 0 ? history[radius_offset_] : r_eff;
   }
 
-  /// Moves a contact that grows from `from` to `to` (0: it begins) to its bin: see ContactLedger::Side::overlap.
+  /// Moves a contact that grows from `from` to `to` (0: it begins) to its bin: see
+  /// ContactLedger::Side::overlap.
   void move_in_histogram(ContactLedger::Side& side, double* history, double from, double to, double r_eff,
                          double weight) const
   {
-    if (from > 0.0) {
-      const double was = from / radius_at_largest(history, r_eff);
-      // most steps stay within a bin; R* of superquadrics may change
-      if (!superquadrics_built && side.overlap.ends_above(side.overlap.bin(was), to / r_eff)) return;
-      count(side, history, from, radius_at_largest(history, r_eff), -weight);
-    }
+    // most steps stay within a bin; R* of superquadrics may change
+    const bool stays = !superquadrics_built && from > 0.0 &&
+                       side.overlap.ends_above(side.overlap.bin(from / r_eff), to / r_eff);
+    if (!stays) [[unlikely]]
+      change_bin(side, history, from, to, r_eff, weight);
+  }
+
+  [[gnu::noinline]] void change_bin(ContactLedger::Side& side, double* history, double from, double to,
+                                    double r_eff, double weight) const
+  {
+    if (from > 0.0) count(side, history, from, radius_at_largest(history, r_eff), -weight);
     count(side, history, to, r_eff, weight);
     if (superquadrics_built && radius_offset_ >= 0) history[radius_offset_] = r_eff;
   }
