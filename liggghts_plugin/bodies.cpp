@@ -115,12 +115,18 @@ void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
   LAMMPS_NS::FixPropertyAtom* values = property(lmp);
   per_atom_ = values ? values->array_atom : nullptr;
   if (!per_atom_) return;
+  alone_ = lmp->comm->nprocs == 1 ? lmp : nullptr;
   LAMMPS_NS::Atom& atom = *lmp->atom;
   const int all = atom.nlocal + atom.nghost;
-  for (int i = 0; i < all; ++i) std::fill_n(per_atom_[i], static_cast<int>(columns), 0.0);
+  for (int i = 0; i < all; ++i) {
+    if (!alone_) std::fill_n(per_atom_[i], static_cast<int>(columns), 0.0);
+    per_atom_[i][mass_column] = alone_ ? not_looked_up : 0.0;
+  }
 
   int f = 0;
+  bool rigid_bodies = false;
   while (LAMMPS_NS::FixRigid* rigid = next_fix<LAMMPS_NS::FixRigid>(lmp, f)) {
+    rigid_bodies = true;
     int dim = 0;
     const int* body = static_cast<int*>(rigid->extract("body", dim));
     const double* mass = static_cast<double*>(rigid->extract("masstotal", dim));
@@ -129,6 +135,10 @@ void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
         fill(lmp, i, mass[b], (rigid->*exposed(RigidCentre{}))[b], (rigid->*exposed(RigidInertia{}))[b],
              (rigid->*exposed(RigidEx{}))[b], (rigid->*exposed(RigidEy{}))[b],
              (rigid->*exposed(RigidEz{}))[b]);
+  }
+  if (alone_) {
+    if (rigid_bodies) values->do_forward_comm();
+    return;
   }
   f = 0;
   while (LAMMPS_NS::FixMultisphere* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
@@ -148,10 +158,25 @@ void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
   values->do_forward_comm();
 }
 
+void Bodies::find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const
+{
+  per_atom_[i][mass_column] = 0.0;
+  int f = 0;
+  while (LAMMPS_NS::FixMultisphere* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
+    LAMMPS_NS::Multisphere& bodies = clumps->data();
+    const int tag = clumps->belongs_to(i), b = tag >= 0 ? bodies.map(tag) : -1;
+    if (b < 0) continue;
+    const auto vector = [&](const char* name) { return bodies.extract_double_vector(name)[b]; };
+    fill(lmp, i, bodies.mass(b), vector("xcm"), vector("inertia"), vector("ex_space"), vector("ey_space"),
+         vector("ez_space"));
+  }
+}
+
 void Bodies::fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre,
-                  const double* moments, const double* ex, const double* ey, const double* ez)
+                  const double* moments, const double* ex, const double* ey, const double* ez) const
 {
   double* row = per_atom_[i];
+  std::fill_n(row, static_cast<int>(columns), 0.0);
   row[mass_column] = body_mass;
   double* r = row + arm;
   for (int c = 0; c < 3; ++c) r[c] = lmp->atom->x[i][c] - centre[c];
@@ -174,6 +199,7 @@ void Bodies::fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double*
 double Bodies::inverse_mass(int i, const double* n, double sphere_mass) const
 {
   const double* row = per_atom_[i];
+  if (alone_ && row[mass_column] == not_looked_up) find_clump(alone_, i);
   if (!(row[mass_column] > 0.0)) return 1.0 / sphere_mass;
   const double *r = row + arm, *v = row + inverse_inertia;
   const double t[3] = {r[1] * n[2] - r[2] * n[1], r[2] * n[0] - r[0] * n[2], r[0] * n[1] - r[1] * n[0]};

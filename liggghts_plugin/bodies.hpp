@@ -35,9 +35,14 @@ class Bodies
   enum Column : int { mass_column, arm, inverse_inertia = 4, columns = 10 };  // xx yy zz xy xz yz
 
   void fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre, const double* moments,
-            const double* ex, const double* ey, const double* ez);
+            const double* ex, const double* ey, const double* ez) const;
 
+  /// Row of a sphere of a clump of this rank, with the numbers of now.
+  void find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const;
+
+  static constexpr double not_looked_up = -1.0;  // in mass_column
   double** per_atom_ = nullptr;
+  LAMMPS_NS::LAMMPS* alone_ = nullptr;  // of one rank: it has every clump and looks one up when it is asked
 };
 
 }  // namespace granulaw::plugin
