@@ -169,11 +169,15 @@ void FixStats::setup(int)
   largest_dt_ = std::max(largest_dt_, update->dt);
   if (!speaks()) return;
   warn_of_clumps();
-  for (const auto& [wall, combination] : session_->restarted)
-    warn("restarted " + wall, fmt::format("granulaw: the restart file holds contacts of fix {} wall/gran "
-                                          "({}), which this deck has not: their "
-                                          "dents are lost; give the walls their old ids",
-                                          wall, describe_combination(combination)));
+  for (const auto& [name, combination] : session_->restarted) {
+    const std::string command = name == "pair" ? "pair_style gran" : fmt::format("fix {} wall/gran", name);
+    warn("restarted " + name,
+         fmt::format(
+             "granulaw: the restart file holds contacts of {} ({}), which this deck has not: their dents are "
+             "lost{}",
+             command, describe_combination(combination),
+             name == "pair" ? "" : "; give the walls their old ids"));
+  }
   std::string table = start_table(session_->ledger, deck_units());
   if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
   last_table_ = table;
