@@ -1,7 +1,7 @@
 // bench_loop_law one FILE ONSET: writes the synthetic law with onset of yield at x = ONSET (overlap/R on a
 // rigid wall) and prints the largest error of the contact loop's force against the functions the law was
 // sampled from, over 200,000 random states (loading and unloading), relative to the force at the turning
-// point. bench_loop_law axis FILE: with an inertia axis; against the law's curve. bench_loop_law four FILE:
+// point. bench_loop_law axis FILE: with a velocity axis; against the law's curve. bench_loop_law four FILE:
 // four materials and a law of its own for each of their ten pairs; prints the largest of their ten errors.
 #include <cmath>
 #include <cstdio>
@@ -40,7 +40,7 @@ double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curv
   const auto loading = [&](double x) {
     const double s = std::pow(x, 0.25), q = q_of(s);
     return std::pow(x, 1.5) * (1 + shape.finite_sphere * s * s) *
-           std::exp(-shape.softening * q * q / (1 + q));
+           std::exp(-shape.force_reduction * q * q / (1 + q));
   };
   return worst_error(curve, [&](double x, double x_max, double) {
     if (x >= x_max || x_max <= shape.onset) return loading(x);
