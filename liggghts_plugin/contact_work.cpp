@@ -39,7 +39,7 @@ double stored_energy(const MpmContact& contact, double r_eff, double delta, doub
   const double x = delta / length, x_max = std::max(delta, delta_max) / length;
   const ContactCurve& curve = contact.curve->curve();
   if (x_max <= curve.onset()) return unit * curve.work_loading(x, impact_overlap);
-  const ContactCurve::Turning top = curve.turning(x_max, impact_overlap);
+  const ContactCurve::Reversal top = curve.reversal(x_max, impact_overlap);
   const double span = x_max - top.residual, u = (x - top.residual) / span;
   return u > 0.0 ? unit * top.force * span * top.shape.work(u) : 0.0;
 }
@@ -57,7 +57,7 @@ double stiffness(const MpmContact& contact, double r_eff, double delta, double i
   const ContactCurve& curve = contact.curve->curve();
   const double x = delta / length;
   if (x <= curve.onset()) return unit * curve.loading(x, impact_overlap).stiffness;
-  const ContactCurve::Turning top = curve.turning(x, impact_overlap);
+  const ContactCurve::Reversal top = curve.reversal(x, impact_overlap);
   return unit * std::max(top.stiffness, top.shape.exponent * top.force / (x - top.residual));
 }
 
@@ -89,7 +89,7 @@ PairInfo describe(const MpmContact& contact, const Setup& setup, const PairKey& 
   info.error = error_text(body.certificate);
   if (body.material.yields()) info.stiffness_ratio = body.material.e_star() / body.material.yield_stress;
   info.overlap_limit = contact.largest_overlap();
-  info.inertia_limit = body.certificate.max_inertia;
+  info.damage_number_limit = body.certificate.damage_number_max;
   const double onset = contact.curve->curve().onset() / contact.per_lambda;  // over R*
   info.onset_speed = std::numeric_limits<double>::infinity();
   if (!(r_eff > 0)) return info;

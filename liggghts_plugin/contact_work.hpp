@@ -1,6 +1,6 @@
 #pragma once
 
-#include "liggghts_plugin/ledger.hpp"
+#include "liggghts_plugin/contact_statistics.hpp"
 
 namespace granulaw::plugin {
 
@@ -8,8 +8,8 @@ struct MpmContact;
 struct ThorntonContact;
 struct Setup;
 
-// What the books need of a law beyond its force. Overlaps are the contact's own, stretched; `impact_overlap`
-// is the latched X.
+// What the energy tally needs of a law beyond its force. Overlaps are the contact's own, stretched;
+// `impact_overlap` is the latched X.
 
 /// J, elastic energy that a contact holds at overlap `delta`: what it gives back on complete unloading.
 double stored_energy(const MpmContact& contact, double r_eff, double delta, double delta_max,

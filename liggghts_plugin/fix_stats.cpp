@@ -23,24 +23,25 @@ LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
   return new FixStats(lmp, narg, arg);
 }
 
-void reduce(ContactLedger::Side& side, MPI_Comm world)
+void reduce(ContactStatistics::Pair& counts, MPI_Comm world)
 {
-  using Side = ContactLedger::Side;
-  const auto numbers = side.numbers();
-  double values[Side::sums + Side::maxima + Side::minima];
+  using Pair = ContactStatistics::Pair;
+  const auto numbers = counts.numbers();
+  double values[Pair::sums + Pair::maxima + Pair::minima];
   for (std::size_t k = 0; k < numbers.size(); ++k) values[k] = *numbers[k];
-  double *largest = values + Side::sums, *least = largest + Side::maxima;
-  MPI_Allreduce(MPI_IN_PLACE, values, Side::sums, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, largest, Side::maxima, MPI_DOUBLE, MPI_MAX, world);
-  MPI_Allreduce(MPI_IN_PLACE, least, Side::minima, MPI_DOUBLE, MPI_MIN, world);
+  double *largest = values + Pair::sums, *least = largest + Pair::maxima;
+  MPI_Allreduce(MPI_IN_PLACE, values, Pair::sums, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, largest, Pair::maxima, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, least, Pair::minima, MPI_DOUBLE, MPI_MIN, world);
   for (std::size_t k = 0; k < numbers.size(); ++k) *numbers[k] = values[k];
-  MPI_Allreduce(MPI_IN_PLACE, side.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, side.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
-  int mapped = side.map.empty() ? 0 : 1;  // one rank may have it alone, out of a restart file
+  MPI_Allreduce(MPI_IN_PLACE, counts.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, counts.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
+  int mapped = counts.map.empty() ? 0 : 1;  // one rank may have it alone, out of a restart file
   MPI_Allreduce(MPI_IN_PLACE, &mapped, 1, MPI_INT, MPI_MAX, world);
   if (!mapped) return;
-  side.open_map();
-  MPI_Allreduce(MPI_IN_PLACE, side.map.data(), static_cast<int>(side.map.size()), MPI_DOUBLE, MPI_SUM, world);
+  counts.open_map();
+  MPI_Allreduce(MPI_IN_PLACE, counts.map.data(), static_cast<int>(counts.map.size()), MPI_DOUBLE, MPI_SUM,
+                world);
 }
 
 constexpr const char* energy_name = "granulaw_energy";
@@ -54,7 +55,7 @@ LAMMPS_NS::FixPropertyAtom* dissipated_property(LAMMPS_NS::LAMMPS* lmp)
       lmp->modify->find_fix_property(dissipated_name, "property/atom", "vector", 0, 0, style_name, false));
 }
 
-/// The per-atom property that EnergyBooks fills; it moves with the particles and into restart files.
+/// The per-atom property that EnergyTally fills; it moves with the particles and into restart files.
 LAMMPS_NS::FixPropertyAtom* energy_property(LAMMPS_NS::LAMMPS* lmp)
 {
   return static_cast<LAMMPS_NS::FixPropertyAtom*>(
@@ -102,7 +103,7 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
   restart_global = 1;
   if (session_->energy) {
     peratom_flag = 1;
-    size_peratom_cols = EnergyBooks::columns;
+    size_peratom_cols = EnergyTally::columns;
     peratom_freq = 1;
   }
   nevery = 0;
@@ -178,12 +179,12 @@ void FixStats::setup(int)
              command, describe_combination(combination),
              name == "pair" ? "" : "; give the walls their old ids"));
   }
-  std::string table = start_table(session_->ledger, deck_units());
+  std::string table = start_table(session_->statistics, deck_units());
   if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
   last_table_ = table;
   print(table);
-  for (const auto& [key, side] : session_->ledger.sides) {
-    const PairInfo& info = side.info;
+  for (const auto& [key, counts] : session_->statistics.pairs) {
+    const PairInfo& info = counts.info;
     if (!info.needed || !(info.dt_limit > 0) || update->dt <= info.dt_limit || comm->me != 0) continue;
     error->warning(
         FLERR, fmt::format("granulaw: the time step {:.4g} s is over {:.4g} s, 1/{:.0f} of the period of the "
@@ -202,42 +203,42 @@ void FixStats::pre_force(int)
   if (!session_->energy) return;
   // the property's array moves when particles come in
   LAMMPS_NS::FixPropertyAtom* property = energy_property(lmp);
-  session_->books.per_atom = property ? property->array_atom : nullptr;
+  session_->tally.per_atom = property ? property->array_atom : nullptr;
   LAMMPS_NS::FixPropertyAtom* dissipated = session_->dissipated_energy ? dissipated_property(lmp) : nullptr;
-  session_->books.dissipated_energy = dissipated ? dissipated->array_atom : nullptr;
-  if (peratom_flag) array_atom = session_->books.per_atom;
+  session_->tally.dissipated_energy = dissipated ? dissipated->array_atom : nullptr;
+  if (peratom_flag) array_atom = session_->tally.per_atom;
   if (!property) return;
-  for (int a = 0; a < atom->nlocal; ++a) session_->books.per_atom[a][EnergyBooks::stored] = 0.0;
+  for (int a = 0; a < atom->nlocal; ++a) session_->tally.per_atom[a][EnergyTally::stored] = 0.0;
 }
 
-ContactLedger FixStats::sum_of_ranks(bool with_open) const
+ContactStatistics FixStats::sum_of_ranks(bool with_open) const
 {
-  ContactLedger sum = session_->ledger;
+  ContactStatistics sum = session_->statistics;
   if (!with_open)
     for (const auto& [wall, style] : session_->styles) style->take_out_open(sum);
-  for (auto& [key, side] : sum.sides) {
-    reduce(side, world);
-    if (!with_open) side.count_ended();
+  for (auto& [key, counts] : sum.pairs) {
+    reduce(counts, world);
+    if (!with_open) counts.count_ended();
   }
   return sum;
 }
 
-ContactLedger FixStats::total() const
+ContactStatistics FixStats::total() const
 {
   return sum_of_ranks(false);
 }
 
 double FixStats::stored_energy() const
 {
-  if (!session_->energy || !session_->books.per_atom) return 0.0;
+  if (!session_->energy || !session_->tally.per_atom) return 0.0;
   double sum = 0.0;
-  for (int a = 0; a < atom->nlocal; ++a) sum += session_->books.per_atom[a][EnergyBooks::stored];
+  for (int a = 0; a < atom->nlocal; ++a) sum += session_->tally.per_atom[a][EnergyTally::stored];
   return sum;
 }
 
 double FixStats::compute_scalar()
 {
-  const double own = session_->ledger.total().dissipated;
+  const double own = session_->statistics.total().dissipated;
   double sum = 0;
   MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   return sum;
@@ -245,7 +246,7 @@ double FixStats::compute_scalar()
 
 double FixStats::compute_vector(int n)
 {
-  const ContactLedger::Side p = session_->ledger.total(false), w = session_->ledger.total(true);
+  const ContactStatistics::Pair p = session_->statistics.total(false), w = session_->statistics.total(true);
   const double own[vector_length] = {p.dissipated,
                                      w.dissipated,
                                      p.touches,
@@ -255,7 +256,7 @@ double FixStats::compute_vector(int n)
                                      p.overlap_max,
                                      w.overlap_max,
                                      p.beyond + w.beyond,
-                                     std::max(p.inertia_max, w.inertia_max),
+                                     std::max(p.damage_number_max, w.damage_number_max),
                                      p.too_fast + w.too_fast,
                                      p.near + w.near,
                                      std::max(p.frequency2, w.frequency2),
@@ -277,31 +278,32 @@ double FixStats::compute_array(int row, int column)
     rows_ = total();
     step_of_rows_ = update->ntimestep;
   }
-  ContactLedger::Side side;  // walls of both kinds together
-  for (const auto& [key, counted] : rows_.sides)
-    if (row_of_types(key, atom->ntypes) == row) side.merge(counted);
-  const double values[array_columns] = {side.touches,   side.ended,       side.dissipated, side.other_work,
-                                        side.speed_max, side.overlap_max, side.sudden};
+  ContactStatistics::Pair counts;  // walls of both kinds together
+  for (const auto& [key, counted] : rows_.pairs)
+    if (row_of_types(key, atom->ntypes) == row) counts.merge(counted);
+  const double values[array_columns] = {counts.touches,    counts.ended,     counts.dissipated,
+                                        counts.other_work, counts.speed_max, counts.overlap_max,
+                                        counts.sudden};
   return values[column];
 }
 
 void FixStats::end_of_step()
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
-  const ContactLedger sum = total();
+  const ContactStatistics sum = total();
   if (comm->me == 0) write_files(sum);
 }
 
 void FixStats::post_run()
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
-  const ContactLedger sum = total();
+  const ContactStatistics sum = total();
   if (comm->me != 0) return;
   write_files(sum);
   if (!speaks()) return;
   const DeckUnits units = deck_units();
-  const ContactLedger::Side pair = sum.total(false).in_si(units), wall = sum.total(true).in_si(units),
-                            all = sum.total().in_si(units);
+  const ContactStatistics::Pair pair = sum.total(false).in_si(units), wall = sum.total(true).in_si(units),
+                                all = sum.total().in_si(units);
   std::string line = fmt::format(
       "granulaw: {:.0f} contacts between particles, {:.0f} with walls; impacts up to {:.4g} and {:.4g} m/s; "
       "overlap/R* up to {:.4g} and {:.4g}; normal contacts dissipated {:.6g} J",
@@ -324,18 +326,18 @@ void FixStats::post_run()
         "each other, "
         "edges of a mesh): they brought {:.6g} J, and none of it is in what was dissipated",
         all.sudden, all.brought);
-  if (session_->inertia_limit > 0 && all.inertia_max > session_->inertia_limit)
+  if (session_->damage_number_limit > 0 && all.damage_number_max > session_->damage_number_limit)
     line += fmt::format(
         "; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
         "restitution",
-        all.inertia_max, session_->inertia_limit);
+        all.damage_number_max, session_->damage_number_limit);
   if (all.frequency2 > 0)
     line += fmt::format("; the stiffest contact allowed a time step of {:.4g} s, used were {:.4g} s",
                         all.dt_allowed(), largest_dt_);
   print(line + "\n");
 }
 
-void FixStats::write_files(const ContactLedger& sum) const
+void FixStats::write_files(const ContactStatistics& sum) const
 {
   if (!path_.empty()) write_json(sum, path_);
   if (speaks() && session_->pair_options && !session_->pair_options->stats_path.empty())
@@ -379,7 +381,7 @@ void FixStats::restart(char* buffer)
     k += 2 + length;
   }
   const bool known = counts > 0 && counts < values.size() &&
-                     session_->ledger.unpack(values.data() + 1, counts, comm->me == 0);
+                     session_->statistics.unpack(values.data() + 1, counts, comm->me == 0);
   if (!known && comm->me == 0)
     error->warning(FLERR, fmt::format("fix {} granulaw/stats: the restart file holds the counts of another "
                                       "version of the plug-in: they begin at zero",
@@ -387,13 +389,13 @@ void FixStats::restart(char* buffer)
                               .c_str());
 }
 
-void FixStats::write_json(const ContactLedger& sum, const std::string& path) const
+void FixStats::write_json(const ContactStatistics& sum, const std::string& path) const
 {
   const std::string header = fmt::format(
       "  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": {:.10g},\n"
       "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"inertia_number_limit_of_law\": {:.6g},\n",
       version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_,
-      session_->inertia_limit);
+      session_->damage_number_limit);
   const std::string text = to_json(sum, header, deck_units()),
                     temporary = fmt::format("{}.tmp.{}", path, getpid());
   FILE* file = std::fopen(temporary.c_str(), "w");

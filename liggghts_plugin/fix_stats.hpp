@@ -53,13 +53,13 @@ class FixStats : public LAMMPS_NS::Fix
   void restart(char* buffer) override;
 
  private:
-  /// The ledger summed (or its largest values) over ranks. Collective.
-  ContactLedger total() const;
-  /// `with_open`: as the ranks keep it, with the contacts that are open (ContactLedger::Side::overlap).
-  ContactLedger sum_of_ranks(bool with_open) const;
+  /// The contact statistics summed (or its largest values) over ranks. Collective.
+  ContactStatistics total() const;
+  /// `with_open`: as the ranks keep it, with the contacts that are open (ContactStatistics::Pair::overlap).
+  ContactStatistics sum_of_ranks(bool with_open) const;
   double stored_energy() const;
-  void write_json(const ContactLedger& sum, const std::string& path) const;
-  void write_files(const ContactLedger& sum) const;
+  void write_json(const ContactStatistics& sum, const std::string& path) const;
+  void write_files(const ContactStatistics& sum) const;
   void print(const std::string& text) const;
   /// Once for each `what`.
   void warn(const std::string& what, const std::string& text) const;
@@ -71,7 +71,7 @@ class FixStats : public LAMMPS_NS::Fix
   std::shared_ptr<Session> session_;
   std::string path_, last_table_;
   double largest_dt_ = 0;
-  ContactLedger rows_;  // of compute_array: total() of step_of_rows_
+  ContactStatistics rows_;  // of compute_array: total() of step_of_rows_
   LAMMPS_NS::bigint step_of_rows_ = -1;
 };
 

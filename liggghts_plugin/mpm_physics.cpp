@@ -60,10 +60,10 @@ struct HertzBody
     ContactCurve::Table table;
     table.s_end = 1.0;
     table.onset = std::numeric_limits<double>::infinity();
-    table.force_ratio = table.radius_ratio = table.foot = ones;
+    table.force_ratio = table.radius_ratio = table.hertz_share = ones;
     table.exponent = three_halves;
     table.residual_ratio = zeros;
-    table.force_ratio_slope = table.radius_ratio_slope = table.exponent_slope = table.foot_slope =
+    table.force_ratio_slope = table.radius_ratio_slope = table.exponent_slope = table.hertz_share_slope =
         table.residual_ratio_slope = zeros;
     body.material.name = elastic_name;
     body.curve = ContactCurve(table, elastic_name);
@@ -92,9 +92,9 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
     fail(setup.where, fmt::format("'materials' needs one name for each of the {} atom types, found {}: {}{}",
                                   types.count, materials.size(), fmt::join(materials, " "), hint));
   }
-  double& limit = setup.session->inertia_limit;
+  double& limit = setup.session->damage_number_limit;
   const auto lower_limit = [&](const Certificate& certificate) {
-    const double own = certificate.max_inertia;
+    const double own = certificate.damage_number_max;
     if (own > 0 && (limit == 0 || own < limit)) limit = own;
   };
   const Law& law = setup.law->law;

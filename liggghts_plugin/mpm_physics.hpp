@@ -48,9 +48,9 @@ struct MpmContact
   {
     return law.min_speed(r_eff * units.length, m_eff * units.mass) / units.length;
   }
-  using Turn = FastCurve::Turn;
-  /// How many values a contact keeps of its last turn; the first is its overlap, 0 before there is one.
-  static constexpr std::size_t turn_values = sizeof(Turn) / sizeof(double);
+  using Reversal = FastCurve::Reversal;
+  /// How many values a contact keeps of its last reversal; the first is its overlap, 0 before there is one.
+  static constexpr std::size_t reversal_values = sizeof(Reversal) / sizeof(double);
   /// At overlap delta of a contact whose largest overlap so far is delta_max and which latched X. `kept`: its
   /// turn, worked out anew where it is of another overlap.
   double force(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
@@ -60,12 +60,12 @@ struct MpmContact
     const double scale = force_scale * r_eff * r_eff;
     if (!curve->unloads(x, x_max)) return scale * curve->loading_force(x, impact_overlap);
     if (kept[0] != x_max) [[unlikely]] {
-      const Turn turn = curve->turn(x_max, impact_overlap);
-      std::memcpy(kept, &turn, sizeof turn);
+      const Reversal reversal = curve->reversal(x_max, impact_overlap);
+      std::memcpy(kept, &reversal, sizeof reversal);
     }
-    std::array<double, turn_values> values;
-    std::copy_n(kept, turn_values, values.begin());
-    return scale * std::bit_cast<Turn>(values).force_at(x);
+    std::array<double, reversal_values> values;
+    std::copy_n(kept, reversal_values, values.begin());
+    return scale * std::bit_cast<Reversal>(values).force_at(x);
   }
   /// Of the real, unstretched contact.
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
@@ -87,7 +87,7 @@ struct MpmContact
            curve->dissipated(from / length, to / length, impact_overlap);
   }
   double largest_overlap() const { return curve->curve().x_end() / per_lambda; }
-  double inertia_per_speed2() const
+  double damage_number_per_speed2() const
   {
     // the yielding body's share of the approach is V/sqrt(lambda): all on a rigid wall, half in a like pair
     return law.yielding->material.density / law.yielding->material.yield_stress / law.mapping.length(1.0) *

@@ -46,24 +46,24 @@ inline constexpr double sudden_start = 2.0;
 /// The history policy that `mpm` and `thornton` share, and everything else that is not the law itself.
 ///
 /// State: one scalar per contact, delta_max, the largest overlap since first touch (m), and, where the
-/// physics latches it, a second one, the impact overlap X of the law's inertia axis (over lambda R*), set in
+/// physics latches it, a second one, the impact overlap X of the law's velocity axis (over lambda R*), set in
 /// the first step from the approach speed. Both have newton flag "0" (the same number seen from either
 /// particle), advance only when the step does (computeflag and shearupdate), and return to zero when the
-/// geometric overlap ends. What follows from them for un- and reloading, the turn, is kept beside them once
-/// it was worked out; without it the same is worked out again, to the bit.
+/// geometric overlap ends. What follows from them for un- and reloading, the reversal, is kept beside them
+/// once it was worked out; without it the same is worked out again, to the bit.
 ///
 /// Physics is a value type without virtual calls:
 ///   name                                             "mpm", "thornton"
 ///   latches_impact                                   whether contacts keep X
-///   Contact::turn_values                             how many values they keep of their last turn
+///   Contact::reversal_values                             how many values they keep of their last reversal
 ///   Contact                                          law of one pair of types: force, dissipated, ...
 ///   prepare(lmp, registry, setup, types)             checks of the deck against the law
 ///   resolve(i, j, rigid, where) -> Contact           throws Error where there is no law for the pair
 ///   check_sizes(i, j, is_wall, contact, sizes)       throws Error where the pair's law is of another size
 ///
 /// Everything that a Contact takes and gives is in the deck's units, and stretched (`stretch S`): delta_max
-/// and the ledger's overlaps are the deck's own, S times the real ones; work needs no conversion, because
-/// F(d/S)/S does the same work to S times the overlap. X stays the unstretched law's.
+/// and the contact statistics' overlaps are the deck's own, S times the real ones; work needs no conversion,
+/// because F(d/S)/S does the same work to S times the overlap. X stays the unstretched law's.
 template <class Physics>
 class PlasticModel : public NormalModelBase, public ContactInquiry
 {
@@ -77,9 +77,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       impact_offset_ = hsetup->add_history_value("impact_overlap", "0");
       cmb->add_history_offset("impact_overlap", impact_offset_);
     }
-    if constexpr (keeps_turns) {
-      turn_offset_ = hsetup->add_history_value("turn_overlap", "0");
-      for (std::size_t k = 1; k < Physics::Contact::turn_values; ++k)
+    if constexpr (keeps_reversals) {
+      reversal_offset_ = hsetup->add_history_value("turn_overlap", "0");
+      for (std::size_t k = 1; k < Physics::Contact::reversal_values; ++k)
         hsetup->add_history_value(fmt::format("turn_{}", k), "0");
     }
     if (superquadrics_built && atom->superquadric_flag)
@@ -119,7 +119,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     first_step_ = update->ntimestep;
     const bool any_needs_mass = resolve_all(types, damping_ratios(registry, *setup_, types));
     Bodies::provide(lmp, any_needs_mass);
-    open_books(types);
+    open_tally(types);
   }
 
   double stressStrainExponent() { return 1.5; }
@@ -143,11 +143,11 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       impact_overlap = delta_max == 0.0
                            ? entry.contact.impact_overlap(r_eff, contact_mass(sidata), -sidata.vn)
                            : sidata.contact_history[impact_offset_];
-    double* const turn = sidata.contact_history + turn_offset_;
-    if constexpr (keeps_turns)
+    double* const reversal = sidata.contact_history + reversal_offset_;
+    if constexpr (keeps_reversals)
       if (update->ntimestep == first_step_) [[unlikely]]
-        turn[0] = 0.0;  // what a restart brings may be of another law
-    const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap, turn);
+        reversal[0] = 0.0;  // what a restart brings may be of another law
+    const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap, reversal);
     const double root = std::sqrt(r_eff * delta);
     const double radius =
         tangential_computed_ ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
@@ -189,7 +189,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       scdata.contact_history[speed_offset_] = 0.0;
     delta_max = 0.0;
     if constexpr (Physics::latches_impact) scdata.contact_history[impact_offset_] = 0.0;
-    if constexpr (keeps_turns) scdata.contact_history[turn_offset_] = 0.0;
+    if constexpr (keeps_reversals) scdata.contact_history[reversal_offset_] = 0.0;
   }
 
   ContactState state(const ContactPlace& contact) const override
@@ -202,11 +202,11 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
             pair.contact.dissipated(contact.r_eff, 0.0, delta_max, impact_overlap)};
   }
 
-  void take_out(ContactLedger& ledger, const ContactPlace& contact, double weight) const override
+  void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const override
   {
     const double delta_max = contact.history[history_offset_];
     if (delta_max > 0.0)
-      count(ledger.sides[key(contact.itype, contact.jtype)], contact.history, delta_max,
+      count(statistics.pairs[key(contact.itype, contact.jtype)], contact.history, delta_max,
             radius_at_largest(contact.history, contact.r_eff), -weight);
   }
 
@@ -214,7 +214,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
  private:
-  static constexpr bool keeps_turns = Physics::Contact::turn_values > 0;
+  static constexpr bool keeps_reversals = Physics::Contact::reversal_values > 0;
 
   // One pair of types, in the deck's units; what every step reads lies in the first cache line.
   struct alignas(64) Entry
@@ -225,8 +225,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     double tangential_damping = 0.0;  // Mindlin's, over the same
     double yield_overlap = 0.0;       // over R*
     typename Physics::Contact contact;
-    ContactLedger::Side* side = nullptr;  // this pair of types in the ledger
-    double inertia_per_speed2 = 0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
+    ContactStatistics::Pair* counts = nullptr;  // this pair of types in the contact statistics
+    double damage_number_per_speed2 =
+        0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
   };
 
   static double shear_compliance(double youngs_modulus, double poisson_ratio)
@@ -288,7 +289,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
         entry.largest_overlap = entry.contact.largest_overlap();
         if (stretch_ > 1.0) entry.largest_overlap = std::min(entry.largest_overlap, stretched_overlap_limit);
         entry.yield_overlap = entry.contact.yield_overlap();
-        entry.inertia_per_speed2 = entry.contact.inertia_per_speed2();
+        entry.damage_number_per_speed2 = entry.contact.damage_number_per_speed2();
         const double eight_shear_moduli =
             8.0 /
             (shear_compliance(types.youngs_modulus[i], types.poisson_ratio[i]) +
@@ -305,8 +306,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return needs_mass;
   }
 
-  /// Finds each pair of types its line in the ledger, and writes there what the law says about it.
-  void open_books(const Types& types)
+  /// Finds each pair of types its line in the statistics, and writes there what the law says about it.
+  void open_tally(const Types& types)
   {
     const ParticleSizes sizes = particle_sizes(lmp);
     const bool is_wall = setup_->wall != nullptr;
@@ -315,7 +316,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
         Entry& entry = entries_[static_cast<std::size_t>(i * stride_ + j)];
         if (entry.largest_overlap < 0) continue;
         const PairKey key = this->key(i, j);
-        entry.side = &setup_->session->ledger.sides[key];
+        entry.counts = &setup_->session->statistics.pairs[key];
         if (!is_wall && j < i) continue;  // described as i, j
         const double other_radius = is_wall ? 0.0 : sizes.radius[j];
         double r_eff = is_wall ? sizes.radius[i] : granulaw::effective_radius(sizes.radius[i], other_radius);
@@ -325,7 +326,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
         info.needed = types.of_particles[i] && (is_wall ? types.of_wall[j] : types.of_particles[j]);
         if (info.needed) physics_.check_sizes(i, j, is_wall, entry.contact, sizes);
         if (info.needed) refuse_rated(lmp, *setup_, entry.contact.min_speed(1.0, 1.0) > 0);
-        entry.side->info = info;
+        entry.counts->info = info;
       }
     energy_ = setup_->session->energy;
   }
@@ -345,57 +346,58 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return inverse > 0.0 ? 1.0 / inverse : sidata.meff;
   }
 
-  /// Part of a contact that this rank accounts for: see ContactLedger.
+  /// Part of a contact that this rank accounts for: see ContactStatistics.
   double weight(const SurfacesCloseData& scdata) const
   {
     return scdata.is_wall || scdata.j < atom->nlocal ? 1.0 : 0.5;
   }
 
-  /// A step that takes the contact deeper than it ever was: ledger, then history.
+  /// A step that takes the contact deeper than it ever was: statistics, then history.
   void advance(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double impact_overlap,
                double& delta_max)
   {
-    ContactLedger::Side& side = *entry.side;
+    ContactStatistics::Pair& counts = *entry.counts;
     const double weight = this->weight(sidata);
     const double delta = sidata.deltan;
     bool sudden = false;
     if (delta_max == 0.0) {
       const double speed = std::max(0.0, -sidata.vn);
-      side.touches += weight;
-      side.speed.add(speed, weight);
-      side.speed_min = std::min(side.speed_min, speed);
-      side.speed_max = std::max(side.speed_max, speed);
-      side.inertia_max = std::max(side.inertia_max, entry.inertia_per_speed2 * speed * speed);
+      counts.touches += weight;
+      counts.speed.add(speed, weight);
+      counts.speed_min = std::min(counts.speed_min, speed);
+      counts.speed_max = std::max(counts.speed_max, speed);
+      counts.damage_number_max =
+          std::max(counts.damage_number_max, entry.damage_number_per_speed2 * speed * speed);
       const double mass = contact_mass(sidata);
-      if (speed > entry.contact.max_speed(r_eff, mass)) side.too_fast += weight;
+      if (speed > entry.contact.max_speed(r_eff, mass)) counts.too_fast += weight;
       // one without approach follows the law at no rate: the file holds that
-      if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, mass)) side.too_slow += weight;
+      if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, mass)) counts.too_slow += weight;
       if (speed_offset_ >= 0) [[unlikely]]
         sidata.contact_history[speed_offset_] = speed;
       // of superquadrics rotations bring overlap, too
       sudden = !sidata.is_non_spherical && delta > sudden_start * overlap_of_a_step(sidata);
     }
-    if (delta > side.overlap_max * r_eff) side.overlap_max = delta / r_eff;
+    if (delta > counts.overlap_max * r_eff) counts.overlap_max = delta / r_eff;
     if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
-      if (delta_max <= near_edge * entry.largest_overlap * r_eff) side.near += weight;
+      if (delta_max <= near_edge * entry.largest_overlap * r_eff) counts.near += weight;
       if (delta > entry.largest_overlap * r_eff && delta_max <= entry.largest_overlap * r_eff)
-        side.past += weight;
+        counts.past += weight;
     }
     // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
-    if (r_eff * delta > side.hardest * sidata.meff * sidata.meff) [[unlikely]] {
-      side.hardest = r_eff * delta / (sidata.meff * sidata.meff);
-      side.frequency2 = std::max(
-          side.frequency2, stiffness(entry.contact, r_eff, delta, impact_overlap) / contact_mass(sidata));
+    if (r_eff * delta > counts.hardest * sidata.meff * sidata.meff) [[unlikely]] {
+      counts.hardest = r_eff * delta / (sidata.meff * sidata.meff);
+      counts.frequency2 = std::max(
+          counts.frequency2, stiffness(entry.contact, r_eff, delta, impact_overlap) / contact_mass(sidata));
     }
-    move_in_histogram(side, sidata.contact_history, delta_max, delta, r_eff, weight);
+    move_in_histogram(counts, sidata.contact_history, delta_max, delta, r_eff, weight);
     if (sudden) [[unlikely]] {  // no motion paid for what it holds
-      side.sudden += weight;
-      side.brought += weight * stored_energy(entry.contact, r_eff, delta, delta, impact_overlap);
+      counts.sudden += weight;
+      counts.brought += weight * stored_energy(entry.contact, r_eff, delta, delta, impact_overlap);
     } else {
       const double dissipated = entry.contact.dissipated(r_eff, delta_max, delta, impact_overlap);
-      side.dissipated += weight * dissipated;
+      counts.dissipated += weight * dissipated;
       if (energy_) [[unlikely]]
-        energy_->share(sidata, EnergyBooks::dissipated, dissipated, atom->nlocal);
+        energy_->share(sidata, EnergyTally::dissipated, dissipated, atom->nlocal);
     }
     delta_max = delta;
   }
@@ -420,41 +422,42 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   }
 
   /// Moves a contact that grows from `from` to `to` (0: it begins) to its bin: see
-  /// ContactLedger::Side::overlap.
-  void move_in_histogram(ContactLedger::Side& side, double* history, double from, double to, double r_eff,
-                         double weight) const
+  /// ContactStatistics::Pair::overlap.
+  void move_in_histogram(ContactStatistics::Pair& counts, double* history, double from, double to,
+                         double r_eff, double weight) const
   {
     // most steps stay within a bin; R* of superquadrics may change
     const bool stays = !superquadrics_built && from > 0.0 &&
-                       side.overlap.ends_above(side.overlap.bin(from / r_eff), to / r_eff);
+                       counts.overlap.ends_above(counts.overlap.bin(from / r_eff), to / r_eff);
     if (!stays) [[unlikely]]
-      change_bin(side, history, from, to, r_eff, weight);
+      change_bin(counts, history, from, to, r_eff, weight);
   }
 
-  [[gnu::noinline]] void change_bin(ContactLedger::Side& side, double* history, double from, double to,
+  [[gnu::noinline]] void change_bin(ContactStatistics::Pair& counts, double* history, double from, double to,
                                     double r_eff, double weight) const
   {
-    if (from > 0.0) count(side, history, from, radius_at_largest(history, r_eff), -weight);
-    count(side, history, to, r_eff, weight);
+    if (from > 0.0) count(counts, history, from, radius_at_largest(history, r_eff), -weight);
+    count(counts, history, to, r_eff, weight);
     if (superquadrics_built && radius_offset_ >= 0) history[radius_offset_] = r_eff;
   }
 
-  /// Counts a contact of largest overlap `delta` in the histograms: see ContactLedger::Side::overlap.
-  void count(ContactLedger::Side& side, const double* history, double delta, double r_eff,
+  /// Counts a contact of largest overlap `delta` in the histograms: see ContactStatistics::Pair::overlap.
+  void count(ContactStatistics::Pair& counts, const double* history, double delta, double r_eff,
              double weight) const
   {
-    side.count(side.overlap.bin(delta / r_eff), speed_offset_ >= 0 ? history[speed_offset_] : -1.0, weight);
+    counts.count(counts.overlap.bin(delta / r_eff), speed_offset_ >= 0 ? history[speed_offset_] : -1.0,
+                 weight);
   }
 
-  /// Only with `energy on`: what the contact holds now, and the law's force for EnergyBooks::account.
+  /// Only with `energy on`: what the contact holds now, and the law's force for EnergyTally::account.
   [[gnu::noinline, gnu::cold]] void store_energy(const SurfacesIntersectData& sidata, const Entry& entry,
                                                  double r_eff, double delta_max, double impact_overlap,
                                                  double law_force)
   {
     energy_->law_force = law_force * (sidata.is_wall ? sidata.area_ratio : 1.0);
-    energy_->side = entry.side;
+    energy_->counts = entry.counts;
     if (sidata.computeflag)
-      energy_->share(sidata, EnergyBooks::stored,
+      energy_->share(sidata, EnergyTally::stored,
                      stored_energy(entry.contact, r_eff, sidata.deltan, delta_max, impact_overlap),
                      atom->nlocal);
   }
@@ -468,7 +471,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
           fmt::format("{}: no law for particles of type {} against {} {}; it was not among the pairs "
                       "that the deck could show when the run began",
                       setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type", sidata.jtype));
-    if (sidata.computeflag && sidata.shearupdate) entry.side->beyond += weight(sidata);
+    if (sidata.computeflag && sidata.shearupdate) entry.counts->beyond += weight(sidata);
     // 5 %: the linear continuation is still within about a percent of the force there.
     if (setup_->options.stop_beyond_range.value_or(true) &&
         sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
@@ -499,14 +502,14 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   std::vector<Entry> entries_;
   int stride_ = 0;
   int history_offset_ = -1, impact_offset_ = -1;
-  int turn_offset_ = 0;               // of the values of its turn
+  int reversal_offset_ = 0;           // of the values of its reversal
   LAMMPS_NS::bigint first_step_ = 0;  // of this run
   int radius_offset_ = -1;            // of R* at the largest overlap; superquadrics only
   int speed_offset_ = -1;             // of the approach speed at first touch; only with `contactMap on`
   double damping_ = 0.0, stretch_ = 1.0;
   DeckUnits units_;
   bool tangential_computed_ = false;
-  EnergyBooks* energy_ = nullptr;  // null: energy off
+  EnergyTally* energy_ = nullptr;  // null: energy off
   bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false;
   bool layout_checked_ = false;
 };

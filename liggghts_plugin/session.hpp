@@ -7,8 +7,8 @@
 #include <string>
 
 #include "liggghts_plugin/bodies.hpp"
-#include "liggghts_plugin/energy_books.hpp"
-#include "liggghts_plugin/ledger.hpp"
+#include "liggghts_plugin/contact_statistics.hpp"
+#include "liggghts_plugin/energy_tally.hpp"
 #include "liggghts_plugin/loaded_law.hpp"
 #include "liggghts_plugin/options.hpp"
 
@@ -41,8 +41,9 @@ class ContactInquiry
  public:
   virtual ~ContactInquiry() = default;
   virtual ContactState state(const ContactPlace& contact) const = 0;
-  /// Takes a contact that is open out of the ledger's histogram: see ContactLedger::Side::overlap.
-  virtual void take_out(ContactLedger& ledger, const ContactPlace& contact, double weight) const = 0;
+  /// Takes a contact that is open out of the contact statistics' histogram: see
+  /// ContactStatistics::Pair::overlap.
+  virtual void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const = 0;
 };
 
 /// A pair style or wall of ours.
@@ -50,8 +51,8 @@ class CountedStyle
 {
  public:
   virtual ~CountedStyle() = default;
-  /// Takes the contacts that are open on this rank out of the ledger's histograms.
-  virtual void take_out_open(ContactLedger& ledger) const = 0;
+  /// Takes the contacts that are open on this rank out of the contact statistics' histograms.
+  virtual void take_out_open(ContactStatistics& statistics) const = 0;
   virtual const ContactInquiry* contacts() const = 0;
 };
 
@@ -62,11 +63,11 @@ class Session
   /// The session of `lmp`; made if there is none. It lives as long as somebody holds it.
   static std::shared_ptr<Session> of(LAMMPS_NS::LAMMPS* lmp);
 
-  ContactLedger ledger;
-  EnergyBooks* energy = nullptr;   ///< &books with `energy on`, else null
+  ContactStatistics statistics;
+  EnergyTally* energy = nullptr;   ///< &tally with `energy on`, else null
   bool contact_map = false;        ///< `contactMap on`
   bool dissipated_energy = false;  ///< `computeDissipatedEnergy on`
-  EnergyBooks books;
+  EnergyTally tally;
   Bodies bodies;
 
   /// What walls of model `mpm` inherit: set by the pair style.
@@ -82,8 +83,8 @@ class Session
     return found == styles.end() ? nullptr : found->second->contacts();
   }
 
-  /// Largest inertia number the laws in use answer for; 0 if none says.
-  double inertia_limit = 0;
+  /// Largest damage number the laws in use answer for; 0 if none says.
+  double damage_number_limit = 0;
 
   /// Which models and words the restart file was written with that this deck continues (Setup::combination),
   /// by command: "pair" or the wall's id. A command that has been compared is taken out.

@@ -63,7 +63,7 @@ inline void read_setup(LAMMPS* lmp, Model model, Setup& setup, int nargs, char**
     options.energy = options.energy || options.dissipated_energy;
     session.pair_options = options;
     session.pair_law = setup.law;
-    session.energy = options.energy ? &session.books : nullptr;
+    session.energy = options.energy ? &session.tally : nullptr;
     session.contact_map = options.contact_map;
   }
   setup.energy = session.energy != nullptr;
@@ -99,7 +99,7 @@ template <class Style>
 inline constexpr bool has_bridges = Style::COHESION == cm::COHESION_EASO_CAPILLARY_VISCOUS ||
                                     Style::COHESION == cm::COHESION_WASHINO_CAPILLARY_VISCOUS;
 
-/// EnergyBooks books what happens in contact.
+/// The energy tally counts what happens in contact.
 template <class Style>
 void refuse_out_of_reach(const Setup& setup)
 {
@@ -144,14 +144,14 @@ void settle(LAMMPS* lmp, Setup& setup, int nargs, char** args, Call&& call)
 
 /// LIGGGHTS's combination of the five models, and with `energy on` the work of all but the normal law.
 template <class Style>
-class BookedModel : public cm::ContactModel<Style>
+class TalliedModel : public cm::ContactModel<Style>
 {
   using Base = cm::ContactModel<Style>;
 
  public:
   static constexpr bool acts_at_distance = has_bridges<Style>;
 
-  BookedModel(LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, bool is_wall, int64_t hash)
+  TalliedModel(LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, bool is_wall, int64_t hash)
       : Base(lmp, hsetup, is_wall, hash), lmp_(lmp)
   {
   }
@@ -159,9 +159,9 @@ class BookedModel : public cm::ContactModel<Style>
   void postSettings(LIGGGHTS::IContactHistorySetup* hsetup)
   {
     Base::postSettings(hsetup);
-    books_ = Setup::current->session->energy;
-    if (!books_) return;
-    for (int k = 0; k < EnergyBooks::history_values; ++k) {
+    tally_ = Setup::current->session->energy;
+    if (!tally_) return;
+    for (int k = 0; k < EnergyTally::history_values; ++k) {
       const int offset = hsetup->add_history_value(fmt::format("other_force_{}", k), "1");
       if (k == 0) offset_ = offset;
     }
@@ -170,21 +170,21 @@ class BookedModel : public cm::ContactModel<Style>
   void surfacesIntersect(cm::SurfacesIntersectData& sidata, cm::ForceData& i_forces, cm::ForceData& j_forces)
   {
     Base::surfacesIntersect(sidata, i_forces, j_forces);
-    if (books_) [[unlikely]]
-      books_->account(sidata, i_forces, &sidata.contact_history[offset_], lmp_->update->dt,
+    if (tally_) [[unlikely]]
+      tally_->account(sidata, i_forces, &sidata.contact_history[offset_], lmp_->update->dt,
                       lmp_->atom->nlocal);
   }
 
   void surfacesClose(cm::SurfacesCloseData& scdata, cm::ForceData& i_forces, cm::ForceData& j_forces)
   {
     Base::surfacesClose(scdata, i_forces, j_forces);
-    if (books_ && scdata.contact_history)
-      std::fill_n(&scdata.contact_history[offset_], EnergyBooks::history_values, 0.0);
+    if (tally_ && scdata.contact_history)
+      std::fill_n(&scdata.contact_history[offset_], EnergyTally::history_values, 0.0);
   }
 
  private:
   LAMMPS* lmp_;
-  EnergyBooks* books_ = nullptr;
+  EnergyTally* tally_ = nullptr;
   int offset_ = -1;
 };
 
@@ -199,9 +199,9 @@ inline void provide_fixes(LAMMPS* lmp)
 
 /// pair_style gran with one of our models.
 template <class Style, Model model>
-class PairStyle final : public PairLoop<BookedModel<Style>>, public CountedStyle
+class PairStyle final : public PairLoop<TalliedModel<Style>>, public CountedStyle
 {
-  using Base = PairLoop<BookedModel<Style>>;
+  using Base = PairLoop<TalliedModel<Style>>;
 
  public:
   PairStyle(LAMMPS* lmp, PairGran* parent, int64_t hash) : Base(lmp, parent, hash), lmp_(lmp), parent_(parent)
@@ -215,12 +215,12 @@ class PairStyle final : public PairLoop<BookedModel<Style>>, public CountedStyle
   }
 
   const ContactInquiry* contacts() const override { return setup_.contacts; }
-  void take_out_open(ContactLedger& ledger) const override
+  void take_out_open(ContactStatistics& statistics) const override
   {
     this->each_open_contact(*parent_, [&](int i, int j, double weight, const double* history) {
       const LAMMPS_NS::Atom& atom = *lmp_->atom;
       const double r_eff = granulaw::effective_radius(atom.radius[i], atom.radius[j]);
-      setup_.contacts->take_out(ledger, {atom.type[i], atom.type[j], r_eff, 0.0, history}, weight);
+      setup_.contacts->take_out(statistics, {atom.type[i], atom.type[j], r_eff, 0.0, history}, weight);
     });
   }
 
@@ -254,9 +254,9 @@ class PairStyle final : public PairLoop<BookedModel<Style>>, public CountedStyle
 
 /// fix wall/gran with one of our models.
 template <class Style, Model model>
-class WallStyle final : public WallLoop<BookedModel<Style>>, public CountedStyle
+class WallStyle final : public WallLoop<TalliedModel<Style>>, public CountedStyle
 {
-  using Base = WallLoop<BookedModel<Style>>;
+  using Base = WallLoop<TalliedModel<Style>>;
 
  public:
   WallStyle(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
@@ -270,11 +270,11 @@ class WallStyle final : public WallLoop<BookedModel<Style>>, public CountedStyle
 
   const ContactInquiry* contacts() const override { return setup_.contacts; }
 
-  void take_out_open(ContactLedger& ledger) const override
+  void take_out_open(ContactStatistics& statistics) const override
   {
     this->each_open_contact([&](int i, int wall_type, const double* history) {
-      setup_.contacts->take_out(ledger, {lmp_->atom->type[i], wall_type, lmp_->atom->radius[i], 0.0, history},
-                                1.0);
+      setup_.contacts->take_out(statistics,
+                                {lmp_->atom->type[i], wall_type, lmp_->atom->radius[i], 0.0, history}, 1.0);
     });
   }
 

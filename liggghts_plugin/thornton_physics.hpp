@@ -13,7 +13,7 @@ struct ThorntonContact
   ThorntonPair law{};  // in the deck's units, unstretched
   double per_stretch = 1.0;
 
-  static constexpr std::size_t turn_values = 0;  // a closed form keeps nothing
+  static constexpr std::size_t reversal_values = 0;  // a closed form keeps nothing
   double force(double r_eff, double delta, double delta_max, double, double*) const
   {
     return per_stretch * law.evaluate(r_eff, per_stretch * delta, per_stretch * delta_max).force;
@@ -38,8 +38,8 @@ struct ThorntonContact
   double largest_overlap() const
   {
     return std::numeric_limits<double>::max();
-  }                                                  // times R* stays finite or inf
-  double inertia_per_speed2() const { return 0.0; }  // the formula states no limit of velocity
+  }                                                        // times R* stays finite or inf
+  double damage_number_per_speed2() const { return 0.0; }  // the formula states no limit of velocity
 };
 
 /// Model `thornton`: yield stress of each type from `fix property/global yieldStress peratomtype`.

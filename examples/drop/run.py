@@ -29,7 +29,7 @@ NORMAL_SPEED = 0.5  # m/s, of the oblique impacts
 
 
 def collisions(quick):
-    """[(kind, speed normal to the contact m/s, angle deg)]; rho V^2/Y <= 0.008, where the law's inertia axis serves."""
+    """[(kind, speed normal to the contact m/s, angle deg)]; rho V^2/Y <= 0.008, where the law's velocity axis serves."""
     speeds = np.geomspace(0.01, 3.0, 6 if quick else 25)
     angles = (10, 40, 60, 75) if quick else range(5, 85, 5)
     return [("wall", v, 0.0) for v in speeds] + [("pair", v, 0.0) for v in speeds] + \

@@ -26,7 +26,7 @@ def curves(runs, scene, path):
     decay.set(xlabel="time, s", ylabel="kinetic energy, J", title="filling")
     mass.set(xlabel="time since opening, s", ylabel="mass discharged, kg", xlim=(0, None), title="discharge")
     rate.set(xlabel="time since opening, s", ylabel="rate, kg/s", ylim=(0, None), title="rate in windows")
-    overlap.set(xlabel="largest overlap/R* of a contact", ylabel="contacts", title="overlaps (plug-in's ledger)", xlim=(1e-6, None))
+    overlap.set(xlabel="largest overlap/R* of a contact", ylabel="contacts", title="overlaps (plug-in's contact statistics)", xlim=(1e-6, None))
     for axes in (decay, mass, rate, overlap):
         axes.grid(alpha=0.3)
         if axes.get_legend_handles_labels()[0]:

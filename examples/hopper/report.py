@@ -142,7 +142,7 @@ def write_markdown(path, runs, scene, table, times):
         ", ".join(f"{m} {v:.3f} kg/s" for m, v in expected.items()) +
         ". A 30 degree cone flows faster than a flat bottom (Rose and Tanaka's factor (tan 30 tan 45)^-0.35 = 1.21).",
         "- The total energy dissipated while filling is fixed by the fall; what the models decide is how fast, and where: "
-        "the plug-in's ledger gives the share of normal contacts, friction takes the rest. Stock Hertz keeps no ledger.",
+        "the plug-in's contact statistics give the share of normal contacts, friction takes the rest. Stock Hertz keeps no contact statistics.",
         "- The coordination number counts geometric overlaps. A plastic contact that has lost its force but not its "
         "overlap still counts: part of the difference is that.",
         "- `sampled`: from the time series every few hundred steps, so a lower bound; without the word: from every step.",

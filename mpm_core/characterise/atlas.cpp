@@ -186,9 +186,9 @@ LawShape Atlas::partner(const MaterialRatios& m) const
 {
   LawShape result = main_shape(m.stiffness, m.hardening);
   const double same_ring = m.stiffness * (1 - m.poisson_ratio) / (1 - grid_.main_poisson_ratio);
-  result.inertia =
+  result.velocity_effects =
       main_shape(std::clamp(same_ring, grid_.stiffnesses.front(), grid_.stiffnesses.back()), m.hardening)
-          .inertia;
+          .velocity_effects;
   return result;
 }
 
@@ -198,12 +198,12 @@ LawShape Atlas::shape(const MaterialRatios& m) const
   const std::vector<double> ratios = grid_.poisson_ratios();
   const std::vector<double> by_ratio = interpolation_weights(ratios, m.poisson_ratio);
   const std::vector<double>& stiffnesses = grid_.block_stiffnesses;
-  const std::vector<double> turning(
+  const std::vector<double> unloading(
       stiffnesses.begin(),
-      std::upper_bound(stiffnesses.begin(), stiffnesses.end(), AtlasGrid::block_turning_end));
+      std::upper_bound(stiffnesses.begin(), stiffnesses.end(), AtlasGrid::block_unloading_end));
   const std::vector<double> along = interpolation_weights(logarithms(stiffnesses), std::log(m.stiffness));
-  std::vector<double> along_turning = interpolation_weights(logarithms(turning), std::log(m.stiffness));
-  along_turning.resize(stiffnesses.size(), 0.0);
+  std::vector<double> along_unloading = interpolation_weights(logarithms(unloading), std::log(m.stiffness));
+  along_unloading.resize(stiffnesses.size(), 0.0);
   std::size_t next = grid_.main_plane().size();
   for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
     const double k = stiffnesses[i];
@@ -213,11 +213,11 @@ LawShape Atlas::shape(const MaterialRatios& m) const
       for (std::size_t r = 0; r < ratios.size(); ++r) {
         if (ratios[r] == grid_.main_poisson_ratio) continue;
         const Node& node = nodes_[next++];
-        if (across[j] * by_ratio[r] == 0 || (along[i] == 0 && along_turning[i] == 0)) continue;
+        if (across[j] * by_ratio[r] == 0 || (along[i] == 0 && along_unloading[i] == 0)) continue;
         LawShape change = node.shape;
         change.add(-1, partner(node.material));
         result.add_loading(along[i] * across[j] * by_ratio[r], change);
-        result.add_turning(along_turning[i] * across[j] * by_ratio[r], change);
+        result.add_unloading(along_unloading[i] * across[j] * by_ratio[r], change);
       }
   }
   return result;

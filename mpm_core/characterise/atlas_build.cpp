@@ -27,9 +27,9 @@ std::vector<MaterialRatios> all_materials(const AtlasGrid& grid)
   return all;
 }
 
-Subject sphere_of(const MaterialRatios& m)
+CharacterisedBody sphere_of(const MaterialRatios& m)
 {
-  return subject_of(m.stiffness, m.poisson_ratio, m.hardening);
+  return characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
 }
 
 double onset_of(const MaterialRatios& m)
@@ -40,7 +40,7 @@ double onset_of(const MaterialRatios& m)
 /// A slow press without yield, for the finite-sphere correction.
 RunJob elastic_job(double poisson_ratio, double depth, const RunSource& source)
 {
-  return press_job(subject_of(1.0, poisson_ratio, 0.0).elastic(), {depth, {}, 24, 2}, source);
+  return press_job(characterised_body_of(1.0, poisson_ratio, 0.0).elastic(), {depth, {}, 24, 2}, source);
 }
 
 /// Of a material that is known, else null.
@@ -53,9 +53,9 @@ const LawShape* shape_in(const KnownAtlas& known, const MaterialRatios& m)
 }
 
 /// The runs of a material, but for what is known of it.
-SurveyPlan plan_for(const MaterialRatios& m, const KnownAtlas& known)
+SamplingPlan plan_for(const MaterialRatios& m, const KnownAtlas& known)
 {
-  SurveyPlan plan = plan_survey(sphere_of(m), {});
+  SamplingPlan plan = plan_sampling(sphere_of(m), {});
   plan.ringing_resolution = 36;
   if (shape_in(known, m)) {
     plan.presses.clear(), plan.slow_impacts.clear();
@@ -68,7 +68,7 @@ SurveyPlan plan_for(const MaterialRatios& m, const KnownAtlas& known)
 LawShape at_range_of(const MaterialRatios& to, const MaterialRatios& from, const LawShape& shape)
 {
   const double share = std::log(Atlas::depth / onset_of(to)) / std::log(Atlas::depth / onset_of(from));
-  return shape.stretched(share);
+  return shape.rescaled(share);
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
     jobs.push_back(with_estimate(elastic_job(nu, ElasticSphere::depth, source)));
   }
   for (const MaterialRatios& m : all_materials(grid)) {
-    for (RunJob& job : survey_jobs(sphere_of(m), plan_for(m, known), source)) {
+    for (RunJob& job : sampling_jobs(sphere_of(m), plan_for(m, known), source)) {
       job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
                               job.label);
       jobs.push_back(std::move(job));
@@ -97,11 +97,11 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
   std::vector<ElasticSphere> spheres;
   const std::vector<double> ratios = grid.poisson_ratios();
   for (const double nu : ratios) {
-    const Pressing shallow = pressing_from(outcomes[next++].result);
+    const ContactRecord shallow = contact_record_of(outcomes[next++].result);
     const RunResult& deep = outcomes[next++].result;
     elastic.push_back(fit_elastic(shallow));
     spheres.push_back(
-        {nu, fit_elastic(std::vector{shallow, pressing_from(deep)}), deep.summary.error_estimate});
+        {nu, fit_elastic(std::vector{shallow, contact_record_of(deep)}), deep.summary.error_estimate});
   }
   const auto elastic_at = [&](double nu) {
     return elastic[static_cast<std::size_t>(std::find(ratios.begin(), ratios.end(), nu) - ratios.begin())];
@@ -124,7 +124,7 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
     return sum;
   };
 
-  const auto shallow_guide = [&](const MaterialRatios& m) -> LawShape {
+  const auto onset_similarity = [&](const MaterialRatios& m) -> LawShape {
     LawShape guide = LawShape::zero();
     const auto add_main = [&](double weight, double stiffness) {
       const MaterialRatios from{stiffness, grid.main_poisson_ratio, m.hardening};
@@ -156,20 +156,21 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
   };
 
   for (const MaterialRatios& m : all_materials(grid)) {
-    const SurveyPlan plan = plan_for(m, known);
+    const SamplingPlan plan = plan_for(m, known);
     const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
-    Survey survey;
-    add_to(survey, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
+    ContactRecords records;
+    add_to(records, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
     next += plan.runs();
     if (const LawShape* shape = shape_in(known, m)) {
       nodes.push_back({m, *shape});
       if (known.impacts_anew)
-        nodes.back().shape.inertia = fit_inertia(survey.fast, false, *shape, onset_of(m), Atlas::depth);
+        nodes.back().shape.velocity_effects =
+            fit_velocity_effects(records.fast, false, *shape, onset_of(m), Atlas::depth);
       continue;
     }
-    const bool begins_late = survey.slow.front().depth > 2 * onset_of(m);
-    const LawShape guide = begins_late ? shallow_guide(m) : LawShape::zero();
-    nodes.push_back({m, fit_shape(survey, elastic_at(m.poisson_ratio), onset_of(m), Atlas::depth,
+    const bool begins_late = records.slow.front().depth > 2 * onset_of(m);
+    const LawShape guide = begins_late ? onset_similarity(m) : LawShape::zero();
+    nodes.push_back({m, fit_shape(records, elastic_at(m.poisson_ratio), onset_of(m), Atlas::depth,
                                   begins_late ? &guide : nullptr)
                             .shape});
   }
@@ -194,23 +195,22 @@ std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, u
     c.material.stiffness = between(grid.stiffnesses.front(), grid.stiffnesses.back());
     c.material.poisson_ratio = grid.block_poisson_ratios.back() * uniform();
     c.material.hardening = uniform() < 0.25 ? 0.0 : between(1e-3, grid.hardenings.back());
-    const Subject subject = sphere_of(c.material);
-    const double onset =
-        onset_velocity(1.0, subject.yield, 1.0, subject.poisson_ratio) / std::sqrt(subject.yield);
+    const CharacterisedBody body = sphere_of(c.material);
+    const double onset = onset_velocity(1.0, body.yield, 1.0, body.poisson_ratio) / std::sqrt(body.yield);
     c.speed = between(1.5 * onset, fastest);
-    const double velocity = c.speed * std::sqrt(subject.yield);
-    const Material& m = subject.particle.materials[0];
+    const double velocity = c.speed * std::sqrt(body.yield);
+    const Material& m = body.particle.materials[0];
     BuildOptions options;
     options.depth = Atlas::depth;
     const BodyLaw law = law_from(
         atlas, {"check", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus},
         options);
     const PairLaw wall{&law.curve, PairMapping::rigid_partner(1.0), &law};
-    const Replay replay = replay_collision(wall, 1.0, subject.mass, velocity);
+    const Replay replay = replay_collision(wall, 1.0, body.mass, velocity);
     if (replay.delta_max < least_overlap) continue;
     checks.push_back(c);
     said.push_back(replay);
-    RunJob job = with_estimate(impact_job(subject, velocity, 0, RunOptions{}.phases, source));
+    RunJob job = with_estimate(impact_job(body, velocity, 0, RunOptions{}.shifted_grids, source));
     job.cost = 3;
     jobs.push_back(std::move(job));
   }

@@ -2,7 +2,7 @@
 
 #include "characterise/atlas.hpp"
 #include "characterise/farm.hpp"
-#include "characterise/survey.hpp"
+#include "characterise/sampling_plan.hpp"
 
 namespace granulaw {
 
@@ -13,8 +13,8 @@ struct KnownAtlas
   bool impacts_anew = false;     ///< they stay but for what inertia changes: their fast impacts are run
 };
 
-/// Every run that an atlas needs: elastic presses, then the surveys of all its materials, but for what is
-/// known.
+/// Every run that an atlas needs: elastic presses, then the sampling plans of all its materials, but for what
+/// is known.
 std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, const KnownAtlas& known = {});
 
 /// The atlas from these runs' results, in the order of atlas_jobs() with the same `known`. Very stiff

@@ -32,11 +32,11 @@ constexpr Field elastic{"elastic", "1", "c1, c2, d1 of each material"};
 constexpr Field elastic_spheres{"elastic_spheres", "1",
                                 "without yield, to 0.2 R: rows of Poisson's ratio, c1, c2, c3, d1, largest "
                                 "misfit of F, the solver's error"};
-constexpr Field softening{"softening", "1", "-ln(F/F_elastic) at the nodes of each material"};
+constexpr Field force_reduction{"softening", "1", "-ln(F/F_elastic) at the nodes of each material"};
 constexpr Field widening{"widening", "1", "ln(a/a_elastic) at the nodes of each material"};
 constexpr Field residual{"residual", "1", "-ln(1 - delta_r/delta_m) at the nodes of each material"};
 constexpr Field dissipation{"dissipation", "1", "-ln(W_u/W_L) at the nodes of each material"};
-constexpr Field foot{"foot", "1", "A - A_elastic of the unloading at the nodes of each material"};
+constexpr Field hertz_share{"foot", "1", "A - A_elastic of the unloading at the nodes of each material"};
 constexpr Field reach{"impact_reach", "1", "ln(X/v) at the speeds of each material"};
 constexpr Field impact_dissipation{"impact_dissipation", "1", "dissipation over the slow press's, less 1"};
 constexpr Field impact_residual{"impact_residual", "1", "residual over the slow press's, less 1"};
@@ -52,19 +52,19 @@ struct Curve
   const Field& field;
   std::vector<double> LawShape::*values;
 };
-constexpr Curve curves[] = {{softening, &LawShape::softening},
+constexpr Curve curves[] = {{force_reduction, &LawShape::force_reduction},
                             {widening, &LawShape::widening},
                             {residual, &LawShape::residual},
                             {dissipation, &LawShape::dissipation},
-                            {foot, &LawShape::foot}};
+                            {hertz_share, &LawShape::hertz_share}};
 struct ImpactNumber
 {
   const Field& field;
-  double LawShape::Inertia::*value;
+  double LawShape::VelocityEffect::*value;
 };
-constexpr ImpactNumber impact_numbers[] = {{reach, &LawShape::Inertia::reach},
-                                           {impact_dissipation, &LawShape::Inertia::dissipation},
-                                           {impact_residual, &LawShape::Inertia::residual}};
+constexpr ImpactNumber impact_numbers[] = {{reach, &LawShape::VelocityEffect::log_overlap},
+                                           {impact_dissipation, &LawShape::VelocityEffect::dissipation},
+                                           {impact_residual, &LawShape::VelocityEffect::residual}};
 
 /// A dataset of exactly `count` finite numbers.
 std::vector<double> read_numbers(hid_t group, const Field& field, std::size_t count, const std::string& path)
@@ -114,10 +114,11 @@ void write_atlas(const Atlas& atlas, const std::string& path)
       });
     for (const ImpactNumber& n : impact_numbers)
       gather(n.field, [&](const auto& node, auto& v) {
-        for (const LawShape::Inertia& i : node.shape.inertia) v.push_back(i.*n.value);
+        for (const LawShape::VelocityEffect& i : node.shape.velocity_effects) v.push_back(i.*n.value);
       });
     gather(impact_force, [](const auto& node, auto& v) {
-      for (const LawShape::Inertia& i : node.shape.inertia) v.insert(v.end(), i.force.begin(), i.force.end());
+      for (const LawShape::VelocityEffect& i : node.shape.velocity_effects)
+        v.insert(v.end(), i.force.begin(), i.force.end());
     });
     std::vector<double> spheres;
     for (const auto& [nu, fit, solver_error] : atlas.elastic_spheres())
@@ -157,7 +158,7 @@ Atlas read_atlas(const std::string& path)
   grid.block_poisson_ratios = h5::read_vector(file, block_poisson_ratios, most, path);
 
   const std::vector<double> k = h5::read_vector(file, stiffness, most, path);
-  const std::size_t count = k.size(), speeds = std::size(inertia_speeds);
+  const std::size_t count = k.size(), speeds = std::size(impact_speeds);
   const std::vector<double> nu = read_numbers(file, poisson_ratio, count, path);
   const std::vector<double> h = read_numbers(file, hardening, count, path);
   const std::vector<double> e = read_numbers(file, elastic, 3 * count, path);
@@ -174,12 +175,12 @@ Atlas read_atlas(const std::string& path)
   for (const ImpactNumber& n : impact_numbers) {
     const std::vector<double> all = read_numbers(file, n.field, count * speeds, path);
     for (std::size_t i = 0; i < all.size(); ++i)
-      nodes[i / speeds].shape.inertia[i % speeds].*n.value = all[i];
+      nodes[i / speeds].shape.velocity_effects[i % speeds].*n.value = all[i];
   }
-  constexpr std::size_t shares = LawShape::Inertia::shares;
+  constexpr std::size_t shares = LawShape::VelocityEffect::shares;
   const std::vector<double> forces = read_numbers(file, impact_force, count * speeds * shares, path);
   for (std::size_t i = 0; i < forces.size(); ++i)
-    nodes[i / (speeds * shares)].shape.inertia[i / shares % speeds].force[i % shares] = forces[i];
+    nodes[i / (speeds * shares)].shape.velocity_effects[i / shares % speeds].force[i % shares] = forces[i];
 
   std::vector<ElasticSphere> spheres;
   const std::vector<double> rows =

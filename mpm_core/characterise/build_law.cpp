@@ -10,10 +10,10 @@
 #include "base/error.hpp"
 #include "characterise/fit_curve.hpp"
 #include "characterise/interpolation.hpp"
-#include "characterise/shallow_guide.hpp"
+#include "characterise/onset_similarity.hpp"
 #include "law/replay.hpp"
 #include "solver/accuracy.hpp"
-#include "solver/ripple.hpp"
+#include "solver/grid_noise.hpp"
 
 namespace granulaw {
 
@@ -21,13 +21,13 @@ namespace {
 
 constexpr int most_rounds = 5;
 constexpr int resolutions[] = {24, 34, 48, 68};
-constexpr double coarse_speeds[] = {0.06, 0.15, 0.25};  // sqrt(I): where a survey begins
+constexpr double coarse_speeds[] = {0.06, 0.15, 0.25};  // sqrt(I): where a sampling plan begins
 
 void check(const BuildOptions& o)
 {
   if (!(o.depth > 0 && o.depth <= 0.5))
     fail("depth of the law", "cannot be used", fmt::format("{:g} R", o.depth), "over 0, up to 0.5 R");
-  const double most = inertia_speeds[std::size(inertia_speeds) - 1];
+  const double most = impact_speeds[std::size(impact_speeds) - 1];
   if (!(o.fastest >= 0 && o.fastest <= most))
     fail("fastest impact of the law", "cannot be used",
          fmt::format("I = rho V^2/Y = {:g}", o.fastest * o.fastest), fmt::format("0 to {:g}", most * most));
@@ -61,29 +61,31 @@ double counted(double error, double restitution)
 /// Error of F_max of the finer of two impacts of four grids, relative. In 52 (sqrt(I) = 0.1, E*/Y 30 to 4900,
 /// nu 0 to 0.45, H/E 0 to 0.2) 24 cells were off 48 by up to 0.6 %, and by no more than this: runs agree by
 /// chance to less than 0.35 %.
-double peak_error(const RunResult& fine, const RunResult& coarse, double ripple)
+double peak_error(const RunResult& fine, const RunResult& coarse, double grid_noise)
 {
   const RunSummary &f = fine.summary, &c = coarse.summary;
-  return std::max({1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * ripple, 0.0035 * 24 / f.resolution});
+  return std::max(
+      {1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * grid_noise, 0.0035 * 24 / f.resolution});
 }
 double error_of_peak(const RunResult& fine, const RunResult& coarse)
 {
-  return peak_error(fine, coarse, fine.summary.ripple);
+  return peak_error(fine, coarse, fine.summary.grid_noise);
 }
 
-/// The same of a body whose force falls with its rate before the turn: that, too, is scatter about the fit
-/// that tells the ripple, but both resolutions have it. Ripple falls as cells^1.65.
+/// The same of a body whose force falls with its rate before the reversal: that, too, is scatter about the
+/// fit that tells the grid noise, but both resolutions have it. Grid noise falls as cells^1.65.
 double error_of_rated_peak(const RunResult& fine, const RunResult& coarse)
 {
   const RunSummary &f = fine.summary, &c = coarse.summary;
   const double fall = std::pow(static_cast<double>(c.resolution) / f.resolution, 2 * 1.65);
-  const double square = std::max(0.0, c.ripple * c.ripple - f.ripple * f.ripple) * fall / (1 - fall);
+  const double square =
+      std::max(0.0, c.grid_noise * c.grid_noise - f.grid_noise * f.grid_noise) * fall / (1 - fall);
   return peak_error(fine, coarse, std::sqrt(square));
 }
 
-/// The same of a press's loading, where a law is fitted to it. The law passes through the ripple, which is no
-/// error of it. From 17 to 24 cells errors fall by 1.8 and more (24 off 48 cells: 0.5 % at E*/Y = 100, 0.1 %
-/// at 500, 0.2 and, to 0.2 R, 0.6 % at 2000): the difference is more than 0.7 of the finer one's.
+/// The same of a press's loading, where a law is fitted to it. The law passes through the grid noise, which
+/// is no error of it. From 17 to 24 cells errors fall by 1.8 and more (24 off 48 cells: 0.5 % at E*/Y = 100,
+/// 0.1 % at 500, 0.2 and, to 0.2 R, 0.6 % at 2000): the difference is more than 0.7 of the finer one's.
 double error_of_loading(const RunResult& fine, const RunResult& coarse)
 {
   const TreatedLoading a(fine.trace), b(coarse.trace);
@@ -105,41 +107,39 @@ double error_of_restitution(const RunResult& fine, const RunResult& coarse)
 }
 
 /// sqrt(I) of the slowest impact on a rate axis.
-double slowest_of(const Subject& subject, const BuildOptions& o)
+double slowest_of(const CharacterisedBody& body, const BuildOptions& o)
 {
-  const double onset =
-      onset_velocity(1.0, subject.yield, 1.0, subject.poisson_ratio) / std::sqrt(subject.yield);
+  const double onset = onset_velocity(1.0, body.yield, 1.0, body.poisson_ratio) / std::sqrt(body.yield);
   const double wanted = o.slowest > 0 ? o.slowest : o.fastest / 50;
   return std::min(std::max(wanted, onset), 0.5 * o.fastest);
 }
 
 /// The law's curve and axis from its shape, which ends at `shape_end`. Returns the largest relative error of
 /// the force that the table's cubics add to the shape; fills what leaving the axis out would cost.
-double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject, const BuildOptions& options,
-                    double shape_end)
+double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
+                    const BuildOptions& options, double shape_end)
 {
-  const ContactCurve slow = tabulate(shape, subject.onset, shape_end, options.depth);
-  const double error = table_error(shape, subject.onset, shape_end, slow);
+  const ContactCurve slow = tabulate(shape, body.onset, shape_end, options.depth);
+  const double error = table_error(shape, body.onset, shape_end, slow);
   if (options.fastest == 0) {
     law.curve = slow;
     return error;
   }
-  const bool rate = subject.rate_dependent();
-  const InertiaAxis::Table axis =
-      rate
-          ? tabulate_rate(shape, slow, 1 / subject.yield, subject.mass, options.fastest, subject.scale.length)
-          : tabulate_inertia(shape, slow, 1 / subject.yield, subject.mass, options.fastest);
-  law.certificate.max_inertia = axis.speed_end * axis.speed_end;
+  const bool rate = body.rate_dependent();
+  const VelocityAxis::Table axis =
+      rate ? tabulate_rate(shape, slow, 1 / body.yield, body.mass, options.fastest, body.scale.length)
+           : tabulate_inertia(shape, slow, 1 / body.yield, body.mass, options.fastest);
+  law.certificate.damage_number_max = axis.speed_end * axis.speed_end;
   law.curve = ContactCurve(slow.table(), axis, law.material.name);
   require_admissible(law.curve);
 
-  const Scales unit{subject.scale.length, law.material.e_star(), law.material.density};
+  const Scales unit{body.scale.length, law.material.e_star(), law.material.density};
   const auto replay = [&](const ContactCurve& curve, double v) {
-    BodyLaw body = law;
-    body.curve = curve;
-    const PairLaw wall{&body.curve, PairMapping::rigid_partner(law.material.e_star()), &body};
-    return replay_collision(wall, unit.length, subject.mass * unit.mass(),
-                            v * std::sqrt(subject.yield) * unit.velocity());
+    BodyLaw other = law;
+    other.curve = curve;
+    const PairLaw wall{&other.curve, PairMapping::rigid_partner(law.material.e_star()), &other};
+    return replay_collision(wall, unit.length, body.mass * unit.mass(),
+                            v * std::sqrt(body.yield) * unit.velocity());
   };
   double worst = 0;
   // what a rate raises at the fast end inertia may take away again
@@ -160,15 +160,15 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const Subject& subject,
 class Build
 {
  public:
-  Build(const LawMaterial& material, const Subject& subject, const BuildOptions& options,
+  Build(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
         const RunSource& source)
-      : subject_(subject),
-        slow_(subject.rate_dependent() ? subject.rate_free() : subject),
+      : body_(body),
+        slow_(body.rate_dependent() ? body.rate_free() : body),
         options_(options),
         source_(source)
   {
     built_.law.material = material;
-    if (!subject.rate_dependent() || !slow_.is_plain()) return;
+    if (!body.rate_dependent() || !slow_.is_plain()) return;
     if (!options.atlas || options.tolerance < options.atlas->claimed_force()) return;
     if (const MaterialRatios ratios = MaterialRatios::of(material); options.atlas->why_not(ratios).empty())
       known_ = options.atlas->shape(ratios);
@@ -182,40 +182,41 @@ class Build
   /// Where the shape's functions of u end.
   double shape_end() const { return known_ ? Atlas::depth : options_.depth; }
   std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, double until);
-  /// A plan of a body, and the survey that its runs go to.
-  struct SurveyPart
+  /// A plan of a body, and the sampling plan that its runs go to.
+  struct SamplingPart
   {
-    const Subject& subject;
-    const SurveyPlan& plan;
-    Survey& survey;
+    const CharacterisedBody& body;
+    const SamplingPlan& plan;
+    ContactRecords& records;
   };
-  void run(const std::vector<SurveyPart>& parts, double until);
+  void run(const std::vector<SamplingPart>& parts, double until);
   struct Probe
   {
     std::function<RunJob(int cells)> run;
     double (*error_of_force)(const RunResult& fine, const RunResult& coarse);
     int* resolution;  // to be chosen
   };
-  std::vector<Probe> probes(const SurveyPlan& plan);
+  std::vector<Probe> probes(const SamplingPlan& plan);
   void choose_resolutions(std::vector<Probe> probes);
   /// What shorter ramps change is a tenth of a per cent.
   bool brisk() const { return options_.tolerance >= 0.005; }
   RunJob elastic_press() const;
   ElasticCorrection elastic_correction();
-  std::optional<ShallowGuide> shallow_guide(double first) const;
-  void heed_early_yield(const Survey& survey);
-  FittedShape fit(const Survey& survey, const std::optional<ShallowGuide>& guide) const;
-  SurveyPlan refinement(const FittedShape& fitted, const Survey& survey, const std::vector<double>& overlaps,
-                        const std::vector<double>& speeds) const;
-  std::vector<double> more_speeds(const std::vector<LawShape::Inertia>& found,
-                                  const std::vector<Survey::Impact>& impacts,
+  std::optional<OnsetSimilarity> onset_similarity(double first) const;
+  void heed_early_yield(const ContactRecords& records);
+  FittedShape fit(const ContactRecords& records, const std::optional<OnsetSimilarity>& guide) const;
+  SamplingPlan refinement(const FittedShape& fitted, const ContactRecords& records,
+                          const std::vector<double>& overlaps, const std::vector<double>& speeds) const;
+  std::vector<double> more_speeds(const std::vector<LawShape::VelocityEffect>& found,
+                                  const std::vector<ContactRecords::Impact>& impacts,
                                   const std::vector<double>& tried) const;
   void verify(const std::vector<double>& speeds);
 
   BuiltLaw built_;
   BodyLaw& law_ = built_.law;
-  Subject subject_;  ///< its onset is what the runs show, where that is earlier than foreseen
-  Subject slow_;     ///< the body at no rate: its law is the rate-free one, the speed axis brings the rate in
+  CharacterisedBody body_;  ///< its onset is what the runs show, where that is earlier than foreseen
+  CharacterisedBody
+      slow_;  ///< the body at no rate: its law is the rate-free one, the speed axis brings the rate in
   const BuildOptions& options_;
   const RunSource& source_;
   std::optional<LawShape> known_;  ///< a rate-dependent body's law at no rate, where the atlas tells it
@@ -241,33 +242,34 @@ std::vector<RunOutcome> Build::run(const std::vector<RunJob>& jobs, double until
 }
 
 /// The same of several plans, as one batch.
-void Build::run(const std::vector<SurveyPart>& parts, double until)
+void Build::run(const std::vector<SamplingPart>& parts, double until)
 {
   std::vector<RunJob> jobs;
-  for (const SurveyPart& part : parts)
-    for (RunJob& job : survey_jobs(part.subject, part.plan, source_)) jobs.push_back(std::move(job));
+  for (const SamplingPart& part : parts)
+    for (RunJob& job : sampling_jobs(part.body, part.plan, source_)) jobs.push_back(std::move(job));
   const std::vector<RunOutcome> outcomes = run(jobs, until);
   auto next = outcomes.begin();
-  for (const SurveyPart& part : parts) {
+  for (const SamplingPart& part : parts) {
     const auto end = next + static_cast<std::ptrdiff_t>(part.plan.runs());
-    add_to(part.survey, part.plan, {next, end});
+    add_to(part.records, part.plan, {next, end});
     next = end;
   }
 }
 
-/// What shows the error of a plan's runs: the cheapest of its presses on shifted grids, which the survey
-/// takes over, and a fast impact, which rings and may want more cells than a press, but costs less.
-std::vector<Build::Probe> Build::probes(const SurveyPlan& plan)
+/// What shows the error of a plan's runs: the cheapest of its presses on shifted grids, which the sampling
+/// plan takes over, and a fast impact, which rings and may want more cells than a press, but costs less.
+std::vector<Build::Probe> Build::probes(const SamplingPlan& plan)
 {
   std::vector<Probe> probes;
   const double speed = options_.fastest > 0 ? std::min(0.1, options_.fastest) : 0.1;
-  // two shifted grids leave so much ripple that their difference is chance
-  probes.push_back({[this, velocity = speed * std::sqrt(subject_.yield)](int cells) {
-                      return impact_job(subject_, velocity, cells, fast_phases, source_);
+  // two shifted grids leave so much grid noise that their difference is chance
+  probes.push_back({[this, velocity = speed * std::sqrt(body_.yield)](int cells) {
+                      return impact_job(body_, velocity, cells, fast_shifted_grids, source_);
                     },
-                    subject_.rate_dependent() ? error_of_rated_peak : error_of_peak, &impact_cells_});
-  const auto cost = [&](const SurveyPlan::Press& press) {
-    return press.phases > 1 ? press_job(slow_, press, source_).cost : std::numeric_limits<double>::infinity();
+                    body_.rate_dependent() ? error_of_rated_peak : error_of_peak, &impact_cells_});
+  const auto cost = [&](const SamplingPlan::Press& press) {
+    return press.shifted_grids > 1 ? press_job(slow_, press, source_).cost
+                                   : std::numeric_limits<double>::infinity();
   };
   const auto cheapest = std::min_element(plan.presses.begin(), plan.presses.end(),
                                          [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
@@ -290,12 +292,12 @@ void Build::choose_resolutions(std::vector<Probe> probes)
     std::vector<RunJob> jobs;
     for (const Probe& probe : probes)
       for (const int cells : {resolution, coarse_partner(resolution)}) jobs.push_back(probe.run(cells));
-    const bool elastic = subject_.yields() && !known_ && resolution == resolutions[0];
+    const bool elastic = body_.yields() && !known_ && resolution == resolutions[0];
     if (elastic) jobs.push_back(elastic_press());
     const std::vector<RunOutcome> outcomes = run(jobs, 0.05);
     for (const RunOutcome& outcome : outcomes)
       if (outcome.failed()) fail("mpm table", "one of the first runs fails: " + outcome.error);
-    if (elastic) elastic_ = fit_elastic(pressing_from(outcomes.back().result));
+    if (elastic) elastic_ = fit_elastic(contact_record_of(outcomes.back().result));
 
     std::vector<Probe> open;
     for (std::size_t k = 0; k < probes.size(); ++k) {
@@ -312,7 +314,7 @@ void Build::choose_resolutions(std::vector<Probe> probes)
     }
     probes = open;
     if (probes.empty()) {
-      if (subject_.yields() && !known_ && press_cells_ > resolutions[0]) elastic_ = elastic_correction();
+      if (body_.yields() && !known_ && press_cells_ > resolutions[0]) elastic_ = elastic_correction();
       return;
     }
   }
@@ -322,74 +324,75 @@ void Build::choose_resolutions(std::vector<Probe> probes)
 
 RunJob Build::elastic_press() const
 {
-  return press_job(subject_.elastic(), elastic_press_of(subject_, press_cells_), source_);
+  return press_job(body_.elastic(), elastic_press_of(body_, press_cells_), source_);
 }
 
 ElasticCorrection Build::elastic_correction()
 {
   const RunOutcome outcome = run({elastic_press()}, done_ + 0.05)[0];
   if (outcome.failed()) fail("mpm table", "the elastic press fails: " + outcome.error);
-  return fit_elastic(pressing_from(outcome.result));
+  return fit_elastic(contact_record_of(outcome.result));
 }
 
-/// The onset foreseen for a body of several materials is an estimate: a run that turned before it and lost
+/// The onset foreseen for a body of several materials is an estimate: a run that reversed before it and lost
 /// energy has yielded.
-void Build::heed_early_yield(const Survey& survey)
+void Build::heed_early_yield(const ContactRecords& records)
 {
   constexpr double lost = 0.01;  // of the work: the waves that a slow elastic run leaves in the body are less
-  for (const Pressing& p : survey.slow)
-    if (p.work_ratio < 1 - lost) subject_.onset = std::min(subject_.onset, 0.7 * p.depth);
+  for (const ContactRecord& p : records.slow)
+    if (p.work_ratio < 1 - lost) body_.onset = std::min(body_.onset, 0.7 * p.depth);
 }
 
 /// What tells the law below `first`, the overlap of the shallowest run planned, if that is far from the
 /// onset.
-std::optional<ShallowGuide> Build::shallow_guide(double first) const
+std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
 {
-  if (known_ || first <= 2 * subject_.onset) return {};
-  ShallowGuide::Needs needs;
+  if (known_ || first <= 2 * body_.onset) return {};
+  OnsetSimilarity::Needs needs;
   needs.first = first, needs.depth = options_.depth;
   needs.brisk = brisk(), needs.press_cells = press_cells_;
-  return ShallowGuide(subject_, needs, options_.atlas);
+  return OnsetSimilarity(body_, needs, options_.atlas);
 }
 
-FittedShape Build::fit(const Survey& survey, const std::optional<ShallowGuide>& guide) const
+FittedShape Build::fit(const ContactRecords& records, const std::optional<OnsetSimilarity>& guide) const
 {
   if (known_) {
     FittedShape fitted{*known_, {}};
-    fitted.shape.inertia = fit_inertia(survey.fast, survey.rate, *known_, subject_.onset, shape_end());
+    fitted.shape.velocity_effects =
+        fit_velocity_effects(records.fast, records.rate, *known_, body_.onset, shape_end());
     return fitted;
   }
-  if (!guide) return fit_shape(survey, elastic_, subject_.onset, options_.depth);
+  if (!guide) return fit_shape(records, elastic_, body_.onset, options_.depth);
   const LawShape shape = guide->shape(elastic_);
-  return fit_shape(survey, elastic_, subject_.onset, options_.depth, &shape, guide->end());
+  return fit_shape(records, elastic_, body_.onset, options_.depth, &shape, guide->end());
 }
 
-/// Error of e at the k-th turning point of the law fitted without it, as it counts.
-double held_out(const FittedShape& fitted, const Survey& survey, std::size_t k)
+/// Error of e at the k-th reversal point of the law fitted without it, as it counts.
+double held_out(const FittedShape& fitted, const ContactRecords& records, std::size_t k)
 {
-  return counted(fitted.quality.held_out_each[k], std::sqrt(std::max(0.0, survey.slow[k].work_ratio)));
+  return counted(fitted.quality.held_out_each[k], std::sqrt(std::max(0.0, records.slow[k].work_ratio)));
 }
 
 /// Halves the neighbourhood of what the law fitted without it was wrong about. `tried_overlaps` and
 /// `tried_speeds` are not asked for again.
-SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey,
-                             const std::vector<double>& tried_overlaps,
-                             const std::vector<double>& tried_speeds) const
+SamplingPlan Build::refinement(const FittedShape& fitted, const ContactRecords& records,
+                               const std::vector<double>& tried_overlaps,
+                               const std::vector<double>& tried_speeds) const
 {
-  SurveyPlan more;
+  SamplingPlan more;
   std::vector<double> overlaps;
-  for (std::size_t k = 0; k < survey.slow.size(); ++k) {
-    if (held_out(fitted, survey, k) <= options_.tolerance) continue;
+  for (std::size_t k = 0; k < records.slow.size(); ++k) {
+    if (held_out(fitted, records, k) <= options_.tolerance) continue;
     for (const std::size_t other : {k - 1, k + 1})
-      if (other < survey.slow.size()) {
-        const double middle = std::sqrt(survey.slow[k].depth * survey.slow[other].depth);
+      if (other < records.slow.size()) {
+        const double middle = std::sqrt(records.slow[k].depth * records.slow[other].depth);
         if (is_new(middle, tried_overlaps) && is_new(middle, overlaps)) overlaps.push_back(middle);
       }
   }
   std::sort(overlaps.begin(), overlaps.end());
   for (std::size_t k = overlaps.size(); k-- > 0;) {
     if (overlaps[k] < 1e-3) {
-      more.slow_impacts.push_back(velocity_to(overlaps[k], subject_));
+      more.slow_impacts.push_back(velocity_to(overlaps[k], body_));
     } else if (more.presses.empty() || more.presses.back().depth > 4 * overlaps[k]) {
       more.presses.push_back(
           {overlaps[k], {}, press_cells_, 2, brisk() ? brisk_ramp(slow_, overlaps[k]) : 0.0});
@@ -398,17 +401,17 @@ SurveyPlan Build::refinement(const FittedShape& fitted, const Survey& survey,
       stops.insert(stops.begin(), overlaps[k]);
     }
   }
-  more.fast_speeds = more_speeds(fitted.shape.inertia, survey.fast, tried_speeds);
+  more.fast_speeds = more_speeds(fitted.shape.velocity_effects, records.fast, tried_speeds);
   return more;
 }
 
 /// Speeds half-way to the neighbours of each impact whose e, or of a rate-dependent body also force at the
 /// turn, is not as its neighbours would have it: even steps, a rate in the logarithm.
-std::vector<double> Build::more_speeds(const std::vector<LawShape::Inertia>& found,
-                                       const std::vector<Survey::Impact>& impacts,
+std::vector<double> Build::more_speeds(const std::vector<LawShape::VelocityEffect>& found,
+                                       const std::vector<ContactRecords::Impact>& impacts,
                                        const std::vector<double>& tried) const
 {
-  const bool rate = subject_.rate_dependent();
+  const bool rate = body_.rate_dependent();
   const auto coordinate = [&](double speed) { return rate ? std::log(speed) : speed; };
   std::vector<double> more;
   for (std::size_t k = 0; k < impacts.size(); ++k) {
@@ -443,17 +446,17 @@ void Build::verify(const std::vector<double>& speeds)
 {
   std::vector<RunJob> jobs;
   for (const double v : speeds)
-    jobs.push_back(impact_job(subject_, v * std::sqrt(subject_.yield), impact_cells_, fast_phases, source_));
+    jobs.push_back(impact_job(body_, v * std::sqrt(body_.yield), impact_cells_, fast_shifted_grids, source_));
   const std::vector<RunOutcome> outcomes = run(jobs, 1.0);
   Certificate& c = law_.certificate;
   const LawMaterial& m = law_.material;
   const PairLaw wall{&law_.curve, PairMapping::rigid_partner(m.e_star()), &law_};
-  const Scales unit{subject_.scale.length, m.e_star(), m.density};
+  const Scales unit{body_.scale.length, m.e_star(), m.density};
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     if (outcomes[k].failed()) continue;
     const RunSummary& run = outcomes[k].result.summary;
-    const Replay replay = replay_collision(wall, unit.length, subject_.mass * unit.mass(),
-                                           speeds[k] * std::sqrt(subject_.yield) * unit.velocity());
+    const Replay replay = replay_collision(wall, unit.length, body_.mass * unit.mass(),
+                                           speeds[k] * std::sqrt(body_.yield) * unit.velocity());
     const double force = std::abs(replay.force_max / unit.force() / run.force_max - 1),
                  e = std::abs(replay.restitution / run.restitution - 1);
     c.verification_error_force = std::max(c.verification_error_force, force);
@@ -467,16 +470,16 @@ void Build::elastic()
 {
   Certificate& c = law_.certificate;
   choose_resolutions({{[&](int cells) {
-                         return press_job(subject_, {options_.depth, {}, cells, 2}, source_);
+                         return press_job(body_, {options_.depth, {}, cells, 2}, source_);
                        },
                        error_of_loading, &press_cells_}});
   std::vector<RunJob> jobs;
   for (const double share : {0.15, 1.0})  // the contact of the deep press begins with too few cells
-    jobs.push_back(press_job(subject_, {share * options_.depth, {}, press_cells_, 2}, source_));
-  std::vector<Pressing> presses;
+    jobs.push_back(press_job(body_, {share * options_.depth, {}, press_cells_, 2}, source_));
+  std::vector<ContactRecord> presses;
   for (const RunOutcome& outcome : run(jobs, 1.0)) {
     if (outcome.failed()) fail("mpm table", "the elastic press fails: " + outcome.error);
-    presses.push_back(pressing_from(outcome.result));
+    presses.push_back(contact_record_of(outcome.result));
   }
   const ElasticFit fit = fit_elastic(presses);
   law_.curve = ContactCurve(tabulate_elastic(fit.correction, options_.depth), law_.material.name);
@@ -486,79 +489,79 @@ void Build::elastic()
   for (const auto& [x, f, a] : presses.back().loading)
     if (x > 0.5 * presses.back().depth) sum += std::pow(f / law_.curve.loading(x).force - 1, 2), ++count;
   c.residual_scatter = count ? std::sqrt(sum / count) : 0;
-  c.max_inertia = std::numeric_limits<double>::infinity();
+  c.damage_number_max = std::numeric_limits<double>::infinity();
   built_.runs_full = built_.runs;
 }
 
 void Build::plastic()
 {
-  if (subject_.onset > 0.2 * options_.depth)
+  if (body_.onset > 0.2 * options_.depth)
     fail(fmt::format("material '{}'", law_.material.name),
          "yields too late in the overlaps that a law covers",
-         fmt::format("onset at delta/R = {:.3g}", subject_.onset),
+         fmt::format("onset at delta/R = {:.3g}", body_.onset),
          fmt::format("up to {:.3g}", 0.2 * options_.depth));
-  if (subject_.rate_dependent() && options_.fastest == 0)
+  if (body_.rate_dependent() && options_.fastest == 0)
     fail(fmt::format("material '{}'", law_.material.name),
          "depends on the rate: its law needs impacts, not the rate-free law alone", "I = 0", "over 0");
-  SurveyRange range;
+  SamplingRange range;
   range.depth = options_.depth;
   range.fastest = options_.fastest;
   range.brisk = brisk();
-  SurveyPlan full = plan_survey(slow_, range);
+  SamplingPlan full = plan_sampling(slow_, range);
   range.stops = 2;
   range.speeds = coarse_speeds;
-  SurveyPlan plan = plan_survey(slow_, range);
+  SamplingPlan plan = plan_sampling(slow_, range);
   const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
                                                  : expected_depth(plan.slow_impacts.front(), slow_);
   if (known_) plan.presses.clear(), plan.slow_impacts.clear();
   choose_resolutions(probes(plan));
-  for (SurveyPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
+  for (SamplingPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
   // The fastest asked for is always run: nothing may be extrapolated.
   if (options_.fastest > 0 && (plan.fast_speeds.empty() || plan.fast_speeds.back() < options_.fastest))
     plan.fast_speeds.push_back(options_.fastest);
-  if (subject_.rate_dependent()) {
-    const double slowest = slowest_of(subject_, options_);
+  if (body_.rate_dependent()) {
+    const double slowest = slowest_of(body_, options_);
     plan.fast_speeds = by_factors(slowest, options_.fastest, 2.2);
     full.fast_speeds = by_factors(slowest, options_.fastest, std::sqrt(2.2));
   }
 
-  std::optional<ShallowGuide> guide = shallow_guide(first);
+  std::optional<OnsetSimilarity> guide = onset_similarity(first);
   // the first impact would show what is known then, for a third of the time
   if (guide && guide->spares_first() && !plan.slow_impacts.empty())
     plan.slow_impacts.erase(plan.slow_impacts.begin());
 
-  Survey survey;
-  survey.rate = subject_.rate_dependent();
+  ContactRecords records;
+  records.rate = body_.rate_dependent();
   FittedShape fitted;
   std::vector<double> tried_overlaps, tried_speeds;
   built_.runs = 0;
   for (int round = 0; round < most_rounds; ++round) {
-    SurveyPlan impacts = plan;
+    SamplingPlan impacts = plan;
     impacts.presses.clear(), impacts.slow_impacts.clear();
     impacts.resolution = impact_cells_;
     plan.fast_speeds.clear();
     plan.resolution = press_cells_;
-    std::vector<SurveyPart> parts{{slow_, plan, survey}, {subject_, impacts, survey}};
+    std::vector<SamplingPart> parts{{slow_, plan, records}, {body_, impacts, records}};
     if (guide && round == 0)
-      for (ShallowGuide::Sphere& sphere : guide->spheres())
-        parts.push_back({sphere.subject, sphere.plan, sphere.found});
+      for (OnsetSimilarity::Sphere& sphere : guide->spheres())
+        parts.push_back({sphere.body, sphere.plan, sphere.found});
     run(parts, done_ + 0.7 * (0.9 - done_));
-    if (!subject_.particle.is_homogeneous_sphere()) heed_early_yield(survey);
-    fitted = fit(survey, guide);
-    for (const Pressing& p : survey.slow) tried_overlaps.push_back(p.depth);
-    for (const Survey::Impact& i : survey.fast) tried_speeds.push_back(i.speed);
-    plan = refinement(fitted, survey, tried_overlaps, tried_speeds);
+    if (!body_.particle.is_homogeneous_sphere()) heed_early_yield(records);
+    fitted = fit(records, guide);
+    for (const ContactRecord& p : records.slow) tried_overlaps.push_back(p.depth);
+    for (const ContactRecords::Impact& i : records.fast) tried_speeds.push_back(i.speed);
+    plan = refinement(fitted, records, tried_overlaps, tried_speeds);
     if (plan.runs() == 0) break;
   }
   built_.runs_full = full.runs();
   if (guide) {
     built_.shallow = guide->how();
-    for (const ShallowGuide::Sphere& sphere : guide->spheres()) built_.runs_full += sphere.plan.runs();
+    for (const OnsetSimilarity::Sphere& sphere : guide->spheres()) built_.runs_full += sphere.plan.runs();
   }
 
   Certificate& c = law_.certificate;
-  c.max_inertia = options_.fastest * options_.fastest;
-  c.reload_loop_area = survey.reload_loop;
+  c.damage_number_max = options_.fastest * options_.fastest;
+  c.reload_loop_area = records.reload_loop;
   c.residual_scatter = fitted.quality.scatter;
   c.held_out_error = fitted.quality.held_out;
   if (known_) {
@@ -566,15 +569,15 @@ void Build::plastic()
     c.atlas_error_force = options_.atlas->claimed_force();
     c.atlas_error_restitution = options_.atlas->claimed_restitution();
   }
-  for (std::size_t k = 0; k < survey.slow.size(); ++k)
-    built_.sampling_error = std::max(built_.sampling_error, held_out(fitted, survey, k));
-  c.interpolation_error = finish_curve(law_, fitted.shape, subject_, options_, shape_end());
-  built_.change_of_restitution = change_of_restitution(fitted.shape, subject_.onset, shape_end(), law_.curve);
+  for (std::size_t k = 0; k < records.slow.size(); ++k)
+    built_.sampling_error = std::max(built_.sampling_error, held_out(fitted, records, k));
+  c.interpolation_error = finish_curve(law_, fitted.shape, body_, options_, shape_end());
+  built_.change_of_restitution = change_of_restitution(fitted.shape, body_.onset, shape_end(), law_.curve);
   if (options_.fastest > 0) {
-    const double fastest = std::sqrt(c.max_inertia);
+    const double fastest = std::sqrt(c.damage_number_max);
     std::vector<double> speeds;
-    if (subject_.rate_dependent()) {
-      const double slowest = survey.fast.front().speed;
+    if (body_.rate_dependent()) {
+      const double slowest = records.fast.front().speed;
       for (const double share : {0.1, 0.37, 0.63, 0.9})
         speeds.push_back(slowest * std::pow(fastest / slowest, share));
     } else {
@@ -586,12 +589,12 @@ void Build::plastic()
 
 }  // namespace
 
-BuiltLaw build_law(const LawMaterial& material, const Subject& subject, const BuildOptions& options,
+BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
                    const RunSource& source)
 {
   check(options);
-  Build build(material, subject, options, source);
-  if (subject.yields())
+  Build build(material, body, options, source);
+  if (body.yields())
     build.plastic();
   else
     build.elastic();
@@ -609,7 +612,7 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOpt
     const ElasticSphere sphere = atlas.elastic(material.poisson_ratio);
     const double depth = std::min(options.depth, ElasticSphere::depth);
     law.curve = ContactCurve(tabulate_elastic(sphere.fit.correction, depth), material.name);
-    c.max_inertia = std::numeric_limits<double>::infinity();
+    c.damage_number_max = std::numeric_limits<double>::infinity();
     c.atlas_error_force = sphere.fit.error;  // e is 1
     c.solver_error_force = sphere.solver_error;
     return law;
@@ -617,9 +620,10 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOpt
   const MaterialRatios ratios = MaterialRatios::of(material);
   if (const std::string why = atlas.why_not(ratios); !why.empty())
     fail(fmt::format("material '{}'", material.name), "is not in the atlas: " + why);
-  const Subject subject = subject_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening);
-  c.max_inertia = options.fastest * options.fastest;
-  c.interpolation_error = finish_curve(law, atlas.shape(ratios), subject, options, Atlas::depth);
+  const CharacterisedBody body =
+      characterised_body_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening);
+  c.damage_number_max = options.fastest * options.fastest;
+  c.interpolation_error = finish_curve(law, atlas.shape(ratios), body, options, Atlas::depth);
   c.atlas_error_force = atlas.claimed_force();
   c.atlas_error_restitution = atlas.claimed_restitution();
   c.solver_error_force = c.solver_error_restitution = atlas.solver_error();

@@ -2,7 +2,7 @@
 
 #include "characterise/atlas.hpp"
 #include "characterise/farm.hpp"
-#include "characterise/survey.hpp"
+#include "characterise/sampling_plan.hpp"
 #include "law/law.hpp"
 
 namespace granulaw {
@@ -32,18 +32,18 @@ struct BuiltLaw
   std::string rate_free;  ///< where a rate-dependent body's law at no rate comes from; empty: from runs
   double change_of_restitution = 0;  ///< largest relative change of the fitted e that admissibility took
   double sampling_error = 0;         ///< largest where nothing was sampled, as it counts for the tolerance
-  std::size_t runs = 0;              ///< that the adaptive survey asked for
+  std::size_t runs = 0;              ///< that the adaptive sampling asked for
   std::size_t runs_full = 0;         ///< that the densest one would have
 };
 
 /// The law of one body on a rigid wall, by the material point method.
 ///
 /// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-free law; fast
-/// impacts give what inertia changes. The survey starts coarse. Each new turning point or impact shows by how
+/// impacts give what inertia changes. Sampling starts coarse. Each new reversal point or impact shows by how
 /// much the law fitted without it was wrong; where that was more than the tolerance its neighbourhood is
 /// halved. Impacts that took no part check the law in the end. Throws Error if it is not admissible, or if
 /// the tolerance is not reached.
-BuiltLaw build_law(const LawMaterial& material, const Subject& subject, const BuildOptions& options,
+BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
                    const RunSource& source = {});
 
 /// The law of a homogeneous, rate-independent, linearly hardening or elastic sphere out of the atlas;

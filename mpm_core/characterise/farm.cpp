@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "characterise/crew.hpp"
+#include "characterise/worker_pool.hpp"
 
 namespace granulaw {
 
@@ -41,21 +41,21 @@ std::vector<RunResult> Farm::run_all(const std::vector<RunJob>& jobs, const Prog
 std::vector<RunOutcome> ThreadFarm::make(const std::vector<RunJob>& jobs, const Progress& progress)
 {
   RunQueue queue(jobs, cache_);
-  Crew crew(std::min(threads_, static_cast<int>(jobs.size())));
+  WorkerPool pool(std::min(threads_, static_cast<int>(jobs.size())));
   for (;;) {
-    while (crew.has_room() && queue.has_next()) {
+    while (pool.has_room() && queue.has_next()) {
       const std::size_t k = queue.next();
-      crew.start(k, jobs[k]);
+      pool.start(k, jobs[k]);
     }
     std::exception_ptr broken;
-    for (Crew::Finished& end : crew.wait(std::chrono::milliseconds(100))) {
+    for (WorkerPool::Finished& end : pool.wait(std::chrono::milliseconds(100))) {
       if (end.broken)
         broken = end.broken;
       else
         queue.finish(end.index, std::move(end.outcome));
     }
     if (broken) std::rethrow_exception(broken);
-    for (const auto& [index, fraction] : crew.running()) queue.report(index, fraction);
+    for (const auto& [index, fraction] : pool.running()) queue.report(index, fraction);
     if (progress) progress(queue.done(), queue.label());
     if (queue.finished()) return queue.take();
   }

@@ -15,7 +15,7 @@ namespace granulaw {
 namespace {
 
 constexpr double least_lost = 0.02;  // -ln W_u/W_L, -ln(1 - delta_r/delta_m): less is not told from nothing
-constexpr double loss_noise = 0.05;  // of the same: where less is lost, ripple is more of it than inertia
+constexpr double loss_noise = 0.05;  // of the same: where less is lost, grid noise is more of it than inertia
 /// Share of an elastic press's depth below which the contact spans too few cells.
 constexpr double elastic_from = 0.1;
 /// The same where it yields. The contact spans 24 cells at the press's depth, 14 at a third of it; below, its
@@ -24,9 +24,9 @@ constexpr double elastic_from = 0.1;
 /// left, 0.31 %.
 constexpr double yielded_from = 1. / 3;
 
-/// Ripple of a sample grows as (cell/contact radius)^1.65 (formulations.md, sect. 3): its weight falls as
+/// Grid noise of a sample grows as (cell/contact radius)^1.65 (formulations.md, sect. 3): its weight falls as
 /// x^0.8. Samples stand at equal times; what counts is equal steps of ln x.
-double weight_of(const Pressing& press, std::size_t k)
+double weight_of(const ContactRecord& press, std::size_t k)
 {
   const auto& l = press.loading;
   const double before = l[k > 0 ? k - 1 : k].x, after = l[std::min(k + 1, l.size() - 1)].x;
@@ -44,10 +44,11 @@ double q_of(double x, double onset)
   return 0.25 * std::log(x / onset);
 }
 
-/// Loading force of a slow press; `softening`: -ln(F/F_elastic) over q.
-double press_force_at(double x, const ElasticCorrection& elastic, const auto& softening, double onset)
+/// Loading force of a slow press; `force_reduction`: -ln(F/F_elastic) over q.
+double press_force_at(double x, const ElasticCorrection& elastic, const auto& force_reduction, double onset)
 {
-  return hertz_force(x) * elastic.force_ratio(std::pow(x, 0.25)) * std::exp(-softening.value(q_of(x, onset)));
+  return hertz_force(x) * elastic.force_ratio(std::pow(x, 0.25)) *
+         std::exp(-force_reduction.value(q_of(x, onset)));
 }
 
 /// `ratio`: delta_r/delta_m.
@@ -55,15 +56,15 @@ double residual_measure(double ratio)
 {
   return -std::log(1 - std::clamp(ratio, 0.0, 0.99999));
 }
-double dissipation_measure(const Pressing& p)
+double dissipation_measure(const ContactRecord& p)
 {
   return -std::log(std::clamp(p.work_ratio, 1e-6, 1.0));
 }
 
 /// A of an unloading from x along the elastic curve.
-double elastic_foot(const ElasticCorrection& elastic, double x)
+double elastic_hertz_share(const ElasticCorrection& elastic, double x)
 {
-  return elastic.unloading(std::pow(x, 0.25)).foot;
+  return elastic.unloading(std::pow(x, 0.25)).hertz_share;
 }
 
 using Samples = std::vector<SmoothSpline::Sample>;
@@ -79,14 +80,15 @@ void add_shallow(Samples& samples, const std::vector<double>* values, double q_f
       samples.push_back({q, (*values)[k], weight});
 }
 
-/// A turning point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
+/// A reversal point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
 /// is only enough to bridge gaps. `q_shallow`: as far as `shallow` tells.
-SmoothSpline turning_spline(std::span<const Pressing> presses, double onset, double q_end, const auto& of,
-                            const std::vector<double>* shallow, double q_shallow, double smoothing = 0.03)
+SmoothSpline reversal_spline(std::span<const ContactRecord> presses, double onset, double q_end,
+                             const auto& of, const std::vector<double>* shallow, double q_shallow,
+                             double smoothing = 0.03)
 {
   Samples samples;
   double q_first = q_shallow;
-  for (const Pressing& p : presses) {
+  for (const ContactRecord& p : presses) {
     samples.push_back({q_of(p.depth, onset), of(p), 1.0});
     q_first = std::min(q_first, samples.back().q);
   }
@@ -103,17 +105,17 @@ std::vector<double> sampled(const SmoothSpline& spline, double q_end)
 }
 
 /// ln(F/F_press) of an impact at shares of its overlap: a least-squares polynomial in sqrt(share), which
-/// cannot follow the ripple, but follows the body's ringing: with six terms F_max of 314 checks was off by
-/// 0.40 % (rms), with eight by 0.37, with ten by 0.36. Below the first share that the grid resolves it keeps
-/// its value. At its turn it has the impact's peak: which takes 700 checks of F_max from 0.27 % off to 0.23.
-/// A rate-dependent impact peaks before it turns, and falls; a law rises until then.
-std::vector<double> inertia_force(const Pressing& impact, const auto& press_force)
+/// cannot follow the grid noise, but follows the body's ringing: with six terms F_max of 314 checks was off
+/// by 0.40 % (rms), with eight by 0.37, with ten by 0.36. Below the first share that the grid resolves it
+/// keeps its value. At its reversal it has the impact's peak: which takes 700 checks of F_max from 0.27 % off
+/// to 0.23. A rate-dependent impact peaks before it reverses, and falls; a law rises until then.
+std::vector<double> impact_force_ratios(const ContactRecord& impact, const auto& press_force)
 {
   constexpr int terms = 10;
   constexpr double first = 0.04;
   const auto basis = [first](double share, int k) { return std::pow(std::max(share, first), 0.5 * k); };
-  std::vector<const Pressing::Sample*> used;
-  for (const Pressing::Sample& s : impact.loading)
+  std::vector<const ContactRecord::Sample*> used;
+  for (const ContactRecord::Sample& s : impact.loading)
     if (s.x >= first * impact.depth && s.force > 0) used.push_back(&s);
   if (used.size() < 3 * terms)
     fail("fit", "too few samples in an impact", std::to_string(used.size()),
@@ -121,14 +123,14 @@ std::vector<double> inertia_force(const Pressing& impact, const auto& press_forc
   Eigen::MatrixXd a(used.size(), terms);
   Eigen::VectorXd b(used.size());
   for (Eigen::Index row = 0; row < a.rows(); ++row) {
-    const Pressing::Sample& s = *used[static_cast<std::size_t>(row)];
+    const ContactRecord::Sample& s = *used[static_cast<std::size_t>(row)];
     for (int k = 0; k < terms; ++k) a(row, k) = basis(s.x / impact.depth, k);
     b(row) = std::log(s.force / press_force(s.x));
   }
   const Eigen::VectorXd c = a.colPivHouseholderQr().solve(b);
   std::vector<double> values;
-  for (int n = 0; n < LawShape::Inertia::shares; ++n) {
-    const double share = static_cast<double>(n) / (LawShape::Inertia::shares - 1);
+  for (int n = 0; n < LawShape::VelocityEffect::shares; ++n) {
+    const double share = static_cast<double>(n) / (LawShape::VelocityEffect::shares - 1);
     double value = 0;
     for (int k = 0; k < terms; ++k) value += c(k) * basis(share, k);
     values.push_back(value);
@@ -142,15 +144,15 @@ std::vector<double> inertia_force(const Pressing& impact, const auto& press_forc
 namespace {
 
 /// `terms` of the force: 2 or 3.
-ElasticCorrection fit_elastic_terms(std::span<const Pressing> presses, int terms)
+ElasticCorrection fit_elastic_terms(std::span<const ContactRecord> presses, int terms)
 {
   struct Used
   {
-    const Pressing* press;
+    const ContactRecord* press;
     std::size_t k;
   };
   std::vector<Used> used;
-  for (const Pressing& press : presses)
+  for (const ContactRecord& press : presses)
     for (std::size_t k = 0; k < press.loading.size(); ++k)
       if (press.loading[k].x >= elastic_from * press.depth) used.push_back({&press, k});
   if (used.size() < 10)
@@ -173,15 +175,15 @@ ElasticCorrection fit_elastic_terms(std::span<const Pressing> presses, int terms
 
 }  // namespace
 
-ElasticCorrection fit_elastic(const Pressing& press)
+ElasticCorrection fit_elastic(const ContactRecord& press)
 {
   return fit_elastic_terms({&press, 1}, 2);
 }
 
-ElasticFit fit_elastic(std::span<const Pressing> presses)
+ElasticFit fit_elastic(std::span<const ContactRecord> presses)
 {
   ElasticFit fit{fit_elastic_terms(presses, 3)};
-  for (const Pressing& press : presses) {
+  for (const ContactRecord& press : presses) {
     constexpr int parts = 8;  // of the contact radius between a third of it and all: two cells and more each
     double sum[parts] = {};
     int count[parts] = {};
@@ -198,31 +200,33 @@ ElasticFit fit_elastic(std::span<const Pressing> presses)
   return fit;
 }
 
-std::vector<LawShape::Inertia> fit_inertia(std::span<const Survey::Impact> impacts, bool rate,
-                                           const LawShape& slow, double onset, double x_end)
+std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const ContactRecords::Impact> impacts,
+                                                           bool rate, const LawShape& slow, double onset,
+                                                           double x_end)
 {
   const double q_end = q_of(x_end, onset);
-  const ShapeFunction softening(slow.softening, q_end), residual(slow.residual, q_end),
-      dissipation(slow.dissipation, q_end), foot(slow.foot, q_end);
-  const auto press_force = [&](double x) { return press_force_at(x, slow.elastic, softening, onset); };
-  std::vector<LawShape::Inertia> all;
+  const ShapeFunction force_reduction(slow.force_reduction, q_end), residual(slow.residual, q_end),
+      dissipation(slow.dissipation, q_end), hertz_share(slow.hertz_share, q_end);
+  const auto press_force = [&](double x) { return press_force_at(x, slow.elastic, force_reduction, onset); };
+  std::vector<LawShape::VelocityEffect> all;
   for (const auto& [speed, impact] : impacts) {
     const double q = q_of(impact.depth, onset);
-    // an impact's unloading swings with the body: it has the press's foot
+    // an impact's unloading swings with the body: it has the press's Hertz share
     double residual_overlap = impact.residual;
     if (!impact.unloading.empty())
       residual_overlap = std::max(
-          0.0, residual_as_long(impact.unloading, impact.turn_force,
-                                std::max(0.0, elastic_foot(slow.elastic, impact.depth) + foot.value(q))));
-    LawShape::Inertia inertia{speed, std::log(impact.depth / speed), 0, 0,
-                              inertia_force(impact, press_force)};
+          0.0, residual_as_long(
+                   impact.unloading, impact.reversal_force,
+                   std::max(0.0, elastic_hertz_share(slow.elastic, impact.depth) + hertz_share.value(q))));
+    LawShape::VelocityEffect effect{speed, std::log(impact.depth / speed), 0, 0,
+                                    impact_force_ratios(impact, press_force)};
     // Where next to nothing is lost the ratios mean nothing, and little where little is.
     const auto change = [](double fast, double press) {
       return press > least_lost ? (fast / press - 1) / (1 + std::pow(loss_noise / press, 2)) : 0.0;
     };
-    inertia.dissipation = change(dissipation_measure(impact), dissipation.value(q));
-    inertia.residual = change(residual_measure(residual_overlap / impact.depth), residual.value(q));
-    all.push_back(std::move(inertia));
+    effect.dissipation = change(dissipation_measure(impact), dissipation.value(q));
+    effect.residual = change(residual_measure(residual_overlap / impact.depth), residual.value(q));
+    all.push_back(std::move(effect));
   }
   // There inertia changes nothing, but a rate as much as in the next faster impact: its yield begins later.
   if (rate)
@@ -234,11 +238,11 @@ std::vector<LawShape::Inertia> fit_inertia(std::span<const Survey::Impact> impac
   return all;
 }
 
-FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,
-                      const LawShape* shallow, double shallow_end)
+FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
+                      double x_end, const LawShape* shallow, double shallow_end)
 {
-  if (survey.slow.size() < 3)
-    fail("fit", "too few turning points", std::to_string(survey.slow.size()), "3 or more");
+  if (records.slow.size() < 3)
+    fail("fit", "too few reversal points", std::to_string(records.slow.size()), "3 or more");
   const double q_end = q_of(x_end, onset), q_shallow = std::min(q_end, q_of(shallow_end, onset));
   FittedShape fitted{LawShape::zero(), {}};
   LawShape& shape = fitted.shape;
@@ -246,7 +250,7 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
 
   Samples force, radius;
   double q_first = q_end;
-  for (const Pressing& press : survey.slow)
+  for (const ContactRecord& press : records.slow)
     for (std::size_t k = 0; k < press.loading.size(); ++k) {
       const auto& [x, f, a] = press.loading[k];
       if (x < std::max(onset, yielded_from * press.depth) || f <= 0 || a <= 0) continue;
@@ -260,86 +264,89 @@ FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, do
     double weights = 0;
     for (const auto& s : force) weights += s.weight * s.weight;
     const double weight = std::sqrt(weights / (LawShape::nodes * std::max(0.1, 1 - q_first / q_end)));
-    add_shallow(force, &shallow->softening, std::min(q_first, q_shallow), q_end, weight);
+    add_shallow(force, &shallow->force_reduction, std::min(q_first, q_shallow), q_end, weight);
     add_shallow(radius, &shallow->widening, std::min(q_first, q_shallow), q_end, weight);
   }
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
-  const SmoothSpline softening(q_end, intervals, force, 0.02), widening(q_end, intervals, radius, 0.05);
-  const auto press_force = [&](double x) { return press_force_at(x, elastic, softening, onset); };
+  const SmoothSpline force_reduction(q_end, intervals, force, 0.02), widening(q_end, intervals, radius, 0.05);
+  const auto press_force = [&](double x) { return press_force_at(x, elastic, force_reduction, onset); };
 
-  // What is given back follows the force at the turn, and that swings with the contact edge about the law:
-  // only the share that is lost depends on it.
-  std::vector<Pressing> turns;
-  for (const Pressing& p : survey.slow)
+  // What is given back follows the force at the reversal, and that swings with the contact edge about the
+  // law: only the share that is lost depends on it.
+  std::vector<ContactRecord> reversals;
+  for (const ContactRecord& p : records.slow)
     if (p.depth > onset)
-      turns.push_back(p);
+      reversals.push_back(p);
     else
       fitted.quality.held_out_each.push_back(0);  // elastic, as the law is there
-  if (turns.size() < 3)
-    fail("fit", "too few turning points beyond the onset of yield", std::to_string(turns.size()),
+  if (reversals.size() < 3)
+    fail("fit", "too few reversal points beyond the onset of yield", std::to_string(reversals.size()),
          "3 or more");
-  for (Pressing& p : turns)
-    if (p.turn_force > 0) p.work_ratio *= 1 + (press_force(p.depth) / p.turn_force - 1) * (1 - p.work_ratio);
+  for (ContactRecord& p : reversals)
+    if (p.reversal_force > 0)
+      p.work_ratio *= 1 + (press_force(p.depth) / p.reversal_force - 1) * (1 - p.work_ratio);
   const auto* shallow_residual = shallow ? &shallow->residual : nullptr;
   const auto* shallow_dissipation = shallow ? &shallow->dissipation : nullptr;
-  const SmoothSpline residual = turning_spline(
-      turns, onset, q_end, [](const Pressing& p) { return residual_measure(p.residual / p.depth); },
+  const SmoothSpline residual = reversal_spline(
+      reversals, onset, q_end, [](const ContactRecord& p) { return residual_measure(p.residual / p.depth); },
       shallow_residual, q_shallow);
   const SmoothSpline dissipation =
-      turning_spline(turns, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow);
-  // The contact edge's ripple of a per cent of F moves a foot by 0.3.
-  const SmoothSpline foot = turning_spline(
-      turns, onset, q_end, [&](const Pressing& p) { return p.foot - elastic_foot(elastic, p.depth); },
-      shallow ? &shallow->foot : nullptr, q_shallow, 0.1);
+      reversal_spline(reversals, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow);
+  // The contact edge's grid noise of a per cent of F moves a Hertz share by 0.3.
+  const SmoothSpline hertz_share = reversal_spline(
+      reversals, onset, q_end,
+      [&](const ContactRecord& p) { return p.hertz_share - elastic_hertz_share(elastic, p.depth); },
+      shallow ? &shallow->hertz_share : nullptr, q_shallow, 0.1);
 
-  shape.softening = sampled(softening, q_end);
+  shape.force_reduction = sampled(force_reduction, q_end);
   shape.widening = sampled(widening, q_end);
   shape.residual = sampled(residual, q_end);
   shape.dissipation = sampled(dissipation, q_end);
-  shape.foot = sampled(foot, q_end);
-  shape.inertia = fit_inertia(survey.fast, survey.rate, shape, onset, x_end);
+  shape.hertz_share = sampled(hertz_share, q_end);
+  shape.velocity_effects = fit_velocity_effects(records.fast, records.rate, shape, onset, x_end);
 
   FitQuality& quality = fitted.quality;
   double sum = 0;
   int count = 0;
-  for (const Pressing& press : survey.slow)
+  for (const ContactRecord& press : records.slow)
     for (const auto& [x, f, a] : press.loading)
       if (x >= std::max(onset, 0.5 * press.depth) && x <= x_end) {
         sum += std::pow(f / press_force(x) - 1, 2);
         ++count;
       }
   quality.scatter = count ? std::sqrt(sum / count) : 0;
-  for (std::size_t k = 0; k < turns.size(); ++k) {
+  for (std::size_t k = 0; k < reversals.size(); ++k) {
     const auto error_of_e = [&](const SmoothSpline& d) {
       return std::abs(
-          std::exp(-0.5 * (d.value(q_of(turns[k].depth, onset)) - dissipation_measure(turns[k]))) - 1);
+          std::exp(-0.5 * (d.value(q_of(reversals[k].depth, onset)) - dissipation_measure(reversals[k]))) -
+          1);
     };
-    quality.turning_error = std::max(quality.turning_error, error_of_e(dissipation));
+    quality.reversal_error = std::max(quality.reversal_error, error_of_e(dissipation));
     double held_out = 0;
-    if (k + 1 < turns.size() && turns.size() > 3) {
-      std::vector<Pressing> others = turns;
+    if (k + 1 < reversals.size() && reversals.size() > 3) {
+      std::vector<ContactRecord> others = reversals;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
       held_out = error_of_e(
-          turning_spline(others, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow));
+          reversal_spline(others, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow));
     }
     quality.held_out_each.push_back(held_out);
     quality.held_out = std::max(quality.held_out, held_out);
   }
   // Smoothing differs from a run by a per cent at most; what differs by more contradicts its neighbours.
   constexpr double contradiction = 0.05;
-  if (quality.turning_error > contradiction)
+  if (quality.reversal_error > contradiction)
     fail("fit", "the runs contradict each other: e of one differs from the smooth law of all",
-         fmt::format("by {:.2g} %", 100 * quality.turning_error),
+         fmt::format("by {:.2g} %", 100 * quality.reversal_error),
          fmt::format("up to {:.0f} %", 100 * contradiction));
   return fitted;
 }
 
-FittedCurve fit_plastic(const std::vector<Pressing>& presses, const ElasticCorrection& elastic, double onset,
-                        double x_end)
+FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,
+                        double onset, double x_end)
 {
-  Survey survey;
-  survey.slow = presses;
-  const FittedShape fitted = fit_shape(survey, elastic, onset, x_end);
+  ContactRecords records;
+  records.slow = presses;
+  const FittedShape fitted = fit_shape(records, elastic, onset, x_end);
   const ContactCurve curve = tabulate(fitted.shape, onset, x_end, x_end);
   return {curve.table(), fitted.quality, table_error(fitted.shape, onset, x_end, curve)};
 }

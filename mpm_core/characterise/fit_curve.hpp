@@ -3,29 +3,30 @@
 #include <span>
 
 #include "characterise/law_shape.hpp"
-#include "characterise/survey.hpp"
+#include "characterise/sampling_plan.hpp"
 
 namespace granulaw {
 
 /// Weighted least squares through one elastic press, up to which the body yields: c3 = 0.
-ElasticCorrection fit_elastic(const Pressing& press);
+ElasticCorrection fit_elastic(const ContactRecord& press);
 
 /// The same of a body that never yields, through presses of several depths, and how well it fits: the largest
-/// relative deviation of the force, averaged over parts of a press as long as the ripple of the contact edge.
+/// relative deviation of the force, averaged over parts of a press as long as the grid noise of the contact
+/// edge.
 struct ElasticFit
 {
   ElasticCorrection correction;
   double error = 0;
 };
-ElasticFit fit_elastic(std::span<const Pressing> presses);
+ElasticFit fit_elastic(std::span<const ContactRecord> presses);
 
 /// How well a shape represents the runs it was fitted to; relative numbers.
 struct FitQuality
 {
   double scatter = 0;                 ///< rms of loading samples of the presses, over the upper half of each
-  double held_out = 0;                ///< largest error of e at a turning depth left out of the fit
+  double held_out = 0;                ///< largest error of e at a reversal depth left out of the fit
   std::vector<double> held_out_each;  ///< the same at each; 0 at the last, where it would be extrapolation
-  double turning_error = 0;           ///< largest residual of e at the turning depths of the fit
+  double reversal_error = 0;          ///< largest residual of e at the reversal depths of the fit
 };
 
 struct FittedShape
@@ -34,12 +35,12 @@ struct FittedShape
   FitQuality quality;
 };
 
-/// The law of a yielding sphere from its survey, by smooth splines that start with zero value and slope at
+/// The law of a yielding sphere from its records, by smooth splines that start with zero value and slope at
 /// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `shallow`: a
 /// shape over the same range that tells what the runs are too shallow for (similarity), up to the first of
-/// them or `shallow_end`; may be null where the survey begins near the onset.
-FittedShape fit_shape(const Survey& survey, const ElasticCorrection& elastic, double onset, double x_end,
-                      const LawShape* shallow = nullptr, double shallow_end = 1.0);
+/// them or `shallow_end`; may be null where the sampling plan begins near the onset.
+FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
+                      double x_end, const LawShape* shallow = nullptr, double shallow_end = 1.0);
 
 /// The same from presses alone, tabulated: a rate-free curve to x_end.
 struct FittedCurve
@@ -48,12 +49,13 @@ struct FittedCurve
   FitQuality quality;
   double table_error = 0;  ///< largest relative difference of F between table and fit
 };
-FittedCurve fit_plastic(const std::vector<Pressing>& presses, const ElasticCorrection& elastic, double onset,
-                        double x_end);
+FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,
+                        double onset, double x_end);
 
 /// What impacts change of a body whose slow presses have this shape, its own inertia apart; at the impacts'
 /// speeds. `rate`: where nothing is lost a rate still counts.
-std::vector<LawShape::Inertia> fit_inertia(std::span<const Survey::Impact> impacts, bool rate,
-                                           const LawShape& slow, double onset, double x_end);
+std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const ContactRecords::Impact> impacts,
+                                                           bool rate, const LawShape& slow, double onset,
+                                                           double x_end);
 
 }  // namespace granulaw

@@ -16,9 +16,9 @@ namespace {
 // Of the work: just past the onset, where next to nothing is lost, rounding must not give back more than was
 // put in. e is .01 % lower.
 constexpr double rounding_spare = 2e-4;
-constexpr double least_foot = 0.03;        // about: a smooth floor of A, whose cubics must not pass below 0
-constexpr double spare_foot = 2e-4;        // below what still rises: the rounding of cubics between nodes
-constexpr double target_spacing = 0.0045;  // of table nodes in s: about 128 nodes to x = 0.1
+constexpr double least_hertz_share = 0.03;  // about: a smooth floor of A, whose cubics must not pass below 0
+constexpr double spare_hertz_share = 2e-4;  // below what still rises: the rounding of cubics between nodes
+constexpr double target_spacing = 0.0045;   // of table nodes in s: about 128 nodes to x = 0.1
 
 /// Nodes uniform in s, the onset on a node: everything is smooth on either side of it.
 ContactCurve::Table empty_table(double s_onset, double x_end, std::vector<double>& nodes)
@@ -45,13 +45,14 @@ LawShape LawShape::zero()
 {
   const std::vector<double> none(nodes, 0.0);
   LawShape shape{{}, none, none, none, none, none, {}};
-  for (const double v : inertia_speeds)
-    shape.inertia.push_back({v, 0, 0, 0, std::vector<double>(Inertia::shares, 0.0)});
+  for (const double v : impact_speeds)
+    shape.velocity_effects.push_back({v, 0, 0, 0, std::vector<double>(VelocityEffect::shares, 0.0)});
   return shape;
 }
 
 const std::array<std::vector<double> LawShape::*, 5> LawShape::functions = {
-    &LawShape::softening, &LawShape::widening, &LawShape::residual, &LawShape::dissipation, &LawShape::foot};
+    &LawShape::force_reduction, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
+    &LawShape::hertz_share};
 
 void ElasticCorrection::add(double weight, const ElasticCorrection& other)
 {
@@ -62,30 +63,30 @@ void ElasticCorrection::add(double weight, const ElasticCorrection& other)
 void LawShape::add(double weight, const LawShape& other)
 {
   add_loading(weight, other);
-  add_turning(weight, other);
+  add_unloading(weight, other);
 }
 
 void LawShape::add_loading(double weight, const LawShape& other)
 {
   elastic.add(weight, other.elastic);
-  add_to(softening, weight, other.softening);
+  add_to(force_reduction, weight, other.force_reduction);
   add_to(widening, weight, other.widening);
 }
 
-void LawShape::add_turning(double weight, const LawShape& other)
+void LawShape::add_unloading(double weight, const LawShape& other)
 {
   add_to(residual, weight, other.residual);
   add_to(dissipation, weight, other.dissipation);
-  add_to(foot, weight, other.foot);
-  for (std::size_t k = 0; k < inertia.size(); ++k) {
-    inertia[k].reach += weight * other.inertia[k].reach;
-    inertia[k].dissipation += weight * other.inertia[k].dissipation;
-    inertia[k].residual += weight * other.inertia[k].residual;
-    add_to(inertia[k].force, weight, other.inertia[k].force);
+  add_to(hertz_share, weight, other.hertz_share);
+  for (std::size_t k = 0; k < velocity_effects.size(); ++k) {
+    velocity_effects[k].log_overlap += weight * other.velocity_effects[k].log_overlap;
+    velocity_effects[k].dissipation += weight * other.velocity_effects[k].dissipation;
+    velocity_effects[k].residual += weight * other.velocity_effects[k].residual;
+    add_to(velocity_effects[k].force, weight, other.velocity_effects[k].force);
   }
 }
 
-LawShape LawShape::stretched(double share) const
+LawShape LawShape::rescaled(double share) const
 {
   LawShape result = zero();
   result.elastic = elastic;
@@ -104,7 +105,7 @@ LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, doubl
   const double range = std::log(end / onset);
   LawShape result = *this;
   result.elastic = body;
-  result.inertia = zero().inertia;
+  result.velocity_effects = zero().velocity_effects;
   for (std::size_t k = 1; k < nodes; ++k) {
     const double x = onset * std::exp(range * static_cast<double>(k) / (nodes - 1));
     if (x > known) {
@@ -113,10 +114,10 @@ LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, doubl
     }
     double skin = x;  // x'
     for (int round = 0; round < 20; ++round) skin = x - compliance * sphere.loading(skin).force;
-    const ContactCurve::Turning top = sphere.turning(skin);
+    const ContactCurve::Reversal top = sphere.reversal(skin);
     const double s = std::pow(x, 0.25), below = 0.5 * compliance * top.force * top.force;  // work
     const double work = sphere.work_loading(skin), returned = sphere.work_unloading(skin);
-    result.softening[k] = -std::log(top.force / (std::pow(x, 1.5) * body.force_ratio(s)));
+    result.force_reduction[k] = -std::log(top.force / (std::pow(x, 1.5) * body.force_ratio(s)));
     result.widening[k] = std::log(top.radius / (std::sqrt(x) * body.radius_ratio(s)));
     result.residual[k] = -std::log1p(-top.residual / x);
     result.dissipation[k] = -std::log((returned + below) / (work + below));
@@ -155,13 +156,14 @@ double change_of_restitution(const LawShape& shape, double onset, double shape_e
 double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve)
 {
   const double s_onset = std::pow(onset, 0.25);
-  const ShapeFunction softening(shape.softening, 0.25 * std::log(shape_end / onset));
+  const ShapeFunction force_reduction(shape.force_reduction, 0.25 * std::log(shape_end / onset));
   double worst = 0;
   for (int k = 1; k < 2000; ++k) {
     const double s = curve.table().s_end * k / 2000, x = s * s * s * s;
     if (x > shape_end) break;
     const double q = s > s_onset ? std::log(s / s_onset) : 0.0;
-    const double exact = std::pow(x, 1.5) * shape.elastic.force_ratio(s) * std::exp(-softening.value(q));
+    const double exact =
+        std::pow(x, 1.5) * shape.elastic.force_ratio(s) * std::exp(-force_reduction.value(q));
     worst = std::max(worst, std::abs(curve.loading(x).force / exact - 1));
   }
   return worst;
@@ -170,9 +172,10 @@ double table_error(const LawShape& shape, double onset, double shape_end, const 
 ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, double x_end)
 {
   const double s_onset = std::pow(onset, 0.25), q_end = 0.25 * std::log(shape_end / onset);
-  const ShapeFunction softening(shape.softening, q_end), widening(shape.widening, q_end),
+  const ShapeFunction force_reduction(shape.force_reduction, q_end), widening(shape.widening, q_end),
       residual(shape.residual, q_end, ShapeFunction::Kind::rising),
-      dissipation(shape.dissipation, q_end, ShapeFunction::Kind::rising), foot(shape.foot, q_end);
+      dissipation(shape.dissipation, q_end, ShapeFunction::Kind::rising),
+      hertz_share(shape.hertz_share, q_end);
   std::vector<double> nodes;
   ContactCurve::Table table = empty_table(s_onset, x_end, nodes);
   table.onset = onset;
@@ -182,11 +185,11 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
   for (const double s : nodes) {
     const double q = s > s_onset ? std::log(s / s_onset) : 0.0;
     const double per_s = s > 0 ? 1.0 / s : 0.0;  // dq/ds; 0 below the onset anyway
-    const double g = el.force_ratio(s) * std::exp(-softening.value(q));
+    const double g = el.force_ratio(s) * std::exp(-force_reduction.value(q));
     const double a = el.radius_ratio(s) * std::exp(widening.value(q));
     table.force_ratio.push_back(g);
     table.force_ratio_slope.push_back(
-        g * (el.force_ratio_slope(s) / el.force_ratio(s) - softening.slope(q) * per_s));
+        g * (el.force_ratio_slope(s) / el.force_ratio(s) - force_reduction.slope(q) * per_s));
     table.radius_ratio.push_back(a);
     table.radius_ratio_slope.push_back(
         a * (el.radius_ratio_slope(s) / el.radius_ratio(s) + widening.slope(q) * per_s));
@@ -197,25 +200,27 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
   // n needs the loading work of this very table: build it once with any unloading.
   const std::size_t count = nodes.size();
   table.exponent.assign(count, UnloadingShape{}.exponent);
-  table.foot.assign(count, UnloadingShape{}.foot);
+  table.hertz_share.assign(count, UnloadingShape{}.hertz_share);
   table.exponent_slope.assign(count, 0.0);
-  table.foot_slope.assign(count, 0.0);
+  table.hertz_share_slope.assign(count, 0.0);
   const ContactCurve loading(table, "fitted curve");
   const auto yielded = [&](double s) {
     const double x = s * s * s * s, q = std::log(s / s_onset), kept = std::exp(-residual.value(q));
     const ContactCurve::Loading top = loading.loading(x);
     const double returned = loading.work_loading(x) * std::exp(-dissipation.value(q) - rounding_spare);
     const double work = returned / (top.force * x * kept);
-    const double fitted = el.unloading(s).foot + foot.value(q);
-    const double floored = 0.5 * (fitted + std::hypot(fitted, 2 * least_foot));
-    // The work is as computed whatever the foot; with it the foot may not be so small that at its turn the
-    // contact unloads less stiffly than it loads, nor so large that the unloading would fall.
+    const double fitted = el.unloading(s).hertz_share + hertz_share.value(q);
+    const double floored = 0.5 * (fitted + std::hypot(fitted, 2 * least_hertz_share));
+    // The work is as computed whatever the Hertz share; with it the Hertz share may not be so small that at
+    // its reversal the contact unloads less stiffly than it loads, nor so large that the unloading would
+    // fall.
     const double stiff = std::max(UnloadingShape::least_exponent, kept * x * top.stiffness / top.force);
-    const double smallest = UnloadingShape::foot_of(work, stiff),
-                 largest = UnloadingShape::largest_foot_of(work) - spare_foot;
+    const double smallest = UnloadingShape::hertz_share_of(work, stiff),
+                 largest = UnloadingShape::largest_hertz_share_of(work) - spare_hertz_share;
     const double a = std::clamp(std::max(floored, smallest), 0.0, std::max(0.0, largest));
-    return UnloadingShape{
-        std::min(UnloadingShape::exponent_of(work, a), UnloadingShape::largest_exponent(0) - spare_foot), a};
+    return UnloadingShape{std::min(UnloadingShape::exponent_of(work, a),
+                                   UnloadingShape::largest_exponent(0) - spare_hertz_share),
+                          a};
   };
   const auto elastic = [&](double s) { return el.unloading(s); };
   for (std::size_t k = 0; k < count; ++k) {
@@ -230,9 +235,9 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
         return (begins ? -3 * a + 4 * b - c : ends ? a - 4 * b + 3 * c : c - a) / (2 * step);
       };
       table.exponent[k] = at[-from].exponent;
-      table.foot[k] = at[-from].foot;
+      table.hertz_share[k] = at[-from].hertz_share;
       table.exponent_slope[k] = slope(&UnloadingShape::exponent);
-      table.foot_slope[k] = slope(&UnloadingShape::foot);
+      table.hertz_share_slope[k] = slope(&UnloadingShape::hertz_share);
     };
     if (k < at_onset)
       fill(elastic, k == 0, false);
@@ -240,15 +245,18 @@ ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, dou
       fill(yielded, k == at_onset, k + 1 == count);
   }
   // A cubic whose values are not negative and whose slopes are 3/h of them at most passes nowhere below 0:
-  // between two nodes an unloading may meet the bounds of one that rises, foot >= 0 and foot + 4 exponent
+  // between two nodes an unloading may meet the bounds of one that rises, Hertz share >= 0 and Hertz share +
+  // 4 exponent
   // <= 10.
   for (std::size_t k = 0; k < count; ++k) {
-    double &foot_slope = table.foot_slope[k], &exponent_slope = table.exponent_slope[k];
-    const double steepest = 3 / h * table.foot[k],
+    double &hertz_share_slope = table.hertz_share_slope[k], &exponent_slope = table.exponent_slope[k];
+    const double steepest = 3 / h * table.hertz_share[k],
                  room = 3 / h *
-                        std::max(0.0, UnloadingShape::largest_exponent(table.foot[k]) - table.exponent[k]);
-    foot_slope = std::clamp(foot_slope, -steepest, steepest);
-    exponent_slope = std::clamp(exponent_slope, -room - 0.25 * foot_slope, room - 0.25 * foot_slope);
+                        std::max(0.0,
+                                 UnloadingShape::largest_exponent(table.hertz_share[k]) - table.exponent[k]);
+    hertz_share_slope = std::clamp(hertz_share_slope, -steepest, steepest);
+    exponent_slope =
+        std::clamp(exponent_slope, -room - 0.25 * hertz_share_slope, room - 0.25 * hertz_share_slope);
   }
   // 1e-7: returned work must not exceed the work put in just past the onset, not even by rounding.
   for (double& n : table.exponent) n += 1e-7;
@@ -268,11 +276,11 @@ ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_
     table.radius_ratio.push_back(elastic.radius_ratio(s));
     table.radius_ratio_slope.push_back(elastic.radius_ratio_slope(s));
     table.exponent.push_back(elastic.unloading(s).exponent);
-    table.foot.push_back(elastic.unloading(s).foot);
+    table.hertz_share.push_back(elastic.unloading(s).hertz_share);
   }
   table.residual_ratio.assign(nodes.size(), 0.0);
   table.residual_ratio_slope = table.residual_ratio;
-  table.exponent_slope = table.foot_slope = table.residual_ratio;
+  table.exponent_slope = table.hertz_share_slope = table.residual_ratio;
   return table;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "law/contact_curve.hpp"
-#include "law/inertia_axis.hpp"
+#include "law/velocity_axis.hpp"
 
 namespace granulaw {
 
@@ -33,53 +33,53 @@ struct ElasticCorrection
 ///
 /// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero
 /// slope at the onset:
-///     softening    -ln(F_L/F_elastic)               residual     -ln(1 - delta_r/delta_m)
+///     force reduction    -ln(F_L/F_elastic)               residual     -ln(1 - delta_r/delta_m)
 ///     widening      ln(a/a_elastic)                 dissipation  -ln(W_u/W_L) = -2 ln e
-///     foot          A - A_elastic of the unloading's shape
+///     Hertz share          A - A_elastic of the unloading's shape
 /// Differences and means of shapes are shapes again: that is how they are interpolated between materials.
 struct LawShape
 {
   static constexpr int nodes = 49;
 
   /// What an impact at speed v = sqrt(rho V^2/Y) changes, against the slow press to the same overlap.
-  struct Inertia
+  struct VelocityEffect
   {
     static constexpr int shares = 12;  ///< xi = x/X = 0, 1/11, ..., 1
 
     double speed = 0;           ///< v
-    double reach = 0;           ///< ln(X/v), X the overlap/R reached
+    double log_overlap = 0;     ///< ln(X/v), X the overlap/R reached
     double dissipation = 0;     ///< (-ln W_u/W_L of the impact)/(that of the press) - 1
     double residual = 0;        ///< the same of -ln(1 - delta_r/delta_m)
     std::vector<double> force;  ///< ln(F_impact/F_press) at the shares
   };
 
   ElasticCorrection elastic;
-  std::vector<double> softening, widening, residual, dissipation, foot;
+  std::vector<double> force_reduction, widening, residual, dissipation, hertz_share;
   static const std::array<std::vector<double> LawShape::*, 5> functions;  ///< these
-  std::vector<Inertia> inertia;                                           ///< ascending speed
+  std::vector<VelocityEffect> velocity_effects;                           ///< ascending speed
 
-  /// this += weight * other, whose speeds are the same; or only what loading is (elastic body, softening,
-  /// widening), or the turn and what inertia changes.
+  /// this += weight * other, whose speeds are the same; or only what loading is (elastic body, force
+  /// reduction, widening), or the reversal and what inertia changes.
   void add(double weight, const LawShape& other);
   void add_loading(double weight, const LawShape& other);
-  void add_turning(double weight, const LawShape& other);
+  void add_unloading(double weight, const LawShape& other);
   /// Its functions of u as functions of u/share: of the same delta/delta_onset in a range of overlaps whose
   /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is
   /// dropped.
-  LawShape stretched(double share) const;
+  LawShape rescaled(double share) const;
   /// Of a sphere, with its own elastic correction: that of a body with the same skin, which differs
   /// elastically further below. A contact small against the skin adds to its overlap x' what the rest of the
   /// body yields to its force F, x = x' + C F, C by the two corrections' c1; so its losses are those of the
   /// sphere at x'. Functions of u end at `end`; beyond `known`, where nothing is known of the sphere, the
   /// last value is kept. Inertia is dropped.
   LawShape as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const;
-  /// All zero at all inertia_speeds, ready for add().
+  /// All zero at all impact_speeds, ready for add().
   static LawShape zero();
 };
 
 /// Speeds sqrt(I) at which the atlas knows the effect of inertia.
-inline constexpr double inertia_speeds[] = {0.005, 0.015, 0.03,  0.045, 0.06,  0.08, 0.1,
-                                            0.125, 0.15,  0.175, 0.2,   0.225, 0.25, 0.3};
+inline constexpr double impact_speeds[] = {0.005, 0.015, 0.03,  0.045, 0.06,  0.08, 0.1,
+                                           0.125, 0.15,  0.175, 0.2,   0.225, 0.25, 0.3};
 
 /// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
 /// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the
@@ -103,15 +103,15 @@ void require_admissible(const ContactCurve& curve);
 /// the force goes over to the press's within half of it; residual and dissipation keep their ratio to the
 /// press's at any overlap, the residual where an unloading's shape allows both. The axis ends before
 /// `fastest` where that would go deeper than `slow`'s table.
-InertiaAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
-                                    double mass, double fastest);
+VelocityAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow,
+                                     double e_star_over_yield, double mass, double fastest);
 
 /// The same of a rate-dependent body whose `slow` law is that of no rate: an axis from the slowest impact of
 /// the shape on, by the logarithm of the speed; at a body of this radius (m). The force, which falls before
-/// such an impact turns, rises to its last share's and stays there until `slow`'s is as large. Throws Error
-/// where that is beyond 12 times the overlap reached.
-InertiaAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
-                                 double mass, double fastest, double reference_radius);
+/// such an impact reverses, rises to its last share's and stays there until `slow`'s is as large. Throws
+/// Error where that is beyond 12 times the overlap reached.
+VelocityAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
+                                  double mass, double fastest, double reference_radius);
 
 /// The law of a body that never yields.
 ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_end);

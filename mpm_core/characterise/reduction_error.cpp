@@ -106,14 +106,14 @@ RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOpti
   return two_body_impact(pair, velocity, options).summary;
 }
 
-Pressing two_body_pressing(const UnlikePair& pair, double velocity, const RunOptions& options)
+ContactRecord two_body_record(const UnlikePair& pair, double velocity, const RunOptions& options)
 {
   const RunResult result = two_body_impact(pair, velocity, options);
   const PairMapping unit =
       PairMapping::deformable_partner(1.0, pair.partner.e_star() / pair.yielding.e_star());
   const double length = unit.length(pair.r_eff()), force = unit.force(pair.r_eff());
   const double radius = unit.radius(pair.r_eff());
-  Pressing press;
+  ContactRecord press;
   press.depth = result.summary.delta_max / length;
   press.residual = std::max(0.0, result.summary.delta_residual / length);
   press.work_ratio = result.summary.work_unload / result.summary.work_load;
@@ -140,10 +140,10 @@ RunSummary press_two_bodies(const UnlikePair& pair, double depth, double ramp, c
   return run_press(bodies.first, plan, options, bodies.partner).summary;
 }
 
-double fastest_of_law(const UnlikePair& pair, double inertia)
+double fastest_of_law(const UnlikePair& pair, double damage_number)
 {
   const double density = pair.yielding.density * pair.one_body_density();
-  return std::sqrt(inertia * pair.yielding.yield_stress / density);
+  return std::sqrt(damage_number * pair.yielding.yield_stress / density);
 }
 
 namespace {
@@ -225,7 +225,7 @@ MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocit
 {
   RunOptions options;
   options.precision = Precision::single;
-  options.phases = 2;
+  options.shifted_grids = 2;
   const auto error_at = [&](int cells) {
     options.resolution = cells;
     const RunSummary rule = run_as_one_body(pair, velocity, options);

@@ -53,8 +53,8 @@ ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
 /// with the radii; 0 at its own ratio. What that law's certificate states comes on top.
 ReductionError estimate_remaining_error(const UnlikePair& pair, double law_radius_ratio, double velocity);
 
-/// Relative velocity, m/s, at which the pair's one body has I = rho V^2/Y = `inertia`.
-double fastest_of_law(const UnlikePair& pair, double inertia);
+/// Relative velocity, m/s, at which the pair's one body has I = rho V^2/Y = `damage_number`.
+double fastest_of_law(const UnlikePair& pair, double damage_number);
 
 /// The same measured: two collisions, as two bodies and as one, at two resolutions; about a second of CPU at
 /// E*/Y = 100 and V/V_y = 20, ten times that at E*/Y = 1000. Signed: rule over two bodies, less 1.
@@ -79,7 +79,7 @@ RunResult two_body_impact(const UnlikePair& pair, double velocity, const RunOpti
 /// A two-body impact in the pair's own coordinates: overlap/(lambda R*), F/(4/3 E*_s lambda R*^2),
 /// a/(sqrt(lambda) R*). From several of them, and an elastic one, fit_curve.hpp makes a two-body law: a curve
 /// that goes with this pair's mapping, and is valid for this pair, radius ratio and density ratio only.
-Pressing two_body_pressing(const UnlikePair& pair, double velocity, const RunOptions& options);
+ContactRecord two_body_record(const UnlikePair& pair, double velocity, const RunOptions& options);
 
 /// The same two of a slow press to `depth`, an overlap over lambda R*: no waves. The ramps, `ramp` in R/c* of
 /// the larger body, are the same for both. Not for walls.

@@ -19,8 +19,8 @@ class SmoothSpline
 
   SmoothSpline() = default;
   /// `intervals` equal knot intervals. The penalty on the third differences of the coefficients is
-  /// `stiffness` times the mean weight of the data: it bridges knots without data and cannot follow ripple.
-  /// At least 2 samples are needed.
+  /// `stiffness` times the mean weight of the data: it bridges knots without data and cannot follow grid
+  /// noise. At least 2 samples are needed.
   SmoothSpline(double q_end, int intervals, std::span<const Sample> samples, double stiffness);
 
   /// Value and derivative; beyond [0, q_end] the last cubic goes on, below 0 both are 0.

@@ -19,8 +19,8 @@ struct Scene
   Partner partner;
   double lambda, slowness;  ///< slowness: the press's ramp counts in R/c* of the larger or slower body
 
-  /// `sphere`: the yielding body's material as the survey asks for it: its own, without yield, or softer at
-  /// the same E_h/E_s and Y_h/Y_s.
+  /// `sphere`: the yielding body's material as the sampling plan asks for it: its own, without yield, or
+  /// softer at the same E_h/E_s and Y_h/Y_s.
   Scene(const UnlikePair& pair, const Material& sphere) : lambda(pair.mapping().length(1.0))
   {
     const LawMaterial &s = pair.yielding, &h = pair.partner;
@@ -42,13 +42,13 @@ struct Scene
     slowness = std::max(1.0, period(*partner.particle) / period(first));
   }
 
-  /// The pair's run as that of the one sphere; its times by `stretch`.
-  RunResult as_one_body(RunResult run, double stretch) const
+  /// The pair's run as that of the one sphere; its times by `time_scale`.
+  RunResult as_one_body(RunResult run, double time_scale) const
   {
     for (TraceSample& t : run.trace)
-      t.time *= stretch, t.force *= lambda, t.contact_radius *= std::sqrt(lambda);
+      t.time *= time_scale, t.force *= lambda, t.contact_radius *= std::sqrt(lambda);
     RunSummary& s = run.summary;
-    s.force_max *= lambda, s.work_load *= lambda, s.work_unload *= lambda, s.contact_time *= stretch;
+    s.force_max *= lambda, s.work_load *= lambda, s.work_unload *= lambda, s.contact_time *= time_scale;
     return run;
   }
 };
@@ -111,7 +111,7 @@ BuiltLaw build_two_body_law(const UnlikePair& pair, const BuildOptions& options)
   material.density = s.density, material.youngs_modulus = s.youngs_modulus;
   material.poisson_ratio = s.poisson_ratio;
   material.yield_stress = s.yield_stress, material.hardening_modulus = s.hardening_modulus;
-  return build_law(s, subject_of(material), own, two_body_runs(pair));
+  return build_law(s, characterised_body_of(material), own, two_body_runs(pair));
 }
 
 }  // namespace granulaw

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "characterise/crew.hpp"
+#include "characterise/worker_pool.hpp"
 #include "solver/state_archive.hpp"
 
 namespace granulaw {
@@ -161,7 +161,7 @@ void MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vect
     queue.finish(index, std::move(outcome));
   };
   try {
-    Crew crew(threads_);
+    WorkerPool pool(threads_);
     Clock::time_point last_report{};
     while (!queue.finished()) {
       // one run for each rank in turn, so that the most expensive are not all on one
@@ -173,14 +173,14 @@ void MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vect
           --room[static_cast<std::size_t>(rank)];
           const std::size_t index = queue.next();
           if (rank == 0)
-            crew.start(index, jobs[index]);
+            pool.start(index, jobs[index]);
           else
             send(rank, job, pack(index));
         }
       }
-      if (crew.idle()) std::this_thread::sleep_for(look_every);
+      if (pool.idle()) std::this_thread::sleep_for(look_every);
       std::exception_ptr broken;
-      for (Crew::Finished& run : crew.wait(look_every)) {
+      for (WorkerPool::Finished& run : pool.wait(look_every)) {
         ++room[0];
         if (run.broken)
           broken = run.broken;
@@ -200,7 +200,7 @@ void MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vect
       }
       if (Clock::now() - last_report < report_every && !queue.finished()) continue;
       last_report = Clock::now();
-      for (const auto& [index, fraction] : crew.running()) queue.report(index, fraction);
+      for (const auto& [index, fraction] : pool.running()) queue.report(index, fraction);
       if (progress) progress(queue.done(), queue.label());
     }
   } catch (...) {
@@ -219,13 +219,13 @@ void MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vect
 
 void MpiFarm::work(const std::vector<RunJob>& jobs, const Progress& progress) const
 {
-  std::optional<Crew> crew(threads_);
+  std::optional<WorkerPool> pool(threads_);
   std::exception_ptr own_trouble;
   Clock::time_point last_report{};
   for (;;) {
     if (!own_trouble) try {
-        if (crew->idle()) std::this_thread::sleep_for(look_every);
-        for (Crew::Finished& run : crew->wait(look_every)) {
+        if (pool->idle()) std::this_thread::sleep_for(look_every);
+        for (WorkerPool::Finished& run : pool->wait(look_every)) {
           if (run.broken) std::rethrow_exception(run.broken);
           StateArchive content = pack(run.index);
           visit_state(content, run.outcome);
@@ -234,7 +234,7 @@ void MpiFarm::work(const std::vector<RunJob>& jobs, const Progress& progress) co
         if (Clock::now() - last_report > report_every) {
           last_report = Clock::now();
           std::string label;
-          for (const auto& [index, fraction] : crew->running()) {
+          for (const auto& [index, fraction] : pool->running()) {
             send(0, running, pack(index, fraction));
             label = jobs[index].label;
           }
@@ -242,7 +242,7 @@ void MpiFarm::work(const std::vector<RunJob>& jobs, const Progress& progress) co
         }
       } catch (...) {
         own_trouble = std::current_exception();
-        crew.reset();
+        pool.reset();
         send(0, trouble, pack(sentence_of(own_trouble)));
       }
     else
@@ -250,11 +250,11 @@ void MpiFarm::work(const std::vector<RunJob>& jobs, const Progress& progress) co
     while (std::optional<Message> m = receive()) {
       if (m->kind == job && !own_trouble) {
         const auto index = unpack<std::size_t>(m->content);
-        crew->start(index, jobs[index]);
+        pool->start(index, jobs[index]);
       } else if (m->kind == end) {
         return;
       } else if (m->kind == stop) {
-        crew.reset();
+        pool.reset();
         send(0, stopped);
         if (own_trouble) std::rethrow_exception(own_trouble);
         throw Error(unpack<std::string>(m->content));

@@ -10,9 +10,9 @@ namespace granulaw {
 ///
 /// Rank 0 hands out the runs, the most expensive first, one for each thread of a rank at a time, and computes
 /// as well. It alone reads and writes the cache, and keeps each result as it arrives. On every rank the runs
-/// are made by threads of their own (crew.hpp) while the calling thread, which alone uses MPI (FUNNELED),
-/// looks for messages every 2 ms: about 1 % of a core (every 1 ms: 1.8 %, measured), where a blocking MPI
-/// call would spin on one, and at most some 4 ms from the end of a run to the start of the next.
+/// are made by threads of their own (worker_pool.hpp) while the calling thread, which alone uses MPI
+/// (FUNNELED), looks for messages every 2 ms: about 1 % of a core (every 1 ms: 1.8 %, measured), where a
+/// blocking MPI call would spin on one, and at most some 4 ms from the end of a run to the start of the next.
 ///
 /// `progress` is told of the whole batch on rank 0; on the others it gets 0 and the rank's own run, only to
 /// be asked whether to stop. If a rank has to stop (its `progress` throws, or a run ends in another exception

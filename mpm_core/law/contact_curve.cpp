@@ -12,7 +12,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr double largest_ratio = InertiaAxis::TurnCorrection::largest_ratio;
+constexpr double largest_ratio = VelocityAxis::ReversalCorrection::largest_ratio;
 
 }  // namespace
 
@@ -45,8 +45,8 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
        &Interval::rho},
       {"exponent", table.exponent, table.exponent_slope, UnloadingShape::least_exponent, 2.5, 0.9, 2.5,
        &Interval::n},
-      {"foot", table.foot, table.foot_slope, 0, UnloadingShape::largest_foot, -1e-6,
-       UnloadingShape::largest_foot, &Interval::foot},
+      {"foot", table.hertz_share, table.hertz_share_slope, 0, UnloadingShape::largest_hertz_share, -1e-6,
+       UnloadingShape::largest_hertz_share, &Interval::hertz_share},
       {"radius_ratio", table.radius_ratio, table.radius_ratio_slope, 0, 1e3, 0, 2e3, &Interval::a}};
   for (const Function& f : functions) {
     constexpr double big = 1e12;
@@ -71,7 +71,7 @@ ContactCurve::ContactCurve(const Table& table, const std::string& where) : table
     fail(where, "the force falls at the last overlap, and beyond it would turn negative");
 }
 
-ContactCurve::ContactCurve(const Table& table, const InertiaAxis::Table& axis, const std::string& where)
+ContactCurve::ContactCurve(const Table& table, const VelocityAxis::Table& axis, const std::string& where)
     : ContactCurve(table, where)
 {
   axis_.emplace(axis, where);
@@ -84,7 +84,7 @@ void ContactCurve::check_unloading_rises(const std::string& where) const
   for (std::size_t k = 0; k < intervals_.size(); ++k) {
     double sum[4];
     for (int power = 0; power < 4; ++power)
-      sum[power] = intervals_[k].foot[power] + 4.0 * intervals_[k].n[power];
+      sum[power] = intervals_[k].hertz_share[power] + 4.0 * intervals_[k].n[power];
     constexpr double most = 10.0 + 1e-9;  // rounding
     for (const double at : {cubic(sum, 0.0), cubic(sum, 1.0)})
       if (!(at <= most))
@@ -98,7 +98,7 @@ void ContactCurve::check_axis(const std::string& where) const
 {
   const double end = axis_->overlap_end();
   if (end > 1.05 * x_end_)  // 5 %: so far the linear continuation is still within about a percent
-    fail(where, "the inertia axis goes deeper than the curve: 'impact_overlap' at the last node",
+    fail(where, "the velocity axis goes deeper than the curve: 'impact_overlap' at the last node",
          fmt::format("{:.6g}", end), fmt::format("up to {:.6g}", 1.05 * x_end_));
   const auto columns = 8 * (axis_->table().ratio_nodes() - 1);
   for (const double overlap : axis_->examined_overlaps())
@@ -106,7 +106,7 @@ void ContactCurve::check_axis(const std::string& where) const
       const double ratio = axis_->table().ratio_end * static_cast<double>(l) / static_cast<double>(columns);
       const double x = ratio * overlap;
       const auto here = [&](const char* what) {
-        return fmt::format("with the inertia axis {} at overlap {:.4g} after an impact to {:.4g}", what, x,
+        return fmt::format("with the velocity axis {} at overlap {:.4g} after an impact to {:.4g}", what, x,
                            overlap);
       };
       const Loading now = loading(x, overlap);
@@ -114,9 +114,9 @@ void ContactCurve::check_axis(const std::string& where) const
         fail(where, here("the loading force falls"));
       if (x <= onset_ || x > x_end_) continue;
       const Position p = locate(x);
-      const InertiaAxis::TurnCorrection turn = axis_->turn(x, overlap);
-      const double residual = cubic(p.interval->rho, p.t) + turn.residual,
-                   n = cubic(p.interval->n, p.t) + turn.exponent;
+      const VelocityAxis::ReversalCorrection reversal = axis_->reversal(x, overlap);
+      const double residual = cubic(p.interval->rho, p.t) + reversal.residual,
+                   n = cubic(p.interval->n, p.t) + reversal.exponent;
       if (!(residual >= -0.1 && residual <= largest_ratio))  // between nodes, as the quasi-static ratio's
         fail(where, here("the residual ratio is out of range"), fmt::format("{:.6g}", residual),
              fmt::format("-0.1 to {:.6f}", largest_ratio));
@@ -194,7 +194,7 @@ double ContactCurve::interval_work(std::size_t k, double t_end) const
 double ContactCurve::work_unloading(double x_m, double impact_overlap) const
 {
   if (x_m <= onset_) return work_loading(x_m, impact_overlap);
-  const Turning top = turning(x_m, impact_overlap);
+  const Reversal top = reversal(x_m, impact_overlap);
   return top.force * (x_m - top.residual) * top.shape.work();
 }
 
@@ -210,7 +210,7 @@ double ContactCurve::admissibility_margin() const
 double ContactCurve::admissibility_margin(double impact_overlap) const
 {
   double margin = std::numeric_limits<double>::infinity();
-  // A turn just past the onset must not give back more than was put in.
+  // A reversal just past the onset must not give back more than was put in.
   if (const double first = onset_ * (1.0 + 1e-9); onset_ > 0 && first < x_end_)
     margin = 1.0 - work_unloading(first, impact_overlap) / work_loading(first, impact_overlap);
   for (const double x : margin_overlaps(impact_overlap))

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "law/cubic.hpp"
-#include "law/inertia_axis.hpp"
 #include "law/pair.hpp"
 #include "law/unloading.hpp"
+#include "law/velocity_axis.hpp"
 
 namespace granulaw {
 
@@ -21,16 +21,16 @@ namespace granulaw {
 /// What is stored. Five functions of one overlap x = delta/(lambda R*), each as ratio to the Hertz value or
 /// as a pure number, at nodes uniform in s = x^(1/4), s_k = k s_end/(count-1), k = 0..count-1:
 ///     force_ratio[k]     g = F_L(x) / F_Hertz(x)                  loading force;       g(0) = 1
-///     residual_ratio[k]  rho = delta_r/delta_m                    residual overlap after a turn at x
+///     residual_ratio[k]  rho = delta_r/delta_m                    residual overlap after a reversal at x
 ///     exponent[k]        n   unloading F = F_L(delta_m) phi(u), u = (delta - delta_r)/(delta_m - delta_r),
-///     foot[k]            A   phi by n and A: UnloadingShape
+///     hertz_share[k]            A   phi by n and A: UnloadingShape
 ///     radius_ratio[k]    a(x) / a_Hertz(x), a_Hertz = R sqrt(x)   contact radius;      1 at x = 0
 /// Between nodes: cubic Hermite with the stored slopes (d/ds), so F, dF/dx are continuous.
 /// Half-open range 0 <= x < x_end = s_end^4. Beyond it the force goes on with the last stiffness, the other
 /// four keep their last value, and `in_range` says false: the caller counts and decides.
 ///
-/// State of a contact: delta_max, the largest overlap since first touch, and, where the curve has an inertia
-/// axis, the impact overlap X latched at first touch (inertia_axis.hpp; dimensionless as x). The caller
+/// State of a contact: delta_max, the largest overlap since first touch, and, where the curve has a velocity
+/// axis, the impact overlap X latched at first touch (velocity_axis.hpp; dimensionless as x). The caller
 /// zeroes both when the geometric overlap ends. delta >= delta_max: loading. Else unloading and reloading
 /// follow the same curve F = F_L(delta_max) phi(u), 0 for u < 0. While delta_max is below the onset of yield,
 /// F = F_L(delta) both ways.
@@ -51,7 +51,7 @@ class ContactCurve
     std::vector<double> force_ratio, force_ratio_slope;  ///< value and d/ds
     std::vector<double> residual_ratio, residual_ratio_slope;
     std::vector<double> exponent, exponent_slope;
-    std::vector<double> foot, foot_slope;
+    std::vector<double> hertz_share, hertz_share_slope;
     std::vector<double> radius_ratio, radius_ratio_slope;
   };
 
@@ -59,10 +59,10 @@ class ContactCurve
   /// Throws Error naming `where` if a length, a value at a node or a cubic between nodes is out of range,
   /// or if the force falls at the end. What is accepted evaluates to finite, never negative forces.
   ContactCurve(const Table& table, const std::string& where);
-  /// With an inertia axis. Further refused: an axis whose X_end lies over 5 % beyond x_end, and, at its
-  /// slices and half-way between them (sampled eight times an interval), a loading force that falls or a
+  /// With a velocity axis. Further refused: an axis whose X_end lies over 5 % beyond x_end, and, at its
+  /// levels and half-way between them (sampled eight times an interval), a loading force that falls or a
   /// corrected residual ratio or exponent as no curve may have.
-  ContactCurve(const Table& table, const InertiaAxis::Table& axis, const std::string& where);
+  ContactCurve(const Table& table, const VelocityAxis::Table& axis, const std::string& where);
 
   /// Largest dimensionless overlap of the table.
   double x_end() const { return x_end_; }
@@ -70,7 +70,7 @@ class ContactCurve
   double onset() const { return onset_; }
   const Table& table() const { return table_; }
   /// Null: the law is quasi-static.
-  const InertiaAxis* axis() const { return axis_ ? &*axis_ : nullptr; }
+  const VelocityAxis* axis() const { return axis_ ? &*axis_ : nullptr; }
 
   /// Loading force over Hertz's force at x = 1, that is x^1.5 g(x); its derivative by x; a/R = sqrt(x) ratio.
   struct Loading
@@ -79,13 +79,13 @@ class ContactCurve
   };
   Loading loading(double x, double impact_overlap = 0) const;
 
-  /// Turning point of a contact that reached x_m.
-  struct Turning
+  /// Reversal point of a contact that reached x_m.
+  struct Reversal
   {
     double force, stiffness, radius, residual;
     UnloadingShape shape;
   };
-  Turning turning(double x_m, double impact_overlap = 0) const;
+  Reversal reversal(double x_m, double impact_overlap = 0) const;
 
   /// Work of loading to x, and work given back on complete unloading from x_m, in units of
   /// (Hertz force at x = 1) * length. With X > 0 the loading work is integrated anew: microseconds.
@@ -95,7 +95,7 @@ class ContactCurve
 
   /// min over the table of (F_L - dW_u/d x_m)/F_L, and of (W_L - W_u)/W_L just past the onset; negative: some
   /// closed cycle would gain energy. Infinity: the table ends before the onset. Without an argument: the
-  /// least of the quasi-static law, every slice of the axis and half-way between slices.
+  /// least of the quasi-static law, every level of the axis and half-way between levels.
   double admissibility_margin() const;
   double admissibility_margin(double impact_overlap) const;
   /// (F_L - dW_u/d x_m)/F_L at x; infinity within 1e-4 of the onset and the table's end, below and beyond
@@ -113,7 +113,7 @@ class ContactCurve
   /// Cubic coefficients in t = (s - s_k)/h of the five functions over one interval.
   struct Interval
   {
-    double g[4], a[4], rho[4], n[4], foot[4];
+    double g[4], a[4], rho[4], n[4], hertz_share[4];
   };
   struct Position
   {
@@ -128,12 +128,12 @@ class ContactCurve
     const auto k = std::min(static_cast<std::size_t>(position), intervals_.size() - 1);
     return {&intervals_[k], position - static_cast<double>(k), s, root};
   }
-  /// Between nodes the cubic of the foot may pass below 0 by rounding.
+  /// Between nodes the cubic of the Hertz share may pass below 0 by rounding.
   static UnloadingShape shape_at(const Position& p)
   {
-    return {cubic(p.interval->n, p.t), std::max(0.0, cubic(p.interval->foot, p.t))};
+    return {cubic(p.interval->n, p.t), std::max(0.0, cubic(p.interval->hertz_share, p.t))};
   }
-  bool corrected(double impact_overlap) const { return axis_ && impact_overlap > InertiaAxis::negligible; }
+  bool corrected(double impact_overlap) const { return axis_ && impact_overlap > VelocityAxis::negligible; }
   Loading quasi_static(double x) const;
   /// Loading work from node k to t_end within its interval.
   double interval_work(std::size_t k, double t_end) const;
@@ -150,7 +150,7 @@ class ContactCurve
   double onset_ = 0;
   Loading end_{};  // loading at x_end
   Table table_;
-  std::optional<InertiaAxis> axis_;
+  std::optional<VelocityAxis> axis_;
 };
 
 inline ContactCurve::Loading ContactCurve::quasi_static(double x) const
@@ -169,20 +169,20 @@ inline ContactCurve::Loading ContactCurve::loading(double x, double impact_overl
   const Loading slow = quasi_static(x);
   if (!corrected(impact_overlap)) return slow;
   // F = F_qs (1 + A): dF/dx = F_qs' (1 + A) + F_qs dA/dx
-  const InertiaAxis::ForceCorrection a = axis_->force(x, impact_overlap);
+  const VelocityAxis::ForceCorrection a = axis_->force(x, impact_overlap);
   return {slow.force * (1.0 + a.value), slow.stiffness * (1.0 + a.value) + slow.force * a.slope, slow.radius};
 }
 
-inline ContactCurve::Turning ContactCurve::turning(double x_m, double impact_overlap) const
+inline ContactCurve::Reversal ContactCurve::reversal(double x_m, double impact_overlap) const
 {
   const Loading top = loading(x_m, impact_overlap);
   const Position p = locate(std::min(x_m, x_end_));
   double ratio = cubic(p.interval->rho, p.t);
   UnloadingShape shape = shape_at(p);
   if (corrected(impact_overlap)) {
-    const InertiaAxis::TurnCorrection turn = axis_->turn(x_m, impact_overlap);
-    ratio = turn.corrected_residual(ratio);
-    shape = turn.corrected_shape(shape);
+    const VelocityAxis::ReversalCorrection reversal = axis_->reversal(x_m, impact_overlap);
+    ratio = reversal.corrected_residual(ratio);
+    shape = reversal.corrected_shape(shape);
   }
   return {top.force, top.stiffness, top.radius, x_m * ratio, shape};
 }
@@ -198,7 +198,7 @@ inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff
     return {force_scale * now.force, force_scale * per_length * now.stiffness, radius_scale * now.radius,
             std::max(delta, delta_max)};
   }
-  // turning(x_max) without what is not needed, from one position: this branch is where a dense flow spends
+  // reversal(x_max) without what is not needed, from one position: this branch is where a dense flow spends
   // its time
   const Position p = locate(std::min(x_max, x_end_));
   double residual = cubic(p.interval->rho, p.t);  // over delta_max
@@ -206,10 +206,10 @@ inline ContactForce ContactCurve::evaluate(const PairMapping& pair, double r_eff
   double top = x_max <= x_end_ ? x_max * p.root * cubic(p.interval->g, p.t)
                                : end_.force + end_.stiffness * (x_max - x_end_);
   if (corrected(impact_overlap)) {
-    const InertiaAxis::TurnCorrection turn = axis_->turn(x_max, impact_overlap);
-    top *= 1.0 + turn.force;
-    residual = turn.corrected_residual(residual);
-    shape = turn.corrected_shape(shape);
+    const VelocityAxis::ReversalCorrection reversal = axis_->reversal(x_max, impact_overlap);
+    top *= 1.0 + reversal.force;
+    residual = reversal.corrected_residual(residual);
+    shape = reversal.corrected_shape(shape);
   }
   const double span = 1.0 - residual, u = (delta / delta_max - residual) / span;
   if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};

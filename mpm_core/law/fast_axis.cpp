@@ -2,18 +2,18 @@
 
 namespace granulaw {
 
-FastAxis::FastAxis(const InertiaAxis& axis)
+FastAxis::FastAxis(const VelocityAxis& axis)
 {
-  const InertiaAxis::Table& table = axis.table();
-  const std::size_t slices = table.slices, nodes = table.ratio_nodes();
+  const VelocityAxis::Table& table = axis.table();
+  const std::size_t levels = table.levels, nodes = table.ratio_nodes();
   const double h = table.ratio_end / static_cast<double>(nodes - 1);
   scale_ = axis.scale();
   per_spacing_ = 1.0 / h;
   columns_ = static_cast<double>(nodes - 1);
-  cells_a_slice_ = static_cast<int>(nodes);
-  cells_.assign((slices + 1) * nodes, Cell{});
+  cells_a_level_ = static_cast<int>(nodes);
+  cells_.assign((levels + 1) * nodes, Cell{});
 
-  // coefficients of one function over interval l of slice k; slice 0 corrects nothing
+  // coefficients of one function over interval l of level k; level 0 corrects nothing
   const auto cubic_of = [&](const std::vector<double>& value, const std::vector<double>& slope, std::size_t k,
                             std::size_t l, double(&c)[4]) {
     std::fill_n(c, 4, 0.0);
@@ -35,11 +35,11 @@ FastAxis::FastAxis(const InertiaAxis& axis)
       {table.residual_correction, table.residual_correction_slope, &Cell::low, &Cell::rise, 0, 0},
       {table.exponent_correction, table.exponent_correction_slope, &Cell::low, &Cell::rise, 1, 1}};
   for (const Function& f : functions)
-    for (std::size_t k = 0; k <= slices; ++k)
+    for (std::size_t k = 0; k <= levels; ++k)
       for (std::size_t l = 0; l < nodes; ++l) {
         double low[4], rise[4];
         cubic_of(f.value, f.slope, k, l, low);
-        cubic_of(f.value, f.slope, std::min(k + 1, slices), l, rise);
+        cubic_of(f.value, f.slope, std::min(k + 1, levels), l, rise);
         for (int power = 0; power < 4; ++power) rise[power] -= low[power];
         Cell& cell = cells_[k * nodes + l];
         (cell.*f.low).set(f.low_place, low);

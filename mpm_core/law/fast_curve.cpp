@@ -22,7 +22,7 @@ FastCurve::FastCurve(const ContactCurve& curve) : curve_(&curve), onset_(curve.o
 {
   if (curve.axis()) {
     axis_ = FastAxis(*curve.axis());
-    corrected_from_ = InertiaAxis::negligible;
+    corrected_from_ = VelocityAxis::negligible;
   }
   const double x_end = curve.x_end();
   if (x_end < std::ldexp(1.0, lowest_exponent)) return;  // the curve answers alone
@@ -35,24 +35,24 @@ FastCurve::FastCurve(const ContactCurve& curve) : curve_(&curve), onset_(curve.o
     // the last interval is sampled up to x_end only: beyond, the curve's residual ratio and exponent stand
     // still
     const double width = (x_end > low ? std::min(high, x_end) : high) - low;
-    double radius[4], span[4], exponent[4], foot[4], work[4];
+    double radius[4], span[4], exponent[4], hertz_share[4], work[4];
     for (int p = 0; p < 4; ++p) {
       const double x = low + width * p / 3.0;
-      const ContactCurve::Turning turning = curve.turning(x);
-      radius[p] = turning.radius;
-      span[p] = 1.0 - turning.residual / x;
-      exponent[p] = turning.shape.exponent;
-      foot[p] = turning.shape.foot;
+      const ContactCurve::Reversal reversal = curve.reversal(x);
+      radius[p] = reversal.radius;
+      span[p] = 1.0 - reversal.residual / x;
+      exponent[p] = reversal.shape.exponent;
+      hertz_share[p] = reversal.shape.hertz_share;
       work[p] = curve.work_loading(x) - curve.work_unloading(x);
     }
     double c[4];
     fit(radius, width, c);
     intervals_[k].loading.set(1, c);
     fit(span, width, c);
-    intervals_[k].turn.set(0, c);
+    intervals_[k].reversal.set(0, c);
     fit(exponent, width, c);
-    intervals_[k].turn.set(1, c);
-    fit(foot, width, c);
+    intervals_[k].reversal.set(1, c);
+    fit(hertz_share, width, c);
     intervals_[k].rest.set(0, c);
     fit(work, width, c);
     intervals_[k].rest.set(1, c);
@@ -86,9 +86,9 @@ double FastCurve::dissipated(double from, double to, double impact_overlap) cons
 {
   if (!corrected(impact_overlap)) return dissipated(to) - dissipated(from);
   if (to <= onset_) return 0.0;
-  const Turn after = turn(to, impact_overlap);
+  const Reversal after = reversal(to, impact_overlap);
   if (from <= onset_) return loading_work(to, impact_overlap) - after.work();
-  const Turn before = turn(from, impact_overlap);
+  const Reversal before = reversal(from, impact_overlap);
   const double put_in =
       to > 1.25 * from ? loading_work(to, impact_overlap) - loading_work(from, impact_overlap)
                        : (to - from) / 6.0 *
@@ -102,9 +102,9 @@ ContactCurve::Loading FastCurve::far_loading(double x, double impact_overlap) co
   return curve_->loading(x, impact_overlap);
 }
 
-FastCurve::Turn FastCurve::far_turn(double x_max, double impact_overlap) const
+FastCurve::Reversal FastCurve::far_turn(double x_max, double impact_overlap) const
 {
-  const ContactCurve::Turning t = curve_->turning(x_max, impact_overlap);
+  const ContactCurve::Reversal t = curve_->reversal(x_max, impact_overlap);
   return turn_of(x_max, t.force, x_max - t.residual, t.shape);
 }
 

@@ -20,12 +20,12 @@ namespace granulaw {
 ///     force     F_L(x)           Hermite with the curve's stiffness: the stiffness is its derivative,
 ///                                exactly, and continuous
 ///     radius    a(x)             this and the following: equal to the curve at four equidistant points
-///     span      1 - rho, rho = x_r/x_m: a turn at x_m unloads along u = 1 - (x_m - x)/(span x_m)
-///     exponent  n, and foot A
+///     span      1 - rho, rho = x_r/x_m: a reversal at x_m unloads along u = 1 - (x_m - x)/(span x_m)
+///     exponent  n, and Hertz share A
 ///     work      W_load - W_unload: spent on plastic strain (quasi-static)
-/// One cache line for the loading branch, three for a turn, none for a turn that was kept. An inertia axis is
-/// laid out anew: FastAxis. Below 2^-40 and beyond x_end the curve itself answers. Errors against the curve:
-/// tests/unit/fast_curve_test.cpp; speed: tests/benchmarks/law_benchmark.cpp.
+/// One cache line for the loading branch, three for a reversal, none for a reversal that was kept. A velocity
+/// axis is laid out anew: FastAxis. Below 2^-40 and beyond x_end the curve itself answers. Errors against the
+/// curve: tests/unit/fast_curve_test.cpp; speed: tests/benchmarks/law_benchmark.cpp.
 ///
 /// The arguments x, x_max and impact_overlap (X; 0: quasi-static) are ContactCurve's.
 class FastCurve
@@ -42,12 +42,12 @@ class FastCurve
   /// Force alone, in the curve's units.
   double force(double x, double x_max, double impact_overlap = 0) const
   {
-    return unloads(x, x_max) ? turn(x_max, impact_overlap).force_at(x) : loading_force(x, impact_overlap);
+    return unloads(x, x_max) ? reversal(x_max, impact_overlap).force_at(x) : loading_force(x, impact_overlap);
   }
 
-  /// A turn at x_max: all that un- and reloading below it takes, worked out once. A contact that keeps it
+  /// A reversal at x_max: all that un- and reloading below it takes, worked out once. A contact that keeps it
   /// needs no table for its force until it loads further. In the curve's units.
-  struct Turn
+  struct Reversal
   {
     double x_max = 0;      ///< 0: none yet
     double per_range = 0;  ///< 1/(x_m - x_r): u = 1 - (x_m - x) per_range
@@ -72,7 +72,7 @@ class FastCurve
       return root * ((1.5 * force[0] + root * (2.0 * force[1])) + u * (2.5 * force[2]));
     }
   };
-  /// True if a contact at x follows the turn at x_max; else it loads, or never yielded.
+  /// True if a contact at x follows the reversal at x_max; else it loads, or never yielded.
   bool unloads(double x, double x_max) const { return x < x_max && x_max > onset_; }
   double loading_force(double x, double impact_overlap = 0) const
   {
@@ -81,16 +81,16 @@ class FastCurve
     const double slow = at(x).force();
     return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
   }
-  Turn turn(double x_max, double impact_overlap = 0) const
+  Reversal reversal(double x_max, double impact_overlap = 0) const
   {
     if (!in_table(x_max)) [[unlikely]]
       return far_turn(x_max, impact_overlap);
     const Place p = at(x_max);
-    const Two rest = p.i.turn.both(p.t);
+    const Two rest = p.i.reversal.both(p.t);
     double force = p.force(), span = rest[0];
     UnloadingShape shape{rest[1], std::max(0.0, p.i.rest.first(p.t))};
     if (corrected(impact_overlap)) {
-      const InertiaAxis::TurnCorrection c = axis_.turn(x_max, impact_overlap);
+      const VelocityAxis::ReversalCorrection c = axis_.reversal(x_max, impact_overlap);
       force *= 1.0 + c.force;
       span = c.corrected_span(span);
       shape = c.corrected_shape(shape);
@@ -101,17 +101,17 @@ class FastCurve
   /// Force, stiffness and contact radius in the curve's units, as ContactCurve::evaluate.
   ContactCurve::Loading evaluate(double x, double x_max, double impact_overlap = 0) const
   {
-    return unloads(x, x_max) ? evaluate(x, turn(x_max, impact_overlap)) : loading(x, impact_overlap);
+    return unloads(x, x_max) ? evaluate(x, reversal(x_max, impact_overlap)) : loading(x, impact_overlap);
   }
-  /// The same of a contact that unloads and has kept its turn.
-  ContactCurve::Loading evaluate(double x, const Turn& turn) const
+  /// The same of a contact that unloads and has kept its reversal.
+  ContactCurve::Loading evaluate(double x, const Reversal& reversal) const
   {
-    const double u = turn.part(x);
+    const double u = reversal.part(x);
     if (u <= 0.0) return {0.0, 0.0, 0.0};
-    const double root = std::sqrt(u), slope = turn.slope_at(u, root);
+    const double root = std::sqrt(u), slope = reversal.slope_at(u, root);
     // a = a_m phi'(u)/phi'(1)
-    return {turn.force_at(u, root), slope * turn.per_range,
-            radius(turn.x_max) * slope / turn.slope_at(1.0, 1.0)};
+    return {reversal.force_at(u, root), slope * reversal.per_range,
+            radius(reversal.x_max) * slope / reversal.slope_at(1.0, 1.0)};
   }
   /// As ContactCurve::evaluate: SI.
   ContactForce evaluate(const PairMapping& pair, double r_eff, double delta, double delta_max,
@@ -140,9 +140,9 @@ class FastCurve
   static constexpr int shift = 52 - bits_per_octave;
   struct Interval
   {
-    CubicPair loading;  // force, radius
-    CubicPair turn;     // span, exponent
-    CubicPair rest;     // foot, work
+    CubicPair loading;   // force, radius
+    CubicPair reversal;  // span, exponent
+    CubicPair rest;      // Hertz share, work
   };
 
   struct Place
@@ -178,7 +178,7 @@ class FastCurve
     const Two now = p.i.loading.both(p.t);
     const double force = now[0], stiffness = p.i.loading.first_slope(p.t);
     if (!corrected(impact_overlap)) return {force, stiffness, now[1]};
-    const InertiaAxis::ForceCorrection a = axis_.force(x, impact_overlap);
+    const VelocityAxis::ForceCorrection a = axis_.force(x, impact_overlap);
     return {force * (1.0 + a.value), stiffness * (1.0 + a.value) + force * a.slope, now[1]};
   }
   double radius(double x) const
@@ -188,15 +188,15 @@ class FastCurve
     const Place p = at(x);
     return p.i.loading.both(p.t)[1];
   }
-  static Turn turn_of(double x_max, double force, double range, const UnloadingShape& shape)
+  static Reversal turn_of(double x_max, double force, double range, const UnloadingShape& shape)
   {
-    return {x_max, 1.0 / range, {force * shape.foot, force * shape.second(), force * shape.third()}};
+    return {x_max, 1.0 / range, {force * shape.hertz_share, force * shape.second(), force * shape.third()}};
   }
   /// Loading work with an axis, to 1e-4 of itself.
   double loading_work(double x, double impact_overlap) const;
   // Beyond the table, out of line: the loop stays small.
   ContactCurve::Loading far_loading(double x, double impact_overlap) const;
-  Turn far_turn(double x_max, double impact_overlap) const;
+  Reversal far_turn(double x_max, double impact_overlap) const;
 
   std::vector<Interval> intervals_;
   const ContactCurve* curve_ = nullptr;

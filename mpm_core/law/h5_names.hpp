@@ -24,17 +24,17 @@ inline constexpr const char* unit = "unit";
 inline constexpr const char* legend = "legend";
 
 // Groups and the one text dataset.
-inline constexpr const char* provenance = "provenance";      ///< group; string attributes
-inline constexpr const char* pairs = "pairs";                ///< dataset of "a:b" and "a:wall"
-inline constexpr const char* bodies = "bodies";              ///< group; one subgroup for each material
-inline constexpr const char* material = "material";          ///< bodies/<name>/material, scalars
-inline constexpr const char* curve = "curve";                ///< bodies/<name>/curve, nodes
-inline constexpr const char* certificate = "certificate";    ///< bodies/<name>/certificate, scalars
-inline constexpr const char* support = "support";            ///< string attribute of certificate
-inline constexpr const char* origin = "origin";              ///< the same: "runs" or "atlas"
-inline constexpr const char* body = "body";                  ///< string attribute of bodies/<name>
-inline constexpr const char* inertia_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, if it has one
-inline constexpr const char* kind = "kind";                  ///< string attribute of it
+inline constexpr const char* provenance = "provenance";       ///< group; string attributes
+inline constexpr const char* pairs = "pairs";                 ///< dataset of "a:b" and "a:wall"
+inline constexpr const char* bodies = "bodies";               ///< group; one subgroup for each material
+inline constexpr const char* material = "material";           ///< bodies/<name>/material, scalars
+inline constexpr const char* curve = "curve";                 ///< bodies/<name>/curve, nodes
+inline constexpr const char* certificate = "certificate";     ///< bodies/<name>/certificate, scalars
+inline constexpr const char* support = "support";             ///< string attribute of certificate
+inline constexpr const char* origin = "origin";               ///< the same: "runs" or "atlas"
+inline constexpr const char* body = "body";                   ///< string attribute of bodies/<name>
+inline constexpr const char* velocity_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, if it has one
+inline constexpr const char* kind = "kind";                   ///< string attribute of it
 inline constexpr const char* kind_inertia = "inertia";
 inline constexpr const char* kind_rate = "logarithmic rate";
 
@@ -71,27 +71,27 @@ inline constexpr Field force_ratio_slope{"force_ratio_slope", "1", "d(force_rati
 inline constexpr Field residual_ratio{"residual_ratio", "1", "residual overlap over largest overlap x"};
 inline constexpr Field residual_ratio_slope{"residual_ratio_slope", "1", "d(residual_ratio)/ds"};
 inline constexpr Field exponent{"exponent", "1",
-                                "n = d ln F/d ln u at the turn, of the unloading F = F_m phi(u)"};
+                                "n = d ln F/d ln u at the reversal, of the unloading F = F_m phi(u)"};
 inline constexpr Field exponent_slope{"exponent_slope", "1", "d(exponent)/ds"};
-inline constexpr Field foot{"foot", "1", "A of phi = A u^1.5 + B u^2 + C u^2.5"};
-inline constexpr Field foot_slope{"foot_slope", "1", "d(foot)/ds"};
+inline constexpr Field hertz_share{"foot", "1", "A of phi = A u^1.5 + B u^2 + C u^2.5"};
+inline constexpr Field hertz_share_slope{"foot_slope", "1", "d(hertz_share)/ds"};
 inline constexpr Field radius_ratio{"radius_ratio", "1", "contact radius over Hertz's R sqrt(x)"};
 inline constexpr Field radius_ratio_slope{"radius_ratio_slope", "1", "d(radius_ratio)/ds"};
 
 // bodies/<name>/inertia_axis
 inline constexpr Field reference_radius{"reference_radius", "m", "R_ref of v; absent: kind inertia"};
 inline constexpr Field speed_begin{"speed_begin", "1",
-                                   "v of slice 1, the slowest impact known; absent: kind inertia"};
+                                   "v of level 1, the slowest impact known; absent: kind inertia"};
 inline constexpr Field speed_end{"speed_end", "1",
                                  "v at the last node of impact_overlap; nodes uniform in v"};
 inline constexpr Field impact_overlap{"impact_overlap", "1",
-                                      "X = overlap/(lambda R*) at which an impact at v turns"};
+                                      "X = overlap/(lambda R*) at which an impact at v reverses"};
 inline constexpr Field impact_overlap_slope{"impact_overlap_slope", "1", "d(impact_overlap)/dv"};
-inline constexpr Field slices{"slices", "1", "number K of slices; where they lie in X: law-format.md"};
-inline constexpr Field first_slices{"first_slices", "1", "how many of them divide the first spacing evenly"};
+inline constexpr Field levels{"slices", "1", "number K of levels; where they lie in X: law-format.md"};
+inline constexpr Field first_levels{"first_slices", "1", "how many of them divide the first spacing evenly"};
 inline constexpr Field ratio_end{"ratio_end", "1", "xi = x/X at the last node; nodes uniform in xi"};
-inline constexpr Field force_correction{"force_correction", "1",
-                                        "A: loading force over the curve's, less 1; slice after slice"};
+inline constexpr Field force_correction{
+    "force_correction", "1", "A: loading force over the curve's, less 1; impact level after impact level"};
 inline constexpr Field force_correction_slope{"force_correction_slope", "1", "dA/dxi"};
 inline constexpr Field residual_correction{"residual_correction", "1", "B: added to residual_ratio"};
 inline constexpr Field residual_correction_slope{"residual_correction_slope", "1", "dB/dxi"};
@@ -119,11 +119,11 @@ inline constexpr Field verification_error_restitution{"verification_error_restit
                                                       "largest relative error of e, replay against impacts"};
 inline constexpr Field verification_impacts{"verification_impacts", "1",
                                             "number of impacts compared; 0: none"};
-inline constexpr Field max_inertia{"max_inertia", "1", "I = rho V^2/Y up to which the law holds"};
+inline constexpr Field damage_number_max{"max_inertia", "1", "I = rho V^2/Y up to which the law holds"};
 inline constexpr Field axis_cost_force{
-    "axis_cost_force", "1", "F_max without the inertia axis over F_max with it, less 1, at its end; signed"};
+    "axis_cost_force", "1", "F_max without the velocity axis over F_max with it, less 1, at its end; signed"};
 inline constexpr Field axis_cost_restitution{
-    "axis_cost_restitution", "1", "e without the inertia axis over e with it, less 1, at its end; signed"};
+    "axis_cost_restitution", "1", "e without the velocity axis over e with it, less 1, at its end; signed"};
 inline constexpr Field atlas_error_force{"atlas_error_force", "1",
                                          "relative, of an interpolated law; 0: computed by runs"};
 inline constexpr Field atlas_error_restitution{"atlas_error_restitution", "1",

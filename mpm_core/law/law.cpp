@@ -74,7 +74,7 @@ double PairLaw::usual_mass(double r_eff) const
   return rigid ? mass : 0.5 * mass;
 }
 
-double PairLaw::inertia_speed(double r_eff, double m_eff, double speed) const
+double PairLaw::axis_speed(double r_eff, double m_eff, double speed) const
 {
   // A pair moves like one body of radius lambda R* and mass lambda m* against the rigid wall.
   const double length = mapping.length(r_eff), volume = 4.0 / 3.0 * M_PI * length * length * length;
@@ -84,7 +84,7 @@ double PairLaw::inertia_speed(double r_eff, double m_eff, double speed) const
 
 double PairLaw::speed_coordinate(double r_eff, double m_eff) const
 {
-  if (curve->axis()->kind() == InertiaAxis::Kind::inertia) return inertia_speed(r_eff, m_eff, 1.0);
+  if (curve->axis()->kind() == VelocityAxis::Kind::inertia) return axis_speed(r_eff, m_eff, 1.0);
   const LawMaterial& m = yielding->material;
   return std::sqrt(m.density / m.yield_stress) * curve->axis()->table().reference_radius /
          mapping.length(r_eff);

@@ -31,17 +31,17 @@ struct Certificate
   double solver_error_restitution = 0;  ///< of e, by two resolutions
   double interpolation_error = 0;       ///< table against the fitted curve it was made from
   double held_out_error = 0;            ///< largest error of e at a press depth left out of the fit
-  double residual_scatter = 0;          ///< rms of the runs about the fit: what the ripple treatment removed
-  double reload_loop_area = 0;          ///< largest area of an unload/reload loop over the loading work there
+  double residual_scatter = 0;  ///< rms of the runs about the fit: what the grid noise treatment removed
+  double reload_loop_area = 0;  ///< largest area of an unload/reload loop over the loading work there
   double slow_press_force =
       0;  ///< F of a slow press over the impact's at the deepest impact's overlap, less 1
-  double slow_press_restitution = 0;    ///< the same of e: what inertia does at max_inertia (signed)
+  double slow_press_restitution = 0;    ///< the same of e: what inertia does at damage_number_max (signed)
   double verification_error_force = 0;  ///< largest error of F_max, replay of this law against fresh impacts
   double verification_error_restitution = 0;  ///< the same of e
   double verification_impacts = 0;            ///< how many impacts were compared
-  double max_inertia = 0;  ///< I = rho V^2/Y up to which the law, with its axis, holds within its error
+  double damage_number_max = 0;  ///< I = rho V^2/Y up to which the law, with its axis, holds within its error
   double axis_cost_force =
-      0;  ///< F_max without the inertia axis over F_max with it, less 1, at its end; 0: none
+      0;  ///< F_max without the velocity axis over F_max with it, less 1, at its end; 0: none
   double axis_cost_restitution = 0;    ///< the same of e (both signed)
   double atlas_error_force = 0;        ///< of what the atlas tells, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
@@ -125,11 +125,11 @@ struct PairLaw
   /// Largest overlap the table answers for, m.
   double max_overlap(double r_eff) const { return curve->x_end() * mapping.length(r_eff); }
 
-  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see inertia_axis.hpp. The yielding body
+  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see velocity_axis.hpp. The yielding body
   /// yields.
-  double inertia_speed(double r_eff, double m_eff, double speed) const;
+  double axis_speed(double r_eff, double m_eff, double speed) const;
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
-  /// approach positive): 0 without an inertia axis or approach, clamped beyond max_speed().
+  /// approach positive): 0 without a velocity axis or approach, clamped beyond max_speed().
   double impact_overlap(double r_eff, double m_eff, double speed) const
   {
     return curve->axis() ? curve->axis()->impact_overlap(speed_coordinate(r_eff, m_eff) * speed) : 0.0;
@@ -142,7 +142,7 @@ struct PairLaw
   }
   /// Radius, m, that the yielding body must have (check_size); 0: any.
   double only_radius() const { return curve->axis() ? curve->axis()->table().reference_radius : 0.0; }
-  /// Largest approach speed the inertia axis answers for, m/s; infinity: there is no axis.
+  /// Largest approach speed the velocity axis answers for, m/s; infinity: there is no axis.
   double max_speed(double r_eff, double m_eff) const
   {
     return curve->axis() ? curve->axis()->speed_end() / speed_coordinate(r_eff, m_eff)
@@ -154,7 +154,7 @@ struct PairLaw
   double usual_mass(double r_eff) const;
 
  private:
-  /// v of the inertia axis over the relative normal speed, s/m (inertia_axis.hpp).
+  /// v of the velocity axis over the relative normal speed, s/m (velocity_axis.hpp).
   double speed_coordinate(double r_eff, double m_eff) const;
 };
 

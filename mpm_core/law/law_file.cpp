@@ -42,25 +42,25 @@ constexpr CurveField curve_fields[] = {{h5::force_ratio, &Table::force_ratio},
                                        {h5::residual_ratio_slope, &Table::residual_ratio_slope},
                                        {h5::exponent, &Table::exponent},
                                        {h5::exponent_slope, &Table::exponent_slope},
-                                       {h5::foot, &Table::foot},
-                                       {h5::foot_slope, &Table::foot_slope},
+                                       {h5::hertz_share, &Table::hertz_share},
+                                       {h5::hertz_share_slope, &Table::hertz_share_slope},
                                        {h5::radius_ratio, &Table::radius_ratio},
                                        {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
 
 struct AxisField
 {
   const h5::Field& field;
-  std::vector<double> InertiaAxis::Table::*values;
+  std::vector<double> VelocityAxis::Table::*values;
 };
 constexpr AxisField axis_fields[] = {
-    {h5::impact_overlap, &InertiaAxis::Table::impact_overlap},
-    {h5::impact_overlap_slope, &InertiaAxis::Table::impact_overlap_slope},
-    {h5::force_correction, &InertiaAxis::Table::force_correction},
-    {h5::force_correction_slope, &InertiaAxis::Table::force_correction_slope},
-    {h5::residual_correction, &InertiaAxis::Table::residual_correction},
-    {h5::residual_correction_slope, &InertiaAxis::Table::residual_correction_slope},
-    {h5::exponent_correction, &InertiaAxis::Table::exponent_correction},
-    {h5::exponent_correction_slope, &InertiaAxis::Table::exponent_correction_slope}};
+    {h5::impact_overlap, &VelocityAxis::Table::impact_overlap},
+    {h5::impact_overlap_slope, &VelocityAxis::Table::impact_overlap_slope},
+    {h5::force_correction, &VelocityAxis::Table::force_correction},
+    {h5::force_correction_slope, &VelocityAxis::Table::force_correction_slope},
+    {h5::residual_correction, &VelocityAxis::Table::residual_correction},
+    {h5::residual_correction_slope, &VelocityAxis::Table::residual_correction_slope},
+    {h5::exponent_correction, &VelocityAxis::Table::exponent_correction},
+    {h5::exponent_correction_slope, &VelocityAxis::Table::exponent_correction_slope}};
 
 struct CertificateField
 {
@@ -80,7 +80,7 @@ constexpr CertificateField certificate_fields[] = {
     {h5::verification_error_force, &Certificate::verification_error_force},
     {h5::verification_error_restitution, &Certificate::verification_error_restitution},
     {h5::verification_impacts, &Certificate::verification_impacts},
-    {h5::max_inertia, &Certificate::max_inertia},
+    {h5::damage_number_max, &Certificate::damage_number_max},
     {h5::axis_cost_force, &Certificate::axis_cost_force, true},
     {h5::axis_cost_restitution, &Certificate::axis_cost_restitution, true},
     {h5::atlas_error_force, &Certificate::atlas_error_force},
@@ -149,14 +149,14 @@ void check_body(const BodyLaw& body, const std::string& where)
   for (const CertificateField& c : certificate_fields)
     if (const double value = body.certificate.*c.value;
         !(value >= (c.is_signed ? -1.0 : 0.0)) ||
-        (!std::isfinite(value) && c.value != &Certificate::max_inertia))
-      // NaN fails as well; max_inertia alone may be infinite (elastic)
+        (!std::isfinite(value) && c.value != &Certificate::damage_number_max))
+      // NaN fails as well; damage_number_max alone may be infinite (elastic)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
   if (std::find(std::begin(origins), std::end(origins), body.certificate.origin) == std::end(origins))
     fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin), "runs, atlas");
   if (body.curve.axis() && !m.yields())
-    fail(where, "the material is elastic but its curve has an inertia axis");
+    fail(where, "the material is elastic but its curve has a velocity axis");
   if (!usable_name(body.body)) fail(where, "unusable name of a body", shortened(body.body), name_rule);
   if (body.pole_radius != 0) require_positive(body.pole_radius, where, h5::pole_radius);
   require_positive(body.mass_ratio, where, h5::mass_ratio);
@@ -219,40 +219,40 @@ void check_pairs(const Law& law, const std::string& where)
   for (const auto& [name, own] : law.pair_laws) check_pair_law(law, name, own, where);
 }
 
-InertiaAxis::Table read_axis(hid_t body, const std::string& where)
+VelocityAxis::Table read_axis(hid_t body, const std::string& where)
 {
-  const h5::Handle group = h5::open_group(body, h5::inertia_axis, where);
-  InertiaAxis::Table axis;
+  const h5::Handle group = h5::open_group(body, h5::velocity_axis, where);
+  VelocityAxis::Table axis;
   const std::string kind = h5::read_text_attribute(group, h5::kind, where);
   if (kind != h5::kind_inertia && kind != h5::kind_rate)
-    fail(where, "unknown 'kind' of the inertia axis", shortened(kind),
+    fail(where, "unknown 'kind' of the velocity axis", shortened(kind),
          fmt::format("{}, {}", h5::kind_inertia, h5::kind_rate));
   if (kind == h5::kind_rate) {
-    axis.kind = InertiaAxis::Kind::rate;
+    axis.kind = VelocityAxis::Kind::rate;
     axis.reference_radius = h5::read_scalar(group, h5::reference_radius, where);
     axis.speed_begin = h5::read_scalar(group, h5::speed_begin, where);
   }
   axis.speed_end = h5::read_scalar(group, h5::speed_end, where);
   axis.ratio_end = h5::read_scalar(group, h5::ratio_end, where);
-  const double slices = h5::read_scalar(group, h5::slices, where);
-  if (!(slices >= 1 && slices <= 256 && slices == std::floor(slices)))
-    fail(where, "'slices' is out of range", fmt::format("{:.6g}", slices), "a whole number from 1 to 256");
-  axis.slices = static_cast<std::size_t>(slices);
-  if (axis.kind == InertiaAxis::Kind::inertia) {
-    const double first = h5::read_scalar(group, h5::first_slices, where);
-    if (!(first >= 1 && first <= slices && first == std::floor(first)))
+  const double levels = h5::read_scalar(group, h5::levels, where);
+  if (!(levels >= 1 && levels <= 256 && levels == std::floor(levels)))
+    fail(where, "'slices' is out of range", fmt::format("{:.6g}", levels), "a whole number from 1 to 256");
+  axis.levels = static_cast<std::size_t>(levels);
+  if (axis.kind == VelocityAxis::Kind::inertia) {
+    const double first = h5::read_scalar(group, h5::first_levels, where);
+    if (!(first >= 1 && first <= levels && first == std::floor(first)))
       fail(where, "'first_slices' is out of range", fmt::format("{:.6g}", first),
-           fmt::format("a whole number from 1 to {:.0f}", slices));
-    axis.first_slices = static_cast<std::size_t>(first);
+           fmt::format("a whole number from 1 to {:.0f}", levels));
+    axis.first_levels = static_cast<std::size_t>(first);
   }
   for (const AxisField& f : axis_fields) axis.*f.values = h5::read_vector(group, f.field, most_nodes, where);
   return axis;
 }
 
-void write_axis(hid_t body, const InertiaAxis::Table& axis, const std::string& path)
+void write_axis(hid_t body, const VelocityAxis::Table& axis, const std::string& path)
 {
-  const h5::Handle group = h5::create_group(body, h5::inertia_axis, path);
-  const bool rate = axis.kind == InertiaAxis::Kind::rate;
+  const h5::Handle group = h5::create_group(body, h5::velocity_axis, path);
+  const bool rate = axis.kind == VelocityAxis::Kind::rate;
   h5::write_text_attribute(group, h5::kind, rate ? h5::kind_rate : h5::kind_inertia, path);
   if (rate) {
     h5::write_scalar(group, h5::reference_radius, axis.reference_radius, path);
@@ -260,8 +260,8 @@ void write_axis(hid_t body, const InertiaAxis::Table& axis, const std::string& p
   }
   h5::write_scalar(group, h5::speed_end, axis.speed_end, path);
   h5::write_scalar(group, h5::ratio_end, axis.ratio_end, path);
-  h5::write_scalar(group, h5::slices, static_cast<double>(axis.slices), path);
-  if (!rate) h5::write_scalar(group, h5::first_slices, static_cast<double>(axis.first_slices), path);
+  h5::write_scalar(group, h5::levels, static_cast<double>(axis.levels), path);
+  if (!rate) h5::write_scalar(group, h5::first_levels, static_cast<double>(axis.first_levels), path);
   for (const AxisField& f : axis_fields) h5::write_vector(group, f.field, axis.*f.values, path);
 }
 
@@ -273,8 +273,8 @@ ContactCurve read_curve(hid_t group, const std::string& where)
   table.onset = h5::has_link(c, h5::onset.name) ? h5::read_scalar(c, h5::onset, where)
                                                 : std::numeric_limits<double>::infinity();
   for (const CurveField& f : curve_fields) table.*f.values = h5::read_vector(c, f.field, most_nodes, where);
-  return h5::has_link(group, h5::inertia_axis) ? ContactCurve(table, read_axis(group, where), where)
-                                               : ContactCurve(table, where);
+  return h5::has_link(group, h5::velocity_axis) ? ContactCurve(table, read_axis(group, where), where)
+                                                : ContactCurve(table, where);
 }
 
 void write_curve(hid_t group, const ContactCurve& curve, const std::string& path)

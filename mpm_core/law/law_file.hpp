@@ -11,7 +11,8 @@ namespace granulaw {
 /// whole, sane law of this major version gives one sentence as Error; never a crash or a large allocation.
 Law read_law(const std::string& path);
 
-/// The same out of `image`, the bytes of a law file that read_law(path) accepts: for the other ranks of an MPI run.
+/// The same out of `image`, the bytes of a law file that read_law(path) accepts: for the other ranks of an
+/// MPI run.
 Law read_law_image(std::span<const char> image, const std::string& path);
 
 /// Writes to PATH.tmp.<pid> and renames: a reader sees the old file or the new one, never a part.

@@ -18,7 +18,7 @@ struct Replay
   double work_load = 0;       ///< J, done on the contact up to delta_max
   double work_unload = 0;     ///< J, given back after it
   bool left_range = false;    ///< delta_max went past the table
-  bool left_speeds = false;   ///< the approach was faster than the inertia axis goes
+  bool left_speeds = false;   ///< the approach was faster than the velocity axis goes
   bool held_speed = false;    ///< it was slower than a rate axis begins: answered as an impact there
   struct Sample
   {

@@ -5,7 +5,7 @@
 namespace granulaw {
 
 /// How a yielded contact unloads and reloads: F = F_m phi(u), u = (delta - delta_r)/(delta_m - delta_r) from
-/// 0 where the force ends to 1 at the turn,
+/// 0 where the force ends to 1 at the reversal,
 ///     phi = A u^1.5 + B u^2 + C u^2.5,   A + B + C = 1.
 ///
 /// Why this form. Hertz's u^1.5 with the finite sphere's next two terms: the elastic sphere's own curve is
@@ -14,20 +14,23 @@ namespace granulaw {
 /// 0.4 % of F_m, u^n within 0.2 to 1.5 %; and it needs one square root, no power.
 ///
 /// Two numbers say which:
-///     exponent n = d ln F/d ln u at the turn = phi'(1)        B = 5 - 2 A - 2 n,  C = A + 2 n - 4
-///     foot     A = F/(F_m u^1.5) as u -> 0
+///     exponent n = d ln F/d ln u at the reversal = phi'(1)        B = 5 - 2 A - 2 n,  C = A + 2 n - 4
+///     Hertz share     A = F/(F_m u^1.5) as u -> 0
 /// phi rises from 0 to 1, so that no force is negative, where A >= 0, A + 4 n <= 10 and n >= 0 (phi' is
 /// sqrt(u)/2 times a quadratic in sqrt(u) whose Bernstein coefficients are 3 A, 10 - A - 4 n and 2 n).
 struct UnloadingShape
 {
-  double exponent = 1.5, foot = 1.0;
+  double exponent = 1.5, hertz_share = 1.0;
 
-  static constexpr double least_exponent = 1.0, largest_foot = 6.0;
-  static double largest_exponent(double foot) { return 0.25 * (10.0 - foot); }
-  bool rises() const { return foot >= 0 && exponent >= 0 && exponent <= largest_exponent(foot); }
+  static constexpr double least_exponent = 1.0, largest_hertz_share = 6.0;
+  static double largest_exponent(double hertz_share) { return 0.25 * (10.0 - hertz_share); }
+  bool rises() const
+  {
+    return hertz_share >= 0 && exponent >= 0 && exponent <= largest_exponent(hertz_share);
+  }
 
-  double second() const { return 5.0 - 2.0 * (foot + exponent); }
-  double third() const { return foot + 2.0 * exponent - 4.0; }
+  double second() const { return 5.0 - 2.0 * (hertz_share + exponent); }
+  double third() const { return hertz_share + 2.0 * exponent - 4.0; }
 
   struct Point
   {
@@ -37,22 +40,26 @@ struct UnloadingShape
   Point at(double u) const
   {
     const double root = std::sqrt(u), b = second(), c = third();
-    return {u * root * ((foot + root * b) + u * c), root * ((1.5 * foot + root * (2.0 * b)) + u * (2.5 * c))};
+    return {u * root * ((hertz_share + root * b) + u * c),
+            root * ((1.5 * hertz_share + root * (2.0 * b)) + u * (2.5 * c))};
   }
   /// Integral of phi from 0 to u.
   double work(double u) const
   {
     const double w = std::sqrt(u);
-    return 2.0 * u * u * w * (foot / 5.0 + w * (second() / 6.0 + w * (third() / 7.0)));
+    return 2.0 * u * u * w * (hertz_share / 5.0 + w * (second() / 6.0 + w * (third() / 7.0)));
   }
   /// work(1) = (11 - 2 n)/21 + 2 A/105: what the unloading gives back, over F_m (delta_m - delta_r).
-  double work() const { return (11.0 - 2.0 * exponent) / 21.0 + foot * (2.0 / 105.0); }
+  double work() const { return (11.0 - 2.0 * exponent) / 21.0 + hertz_share * (2.0 / 105.0); }
   /// The n with which work() is `work`.
-  static double exponent_of(double work, double foot) { return 5.5 - 10.5 * work + 0.2 * foot; }
+  static double exponent_of(double work, double hertz_share) { return 5.5 - 10.5 * work + 0.2 * hertz_share; }
   /// The A with which it is that at this exponent.
-  static double foot_of(double work, double exponent) { return 5.0 * (exponent - exponent_of(work, 0.0)); }
+  static double hertz_share_of(double work, double exponent)
+  {
+    return 5.0 * (exponent - exponent_of(work, 0.0));
+  }
   /// The A beyond which exponent_of(work, A) is over largest_exponent(A).
-  static double largest_foot_of(double work) { return (2.5 - exponent_of(work, 0.0)) / 0.45; }
+  static double largest_hertz_share_of(double work) { return (2.5 - exponent_of(work, 0.0)) / 0.45; }
 };
 
 }  // namespace granulaw

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/ripple.hpp"
+#include "solver/grid_noise.hpp"
 
 namespace granulaw {
 
@@ -16,7 +16,7 @@ constexpr int probe_resolution = 10;
 /// Shares of the tolerance: the square root of the sum of the squares is the whole.
 constexpr double share = 0.25;
 
-/// Largest force by the fit through the loading, which no ripple moves.
+/// Largest force by the fit through the loading, which no grid noise moves.
 double fitted_force(const RunResult& run)
 {
   const TreatedLoading treated(run.trace);
@@ -49,11 +49,11 @@ double error_between(const RunResult& fine, const RunResult& coarse)
 {
   const RunSummary& s = fine.summary;
   // Errors fall at least like h: the difference to 0.7 of the resolution is at least 0.4 of the fine run's.
-  // Two runs may agree by chance: the ripple that the mean over the shifted grids has left, half of which a
-  // peak may be off, and the scatter of e between them, bound it from below.
+  // Two runs may agree by chance: the grid noise that the mean over the shifted grids has left, half of which
+  // a peak may be off, and the scatter of e between them, bound it from below.
   const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
   const double scatter = s.restitution_spread / s.restitution / std::max(1, s.grids);
-  return 2 * std::max({difference(fine, coarse), peak, scatter, 0.5 * s.ripple});
+  return 2 * std::max({difference(fine, coarse), peak, scatter, 0.5 * s.grid_noise});
 }
 
 RunResult run_with_estimate(const RunOptions& options, const Run& run)

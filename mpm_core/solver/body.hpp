@@ -73,7 +73,7 @@ struct MovingPoints
 /// at the origin, body in z >= 0. Material-point fields end in _p, grid fields in _i, as in the MPM
 /// literature.
 ///
-/// Total Lagrangian (`mapped`, `tartan`): weights are computed once on the reference grid, nodal
+/// Total Lagrangian (`mapped`, `rectilinear`): weights are computed once on the reference grid, nodal
 /// displacements are kept. The weights of a point are the mean gradients of the shape functions over the
 /// piece of the body that it stands for, with r dA as measure, so that linear displacement fields and uniform
 /// pressure are exact (Flanagan and Belytschko 1981, axisymmetric). `updated`: weights follow the points in
@@ -90,9 +90,9 @@ struct Body : PointArrays<double>
   std::vector<int> axis, equator;  ///< nodes on the axis; nodes of the plane driven under midplane support
   std::vector<char> on_axis;       ///< per node
   Surface surface;
-  Surface pore_walls;  ///< `tartan`: pairs of places on opposite walls of a pore, one after the other
-  Surface
-      outline;  ///< `tartan`: corners of the piece that each point stands for, [4][points]; for looking at
+  Surface pore_walls;  ///< `rectilinear`: pairs of places on opposite walls of a pore, one after the other
+  Surface outline;     ///< `rectilinear`: corners of the piece that each point stands for, [4][points]; for
+                       ///< looking at
   double mass = 0;
   double travel = 0;  ///< displacement of the centre of mass along +z, integrated from the momentum
 

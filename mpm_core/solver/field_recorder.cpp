@@ -36,7 +36,7 @@ void draw_cells(const Body& b, Drawing& d)
   }
 }
 
-/// `tartan`: the piece that each point stands for, its corners carried by the splines.
+/// `rectilinear`: the piece that each point stands for, its corners carried by the splines.
 void draw_pieces(const Body& b, Drawing& d)
 {
   const Surface& corners = b.outline;

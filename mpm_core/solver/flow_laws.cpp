@@ -165,20 +165,20 @@ double flow_stress(const Material& m, double ep)
   return stress;
 }
 
-Material with_strains_stretched(Material m, double by)
+Material with_strains_scaled(Material m, double by)
 {
   m.hardening_modulus /= by;
   with_law(flow::HardeningLaws{}, m.hardening.name, [&](auto chosen, int) {
     using Law = decltype(chosen);
-    if constexpr (requires(double* v) { Law::stretch(v, by); }) {
+    if constexpr (requires(double* v) { Law::scale_strains(v, by); }) {
       std::vector<double> values;
       for (const flow::Parameter& p : Law::parameters) values.push_back(m.hardening.values.at(p.key).front());
-      Law::stretch(values.data(), by);
+      Law::scale_strains(values.data(), by);
       for (std::size_t k = 0; k < values.size(); ++k)
         m.hardening.values.at(Law::parameters[k].key) = {values[k]};
     } else {
       static_assert(std::ranges::all_of(Law::parameters, &flow::Parameter::list),
-                    "a law with plain numbers says by stretch() which of them are strains");
+                    "a law with plain numbers says by scale_strains() which of them are strains");
       for (const flow::Parameter& p : Law::parameters)
         if (p.quantity == flow::Quantity::number)
           for (double& strain : m.hardening.values.at(p.key)) strain *= by;

@@ -30,7 +30,7 @@ double flow_stress(const Material& material, double ep);
 
 /// The material with every plastic strain of its hardening `by` times as large: its static flow stress at
 /// by ep is that of `material` at ep.
-Material with_strains_stretched(Material material, double by);
+Material with_strains_scaled(Material material, double by);
 
 /// Factor on it at a plastic strain rate of `rate`, 1/s; 1 for a rate-independent material.
 double rate_factor(const Material& material, double rate);

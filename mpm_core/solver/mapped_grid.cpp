@@ -57,9 +57,9 @@ struct Half
     while (at.back() < span) at.push_back(at.back() + coarsening * angle * (1 + at.back() / span));
     const int count = std::max(2, static_cast<int>(at.size()) - 1);
     if (static_cast<int>(at.size()) - 1 < count) at = {0, span / 2, span};
-    const double stretch = span / at.back();
+    const double scale = span / at.back();
     for (int k = 1; k <= count; ++k) {
-      const double depth = at[k] * stretch;
+      const double depth = at[k] * scale;
       // The rim's rounded square turns into a circle over the distance of one block size.
       const double t = std::min(1.0, depth / std::min(span, 0.7));
       const double blend = k == count ? 1.0 : t * t * (3 - 2 * t);

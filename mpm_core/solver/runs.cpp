@@ -7,9 +7,9 @@
 
 #include "base/error.hpp"
 #include "solver/accuracy.hpp"
-#include "solver/ensemble.hpp"
-#include "solver/ripple.hpp"
+#include "solver/grid_noise.hpp"
 #include "solver/scene_builder.hpp"
+#include "solver/shifted_grids.hpp"
 #include "solver/simulation.hpp"
 
 namespace granulaw {
@@ -21,8 +21,8 @@ void check(const RunOptions& options)
   if (options.resolution != 0 && (options.resolution < 6 || options.resolution > 200))
     fail("--resolution", "cannot be used", std::to_string(options.resolution),
          "6 to 200 cells across the contact block");
-  if (options.phases < 1 || options.phases > 64)
-    fail("phases", "cannot be used", std::to_string(options.phases), "1 to 64 shifted grids");
+  if (options.shifted_grids < 1 || options.shifted_grids > 64)
+    fail("shifted grids", "cannot be used", std::to_string(options.shifted_grids), "1 to 64 shifted grids");
   if (!(options.courant >= 0.05 && options.courant <= 1.0))
     fail("courant", "the explicit step is stable up to 1 only", fmt::format("{:g}", options.courant),
          "0.05 to 1");
@@ -42,13 +42,13 @@ double default_ramp(double depth, double yield_over_e_star)
       {60.0, 60.0 * std::pow(stiffness / 100, 0.25), 0.5 * M_PI * depth * std::sqrt(stiffness / 4e-4)});
 }
 
-/// Ripple, as a share of the force, beyond which the fit does not describe the loading: fast, deep impacts,
-/// where inertia makes the early force the largest.
-constexpr double most_ripple = 0.05;
+/// Grid noise, as a share of the force, beyond which the fit does not describe the loading: fast, deep
+/// impacts, where inertia makes the early force the largest.
+constexpr double most_noise = 0.05;
 
 /// Summary of one or several runs of the same job on shifted grids, whose mean trace is `result.trace`
-/// (ensemble.hpp); solver units. The loading force is treated for the ripple that is left (ripple.hpp), but
-/// in the mean of impacts, after which the body `rings`.
+/// (shifted_grids.hpp); solver units. The loading force is treated for the grid noise that is left
+/// (grid_noise.hpp), but in the mean of impacts, after which the body `rings`.
 void summarise(RunResult& result, const std::vector<RunResult>& members, bool rings)
 {
   RunSummary& s = result.summary;
@@ -81,7 +81,7 @@ void summarise(RunResult& result, const std::vector<RunResult>& members, bool ri
   for (const TraceSample& t : result.trace) s.force_max = std::max(s.force_max, t.force);
   s.restitution = s.restitution_raw;
   if (!treated.valid()) return;
-  s.ripple = treated.ripple();
+  s.grid_noise = treated.grid_noise();
   // After an impact the body rings, and the force with it: the fit is 0.6 % (rms) off its peak however many
   // grids there are, up to 1.6 %. The smoothed peak of the mean is by 0.23, 0.15, 0.13 % with two, three,
   // four (against twelve grids of 1.4 times the resolution; 20 impacts, E*/Y 20 to 1800).
@@ -89,11 +89,11 @@ void summarise(RunResult& result, const std::vector<RunResult>& members, bool ri
     if (const double peak = smoothed_peak(result.trace); peak > 0) s.force_max = peak;
     return;
   }
-  if (s.ripple > most_ripple) return;  // no ripple about a smooth law any more: the raw peak stands
+  if (s.grid_noise > most_noise) return;  // no grid noise about a smooth law any more: the raw peak stands
   s.force_max = treated.largest_force(s.delta_max);
   if (members.size() > 1) return;
-  // A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
-  // What is elastic is given back whatever the phase: only the dissipated share is corrected.
+  // A single grid reverses at some phase of the grid noise, and the work given back follows the force at the
+  // reversal. What is elastic is given back whatever the phase: only the dissipated share is corrected.
   double raw_over_treated = 0;
   int at_turn = 0;
   for (const TraceSample& t : result.trace)
@@ -135,10 +135,10 @@ int resolution_of(const RunOptions& options, double deepest)
 using SingleRun = std::function<RunResult(int, double, const FieldObserver&,
                                           const std::function<void(double)>&, const CheckpointSlot&)>;
 
-/// Runs `single` on options.phases shifted grids. The fields shown are those of the grid whose shift is
-/// nearest to zero.
-RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& scale, bool rings,
-                       const SingleRun& single)
+/// Runs `single` on options.shifted_grids shifted grids. The fields shown are those of the grid whose shift
+/// is nearest to zero.
+RunResult mean_of_shifted_grids(const RunOptions& options, double deepest, const Scales& scale, bool rings,
+                                const SingleRun& single)
 {
   const int cells = resolution_of(options, deepest);
   const auto one = [&](double shift, const std::function<void(double)>& report) {
@@ -151,18 +151,19 @@ RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& 
       return *std::move(kept);
     }
     // shifts are whole multiples of 1/(2 phases): 0 where there is one, else the one just below it
-    const long half_steps = std::lround(2 * options.phases * shift);
+    const long half_steps = std::lround(2 * options.shifted_grids * shift);
     const bool shown = half_steps == 0 || half_steps == -1;
     RunResult made = single(cells, shift, shown ? options.fields : FieldObserver{}, report, slot);
     slot.keep_finished(made);
     return made;
   };
-  const std::vector<RunResult> members = run_phases(options.phases, options.threads, options.progress, one);
+  const std::vector<RunResult> members =
+      run_on_shifted_grids(options.shifted_grids, options.threads, options.progress, one);
   RunResult result;
   result.trace = mean_trace(members);
   summarise(result, members, rings);
   result.summary.resolution = cells;
-  result.summary.grids = options.phases;
+  result.summary.grids = options.shifted_grids;
   to_si(result, scale);
   return result;
 }
@@ -187,15 +188,15 @@ RunResult run_impact(const Particle& particle, double velocity, const RunOptions
   const double deepest = collision.expected_overlap(v);
   const double duration = 2.0 * deepest / v + 2.5;
 
-  return run_ensemble(
+  return mean_of_shifted_grids(
       options, deepest, scale, true,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
         Simulation run(collision.build(deepest, cells, shift), options, duration);
         const double reduced = run.scene.reduced_mass();
         for (Body& body : run.scene.bodies) body.throw_along(-v * reduced / body.mass);
-        ImpactDrive drive(duration);
+        ImpactProgramme programme(duration);
         const auto observe = [](const TraceSample&) {};
-        run.run(drive, {fields, scale, duration}, progress, observe, checkpoint);
+        run.run(programme, {fields, scale, duration}, progress, observe, checkpoint);
         RunSummary& s = run.result.summary;
         s.restitution_raw = run.scene.separation_velocity() / v;
         s.work_load = run.energy_start;
@@ -221,7 +222,7 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
   const double depth = plan.depth / scale.length;
   if (!(depth > 0 && depth <= 0.8))
     fail("--depth", "cannot be used", fmt::format("{:g} R", depth), "over 0, up to 0.8 R");
-  PressDrive::Plan stops;
+  PressProgramme::Plan stops;
   for (const double stop : plan.partial_unloads) {
     const double x = stop / scale.length;
     if (!(x > (stops.stops.empty() ? 0 : stops.stops.back()) && x < depth))
@@ -235,13 +236,13 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
   stops.support = plan.support;
   const double duration = stops.ramp + stops.unload_ramp;
 
-  return run_ensemble(
+  return mean_of_shifted_grids(
       options, depth, scale, false,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
         Simulation run(collision.build(depth, cells, shift), options, duration);
-        PressDrive drive(stops, collision.e_star());
-        const auto observe = [&](const TraceSample& t) { drive.observe(t.force, t.contact_radius); };
-        run.run(drive, {fields, scale, duration}, progress, observe, checkpoint);
+        PressProgramme programme(stops, collision.e_star());
+        const auto observe = [&](const TraceSample& t) { programme.observe(t.force, t.contact_radius); };
+        run.run(programme, {fields, scale, duration}, progress, observe, checkpoint);
         RunSummary& s = run.result.summary;
         s.work_load = run.loading_work();
         s.work_unload = run.unloading_work();

@@ -21,13 +21,13 @@ enum class Support {
 
 /// How a body is cut into cells (docs/method.md).
 enum class GridKind {
-  automatic,  ///< what the scene needs: `mapped` for homogeneous spheres, else `tartan`
-  mapped,     ///< fitted to the sphere: fastest and most exact
-  tartan,     ///< graded Cartesian reference grid: any body of revolution, layers, inclusions
-  updated     ///< the points move through a fixed grid: the independent check
+  automatic,    ///< what the scene needs: `mapped` for homogeneous spheres, else `rectilinear`
+  mapped,       ///< fitted to the sphere: fastest and most exact
+  rectilinear,  ///< graded Cartesian reference grid: any body of revolution, layers, inclusions
+  updated       ///< the points move through a fixed grid: the independent check
 };
 
-/// "auto", "mapped", "tartan" or "updated", as the command line has it.
+/// "auto", "mapped", "rectilinear" or "updated", as the command line has it.
 const char* name_of(GridKind grid);
 
 /// Precision of the material points; nodes are double always.
@@ -46,9 +46,10 @@ struct RunOptions
   Precision precision = Precision::full;
   int resolution = 0;  ///< cells across the contact block; 0: the default of the run
   double refine = 1;   ///< factor on the resolution, given or default: a run that failed is tried again finer
-  int phases = 4;   ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
-                    ///< of the first harmonics of the contact-edge ripple (ensemble.hpp); 1: a single run
-  int threads = 1;  ///< threads that share these runs
+  int shifted_grids =
+      4;  ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
+          ///< of the first harmonics of the contact-edge grid noise (shifted_grids.hpp); 1: a single run
+  int threads = 1;        ///< threads that share these runs
   double courant = 0.85;  ///< time step over the stability limit, 0.1 to 1
   double slowness = 1;    ///< press: factor on the ramp
   int samples = 800;      ///< trace length aimed at

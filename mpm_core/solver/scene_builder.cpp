@@ -118,7 +118,7 @@ void check_particle(const Particle& p, const char* where)
 
 const char* name_of(GridKind grid)
 {
-  constexpr const char* names[] = {"auto", "mapped", "tartan", "updated"};
+  constexpr const char* names[] = {"auto", "mapped", "rectilinear", "updated"};
   return names[static_cast<int>(grid)];
 }
 
@@ -127,8 +127,8 @@ GridChoice choose_grid(const Particle& p)
   if (p.is_homogeneous_sphere())
     return {GridKind::mapped, "a homogeneous sphere: the grid fitted to it is fastest and most exact"};
   if (!p.layers.empty() || !p.inclusions.empty())
-    return {GridKind::tartan, "layers or inclusions: cells are cut where the material changes"};
-  return {GridKind::tartan, "not a sphere: cells are cut by the surface"};
+    return {GridKind::rectilinear, "layers or inclusions: cells are cut where the material changes"};
+  return {GridKind::rectilinear, "not a sphere: cells are cut by the surface"};
 }
 
 Scales scales_of(const Particle& p)
@@ -149,13 +149,13 @@ Collision::Collision(const Particle& particle, const Partner& partner, const Run
     for (const Particle* p : {&particle, partner.particle ? &*partner.particle : nullptr})
       if (p && !p->is_homogeneous_sphere())
         fail("--grid", "'mapped' is fitted to homogeneous spheres, and this particle is none", "mapped",
-             "tartan, updated");
+             "rectilinear, updated");
   if (two && support == Support::midplane)
     fail("--support", "the midplane is driven against a rigid plane only, not against a second body",
          "midplane", "free");
   if (options.grid == GridKind::updated && (two || support == Support::midplane))
     fail("--grid", "'updated' does one free body against the rigid plane", name_of(options.grid),
-         "mapped, tartan");
+         "mapped, rectilinear");
 
   double compliance = 1, inverse_mass = scale_.mass() / mass_of(particle), inverse_radius = 0;
   const auto pole = [&](const Particle& p) {
@@ -267,7 +267,7 @@ Scene Collision::build(double deepest, int cells, double shift) const
     for (const Particle::Layer& layer : p.layers)
       s.fine = std::min(s.fine, std::max(0.5 * layer.thickness / scale_.length, 0.5 * block / cells));
     s.shift = shift;
-    return grid == GridKind::updated ? updated_body(s) : tartan_body(s);
+    return grid == GridKind::updated ? updated_body(s) : rectilinear_body(s);
   };
 
   Scene scene;

@@ -52,49 +52,51 @@ double Simulation::step_limit() const
   return limit;
 }
 
-void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<void(double)>& progress,
+void Simulation::run(LoadingProgramme& programme, FieldRecorder fields,
+                     const std::function<void(double)>& progress,
                      const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint)
 {
   energy_start = total(scene, &Body::kinetic_energy);
   fields.begin(scene);
   dt_ = last_dt_ = courant_ * step_limit();
-  overlap_ = drive.overlap(scene);
-  const auto visit = [&](StateArchive& archive) { visit_state(drive, archive); };
+  overlap_ = programme.overlap(scene);
+  const auto visit = [&](StateArchive& archive) { visit_state(programme, archive); };
   checkpoint.resume(visit);
   const double cpu = cpu_seconds() - cpu_s_;
-  while (!drive.finished()) {
+  while (!programme.finished()) {
     const double overlap_before = overlap_;
-    const Branch branch = drive.branch();
-    const int segment = drive.segment();
-    const double push = advance(scene, drive, time_, 0.5 * (last_dt_ + dt_), dt_);
+    const Branch branch = programme.branch();
+    const int segment = programme.segment();
+    const double push = advance(scene, programme, time_, 0.5 * (last_dt_ + dt_), dt_);
     last_dt_ = dt_;
-    overlap_ = drive.overlap(scene);
+    overlap_ = programme.overlap(scene);
     impulse_ += push;
     overlap_sum_ += overlap_before;
     ++in_window_;
     ++steps_;
     time_ += dt_;
     if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
-    const bool turned = drive.segment() != segment || drive.finished();
+    const bool turned = programme.segment() != segment || programme.finished();
     const bool sampled = time_ >= window_end_ || turned;
     if (sampled) {
-      // at equal times since the turn, whatever the step: samples of shifted grids are averaged one by one
+      // at equal times since the reversal, whatever the step: samples of shifted grids are averaged one by
+      // one
       window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
       end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
-      fields.sample(scene, time_, overlap_, result.trace.back().force, drive.finished());
+      fields.sample(scene, time_, overlap_, result.trace.back().force, programme.finished());
     }
     if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();
     if (!sampled) continue;
-    if (!drive.finished() && checkpoint.due()) {  // after the last step the result is kept instead
+    if (!programme.finished() && checkpoint.due()) {  // after the last step the result is kept instead
       cpu_s_ = cpu_seconds() - cpu;
       checkpoint.save(visit);
     }
-    if (progress && result.trace.size() % 16 == 0) progress(drive.progress());
+    if (progress && result.trace.size() % 16 == 0) progress(programme.progress());
   }
   if (progress) progress(1.0);
   result.summary.cpu_s = cpu_seconds() - cpu;
-  summarise(drive);
+  summarise(programme);
 }
 
 void Simulation::end_sample(Branch branch, int segment, double overlap_before)
@@ -115,7 +117,7 @@ void Simulation::end_sample(Branch branch, int segment, double overlap_before)
   in_window_ = 0;
 }
 
-void Simulation::visit_state(Drive& drive, StateArchive& a)
+void Simulation::visit_state(LoadingProgramme& programme, StateArchive& a)
 {
   a.value(time_), a.value(dt_), a.value(last_dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
   a.value(last_touch_time_), a.value(last_touch_overlap_);
@@ -124,7 +126,7 @@ void Simulation::visit_state(Drive& drive, StateArchive& a)
   a.growing(result.trace);
   for (Body& body : scene.bodies) body.visit_state(a);
   scene.contact->visit_state(a);
-  drive.visit_state(a);
+  programme.visit_state(a);
 }
 
 double Simulation::work(bool load) const
@@ -140,7 +142,7 @@ double Simulation::work(bool load) const
   return load ? sum : -sum;
 }
 
-void Simulation::summarise(const Drive& drive)
+void Simulation::summarise(const LoadingProgramme& programme)
 {
   RunSummary& s = result.summary;
   for (Body& body : scene.bodies) {
@@ -153,7 +155,7 @@ void Simulation::summarise(const Drive& drive)
   for (const TraceSample& t : result.trace) s.delta_max = std::max(s.delta_max, t.delta);
   s.delta_residual = last_touch_overlap_;
   s.contact_time = last_touch_time_;
-  const double put_in = energy_start + drive.work();
+  const double put_in = energy_start + programme.work();
   const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
   const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
                        total(scene, &Body::plastic_work) + scene.contact->dissipated();

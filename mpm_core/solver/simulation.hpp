@@ -4,24 +4,24 @@
 #include <vector>
 
 #include "solver/checkpoint.hpp"
-#include "solver/drive.hpp"
 #include "solver/field_recorder.hpp"
+#include "solver/loading_programme.hpp"
 #include "solver/runs.hpp"
 #include "solver/scene.hpp"
 #include "solver/time_step.hpp"
 
 namespace granulaw {
 
-/// One scene under one drive, from first touch to the end; solver units.
+/// One scene under one programme, from first touch to the end; solver units.
 class Simulation
 {
  public:
   /// `expected`: duration of the run, about, R/c*.
   Simulation(Scene scene, const RunOptions& options, double expected);
 
-  /// Steps until the drive has finished, on from where `checkpoint` stands if that holds a state. `observe`
-  /// sees every sample of the trace. Bodies and drive must be as at the start of the run.
-  void run(Drive& drive, FieldRecorder fields, const std::function<void(double)>& progress,
+  /// Steps until the loading programme has finished, on from where `checkpoint` stands if that holds a state.
+  /// `observe` sees every sample of the trace. Bodies and drive must be as at the start of the run.
+  void run(LoadingProgramme& programme, FieldRecorder fields, const std::function<void(double)>& progress,
            const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint = {});
 
   Scene scene;
@@ -37,8 +37,8 @@ class Simulation
   double step_limit() const;
   double work(bool load) const;
   void end_sample(Branch branch, int segment, double overlap_before);
-  void summarise(const Drive& drive);
-  void visit_state(Drive& drive, StateArchive& archive);
+  void summarise(const LoadingProgramme& programme);
+  void visit_state(LoadingProgramme& programme, StateArchive& archive);
 
   std::vector<StableStep> stable_;
   double courant_;

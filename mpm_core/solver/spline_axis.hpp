@@ -38,7 +38,7 @@ class SplineAxis
 };
 
 /// Lines of a graded axis: equal steps `fine` over [from, until], then steps that grow by the factor `growth`
-/// up to `coarsest`, until `end` is reached (the last steps are stretched to fit). `shift` takes that part
+/// up to `coarsest`, until `end` is reached (the last steps are scaled to fit). `shift` takes that part
 /// off the first step, so that all lines but the first move.
 std::vector<double> graded_lines(double from, double until, double end, double fine, double growth,
                                  double coarsest, double shift = 0);

@@ -5,16 +5,16 @@
 #include <random>
 
 #include "base/error.hpp"
-#include "solver/drive.hpp"
 #include "solver/kernels.hpp"
+#include "solver/loading_programme.hpp"
 #include "solver/updated_body.hpp"
 
 namespace granulaw {
 
 namespace {
 
-/// On a reference grid (`mapped`, `tartan`) weights, masses and nodal velocities are kept for good; on the
-/// `updated` grid the points bring them anew.
+/// On a reference grid (`mapped`, `rectilinear`) weights, masses and nodal velocities are kept for good; on
+/// the `updated` grid the points bring them anew.
 void points_to_grid(Body& body)
 {
   if (body.moving)
@@ -32,7 +32,7 @@ void grid_to_points(Body& body, double dt)
 
 }  // namespace
 
-double advance(Scene& scene, Drive& drive, double time, double kick, double dt)
+double advance(Scene& scene, LoadingProgramme& programme, double time, double kick, double dt)
 {
   const Kernels& k = kernels();
   for (Body& body : scene.bodies) {
@@ -41,7 +41,7 @@ double advance(Scene& scene, Drive& drive, double time, double kick, double dt)
     for (const int i : body.axis) body.vr_i[i] = 0;  // symmetry
   }
   const double impulse = scene.contact->correct(scene.bodies, kick, dt);  // nothing passes the other side
-  drive.apply(scene, time, dt, impulse > 0);                              // what holds or throws the bodies
+  programme.apply(scene, time, dt, impulse > 0);                          // what holds or throws the bodies
   scene.contact->account(scene.bodies);
   for (Body& body : scene.bodies) grid_to_points(body, dt);  // displacements, and the points with them
   return impulse;

@@ -4,7 +4,7 @@
 
 namespace granulaw {
 
-/// Which way the drive goes at a sample.
+/// Which way the loading programme goes at a sample.
 enum class Branch { load, unload, reload };
 
 /// One line of a force history. Contact with the rigid plane, SI.
@@ -16,16 +16,16 @@ struct TraceSample
   double force;           ///< N, mean over the sample's interval, repulsive positive, as computed (raw)
   double contact_radius;  ///< m, radius of the outermost surface point in contact, interpolated to the edge
   Branch branch;
-  int segment;  ///< 0, 1, 2, ...: counts up at every turn of the drive
+  int segment;  ///< 0, 1, 2, ...: counts up at every reversal of the loading programme
 };
 
-/// What one run found. With a single grid force and works are the treated ones (contact-edge ripple removed
-/// by a fit, ripple.hpp), the raw ones stand in the trace; with more they are those of the mean trace, but
-/// for the force of a press, which is always treated.
+/// What one run found. With a single grid force and works are the treated ones (contact-edge grid noise
+/// removed by a fit, grid_noise.hpp), the raw ones stand in the trace; with more they are those of the mean
+/// trace, but for the force of a press, which is always treated.
 struct RunSummary
 {
   double restitution = 0;         ///< impact: |v after|/V; press: sqrt(work_unload/work_load)
-  double restitution_raw = 0;     ///< the same without the ripple treatment
+  double restitution_raw = 0;     ///< the same without the grid noise treatment
   double restitution_spread = 0;  ///< largest deviation of a single shifted grid's e from their mean
   double force_max = 0;           ///< N; impact on several grids: of the trace, smoothed; else treated
   double delta_max = 0;           ///< m
@@ -45,7 +45,7 @@ struct RunSummary
   double energy_error = 0;  ///< |kinetic + elastic + plastic + contact_loss - put in|/put in, at the end
   double contact_loss = 0;  ///< share of the energy put in that was lost in the contact (contact.hpp)
   double hourglass = 0;     ///< share of it that the hourglass control holds at the end, part of the elastic
-  double ripple = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
+  double grid_noise = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 
 struct RunResult

@@ -90,7 +90,7 @@ void updated_grid_to_points(Body& b, double dt)
   const double top = m.z_axis.lines().back(), rim = m.r_axis.lines().back();
   for (int p = 0; p < n; ++p)
     if (!(m.r[p] > 0 && m.r[p] < rim && m.z[p] < top))
-      fail("solver", "a material point left the grid `updated`; use the grid `mapped` or `tartan`");
+      fail("solver", "a material point left the grid `updated`; use the grid `mapped` or `rectilinear`");
 }
 
 Body updated_body(const Section& s)

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "solver/tartan_body.hpp"
+#include "solver/rectilinear_body.hpp"
 
 namespace granulaw {
 
-/// The same section on a tartan grid that stays where it is while the points move through it:
+/// The same section on a rectilinear grid that stays where it is while the points move through it:
 /// updated-Lagrangian material point method with affine velocities (APIC: Jiang, Schroeder, Selle, Teran and
 /// Stomakhin 2015), quadratic B-splines and surface markers. The independent check of the other two grids,
 /// and nearest to the method of Li, Pan and Sinka (2009).

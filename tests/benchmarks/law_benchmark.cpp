@@ -1,11 +1,11 @@
 // Law lookup for a million contacts a step: force, stiffness and contact radius, in nanoseconds, with the
 // error and the size of what is read on the same line.
 //
-//   law_benchmark       1-D: quasi-static; 2-D: with an inertia axis, each contact with an X of its own;
+//   law_benchmark       1-D: quasi-static; 2-D: with a velocity axis, each contact with an X of its own;
 //                       load: at its largest overlap; unload: below it, after yield (before, a contact
 //                       unloads along its loading curve)
 //     lookup            force, stiffness and contact radius from overlap, largest overlap and X
-//     kept              the same of contacts that have kept their turn, as in LIGGGHTS
+//     kept              the same of contacts that have kept their reversal, as in LIGGGHTS
 //     pair              lookup in SI, pair mapping included
 //     force             the force alone
 //     Hertz, reference  Hertz's formulas and the ContactCurve (1-D), in SI: yardsticks
@@ -26,13 +26,13 @@ namespace {
 using granulaw::ContactCurve;
 using granulaw::ContactForce;
 using granulaw::FastCurve;
-using granulaw::InertiaAxis;
+using granulaw::ImpactLevels;
 using granulaw::PairMapping;
-using granulaw::SliceScale;
+using granulaw::VelocityAxis;
 
 constexpr double onset = 6.4e-4, s_end = 0.5625, x_end = s_end * s_end * s_end * s_end;
 constexpr int nodes = 126;                   // as many as mpm table writes
-constexpr int slices = 8, ratio_nodes = 25;  // of the axis
+constexpr int levels = 8, ratio_nodes = 25;  // of the axis
 constexpr std::size_t contacts = 4096;
 
 /// ln(F/F_elastic) and the others as smooth functions of q = ln(s/s_onset), as those that mpm table fits.
@@ -55,7 +55,7 @@ double exponent(double s)
   const double q = past(s);
   return 1.507 - 0.1 * q * q / (1 + q * q);
 }
-double foot(double s)
+double hertz_share(double s)
 {
   const double q = past(s);
   return 0.95 - 0.5 * q * q / (1 + q * q);
@@ -81,24 +81,24 @@ ContactCurve::Table sampled()
   fill(force_ratio, t.force_ratio, t.force_ratio_slope);
   fill(residual, t.residual_ratio, t.residual_ratio_slope);
   fill(exponent, t.exponent, t.exponent_slope);
-  fill(foot, t.foot, t.foot_slope);
+  fill(hertz_share, t.hertz_share, t.hertz_share_slope);
   fill(radius, t.radius_ratio, t.radius_ratio_slope);
   return t;
 }
 
 /// Corrections of the size and shape that impacts at I = 0.06 show.
-InertiaAxis::Table sampled_axis()
+VelocityAxis::Table sampled_axis()
 {
-  InertiaAxis::Table t;
+  VelocityAxis::Table t;
   t.speed_end = 0.245;
   t.ratio_end = 1.5;
-  t.slices = slices;
-  t.first_slices = 3;
+  t.levels = levels;
+  t.first_levels = 3;
   t.impact_overlap = {0, x_end};
   t.impact_overlap_slope = {x_end / t.speed_end, x_end / t.speed_end};
-  for (int k = 1; k <= slices; ++k)
+  for (int k = 1; k <= levels; ++k)
     for (int l = 0; l < ratio_nodes; ++l) {
-      const double part = SliceScale::from_standstill(slices, t.first_slices, 1.0).overlap(k),
+      const double part = ImpactLevels::from_standstill(levels, t.first_levels, 1.0).overlap(k),
                    xi = t.ratio_end * l / (ratio_nodes - 1);
       const double rest = 1 - xi / t.ratio_end, cross = 1 - xi / 0.65;
       t.force_correction.push_back(0.5 * part * rest * rest * cross);
@@ -122,7 +122,7 @@ double exact(double x, double x_m)
   const double f = std::pow(top, 1.5) * force_ratio(s);
   if (x >= x_m || x_m <= onset) return std::pow(x, 1.5) * force_ratio(std::pow(x, 0.25));
   const double u = (x / top - residual(s)) / (1 - residual(s));
-  return u <= 0 ? 0 : f * granulaw::UnloadingShape{exponent(s), foot(s)}.at(u).value;
+  return u <= 0 ? 0 : f * granulaw::UnloadingShape{exponent(s), hertz_share(s)}.at(u).value;
 }
 
 /// Contacts as a flow has them: overlaps spread over decades, the largest of them a tenth to 1.3 of X.
@@ -205,12 +205,12 @@ void kept(benchmark::State& state, bool axis)
   const FastCurve& table = axis ? fast_with_axis : fast_quasi_static;
   struct Keeping : Contact
   {
-    FastCurve::Turn turn;
+    FastCurve::Reversal reversal;
   };
   std::vector<Keeping> all;
-  for (const Contact& c : flow(true, axis)) all.push_back({c, table.turn(c.x_max, c.impact_overlap)});
+  for (const Contact& c : flow(true, axis)) all.push_back({c, table.reversal(c.x_max, c.impact_overlap)});
   compare(
-      state, all, axis, [&](const Keeping& c) { return table.evaluate(c.x, c.turn); }, scaled);
+      state, all, axis, [&](const Keeping& c) { return table.evaluate(c.x, c.reversal); }, scaled);
 }
 
 void pair(benchmark::State& state, bool unloading, bool axis)

@@ -1,11 +1,11 @@
 // What the size of a contact law costs and buys: bytes and nanoseconds a lookup against the error in force
-// and e, of one law thinned to fewer nodes, fewer slices of its inertia axis, or without the axis.
+// and e, of one law thinned to fewer nodes, fewer levels of its velocity axis, or without the axis.
 //
 //   law_size_benchmark LAW.h5 [-o OUT.json]
 //
 // Against: the law as the file has it. That law's own errors (`mpm info LAW.h5`) come on top. Of each
 // variant:
-//     nodes, slices, ratio_nodes   of the curve, of the axis (0: the axis is left out)
+//     nodes, levels, ratio_nodes   of the curve, of the axis (0: the axis is left out)
 //     evaluator                    "curve": ContactCurve, as stored; "fast": FastCurve, what the plug-in
 //     reads bytes                        that evaluation reads ns_load, ns_unload           CPU nanoseconds
 //     for force, stiffness and contact radius: median of rounds ns_load_low, ns_load_high, ns_unload_low,
@@ -59,18 +59,18 @@ ContactCurve::Table thinned(ContactCurve::Table t, std::size_t nodes)
   resample(t.force_ratio, t.force_ratio_slope, nodes, h);
   resample(t.residual_ratio, t.residual_ratio_slope, nodes, h);
   resample(t.exponent, t.exponent_slope, nodes, h);
-  resample(t.foot, t.foot_slope, nodes, h);
+  resample(t.hertz_share, t.hertz_share_slope, nodes, h);
   resample(t.radius_ratio, t.radius_ratio_slope, nodes, h);
   return t;
 }
 
-/// Fewer slices, read from those there are as the law reads them: linear in X between two.
-InertiaAxis::Table thinned(InertiaAxis::Table t, std::size_t slices)
+/// Fewer levels, read from those there are as the law reads them: linear in X between two.
+VelocityAxis::Table thinned(VelocityAxis::Table t, std::size_t levels)
 {
-  const std::size_t nodes = t.ratio_nodes(), from = t.slices;
-  const std::size_t at_first = std::min(t.first_slices, slices);
-  const SliceScale before = SliceScale::from_standstill(from, t.first_slices, 1.0),
-                   after = SliceScale::from_standstill(slices, at_first, 1.0);
+  const std::size_t nodes = t.ratio_nodes(), from = t.levels;
+  const std::size_t at_first = std::min(t.first_levels, levels);
+  const ImpactLevels before = ImpactLevels::from_standstill(from, t.first_levels, 1.0),
+                     after = ImpactLevels::from_standstill(levels, at_first, 1.0);
   const auto at = [&](const std::vector<double>& all, double place, std::size_t l) {
     const auto k = std::min(static_cast<std::size_t>(place), from - 1);
     const double low = k == 0 ? 0.0 : all[(k - 1) * nodes + l], high = all[k * nodes + l];
@@ -79,12 +79,12 @@ InertiaAxis::Table thinned(InertiaAxis::Table t, std::size_t slices)
   for (auto* all : {&t.force_correction, &t.force_correction_slope, &t.residual_correction,
                     &t.residual_correction_slope, &t.exponent_correction, &t.exponent_correction_slope}) {
     std::vector<double> fewer;
-    for (std::size_t k = 1; k <= slices; ++k)
+    for (std::size_t k = 1; k <= levels; ++k)
       for (std::size_t l = 0; l < nodes; ++l)
         fewer.push_back(at(*all, before.row(after.overlap(static_cast<double>(k))), l));
     *all = std::move(fewer);
   }
-  t.slices = slices, t.first_slices = at_first;
+  t.levels = levels, t.first_levels = at_first;
   return t;
 }
 
@@ -106,7 +106,7 @@ std::vector<Contact> contacts_of_a_flow(const ContactCurve& law, bool unloading)
   for (Contact& c : all) {
     c.x = c.x_max = std::pow(10.0, decade(random));
     c.impact_overlap = law.axis() ? std::min(law.axis()->overlap_end(), c.x_max / ratio(random)) : 0.0;
-    const double rest = law.turning(c.x_max, c.impact_overlap).residual, place = part(random);
+    const double rest = law.reversal(c.x_max, c.impact_overlap).residual, place = part(random);
     if (unloading) c.x = rest + (c.x_max - rest) * place;
     if (!unloading) c.x_max = 0;
   }
@@ -180,7 +180,7 @@ json measured(const BodyLaw& body, const Evaluate& evaluate, std::size_t bytes)
   const double yield = 0.75 * body.material.yield_stress / body.material.e_star(), mass = 4.0 / 3.0 * M_PI;
   const double onset_work = body.curve.work_loading(body.curve.onset());
   const double slow = 2 * std::sqrt(2 * onset_work / mass);
-  const double fast = std::sqrt(yield * body.certificate.max_inertia);
+  const double fast = std::sqrt(yield * body.certificate.damage_number_max);
   double error = 0, error_at = 0;
   for (int k = 0; k <= 12; ++k) {
     const double speed = slow * std::pow(fast / slow, k / 12.0);
@@ -197,14 +197,14 @@ json variants_of(const BodyLaw& body, const std::string& path)
 {
   const ContactCurve& law = body.curve;
   const std::size_t nodes = law.table().force_ratio.size(),
-                    slices = law.axis() ? law.axis()->table().slices : 0;
+                    levels = law.axis() ? law.axis()->table().levels : 0;
   json rows = json::array();
   const auto add = [&](std::size_t n, std::size_t k) {
     const ContactCurve::Table table = n == nodes ? law.table() : thinned(law.table(), n);
     const auto curve = std::make_unique<ContactCurve>(
         k == 0
             ? ContactCurve(table, path)
-            : ContactCurve(table, k == slices ? law.axis()->table() : thinned(law.axis()->table(), k), path));
+            : ContactCurve(table, k == levels ? law.axis()->table() : thinned(law.axis()->table(), k), path));
     const std::size_t stored = (n - 1) * 16 * sizeof(double) + (curve->axis() ? curve->axis()->bytes() : 0);
     const json about = {
         {"nodes", n}, {"slices", k}, {"ratio_nodes", k ? law.axis()->table().ratio_nodes() : 0}};
@@ -231,9 +231,9 @@ json variants_of(const BodyLaw& body, const std::string& path)
   std::vector<std::size_t> lengths;
   for (std::size_t n = 8; n < nodes; n *= 2) lengths.push_back(n);
   lengths.push_back(nodes);
-  for (const std::size_t n : lengths) add(n, slices);
-  for (std::size_t k = slices / 2; k > 0; k /= 2) add(nodes, k);
-  if (slices)
+  for (const std::size_t n : lengths) add(n, levels);
+  for (std::size_t k = levels / 2; k > 0; k /= 2) add(nodes, k);
+  if (levels)
     for (const std::size_t n : lengths) add(n, 0);
   return rows;
 }

@@ -358,7 +358,7 @@ def case_table():
     assert sorted(p.name for p in Path().iterdir()) == ["law.h5", "m.toml"]
     with h5py.File("law.h5") as file:
         notes = file["provenance"].attrs
-        # smooth in the speed: each impact agrees with its neighbours to the tolerance, and the survey gets no more of them
+        # smooth in the speed: each impact agrees with its neighbours to the tolerance, and the sampling plan gets no more of them
         assert notes["survey.powder"].decode().startswith("8 runs, 11 of"), notes["survey.powder"]
         # (one run is asked for twice: to choose the resolution, and as a sample)
         assert int(notes["runs_made"]) == len(list(Path(os.environ["XDG_CACHE_HOME"], "granulaw/runs").glob("*.run"))) > 5

@@ -57,7 +57,7 @@ RunJob impact(double velocity, double cost)
           fmt::format("impact velocity={:.17g} solver={}", velocity, solver_id()), cost,
           [velocity](RunOptions options) {
             options.resolution = 8;
-            options.phases = 1;
+            options.shifted_grids = 1;
             return run_impact(cheap_sphere(), velocity, options);
           }};
 }

@@ -10,7 +10,7 @@
 namespace granulaw::testing {
 
 /// "" if every pair of an accepted law resolves and gives finite, never negative forces and radii, and finite
-/// stiffnesses, quasi-statically and after impacts up to beyond the inertia axis, at overlaps from 1e-9 of
+/// stiffnesses, quasi-statically and after impacts up to beyond the velocity axis, at overlaps from 1e-9 of
 /// its table to three times its end, on and below the largest overlap; else what does not hold.
 inline std::string unusable(const Law& law)
 {

@@ -88,7 +88,7 @@ class Hopper(unittest.TestCase):
             self.assertLess(run.series["kinetic"][closed][-1], 1e-3 * f["peak"])
             self.assertGreater(f["peak_time"], 0)
 
-    def test_the_ledger_is_part_of_the_balance(self):
+    def test_the_contact_statistics_are_part_of_the_balance(self):
         if self.model == "hertz":
             self.skipTest("stock Hertz keeps no ledger")
         for run in self.each():

@@ -4,17 +4,17 @@
 //   law_fixture write FILE                                   the synthetic law, all pairs
 //   law_fixture write FILE pairs a:b c:wall ...              only these pairs
 //   law_fixture write FILE major N                           claims to be of major version N
-//   law_fixture write FILE axis                              the powder has an inertia axis
+//   law_fixture write FILE axis                              the powder has a velocity axis
 //   law_fixture write FILE rate RADIUS                       the powder depends on the rate, made for RADIUS
 //   law_fixture write FILE certificate ORIGIN N              the powder states errors, of N fresh impacts
 //   law_fixture write FILE depth D                           other residuals of the powder
 //   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
 //   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
 //   law_fixture radius FILE A B R_EFF DELTA DELTA_MAX X      prints contact radius (m)
-//   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X that a contact latches
-//   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
-//   law_fixture elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus
-//   E_STAR law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
+//   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X that a contact
+//   latches law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law law_fixture
+//   elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus E_STAR
+//   law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
 // The last three print "restitution duration(s) delta_max(m)".
 #include <hdf5.h>
 

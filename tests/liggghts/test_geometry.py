@@ -241,7 +241,7 @@ class Ridge(Geometry):
                     self.record("ridge", degrees=degrees, way=way, model=model, gained=gained, contacts=counted, brought=brought)
                     if ours and way == "begins" and degrees <= 2:  # over a steeper ridge it flies
                         self.assertGreaterEqual(counted, 1, f"{model} {degrees}")
-                        # nothing is gained that the ledger does not name; what vanishes at full depth is lost
+                        # nothing is gained that the contact statistics does not name; what vanishes at full depth is lost
                         self.assertLess(gained, brought + 0.05, f"{model} {degrees}")
 
 
@@ -349,7 +349,7 @@ class Particles(Geometry):
         self.assertLess(gained, 0.02)
 
     def test_multisphere_as_it_is(self):
-        """A law without inertia axis gives a clump its forces, whatever mass LIGGGHTS hands over: what the body loses is what the
+        """A law without velocity axis gives a clump its forces, whatever mass LIGGGHTS hands over: what the body loses is what the
         law dissipated. (With an axis: refused, test_combinations.py.)"""
         (self.folder / "clump.txt").write_text(f"{-0.5 * RADIUS!r} 0 0 {RADIUS!r}\n{0.5 * RADIUS!r} 0 0 {RADIUS!r}\n")
         deck = (self.pair("mpm", half=10 * RADIUS, skin=RADIUS / 2) + self.wall("mpm", f"primitive type 1 zplane {-10 * RADIUS!r}") +

@@ -17,7 +17,7 @@ ELASTIC = "fix q1 all property/global coefficientRestitution peratomtypepair 1 1
 
 
 class TimeStep(Trial):
-    # Error of e against the law. The force is explicit and a step resolves the contact's turn to 1/steps: the error falls
+    # Error of e against the law. The force is explicit and a step resolves the contact's reversal to 1/steps: the error falls
     # with its square. The limits are three times or more what was measured, 0.005 at 10 steps and 0.00002 at 100
     LIMITS = {10: 0.015, 20: 0.004, 50: 0.001, 100: 0.0003}
 

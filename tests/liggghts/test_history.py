@@ -43,8 +43,8 @@ class History(Deck):
                     self.assertAlmostEqual(value / expected, 1.0, delta=1e-6, msg=f"{model}, {name}")
 
 
-class KeptTurn(Deck):
-    """What a contact keeps of its turn is the law's answer of now, not of when it was worked out."""
+class KeptReversal(Deck):
+    """What a contact keeps of its reversal is the law's answer of now, not of when it was worked out."""
 
     PRINT = "dump d all custom 1 now.txt fz z radius f_history_w[1] f_history_w[2]\ndump_modify d format \"%.15g %.15g %.15g %.15g %.15g\"\n"
 
@@ -67,7 +67,7 @@ class KeptTurn(Deck):
         delta = radius - z
         self.assertLess(delta, 0.999 * largest)  # it unloads
         expected = self.fixture("force", law, "powder", "wall", repr(radius), repr(delta), repr(largest), repr(impact))[0]
-        # the loop's table against the curve: 2e-5 of the force at the turn (FastCurve.AgreesWithTheCurve)
+        # the loop's table against the curve: 2e-5 of the force at the reversal (FastCurve.AgreesWithTheCurve)
         self.assertAlmostEqual(force / expected, 1.0, delta=1e-4)
         self.assertGreater(force, 1.0)
 

@@ -179,7 +179,7 @@ class Rejoin(Invariance):
                         f"fix i moving nve/sphere\ntimestep {DT!r}\nthermo 100000\n" + dump("vz", 20) + f"run {steps}\n")
                 self.run_deck(text)
                 velocities = [frame[2][0] for frame in self.frames("end.dump")]
-                # after each turn at the sphere: negative to positive
+                # after each reversal at the sphere: negative to positive
                 rebounds = [max(velocities[k:k + 12]) for k in range(1, len(velocities))
                             if velocities[k - 1] < 0 <= velocities[k]]
                 self.assertGreaterEqual(len(rebounds), 2, f"gap {gap}: {velocities[::10]}")

@@ -7,7 +7,7 @@ RADIUS = 1.7e-3
 HERTZ = "fix q1 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
 SHEAR, ENERGY = 3, 6  # tangential history; `energy on`
 THORNTON = 1  # largest overlap
-MPM = 7  # the same, impact overlap and the turn, of five
+MPM = 7  # the same, impact overlap and the reversal, of five
 
 
 class Memory(Deck):

@@ -39,7 +39,7 @@ class Outputs(Deck):
 
     def test_columns_of_single_contacts(self):
         """contactRadius, largestOverlap and dissipatedEnergy stand behind LIGGGHTS's own columns; on the way out of an impact they are
-        the law's: of the present overlap, of the largest one, and what the ledger has."""
+        the law's: of the present overlap, of the largest one, and what the contact statistics have."""
         for model in MODELS:
             for kind in ("pair", "wall"):
                 make = "wall/gran/local" if kind == "wall" else "pair/gran/local"
@@ -98,7 +98,7 @@ class Outputs(Deck):
             self.assertAlmostEqual(rows[1][3], 2.0, delta=1e-6)
 
     def test_compute_dissipated_energy(self):
-        """LIGGGHTS's own property dissipated_energy of each particle, out of the ledger."""
+        """LIGGGHTS's own property dissipated_energy of each particle, out of the statistics."""
         for model in MODELS:
             deck = wall_deck(model, self.words(model, "computeDissipatedEnergy on"), POWDER, RADIUS, 1.0, DT)
             out = ("compute e all reduce sum f_dissipated_energy_[1]\nvariable e equal c_e\nvariable l equal f_granulaw\n"
@@ -106,8 +106,8 @@ class Outputs(Deck):
             text = self.run_deck(deck.replace("run 120", out + "run 1500") + 'print "LOSS ${e} ${l}"\n')
             speed = self.result(text, "SPEED")[0]
             lost = 0.5 * sphere_mass(RADIUS, POWDER.density) * (1 - speed**2)
-            dissipated, ledger = self.result(text, "LOSS")
-            self.assertAlmostEqual(dissipated / ledger, 1.0, delta=1e-9)
+            dissipated, statistics = self.result(text, "LOSS")
+            self.assertAlmostEqual(dissipated / statistics, 1.0, delta=1e-9)
             self.assertAlmostEqual(dissipated / lost, 1.0, delta=1e-3)  # 200 steps a contact: the step's error
 
     def test_contacts_that_begin_overlapping(self):

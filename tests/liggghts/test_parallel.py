@@ -1,4 +1,4 @@
-"""Two MPI ranks: the same physics, the same ledger, and a clean stop when something is wrong."""
+"""Two MPI ranks: the same physics, the same statistics, and a clean stop when something is wrong."""
 import unittest
 
 import gas

@@ -1,4 +1,4 @@
-"""Restart files: the trajectory, the contacts' history, the ledger's counts and the particles' energies go on."""
+"""Restart files: the trajectory, the contacts' history, the contact statistics' counts and the particles' energies go on."""
 import json
 import unittest
 

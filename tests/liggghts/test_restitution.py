@@ -82,7 +82,7 @@ class Mpm(Deck):
                                                order, (RADIUS, RADIUS), v, dt))
 
 
-class MpmWithInertiaAxis(Mpm):
+class MpmWithVelocityAxis(Mpm):
     """The same collisions under a law that latches the approach speed; the axis ends at 17 m/s on the wall."""
     variant = ("axis",)
     SPEEDS = (0.03, 1.0, 5.0, 12.0)

@@ -12,7 +12,7 @@ RADIUS = 1.7e-3
 
 class Stats(Deck):
     def test_pairs_apart(self):
-        """Powder hits powder, glass and the floor at three known speeds: each line of the ledger holds its own."""
+        """Powder hits powder, glass and the floor at three known speeds: each line of the contact statistics holds its own."""
         speeds = {"powder": 0.4, "glass": 0.7, "floor": 1.1}
         deck = head(types=2, half=20 * RADIUS) + properties([POWDER, GLASS])
         deck += (f"pair_style gran model mpm tangential off law {self.law} materials powder glass stats s.json\n"

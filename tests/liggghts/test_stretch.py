@@ -150,7 +150,7 @@ class Stretch(Deck):
         self.assertIn("stretch less", text)
 
     def test_dissipated_energy(self):
-        """The ledger's work is the real one."""
+        """The contact statistics' work is the real one."""
         out = '\nvariable d equal f_granulaw\nprint "LOSS ${d}"\n'
         (plain,), (stretched,) = self.run_each((wall_deck("mpm", self.words(s), POWDER, RADIUS, 1.0, s * 2e-7) + out for s in (1, 10)),
                                                "LOSS")
@@ -167,7 +167,7 @@ class Stretch(Deck):
         return [(ke + dissipated + stored) / start for _, ke, dissipated, stored, _ in rows], rows[-1][4]
 
     def test_energy_is_kept_at_every_stretch(self):
-        """Wall and pair, both models, a law with an inertia axis: what is kinetic, elastic and dissipated adds up at every step,
+        """Wall and pair, both models, a law with a velocity axis: what is kinetic, elastic and dissipated adds up at every step,
         stretched or not, and the time step that the stiffest contact allows grows as the stretch."""
         mass, speed, steps = sphere_mass(RADIUS, POWDER.density), 1.0, 200
         self.fixture("write", self.folder / "axis.h5", "axis")

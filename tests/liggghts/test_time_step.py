@@ -34,7 +34,7 @@ class TimeStep(Deck):
         self.assertEqual(stats["time_step_used_s"], 1e-8)
 
     def test_yielded_contact(self):
-        """Powder on a wall: the limit is that of the steepest branch, loading or unloading from a turn, of 64 overlaps.
+        """Powder on a wall: the limit is that of the steepest branch, loading or unloading from a reversal, of 64 overlaps.
 
         Slopes by three points h = 1e-3 of the overlap apart: an error of the order of (h/(overlap - residual))^2, 2e-5 where
         the unloading is shortest; the forces are printed with ten digits, 1e-7 of the slope.

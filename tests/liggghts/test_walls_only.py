@@ -43,7 +43,7 @@ class WallsOnly(Deck):
                 text = self.run_deck(self.deck(walls) + out, ranks=ranks)
                 loss, begun, between, rebound = self.result(text, "SAID")
                 self.assertEqual((begun, between), (1, 0), name)
-                # 500 steps a contact: the step's own error, as in test_ledger.py
+                # 500 steps a contact: the step's own error, as in test_contact_statistics.py
                 self.assertAlmostEqual(loss / (0.5 * MASS * (SPEED**2 - rebound**2)), 1.0, delta=2e-4, msg=name)
                 self.assertLess(rebound, 0.95)
                 self.assertEqual(text.count("granulaw contact laws"), 1, name)

@@ -45,7 +45,7 @@ TABLES = {
     "ridge": ("Convex edges of a mesh", "A sphere, pressed by 2 N, slides without friction at 10 m/s over the ridge where two planes meet. LIGGGHTS gives the edge to "
               "one of its two triangles: passing from that one to the other a contact begins at full depth beside the one that is there, the other way one vanishes at full "
               "depth. Gained: kinetic energy, height under the press, what contacts hold and have dissipated, after less before, over the elastic energy "
-              "that the press alone holds; brought: what the ledger says of contacts that began overlapping (`f_ID[18]`). A hand-over of `delta_max` between the "
+              "that the press alone holds; brought: what the contact statistics say of contacts that began overlapping (`f_ID[18]`). A hand-over of `delta_max` between the "
               "two planes would change none of it: the far contact begins at the depth that the near one has.",
               (("ridge, degrees", "degrees"), ("a contact", "way"), ("model", "model"), ("gained", "gained"), ("began overlapping", "contacts"), ("brought", "brought"))),
     "moving": ("Moving mesh", "The same impact seen from a mesh that comes up at the sphere.", (("model", "model"), ("mesh m/s", "mesh"), ("e", "e"))),

@@ -18,7 +18,7 @@ with tempfile.TemporaryDirectory(prefix="granulaw-law-size-") as folder:
     full = law_part.whole(found["rows"])
     rows = {(r["nodes"], r["slices"], r["evaluator"]): r for r in found["rows"]}
     nodes, slices = full["nodes"], full["slices"]
-    assert slices > 1, "this law should have an inertia axis"
+    assert slices > 1, "this law should have a velocity axis"
 
     same, fast = rows[nodes, slices, "curve"], rows[nodes, slices, "fast"]
     assert (same["err_force"], same["err_e"]) == (0, 0), same  # the law against itself

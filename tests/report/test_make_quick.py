@@ -10,7 +10,7 @@ with tempfile.TemporaryDirectory(prefix="granulaw-make-quick-") as name:
     print(done.stdout, done.stderr)
     text = pathlib.Path(name, "report", "report.md").read_text()
     assert done.returncode == 0, done.stderr
-    for words in ("mapped, double", "inertia axis dropped", "### Packing", "mpm, stretched by 3", "wax-wax, particles", "56 cases"):
+    for words in ("mapped, double", "velocity axis dropped", "### Packing", "mpm, stretched by 3", "wax-wax, particles", "56 cases"):
         assert words in text, words
     # the quick study leaves the elastic impact out, and says so; nothing else is missing
     assert text.count("**Missing.**") == 1 and "The whole study" in text, text

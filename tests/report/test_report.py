@@ -124,8 +124,8 @@ class Whole(unittest.TestCase):
         self.assertIn("0.460 CPU s<br>mapped, single", self.row("Impact", "F within 0.3 %", "solver:"))
 
     def test_law(self):
-        self.assertIn("| 93.5 | 10.2 (9.22 to 12.3) |", self.row("| 148 nodes | inertia axis kept (7 slices) | plug-in's"))
-        self.assertIn("| 21 | 1.9e-02 |", self.row("| 148 nodes | inertia axis dropped | stored table"))
+        self.assertIn("| 93.5 | 10.2 (9.22 to 12.3) |", self.row("| 148 nodes | velocity axis kept (7 impact levels) | plug-in's"))
+        self.assertIn("| 21 | 1.9e-02 |", self.row("| 148 nodes | velocity axis dropped | stored table"))
         self.assertIn("solver's error (force 1.3 %", self.markdown)
 
     def test_flow(self):

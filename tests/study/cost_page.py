@@ -13,8 +13,8 @@ JOBS = {"plastic": "impact, E*/Y = 100, V/V_y = 100", "elastic": "elastic impact
 STYLE = {
     ("mapped", "double"): ("tab:blue", "o", "-"),
     ("mapped", "single"): ("tab:cyan", "s", "--"),
-    ("tartan", "double"): ("tab:red", "o", "-"),
-    ("tartan", "single"): ("tab:orange", "s", "--"),
+    ("rectilinear", "double"): ("tab:red", "o", "-"),
+    ("rectilinear", "single"): ("tab:orange", "s", "--"),
     ("updated", "double"): ("tab:green", "^", "-"),
 }
 # the marks of the issue: CPU seconds and L2 error that were to be beaten
@@ -66,7 +66,7 @@ def main():
     ]
     for job, title in JOBS.items():
         text += [f"## {title[0].upper()}{title[1:]}", "",
-                 "| grid | precision | cells | shifted grids | points | CPU s | million updates/s | L2 % | F_max % | e % | ripple % | energy error |",
+                 "| grid | precision | cells | shifted grids | points | CPU s | million updates/s | L2 % | F_max % | e % | grid noise % | energy error |",
                  "|---|---|---|---|---|---|---|---|---|---|---|---|"]
         for k, r in enumerate([jobs[job]["reference"], *jobs[job]["rows"]]):
             percent = [f"{100 * r[c]:{'+' if c.startswith('err') else ''}.3f}" for c in ("L2_force", "err_force", "err_e", "ripple")]

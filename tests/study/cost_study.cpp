@@ -9,7 +9,8 @@
 // holds the same at 40 cells: how good the reference is. Of each run, in the file: job, grid, precision,
 // cells, grids (shifted), points, cpu_s, Mupd_s: million point updates a second, L2_force: L2 deviation of
 // the treated loading force over 0.05 to 1 delta_max, err_force and err_e: deviation of F_max and of e,
-// ripple: rms of F/fit - 1 over 0.25 to 1 delta_max, energy: energy error. Deviations and errors: relative.
+// grid noise: rms of F/fit - 1 over 0.25 to 1 delta_max, energy: energy error. Deviations and errors:
+// relative.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "base/version.hpp"
-#include "solver/ripple.hpp"
+#include "solver/grid_noise.hpp"
 #include "solver/runs.hpp"
 
 namespace {
@@ -62,14 +63,14 @@ json row(const std::string& job, const RunOptions& o, const RunResult& r, const 
       {"grid", name_of(o.grid)},
       {"precision", o.precision == Precision::single ? "single" : "double"},
       {"cells", o.resolution},
-      {"grids", o.phases},
+      {"grids", o.shifted_grids},
       {"points", s.points},
       {"cpu_s", rounded(s.cpu_s)},
       {"Mupd_s", rounded(s.point_updates_per_s / 1e6)},
       {"L2_force", rounded(distance(r, reference))},
       {"err_force", rounded(s.force_max / reference.summary.force_max - 1)},
       {"err_e", rounded(s.restitution / reference.summary.restitution - 1)},
-      {"ripple", rounded(s.ripple)},
+      {"ripple", rounded(s.grid_noise)},
       {"energy", rounded(s.energy_error)},
   };
   fmt::print("{}\n", found.dump());
@@ -81,20 +82,20 @@ json study(const std::string& job, const Sphere& sphere, double velocity, bool q
 {
   RunOptions o;
   o.grid = GridKind::mapped, o.precision = Precision::full;
-  o.resolution = quick ? 40 : 56, o.phases = 8, o.courant = 0.5;
+  o.resolution = quick ? 40 : 56, o.shifted_grids = 8, o.courant = 0.5;
   const RunResult reference = run_impact(sphere, velocity, o);
   json found = {{"name", job}, {"reference_cells", o.resolution}, {"rows", json::array()}};
   o.resolution = quick ? 28 : 40;
   found["reference"] = row(job, o, run_impact(sphere, velocity, o), reference);
   o = {};
-  for (const GridKind grid : {GridKind::mapped, GridKind::tartan, GridKind::updated})
+  for (const GridKind grid : {GridKind::mapped, GridKind::rectilinear, GridKind::updated})
     for (const Precision precision : {Precision::full, Precision::single}) {
       if (grid == GridKind::updated && precision == Precision::single) continue;
-      for (const int phases : {1, 4})
+      for (const int shifted_grids : {1, 4})
         for (const int cells : {8, 12, 16, 24, 32}) {
           if (cells > (quick ? 16 : grid == GridKind::updated ? 24 : 32)) continue;
           if (phases == 1 && grid != GridKind::mapped) continue;
-          o.grid = grid, o.precision = precision, o.resolution = cells, o.phases = phases;
+          o.grid = grid, o.precision = precision, o.resolution = cells, o.shifted_grids = shifted_grids;
           found["rows"].push_back(row(job, o, run_impact(sphere, velocity, o), reference));
         }
     }

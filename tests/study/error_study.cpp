@@ -74,7 +74,7 @@ std::vector<Case> all_cases()
 RunResult cached(const RunCache& cache, const Case& c, const RunOptions& o)
 {
   const std::string key = fmt::format("{} resolution={} phases={} courant={} slowness={} solver={}", c.name,
-                                      o.resolution, o.phases, o.courant, o.slowness, solver_id());
+                                      o.resolution, o.shifted_grids, o.courant, o.slowness, solver_id());
   RunOutcome kept;
   if (cache.load(key, kept)) return kept.result;
   kept.result = c.run(o);

@@ -8,8 +8,8 @@
 //             [--materials N] [--threads N] [--seed N] [--each]
 //   runs are kept in FOLDER and not made again; impacts have --cells across and four shifted grids
 //
-// Prints three lines a material. The force of a press is as computed, with the ripple of the contact edge:
-// more cells and grids leave less of it.
+// Prints three lines a material. The force of a press is as computed, with the grid noise of the contact
+// edge: more cells and grids leave less of it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -47,8 +47,8 @@ std::string worst(std::vector<double> errors)
 }
 
 /// Largest deviations of the law from the run's force along its path, over the run's largest force: on virgin
-/// loading, where the run has the ripple of the contact edge, and on unloading and reloading, where the law
-/// has one curve.
+/// loading, where the run has the grid noise of the contact edge, and on unloading and reloading, where the
+/// law has one curve.
 struct PathErrors
 {
   double loading = 0, unloading = 0;
@@ -76,7 +76,7 @@ void study(const Atlas& atlas, const MaterialRatios& m, const References& refere
            Farm& farm, bool each)
 {
   const LawMaterial material = dimensionless(m);
-  const Subject subject = subject_of(m.stiffness, m.poisson_ratio, m.hardening);
+  const CharacterisedBody body = characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
   BuildOptions options;
   options.depth = 0.2, options.fastest = 0.25;
   const BodyLaw law = law_from(atlas, material, options);
@@ -90,16 +90,16 @@ void study(const Atlas& atlas, const MaterialRatios& m, const References& refere
   // sqrt(I) from 1.5 onsets, or what reaches 3e-5 R (shallower impacts take many minutes), to 0.245, evenly
   // in its logarithm
   const double slowest =
-      std::max(1.5 * onset_velocity(1, 1 / m.stiffness, 1, m.poisson_ratio), velocity_to(3e-5, subject));
+      std::max(1.5 * onset_velocity(1, 1 / m.stiffness, 1, m.poisson_ratio), velocity_to(3e-5, body));
   const double fastest = 0.245 / std::sqrt(m.stiffness);
   for (int k = 0; k < impacts; ++k) {
     velocities.push_back(slowest * std::pow(fastest / slowest, share(random)));
-    jobs.push_back(impact_job(subject, velocities.back(), references.cells, 4, source));
+    jobs.push_back(impact_job(body, velocities.back(), references.cells, 4, source));
   }
   for (const double depth : {0.02, 0.15}) {
-    SurveyPlan::Press press{depth, {}, references.press_cells, references.press_grids};
+    SamplingPlan::Press press{depth, {}, references.press_cells, references.press_grids};
     for (int k = 0; k < 3; ++k) press.stops.push_back(depth * (0.1 + 0.3 * (k + share(random))));
-    jobs.push_back(press_job(subject, press, source));
+    jobs.push_back(press_job(body, press, source));
   }
   const std::vector<RunResult> runs = farm.run_all(jobs);
 

@@ -29,12 +29,12 @@ LawMaterial material(double e_star, double e_over_y, double density)
 
 BodyLaw own_law(const UnlikePair& pair, const RunOptions& options)
 {
-  std::vector<Pressing> presses;
+  std::vector<ContactRecord> presses;
   for (const double speed : {1.8, 3.2, 6., 11., 20., 36., 60., 100.})
-    presses.push_back(two_body_pressing(pair, speed * pair.yield_velocity(), options));
+    presses.push_back(two_body_record(pair, speed * pair.yield_velocity(), options));
   UnlikePair elastic = pair;
   elastic.yielding.yield_stress = elastic.partner.yield_stress = std::numeric_limits<double>::infinity();
-  const Pressing press = two_body_pressing(elastic, 15 * pair.yield_velocity(), options);
+  const ContactRecord press = two_body_record(elastic, 15 * pair.yield_velocity(), options);
   const LawMaterial& s = pair.yielding;
   const double onset = onset_overlap(s.e_star(), s.yield_stress, s.poisson_ratio);
   BodyLaw law;

@@ -133,10 +133,10 @@ class Runner
       if (cache_.load(key, outcome)) return kept.summary;
       RunOptions o;
       o.resolution = cells, o.precision = Precision::single,
-      o.phases = s.yield_stress < 0.002 && c.v_over_vy < 100 ? 2 : 4;  // slow and stiff: long
+      o.shifted_grids = s.yield_stress < 0.002 && c.v_over_vy < 100 ? 2 : 4;  // slow and stiff: long
       const double v = c.v_over_vy * c.pair.yield_velocity();
       if (c.press > 0) {
-        o.phases = 2;
+        o.shifted_grids = 2;
         kept.summary = two_bodies ? press_two_bodies(c.pair, c.press, ramp, o)
                                   : press_as_one_body(c.pair, c.press, ramp, o);
       } else
@@ -185,13 +185,13 @@ int study(const std::string& folder, const std::string& only)
     const UnlikePair& p = c.pair;
     const double depth = truth.fine.delta_max / p.mapping().length(p.r_eff());
     const double v = c.v_over_vy * p.yield_velocity();
-    const double inertia = v * v * p.one_body_density() / p.yielding.yield_stress;
+    const double damage_number = v * v * p.one_body_density() / p.yielding.yield_stress;
     std::string line = fmt::format(
         "{},{:.5g},{:.4g},{:.4g},{:.5g},{:.5g},{:.4g},{:.5g},{:.5g},{:.4g},{:.3g},{:.4g}", c.group,
         p.yielding.e_star() / p.yielding.yield_stress, p.yielding.poisson_ratio, p.radius_ratio,
         p.partner.e_star() / p.yielding.e_star(),
         p.partner.yields() ? p.partner.e_star() / p.partner.yield_stress : 0.0, p.partner.poisson_ratio,
-        p.partner.density / p.yielding.density, c.v_over_vy, depth, inertia, truth.fine.restitution);
+        p.partner.density / p.yielding.density, c.v_over_vy, depth, damage_number, truth.fine.restitution);
     if (const ReductionError bound = estimate_reduction_error(p, v); c.press == 0 && bound.within_measured) {
       ++within;
       over += std::abs(deviation(rule, truth, &RunSummary::force_max).value) > bound.force ||

@@ -13,7 +13,7 @@ using testing::unit_pair;
 RC_GTEST_PROP(Admissibility, NoClosedCycleGainsEnergy, ())
 {
   SyntheticLaw law;
-  law.softening = *rc::gen::inRange(50, 250) / 100.0;
+  law.force_reduction = *rc::gen::inRange(50, 250) / 100.0;
   law.depth = *rc::gen::inRange(20, 200) / 100.0;
   law.bend = *rc::gen::inRange(-20, 20) / 100.0;
   law.onset = std::pow(10.0, -*rc::gen::inRange(200, 600) / 100.0);
@@ -28,8 +28,8 @@ TEST(Admissibility, ANegativeMarginIsACycleThatGainsEnergy)
   ContactCurve::Table table = SyntheticLaw{}.table();
   for (std::size_t k = 0; k < table.exponent.size(); ++k) {
     table.exponent[k] = k > 100 ? 1.0 : 2.2;
-    table.foot[k] = 1;
-    table.exponent_slope[k] = table.foot_slope[k] = 0;
+    table.hertz_share[k] = 1;
+    table.exponent_slope[k] = table.hertz_share_slope[k] = 0;
     table.residual_ratio[k] = 0;
     table.residual_ratio_slope[k] = 0;
   }

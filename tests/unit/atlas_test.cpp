@@ -51,12 +51,12 @@ TEST(Atlas, GivesItsOwnMaterialsBack)
 {
   for (const Atlas::Node& node : shipped().nodes()) {
     const LawShape shape = shipped().shape(node.material);
-    const bool turning = node.material.poisson_ratio == shipped().grid().main_poisson_ratio ||
-                         node.material.stiffness <= AtlasGrid::block_turning_end;
+    const bool unloads = node.material.poisson_ratio == shipped().grid().main_poisson_ratio ||
+                         node.material.stiffness <= AtlasGrid::block_unloading_end;
     for (int k = 0; k < LawShape::nodes; ++k) {
       // rounding of some ten weighted terms
-      EXPECT_NEAR(shape.softening[k], node.shape.softening[k], 1e-9);
-      if (turning) {
+      EXPECT_NEAR(shape.force_reduction[k], node.shape.force_reduction[k], 1e-9);
+      if (unloads) {
         EXPECT_NEAR(shape.dissipation[k], node.shape.dissipation[k], 1e-9);
       }
     }
@@ -70,13 +70,13 @@ TEST(Atlas, RunsOnlyMaterialsThatTheOneItStartsFromLacks)
   const std::size_t elastic = 2 * grid.poisson_ratios().size();
   const KnownAtlas all{&shipped()}, presses{&shipped(), true};
   EXPECT_EQ(atlas_jobs(grid, source, all).size(), elastic);
-  const std::size_t impacts = shipped().nodes().size() * std::size(inertia_speeds);
+  const std::size_t impacts = shipped().nodes().size() * std::size(impact_speeds);
   EXPECT_EQ(atlas_jobs(grid, source, presses).size(), elastic + impacts);
   grid.stiffnesses.insert(std::find(grid.stiffnesses.begin(), grid.stiffnesses.end(), 400), 300);
   std::size_t lacking = 0;
   for (const double h : grid.hardenings_at(300)) {
-    const Subject sphere = subject_of(300, grid.main_poisson_ratio, h);
-    lacking += survey_jobs(sphere, plan_survey(sphere, {}), source).size();
+    const CharacterisedBody sphere = characterised_body_of(300, grid.main_poisson_ratio, h);
+    lacking += sampling_jobs(sphere, plan_sampling(sphere, {}), source).size();
   }
   ASSERT_GT(lacking, 0u);
   EXPECT_EQ(atlas_jobs(grid, source, all).size(), elastic + lacking);
@@ -95,12 +95,12 @@ TEST(Atlas, ALawLosesWhatItsImpactsLostWhateverTheirTime)
     BuildOptions options;
     options.depth = Atlas::depth;
     const ContactCurve& law = law_from(shipped(), material(m), options).curve;
-    for (const LawShape::Inertia& impact : node.shape.inertia) {
+    for (const LawShape::VelocityEffect& impact : node.shape.velocity_effects) {
       if (impact.speed < 0.14 || impact.speed > 0.23) continue;
-      const double x = std::exp(impact.reach) * impact.speed;
+      const double x = std::exp(impact.log_overlap) * impact.speed;
       const double slow = law.work_unloading(x) / law.work_loading(x);
       const double e = std::sqrt(law.work_unloading(x, x) / law.work_loading(x, x));
-      // x lies between two slices, where the corrections are linear: up to 1.3e-3. The exponent's limit alone
+      // x lies between two levels, where the corrections are linear: up to 1.3e-3. The exponent's limit alone
       // made it 0.011
       EXPECT_NEAR(e, std::sqrt(std::pow(slow, 1 + impact.dissipation)), 2e-3)
           << "E*/Y " << m.stiffness << ", nu " << m.poisson_ratio << ", sqrt(I) " << impact.speed;
@@ -123,13 +123,15 @@ TEST(Atlas, AnElasticLawKeepsItsClaim)
   EXPECT_GT(law.certificate.atlas_error_force, 1e-3);
   const RunSource source;
   for (const double depth : {0.1, 0.2}) {
-    const RunResult run = press_job(subject_of(1.0, 0.23, 0.0).elastic(), {depth, {}, 24, 2}, source).run({});
-    const Pressing press = pressing_from(run);
+    const RunResult run =
+        press_job(characterised_body_of(1.0, 0.23, 0.0).elastic(), {depth, {}, 24, 2}, source).run({});
+    const ContactRecord press = contact_record_of(run);
     double sum = 0;
     int count = 0;
     for (const auto& [x, f, a] : press.loading)
       if (x > 0.9 * depth) sum += f / law.curve.loading(x).force - 1, ++count;
-    // the claim, and 0.3 %: what is left of the contact edge's ripple in the mean over a tenth of the depth
+    // the claim, and 0.3 %: what is left of the contact edge's grid noise in the mean over a tenth of the
+    // depth
     EXPECT_LT(std::abs(sum / count), law.certificate.atlas_error_force + 3e-3) << depth;
   }
 }

@@ -35,23 +35,23 @@ class KnownSphere
   bool rated = false;
   const Atlas* atlas = nullptr;
 
-  Subject subject() const
+  CharacterisedBody body() const
   {
-    const Subject plain = subject_of(100, 0.3, 0);
+    const CharacterisedBody plain = characterised_body_of(100, 0.3, 0);
     if (!rated) return plain;
     Sphere sphere{1.0, plain.particle.materials[0]};
     sphere.material.rate = {"johnson-cook", {{"coefficient", {0.03}}, {"reference_rate", {1e-3}}}};
-    return subject_of(Particle::from(sphere));
+    return characterised_body_of(Particle::from(sphere));
   }
   LawMaterial material() const
   {
-    const Material m = subject().particle.materials[0];
+    const Material m = body().particle.materials[0];
     return {"known", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, 0};
   }
   ContactCurve curve() const
   {
     SyntheticLaw law;
-    law.x_end = 0.3, law.onset = subject().onset;
+    law.x_end = 0.3, law.onset = body().onset;
     return law.curve(257);
   }
 
@@ -65,7 +65,7 @@ class KnownSphere
       return press(p, plan, o);
     };
     source.impact = [this](const Particle&, double v, const RunOptions& o) { return impact(v, o); };
-    return build_law(material(), subject(), options, source);
+    return build_law(material(), body(), options, source);
   }
 
  private:
@@ -107,7 +107,7 @@ class KnownSphere
       double reloaded = 0;
       go(stop, 0, Branch::load, s.work_load);
       s.work_unload = 0;
-      const double residual = yields ? curve_.turning(stop).residual : 0;
+      const double residual = yields ? curve_.reversal(stop).residual : 0;
       go(residual, stop, Branch::unload, s.work_unload);
       if (stop < plan.depth) go(stop, stop, Branch::reload, reloaded);
       s.delta_residual = residual;
@@ -119,7 +119,7 @@ class KnownSphere
 
   RunResult impact(double velocity, const RunOptions& options)
   {
-    if (velocity > 0.02 * std::sqrt(subject().yield)) impacts.push_back({options.resolution, 0});
+    if (velocity > 0.02 * std::sqrt(body().yield)) impacts.push_back({options.resolution, 0});
     const double share = short_of(peak_error, options);
     const Replay replay = replay_collision(
         [&](double x, double x_m) {
@@ -127,7 +127,7 @@ class KnownSphere
           f.force *= force_unit, f.stiffness *= force_unit;
           return f;
         },
-        subject().mass, velocity, 20.0, 4000);
+        body().mass, velocity, 20.0, 4000);
     RunResult run;
     for (const Replay::Sample& t : replay.samples)
       run.trace.push_back({t.time, t.delta, share * t.force, t.contact_radius,
@@ -137,14 +137,14 @@ class KnownSphere
     s.delta_residual = replay.delta_residual, s.contact_time = replay.contact_time;
     s.work_load = replay.work_load, s.work_unload = replay.work_unload;
     finish(s, options);
-    s.ripple = scatter;
+    s.grid_noise = scatter;
     return run;
   }
 
   static void finish(RunSummary& s, const RunOptions& options)
   {
     s.restitution = s.restitution_raw = std::sqrt(s.work_unload / s.work_load);
-    s.resolution = options.resolution, s.grids = options.phases;
+    s.resolution = options.resolution, s.grids = options.shifted_grids;
   }
 
   ContactCurve curve_ = curve();
@@ -158,7 +158,7 @@ TEST(BuildLaw, FindsTheLawThatItsRunsReplay)
   EXPECT_TRUE(built.holes.empty());
   EXPECT_LT(built.sampling_error, 0.01);
   for (const double x : {0.002, 0.006, 0.02, 0.06, 0.1, 0.15, 0.2}) {
-    // what the survey is refined to, of F and of e
+    // what the sampling plan is refined to, of F and of e
     EXPECT_NEAR(built.law.curve.loading(x).force / known.loading(x).force, 1, 0.01) << x;
     const auto e = [x](const ContactCurve& c) { return std::sqrt(c.work_unloading(x) / c.work_loading(x)); };
     EXPECT_NEAR(e(built.law.curve), e(known), 0.005) << x;
@@ -186,7 +186,7 @@ TEST(BuildLaw, ImpactsGetTheCellsThatTheirErrorAsksFor)
   KnownSphere sphere;
   sphere.peak_error = 0.01;
   sphere.build(0.01);
-  expect_more_cells(sphere.impacts, sphere.presses, 7);  // compared, three of the survey, three that check
+  expect_more_cells(sphere.impacts, sphere.presses, 7);  // compared, three of the records, three that check
 }
 
 TEST(BuildLaw, PressesGetTheCellsThatTheirErrorAsksFor)
@@ -194,7 +194,7 @@ TEST(BuildLaw, PressesGetTheCellsThatTheirErrorAsksFor)
   KnownSphere sphere;
   sphere.press_error = 0.01;
   sphere.build(0.01);
-  expect_more_cells(sphere.presses, sphere.impacts, 4);  // compared, the survey's
+  expect_more_cells(sphere.presses, sphere.impacts, 4);  // compared, the sampling plan's
 }
 
 /// At no rate the body is one that the atlas knows: no press is made of it.
@@ -211,7 +211,7 @@ TEST(BuildLaw, TheAtlasTellsARateDependentSphereAtNoRate)
   EXPECT_TRUE(sphere.presses.empty());
   EXPECT_FALSE(built.rate_free.empty());
   EXPECT_EQ(built.law.certificate.atlas_error_force, atlas.claimed_force());
-  // impacts that took no part: to what the survey is refined to
+  // impacts that took no part: to what the sampling plan is refined to
   EXPECT_LT(built.law.certificate.verification_error_force, 0.01);
   EXPECT_LT(built.law.certificate.verification_error_restitution, 0.01);
   // the atlas is not as exact as this
@@ -219,8 +219,8 @@ TEST(BuildLaw, TheAtlasTellsARateDependentSphereAtNoRate)
   EXPECT_FALSE(sphere.presses.empty());
 }
 
-/// The force of a rate-dependent body falls before the turn: scatter about the fit that no cells take away is
-/// no error of theirs.
+/// The force of a rate-dependent body falls before the reversal: scatter about the fit that no cells take
+/// away is no error of theirs.
 TEST(BuildLaw, WhatNoCellsTakeAwayAsksForNone)
 {
   const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
@@ -231,14 +231,14 @@ TEST(BuildLaw, WhatNoCellsTakeAwayAsksForNone)
 }
 
 /// A press of one grid and fewer cells is only for overlaps that no pair law is exact at.
-TEST(PlanSurvey, CoarsePressesBeginBeyondTheOthers)
+TEST(PlanSampling, CoarsePressesBeginBeyondTheOthers)
 {
   for (const double depth : {0.05, 0.2, 0.205, 0.21, 0.3, 0.5}) {
-    SurveyRange range;
+    SamplingRange range;
     range.depth = depth, range.stops = 2;
-    for (const SurveyPlan::Press& press : plan_survey(subject_of(100, 0.3, 0), range).presses)
+    for (const SamplingPlan::Press& press : plan_sampling(characterised_body_of(100, 0.3, 0), range).presses)
       if (press.stops.front() < 0.1) {
-        EXPECT_EQ(press.phases, 2) << press.depth << " of " << depth;
+        EXPECT_EQ(press.shifted_grids, 2) << press.depth << " of " << depth;
         EXPECT_EQ(press.resolution, 24) << press.depth << " of " << depth;
       }
   }

@@ -206,7 +206,7 @@ TEST(RunIdentity, TellsRunsApart)
   EXPECT_EQ(of(base, {}, o), own);
   const std::vector<std::function<void(RunOptions&)>> options{
       [](RunOptions& x) { x.courant = 0.84; }, [](RunOptions& x) { x.slowness = 2; },
-      [](RunOptions& x) { x.phases = 2; }, [](RunOptions& x) { x.samples = 100; }};
+      [](RunOptions& x) { x.shifted_grids = 2; }, [](RunOptions& x) { x.samples = 100; }};
   for (std::size_t k = 0; k < options.size(); ++k) {
     RunOptions changed;
     options[k](changed);

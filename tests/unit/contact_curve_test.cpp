@@ -21,17 +21,17 @@ TEST(ContactCurve, ReproducesCubicsBetweenItsNodes)
   const auto g = [](double s) { return 1.0 + 0.3 * s - 0.8 * s * s + 0.5 * s * s * s; };
   const auto rho = [](double s) { return 0.9 * s * s; };
   const auto n = [](double s) { return 1.5 - 0.1 * s * s * s; };
-  const auto foot = [](double s) { return 1.0 + 0.5 * s * s - s * s * s; };
+  const auto hertz_share = [](double s) { return 1.0 + 0.5 * s * s - s * s * s; };
   const auto a = [](double s) { return 1.0 + s; };
-  const ContactCurve curve(sample_table(0.6, 0.0, 7, g, rho, n, foot, a), "test");
+  const ContactCurve curve(sample_table(0.6, 0.0, 7, g, rho, n, hertz_share, a), "test");
   for (int k = 1; k < 100; ++k) {
     const double s = 0.6 * k / 100, x = s * s * s * s;
     // 1e-9: sample_table's finite-difference slopes
     EXPECT_NEAR(curve.loading(x).force, std::pow(x, 1.5) * g(s), 1e-9 * std::pow(x, 1.5));
     EXPECT_NEAR(curve.loading(x).radius, std::sqrt(x) * a(s), 1e-9 * std::sqrt(x));
-    EXPECT_NEAR(curve.turning(x).residual, x * rho(s), 1e-9 * x);
-    EXPECT_NEAR(curve.turning(x).shape.exponent, n(s), 1e-9);
-    EXPECT_NEAR(curve.turning(x).shape.foot, foot(s), 1e-9);
+    EXPECT_NEAR(curve.reversal(x).residual, x * rho(s), 1e-9 * x);
+    EXPECT_NEAR(curve.reversal(x).shape.exponent, n(s), 1e-9);
+    EXPECT_NEAR(curve.reversal(x).shape.hertz_share, hertz_share(s), 1e-9);
   }
 }
 
@@ -82,7 +82,7 @@ TEST(ContactCurve, WorkFunctionsAreTheIntegralsOfTheForce)
     const double loading = gauss_kronrod<double, 61>::integrate(in_s, 0.0, std::pow(x, 0.25), 15, 1e-12);
     EXPECT_NEAR(curve.work_loading(x) / loading, 1.0, 1e-9) << x;
     const auto back = [&](double y) { return curve.evaluate(unit_pair, 1.0, y, x).force; };
-    const double residual = x > curve.onset() ? curve.turning(x).residual : 0.0;
+    const double residual = x > curve.onset() ? curve.reversal(x).residual : 0.0;
     const double unloading = gauss_kronrod<double, 61>::integrate(back, residual, x, 15, 1e-12);
     EXPECT_NEAR(curve.work_unloading(x) / unloading, 1.0, 1e-9) << x;
   }
@@ -99,10 +99,10 @@ TEST(ContactCurve, ContinuesLinearlyBeyondItsRangeAndSaysSo)
   EXPECT_NEAR(beyond.force, at_end.force + 0.5 * end * at_end.stiffness, 1e-14);
   EXPECT_NEAR(curve.work_loading(1.5 * end),
               curve.work_loading(end) + 0.5 * end * 0.5 * (at_end.force + beyond.force), 1e-14);
-  EXPECT_NEAR(curve.turning(1.5 * end).residual / (1.5 * end), curve.turning(end).residual / end, 1e-14);
+  EXPECT_NEAR(curve.reversal(1.5 * end).residual / (1.5 * end), curve.reversal(end).residual / end, 1e-14);
 }
 
-TEST(ContactCurve, IsContinuousAtNodesOnsetTurningPointAndEnd)
+TEST(ContactCurve, IsContinuousAtNodesOnsetReversalPointAndEnd)
 {
   const ContactCurve curve = SyntheticLaw{}.curve(17);
   std::vector<double> places{curve.onset(), curve.x_end()};
@@ -140,9 +140,9 @@ TEST(ContactCurve, RefusesUnusableTables)
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.exponent.pop_back(); }), "x"), Error);
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.residual_ratio[5] = 1.0; }), "x"), Error);
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.exponent[5] = 0.9; }), "x"), Error);
-  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.foot.pop_back(); }), "x"), Error);
-  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.foot[5] = -0.01; }), "x"), Error);
-  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.foot[5] = 4.5; }), "x"), Error);  // A + 4 n > 10
+  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.hertz_share.pop_back(); }), "x"), Error);
+  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.hertz_share[5] = -0.01; }), "x"), Error);
+  EXPECT_THROW(ContactCurve(broken([](auto& t) { t.hertz_share[5] = 4.5; }), "x"), Error);  // A + 4 n > 10
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.s_end = 0; }), "x"), Error);
   EXPECT_THROW(ContactCurve(broken([](auto& t) { t.onset = NAN; }), "x"), Error);
 }

@@ -57,7 +57,7 @@ double fraction(int parts = 100000)
 SyntheticLaw any_law()
 {
   SyntheticLaw law;
-  law.softening = 0.5 + 1.5 * fraction();
+  law.force_reduction = 0.5 + 1.5 * fraction();
   law.depth = 0.2 + 1.3 * fraction();
   law.bend = -0.1 + 0.3 * fraction();
   law.onset = std::pow(10.0, -6 + 4 * fraction());
@@ -83,7 +83,7 @@ double any_overlap(const ContactCurve& curve)
 double work_below(const ContactCurve& curve, double from, double to, double reached)
 {
   if (reached <= curve.onset()) return curve.work_loading(to) - curve.work_loading(from);
-  const ContactCurve::Turning t = curve.turning(reached);
+  const ContactCurve::Reversal t = curve.reversal(reached);
   const double span = reached - t.residual;
   const auto stored = [&](double x) {
     return t.force * span * t.shape.work(std::max(0.0, (x - t.residual) / span));
@@ -159,9 +159,9 @@ TEST(ContactPaths, AGainOfEnergyIsSeen)
   ContactCurve::Table table = SyntheticLaw{}.table();
   for (std::size_t k = 0; k < table.exponent.size(); ++k) {
     table.exponent[k] = k > 100 ? 1.0 : 2.2;
-    table.foot[k] = 1;
-    table.exponent_slope[k] = table.foot_slope[k] = table.residual_ratio[k] = table.residual_ratio_slope[k] =
-        0;
+    table.hertz_share[k] = 1;
+    table.exponent_slope[k] = table.hertz_share_slope[k] = table.residual_ratio[k] =
+        table.residual_ratio_slope[k] = 0;
   }
   const ContactCurve curve(table, "test");
   const double node = curve.table().s_end / 128, low = std::pow(100 * node, 4),
@@ -172,7 +172,7 @@ TEST(ContactPaths, AGainOfEnergyIsSeen)
   EXPECT_LT(second, -0.1 * curve.work_loading(high));
 }
 
-/// The force jumps nowhere: at a turn, on reaching delta_max again, at the onset, at a node, at the end.
+/// The force jumps nowhere: at a reversal, on reaching delta_max again, at the onset, at a node, at the end.
 RC_GTEST_PROP(ContactPaths, ForceIsContinuous, ())
 {
   const ContactCurve curve = any_admissible_curve();
@@ -184,9 +184,9 @@ RC_GTEST_PROP(ContactPaths, ForceIsContinuous, ())
     const double slope = std::max({a.stiffness, b.stiffness, b.force / x});
     return std::abs(b.force - a.force) <= 4 * step * x * slope + 1e-12 * std::max(a.force, b.force);
   };
-  RC_ASSERT(jump_free(reached, reached));                    // the turn, and the way back through it
+  RC_ASSERT(jump_free(reached, reached));                    // the reversal, and the way back through it
   RC_ASSERT(jump_free(curve.x_end(), 0));                    // the end of the table, loading
-  RC_ASSERT(jump_free(curve.x_end(), 1.5 * curve.x_end()));  // and below a turn beyond it
+  RC_ASSERT(jump_free(curve.x_end(), 1.5 * curve.x_end()));  // and below a reversal beyond it
   RC_ASSERT(jump_free(any_overlap(curve), reached));         // anywhere
   const int count = static_cast<int>(curve.table().exponent.size());
   const double node = curve.table().s_end * fraction(count - 1);
@@ -219,7 +219,7 @@ RC_GTEST_PROP(ContactPaths, StiffnessIsTheDerivative, ())
     const auto force = [&](double at) { return curve.evaluate(unit_pair, 1, at, largest).force; };
     const auto central = [&](double step) { return (force(x + step) - force(x - step)) / (2 * step); };
     const double coarse = central(h), fine = central(h / 2), best = (4 * fine - coarse) / 3;
-    // a kink (u = 0, the turn, the onset, a node: g is C1 only) within h makes the two steps disagree
+    // a kink (u = 0, the reversal, the onset, a node: g is C1 only) within h makes the two steps disagree
     const double own_error = std::abs(fine - coarse) + 2e-15 * f.force / h;
     RC_PRE(own_error < 1e-6 * f.stiffness);
     RC_ASSERT(std::abs(best - f.stiffness) <= 1e-6 * f.stiffness + own_error);
@@ -266,7 +266,7 @@ RC_GTEST_PROP(ContactPaths, SameBitsForEitherSideAndAnyOrder, ())
   }
 }
 
-/// At a turn unloading is not softer than loading, from the onset on, where both are the elastic curve's.
+/// At a reversal unloading is not softer than loading, from the onset on, where both are the elastic curve's.
 RC_GTEST_PROP(ContactPaths, UnloadingIsNotSofterThanLoading, ())
 {
   const SyntheticLaw law = any_law();
@@ -274,7 +274,7 @@ RC_GTEST_PROP(ContactPaths, UnloadingIsNotSofterThanLoading, ())
   RC_PRE(curve.admissibility_margin() >= 0 && curve.onset() < 0.8 * curve.x_end());
   for (const double x : {curve.onset() * (1 + std::pow(10.0, -6 * fraction())), any_overlap(curve)}) {
     if (x <= curve.onset() || x >= curve.x_end()) continue;
-    const ContactCurve::Turning t = curve.turning(x);
+    const ContactCurve::Reversal t = curve.reversal(x);
     const double unloading = t.shape.exponent * t.force / (x - t.residual);
     // 1e-6: cubics through 129 nodes, of the force and of the exponent
     RC_ASSERT(unloading >= t.stiffness * (1 - 1e-6));

@@ -311,11 +311,12 @@ TEST_F(Deck, MovingWallsAddTheirSpeed)
 
 TEST_F(Deck, KeepsWhatARunVisitedByTypes)
 {
-  const auto entry = [](const std::string& kind, int a, int b, double speed, double overlap, double inertia) {
+  const auto entry = [](const std::string& kind, int a, int b, double speed, double overlap,
+                        double damage_number) {
     return "{\"kind\": \"" + kind + "\", \"types\": [" + std::to_string(a) + ", " + std::to_string(b) +
            "], \"contacts_begun\": 2, \"impact_speed_max_m_per_s\": " + std::to_string(speed) +
            ", \"overlap_over_radius_max\": " + std::to_string(overlap) +
-           ", \"inertia_number_max\": " + std::to_string(inertia) + "}";
+           ", \"inertia_number_max\": " + std::to_string(damage_number) + "}";
   };
   const Visited v =
       read_visited(write("s.json", "{\"pairs\": [" + entry("particles", 1, 2, 0.5, 0.25, 0.125) + ", " +
@@ -324,10 +325,10 @@ TEST_F(Deck, KeepsWhatARunVisitedByTypes)
                                        entry("deformable wall", 2, 1, 2, 0.625, 0.03125) + "]}"));
   ASSERT_EQ(v.pairs.size(), 2u);
   ASSERT_EQ(v.walls.size(), 1u);
-  const auto expect = [](const Visited::Range& r, double speed, double overlap, double inertia) {
+  const auto expect = [](const Visited::Range& r, double speed, double overlap, double damage_number) {
     EXPECT_EQ(r.speed, speed);
     EXPECT_EQ(r.overlap, overlap);
-    EXPECT_EQ(r.inertia, inertia);
+    EXPECT_EQ(r.damage_number, damage_number);
     EXPECT_TRUE(r.met);
   };
   expect(v.pairs.at({1, 2}), 0.5, 0.25, 0.125);

@@ -15,8 +15,8 @@ namespace {
 using testing::SyntheticLaw;
 using testing::unit_pair;
 
-/// Largest differences from the curve: of the force over that at the turning point, of stiffness and radius
-/// over theirs at the turning point.
+/// Largest differences from the curve: of the force over that at the reversal point, of stiffness and radius
+/// over theirs at the reversal point.
 struct Worst
 {
   double force = 0, stiffness = 0, radius = 0;
@@ -102,7 +102,7 @@ TEST(FastCurve, IsContinuousAcrossItsNodes)
     }
 }
 
-TEST(FastCurve, ATurnThatIsKeptAnswersToTheBit)
+TEST(FastCurve, AReversalThatIsKeptAnswersToTheBit)
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
   const FastCurve fast(curve);
@@ -115,18 +115,18 @@ TEST(FastCurve, ATurnThatIsKeptAnswersToTheBit)
   for (int k = 0; k < 20000; ++k) {
     const double x_max = std::exp(log_x(random)),
                  X = k % 3 ? curve.axis()->overlap_end() * part(random) : 0.0;
-    const FastCurve::Turn turn = fast.turn(x_max, X);
+    const FastCurve::Reversal reversal = fast.reversal(x_max, X);
     for (const double x : {x_max * part(random), std::nextafter(x_max, 0.0)}) {
       ASSERT_TRUE(fast.unloads(x, x_max));
-      EXPECT_TRUE(same(turn.force_at(x), fast.force(x, x_max, X)));
-      const ContactCurve::Loading kept = fast.evaluate(x, turn), anew = fast.evaluate(x, x_max, X);
+      EXPECT_TRUE(same(reversal.force_at(x), fast.force(x, x_max, X)));
+      const ContactCurve::Loading kept = fast.evaluate(x, reversal), anew = fast.evaluate(x, x_max, X);
       EXPECT_TRUE(same(kept.force, anew.force) && same(kept.stiffness, anew.stiffness) &&
                   same(kept.radius, anew.radius));
     }
     // rounding only: what is divided by the range is 3e5 times smaller at its least (largest_ratio)
-    EXPECT_NEAR(turn.force_at(x_max), fast.loading_force(x_max, X), 1e-13 * fast.loading_force(x_max, X));
+    EXPECT_NEAR(reversal.force_at(x_max), fast.loading_force(x_max, X), 1e-13 * fast.loading_force(x_max, X));
     // the fast table's error of force and span: 2e-5 (AgreesWithTheCurve)
-    EXPECT_NEAR(turn.work(), curve.work_unloading(x_max, X), 1e-4 * curve.work_unloading(x_max, X));
+    EXPECT_NEAR(reversal.work(), curve.work_unloading(x_max, X), 1e-4 * curve.work_unloading(x_max, X));
   }
   EXPECT_FALSE(fast.unloads(0.9 * curve.onset(), curve.onset()));
 }

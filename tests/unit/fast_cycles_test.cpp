@@ -18,7 +18,8 @@ namespace {
 using testing::SyntheticLaw;
 using testing::unit_pair;
 
-/// Largest error of the lookup's force against the curve's, over the force at the turn (fast_curve_test.cpp).
+/// Largest error of the lookup's force against the curve's, over the force at the reversal
+/// (fast_curve_test.cpp).
 constexpr double lookup_error = 2e-5;
 
 struct Lookup
@@ -69,7 +70,7 @@ void no_closed_cycle_gains(const Lookup& law)
   testing::no_closed_cycle_gains(law.fast, law.curve, any_impact_overlap(law.curve), lookup_error);
 }
 
-/// Nowhere a jump: not at the turn, where loading begins and unloading ends, nor anywhere else.
+/// Nowhere a jump: not at the reversal, where loading begins and unloading ends, nor anywhere else.
 void force_is_continuous(const Lookup& law)
 {
   RC_LOG() << law.what << '\n';
@@ -89,7 +90,7 @@ void force_is_continuous(const Lookup& law)
 SyntheticLaw any_synthetic()
 {
   SyntheticLaw law;
-  law.softening = *rc::gen::inRange(50, 250) / 100.0;
+  law.force_reduction = *rc::gen::inRange(50, 250) / 100.0;
   law.depth = *rc::gen::inRange(20, 200) / 100.0;
   law.bend = *rc::gen::inRange(-20, 20) / 100.0;
   law.onset = std::pow(10.0, -*rc::gen::inRange(200, 600) / 100.0);

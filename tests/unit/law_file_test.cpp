@@ -123,7 +123,7 @@ TEST_F(LawFile, RoundTripIsBitExact)
     EXPECT_EQ(other.material.youngs_modulus, body.material.youngs_modulus);
     EXPECT_EQ(other.material.poisson_ratio, body.material.poisson_ratio);
     EXPECT_EQ(other.material.yield_stress, body.material.yield_stress);
-    EXPECT_EQ(other.certificate.max_inertia, body.certificate.max_inertia);
+    EXPECT_EQ(other.certificate.damage_number_max, body.certificate.damage_number_max);
     EXPECT_EQ(other.certificate.support, body.certificate.support);
     const ContactCurve::Table &a = body.curve.table(), &b = other.curve.table();
     EXPECT_EQ(a.s_end, b.s_end);
@@ -133,7 +133,8 @@ TEST_F(LawFile, RoundTripIsBitExact)
     EXPECT_TRUE(same_bits(a.residual_ratio, b.residual_ratio) &&
                 same_bits(a.residual_ratio_slope, b.residual_ratio_slope));
     EXPECT_TRUE(same_bits(a.exponent, b.exponent) && same_bits(a.exponent_slope, b.exponent_slope));
-    EXPECT_TRUE(same_bits(a.foot, b.foot) && same_bits(a.foot_slope, b.foot_slope));
+    EXPECT_TRUE(same_bits(a.hertz_share, b.hertz_share) &&
+                same_bits(a.hertz_share_slope, b.hertz_share_slope));
     EXPECT_TRUE(same_bits(a.radius_ratio, b.radius_ratio) &&
                 same_bits(a.radius_ratio_slope, b.radius_ratio_slope));
   }
@@ -164,16 +165,16 @@ TEST_F(LawFile, TheAxisTheBodyAndThePairErrorsComeBackBitExact)
   for (const char* name : {"powder", "grain"}) {
     const BodyLaw &a = law.bodies.at(name), &b = read.bodies.at(name);
     ASSERT_NE(b.curve.axis(), nullptr);
-    const InertiaAxis::Table &s = a.curve.axis()->table(), &t = b.curve.axis()->table();
+    const VelocityAxis::Table &s = a.curve.axis()->table(), &t = b.curve.axis()->table();
     EXPECT_EQ(s.kind, t.kind);
     EXPECT_EQ(s.reference_radius, t.reference_radius);
     EXPECT_EQ(s.speed_begin, t.speed_begin);
     EXPECT_EQ(s.speed_end, t.speed_end);
     EXPECT_EQ(s.ratio_end, t.ratio_end);
-    EXPECT_EQ(s.slices, t.slices);
-    EXPECT_EQ(s.first_slices, t.first_slices);
-    using Values = std::vector<double> InertiaAxis::Table::*;
-    using T = InertiaAxis::Table;
+    EXPECT_EQ(s.levels, t.levels);
+    EXPECT_EQ(s.first_levels, t.first_levels);
+    using Values = std::vector<double> VelocityAxis::Table::*;
+    using T = VelocityAxis::Table;
     for (const Values v : {&T::impact_overlap, &T::impact_overlap_slope, &T::force_correction,
                            &T::force_correction_slope, &T::residual_correction, &T::residual_correction_slope,
                            &T::exponent_correction, &T::exponent_correction_slope})

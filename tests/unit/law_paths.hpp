@@ -13,8 +13,8 @@ namespace granulaw::testing {
 /// Force unit 1, length unit 1: evaluate() then returns the curve's own numbers.
 inline const PairMapping unit_pair = PairMapping::rigid_partner(0.75);
 
-/// Draws a turn, also beyond the table, and an overlap below or beyond it; asserts that the stiffness there
-/// is the derivative of the force. `Law`: ContactCurve or FastCurve; `curve`: its curve.
+/// Draws a reversal, also beyond the table, and an overlap below or beyond it; asserts that the stiffness
+/// there is the derivative of the force. `Law`: ContactCurve or FastCurve; `curve`: its curve.
 template <class Law>
 void stiffness_is_the_derivative(const Law& law, const ContactCurve& curve, double impact_overlap = 0)
 {
@@ -39,7 +39,7 @@ class Path
 
   void move(double to)
   {
-    // Not across where the force ends, nor the turn: it has kinks there.
+    // Not across where the force ends, nor the reversal: it has kinks there.
     if ((force(x_) > 0) != (force(std::min(to, x_m_)) > 0)) piece(end_of_force(x_, std::min(to, x_m_)));
     if (x_ < x_m_ && to > x_m_) piece(x_m_);
     piece(to);
@@ -97,7 +97,7 @@ class Path
   double x_ = 0, x_m_ = 0, work_ = 0, open_ = 0, top_ = 0;
 };
 
-/// Draws turns of a contact; asserts that no closed cycle gains energy by more than `error` of the force
+/// Draws reversals of a contact; asserts that no closed cycle gains energy by more than `error` of the force
 /// allows.
 template <class Law>
 void no_closed_cycle_gains(const Law& law, const ContactCurve& curve, double impact_overlap = 0,

@@ -185,7 +185,7 @@ TEST(Particle, Tablet)
   const double h = cap - std::sqrt(cap * cap - radius * radius);
   EXPECT_NEAR(sharp.volume() / (pi * radius * radius * (height - 2 * h) + 2 * pi * h * h * (3 * cap - h) / 3),
               1, volume_error);
-  // the sum of its slices
+  // the sum of its levels
   double sum = 0;
   const int n = 400;
   for (int i = 0; i < n; ++i)

@@ -107,22 +107,22 @@ TEST(ReductionError, OfALawOfEqualRadiiIsBoundedAtOthers)
   {
     double restitution, force, solver;  // rule over two bodies
   };
-  std::map<std::string, Row> equal;  // by inertia and partner
+  std::map<std::string, Row> equal;  // by damage number and partner
   std::ifstream file(GRANULAW_SOURCE_DIR "/tests/study/pair_law_radii.csv");
-  std::string line, inertia, partner, cell;
+  std::string line, damage_number, partner, cell;
   std::getline(file, line);
   int count = 0, over = 0;
   while (std::getline(file, line)) {
     std::istringstream cells(line);
-    std::getline(cells, inertia, ','), std::getline(cells, partner, ',');
+    std::getline(cells, damage_number, ','), std::getline(cells, partner, ',');
     std::vector<double> n;
     while (std::getline(cells, cell, ',')) n.push_back(std::stod(cell));
     const Row row{n.at(2) / n.at(3), n.at(4) / n.at(5), n.at(6)};
     if (n.at(0) == 1) {
-      equal[inertia + partner] = row;
+      equal[damage_number + partner] = row;
       continue;
     }
-    const Row& at_equal = equal.at(inertia + partner);
+    const Row& at_equal = equal.at(damage_number + partner);
     LawMaterial other = soft;
     other.name = partner, other.yield_stress = infinity;
     if (partner == "harder") other.yield_stress = 1.5 * soft.yield_stress;
@@ -131,7 +131,7 @@ TEST(ReductionError, OfALawOfEqualRadiiIsBoundedAtOthers)
     const double solver = 2 * (row.solver + at_equal.solver);  // the tool's estimate of each run, twice
     const double force = std::abs(row.force / at_equal.force - 1),
                  restitution = std::abs(row.restitution / at_equal.restitution - 1);
-    printf("I %s %s 1:%g: force %.2f %% (bound %.2f), e %.2f %% (bound %.2f)\n", inertia.c_str(),
+    printf("I %s %s 1:%g: force %.2f %% (bound %.2f), e %.2f %% (bound %.2f)\n", damage_number.c_str(),
            partner.c_str(), n.at(0), 100 * force, 100 * bound.force, 100 * restitution,
            100 * bound.restitution);
     ++count;
@@ -178,10 +178,10 @@ TEST(ReductionError, GrowsWithVelocityAndSaysWhereItEnds)
   const LawMaterial powder = material(1e9, 100, 0.3, 1500);
   const UnlikePair pair{powder, material(3e9, 50, 0.2, 2500), 3};
   ReductionError before;
-  for (const double inertia : {1e-6, 1e-5, 1e-4, 1e-3, 2e-3}) {
-    const double v = fastest_of_law(pair, inertia);
-    EXPECT_NEAR(v * v * pair.yielding.density * pair.one_body_density() / pair.yielding.yield_stress, inertia,
-                1e-12 * inertia);
+  for (const double damage_number : {1e-6, 1e-5, 1e-4, 1e-3, 2e-3}) {
+    const double v = fastest_of_law(pair, damage_number);
+    EXPECT_NEAR(v * v * pair.yielding.density * pair.one_body_density() / pair.yielding.yield_stress,
+                damage_number, 1e-12 * damage_number);
     const ReductionError now = estimate_reduction_error(pair, v);
     EXPECT_GT(now.force, before.force);
     EXPECT_GT(now.restitution, before.restitution);
@@ -200,7 +200,8 @@ TEST(ReductionError, IsMeasuredAsNoneForLikeSpheres)
   const LawMaterial powder = material(2e9, 50, 0.3, 1500);
   const UnlikePair like{powder, powder, 1};
   const MeasuredReduction none = measure_reduction_error(like, 20 * like.yield_velocity());
-  // 10 and 14 cells, two phases: the pair's contact sweeps stop at 1e-7 and its turn is found a step later
+  // 10 and 14 cells, two phases: the pair's contact sweeps stop at 1e-7 and its reversal is found a step
+  // later
   EXPECT_NEAR(none.error.force, 0, 0.003);
   EXPECT_NEAR(none.error.restitution, 0, 0.003);
   // a partner that cannot yield: the rule's e is too low, by more than the solver leaves open
@@ -219,12 +220,12 @@ TEST(TwoBodyLaw, GivesBackItsPairWhereTheRuleFails)
   UnlikePair elastic = pair;
   elastic.yielding.yield_stress = infinity;
   RunOptions o;
-  o.resolution = 10, o.phases = 2, o.precision = Precision::single;
+  o.resolution = 10, o.shifted_grids = 2, o.precision = Precision::single;
   const double v_y = pair.yield_velocity();
-  std::vector<Pressing> presses;
+  std::vector<ContactRecord> presses;
   for (const double speed : {1.8, 3.2, 6., 11., 20., 36.})
-    presses.push_back(two_body_pressing(pair, speed * v_y, o));
-  const ElasticCorrection correction = fit_elastic(two_body_pressing(elastic, 10 * v_y, o));
+    presses.push_back(two_body_record(pair, speed * v_y, o));
+  const ElasticCorrection correction = fit_elastic(two_body_record(elastic, 10 * v_y, o));
   const FittedCurve fitted =
       fit_plastic(presses, correction, onset_overlap(1, 0.02, 0.3), presses.back().depth);
   BodyLaw body;
@@ -234,7 +235,7 @@ TEST(TwoBodyLaw, GivesBackItsPairWhereTheRuleFails)
   const Replay replay = replay_collision({&body.curve, pair.mapping(), &body}, pair.r_eff(), pair.m_eff(), v);
   const RunSummary truth = run_two_bodies(pair, v, o), rule = run_as_one_body(pair, v, o);
   EXPECT_GT(std::abs(rule.restitution / truth.restitution - 1), 0.03);
-  // six coarse impacts: a few times the ripple of two grids of 10 cells
+  // six coarse impacts: a few times the grid noise of two grids of 10 cells
   EXPECT_NEAR(replay.restitution / truth.restitution, 1, 0.01);
   EXPECT_NEAR(replay.force_max / truth.force_max, 1, 0.01);
 }

@@ -87,7 +87,7 @@ TEST(GradedLines, AreFineThenGrowToTheEnd)
     for (std::size_t k = 2; k < lines.size(); ++k) {
       const double next = lines[k] - lines[k - 1];
       EXPECT_GT(next,
-                0.7 * step);  // the last steps are stretched or squeezed to fit, all alike: one step's share
+                0.7 * step);  // the last steps are scaled or squeezed to fit, all alike: one step's share
       EXPECT_LT(next, 1.5 * step);
       if (lines[k] <= 0.3) {
         EXPECT_NEAR(next, 0.02, 1e-14);

@@ -13,7 +13,7 @@ inline ContactCurve::Table sample_table(double s_end, double onset, int count,
                                         const std::function<double(double)>& force_ratio,
                                         const std::function<double(double)>& residual_ratio,
                                         const std::function<double(double)>& exponent,
-                                        const std::function<double(double)>& foot,
+                                        const std::function<double(double)>& hertz_share,
                                         const std::function<double(double)>& radius_ratio)
 {
   ContactCurve::Table table;
@@ -31,7 +31,7 @@ inline ContactCurve::Table sample_table(double s_end, double onset, int count,
   fill(force_ratio, table.force_ratio, table.force_ratio_slope);
   fill(residual_ratio, table.residual_ratio, table.residual_ratio_slope);
   fill(exponent, table.exponent, table.exponent_slope);
-  fill(foot, table.foot, table.foot_slope);
+  fill(hertz_share, table.hertz_share, table.hertz_share_slope);
   fill(radius_ratio, table.radius_ratio, table.radius_ratio_slope);
   return table;
 }
@@ -43,9 +43,9 @@ struct SyntheticLaw
 {
   double onset = 6.4e-4;  ///< of E*/Y = 100
   double x_end = 0.1;
-  double softening = 1.6;  ///< ln(F/F_elastic) = -softening q^2/(1 + q)
-  double depth = 1.1;      ///< residual ratio = 0.9999 (1 - exp(-depth q^2))
-  double bend = 0.05;      ///< exponent = the elastic one + bend q^2/(1 + q^2); foot: less bend of it
+  double force_reduction = 1.6;  ///< ln(F/F_elastic) = -force reduction q^2/(1 + q)
+  double depth = 1.1;            ///< residual ratio = 0.9999 (1 - exp(-depth q^2))
+  double bend = 0.05;  ///< exponent = the elastic one + bend q^2/(1 + q^2); Hertz share: less bend of it
 
   static constexpr double finite_sphere = 0.9;  ///< F_elastic = F_Hertz (1 + finite_sphere sqrt(x))
 
@@ -61,7 +61,7 @@ struct SyntheticLaw
   {
     const double q = past(s, onset), more = bend * q * q / (1 + q * q);
     const UnloadingShape elastic = elastic_unloading(s);
-    return {elastic.exponent + more, elastic.foot - more};
+    return {elastic.exponent + more, elastic.hertz_share - more};
   }
   double residual_ratio(double s) const
   {
@@ -78,10 +78,10 @@ struct SyntheticLaw
         std::pow(x_end, 0.25), onset, count,
         [&](double s) {
           const double q = past(s, onset);
-          return (1 + finite_sphere * s * s) * std::exp(-softening * q * q / (1 + q));
+          return (1 + finite_sphere * s * s) * std::exp(-force_reduction * q * q / (1 + q));
         },
         [&](double s) { return residual_ratio(s); }, [&](double s) { return unloading(s).exponent; },
-        [&](double s) { return unloading(s).foot; },
+        [&](double s) { return unloading(s).hertz_share; },
         [&](double s) {
           const double q = past(s, onset);
           return 1 + 0.3 * q * q / (1 + q);
@@ -89,23 +89,23 @@ struct SyntheticLaw
   }
   ContactCurve curve(int count = 129) const { return ContactCurve(table(count), "synthetic"); }
 
-  /// An inertia axis with the features of a real one: the impact's force exceeds the slow press's early in
+  /// A velocity axis with the features of a real one: the impact's force exceeds the slow press's early in
   /// the contact, crosses it at xi = 0.65 and ends a little below; it leaves a little less residual, rebounds
   /// a little more steeply, and all that grows in proportion to X.
-  InertiaAxis::Table axis(int slices = 8, int nodes = 25) const
+  VelocityAxis::Table axis(int levels = 8, int nodes = 25) const
   {
-    InertiaAxis::Table table;
+    VelocityAxis::Table table;
     table.speed_end = 0.066;  // 17 m/s of law()'s powder on a wall
     table.ratio_end = 1.5;
-    table.slices = static_cast<std::size_t>(slices);
-    table.first_slices = std::min<std::size_t>(3, table.slices);
+    table.levels = static_cast<std::size_t>(levels);
+    table.first_levels = std::min<std::size_t>(3, table.levels);
     for (int j = 0; j <= 16; ++j) {
       const double r = j / 16.0;
       table.impact_overlap.push_back(x_end * r * (0.6 + 0.4 * r));
       table.impact_overlap_slope.push_back(x_end * (0.6 + 0.8 * r) / table.speed_end);
     }
-    const SliceScale scale = SliceScale::from_standstill(table.slices, table.first_slices, 1.0);
-    for (int k = 1; k <= slices; ++k)
+    const ImpactLevels scale = ImpactLevels::from_standstill(table.levels, table.first_levels, 1.0);
+    for (int k = 1; k <= levels; ++k)
       for (int l = 0; l < nodes; ++l) {
         const double part = scale.overlap(k), xi = table.ratio_end * l / (nodes - 1);
         const double rest = 1 - xi / table.ratio_end, cross = 1 - xi / 0.65, bottom = 1 + xi * xi;
@@ -120,38 +120,38 @@ struct SyntheticLaw
     return table;
   }
   /// The same for a rate-dependent material.
-  InertiaAxis::Table rate_axis(double reference_radius, int slices = 8, int nodes = 25) const
+  VelocityAxis::Table rate_axis(double reference_radius, int levels = 8, int nodes = 25) const
   {
-    InertiaAxis::Table table = axis(slices, nodes);
-    table.first_slices = 1;
-    table.kind = InertiaAxis::Kind::rate;
+    VelocityAxis::Table table = axis(levels, nodes);
+    table.first_levels = 1;
+    table.kind = VelocityAxis::Kind::rate;
     table.reference_radius = reference_radius;
     table.speed_begin = table.speed_end / 40;
     return table;
   }
   ContactCurve curve_with_axis(int count = 129) const { return {table(count), axis(), "synthetic"}; }
 
-  /// law() with an inertia axis for the powder.
+  /// law() with a velocity axis for the powder.
   Law law_with_axis() const
   {
     Law result = law();
     BodyLaw& powder = result.bodies.at("powder");
     powder.curve = curve_with_axis();
-    powder.certificate.max_inertia = 0.06;
+    powder.certificate.damage_number_max = 0.06;
     powder.certificate.axis_cost_force = 0.031;
     powder.certificate.axis_cost_restitution = 0.08;
     return result;
   }
 
   /// All that a file may hold: law_with_axis() and a law of its own for powder:glass, with a rate axis.
-  Law whole_law(int count = 129, int slices = 8, int nodes = 25) const
+  Law whole_law(int count = 129, int levels = 8, int nodes = 25) const
   {
     Law result = law_with_axis();
     BodyLaw& powder = result.bodies.at("powder");
-    powder.curve = ContactCurve(table(count), axis(slices, nodes), "synthetic");
+    powder.curve = ContactCurve(table(count), axis(levels, nodes), "synthetic");
     TwoBodyLaw& own = result.pair_laws["powder:glass"];
     own.law = powder;
-    own.law.curve = ContactCurve(table(count), rate_axis(1e-3, slices, nodes), "synthetic");
+    own.law.curve = ContactCurve(table(count), rate_axis(1e-3, levels, nodes), "synthetic");
     own.radius_ratio = 2;
     return result;
   }
@@ -163,14 +163,14 @@ struct SyntheticLaw
     BodyLaw powder;
     powder.material = {"powder", 1500.0, 9.1e9, 0.3, 1e8, 0.0};
     powder.curve = curve();
-    powder.certificate.max_inertia = 0.002;
+    powder.certificate.damage_number_max = 0.002;
     law.bodies["powder"] = powder;
     BodyLaw glass;
     glass.material = {"glass", 2500.0, 70e9, 0.2, std::numeric_limits<double>::infinity(), 0.0};
     ContactCurve::Table t = sample_table(
         0.5, std::numeric_limits<double>::infinity(), 33, [](double s) { return 1 + 0.9 * s * s; },
         [](double) { return 0.0; }, [](double s) { return elastic_unloading(s).exponent; },
-        [](double s) { return elastic_unloading(s).foot; }, [](double) { return 1.0; });
+        [](double s) { return elastic_unloading(s).hertz_share; }, [](double) { return 1.0; });
     glass.curve = ContactCurve(t, "glass");
     law.bodies["glass"] = glass;
     law.pairs = {

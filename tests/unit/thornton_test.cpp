@@ -27,13 +27,13 @@ TEST(Thornton, ReplayGivesTheClosedForm)
     const double guess = 2.87 * std::pow(mass * mass / (e_star * e_star * r * v), 0.2);
     const Replay replay = replay_collision(
         [&](double delta, double delta_max) { return pair.evaluate(r, delta, delta_max); }, mass, v, guess);
-    // velocity Verlet at 20000 steps a contact: 1e-6; the kink at the turn adds one step's work
+    // velocity Verlet at 20000 steps a contact: 1e-6; the kink at the reversal adds one step's work
     EXPECT_NEAR(replay.restitution, thornton_restitution(ratio), 2e-4 * thornton_restitution(ratio)) << ratio;
     EXPECT_NEAR(replay.work_unload / replay.work_load, replay.restitution * replay.restitution, 1e-3);
   }
 }
 
-TEST(Thornton, ForceAndRadiusAreContinuousAtYieldAndAtTheTurn)
+TEST(Thornton, ForceAndRadiusAreContinuousAtYieldAndAtTheReversal)
 {
   const ThorntonPair pair{10e9, 1.6e8};
   const double r = 0.002, d_y = pair.yield_overlap(r);
@@ -63,9 +63,11 @@ TEST(Thornton, WorkAndStiffnessAreThoseOfTheForce)
     // half-way out the contact holds what it gives back from there
     double rest = 0;
     const double half = 0.9 * d_m;
-    for (int k = 0; k < steps; ++k) rest += pair.evaluate(r, (k + 0.5) / steps * half, d_m).force * half / steps;
+    for (int k = 0; k < steps; ++k)
+      rest += pair.evaluate(r, (k + 0.5) / steps * half, d_m).force * half / steps;
     EXPECT_NEAR(pair.stored_energy(r, half, d_m), rest, 1e-5 * stored);
-    const double top = pair.evaluate(r, d_m, d_m).force, below = pair.evaluate(r, d_m * (1 - 1e-6), d_m).force;
+    const double top = pair.evaluate(r, d_m, d_m).force,
+                 below = pair.evaluate(r, d_m * (1 - 1e-6), d_m).force;
     EXPECT_NEAR(pair.unloading_stiffness(r, d_m) / ((top - below) / (1e-6 * d_m)), 1.0, 1e-4);
   }
 }

@@ -25,7 +25,7 @@ Law law_with_pair()
   SyntheticLaw other;
   other.depth = 0.8;
   own.law.curve = ContactCurve(other.table(), other.axis(), "test");
-  own.law.certificate.max_inertia = 0.03;
+  own.law.certificate.damage_number_max = 0.03;
   own.radius_ratio = 2;
   law.pair_laws["powder:glass"] = own;
   return law;
@@ -39,7 +39,7 @@ TEST(TwoBodyLaw, AnswersForItsPairInEitherOrderAndForNoOther)
                 ba = resolve_pair(law, "glass", "powder", "test");
   EXPECT_EQ(ab.curve, own);
   EXPECT_EQ(ba.curve, own);
-  EXPECT_EQ(ab.yielding->certificate.max_inertia, 0.03);
+  EXPECT_EQ(ab.yielding->certificate.damage_number_max, 0.03);
   // the rule's mapping: 1 + E*_powder/E*_glass, whoever comes first
   const double e_powder = 9.1e9 / 0.91, e_glass = 70e9 / 0.96;
   EXPECT_DOUBLE_EQ(ab.mapping.sqrt_lambda, 1 + e_powder / e_glass);
@@ -81,7 +81,7 @@ TEST_F(PairLawFile, ComesBackBitExact)
   EXPECT_EQ(a.law.curve.table().force_ratio_slope, b.law.curve.table().force_ratio_slope);
   ASSERT_NE(b.law.curve.axis(), nullptr);
   EXPECT_EQ(a.law.curve.axis()->table().force_correction, b.law.curve.axis()->table().force_correction);
-  EXPECT_EQ(b.law.certificate.max_inertia, 0.03);
+  EXPECT_EQ(b.law.certificate.damage_number_max, 0.03);
   EXPECT_EQ(b.law.material.name, "powder");
   EXPECT_EQ(b.radius_ratio, 2);
   const Replay before = replay_collision(resolve_pair(law, "powder", "glass", "test"), 5e-4, 1e-6, 1.0),
@@ -144,8 +144,8 @@ TEST(TwoBodyLaw, NeedsABodyThatYields)
   EXPECT_THROW(build_two_body_law({material(never), material(never), 1}, {}), Error);
 }
 
-/// The whole path: survey, fit, axis, mapping, against an impact of two bodies that took no part. The rule is
-/// off by 3 % there. Label slow.
+/// The whole path: records, fit, axis, mapping, against an impact of two bodies that took no part. The rule
+/// is off by 3 % there. Label slow.
 TEST(TwoBodyLawSlow, AgreesWithAFreshImpactWhereTheRuleDoesNot)
 {
   const UnlikePair pair{material(2e8), material(never), 1};
@@ -154,7 +154,7 @@ TEST(TwoBodyLawSlow, AgreesWithAFreshImpactWhereTheRuleDoesNot)
   const BuiltLaw built = build_two_body_law(pair, options);
   const double v = 18 * pair.yield_velocity();
   RunOptions run;
-  run.resolution = 20, run.phases = 2, run.precision = Precision::single;
+  run.resolution = 20, run.shifted_grids = 2, run.precision = Precision::single;
   const RunSummary truth = run_two_bodies(pair, v, run), rule = run_as_one_body(pair, v, run);
   // In units of the yielding body: R = E* = rho = 1.
   const PairLaw law{&built.law.curve, pair.mapping(), &built.law};

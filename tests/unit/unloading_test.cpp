@@ -11,8 +11,8 @@ namespace {
 /// Any shape that rises.
 UnloadingShape any_shape()
 {
-  const double foot = UnloadingShape::largest_foot * *rc::gen::inRange(0, 1001) / 1000.0;
-  return {UnloadingShape::largest_exponent(foot) * *rc::gen::inRange(0, 1001) / 1000.0, foot};
+  const double hertz_share = UnloadingShape::largest_hertz_share * *rc::gen::inRange(0, 1001) / 1000.0;
+  return {UnloadingShape::largest_exponent(hertz_share) * *rc::gen::inRange(0, 1001) / 1000.0, hertz_share};
 }
 
 TEST(Unloading, HoldsPowersExactly)
@@ -27,18 +27,18 @@ TEST(Unloading, HoldsPowersExactly)
   EXPECT_NEAR((UnloadingShape{2.0, 0}.work()), 1 / 3.0, 1e-15);
 }
 
-/// F = x^1.5 (1 + c1 sqrt(x) + c2 x) from any turn.
+/// F = x^1.5 (1 + c1 sqrt(x) + c2 x) from any reversal.
 TEST(Unloading, HoldsTheElasticSpheresCurve)
 {
-  const double c1 = 0.87, c2 = 0.4, turn = 0.04;
+  const double c1 = 0.87, c2 = 0.4, top = 0.04;
   const auto force = [&](double x) { return std::pow(x, 1.5) * (1 + c1 * std::sqrt(x) + c2 * x); };
-  const double a = std::pow(turn, 1.5) / force(turn), b = a * c1 * std::sqrt(turn), c = 1 - a - b;
+  const double a = std::pow(top, 1.5) / force(top), b = a * c1 * std::sqrt(top), c = 1 - a - b;
   const UnloadingShape shape{1.5 * a + 2 * b + 2.5 * c, a};
   for (const double u : {0.01, 0.2, 0.6, 0.99})
-    EXPECT_NEAR(shape.at(u).value, force(u * turn) / force(turn), 1e-15);
+    EXPECT_NEAR(shape.at(u).value, force(u * top) / force(top), 1e-15);
 }
 
-RC_GTEST_PROP(Unloading, RisesFromNothingToTheForceOfTheTurn, ())
+RC_GTEST_PROP(Unloading, RisesFromNothingToTheForceOfTheReversal, ())
 {
   const UnloadingShape shape = any_shape();
   RC_ASSERT(shape.rises());
@@ -53,7 +53,7 @@ RC_GTEST_PROP(Unloading, RisesFromNothingToTheForceOfTheTurn, ())
 }
 
 /// A shape outside those bounds does fall somewhere: they are not wider than need be where it matters.
-TEST(Unloading, AFootBelowZeroIsANegativeForce)
+TEST(Unloading, AHertzShareBelowZeroIsANegativeForce)
 {
   EXPECT_FALSE((UnloadingShape{1.5, -0.1}.rises()));
   EXPECT_LT((UnloadingShape{1.5, -0.1}.at(1e-4).value), 0);
@@ -71,7 +71,7 @@ RC_GTEST_PROP(Unloading, SlopeAndWorkAreItsDerivativeAndIntegral, ())
   const double integral = gauss_kronrod<double, 31>::integrate(in_w, 0.0, std::sqrt(u), 5, 1e-13);
   RC_ASSERT(std::abs(shape.work(u) - integral) < 1e-13);
   RC_ASSERT(std::abs(shape.work(1) - shape.work()) < 1e-14);
-  RC_ASSERT(std::abs(UnloadingShape::exponent_of(shape.work(), shape.foot) - shape.exponent) < 1e-13);
+  RC_ASSERT(std::abs(UnloadingShape::exponent_of(shape.work(), shape.hertz_share) - shape.exponent) < 1e-13);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <new>
 
 #include "references.hpp"
-#include "solver/drive.hpp"
+#include "solver/loading_programme.hpp"
 #include "solver/scene_builder.hpp"
 #include "solver/time_step.hpp"
 
@@ -87,17 +87,17 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
     stable.emplace_back(body);
     if (!pressed) body.throw_along(-velocity * reduced / body.mass);
   }
-  ImpactDrive impact(20);
-  PressDrive press({{0.5 * depth, depth}, 10, 4, Support::free}, collision.e_star());
-  Drive& drive = pressed ? static_cast<Drive&>(press) : impact;
+  ImpactProgramme impact(20);
+  PressProgramme press({{0.5 * depth, depth}, 10, 4, Support::free}, collision.e_star());
+  LoadingProgramme& programme = pressed ? static_cast<LoadingProgramme&>(press) : impact;
 
   long first = 0, steps = 0, touching = 0;
   double time = 0, widest = 0;
-  while (!drive.finished()) {
+  while (!programme.finished()) {
     double dt = 1;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       dt = std::min(dt, 0.85 * stable[b].limit(scene.bodies[b]));
-    const double impulse = advance(scene, drive, time, dt, dt);
+    const double impulse = advance(scene, programme, time, dt, dt);
     const double radius = scene.contact->edge_radius(scene.bodies);
     press.observe(impulse / dt, radius);
     touching += impulse > 0;
@@ -120,13 +120,14 @@ TEST(Allocations, AreCounted)
 
 INSTANTIATE_TEST_SUITE_P(Grids, Allocations,
                          testing::Values(Job{"mapped", GridKind::mapped, Precision::full},
-                                         Job{"tartan", GridKind::tartan, Precision::full},
+                                         Job{"rectilinear", GridKind::rectilinear, Precision::full},
                                          Job{"updated", GridKind::updated, Precision::full},
                                          Job{"two_mapped", GridKind::mapped, Precision::full, true},
-                                         Job{"two_tartan", GridKind::tartan, Precision::full, true},
-                                         Job{"single_precision", GridKind::tartan, Precision::single},
+                                         Job{"two_rectilinear", GridKind::rectilinear, Precision::full, true},
+                                         Job{"single_precision", GridKind::rectilinear, Precision::single},
                                          Job{"press", GridKind::mapped, Precision::full, false, true},
-                                         Job{"press_two", GridKind::tartan, Precision::full, true, true}),
+                                         Job{"press_two", GridKind::rectilinear, Precision::full, true,
+                                             true}),
                          [](const auto& job) { return job.param.name; });
 
 }  // namespace

@@ -64,7 +64,7 @@ std::string bits(const RunResult& result)
   const RunSummary& s = result.summary;
   for (const double x : {s.restitution, s.restitution_raw, s.restitution_spread, s.force_max, s.delta_max,
                          s.delta_residual, s.contact_time, s.work_load, s.work_unload, s.error_estimate,
-                         s.plastic_strain_max, s.energy_error, s.contact_loss, s.hourglass, s.ripple})
+                         s.plastic_strain_max, s.energy_error, s.contact_loss, s.hourglass, s.grid_noise})
     number(x);
   out << s.points << ' ' << s.steps;
   return out.str();
@@ -85,7 +85,7 @@ RunOptions small(GridKind grid, Precision precision = Precision::full)
   o.grid = grid;
   o.precision = precision;
   o.resolution = 6;
-  o.phases = 1;
+  o.shifted_grids = 1;
   o.samples = 60;
   return o;
 }
@@ -94,7 +94,7 @@ RunOptions small(GridKind grid, Precision precision = Precision::full)
 RunOptions several(int grids)
 {
   RunOptions o = small(GridKind::mapped);
-  o.phases = grids;
+  o.shifted_grids = grids;
   o.resolution = 16;
   return o;
 }
@@ -134,22 +134,22 @@ std::vector<Job> jobs()
   const Partner particle{Particle::from(other), {}}, wall{{}, soft().material};
   std::vector<Job> all{
       {"mapped", impact(soft()), small(GridKind::mapped)},
-      {"tartan", impact(soft()), small(GridKind::tartan)},
+      {"rectilinear", impact(soft()), small(GridKind::rectilinear)},
       {"updated", impact(soft()), small(GridKind::updated)},
       {"single_precision", impact(soft()), small(GridKind::mapped, Precision::single)},
-      {"single_precision_tartan", impact(soft()), small(GridKind::tartan, Precision::single)},
+      {"single_precision_rectilinear", impact(soft()), small(GridKind::rectilinear, Precision::single)},
       {"rate_dependent", impact(rate_dependent()), small(GridKind::mapped)},
       {"two_mapped", impact(soft(), particle), small(GridKind::mapped)},
-      {"two_tartan", impact(soft(), particle), small(GridKind::tartan)},
+      {"two_rectilinear", impact(soft(), particle), small(GridKind::rectilinear)},
       {"wall", impact(soft(), wall), small(GridKind::mapped)},
       {"press_free", press(Support::free), small(GridKind::mapped)},
       {"press_midplane", press(Support::midplane), small(GridKind::mapped)},
-      {"press_tartan", press(Support::midplane), small(GridKind::tartan)},
+      {"press_rectilinear", press(Support::midplane), small(GridKind::rectilinear)},
       {"press_two", press(Support::free, particle), small(GridKind::mapped)},
   };
-  RunOptions ensemble = several(2);
-  ensemble.estimate_error = true;
-  all.push_back({"ensemble_with_estimate", impact(soft()), ensemble});
+  RunOptions shifted = several(2);
+  shifted.estimate_error = true;
+  all.push_back({"shifted_grids_with_estimate", impact(soft()), shifted});
   return all;
 }
 

@@ -20,11 +20,11 @@ Job plastic_impact()
   return {"plastic", reference::unit_sphere(100), 100 * yield_velocity(1, 0.01, 1)};
 }
 
-RunSummary run(const Job& job, int cells_across, int phases, double courant)
+RunSummary run(const Job& job, int cells_across, int shifted_grids, double courant)
 {
   RunOptions options;
   options.resolution = cells_across;
-  options.phases = phases;
+  options.shifted_grids = shifted_grids;
   options.courant = courant;
   return run_impact(job.sphere, job.velocity, options).summary;
 }

@@ -17,8 +17,8 @@ struct Job
 Job elastic_impact();  ///< the one that Hertz's theory stops at 0.002 R
 Job plastic_impact();  ///< E*/Y = 100, V/V_y = 100
 
-/// `phases`: shifted grids whose mean is taken; 1: a single grid.
-RunSummary run(const Job& job, int cells_across, int phases, double courant = 0.85);
+/// `shifted_grids`: shifted grids whose mean is taken; 1: a single grid.
+RunSummary run(const Job& job, int cells_across, int shifted_grids, double courant = 0.85);
 
 /// A sphere that vibrates freely, without contact: largest deviation of kinetic plus elastic energy during 20
 /// R/c*, some eight periods of the slowest mode, over what it began with. It starts undeformed with the

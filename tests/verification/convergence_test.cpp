@@ -44,9 +44,10 @@ void print(const char* what, const Order& order)
   std::printf("%s: order %.2f +- %.2f\n", what, order.p, order.standard_error);
 }
 
-/// E*/Y = 100, V/V_y = 100. What one grid's e is off is the contact edge's ripple, of the order h^1.65 in the
-/// force at an overlap (DESIGN.md section 3); e samples it at the turn, so its order scatters: about one must
-/// remain. The overlap is an integral, free of ripple: towards second order, as bilinear cells promise.
+/// E*/Y = 100, V/V_y = 100. What one grid's e is off is the contact edge's grid noise, of the order h^1.65 in
+/// the force at an overlap (DESIGN.md section 3); e samples it at the reversal, so its order scatters: about
+/// one must remain. The overlap is an integral, free of grid noise: towards second order, as bilinear cells
+/// promise.
 TEST(Convergence, PlasticImpact)
 {
   const Study s = study(plastic_impact(), {8, 10, 12, 14, 16, 20, 24, 28});
@@ -63,7 +64,7 @@ TEST(Convergence, PlasticImpact)
   EXPECT_GT(energy.p, 1.2);   // measured 1.6
 
   // Four grids: a mean of four independent errors would halve them; that it is better says that the shifts
-  // remove harmonics of the ripple. Against the stored limit, itself good to 1e-4.
+  // remove harmonics of the grid noise. Against the stored limit, itself good to 1e-4.
   std::vector<double> errors;
   for (const double e : s.e) errors.push_back(e - reference::impact_EY100_V100_e);
   const double single = root_mean_square(s.spread), mean = root_mean_square(errors);

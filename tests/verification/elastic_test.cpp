@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "references.hpp"
-#include "solver/ripple.hpp"
+#include "solver/grid_noise.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {
@@ -38,23 +38,23 @@ TEST(ElasticPress, AgreesWithFiniteElements)
         EXPECT_NEAR(treated.force(point.delta) / point.force, 1.0, 0.005)
             << "delta/R = " << point.delta << " of a press to " << depth;
       }
-    EXPECT_NEAR(r.summary.restitution, 1.0, 1e-3);  // measured 1.0002: vibration at the turn
+    EXPECT_NEAR(r.summary.restitution, 1.0, 1e-3);  // measured 1.0002: vibration at the reversal
   }
 }
 
-TEST(Ripple, MeanOverShiftedGridsRemovesIt)
+TEST(GridNoise, MeanOverShiftedGridsRemovesIt)
 {
   RunOptions one;
   one.resolution = 12;
-  one.phases = 1;
+  one.shifted_grids = 1;
   RunOptions four = one;
-  four.phases = 4;
+  four.shifted_grids = 4;
   const Sphere sphere = reference::unit_sphere(100);
   PressPlan plan;
   plan.depth = 0.02;
-  const double raw = run_press(sphere, plan, one).summary.ripple;
-  const double mean = run_press(sphere, plan, four).summary.ripple;
-  EXPECT_GT(raw, 0.005);       // there is a ripple to remove
+  const double raw = run_press(sphere, plan, one).summary.grid_noise;
+  const double mean = run_press(sphere, plan, four).summary.grid_noise;
+  EXPECT_GT(raw, 0.005);       // there is a grid noise to remove
   EXPECT_LT(mean, 0.5 * raw);  // its first three harmonics are gone; the rest is at most 1/4 for a saw-tooth
 }
 

@@ -64,7 +64,7 @@ std::vector<EnergyShares> energy_audit(const Sphere& sphere, double velocity, in
   double meshed = 0, plastic = 0;
   RunOptions options;
   options.resolution = cells_across;
-  options.phases = 1;
+  options.shifted_grids = 1;
   options.fields.frames = frames;
   options.fields.begin = [&](int, const auto& c) { cells = c; };
   options.fields.frame = [&](const FieldFrame& f) {

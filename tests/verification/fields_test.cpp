@@ -93,7 +93,7 @@ const Sphere powder{1e-3, {1500, 9.1e9, 0.3, 100e6}};
 TEST(Fields, LookingChangesNothing)
 {
   RunOptions options;
-  options.resolution = 8, options.phases = 2;
+  options.resolution = 8, options.shifted_grids = 2;
   const RunResult blind = run_impact(powder, 2.6, options);
   std::vector<FieldFrame> frames;
   int nodes = 0, cells = 0, begun = 0;
@@ -141,7 +141,7 @@ class Motion : public testing::TestWithParam<GridKind>
 TEST_P(Motion, IsTheIntegralOfTheVelocity)
 {
   RunOptions options;
-  options.resolution = 8, options.phases = 1, options.grid = GetParam();
+  options.resolution = 8, options.shifted_grids = 1, options.grid = GetParam();
   std::vector<FieldFrame> frames;
   options.fields.frames = 1000;
   options.fields.frame = [&](const FieldFrame& f) { frames.push_back(f); };
@@ -177,9 +177,9 @@ TEST_P(Motion, IsTheIntegralOfTheVelocity)
   EXPECT_LT(worst_z, 0.1 * largest);
 }
 
-INSTANTIATE_TEST_SUITE_P(Grids, Motion, testing::Values(GridKind::mapped, GridKind::tartan),
+INSTANTIATE_TEST_SUITE_P(Grids, Motion, testing::Values(GridKind::mapped, GridKind::rectilinear),
                          [](const auto& grid) {
-                           return grid.param == GridKind::mapped ? "mapped" : "tartan";
+                           return grid.param == GridKind::mapped ? "mapped" : "rectilinear";
                          });
 
 }  // namespace

@@ -334,7 +334,7 @@ RunResult collide(const Sphere& sphere)
 {
   RunOptions options;
   options.resolution = 8;
-  options.phases = 1;
+  options.shifted_grids = 1;
   options.samples = 200;
   return run_impact(sphere, impact_speed * std::sqrt(sphere.material.e_star() / sphere.material.density),
                     options);
@@ -397,17 +397,17 @@ TEST(FlowLaws, ImpactAgreesWithClosedForm)
 }
 
 /// Each refusal is one sentence.
-TEST(FlowLaws, StretchedStrains)
+TEST(FlowLaws, ScaledStrains)
 {
   Material plain = material({});
   plain.hardening_modulus = 0.03;
   for (const double by : {0.2, 3.0}) {
-    EXPECT_NEAR(flow_stress(with_strains_stretched(plain, by), by * 0.1), flow_stress(plain, 0.1), 1e-15);
+    EXPECT_NEAR(flow_stress(with_strains_scaled(plain, by), by * 0.1), flow_stress(plain, 0.1), 1e-15);
     for (const Case& c : hardening_cases()) {
-      const Material stretched = with_strains_stretched(material(c.hardening), by);
-      validate_flow(stretched, "test");
+      const Material scaled = with_strains_scaled(material(c.hardening), by);
+      validate_flow(scaled, "test");
       for (const double ep : {0.0, 1e-6, 1e-3, 0.05, 0.7})
-        EXPECT_NEAR(flow_stress(stretched, by * ep) / c.stress(ep), 1, 1e-12) << c.name << " " << ep;
+        EXPECT_NEAR(flow_stress(scaled, by * ep) / c.stress(ep), 1, 1e-12) << c.name << " " << ep;
     }
   }
 }
@@ -419,7 +419,7 @@ TEST(FlowLaws, SinglePrecision)
     for (const FlowLaw& rate : {FlowLaw{}, rate_cases()[0].rate, rate_cases()[1].rate}) {
       const Sphere sphere{1, material(c.hardening, rate)};
       RunOptions options;
-      options.resolution = 12, options.phases = 1;
+      options.resolution = 12, options.shifted_grids = 1;
       const RunSummary full = run_impact(sphere, 0.01, options).summary;
       options.precision = Precision::single;
       const RunSummary single = run_impact(sphere, 0.01, options).summary;

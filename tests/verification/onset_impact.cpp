@@ -17,7 +17,7 @@ OnsetImpact impact_about_onset(double e_over_y, double nu, double v_over_onset, 
   FieldFrame first, last;
   RunOptions options;
   options.resolution = cells_across;
-  options.phases = 1;
+  options.shifted_grids = 1;
   options.fields.frames = 2;
   options.fields.begin = [&](int, const auto& c) { cells = c; };
   options.fields.frame = [&](const FieldFrame& f) {

@@ -11,11 +11,11 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "references.hpp"
+#include "solver/grid_noise.hpp"
 #include "solver/kernels.hpp"
 #include "solver/profiles.hpp"
-#include "solver/ripple.hpp"
+#include "solver/rectilinear_body.hpp"
 #include "solver/runs.hpp"
-#include "solver/tartan_body.hpp"
 #include "solver/time_step.hpp"
 
 namespace granulaw {
@@ -26,10 +26,10 @@ Particle sphere(double e_over_y)
   return Particle::from(reference::unit_sphere(e_over_y));
 }
 
-RunOptions options_of(int resolution, int phases, GridKind grid = GridKind::automatic)
+RunOptions options_of(int resolution, int shifted_grids, GridKind grid = GridKind::automatic)
 {
   RunOptions o;
-  o.resolution = resolution, o.phases = phases, o.grid = grid;
+  o.resolution = resolution, o.shifted_grids = phases, o.grid = grid;
   return o;
 }
 
@@ -40,7 +40,7 @@ class SameBody : public testing::Test
   static constexpr double velocity = 0.0051;  // 100 V_y: overlap 0.03
   static RunResult run(const Particle& p, int grids)
   {
-    return run_impact(p, velocity, options_of(16, grids, GridKind::tartan));
+    return run_impact(p, velocity, options_of(16, grids, GridKind::rectilinear));
   }
 };
 
@@ -67,7 +67,7 @@ TEST_F(SameBody, AProfileOfPoints)
   Particle drawn = sphere(100);
   drawn.profile = ellipsoid(1, 1);
   const RunSummary a = run(sphere(100), 8).summary, b = run(drawn, 8).summary;
-  // the block is sized a little otherwise, so the ripple (0.6 % of e in a single grid) has another phase:
+  // the block is sized a little otherwise, so the grid noise (0.6 % of e in a single grid) has another phase:
   // measured e 1e-4, F 7e-4, overlap 1e-5
   EXPECT_NEAR(b.restitution, a.restitution, 6e-3 * a.restitution);
   EXPECT_NEAR(b.force_max, a.force_max, 2e-3 * a.force_max);
@@ -89,13 +89,13 @@ double apparent_bulk_modulus(const Moduli& shell, const Moduli* core, double cor
   };
   s.surface_z = [](double r) { return 1 - std::sqrt(std::max(0.0, 1 - r * r)); };
   s.block = 1, s.depth = 2, s.fine = fine;
-  Body b = tartan_body(s);
+  Body b = rectilinear_body(s);
   // pressure on the outer surface only: gradients of the pieces fill the ball but for the pore, whose wall is
   // free, so its own part of the integral is added from a body without it
   Section whole = s;
   whole.phases = {{shell}};
   whole.phase_at = [](double r, double z) { return std::hypot(r, z - 1) <= 1 ? 0 : -1; };
-  const Body full = tartan_body(whole);
+  const Body full = rectilinear_body(whole);
   const double pressure = 1e-6;
   const auto key = [](const Body& body, int i) {
     return std::pair(std::lround(1e6 * body.r_i[i]), std::lround(1e6 * body.z_i[i]));
@@ -163,7 +163,7 @@ TEST(Composite, BulkModulusIsHashins)
   }
 }
 
-/// Elastic, thrown at the rigid plane: force and overlap at the turn.
+/// Elastic, thrown at the rigid plane: force and overlap at the reversal.
 RunSummary elastic_impact(const Particle& p, double velocity, int cells = 16)
 {
   return run_impact(p, velocity, options_of(cells, 2)).summary;
@@ -251,7 +251,7 @@ TEST(Hard, PoreBelowThePole)
 TEST(Hard, ThinShells)
 {
   const double v = 20 * yield_velocity(1, 0.01, 1);
-  const RunSummary plain = run_impact(sphere(100), v, options_of(8, 1, GridKind::tartan)).summary;
+  const RunSummary plain = run_impact(sphere(100), v, options_of(8, 1, GridKind::rectilinear)).summary;
   Particle p = sphere(100);
   p.materials.push_back(p.materials.front());
   p.layers = {{0.02, 1}};

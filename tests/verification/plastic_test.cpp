@@ -29,7 +29,7 @@ TEST_P(PlasticPress, AgreesWithFiniteElements)
   EXPECT_NEAR(s.force_max / y, ref.force, 0.01 * ref.force);
   EXPECT_NEAR(s.restitution, ref.e, 0.01 * ref.e);
   EXPECT_NEAR(s.delta_residual / s.delta_max, ref.residual, 0.004);  // +-0.003 and the reference's own 0.001
-  // kinetic + elastic + plastic + lost at the contact = work of the drive; measured 1e-6 to 8e-6
+  // kinetic + elastic + plastic + lost at the contact = work of the programme; measured 1e-6 to 8e-6
   EXPECT_LT(s.energy_error, 2e-5);
   EXPECT_LT(s.contact_loss, 1e-3);  // measured 5e-5 and below: a press closes the contact slowly
 }
@@ -62,7 +62,7 @@ RunSummary deep_impact(int cells, double courant)
 {
   RunOptions options;
   options.resolution = cells;
-  options.phases = 1;
+  options.shifted_grids = 1;
   options.courant = courant;
   return run_impact(reference::unit_sphere(100), 1500 * yield_velocity(1, 0.01, 1), options).summary;
 }
@@ -92,7 +92,7 @@ TEST(Similarity, DimensionlessTracesAgree)
     s.material = {rho, e, 0.3, y, 0};
     RunOptions o;
     o.resolution = 8;
-    o.phases = 1;
+    o.shifted_grids = 1;
     RunResult r = run_impact(s, 100 * yield_velocity(s.material.e_star(), y, rho), o);
     const Scales scale{radius, s.material.e_star(), rho};
     for (auto& t : r.trace) t.delta /= scale.length, t.force /= scale.force();

@@ -66,8 +66,8 @@ inline constexpr Impact impacts[] = {
     {5, 0.899, 0.005}, {20, 0.743, 0.005}, {100, 0.514, 0.005}, {500, 0.248, 0.003}};
 
 inline constexpr double impact_EY100_V100_e = 0.5164;  // this solver, 40 cells, 8 phases; 32 cells: 0.5163
-/// Y R^2, the peak of the grids' mean trace, smoothed over 2 % of the loading (RunSummary::force_max): this solver, 56
-/// cells, 8 grids; 40 cells, 8 grids: 0.39724; 32 cells, 4 grids: 0.39722.
+/// Y R^2, the peak of the grids' mean trace, smoothed over 2 % of the loading (RunSummary::force_max): this
+/// solver, 56 cells, 8 grids; 40 cells, 8 grids: 0.39724; 32 cells, 4 grids: 0.39722.
 inline constexpr double impact_EY100_V100_force = 0.39735;
 
 }  // namespace granulaw::reference

@@ -19,7 +19,7 @@
 #include "identities.hpp"
 #include "onset_impact.hpp"
 #include "references.hpp"
-#include "solver/ripple.hpp"
+#include "solver/grid_noise.hpp"
 #include "uniaxial.hpp"
 
 using namespace granulaw;
@@ -38,7 +38,7 @@ void write_identities(const File& open)
     const Identities i = identities(cells);
     const Job job = plastic_impact();
     RunOptions options;
-    options.resolution = cells, options.phases = 1;
+    options.resolution = cells, options.shifted_grids = 1;
     const RunResult r = run_impact(job.sphere, job.velocity, options);
     const double momentum = 4.0 / 3.0 * M_PI * job.velocity * (1 + r.summary.restitution_raw);
     out.print("{},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e}\n", cells, i.patch, i.equilibrium, i.momentum, i.mass,
@@ -115,18 +115,18 @@ void write_convergence(const File& open)
 {
   fmt::ostream out = open("convergence.csv");
   out.print("job,cells,phases,e,force,delta,time,spread,energy_error\n");
-  const auto write = [&](const Job& job, int cells, int phases) {
+  const auto write = [&](const Job& job, int cells, int shifted_grids) {
     const RunSummary s = run(job, cells, phases);
     out.print("{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g}\n", job.name, cells, phases, s.restitution,
               s.force_max, s.delta_max, s.contact_time, s.restitution_spread, s.energy_error);
   };
-  for (const int phases : {1, 4})
+  for (const int shifted_grids : {1, 4})
     for (const int cells : {8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 22, 24, 28, 32})
       write(plastic_impact(), cells, phases);
-  for (const int phases : {1, 4})
+  for (const int shifted_grids : {1, 4})
     for (const int cells : {8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 24})
       write(elastic_impact(), cells, phases);
-  // the limits: fine grids; the overlap has no ripple, so one grid is enough
+  // the limits: fine grids; the overlap has no grid noise, so one grid is enough
   write(plastic_impact(), 48, 8);
   write(plastic_impact(), 64, 1);
   write(elastic_impact(), 36, 8);

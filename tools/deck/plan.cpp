@@ -146,7 +146,7 @@ void over_sizes(PairPlan& p, const Kind& a, const Kind* b, const PlanOptions& op
             p.onset, onset_velocity(m.mapping.e_star, m.yields.yield_stress, rho, m.yields.poisson_ratio));
         p.yield_velocity =
             std::min(p.yield_velocity, yield_velocity(m.mapping.e_star, m.yields.yield_stress, rho));
-        p.inertia = std::max(p.inertia, rho * p.speed * p.speed / m.yields.yield_stress);
+        p.damage_number = std::max(p.damage_number, rho * p.speed * p.speed / m.yields.yield_stress);
       }
       if (p.speed <= 0) continue;
       p.contact_time = std::min(p.contact_time, hertz_time(e_star, r_eff, m_eff, p.speed));
@@ -365,7 +365,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   for (const PairPlan& p : plan.pairs) {
     shortest = std::min(shortest, p.contact_time);
     if (!p.needs_table || !p.visited) continue;
-    deepest = std::max(deepest, p.depth), fastest = std::max(fastest, p.inertia);
+    deepest = std::max(deepest, p.depth), fastest = std::max(fastest, p.damage_number);
   }
   for (const auto& [type, k] : kinds)
     if (!k.known_yield) unknown_yield.insert(type);
@@ -380,7 +380,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
     return std::ceil(x / unit) * unit;
   };
   plan.depth = std::min(0.5, rounded_up(1.2 * deepest));
-  plan.inertia = std::min(0.09, rounded_up(1.2 * fastest));
+  plan.damage_number = std::min(0.09, rounded_up(1.2 * fastest));
 
   double steps = 0;
   for (const Run& r : scene.runs) {
@@ -413,7 +413,7 @@ std::string table_command(const Plan& plan, const std::string& materials_file)
   if (pairs.empty() || plan.depth <= 0) return {};
   return fmt::format("mpm table {}{} --depth {:.3g} --inertia {:.3g}{} -o law.h5",
                      materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
-                     plan.inertia, ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", ratio) : "");
+                     plan.damage_number, ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", ratio) : "");
 }
 
 }  // namespace granulaw::deck

@@ -23,7 +23,7 @@ struct Meeting
   bool known_yield = false;  ///< whether the yield stress is known, be it infinite
 
   /// Density, kg/m^3, of the sphere of radius lambda R* and mass lambda m* that stands for the pair on a
-  /// rigid wall: its inertia and its V_y are the pair's (law/pair.hpp).
+  /// rigid wall: its damage number and its V_y are the pair's (law/pair.hpp).
   double one_body_density(double r_eff, double m_eff) const;
 };
 
@@ -54,7 +54,7 @@ struct Visited
 {
   struct Range
   {
-    double speed = 0, overlap = 0, inertia = 0;  ///< m/s; over R*; rho V^2/Y
+    double speed = 0, overlap = 0, damage_number = 0;  ///< m/s; over R*; rho V^2/Y
     bool met = false;
   };
   std::string path;
@@ -75,7 +75,7 @@ struct PairPlan
   std::string speed_basis;    ///< "fall", "shielded fall" (deck/shielding.hpp), "given" or "visited"
   double onset = 0;           ///< m/s, where yield begins, the least over the sizes; infinity: never
   double yield_velocity = 0;  ///< m/s, customary V_y, the least over the sizes; infinity: elastic
-  double inertia = 0;         ///< largest I = rho V^2/Y of the pair's one body
+  double damage_number = 0;   ///< largest I = rho V^2/Y of the pair's one body
   double overlap = 0;         ///< largest, over R*, of the real contact: the deck's over its stretch
   double depth = 0;           ///< largest, over lambda R*: the table's own coordinate
   std::string overlap_basis;  ///< "law", "Hertz" or "visited"
@@ -99,12 +99,12 @@ struct Plan
   double mass_min = 0, mass_max = 0;      ///< kg
   double time_step = 0;  ///< s, that resolves the shortest contact, stretched as the deck says
   double particle_steps = 0, hours = 0;
-  double depth = 0, inertia = 0;  ///< that the table needs, margins included; 0: no table
-  bool axis_matters = false;      ///< the inertia axis
+  double depth = 0, damage_number = 0;  ///< that the table needs, margins included; 0: no table
+  bool axis_matters = false;            ///< the velocity axis
   bool complete() const { return questions.empty(); }
 };
 
-/// Below this I inertia takes less than 1 % of e: the law needs no inertia axis (docs/method.md).
+/// Below this I inertia takes less than 1 % of e: the law needs no velocity axis (docs/method.md).
 inline constexpr double negligible_inertia = 0.002;
 /// Time steps in the shortest contact.
 inline constexpr double steps_per_contact = 25;

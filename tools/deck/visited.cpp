@@ -26,7 +26,7 @@ Visited::Range range_of(const json& side)
   Visited::Range r;
   r.speed = number_at(side, {"impact_speed_max_m_per_s"});
   r.overlap = number_at(side, {"overlap_over_radius_max"});
-  r.inertia = number_at(side, {"inertia_number_max"});
+  r.damage_number = number_at(side, {"inertia_number_max"});
   r.met = number_at(side, {"contacts_begun"}) > 0 || r.speed > 0;
   return r;
 }
@@ -66,7 +66,7 @@ Visited read_visited(const std::string& path)
       auto& into = wall ? v.walls[{a, b}] : v.pairs[{std::min(a, b), std::max(a, b)}];
       const Visited::Range r = range_of(entry);
       into.speed = std::max(into.speed, r.speed), into.overlap = std::max(into.overlap, r.overlap);
-      into.inertia = std::max(into.inertia, r.inertia), into.met = into.met || r.met;
+      into.damage_number = std::max(into.damage_number, r.damage_number), into.met = into.met || r.met;
     }
   if (!v.pair && !v.wall && v.pairs.empty() && v.walls.empty())
     fail(path, "holds no contacts", "", "the JSON file of fix granulaw/stats");

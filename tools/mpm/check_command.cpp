@@ -89,27 +89,30 @@ bool pair_impact_agrees(const Law& law, const std::string& name, double velocity
 
 /// The body whose law it is. The file keeps five numbers a material: where more determines the law, the
 /// materials file that it was made from tells; nothing without one.
-std::optional<Subject> subject_for(const std::string& name, const Law& law, const CheckRequest& r)
+std::optional<CharacterisedBody> body_for(const std::string& name, const Law& law, const CheckRequest& r)
 {
   const LawMaterial& m = law.bodies.at(name).material;
   const auto made_from = law.provenance.find("material_hash." + name);
   const std::string hash = made_from == law.provenance.end() ? std::string() : made_from->second;
   const Material plain{m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
   if (r.materials.empty())
-    return hash.empty() || hash == hash_of(plain) ? std::optional(subject_of(plain)) : std::nullopt;
+    return hash.empty() || hash == hash_of(plain) ? std::optional(characterised_body_of(plain))
+                                                  : std::nullopt;
   const MaterialsFile file = read_materials(r.materials);
   const bool is_particle = !file.materials.contains(name) && file.particles.contains(name);
-  const Subject subject = is_particle ? subject_of(file.particle(name)) : subject_of(file.material(name));
+  const CharacterisedBody characterised =
+      is_particle ? characterised_body_of(file.particle(name)) : characterised_body_of(file.material(name));
   const std::string found =
-      hash_of(subject, is_particle ? file.particle(name).materials[0] : file.material(name));
+      hash_of(characterised, is_particle ? file.particle(name).materials[0] : file.material(name));
   if (!hash.empty() && hash != found)
     fail(r.materials, fmt::format("'{}' is not what the law was made from", name), found, hash);
-  return subject;
+  return characterised;
 }
 
 /// A fresh impact at `velocity` (over sqrt(E*/rho)) against the law's replay of it: force and e within twice
 /// what the certificate claims.
-bool impact_agrees(const std::string& name, const BodyLaw& body, const Subject& subject, double velocity)
+bool impact_agrees(const std::string& name, const BodyLaw& body, const CharacterisedBody& characterised,
+                   double velocity)
 {
   const LawMaterial& m = body.material;
   RunSummary run;
@@ -117,13 +120,13 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, const Subject& 
     ProgressBar bar;
     RunOptions options;
     options.progress = [&](double done) { bar.update(done, "check " + name); };
-    run = run_impact(subject.particle, velocity * subject.scale.velocity(), options).summary;
+    run = run_impact(characterised.particle, velocity * characterised.scale.velocity(), options).summary;
   }
-  run.force_max /= subject.scale.force();
-  const Scales unit{subject.scale.length, m.e_star(), m.density};
+  run.force_max /= characterised.scale.force();
+  const Scales unit{characterised.scale.length, m.e_star(), m.density};
   const PairLaw wall{&body.curve, PairMapping::rigid_partner(m.e_star()), &body};
   const Replay replay =
-      replay_collision(wall, unit.length, subject.mass * unit.mass(), velocity * unit.velocity());
+      replay_collision(wall, unit.length, characterised.mass * unit.mass(), velocity * unit.velocity());
   return within_claim(name, body.certificate, velocity * unit.velocity(),
                       std::abs(replay.force_max / unit.force() / run.force_max - 1),
                       std::abs(replay.restitution / run.restitution - 1), run.restitution);
@@ -140,7 +143,7 @@ void check(const CheckRequest& r)
   /// Some velocities between `slow` and the end of the rate-free range, evenly in the logarithm.
   const auto throw_some = [&](double slow, const BodyLaw& body, const auto& agrees) {
     const double yield = body.material.yield_stress / body.material.e_star();
-    const double fast = std::max(1.01 * slow, std::sqrt(body.certificate.max_inertia * yield));
+    const double fast = std::max(1.01 * slow, std::sqrt(body.certificate.damage_number_max * yield));
     std::uniform_real_distribution<double> logarithm(std::log(slow), std::log(fast));
     thrown += r.impacts;
     for (int k = 0; k < r.impacts; ++k) good = agrees(std::exp(logarithm(random))) && good;
@@ -150,8 +153,8 @@ void check(const CheckRequest& r)
   };
   for (const auto& [name, body] : law.bodies) {
     if (!body.material.yields() || r.impacts == 0) continue;
-    const std::optional<Subject> subject = subject_for(name, law, r);
-    if (!subject) {
+    const std::optional<CharacterisedBody> characterised = body_for(name, law, r);
+    if (!characterised) {
       fmt::print(
           "{}: no fresh impacts: its materials' numbers alone do not determine its law; name the file it was "
           "made from with --materials\n",
@@ -159,11 +162,11 @@ void check(const CheckRequest& r)
       continue;
     }
     double slow = twice_onset(body.material);
-    if (const InertiaAxis* axis = body.curve.axis())
+    if (const VelocityAxis* axis = body.curve.axis())
       slow = std::max(slow,
                       axis->speed_begin() * std::sqrt(body.material.yield_stress / body.material.e_star()));
     throw_some(slow, body, [&, &name = name, &body = body](double velocity) {
-      return impact_agrees(name, body, *subject, velocity);
+      return impact_agrees(name, body, *characterised, velocity);
     });
   }
   for (const auto& [name, own] : law.pair_laws)

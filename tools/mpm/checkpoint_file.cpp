@@ -92,7 +92,7 @@ RunIdentity identity_of(RunIdentity asked, const Particle& particle, const Partn
   if (partner.wall) identity.emplace_back("wall's material", describe(*partner.wall).dump());
   identity.emplace_back("courant", fmt::format("{}", o.courant));
   identity.emplace_back("slowness", fmt::format("{}", o.slowness));
-  identity.emplace_back("shifted grids", fmt::format("{}", o.phases));
+  identity.emplace_back("shifted grids", fmt::format("{}", o.shifted_grids));
   identity.emplace_back("samples", fmt::format("{}", o.samples));
   return identity;
 }

@@ -52,7 +52,8 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
          "at d\n"
          "# unloading and reloading (d < d_m): F = force(d_m) phi(u), u = (d - d_r)/(d_m - d_r), 0 where u < "
          "0;\n"
-         "#   phi = A u^1.5 + B u^2 + C u^2.5, A = foot, B = 5 - 2 A - 2 n, C = A + 2 n - 4, n = exponent,\n"
+         "#   phi = A u^1.5 + B u^2 + C u^2.5, A = hertz_share, B = 5 - 2 A - 2 n, C = A + 2 n - 4, n = "
+         "exponent,\n"
          "#   d_r = residual_overlap of the row at d_m; contact radius a(d_m) phi'(u)/n\n"
          "# while yielded = 0 at d_m the contact is elastic: loading, unloading and reloading are one curve\n"
          "# d_m is forgotten when the overlap ends; rows are uniform in overlap^(1/4): interpolate in that\n";
@@ -82,14 +83,15 @@ void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name,
     out << (curve.axis()
                 ? fmt::format("# {}: first touch at {:.10g} m/s, impact overlap X = {:.10g}\n", name, r.speed,
                               impact_overlap * length)
-                : fmt::format("# {}: the law has no inertia axis: quasi-static at any speed\n", name));
+                : fmt::format("# {}: the law has no velocity axis: quasi-static at any speed\n", name));
   for (int k = 0; k <= r.points; ++k) {
     const double s = curve.table().s_end * k / r.points, x = std::min(s * s * s * s, curve.x_end());
-    const ContactCurve::Turning t = curve.turning(x, impact_overlap);
+    const ContactCurve::Reversal t = curve.reversal(x, impact_overlap);
     const bool yielded = x > curve.onset();
     out << fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{}\n", name, length * x,
                        force * t.force, force / length * t.stiffness, radius * t.radius,
-                       yielded ? length * t.residual : 0.0, t.shape.exponent, t.shape.foot, yielded ? 1 : 0);
+                       yielded ? length * t.residual : 0.0, t.shape.exponent, t.shape.hertz_share,
+                       yielded ? 1 : 0);
   }
 }
 
@@ -112,17 +114,17 @@ void export_law(const ExportRequest& r)
            fmt::format("{:g} m/s", r.speed),
            fmt::format("{:g} m/s or more", pair.min_speed(r.r_eff, pair.usual_mass(r.r_eff))));
     if (r.speed > pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff)))
-      fail("--speed", fmt::format("the law's inertia axis for {}:{} ends below it", a, b),
+      fail("--speed", fmt::format("the law's velocity axis for {}:{} ends below it", a, b),
            fmt::format("{:g} m/s", r.speed),
            fmt::format("up to {:g} m/s", pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff))));
   }
   write_atomically(r.output, [&](const std::string& temporary) {
     std::ofstream out(temporary);
     write_heading(out, law, r);
-    out << (r.dimensionless
-                ? "pair,overlap,force,stiffness,contact_radius,residual_overlap,exponent,foot,yielded\n"
-                : "pair,overlap_m,force_N,stiffness_N_per_m,contact_radius_m,residual_overlap_m,"
-                  "exponent,foot,yielded\n");
+    out << (r.dimensionless ? "pair,overlap,force,stiffness,contact_radius,residual_overlap,exponent,hertz_"
+                              "share,yielded\n"
+                            : "pair,overlap_m,force_N,stiffness_N_per_m,contact_radius_m,residual_overlap_m,"
+                              "exponent,hertz_share,yielded\n");
     for (const auto& [a, b] : pairs) write_pair(out, resolve_pair(law, a, b, r.law), a + ":" + b, r);
     if (!out.flush()) fail(r.output, "cannot be written (disk full?)");
   });
@@ -137,7 +139,8 @@ void add_export(CLI::App& app)
   CLI::App* command = app.add_subcommand(
       "export",
       "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
-      "overlap, residual overlap, exponent and foot of the unloading after a turn there. Lines that begin "
+      "overlap, residual overlap, exponent and hertz_share of the unloading after a reversal there. Lines "
+      "that begin "
       "with # state "
       "the\n"
       "units and the formulas. Example: mpm export law.h5 -o law.csv --pair powder:wall --effective-radius "
@@ -152,7 +155,7 @@ void add_export(CLI::App& app)
                  "overlap in lambda R*, force in 4/3 E* lambda R*^2, and so on")
       ->excludes(radius);
   command->add_option("--speed", r->speed,
-                      "relative normal speed at first touch, m/s, for laws with an inertia axis (default 0: "
+                      "relative normal speed at first touch, m/s, for laws with a velocity axis (default 0: "
                       "quasi-static)");
   command->add_option("--points", r->points, "intervals, uniform in overlap^(1/4) (default 400)")
       ->check(CLI::Range(10, 100000));

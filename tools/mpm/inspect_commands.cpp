@@ -45,15 +45,15 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
     fmt::print("  elastic\n");
   fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
              body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());
-  if (const InertiaAxis* axis = body.curve.axis()) {
-    const InertiaAxis::Table& t = axis->table();
-    if (axis->kind() == InertiaAxis::Kind::inertia)
-      fmt::print("  inertia axis         to I = rho V^2/Y = {:.3g}", t.speed_end * t.speed_end);
+  if (const VelocityAxis* axis = body.curve.axis()) {
+    const VelocityAxis::Table& t = axis->table();
+    if (axis->kind() == VelocityAxis::Kind::inertia)
+      fmt::print("  velocity axis         to I = rho V^2/Y = {:.3g}", t.speed_end * t.speed_end);
     else
       fmt::print("  rate axis            V = {:.3g} to {:.3g} m/s on a wall, for R = {:.4g} m only",
                  t.speed_begin * std::sqrt(m.yield_stress / m.density),
                  t.speed_end * std::sqrt(m.yield_stress / m.density), t.reference_radius);
-    fmt::print(", {} slices of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.slices,
+    fmt::print(", {} levels of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.levels,
                t.ratio_nodes(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
   }
   fmt::print("  origin               {}", printable(c.origin));
@@ -78,8 +78,8 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
   if (c.slow_press_force != 0 || c.slow_press_restitution != 0)
     fmt::print("  slow press instead   force {:+.2g} %, e {:+.2g} % at the deepest impact's overlap\n",
                100 * c.slow_press_force, 100 * c.slow_press_restitution);
-  if (std::isfinite(c.max_inertia))
-    fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.max_inertia);
+  if (std::isfinite(c.damage_number_max))
+    fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.damage_number_max);
   if (m.yields())
     fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n",
                support_ratio(body.curve.x_end()));

@@ -97,9 +97,8 @@ void replay(const LawRequest& r)
          fmt::format("up to {:.4g} m", (1 + overlap_margin) * limit));
 
   const LawMaterial& m = pair.yielding->material;
-  const double speed = m.yields() ? pair.inertia_speed(r_eff, m_eff, r.velocity) : 0.0,
-               inertia = speed * speed;
-  const double allowed = pair.yielding->certificate.max_inertia;
+  const double speed = m.yields() ? pair.axis_speed(r_eff, m_eff, r.velocity) : 0.0, inertia = speed * speed;
+  const double allowed = pair.yielding->certificate.damage_number_max;
   const bool needs_axis = inertia > allowed && !pair.curve->axis();
   if (needs_axis)
     fmt::print(stderr,

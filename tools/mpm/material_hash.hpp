@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "characterise/subject.hpp"
+#include "characterise/characterised_body.hpp"
 
 namespace granulaw {
 
@@ -24,16 +24,16 @@ inline std::string hash_of(const Material& m)
                              m.poisson_ratio, m.yield_stress, m.hardening_modulus));
 }
 
-/// Of a subject that they do not determine: its layers, shape, hardening law or rate.
-inline std::string hash_of(const Subject& subject)
+/// Of a characterised that they do not determine: its layers, shape, hardening law or rate.
+inline std::string hash_of(const CharacterisedBody& characterised)
 {
-  return hash_of(subject.description);
+  return hash_of(characterised.description);
 }
 
 /// Of the body and its material `m`, at the pole: what the provenance of a law keeps.
-inline std::string hash_of(const Subject& subject, const Material& m)
+inline std::string hash_of(const CharacterisedBody& characterised, const Material& m)
 {
-  return subject.is_plain() ? hash_of(m) : hash_of(subject);
+  return characterised.is_plain() ? hash_of(m) : hash_of(characterised);
 }
 
 }  // namespace granulaw

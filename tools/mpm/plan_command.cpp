@@ -66,7 +66,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
          {"onset_speed_m_per_s", p.meeting.known_yield ? json_number(p.onset) : ordered_json(nullptr)},
          {"yield_velocity_m_per_s",
           p.meeting.known_yield ? json_number(p.yield_velocity) : ordered_json(nullptr)},
-         {"inertia_number_max", json_number(p.inertia)},
+         {"inertia_number_max", json_number(p.damage_number)},
          {"overlap_over_radius_max", json_number(p.overlap)},
          {"overlap_by", p.overlap_basis},
          {"contact_time_min_s", json_number(p.contact_time)},
@@ -74,7 +74,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
          {"verdict", verdict(p)}});
   }
   root["pairs"] = pairs;
-  root["inertia_axis_matters"] = plan.axis_matters;
+  root["velocity_axis_matters"] = plan.axis_matters;
   root["time_step_s"] = {{"deck", json_number(d.scene.time_step)}, {"advised", json_number(plan.time_step)}};
   root["cost"] = {{"particles", json_number(d.options.particles.value_or(d.scene.count()))},
                   {"particle_steps", json_number(plan.particle_steps)},
@@ -143,16 +143,17 @@ void plan(const PlanRequest& r)
     fmt::print("  {:<9} {:<18} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9.3g} {:>8}  {}\n",
                fmt::format("{}:{}{}", p.meeting.a, p.meeting.wall ? "wall " : "", p.meeting.b),
                printable(p.meeting.name_a + ":" + p.meeting.name_b), fmt::format("0..{:.3g}", p.speed),
-               known(p.onset), known(p.speed / p.onset), known(p.speed / p.yield_velocity), known(p.inertia),
-               p.overlap, p.overlap_basis.empty() ? "-" : p.overlap_basis, verdict(p));
+               known(p.onset), known(p.speed / p.onset), known(p.speed / p.yield_velocity),
+               known(p.damage_number), p.overlap, p.overlap_basis.empty() ? "-" : p.overlap_basis,
+               verdict(p));
   }
   for (const deck::PairPlan& p : plan.pairs)
     if (p.speed_basis == "shielded fall")
       fmt::print("  {}:wall {}: the lowest particles shield the floor from a fall of {:.3g} m/s\n",
                  p.meeting.a, p.meeting.b, std::sqrt(2 * deck::norm(d.scene.gravity) * plan.fall));
-  if (plan.inertia > 0)
+  if (plan.damage_number > 0)
     fmt::print("axes of the law: overlap; inertia {}\n",
-               plan.axis_matters ? fmt::format("(I up to {:.2g})", plan.inertia)
+               plan.axis_matters ? fmt::format("(I up to {:.2g})", plan.damage_number)
                                  : fmt::format("not needed (I stays below {:g})", deck::negligible_inertia));
   if (plan.time_step > 0)
     fmt::print("time step: {:.3g} s ({:g} in the shortest contact); the deck has {:.3g} s\n", plan.time_step,

@@ -41,7 +41,7 @@ class Body:
         return x ** 1.5 * self.of("force_ratio", x)
 
     def unloading(self, x_m, u):
-        """F/F_m after a turn at x_m, u from 0 at the residual overlap to 1."""
+        """F/F_m after a reversal at x_m, u from 0 at the residual overlap to 1."""
         n, a = self.of("exponent", x_m), self.of("foot", x_m)
         return a * u ** 1.5 + (5 - 2 * a - 2 * n) * u ** 2 + (a + 2 * n - 4) * u ** 2.5
 

@@ -33,7 +33,7 @@ struct RunRequest
   double courant = RunOptions{}.courant;
   std::optional<double> tolerance, ramp;
   std::optional<int> resolution;
-  int jobs = 1, frames = 40, phases = RunOptions{}.phases;
+  int jobs = 1, frames = 40, phases = RunOptions{}.shifted_grids;
   bool json = false, no_estimate = false;
 };
 
@@ -47,7 +47,7 @@ void add_common(CLI::App& command, RunRequest& r)
                      "a material of that file: a thick deformable wall of it (default: rigid)");
   command.add_option(
       "--grid", r.grid,
-      "mapped (fitted to the sphere), tartan (graded Cartesian: any shape, layers, inclusions), "
+      "mapped (fitted to the sphere), rectilinear (graded Cartesian: any shape, layers, inclusions), "
       "updated (points move through the grid: the independent check); default: what the particle "
       "needs");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
@@ -78,7 +78,7 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_option(
       "--phases", r.phases,
       "runs on grids shifted against each other by equal parts of a cell, 1 to 64; results are "
-      "their mean, free of the first harmonics of the contact-edge ripple (default 4)");
+      "their mean, free of the first harmonics of the contact-edge grid noise (default 4)");
   command.add_option("--courant", r.courant,
                      "time step over its stability limit, 0.05 to 1 (default 0.85); above 1 explicit time "
                      "stepping is unstable");
@@ -87,7 +87,8 @@ void add_common(CLI::App& command, RunRequest& r)
   command.add_flag(
       "--json", r.json,
       "print one JSON object instead of the summary, SI units; in it, e is corrected for the "
-      "contact-edge ripple if there is one grid only, e_raw is not; force_max_N: of an impact the peak of "
+      "contact-edge grid noise if there is one grid only, e_raw is not; force_max_N: of an impact the peak "
+      "of "
       "the grids' mean trace, smoothed over 2 % of the loading; of a press or one grid that of a fit; "
       "ripple: rms of raw over fitted force, less 1; energy_error: |kinetic + elastic + plastic energy + "
       "contact loss "
@@ -99,9 +100,10 @@ void add_common(CLI::App& command, RunRequest& r)
 
 GridKind grid_of(const std::string& name)
 {
-  for (const GridKind grid : {GridKind::automatic, GridKind::mapped, GridKind::tartan, GridKind::updated})
+  for (const GridKind grid :
+       {GridKind::automatic, GridKind::mapped, GridKind::rectilinear, GridKind::updated})
     if (name == name_of(grid)) return grid;
-  fail("--grid", "unknown grid", name, "auto, mapped, tartan, updated");
+  fail("--grid", "unknown grid", name, "auto, mapped, rectilinear, updated");
 }
 
 bool same_file(const std::string& a, const std::filesystem::path& b)
@@ -168,7 +170,7 @@ RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, const
   options.grid = grid_of(r.grid);
   options.precision = r.precision == "single" ? Precision::single : Precision::full;
   options.threads = r.jobs;
-  options.phases = r.phases;
+  options.shifted_grids = r.phases;
   options.courant = r.courant;
   options.fields = fields;
   options.progress = [&](double done) { bar.update(done, ""); };
@@ -207,7 +209,7 @@ void print_json(const RunRequest& r, const Particle& particle, const RunSummary&
   out["resolution"] = s.resolution;
   out["grids"] = s.grids;
   out["energy_error"] = s.energy_error;
-  out["ripple"] = s.ripple;
+  out["ripple"] = s.grid_noise;
   out["e_raw"] = s.restitution_raw;
   out["plastic_strain_max"] = s.plastic_strain_max;
   out["contact_loss"] = s.contact_loss;

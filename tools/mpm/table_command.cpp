@@ -35,7 +35,7 @@ struct TableRequest
   std::string materials, deck, output;
   std::vector<std::string> pairs;
   BuildOptions range;
-  double inertia = 0.0625, radius_ratio = 1, slowest = 0;
+  double damage_number = 0.0625, radius_ratio = 1, slowest = 0;
   bool no_atlas = false, own_law = false;
   FarmOptions farm;
   DeckOptions scene;  ///< of --deck
@@ -45,7 +45,7 @@ struct TableRequest
 struct Entry
 {
   LawMaterial material;  ///< its name is the entry's
-  Subject subject;
+  CharacterisedBody characterised;
   std::string body = sphere_name;
   std::string hash;  ///< of all that determines it
 };
@@ -61,15 +61,16 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
 {
   if (!file.materials.contains(name) && file.particles.contains(name)) {
     const Particle& p = file.particle(name);
-    const Subject subject = subject_of(p);
-    const int skin = p.material_at(0.0, 1e-9 * subject.scale.length);
+    const CharacterisedBody characterised = characterised_body_of(p);
+    const int skin = p.material_at(0.0, 1e-9 * characterised.scale.length);
     const Material& m =
         p.materials[static_cast<std::size_t>(std::max(0, p.is_homogeneous_sphere() ? 0 : skin))];
     LawMaterial material = law_material(name, m);
-    // the weakest of several; a homogeneous sphere has its own, and a plain one's subject no dimensions
-    if (!p.is_homogeneous_sphere() && subject.yields())
-      material.yield_stress = subject.yield * subject.scale.stress;
-    return {material, subject, p.is_homogeneous_sphere() ? sphere_name : name, hash_of(subject, m)};
+    // the weakest of several; a homogeneous sphere has its own, and a plain one's characterised no dimensions
+    if (!p.is_homogeneous_sphere() && characterised.yields())
+      material.yield_stress = characterised.yield * characterised.scale.stress;
+    return {material, characterised, p.is_homogeneous_sphere() ? sphere_name : name,
+            hash_of(characterised, m)};
   }
   const Material& m = file.material(name);
   if (m.rate_dependent())
@@ -78,8 +79,8 @@ Entry entry_of(const std::string& name, const MaterialsFile& file)
              "its yield stress depends on the rate ('{}'), so its law depends on the particle's size: name a "
              "particle of it, --pair PARTICLE:wall",
              m.rate.name));
-  const Subject subject = subject_of(m);
-  return {law_material(name, m), subject, sphere_name, hash_of(subject, m)};
+  const CharacterisedBody characterised = characterised_body_of(m);
+  return {law_material(name, m), characterised, sphere_name, hash_of(characterised, m)};
 }
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -132,7 +133,7 @@ void print_certificate(const std::string& name, const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
   fmt::print("{}: to delta/R = {:.3g}", name, body.curve.x_end());
-  if (body.curve.axis()) fmt::print(" and I = rho V^2/Y = {:.3g}", c.max_inertia);
+  if (body.curve.axis()) fmt::print(" and I = rho V^2/Y = {:.3g}", c.damage_number_max);
   if (c.origin == "atlas")
     fmt::print("; from the atlas: force within {:.2g} %, e within {:.2g}", 100 * c.atlas_error_force,
                c.atlas_error_restitution);
@@ -143,8 +144,8 @@ void print_certificate(const std::string& name, const BodyLaw& body)
     fmt::print("; {:.0f} impacts not sampled: force within {:.2g} %, e within {:.2g} %",
                c.verification_impacts, 100 * c.verification_error_force,
                100 * c.verification_error_restitution);
-  if (!body.curve.axis() && std::isfinite(c.max_inertia))
-    fmt::print("; rate-free up to I = {:.3g}", c.max_inertia);
+  if (!body.curve.axis() && std::isfinite(c.damage_number_max))
+    fmt::print("; rate-free up to I = {:.3g}", c.damage_number_max);
   fmt::print("\n");
 }
 
@@ -179,13 +180,13 @@ UnlikePair bodies_of(const LawPair& pair, const Law& law, double radius_ratio)
 /// own law, by other radii.
 void state_reduction(LawPair& pair, const Law& law, double radius_ratio)
 {
-  constexpr double inertia = 0.002;
+  constexpr double damage_number = 0.002;
   if (pair.b == wall_name || (pair.a == pair.b && radius_ratio == 1)) return;
   const TwoBodyLaw* own = law.find_pair_law(pair.a, pair.b);
   for (const double ratio : {radius_ratio, 1 / radius_ratio}) {
     const UnlikePair unlike = bodies_of(pair, law, ratio);
     if (!unlike.yielding.yields()) return;
-    const double fastest = fastest_of_law(unlike, inertia);
+    const double fastest = fastest_of_law(unlike, damage_number);
     const ReductionError error = own ? estimate_remaining_error(unlike, own->radius_ratio, fastest)
                                      : estimate_reduction_error(unlike, fastest);
     pair.reduction_error_force = std::max(pair.reduction_error_force, error.force);
@@ -199,8 +200,8 @@ void state_reduction(LawPair& pair, const Law& law, double radius_ratio)
   }
 }
 
-/// Pairs, depth and inertia that the scene of --deck can reach; of each it takes what was not given itself.
-/// False: no pair of the scene yields.
+/// Pairs, depth and damage number that the scene of --deck can reach; of each it takes what was not given
+/// itself. False: no pair of the scene yields.
 bool take_from_deck(TableRequest& r, const CLI::App& command)
 {
   r.scene.materials_file = r.materials;
@@ -218,11 +219,11 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   if (pairs.empty()) return false;
   if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
   if (command.count("--depth") == 0) r.range.depth = d.plan.depth;
-  if (command.count("--inertia") == 0) r.inertia = d.plan.inertia;
+  if (command.count("--inertia") == 0) r.damage_number = d.plan.damage_number;
   if (command.count("--radius-ratio") == 0) r.radius_ratio = ratio;
   if (rank() == 0)
     fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
-               fmt::join(r.pairs, ", "), r.range.depth, r.inertia);
+               fmt::join(r.pairs, ", "), r.range.depth, r.damage_number);
   return true;
 }
 
@@ -231,7 +232,7 @@ bool may_have_own_law(const LawPair& pair, const std::map<std::string, Entry>& e
 {
   if (pair.a == pair.b || pair.b == wall_name) return false;
   for (const std::string& name : {pair.a, pair.b})
-    if (entries.at(name).body != sphere_name || !entries.at(name).subject.is_plain()) return false;
+    if (entries.at(name).body != sphere_name || !entries.at(name).characterised.is_plain()) return false;
   return bodies_of(pair, law, 1).yielding.yields();
 }
 
@@ -241,10 +242,10 @@ void check_slowest(const TableRequest& r, const std::map<std::string, Entry>& en
   if (r.slowest == 0) return;
   bool used = false;
   for (const auto& [name, entry] : entries) {
-    if (!entry.subject.rate_dependent()) continue;
+    if (!entry.characterised.rate_dependent()) continue;
     used = true;
     const double fastest =
-        std::sqrt(r.inertia * entry.material.yield_stress / entry.material.density);  // on a wall
+        std::sqrt(r.damage_number * entry.material.yield_stress / entry.material.density);  // on a wall
     if (r.slowest > 0.7 * fastest)
       fail("--slowest", fmt::format("is no slower than the fastest impact of '{}' (--inertia)", name),
            fmt::format("{:g} m/s", r.slowest), fmt::format("up to {:.4g} m/s", 0.7 * fastest));
@@ -282,7 +283,7 @@ void build(const TableRequest& r)
   check_slowest(r, entries);
 
   BuildOptions options = r.range;
-  options.fastest = std::sqrt(r.inertia);
+  options.fastest = std::sqrt(r.damage_number);
   std::optional<Atlas> atlas;
   if (const std::string path = atlas_path(); !r.no_atlas && !path.empty()) atlas = read_atlas(path);
   options.atlas = atlas ? &*atlas : nullptr;
@@ -292,25 +293,26 @@ void build(const TableRequest& r)
   std::string warnings;
   double finished = 0;
   for (const auto& [name, entry] : entries) {
-    const bool plain = entry.subject.is_plain();
-    const std::string why = !plain                   ? "its law is its own"
-                            : r.no_atlas             ? "--no-atlas"
-                            : !atlas                 ? "there is no atlas beside the program"
-                            : entry.subject.yields() ? atlas->why_not(MaterialRatios::of(entry.material))
-                                                     : std::string();
+    const bool plain = entry.characterised.is_plain();
+    const std::string why = !plain       ? "its law is its own"
+                            : r.no_atlas ? "--no-atlas"
+                            : !atlas     ? "there is no atlas beside the program"
+                            : entry.characterised.yields()
+                                ? atlas->why_not(MaterialRatios::of(entry.material))
+                                : std::string();
     if (why.empty()) {
       law.bodies[name] = law_from(*atlas, entry.material, options);
       remarks.push_back(name + ": from the atlas");
     } else {
       if (!farm) farm = r.farm.farm();
       options.farm = farm.get();
-      options.slowest = entry.subject.rate_dependent()
+      options.slowest = entry.characterised.rate_dependent()
                             ? r.slowest * std::sqrt(entry.material.density / entry.material.yield_stress)
                             : 0.0;
       options.progress = [&, &name = name](double done, const std::string& what) {
         bar.update((finished + done) / static_cast<double>(entries.size()), name + ": " + what);
       };
-      BuiltLaw built = build_law(entry.material, entry.subject, options);
+      BuiltLaw built = build_law(entry.material, entry.characterised, options);
       law.bodies[name] = std::move(built.law);
       warnings += tolerance_missed(name, built, options.tolerance);
       remarks.push_back(fmt::format("{}: by {} runs, {} of the densest survey ({})", name, built.runs,
@@ -321,31 +323,31 @@ void build(const TableRequest& r)
           fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
       if (!built.shallow.empty()) law.provenance["shallow." + name] = built.shallow;
       if (!built.rate_free.empty()) law.provenance["rate_free." + name] = built.rate_free;
-      const auto& materials = entry.subject.particle.materials;
+      const auto& materials = entry.characterised.particle.materials;
       if (materials.size() == 1 && !materials[0].hardening.name.empty())
         law.provenance["hardening." + name] = text_of(materials[0].hardening);
       if (materials.size() == 1 && materials[0].rate_dependent())
         law.provenance["rate." + name] = text_of(materials[0].rate);
       law.provenance["admissible." + name] =
           fmt::format("the fitted e changed by {:.2g} % at most", 100 * built.change_of_restitution);
-      if (entry.subject.rate_dependent()) {
-        const InertiaAxis* axis = law.bodies[name].curve.axis();
+      if (entry.characterised.rate_dependent()) {
+        const VelocityAxis* axis = law.bodies[name].curve.axis();
         law.provenance["size." + name] =
             axis ? fmt::format(
                        "rate-dependent: holds for R = {:g} m and from {:.3g} m/s on a wall",
-                       entry.subject.scale.length,
+                       entry.characterised.scale.length,
                        axis->speed_begin() * std::sqrt(entry.material.yield_stress / entry.material.density))
                  : fmt::format(
                        "rate-dependent, by less than the tolerance at R = {:g} m and in this range of speeds",
-                       entry.subject.scale.length);
+                       entry.characterised.scale.length);
         remarks.push_back(name + ": " + law.provenance["size." + name]);
       }
     }
     BodyLaw& body = law.bodies[name];
     body.body = entry.body;
     if (entry.body != sphere_name) {
-      body.pole_radius = entry.subject.scale.length;
-      body.mass_ratio = entry.subject.mass / (4.0 / 3.0 * M_PI);
+      body.pole_radius = entry.characterised.scale.length;
+      body.mass_ratio = entry.characterised.mass / (4.0 / 3.0 * M_PI);
     }
     law.provenance["material_hash." + name] = entry.hash;
     finished += 1;
@@ -431,7 +433,7 @@ void add_table(CLI::App& app)
   command->add_option("--depth", r->range.depth, "largest overlap over the radius, up to 0.5")
       ->check(above_zero_to(0.5))
       ->capture_default_str();
-  command->add_option("--inertia", r->inertia, "largest I = rho V^2/Y, up to 0.09; 0: a rate-free law")
+  command->add_option("--inertia", r->damage_number, "largest I = rho V^2/Y, up to 0.09; 0: a rate-free law")
       ->check(from_to(0, 0.09))
       ->capture_default_str();
   command

@@ -48,9 +48,9 @@ class Law:
         keep = x > 1e-6 * self.onset
         return np.sqrt(work[keep] / np.interp(self.onset, x, work)) / self.yield_per_onset, x[keep]
 
-    def fastest(self, inertia_limit):
+    def fastest(self, damage_number_limit):
         """V/V_y at I = rho V^2/Y of the yielding body: rho V_y^2/Y = (pi/2)^4 (2/5) 1.6^5 (Y/E*)^4."""
-        return math.sqrt(inertia_limit / ((math.pi / 2)**4 * 0.4 * 1.6**5)) * self.ratio**2
+        return math.sqrt(damage_number_limit / ((math.pi / 2)**4 * 0.4 * 1.6**5)) * self.ratio**2
 
 
 class Contacts:
@@ -267,5 +267,5 @@ def write(page, found):
     page.table(["deck", "pair", "contacts", "V/V_y: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
                 "law to", "steps beyond it", "too fast for it", "too slow for it"], rows)
     page.origin("Quantiles are read from bins a third of their value wide: good to about 15 %. V_y: yield velocity with the customary 1.6 Y "
-                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its inertia axis goes; too slow for it: than the axis of a rate-dependent law begins; below onset: slower than the true onset of yield. From the "
+                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its velocity axis goes; too slow for it: than the axis of a rate-dependent law begins; below onset: slower than the true onset of yield. From the "
                 "`stats.json` of each run (`fix granulaw/stats`) and the law file it names.")

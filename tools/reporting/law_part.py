@@ -16,8 +16,8 @@ def read(path):
 
 def kind(row, full):
     if row["slices"] == 0:
-        return "inertia axis dropped"
-    return "inertia axis thinned" if row["slices"] < full["slices"] else "inertia axis kept"
+        return "velocity axis dropped"
+    return "velocity axis thinned" if row["slices"] < full["slices"] else "velocity axis kept"
 
 
 def whole(rows):
@@ -25,7 +25,7 @@ def whole(rows):
     return max(rows, key=lambda r: (r["nodes"], r["slices"]))
 
 
-COLOURS = {"inertia axis kept": "tab:blue", "inertia axis thinned": "tab:purple", "inertia axis dropped": "tab:orange"}
+COLOURS = {"velocity axis kept": "tab:blue", "velocity axis thinned": "tab:purple", "velocity axis dropped": "tab:orange"}
 
 
 def picture(found):
@@ -75,13 +75,13 @@ def write(page, found, path):
     page.glance(glance(found))
     full, own = whole(found["rows"]), found["own_errors"]
     page.figure(picture(found), "law",
-                f"One law ({found['material']}, {full['nodes']} nodes, {full['slices']} slices of {full['ratio_nodes']} nodes), thinned; errors "
+                f"One law ({found['material']}, {full['nodes']} nodes, {full['slices']} impact levels of {full['ratio_nodes']} nodes), thinned; errors "
                 "against the law as the file has it, the largest over contacts of all sizes and speeds. Numbers at the points: nodes of the "
                 "curve; the law itself has no error here and is left out. The plug-in lays every law out anew on octaves of the overlap, so its size does not fall with the nodes.")
     head = ["curve", "axis", "evaluated by", "kB", "ns, loading: median (range)", "ns, unloading", "force %", "e, absolute"]
     main, every = [], []
     for r in sorted(found["rows"], key=lambda r: (-r["slices"], -r["nodes"], r["evaluator"])):
-        row = ([f"{r['nodes']} nodes", kind(r, full) + (f" ({r['slices']} slices)" if r["slices"] else ""),
+        row = ([f"{r['nodes']} nodes", kind(r, full) + (f" ({r['slices']} impact levels)" if r["slices"] else ""),
                      "stored table" if r["evaluator"] == "curve" else "plug-in's", f"{r['bytes'] / 1024:.1f}", span(r, "ns_load"),
                      span(r, "ns_unload"), f"{100 * r['err_force']:.2g}", f"{r['err_e']:.1e}" if r["err_e"] else "0"])
         every.append(row)
@@ -99,7 +99,7 @@ def write(page, found, path):
               "certificate states.")
     dropped = next((r for r in found["rows"] if r["slices"] == 0 and r["nodes"] == full["nodes"]), None)
     if full["slices"] and dropped:
-        page.text(f"Leaving the inertia axis out changes e by up to {dropped['err_e']:.2g}, at I = rho V²/Y = {dropped['err_e_at_inertia_number']:.2g}, and the "
+        page.text(f"Leaving the velocity axis out changes e by up to {dropped['err_e']:.2g}, at I = rho V²/Y = {dropped['err_e_at_inertia_number']:.2g}, and the "
                   f"force on its way by up to {100 * dropped['err_force']:.2g} % of the loading force. `mpm table --deck` keeps the axis only where the "
                   "deck is fast enough for it.")
     page.origin(f"`{path}`: law `{found.get('law', '')}`, commit `{found['git_hash']}`; CPU time, median and range of 15 rounds.")

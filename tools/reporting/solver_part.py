@@ -4,7 +4,7 @@ from .page import legend_below, number, plt
 
 NAME = "cost.json"  # of granulaw_cost_study
 JOBS = {"plastic": "Impact, E*/Y = 100, V/V_y = 100", "elastic": "Elastic impact to 0.002 R"}
-COLOURS = {"mapped": "tab:blue", "tartan": "tab:red", "updated": "tab:green"}
+COLOURS = {"mapped": "tab:blue", "rectilinear": "tab:red", "updated": "tab:green"}
 TARGETS = (0.01, 0.003, 0.001)  # relative errors of F that a user may ask for
 KEYS = ("cells", "grids", "points", "cpu_s", "Mupd_s", "L2_force", "err_force", "err_e", "ripple", "energy")
 
@@ -107,7 +107,7 @@ def write(page, study, path, commands):
                    [[r["grid"], r["precision"], r["cells"], r["grids"], r["points"], number(r["cpu_s"]), number(r["Mupd_s"]),
                      f"{100 * r['L2_force']:.3f}", f"{100 * r['err_force']:+.3f}", f"{100 * r['err_e']:+.3f}", f"{100 * r['ripple']:.3f}",
                      f"{r['energy']:.1e}"] for r in job["rows"]], fold=f"All {len(job['rows'])} runs")
-    page.text("F, L2: deviation of the treated loading force over 0.05 to 1 δ_max; ripple: rms of the raw over the treated force, less 1; "
+    page.text("F, L2: deviation of the treated loading force over 0.05 to 1 δ_max; grid noise: rms of the raw over the treated force, less 1; "
               "energy error: what the energy balance lacks, over the energy put in.")
     quick = " (the quick version: few resolutions, a coarser reference)" if study.get("quick") else ""
     page.origin(f"`{path}`{quick}: made {study.get('created', '')} by commit `{study['git_hash']}` on {study['processor']}, one core.")

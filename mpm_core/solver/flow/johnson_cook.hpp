@@ -13,7 +13,7 @@ struct JohnsonCook
 
   double yield, strength, exponent;
 
-  static void stretch(double* v, double by) { v[0] *= power(by, -v[1]); }
+  static void scale_strains(double* v, double by) { v[0] *= power(by, -v[1]); }
   static GRANULAW_MEMBER JohnsonCook from(double yield_stress, const double* v)
   {
     return {yield_stress, v[0], v[1]};

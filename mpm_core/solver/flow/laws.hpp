@@ -15,8 +15,8 @@ struct LawList
 {
 };
 
-// A new law: one file beside the others, and its name here. `stretch` makes every plastic strain of a
-// hardening law `by` times as large; lists of strains are stretched as they are. Kernels, materials file and
+// A new law: one file beside the others, and its name here. `scale_strains` makes every plastic strain of a
+// hardening law `by` times as large; lists of strains are scaled as they are. Kernels, materials file and
 // checks follow these lists; the first of each is what a material has that names none.
 using HardeningLaws = LawList<Linear, Swift, Voce, JohnsonCook, Tabulated>;
 using RateLaws = LawList<RateIndependent, JohnsonCookRate, CowperSymonds>;

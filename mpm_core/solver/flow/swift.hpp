@@ -14,7 +14,7 @@ struct Swift
 
   double strength, exponent, offset;
 
-  static void stretch(double* v, double by) { v[0] *= power(by, -v[1]), v[2] *= by; }
+  static void scale_strains(double* v, double by) { v[0] *= power(by, -v[1]), v[2] *= by; }
   static GRANULAW_MEMBER Swift from(double /*yield_stress*/, const double* v) { return {v[0], v[1], v[2]}; }
   GRANULAW_MEMBER ValueAndSlope operator()(double ep) const
   {

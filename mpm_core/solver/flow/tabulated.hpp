@@ -24,7 +24,7 @@ struct Tabulated
     if (strains[0] != 0) return "'strain' must start at 0";
     for (int k = 1; k < strain_count; ++k) {
       if (!(strains[k] > strains[k - 1])) return "'strain' must ascend";
-      if (!(stresses[k] >= stresses[k - 1])) return "'stress' falls; softening is not supported";
+      if (!(stresses[k] >= stresses[k - 1])) return "'stress' falls; strain softening is not supported";
     }
     for (int k = 0; k < room; ++k) {
       const bool used = k < strain_count, inner = k + 1 < strain_count;

@@ -15,10 +15,11 @@ struct Voce
 
   static const char* misuse(double yield_stress, const double* v)
   {
-    return v[0] < yield_stress ? "'saturation_stress' is below yield_stress; softening is not supported"
-                               : nullptr;
+    return v[0] < yield_stress
+               ? "'saturation_stress' is below yield_stress; strain softening is not supported"
+               : nullptr;
   }
-  static void stretch(double* v, double by) { v[1] *= by; }
+  static void scale_strains(double* v, double by) { v[1] *= by; }
   static GRANULAW_MEMBER Voce from(double yield_stress, const double* v)
   {
     return {yield_stress, v[0], 1.0 / v[1]};

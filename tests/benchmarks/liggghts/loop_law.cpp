@@ -1,7 +1,7 @@
 // bench_loop_law one FILE ONSET: writes the synthetic law with onset of yield at x = ONSET (overlap/R on a
 // rigid wall) and prints the largest error of the contact loop's force against the functions the law was
 // sampled from, over 200,000 random states (loading and unloading), relative to the force at the turning
-// point. bench_loop_law axis FILE: with an inertia axis; against the law's curve. bench_loop_law four FILE:
+// point. bench_loop_law axis FILE: with a velocity axis; against the law's curve. bench_loop_law four FILE:
 // four materials and a law of its own for each of their ten pairs; prints the largest of their ten errors.
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "characterise/pressing.hpp"
+#include "characterise/contact_record.hpp"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
@@ -13,15 +13,15 @@ namespace {
 
 constexpr double force_scale = 4.0 / 3.0;  // Hertz's force at x = 1
 
-/// Mean force of the loading samples within 1 % below the turn at trace[turn].
-double force_before(const std::vector<TraceSample>& trace, std::size_t turn)
+/// Mean force of the loading samples within 1 % below the reversal at trace[reversal].
+double force_before(const std::vector<TraceSample>& trace, std::size_t reversal)
 {
   double sum = 0;
   int count = 0;
-  for (std::size_t k = turn + 1; k-- > 0 && trace[k].delta >= 0.99 * trace[turn].delta;) {
+  for (std::size_t k = reversal + 1; k-- > 0 && trace[k].delta >= 0.99 * trace[reversal].delta;) {
     if (trace[k].branch != Branch::load) break;
-    // the law rises by about F ~ x there: brought to the turn
-    sum += trace[k].force * trace[turn].delta / trace[k].delta;
+    // the law rises by about F ~ x there: brought to the reversal
+    sum += trace[k].force * trace[reversal].delta / trace[k].delta;
     ++count;
   }
   return count ? sum / count / force_scale : 0;
@@ -30,7 +30,7 @@ double force_before(const std::vector<TraceSample>& trace, std::size_t turn)
 /// int_0^1 du/sqrt(1 - W(u)/W(1)): duration of an unloading over (x_m - r)/(speed of rebound).
 double duration_factor(const UnloadingShape& shape)
 {
-  // u = 1 - v^2: the integrand is smooth at the turn
+  // u = 1 - v^2: the integrand is smooth at the reversal
   const double all = shape.work();
   return boost::math::quadrature::gauss<double, 30>::integrate(
       [&](double v) { return 2 * v / std::sqrt(1 - shape.work(1 - v * v) / all); }, 0.0, 1.0);
@@ -40,7 +40,7 @@ double duration_factor(const UnloadingShape& shape)
 class Unloaded
 {
  public:
-  Unloaded(const UnloadingPath& path, double turn_force) : path_(path), turn_force_(turn_force)
+  Unloaded(const UnloadingPath& path, double reversal_force) : path_(path), reversal_force_(reversal_force)
   {
     // v^2 is as the work given back so far: int dx/sqrt(W), exact over an interval of constant force
     for (std::size_t k = 1; k < path.size(); ++k) {
@@ -50,33 +50,34 @@ class Unloaded
     }
   }
 
-  /// `foot_of(span)`: of an unloading that ends `span` below the turn.
-  template <class FootOf>
-  UnloadingFit fit(const FootOf& foot_of) const
+  /// `hertz_share_of(span)`: of an unloading that ends `span` below the reversal.
+  template <class HertzShareOf>
+  UnloadingFit fit(const HertzShareOf& hertz_share_of) const
   {
     const double top = path_.front().x, span = top - path_.back().x;
     const auto shape = [&](double s) {
-      const double foot = foot_of(s);
-      return UnloadingShape{UnloadingShape::exponent_of(work_ / (turn_force_ * s), foot), foot};
+      const double hertz_share = hertz_share_of(s);
+      return UnloadingShape{UnloadingShape::exponent_of(work_ / (reversal_force_ * s), hertz_share),
+                            hertz_share};
     };
     const auto told = [&](double s) { return s / std::sqrt(work_) * duration_factor(shape(s)); };
     // the shorter the span the softer: below a half of Hertz's exponent no sphere unloads
     const auto too_short = [&](double s) { return shape(s).exponent < 0.75; };
-    if (!(work_ > 0) || too_short(span)) return {path_.back().x, UnloadingShape{}.foot};
+    if (!(work_ > 0) || too_short(span)) return {path_.back().x, UnloadingShape{}.hertz_share};
     // the longer the span, the longer it takes; a fifth: no unloading of a sphere is further from the shape
     double low = 0.8 * span, high = 1.2 * span;
     for (int k = 0; k < 50; ++k) {
       const double middle = 0.5 * (low + high);
       (too_short(middle) || told(middle) < duration_ ? low : high) = middle;
     }
-    return {top - high, foot_of(high)};
+    return {top - high, hertz_share_of(high)};
   }
 
-  /// The foot that comes nearest to the path where it ends `span` below the turn: phi = phi_0 + A psi with
-  /// the work kept, so one linear unknown.
-  double nearest_foot(double span) const
+  /// The Hertz share that comes nearest to the path where it ends `span` below the reversal: phi = phi_0 + A
+  /// psi with the work kept, so one linear unknown.
+  double nearest_hertz_share(double span) const
   {
-    const double work = work_ / (turn_force_ * span), end = path_.front().x - span;
+    const double work = work_ / (reversal_force_ * span), end = path_.front().x - span;
     constexpr int points = 200;
     double product = 0, square = 0;
     std::size_t next = 0;  // first path point below the overlap
@@ -86,14 +87,14 @@ class Unloaded
       const double force = next == 0              ? path_.front().force
                            : next == path_.size() ? 0.0
                                                   : between(path_[next - 1], path_[next], x);
-      const auto at = [&](double foot) {
-        return UnloadingShape{UnloadingShape::exponent_of(work, foot), foot}.at(u).value;
+      const auto at = [&](double hertz_share) {
+        return UnloadingShape{UnloadingShape::exponent_of(work, hertz_share), hertz_share}.at(u).value;
       };
       const double base = at(0), direction = at(1) - base;
-      product += direction * (force / turn_force_ - base);
+      product += direction * (force / reversal_force_ - base);
       square += direction * direction;
     }
-    return std::clamp(product / square, 0.0, UnloadingShape::largest_foot);
+    return std::clamp(product / square, 0.0, UnloadingShape::largest_hertz_share);
   }
 
  private:
@@ -103,43 +104,43 @@ class Unloaded
   }
 
   const UnloadingPath& path_;
-  double turn_force_, work_ = 0, duration_ = 0;
+  double reversal_force_, work_ = 0, duration_ = 0;
 };
 
 }  // namespace
 
-UnloadingFit fit_unloading(const UnloadingPath& path, double turn_force)
+UnloadingFit fit_unloading(const UnloadingPath& path, double reversal_force)
 {
-  const Unloaded unloaded(path, turn_force);
-  return unloaded.fit([&](double span) { return unloaded.nearest_foot(span); });
+  const Unloaded unloaded(path, reversal_force);
+  return unloaded.fit([&](double span) { return unloaded.nearest_hertz_share(span); });
 }
 
-double residual_as_long(const UnloadingPath& path, double turn_force, double foot)
+double residual_as_long(const UnloadingPath& path, double reversal_force, double hertz_share)
 {
-  return Unloaded(path, turn_force).fit([&](double) { return foot; }).residual;
+  return Unloaded(path, reversal_force).fit([&](double) { return hertz_share; }).residual;
 }
 
 namespace {
 
-/// Residual, foot and path of an unloading whose force ended at the overlap `touched`.
-void set_unloading(Pressing& press, std::span<const TraceSample> unloading, double touched)
+/// Residual, Hertz share and path of an unloading whose force ended at the overlap `touched`.
+void set_unloading(ContactRecord& press, std::span<const TraceSample> unloading, double touched)
 {
   press.residual = std::max(0.0, touched);
-  if (press.turn_force <= 0) return;
-  UnloadingPath& path = press.unloading = {{press.depth, press.turn_force}};
+  if (press.reversal_force <= 0) return;
+  UnloadingPath& path = press.unloading = {{press.depth, press.reversal_force}};
   for (const TraceSample& s : unloading)
     if (s.delta < path.back().x && s.delta > touched) path.push_back({s.delta, s.force / force_scale});
   path.push_back({touched, 0});
-  const UnloadingFit fit = fit_unloading(path, press.turn_force);
+  const UnloadingFit fit = fit_unloading(path, press.reversal_force);
   press.residual = std::max(0.0, fit.residual);
-  press.foot = fit.foot;
+  press.hertz_share = fit.hertz_share;
 }
 
 }  // namespace
 
-Pressing pressing_from(const RunResult& result)
+ContactRecord contact_record_of(const RunResult& result)
 {
-  Pressing press;
+  ContactRecord press;
   press.depth = result.summary.delta_max;
   press.peak = result.summary.force_max / force_scale;
   press.work_ratio = result.summary.work_unload / result.summary.work_load;
@@ -148,7 +149,7 @@ Pressing pressing_from(const RunResult& result)
     if (t[k].branch != Branch::load) continue;
     if (t[k].delta > (press.loading.empty() ? 0.0 : press.loading.back().x))
       press.loading.push_back({t[k].delta, t[k].force / force_scale, t[k].contact_radius});
-    if (k + 1 < t.size() && t[k + 1].branch == Branch::unload) press.turn_force = force_before(t, k);
+    if (k + 1 < t.size() && t[k + 1].branch == Branch::unload) press.reversal_force = force_before(t, k);
   }
   const auto begins = std::find_if(t.rbegin(), t.rend(), [](const TraceSample& sample) {
                         return sample.branch != Branch::unload;
@@ -157,9 +158,9 @@ Pressing pressing_from(const RunResult& result)
   return press;
 }
 
-std::vector<Pressing> partial_unloadings(const RunResult& result, double& loop)
+std::vector<ContactRecord> partial_unloadings(const RunResult& result, double& loop)
 {
-  std::vector<Pressing> turns;
+  std::vector<ContactRecord> reversals;
   const auto& t = result.trace;
   double put_in = 0, area = 0;
   std::size_t begins = 0;
@@ -174,21 +175,21 @@ std::vector<Pressing> partial_unloadings(const RunResult& result, double& loop)
     area += piece;
     if (t[k].branch == Branch::unload) {
       if (t[k - 1].branch != Branch::unload) {
-        Pressing turn;
-        turn.depth = turn.residual = t[k - 1].delta;
-        turn.turn_force = force_before(t, k - 1);
-        turns.push_back(std::move(turn));
+        ContactRecord reversal;
+        reversal.depth = reversal.residual = t[k - 1].delta;
+        reversal.reversal_force = force_before(t, k - 1);
+        reversals.push_back(std::move(reversal));
         begins = k;
       }
-      Pressing& turn = turns.back();
-      turn.work_ratio -= piece / put_in;
-      if (t[k].force > 0) turn.residual = t[k].delta;
+      ContactRecord& reversal = reversals.back();
+      reversal.work_ratio -= piece / put_in;
+      if (t[k].force > 0) reversal.residual = t[k].delta;
       if (k + 1 < t.size() && t[k + 1].branch != Branch::unload)
-        set_unloading(turn, std::span(t).subspan(begins, k + 1 - begins), turn.residual);
+        set_unloading(reversal, std::span(t).subspan(begins, k + 1 - begins), reversal.residual);
     }
   }
-  if (!turns.empty()) turns.pop_back();  // its summary tells the last one better
-  return turns;
+  if (!reversals.empty()) reversals.pop_back();  // its summary tells the last one better
+  return reversals;
 }
 
 }  // namespace granulaw

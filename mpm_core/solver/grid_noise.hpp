@@ -7,12 +7,12 @@
 
 namespace granulaw {
 
-/// Treatment of the contact-edge ripple.
+/// Treatment of the contact-edge grid noise.
 ///
 /// The contact radius of a grid grows by whole cells; the force swings about its mean by 0.5 % (elastic) to 3
 /// % (plastic). The treated loading force is a weighted least-squares polynomial of ln F in ln delta through
-/// the virgin loading samples: it cannot follow the ripple (several periods over the range) but follows the
-/// law.
+/// the virgin loading samples: it cannot follow the grid noise (several periods over the range) but follows
+/// the law.
 class TreatedLoading
 {
  public:
@@ -24,15 +24,15 @@ class TreatedLoading
   bool valid() const { return !coefficients_.empty(); }
   /// Treated force at overlap delta (same units as the trace); meaningful within the fitted range.
   double force(double delta) const;
-  /// Largest treated force up to the overlap `until`: there, unless the force falls before the turn.
+  /// Largest treated force up to the overlap `until`: there, unless the force falls before the reversal.
   double largest_force(double until) const;
   double from() const { return from_; }
   /// rms of raw/treated - 1 over 0.25 to 1 of the largest delta.
-  double ripple() const { return ripple_; }
+  double grid_noise() const { return grid_noise_; }
 
  private:
   std::vector<double> coefficients_;
-  double from_ = 0, centre_ = 0, half_ = 1, ripple_ = 0;
+  double from_ = 0, centre_ = 0, half_ = 1, grid_noise_ = 0;
 };
 
 /// Largest force of a mean trace, smoothed over 2 % of the loading's samples either way by a running

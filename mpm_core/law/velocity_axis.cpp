@@ -1,4 +1,4 @@
-#include "law/inertia_axis.hpp"
+#include "law/velocity_axis.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ void check_number(double value, double low, double high, const std::string& wher
 }
 
 /// The Hermite cubic of X over the interval after node j, in t.
-void overlap_cubic(const InertiaAxis::Table& table, std::size_t j, double (&c)[4])
+void overlap_cubic(const VelocityAxis::Table& table, std::size_t j, double (&c)[4])
 {
   const double h = table.speed_end / static_cast<double>(table.impact_overlap.size() - 1);
   hermite(c, table.impact_overlap[j], table.impact_overlap[j + 1], h * table.impact_overlap_slope[j],
@@ -29,7 +29,7 @@ void overlap_cubic(const InertiaAxis::Table& table, std::size_t j, double (&c)[4
 }
 
 /// X at 0 < v < speed_end.
-double overlap_at(const InertiaAxis::Table& table, double v)
+double overlap_at(const VelocityAxis::Table& table, double v)
 {
   const double intervals = static_cast<double>(table.impact_overlap.size() - 1);
   const double position = std::min(v / table.speed_end * intervals, intervals);
@@ -39,13 +39,13 @@ double overlap_at(const InertiaAxis::Table& table, double v)
   return std::clamp(cubic(c, position - static_cast<double>(j)), 0.0, table.impact_overlap.back());
 }
 
-void check_speeds(const InertiaAxis::Table& table, const std::string& where)
+void check_speeds(const VelocityAxis::Table& table, const std::string& where)
 {
   const std::size_t count = table.impact_overlap.size();
   if (count < 2 || count > 4096)
     fail(where, "'impact_overlap' has an unusable number of nodes", std::to_string(count), "2 to 4096");
   check_number(table.speed_end, 1e-9, 1e6, where, "speed_end");
-  const bool rate = table.kind == InertiaAxis::Kind::rate;
+  const bool rate = table.kind == VelocityAxis::Kind::rate;
   check_number(table.reference_radius, rate ? 1e-20 : 0, rate ? 1e20 : 0, where, "reference_radius");
   check_number(table.speed_begin, rate ? 1e-9 : 0, rate ? 0.999 * table.speed_end : 0, where, "speed_begin");
   check_values(table.impact_overlap, count, 0, 16, where, "impact_overlap");
@@ -67,38 +67,38 @@ void check_speeds(const InertiaAxis::Table& table, const std::string& where)
 
 }  // namespace
 
-InertiaAxis::InertiaAxis(const Table& table, const std::string& where) : table_(table)
+VelocityAxis::VelocityAxis(const Table& table, const std::string& where) : table_(table)
 {
   check_speeds(table, where);
   overlap_end_ = table.impact_overlap.back();
 
-  const std::size_t slices = table.slices, nodes = table.ratio_nodes();
+  const std::size_t levels = table.levels, nodes = table.ratio_nodes();
   const std::size_t least = table.kind == Kind::rate ? 2 : 1;
-  if (slices < least || slices > 256)
-    fail(where, "an inertia axis has an unusable number of slices", std::to_string(slices),
+  if (levels < least || levels > 256)
+    fail(where, "a velocity axis has an unusable number of impact levels ('slices')", std::to_string(levels),
          fmt::format("{} to 256", least));
-  if (table.first_slices < 1 || table.first_slices > slices)
-    fail(where, "an inertia axis has an unusable number of slices in its first spacing ('first_slices')",
-         std::to_string(table.first_slices), fmt::format("1 to {}", slices));
-  if (nodes < 2 || slices * nodes > 65536)
-    fail(where, "an inertia axis has an unusable number of nodes a slice", std::to_string(nodes),
-         fmt::format("2 to {}", 65536 / slices));
+  if (table.first_levels < 1 || table.first_levels > levels)
+    fail(where, "a velocity axis has an unusable number of levels in its first spacing ('first_slices')",
+         std::to_string(table.first_levels), fmt::format("1 to {}", levels));
+  if (nodes < 2 || levels * nodes > 65536)
+    fail(where, "a velocity axis has an unusable number of nodes an impact level", std::to_string(nodes),
+         fmt::format("2 to {}", 65536 / levels));
   check_number(table.ratio_end, 1e-3, 1e3, where, "ratio_end");
 
   const double h = table.ratio_end / static_cast<double>(nodes - 1);
   per_spacing_ = 1.0 / h;
   columns_ = static_cast<double>(nodes - 1);
-  cells_a_slice_ = static_cast<int>(nodes);
-  scale_ = SliceScale::from_standstill(slices, table.first_slices, overlap_end_);
+  cells_a_level_ = static_cast<int>(nodes);
+  scale_ = ImpactLevels::from_standstill(levels, table.first_levels, overlap_end_);
   if (table.kind == Kind::rate) {
     const double first = overlap_at(table, table.speed_begin);
     check_number(first, 1e-24, 0.999 * overlap_end_, where, "impact_overlap at speed_begin");
-    scale_ = SliceScale::by_octaves(slices, first, overlap_end_);
+    scale_ = ImpactLevels::by_octaves(levels, first, overlap_end_);
   }
-  last_row_ = static_cast<int>(slices) - 1;
-  cells_.assign((slices + 1) * nodes, Cell{});
+  last_row_ = static_cast<int>(levels) - 1;
+  cells_.assign((levels + 1) * nodes, Cell{});
 
-  // Bounds between nodes hold for every X as well: a mean of two slices lies between them.
+  // Bounds between nodes hold for every X as well: a mean of two levels lies between them.
   struct Function
   {
     const char* name;
@@ -113,9 +113,9 @@ InertiaAxis::InertiaAxis(const Table& table, const std::string& where) : table_(
                                 {"exponent_correction", table.exponent_correction,
                                  table.exponent_correction_slope, -10, 10, -20, 20, &Cell::exponent}};
   for (const Function& f : functions) {
-    check_values(f.value, slices * nodes, f.low, f.high, where, f.name);
-    check_values(f.slope, slices * nodes, -big, big, where, fmt::format("{}_slope", f.name));
-    for (std::size_t k = 0; k < slices; ++k) {
+    check_values(f.value, levels * nodes, f.low, f.high, where, f.name);
+    check_values(f.slope, levels * nodes, -big, big, where, fmt::format("{}_slope", f.name));
+    for (std::size_t k = 0; k < levels; ++k) {
       for (std::size_t l = 0; l + 1 < nodes; ++l) {
         const std::size_t at = k * nodes + l;
         double(&c)[4] = cells_[(k + 1) * nodes + l].*f.cubic;
@@ -125,25 +125,25 @@ InertiaAxis::InertiaAxis(const Table& table, const std::string& where) : table_(
       (cells_[(k + 1) * nodes + nodes - 1].*f.cubic)[0] = f.value[k * nodes + nodes - 1];
     }
   }
-  for (std::size_t k = 1; k <= slices; ++k)
+  for (std::size_t k = 1; k <= levels; ++k)
     if (const std::size_t last = k * nodes - 1;
         table.force_correction[last] != 0 || table.force_correction_slope[last] != 0)
-      fail(where, fmt::format("'force_correction' of slice {} does not end at 0 with slope 0", k),
+      fail(where, fmt::format("'force_correction' of level {} does not end at 0 with slope 0", k),
            fmt::format("{:.6g}, slope {:.6g}", table.force_correction[last],
                        table.force_correction_slope[last]));
 }
 
-double InertiaAxis::impact_overlap(double v) const
+double VelocityAxis::impact_overlap(double v) const
 {
   if (!(v > 0)) return 0.0;
   if (v >= table_.speed_end) return overlap_end_;
   return overlap_at(table_, std::max(v, table_.speed_begin));
 }
 
-std::vector<double> InertiaAxis::examined_overlaps() const
+std::vector<double> VelocityAxis::examined_overlaps() const
 {
   std::vector<double> overlaps;
-  const auto halves = static_cast<int>(2 * table_.slices);
+  const auto halves = static_cast<int>(2 * table_.levels);
   for (int half = static_cast<int>(2 * scale_.first_row()); half <= halves; ++half)
     if (half > 0) overlaps.push_back(scale_.overlap(0.5 * half));
   return overlaps;

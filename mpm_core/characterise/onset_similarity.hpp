@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "characterise/atlas.hpp"
-#include "characterise/survey.hpp"
+#include "characterise/sampling_plan.hpp"
 
 namespace granulaw {
 
@@ -15,7 +15,7 @@ namespace granulaw {
 /// far as these overlaps strain the material.
 ///
 /// Made before the runs of the body itself, so that its own spheres' runs go with them in one batch.
-class ShallowGuide
+class OnsetSimilarity
 {
  public:
   struct Needs
@@ -28,15 +28,15 @@ class ShallowGuide
   /// A less stiff sphere.
   struct Sphere
   {
-    Subject subject;
-    SurveyPlan plan;
-    double depth = 0;  ///< where its law ends
-    Survey found;      ///< empty: what the plan's runs find
+    CharacterisedBody body;
+    SamplingPlan plan;
+    double depth = 0;      ///< where its law ends
+    ContactRecords found;  ///< empty: what the plan's runs find
   };
 
   /// `atlas`: null if there is none; outlives this. Throws Error where the body's law is not that of its
   /// skin.
-  ShallowGuide(const Subject& subject, const Needs& needs, const Atlas* atlas);
+  OnsetSimilarity(const CharacterisedBody& body, const Needs& needs, const Atlas* atlas);
 
   /// Those to be run.
   std::vector<Sphere>& spheres() { return spheres_; }
@@ -57,7 +57,7 @@ class ShallowGuide
   LawShape of_runs(const Sphere& sphere, const ElasticCorrection& elastic) const;
   double range() const;
 
-  const Subject subject_;
+  const CharacterisedBody body_;
   const Needs needs_;
   const Atlas* atlas_;
   bool is_sphere_, spares_first_;
@@ -69,6 +69,6 @@ class ShallowGuide
 };
 
 /// The press that tells the finite body's elastic correction; of a body without yield.
-SurveyPlan::Press elastic_press_of(const Subject& subject, int cells);
+SamplingPlan::Press elastic_press_of(const CharacterisedBody& body, int cells);
 
 }  // namespace granulaw

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "characterise/characterised_body.hpp"
+#include "characterise/contact_record.hpp"
 #include "characterise/law_shape.hpp"
-#include "characterise/pressing.hpp"
 #include "characterise/run_queue.hpp"
-#include "characterise/subject.hpp"
 
 namespace granulaw {
 
@@ -22,29 +22,30 @@ struct RunSource
       [](const Particle& p, double velocity, const RunOptions& o) { return run_impact(p, velocity, o); };
 };
 
-/// sqrt(I) from which on the force at an impact's turn swings with the body and with the cells: with 24 it is
-/// up to 0.9 % off that of 48, with 36 to 0.3 % (E*/Y 60 to 150, nu = 0.3). Such impacts are the cheap ones.
+/// sqrt(I) from which on the force at an impact's reversal swings with the body and with the cells: with 24
+/// it is up to 0.9 % off that of 48, with 36 to 0.3 % (E*/Y 60 to 150, nu = 0.3). Such impacts are the cheap
+/// ones.
 inline constexpr double ringing = 0.1;
 
-/// Which runs make a law. Lengths over the subject's scale, velocities over sqrt(E*/rho).
+/// Which runs make a law. Lengths over the body's scale, velocities over sqrt(E*/rho).
 ///
 /// Slow presses, each with partial unloadings on its way, cover a factor of four in overlap each: a grid made
 /// for the deepest contact still resolves one of half its radius. Below the first press slow impacts take
 /// their place (they cost less there, and their inertia is nothing). Fast impacts show what inertia changes.
-struct SurveyPlan
+struct SamplingPlan
 {
   struct Press
   {
     double depth = 0;
     std::vector<double> stops;  ///< overlaps of partial unloadings, ascending, below depth
-    int resolution = 24, phases = 2;
+    int resolution = 24, shifted_grids = 2;
     double ramp = 0;  ///< loading time, in R/c*; 0: as the solver chooses it
   };
   std::vector<Press> presses;
-  std::vector<double> slow_impacts;  ///< velocities whose inertia does not count
-  std::vector<double> fast_speeds;   ///< sqrt(I), I = rho V^2/Y
-  int resolution = 24, phases = 2;   ///< of the impacts; fast ones: fast_phases
-  int ringing_resolution = 0;        ///< of impacts from `ringing` on, where it is more than that
+  std::vector<double> slow_impacts;        ///< velocities whose inertia does not count
+  std::vector<double> fast_speeds;         ///< sqrt(I), I = rho V^2/Y
+  int resolution = 24, shifted_grids = 2;  ///< of the impacts; fast ones: fast_shifted_grids
+  int ringing_resolution = 0;              ///< of impacts from `ringing` on, where it is more than that
 
   int cells_at(double speed) const
   {
@@ -54,60 +55,61 @@ struct SurveyPlan
 };
 
 /// Shifted grids of a fast impact, which takes tenths of a second: what it loses more than a slow press is a
-/// per cent of the loss, as is the contact-edge ripple of two grids.
-inline constexpr int fast_phases = 4;
+/// per cent of the loss, as is the contact-edge grid noise of two grids.
+inline constexpr int fast_shifted_grids = 4;
 
 /// How far a law must reach, and how densely it is sampled.
-struct SurveyRange
+struct SamplingRange
 {
   double depth = 0.5;        ///< overlap of the deepest press, up to 0.5
   double fastest = 0.3;      ///< sqrt(I) of the fastest impact, up to 0.3
   double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset tells
   double from_onset = 1.25;  ///< overlap over the onset's nearer to which nothing is run
   bool brisk = false;        ///< presses load in brisk_ramp()
-  int stops = 3;             ///< turning points a press, its end among them
-  std::span<const double> speeds = inertia_speeds;  ///< sqrt(I) of impacts, those up to the fastest
+  int stops = 3;             ///< reversal points a press, its end among them
+  std::span<const double> speeds = impact_speeds;  ///< sqrt(I) of impacts, those up to the fastest
 };
 
-SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range);
+SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& range);
 
 /// A loading time shorter than the solver's own, in R/c*: it changes F by up to 0.15 % and e by 0.0003
 /// (docs/method.md).
-double brisk_ramp(const Subject& subject, double depth);
+double brisk_ramp(const CharacterisedBody& body, double depth);
 
 /// A slow impact that reaches about this overlap.
-double velocity_to(double overlap, const Subject& subject);
+double velocity_to(double overlap, const CharacterisedBody& body);
 
 /// The plan's runs, in the order: presses, slow impacts, fast impacts. Results are dimensionless. `source`
 /// outlives them.
-std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, const RunSource& source);
-RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const RunSource& source);
-RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases,
+std::vector<RunJob> sampling_jobs(const CharacterisedBody& body, const SamplingPlan& plan,
+                                  const RunSource& source);
+RunJob press_job(const CharacterisedBody& body, const SamplingPlan::Press& press, const RunSource& source);
+RunJob impact_job(const CharacterisedBody& body, double velocity, int resolution, int shifted_grids,
                   const RunSource& source);
 
 /// The same run with its error estimated by a second resolution.
 RunJob with_estimate(RunJob job);
 
 /// What the runs found.
-struct Survey
+struct ContactRecords
 {
   struct Impact
   {
     double speed = 0;  ///< sqrt(I)
-    Pressing path;
+    ContactRecord path;
   };
-  std::vector<Pressing> slow;  ///< rate-free: presses (a partial unloading has no loading of its own) and
-                               ///< slow impacts; ascending depth
-  std::vector<Impact> fast;    ///< ascending speed
-  bool rate = false;           ///< the fast impacts are those of a rate-dependent body
-  double reload_loop = 0;      ///< largest area between a partial unloading and its reloading, over the work
+  std::vector<ContactRecord> slow;  ///< rate-free: presses (a partial unloading has no loading of its own)
+                                    ///< and slow impacts; ascending depth
+  std::vector<Impact> fast;  ///< ascending speed
+  bool rate = false;         ///< the fast impacts are those of a rate-dependent body
+  double reload_loop = 0;    ///< largest area between a partial unloading and its reloading, over the work
 };
 
 /// Adds what the runs of a plan found; a failed run adds nothing.
-void add_to(Survey& survey, const SurveyPlan& plan, const std::vector<RunOutcome>& outcomes);
+void add_to(ContactRecords& records, const SamplingPlan& plan, const std::vector<RunOutcome>& outcomes);
 
 /// Overlap that an impact is expected to reach: Hertz's, or that of a mean pressure of 2.8 Y over the area
 /// 2 pi R delta, whichever is deeper. Only costs and the choice of runs depend on it.
-double expected_depth(double velocity, const Subject& subject);
+double expected_depth(double velocity, const CharacterisedBody& body);
 
 }  // namespace granulaw

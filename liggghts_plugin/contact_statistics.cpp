@@ -1,4 +1,4 @@
-#include "liggghts_plugin/ledger.hpp"
+#include "liggghts_plugin/contact_statistics.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,9 @@ namespace granulaw::plugin {
 namespace {
 
 constexpr std::size_t key_length = 3;
-constexpr std::size_t side_length = key_length + ContactLedger::Side::sums + ContactLedger::Side::maxima +
-                                    ContactLedger::Side::minima + 2 * LogHistogram::bins;
+constexpr std::size_t side_length = key_length + ContactStatistics::Pair::sums +
+                                    ContactStatistics::Pair::maxima + ContactStatistics::Pair::minima +
+                                    2 * LogHistogram::bins;
 
 /// First number of pack(); negative, as no kind of a key is.
 constexpr double layout = -static_cast<double>(side_length);
@@ -31,7 +32,7 @@ std::string histogram_json(const LogHistogram& histogram, const char* quantity)
 }
 
 /// The part of the map that holds something: rows by speed, columns by overlap.
-std::string map_json(const ContactLedger::Side& s)
+std::string map_json(const ContactStatistics::Pair& s)
 {
   constexpr int bins = LogHistogram::bins;
   int low[2] = {bins, bins}, high[2] = {-1, -1};
@@ -75,8 +76,8 @@ std::string quoted(const std::string& text)
   return out + '"';
 }
 
-/// The counts of a side, as the inside of a JSON object.
-std::string counts_json(const ContactLedger::Side& s, const std::string& indent)
+/// The counts of a pair, as the inside of a JSON object.
+std::string counts_json(const ContactStatistics::Pair& s, const std::string& indent)
 {
   const std::pair<const char*, std::string> entries[] = {
       {"normal_dissipation_J", number(s.dissipated)},
@@ -87,7 +88,7 @@ std::string counts_json(const ContactLedger::Side& s, const std::string& indent)
       {"impact_speed_max_m_per_s", number(s.speed_max)},
       {"overlap_over_radius_min", number(s.overlap_min)},
       {"overlap_over_radius_max", number(s.overlap_max)},
-      {"inertia_number_max", number(s.inertia_max)},
+      {"inertia_number_max", number(s.damage_number_max)},
       {"contacts_near_table_edge", number(s.near)},
       {"contacts_past_table", number(s.past)},
       {"contact_steps_beyond_table", number(s.beyond)},
@@ -114,7 +115,7 @@ const char* kind_name(int kind)
                                        : "deformable wall";
 }
 
-std::string pair_json(const PairKey& key, const ContactLedger::Side& s)
+std::string pair_json(const PairKey& key, const ContactStatistics::Pair& s)
 {
   const PairInfo& info = s.info;
   return fmt::format(
@@ -123,7 +124,7 @@ std::string pair_json(const PairKey& key, const ContactLedger::Side& s)
       "      \"inertia_number_limit\": {},\n      \"onset_speed_m_per_s\": {},\n"
       "      \"time_step_limit_of_law_s\": {},\n{}\n    }}",
       kind_name(key.kind), key.i, key.j, quoted(info.a), quoted(info.b), quoted(info.law), quoted(info.rule),
-      number(info.overlap_limit), info.inertia_limit > 0 ? number(info.inertia_limit) : "null",
+      number(info.overlap_limit), info.damage_number_limit > 0 ? number(info.damage_number_limit) : "null",
       number(info.onset_speed), info.dt_limit > 0 ? number(info.dt_limit) : "null", counts_json(s, "      "));
 }
 
@@ -144,9 +145,9 @@ const std::array<std::size_t, LogHistogram::octaves> LogHistogram::first_of_octa
   return first;
 }();
 
-void ContactLedger::Side::merge(const Side& other)
+void ContactStatistics::Pair::merge(const Pair& other)
 {
-  Side copy = other;
+  Pair copy = other;
   const auto mine = numbers(), theirs = copy.numbers();
   for (int k = 0; k < sums; ++k) *mine[k] += *theirs[k];
   for (int k = sums; k < sums + maxima; ++k) *mine[k] = std::max(*mine[k], *theirs[k]);
@@ -160,7 +161,7 @@ void ContactLedger::Side::merge(const Side& other)
   for (std::size_t k = 0; k < map.size(); ++k) map[k] += other.map[k];
 }
 
-void ContactLedger::Side::count_ended()
+void ContactStatistics::Pair::count_ended()
 {
   ended = 0;
   overlap_min = std::numeric_limits<double>::infinity();
@@ -173,103 +174,104 @@ void ContactLedger::Side::count_ended()
   }
 }
 
-ContactLedger::Side ContactLedger::Side::in_si(const DeckUnits& units) const
+ContactStatistics::Pair ContactStatistics::Pair::in_si(const DeckUnits& units) const
 {
-  Side si = *this;
+  Pair si = *this;
   for (double* energy : {&si.dissipated, &si.other_work, &si.brought}) *energy *= units.energy();
   for (double* one : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
     *one *= units.length;
   return si;
 }
 
-ContactLedger::Side ContactLedger::total(bool walls) const
+ContactStatistics::Pair ContactStatistics::total(bool walls) const
 {
-  Side sum;
-  for (const auto& [key, side] : sides)
-    if ((key.kind != PairKey::particles) == walls) sum.merge(side);
+  Pair sum;
+  for (const auto& [key, counts] : pairs)
+    if ((key.kind != PairKey::particles) == walls) sum.merge(counts);
   return sum;
 }
 
-ContactLedger::Side ContactLedger::total() const
+ContactStatistics::Pair ContactStatistics::total() const
 {
-  Side sum = total(false);
+  Pair sum = total(false);
   sum.merge(total(true));
   return sum;
 }
 
-std::vector<double> ContactLedger::pack() const
+std::vector<double> ContactStatistics::pack() const
 {
   std::vector<double> values{layout};
-  for (const auto& [key, side] : sides) {
-    Side copy = side;
+  for (const auto& [key, counts] : pairs) {
+    Pair copy = counts;
     values.insert(values.end(),
                   {static_cast<double>(key.kind), static_cast<double>(key.i), static_cast<double>(key.j)});
     for (const double* value : copy.numbers()) values.push_back(*value);
     values.insert(values.end(), copy.speed.count.begin(), copy.speed.count.end());
     values.insert(values.end(), copy.overlap.count.begin(), copy.overlap.count.end());
   }
-  for (const auto& [key, side] : sides) {
-    if (side.map.empty()) continue;
+  for (const auto& [key, counts] : pairs) {
+    if (counts.map.empty()) continue;
     values.insert(values.end(), {static_cast<double>(map_record + key.kind), static_cast<double>(key.i),
                                  static_cast<double>(key.j), 0.0});
     const std::size_t length = values.size() - 1;
-    for (std::size_t k = 0; k < side.map.size(); ++k)
-      if (side.map[k] != 0) values.insert(values.end(), {static_cast<double>(k), side.map[k]});
+    for (std::size_t k = 0; k < counts.map.size(); ++k)
+      if (counts.map[k] != 0) values.insert(values.end(), {static_cast<double>(k), counts.map[k]});
     values[length] = static_cast<double>(values.size() - length - 1);
   }
   return values;
 }
 
-bool ContactLedger::unpack(const double* values, std::size_t count, bool sums)
+bool ContactStatistics::unpack(const double* values, std::size_t count, bool sums)
 {
   if (count == 0 || values[0] != layout) return false;
-  for (auto& [key, side] : sides) {
-    Side fresh;
-    fresh.info = side.info;
-    if (!side.map.empty()) fresh.open_map();
-    side = fresh;
+  for (auto& [key, counts] : pairs) {
+    Pair fresh;
+    fresh.info = counts.info;
+    if (!counts.map.empty()) fresh.open_map();
+    counts = fresh;
   }
   const double *v = values + 1, *end = values + count;
   for (; v + side_length <= end && v[0] < map_record; v += side_length) {
-    Side& side = sides[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}];
-    const auto numbers = side.numbers();
+    Pair& counts = pairs[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}];
+    const auto numbers = counts.numbers();
     const double* from = v + key_length;
-    for (std::size_t k = sums ? 0 : Side::sums; k < numbers.size(); ++k) *numbers[k] = from[k];
+    for (std::size_t k = sums ? 0 : Pair::sums; k < numbers.size(); ++k) *numbers[k] = from[k];
     if (!sums) continue;
     from += numbers.size();
-    std::copy_n(from, LogHistogram::bins, side.speed.count.begin());
-    std::copy_n(from + LogHistogram::bins, LogHistogram::bins, side.overlap.count.begin());
+    std::copy_n(from, LogHistogram::bins, counts.speed.count.begin());
+    std::copy_n(from + LogHistogram::bins, LogHistogram::bins, counts.overlap.count.begin());
   }
   if (!sums) return true;
   while (v + key_length < end) {
-    Side& side = sides[{static_cast<int>(v[0]) - map_record, static_cast<int>(v[1]), static_cast<int>(v[2])}];
-    side.open_map();
+    Pair& counts =
+        pairs[{static_cast<int>(v[0]) - map_record, static_cast<int>(v[1]), static_cast<int>(v[2])}];
+    counts.open_map();
     const double* record_end = std::min(end, v + key_length + 1 + static_cast<std::size_t>(v[key_length]));
     for (v += key_length + 1; v + 1 < record_end; v += 2)
-      if (v[0] >= 0 && v[0] < static_cast<double>(side.map.size()))
-        side.map[static_cast<std::size_t>(v[0])] = v[1];
+      if (v[0] >= 0 && v[0] < static_cast<double>(counts.map.size()))
+        counts.map[static_cast<std::size_t>(v[0])] = v[1];
     v = record_end;
   }
   return true;
 }
 
-std::string to_json(const ContactLedger& ledger, const std::string& header, const DeckUnits& units)
+std::string to_json(const ContactStatistics& statistics, const std::string& header, const DeckUnits& units)
 {
   std::string pairs;
-  for (const auto& [key, side] : ledger.sides)
-    if (side.info.needed || side.touches > 0)
-      pairs += fmt::format("{}{}", pairs.empty() ? "" : ",\n", pair_json(key, side.in_si(units)));
+  for (const auto& [key, counts] : statistics.pairs)
+    if (counts.info.needed || counts.touches > 0)
+      pairs += fmt::format("{}{}", pairs.empty() ? "" : ",\n", pair_json(key, counts.in_si(units)));
   return fmt::format(
       "{{\n{}  \"pair\": {{\n{}\n  }},\n  \"wall\": {{\n{}\n  }},\n  \"pairs\": [\n{}\n  ]\n}}\n", header,
-      counts_json(ledger.total(false).in_si(units), "    "),
-      counts_json(ledger.total(true).in_si(units), "    "), pairs);
+      counts_json(statistics.total(false).in_si(units), "    "),
+      counts_json(statistics.total(true).in_si(units), "    "), pairs);
 }
 
-std::string start_table(const ContactLedger& ledger, const DeckUnits& units)
+std::string start_table(const ContactStatistics& statistics, const DeckUnits& units)
 {
   std::string lines;
-  for (const auto& [key, side] : ledger.sides) {
-    const PairInfo info = side.in_si(units).info;
+  for (const auto& [key, counts] : statistics.pairs) {
+    const PairInfo info = counts.in_si(units).info;
     if (!info.needed) continue;
     const auto or_none = [](bool known, double value) {
       return known ? fmt::format("{:.4g}", value) : std::string("none");
@@ -281,7 +283,7 @@ std::string start_table(const ContactLedger& ledger, const DeckUnits& units)
             .append(info.b),
         info.rule, or_none(info.stiffness_ratio > 0, info.stiffness_ratio),
         or_none(std::isfinite(info.overlap_limit), info.overlap_limit),
-        or_none(info.inertia_limit > 0, info.inertia_limit),
+        or_none(info.damage_number_limit > 0, info.damage_number_limit),
         or_none(std::isfinite(info.onset_speed), info.onset_speed), or_none(info.dt_limit > 0, info.dt_limit),
         info.law, info.error);
   }

@@ -8,7 +8,7 @@
 namespace granulaw {
 
 /// One body whose law is wanted, and the units in which the law has no dimensions.
-struct Subject
+struct CharacterisedBody
 {
   Particle particle;
   Scales scale;      ///< radius of curvature at the contact pole; E* and density of the material there
@@ -31,16 +31,17 @@ struct Subject
   /// Some material of it depends on the rate: its law holds for this size.
   bool rate_dependent() const;
   /// The same body, none of whose materials yields, or whose yield stresses are those at no rate.
-  Subject elastic() const;
-  Subject rate_free() const;
+  CharacterisedBody elastic() const;
+  CharacterisedBody rate_free() const;
 };
 
-Subject subject_of(const Particle& particle);
+CharacterisedBody characterised_body_of(const Particle& particle);
 /// A homogeneous sphere; of unit radius where the law knows no size.
-Subject subject_of(const Material& material);
+CharacterisedBody characterised_body_of(const Material& material);
 /// Overlap/R at which a homogeneous sphere of the material at the pole would begin to yield.
-double pole_onset(const Subject& subject);
+double pole_onset(const CharacterisedBody& body);
 /// The same of dimensionless numbers: E*/Y, nu, H/E.
-Subject subject_of(double e_star_over_yield, double poisson_ratio, double hardening_over_e);
+CharacterisedBody characterised_body_of(double e_star_over_yield, double poisson_ratio,
+                                        double hardening_over_e);
 
 }  // namespace granulaw

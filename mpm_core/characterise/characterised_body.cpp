@@ -1,4 +1,4 @@
-#include "characterise/subject.hpp"
+#include "characterise/characterised_body.hpp"
 
 #include <fmt/format.h>
 
@@ -108,7 +108,7 @@ double buried_onset(double yield, double poisson_ratio, double distance)
   return a * a > at_pole ? std::max(at_pole, 0.5 * a * a) : at_pole;
 }
 
-void fill_yield(Subject& s)
+void fill_yield(CharacterisedBody& s)
 {
   s.yield = s.onset = never;
   PoleDistances distance{std::vector<double>(s.particle.materials.size(), 0.0)};
@@ -125,7 +125,7 @@ void fill_yield(Subject& s)
   }
 }
 
-void fill_plain(Subject& s)
+void fill_plain(CharacterisedBody& s)
 {
   const Material& m = s.particle.materials[0];
   s.description = fmt::format("nu={:.17g} yield={:.17g} hardening={:.17g}", m.poisson_ratio, m.yield_stress,
@@ -134,15 +134,15 @@ void fill_plain(Subject& s)
 
 }  // namespace
 
-bool Subject::rate_dependent() const
+bool CharacterisedBody::rate_dependent() const
 {
   return std::any_of(particle.materials.begin(), particle.materials.end(),
                      [](const Material& m) { return m.rate_dependent(); });
 }
 
-Subject Subject::elastic() const
+CharacterisedBody CharacterisedBody::elastic() const
 {
-  Subject other = *this;
+  CharacterisedBody other = *this;
   for (Material& m : other.particle.materials) {
     m.yield_stress = never;
     m.hardening_modulus = 0;
@@ -156,19 +156,19 @@ Subject Subject::elastic() const
   return other;
 }
 
-Subject Subject::rate_free() const
+CharacterisedBody CharacterisedBody::rate_free() const
 {
   Particle other = particle;
   for (Material& m : other.materials) m.rate = {};
-  return subject_of(other);
+  return characterised_body_of(other);
 }
 
-Subject subject_of(const Particle& particle)
+CharacterisedBody characterised_body_of(const Particle& particle)
 {
   if (particle.is_homogeneous_sphere() && !particle.materials[0].rate_dependent() &&
       particle.materials[0].hardening.name.empty())
-    return subject_of(particle.materials[0]);
-  Subject s;
+    return characterised_body_of(particle.materials[0]);
+  CharacterisedBody s;
   s.particle = particle;
   const double pole = particle.pole_curvature_radius();
   if (!(pole > 1e-3 * particle.radius && pole < 1e3 * particle.radius))
@@ -185,16 +185,17 @@ Subject subject_of(const Particle& particle)
   return s;
 }
 
-Subject subject_of(const Material& material)
+CharacterisedBody characterised_body_of(const Material& material)
 {
   if (material.rate_dependent())
     fail("contact law", "a rate-dependent material's law needs a particle of a certain size");
   if (material.hardening.name.empty()) {
-    Subject s = subject_of(material.e_star() / material.yield_stress, material.poisson_ratio,
-                           material.hardening_modulus / material.youngs_modulus);
+    CharacterisedBody s =
+        characterised_body_of(material.e_star() / material.yield_stress, material.poisson_ratio,
+                              material.hardening_modulus / material.youngs_modulus);
     return material.yields() ? s : s.elastic();
   }
-  Subject s;
+  CharacterisedBody s;
   s.particle = Particle::from(Sphere{1.0, material});
   s.scale = {1.0, material.e_star(), material.density};
   s.poisson_ratio = material.poisson_ratio;
@@ -204,13 +205,14 @@ Subject subject_of(const Material& material)
   return s;
 }
 
-double pole_onset(const Subject& s)
+double pole_onset(const CharacterisedBody& s)
 {
   const Material& m = s.particle.materials[static_cast<std::size_t>(s.pole_material)];
   return m.yields() ? onset_overlap(1.0, m.yield_stress / s.scale.stress, m.poisson_ratio) : never;
 }
 
-Subject subject_of(double e_star_over_yield, double poisson_ratio, double hardening_over_e)
+CharacterisedBody characterised_body_of(double e_star_over_yield, double poisson_ratio,
+                                        double hardening_over_e)
 {
   Material m;
   m.density = 1;
@@ -218,7 +220,7 @@ Subject subject_of(double e_star_over_yield, double poisson_ratio, double harden
   m.youngs_modulus = 1 - poisson_ratio * poisson_ratio;
   m.yield_stress = 1 / e_star_over_yield;
   m.hardening_modulus = hardening_over_e * m.youngs_modulus;
-  Subject s;
+  CharacterisedBody s;
   s.particle = Particle::from(Sphere{1.0, m});
   s.poisson_ratio = poisson_ratio;
   s.mass = 4.0 / 3.0 * M_PI;

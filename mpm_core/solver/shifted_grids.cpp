@@ -1,4 +1,4 @@
-#include "solver/ensemble.hpp"
+#include "solver/shifted_grids.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -9,11 +9,11 @@
 
 namespace granulaw {
 
-std::vector<RunResult> run_phases(
-    int phases, int threads, const std::function<void(double)>& progress,
+std::vector<RunResult> run_on_shifted_grids(
+    int shifted_grids, int threads, const std::function<void(double)>& progress,
     const std::function<RunResult(double, const std::function<void(double)>&)>& job)
 {
-  std::vector<RunResult> results(static_cast<std::size_t>(phases));
+  std::vector<RunResult> results(static_cast<std::size_t>(shifted_grids));
   std::vector<double> done(results.size(), 0.0);
   std::atomic<int> next{0};
   std::atomic<bool> stop{false};
@@ -21,7 +21,7 @@ std::vector<RunResult> run_phases(
   std::exception_ptr failure;
 
   const auto work = [&] {
-    for (int k = next++; k < phases && !stop; k = next++) {
+    for (int k = next++; k < shifted_grids && !stop; k = next++) {
       const auto report = [&, k](double fraction) {
         const std::lock_guard lock(mutex);
         if (stop)
@@ -29,11 +29,11 @@ std::vector<RunResult> run_phases(
         done[static_cast<std::size_t>(k)] = fraction;
         double sum = 0;
         for (const double d : done) sum += d;
-        if (progress) progress(sum / phases);
+        if (progress) progress(sum / shifted_grids);
       };
       try {
         results[static_cast<std::size_t>(k)] =
-            job(static_cast<double>(k) / phases - (phases > 1 ? 0.5 : 0.0), report);
+            job(static_cast<double>(k) / shifted_grids - (shifted_grids > 1 ? 0.5 : 0.0), report);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
@@ -41,10 +41,10 @@ std::vector<RunResult> run_phases(
       }
     }
   };
-  std::vector<std::jthread> crew;
-  for (int t = 1; t < std::min(threads, phases); ++t) crew.emplace_back(work);
+  std::vector<std::jthread> workers;
+  for (int t = 1; t < std::min(threads, shifted_grids); ++t) workers.emplace_back(work);
   work();
-  crew.clear();
+  workers.clear();
   if (failure) std::rethrow_exception(failure);
   return results;
 }

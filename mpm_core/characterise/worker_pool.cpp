@@ -1,4 +1,4 @@
-#include "characterise/crew.hpp"
+#include "characterise/worker_pool.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,12 +13,12 @@ struct Stopped
 
 }  // namespace
 
-Crew::Crew(int threads) : slots_(static_cast<std::size_t>(std::max(1, threads)))
+WorkerPool::WorkerPool(int threads) : slots_(static_cast<std::size_t>(std::max(1, threads)))
 {
   for (Slot& slot : slots_) threads_.emplace_back([this, &slot] { work(slot); });
 }
 
-Crew::~Crew()
+WorkerPool::~WorkerPool()
 {
   {
     const std::lock_guard lock(mutex_);
@@ -27,7 +27,7 @@ Crew::~Crew()
   started_.notify_all();
 }
 
-void Crew::start(std::size_t index, const RunJob& job)
+void WorkerPool::start(std::size_t index, const RunJob& job)
 {
   {
     const std::lock_guard lock(mutex_);
@@ -40,7 +40,7 @@ void Crew::start(std::size_t index, const RunJob& job)
   started_.notify_all();
 }
 
-void Crew::work(Slot& slot)
+void WorkerPool::work(Slot& slot)
 {
   for (;;) {
     {
@@ -68,7 +68,7 @@ void Crew::work(Slot& slot)
   }
 }
 
-std::vector<Crew::Finished> Crew::wait(std::chrono::milliseconds patience)
+std::vector<WorkerPool::Finished> WorkerPool::wait(std::chrono::milliseconds patience)
 {
   if (idle()) return {};
   std::unique_lock lock(mutex_);
@@ -77,7 +77,7 @@ std::vector<Crew::Finished> Crew::wait(std::chrono::milliseconds patience)
   return std::exchange(finished_, {});
 }
 
-std::vector<Crew::Running> Crew::running() const
+std::vector<WorkerPool::Running> WorkerPool::running() const
 {
   const std::lock_guard lock(mutex_);
   std::vector<Running> list;

@@ -1,4 +1,4 @@
-#include "characterise/survey.hpp"
+#include "characterise/sampling_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -23,29 +23,29 @@ constexpr double exact_end = 0.2;
 /// Single precision changes e and F by less than 1e-6 and takes two thirds of the time.
 constexpr Precision precision = Precision::single;
 
-std::string key(const Subject& s, int resolution, int phases, const std::string& what)
+std::string key(const CharacterisedBody& s, int resolution, int shifted_grids, const std::string& what)
 {
   return fmt::format("{} {} resolution={} phases={} single solver={}", what, s.description, resolution,
-                     phases, solver_id());
+                     shifted_grids, solver_id());
 }
 
-RunOptions own(RunOptions options, int resolution, int phases)
+RunOptions own(RunOptions options, int resolution, int shifted_grids)
 {
   options.resolution = resolution;
-  options.phases = phases;
+  options.shifted_grids = shifted_grids;
   options.precision = precision;
   return options;
 }
 
 /// CPU seconds, about: cells are a share of the contact radius, steps a share of a cell over the wave speed,
 /// which grows towards nu = 1/2.
-double cost_of(const Subject& s, double depth, double duration, int resolution, int phases)
+double cost_of(const CharacterisedBody& s, double depth, double duration, int resolution, int shifted_grids)
 {
   const double nu = s.poisson_ratio;
   const double wave = std::sqrt((1 - nu) * (1 - nu) / (1 - 2 * nu));  // dilatational, over c*
   const double cell = std::sqrt(2 * depth) / resolution;
-  const double tartan = s.particle.is_homogeneous_sphere() ? 1.0 : 3.0;
-  return 1.1e-4 * tartan * duration * wave / cell * resolution * resolution / 576.0 * phases;
+  const double rectilinear = s.particle.is_homogeneous_sphere() ? 1.0 : 3.0;
+  return 1.1e-4 * rectilinear * duration * wave / cell * resolution * resolution / 576.0 * shifted_grids;
 }
 
 /// `count` overlaps from `low` on, by equal factors, the next of which would be `high`.
@@ -64,13 +64,13 @@ double top_speed_ramp(double depth, double speed_squared)
 }
 
 /// Loading time of a press whose body yields or not, as the solver chooses it (runs.cpp).
-double solvers_ramp(const Subject& s, double depth)
+double solvers_ramp(const CharacterisedBody& s, double depth)
 {
   if (!s.yields()) return 40.0;
   return std::max({60.0, 60.0 * std::pow(0.01 / s.yield, 0.25), top_speed_ramp(depth, 4e-4 * s.yield)});
 }
 
-/// A run's numbers over the subject's scales.
+/// A run's numbers over the body's scales.
 RunResult dimensionless(RunResult run, const Scales& scale)
 {
   for (TraceSample& t : run.trace) {
@@ -89,57 +89,57 @@ RunResult dimensionless(RunResult run, const Scales& scale)
 
 }  // namespace
 
-double expected_depth(double velocity, const Subject& s)
+double expected_depth(double velocity, const CharacterisedBody& s)
 {
   const double hertz = std::pow(15.0 / 16.0 * s.mass * velocity * velocity, 0.4);
   return s.yields() ? std::max(hertz, velocity * std::sqrt(s.mass / (5.6 * M_PI * s.yield))) : hertz;
 }
 
-double velocity_to(double x, const Subject& s)
+double velocity_to(double x, const CharacterisedBody& s)
 {
   return std::min(std::sqrt(std::pow(x, 2.5) * 16.0 / (15.0 * s.mass)),
                   x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
 }
 
-double brisk_ramp(const Subject& s, double depth)
+double brisk_ramp(const CharacterisedBody& s, double depth)
 {
   if (!s.yields()) return 0;
   return std::max({60.0, 42.0 * std::pow(0.01 / s.yield, 0.25), top_speed_ramp(depth, 1.6e-3 * s.yield)});
 }
 
-RunJob press_job(const Subject& subject, const SurveyPlan::Press& press, const RunSource& source)
+RunJob press_job(const CharacterisedBody& body, const SamplingPlan::Press& press, const RunSource& source)
 {
   std::string path;
   for (const double stop : press.stops) path += fmt::format(" unload={:.17g}", stop);
   if (press.ramp > 0) path += fmt::format(" ramp={:.17g}", press.ramp);
-  const double ramp = press.ramp > 0 ? press.ramp : solvers_ramp(subject, press.depth);
+  const double ramp = press.ramp > 0 ? press.ramp : solvers_ramp(body, press.depth);
   const auto stops = static_cast<double>(press.stops.size());  // off and on again takes 0.4 of the ramp each
   return {fmt::format("press to {:.3g} R", press.depth),
-          key(subject, press.resolution, press.phases,
+          key(body, press.resolution, press.shifted_grids,
               fmt::format("press free depth={:.17g}{}", press.depth, path)),
-          cost_of(subject, press.depth, (1.4 + 0.8 * stops) * ramp, press.resolution, press.phases),
-          [subject, press, &source](const RunOptions& options) {
-            PressPlan plan{press.depth * subject.scale.length, Support::free, press.stops, press.ramp};
-            for (double& stop : plan.partial_unloads) stop *= subject.scale.length;
+          cost_of(body, press.depth, (1.4 + 0.8 * stops) * ramp, press.resolution, press.shifted_grids),
+          [body, press, &source](const RunOptions& options) {
+            PressPlan plan{press.depth * body.scale.length, Support::free, press.stops, press.ramp};
+            for (double& stop : plan.partial_unloads) stop *= body.scale.length;
             return dimensionless(
-                source.press(subject.particle, plan, own(options, press.resolution, press.phases)),
-                subject.scale);
+                source.press(body.particle, plan, own(options, press.resolution, press.shifted_grids)),
+                body.scale);
           }};
 }
 
-RunJob impact_job(const Subject& subject, double velocity, int resolution, int phases,
+RunJob impact_job(const CharacterisedBody& body, double velocity, int resolution, int shifted_grids,
                   const RunSource& source)
 {
-  const double depth = expected_depth(velocity, subject);
+  const double depth = expected_depth(velocity, body);
   // an elastic contact lasts 2.94 depth/velocity; what does not rebound, pi/2
-  const bool yields_much = depth > 20 * subject.onset;
+  const bool yields_much = depth > 20 * body.onset;
   return {fmt::format("impact at {:.3g} c*", velocity),
-          key(subject, resolution, phases, fmt::format("impact velocity={:.17g}", velocity)),
-          cost_of(subject, depth, (yields_much ? 1.6 : 2.9) * depth / velocity, resolution, phases),
-          [subject, velocity, resolution, phases, &source](const RunOptions& options) {
-            return dimensionless(source.impact(subject.particle, velocity * subject.scale.velocity(),
-                                               own(options, resolution, phases)),
-                                 subject.scale);
+          key(body, resolution, shifted_grids, fmt::format("impact velocity={:.17g}", velocity)),
+          cost_of(body, depth, (yields_much ? 1.6 : 2.9) * depth / velocity, resolution, shifted_grids),
+          [body, velocity, resolution, shifted_grids, &source](const RunOptions& options) {
+            return dimensionless(source.impact(body.particle, velocity * body.scale.velocity(),
+                                               own(options, resolution, shifted_grids)),
+                                 body.scale);
           }};
 }
 
@@ -154,19 +154,19 @@ RunJob with_estimate(RunJob job)
   return job;
 }
 
-SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
+SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& range)
 {
-  SurveyPlan plan;
-  const double first = std::max(range.shallowest, range.from_onset * subject.onset);
+  SamplingPlan plan;
+  const double first = std::max(range.shallowest, range.from_onset * body.onset);
   double done = std::max(slowest_press, first);
   for (double depth : press_depths) {
     depth = std::min(depth, range.depth);
     if (range.depth <= exact_end && range.depth < 1.6 * depth)
       depth = range.depth;  // one that goes a little deeper spares the next
     if (depth < 1.3 * done) continue;
-    SurveyPlan::Press press{depth, between(done, depth, range.stops), 24, 2,
-                            range.brisk ? brisk_ramp(subject, depth) : 0.0};
-    if (depth > exact_end) press.resolution = 20, press.phases = 1;
+    SamplingPlan::Press press{depth, between(done, depth, range.stops), 24, 2,
+                              range.brisk ? brisk_ramp(body, depth) : 0.0};
+    if (depth > exact_end) press.resolution = 20, press.shifted_grids = 1;
     plan.presses.push_back(press);
     done = depth;
   }
@@ -175,44 +175,46 @@ SurveyPlan plan_survey(const Subject& subject, const SurveyRange& range)
     const int count =
         std::max(1, static_cast<int>(std::lround(std::log(slowest_press / first) / std::log(factor))));
     for (const double x : between(first, slowest_press, count))
-      plan.slow_impacts.push_back(velocity_to(x, subject));
+      plan.slow_impacts.push_back(velocity_to(x, body));
   }
   for (const double speed : range.speeds)
     if (speed <= range.fastest * 1.0001) plan.fast_speeds.push_back(speed);
   return plan;
 }
 
-std::vector<RunJob> survey_jobs(const Subject& subject, const SurveyPlan& plan, const RunSource& source)
+std::vector<RunJob> sampling_jobs(const CharacterisedBody& body, const SamplingPlan& plan,
+                                  const RunSource& source)
 {
   std::vector<RunJob> jobs;
-  for (const SurveyPlan::Press& press : plan.presses) jobs.push_back(press_job(subject, press, source));
+  for (const SamplingPlan::Press& press : plan.presses) jobs.push_back(press_job(body, press, source));
   for (const double v : plan.slow_impacts)
-    jobs.push_back(impact_job(subject, v, plan.resolution, plan.phases, source));
+    jobs.push_back(impact_job(body, v, plan.resolution, plan.shifted_grids, source));
   for (const double v : plan.fast_speeds)
-    jobs.push_back(impact_job(subject, v * std::sqrt(subject.yield), plan.cells_at(v), fast_phases, source));
+    jobs.push_back(impact_job(body, v * std::sqrt(body.yield), plan.cells_at(v), fast_shifted_grids, source));
   return jobs;
 }
 
-void add_to(Survey& survey, const SurveyPlan& plan, const std::vector<RunOutcome>& outcomes)
+void add_to(ContactRecords& records, const SamplingPlan& plan, const std::vector<RunOutcome>& outcomes)
 {
   std::size_t next = 0;
   for (std::size_t k = 0; k < plan.presses.size(); ++k) {
     const RunOutcome& run = outcomes[next++];
     if (run.failed()) continue;
-    for (Pressing& turn : partial_unloadings(run.result, survey.reload_loop))
-      survey.slow.push_back(std::move(turn));
-    survey.slow.push_back(pressing_from(run.result));
+    for (ContactRecord& reversal : partial_unloadings(run.result, records.reload_loop))
+      records.slow.push_back(std::move(reversal));
+    records.slow.push_back(contact_record_of(run.result));
   }
   for (std::size_t k = 0; k < plan.slow_impacts.size(); ++k)
     if (const RunOutcome& run = outcomes[next++]; !run.failed())
-      survey.slow.push_back(pressing_from(run.result));
+      records.slow.push_back(contact_record_of(run.result));
   for (const double speed : plan.fast_speeds)
     if (const RunOutcome& run = outcomes[next++]; !run.failed())
-      survey.fast.push_back({speed, pressing_from(run.result)});
-  std::sort(survey.slow.begin(), survey.slow.end(),
-            [](const Pressing& a, const Pressing& b) { return a.depth < b.depth; });
-  std::sort(survey.fast.begin(), survey.fast.end(),
-            [](const Survey::Impact& a, const Survey::Impact& b) { return a.speed < b.speed; });
+      records.fast.push_back({speed, contact_record_of(run.result)});
+  std::sort(records.slow.begin(), records.slow.end(),
+            [](const ContactRecord& a, const ContactRecord& b) { return a.depth < b.depth; });
+  std::sort(
+      records.fast.begin(), records.fast.end(),
+      [](const ContactRecords::Impact& a, const ContactRecords::Impact& b) { return a.speed < b.speed; });
 }
 
 }  // namespace granulaw

@@ -1,4 +1,4 @@
-#include "liggghts_plugin/ledger.hpp"
+#include "liggghts_plugin/contact_statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,10 @@ TEST(LogHistogram, BinsAreThoseOfTheLogarithm)
   for (int k = 0; k < 100000; ++k) {
     const double value = std::pow(10.0, exponent(random));
     const double position = LogHistogram::per_decade * std::log10(value / overlap.first);
-    if (std::abs(position - std::round(position)) < 1e-9) continue;  // on an edge the logarithm rounds either way
-    const auto expected = static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, LogHistogram::bins - 1.0));
+    if (std::abs(position - std::round(position)) < 1e-9)
+      continue;  // on an edge the logarithm rounds either way
+    const auto expected =
+        static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, LogHistogram::bins - 1.0));
     ASSERT_EQ(overlap.bin(value), expected) << value;
   }
 }
@@ -36,33 +38,33 @@ TEST(LogHistogram, OuterBinsCatchTheRest)
   }
 }
 
-TEST(Ledger, WhatEndedIsWhatBeganLessWhatIsOpen)
+TEST(ContactStatistics, WhatEndedIsWhatBeganLessWhatIsOpen)
 {
-  ContactLedger::Side side;
-  const auto shallow = side.overlap.bin(1e-5), deep = side.overlap.bin(1e-2);
-  for (int k = 0; k < 3; ++k) side.count(shallow, 0.5, 1.0);  // three begin
-  side.count(shallow, 0.5, -1.0);                             // one of them grows deeper
-  side.count(deep, 0.5, 1.0);
-  side.count(shallow, 0.5, -1.0);  // one is open still
-  side.count_ended();
-  EXPECT_EQ(side.ended, 2);
-  EXPECT_EQ(side.overlap.count[shallow], 1);
-  EXPECT_EQ(side.overlap.count[deep], 1);
-  EXPECT_LE(side.overlap_min, 1e-5);
-  EXPECT_GT(side.overlap_min * std::pow(10.0, 1.0 / LogHistogram::per_decade), 1e-5);
+  ContactStatistics::Pair counts;
+  const auto shallow = counts.overlap.bin(1e-5), deep = counts.overlap.bin(1e-2);
+  for (int k = 0; k < 3; ++k) counts.count(shallow, 0.5, 1.0);  // three begin
+  counts.count(shallow, 0.5, -1.0);                             // one of them grows deeper
+  counts.count(deep, 0.5, 1.0);
+  counts.count(shallow, 0.5, -1.0);  // one is open still
+  counts.count_ended();
+  EXPECT_EQ(counts.ended, 2);
+  EXPECT_EQ(counts.overlap.count[shallow], 1);
+  EXPECT_EQ(counts.overlap.count[deep], 1);
+  EXPECT_LE(counts.overlap_min, 1e-5);
+  EXPECT_GT(counts.overlap_min * std::pow(10.0, 1.0 / LogHistogram::per_decade), 1e-5);
 }
 
-TEST(Ledger, ContactsOlderThanTheCountsLeaveNoneNegative)
+TEST(ContactStatistics, ContactsOlderThanTheCountsLeaveNoneNegative)
 {
-  ContactLedger::Side side;
-  side.count(5, -1.0, -1.0);
-  side.count(7, -1.0, 1.0);
-  side.count_ended();
-  EXPECT_EQ(side.overlap.count[5], 0);
-  EXPECT_EQ(side.ended, 1);
+  ContactStatistics::Pair counts;
+  counts.count(5, -1.0, -1.0);
+  counts.count(7, -1.0, 1.0);
+  counts.count_ended();
+  EXPECT_EQ(counts.overlap.count[5], 0);
+  EXPECT_EQ(counts.ended, 1);
 }
 
-TEST(Ledger, RowsOfTypesAreEachPairOnce)
+TEST(ContactStatistics, RowsOfTypesAreEachPairOnce)
 {
   for (const int types : {1, 2, 3, 5}) {
     std::vector<int> seen(static_cast<std::size_t>(rows_of_types(types)));

@@ -1,4 +1,4 @@
-#include "solver/tartan_body.hpp"
+#include "solver/rectilinear_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +148,7 @@ std::vector<Region> regions_of(const std::vector<Phase>& phases, const std::vect
   return regions;
 }
 
-Body tartan_body(const Section& s)
+Body rectilinear_body(const Section& s)
 {
   const SplineAxis r_axis(graded_lines(0, s.block, s.radius, s.fine, growth, coarsest, s.shift));
   const SplineAxis z_axis(graded_lines(0, s.depth, s.height, s.fine, growth, coarsest));

@@ -14,12 +14,12 @@ namespace granulaw {
 
 /// Threads that make runs for one thread that directs them: so that progress, cache and messages between
 /// ranks are the business of that one alone, and a run knows nothing of them.
-class Crew
+class WorkerPool
 {
  public:
-  explicit Crew(int threads);
+  explicit WorkerPool(int threads);
   /// Runs under way end at their next report of progress.
-  ~Crew();
+  ~WorkerPool();
 
   bool has_room() const { return busy_ < slots_.size(); }
   bool idle() const { return busy_ == 0; }

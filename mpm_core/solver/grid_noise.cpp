@@ -1,4 +1,4 @@
-#include "solver/ripple.hpp"
+#include "solver/grid_noise.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -19,7 +19,7 @@ TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
   const double low = std::log(from_), high = std::log(deepest);
   centre_ = 0.5 * (low + high), half_ = 0.5 * (high - low);
 
-  // Relative ripple falls like (h/a)^1.65, a^2 ~ delta: weight of a residual in ln F ~ delta^0.8. Samples
+  // Relative grid noise falls like (h/a)^1.65, a^2 ~ delta: weight of a residual in ln F ~ delta^0.8. Samples
   // stand at equal times; what counts is equal steps of ln delta: weight by the step as well.
   const int degree = used.size() > 60 ? 5 : 3;
   const auto rows = static_cast<Eigen::Index>(used.size());
@@ -46,7 +46,7 @@ TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
       sum += ratio * ratio;
       ++count;
     }
-  ripple_ = count ? std::sqrt(sum / count) : 0;
+  grid_noise_ = count ? std::sqrt(sum / count) : 0;
 }
 
 double TreatedLoading::largest_force(double until) const

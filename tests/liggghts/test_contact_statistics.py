@@ -1,4 +1,4 @@
-"""The ledger of fix granulaw/stats against the kinetic energy that really went."""
+"""The contact statistics of fix granulaw/stats against the kinetic energy that really went."""
 import json
 import unittest
 
@@ -9,12 +9,12 @@ from harness import POWDER, Deck, sphere_mass
 RADIUS = 1.7e-3
 
 
-class Ledger(Deck):
+class ContactStatistics(Deck):
     def words(self, model):
         if model == "mpm with axis":
             self.fixture("write", self.folder / "axis.h5", "axis")
             return f"law {self.folder / 'axis.h5'} materials powder elasticDamping off"
-        # damping below yield is no plastic loss: not in this ledger
+        # damping below yield is no plastic loss: not in these contact statistics
         return (f"law {self.law} materials powder " if model == "mpm" else "") + "elasticDamping off"
 
     def test_one_collision(self):
@@ -49,7 +49,7 @@ class Ledger(Deck):
                     self.assertAlmostEqual(overlap / (delta / (RADIUS * radius_ratio)), 1.0, delta=1e-4)
 
     def test_gas_and_json(self):
-        """Frictionless gas: what is gone from the kinetic energy is in the ledger, but for what contacts still hold."""
+        """Frictionless gas: what is gone from the kinetic energy is in the statistics, but for what contacts still hold."""
         gas.data_file(self.folder / "gas.data")
         words = f"law {self.law} materials powder stats stats.json"
         start = gas.start() + gas.model(words, friction=0.0) + gas.MOVE.replace("2e-7", "5e-8") + gas.OUTPUT

@@ -1,4 +1,4 @@
-#include "law/inertia_axis.hpp"
+#include "law/velocity_axis.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -22,13 +22,13 @@ bool same_bits(double a, double b)
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-TEST(InertiaAxis, ReproducesCubicsInTheRatioAndLinesInTheImpactOverlap)
+TEST(VelocityAxis, ReproducesCubicsInTheRatioAndLinesInTheImpactOverlap)
 {
   const auto a = [](double xi) { return (1 - xi) * (1 - xi) * (0.4 + 0.3 * xi); };
   const auto da = [](double xi) { return (1 - xi) * (-0.8 - 0.6 * xi + 0.3 * (1 - xi)); };
   const auto b = [](double xi) { return 0.01 * xi * xi * xi; };
   const auto n = [](double xi) { return 0.1 * xi * xi; };
-  InertiaAxis::Table t = SyntheticLaw{}.axis(3, 5);
+  VelocityAxis::Table t = SyntheticLaw{}.axis(3, 5);
   t.ratio_end = 1;
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t l = 0; l < 5; ++l) {
@@ -40,28 +40,28 @@ TEST(InertiaAxis, ReproducesCubicsInTheRatioAndLinesInTheImpactOverlap)
       t.exponent_correction[5 * k + l] = part * n(xi);
       t.exponent_correction_slope[5 * k + l] = part * 0.2 * xi;
     }
-  const InertiaAxis axis(t, "test");
+  const VelocityAxis axis(t, "test");
   for (const double X : {1e-6, 0.01, 0.04, 0.0999, 0.1})
     for (const double xi : {0.0, 1e-9, 0.1, 0.25, 0.3, 0.77, 0.999}) {
       const double part = 3 * X / axis.overlap_end();
       // 1e-14: rounding of a dozen operations on numbers of order one
       EXPECT_NEAR(axis.force(xi * X, X).value, part * a(xi), 1e-14);
       EXPECT_NEAR(axis.force(xi * X, X).slope * X, part * da(xi), 1e-13);
-      EXPECT_NEAR(axis.turn(xi * X, X).force, part * a(xi), 1e-14);
-      EXPECT_NEAR(axis.turn(xi * X, X).residual, part * b(xi), 1e-14);
-      EXPECT_NEAR(axis.turn(xi * X, X).exponent, part * n(xi), 1e-14);
+      EXPECT_NEAR(axis.reversal(xi * X, X).force, part * a(xi), 1e-14);
+      EXPECT_NEAR(axis.reversal(xi * X, X).residual, part * b(xi), 1e-14);
+      EXPECT_NEAR(axis.reversal(xi * X, X).exponent, part * n(xi), 1e-14);
     }
   // beyond the last node; and an X beyond X_end counts as X_end
   EXPECT_EQ(axis.force(0.11, 0.1).value, 0.0);
   EXPECT_EQ(axis.force(0.11, 0.1).slope, 0.0);
-  EXPECT_NEAR(axis.turn(0.3, 0.1).residual, 0.03, 1e-14);
-  EXPECT_NEAR(axis.turn(0.3, 0.1).exponent, 0.3, 1e-14);
+  EXPECT_NEAR(axis.reversal(0.3, 0.1).residual, 0.03, 1e-14);
+  EXPECT_NEAR(axis.reversal(0.3, 0.1).exponent, 0.3, 1e-14);
   EXPECT_NEAR(axis.force(0.1, 0.2).value, 3 * a(0.5), 1e-14);
 }
 
-TEST(InertiaAxis, ImpactOverlapRisesFromZeroAndIsClamped)
+TEST(VelocityAxis, ImpactOverlapRisesFromZeroAndIsClamped)
 {
-  const InertiaAxis axis(SyntheticLaw{}.axis(), "test");
+  const VelocityAxis axis(SyntheticLaw{}.axis(), "test");
   EXPECT_EQ(axis.impact_overlap(0), 0.0);
   EXPECT_EQ(axis.impact_overlap(-1), 0.0);
   EXPECT_EQ(axis.impact_overlap(NAN), 0.0);
@@ -76,10 +76,10 @@ TEST(InertiaAxis, ImpactOverlapRisesFromZeroAndIsClamped)
   EXPECT_EQ(axis.impact_overlap(HUGE_VAL), axis.overlap_end());
 }
 
-TEST(InertiaAxis, TheFirstSlicesDivideTheFirstSpacing)
+TEST(VelocityAxis, TheFirstLevelsDivideTheFirstSpacing)
 {
-  // 5 slices, 3 of them within the first of 3 spacings: 0.01, 0.02, 0.03; 0.06, 0.09
-  const SliceScale scale = SliceScale::from_standstill(5, 3, 0.09);
+  // 5 levels, 3 of them within the first of 3 spacings: 0.01, 0.02, 0.03; 0.06, 0.09
+  const ImpactLevels scale = ImpactLevels::from_standstill(5, 3, 0.09);
   const double places[] = {0, 0.01, 0.02, 0.03, 0.06, 0.09};
   for (int k = 0; k <= 5; ++k) {
     EXPECT_NEAR(scale.overlap(k), places[k], 1e-15);
@@ -88,24 +88,24 @@ TEST(InertiaAxis, TheFirstSlicesDivideTheFirstSpacing)
   EXPECT_NEAR(scale.row(0.015), 1.5, 1e-13);
   EXPECT_NEAR(scale.row(0.045), 3.5, 1e-13);
   EXPECT_EQ(scale.row(1.0), 5.0);
-  const SliceScale even = SliceScale::from_standstill(4, 1, 0.08);
+  const ImpactLevels even = ImpactLevels::from_standstill(4, 1, 0.08);
   for (int k = 0; k <= 4; ++k) EXPECT_NEAR(even.row(0.02 * k), k, 1e-13);
 }
 
-TEST(InertiaAxis, ARateAxisBeginsAtItsSlowestImpactAndIsLinearInOctaves)
+TEST(VelocityAxis, ARateAxisBeginsAtItsSlowestImpactAndIsLinearInOctaves)
 {
-  InertiaAxis::Table t = SyntheticLaw{}.rate_axis(1e-3);
+  VelocityAxis::Table t = SyntheticLaw{}.rate_axis(1e-3);
   const std::size_t nodes = t.ratio_nodes();
-  // each slice its number: the correction tells the row
-  for (std::size_t k = 0; k < t.slices; ++k)
+  // each level its number: the correction tells the row
+  for (std::size_t k = 0; k < t.levels; ++k)
     for (std::size_t l = 0; l < nodes; ++l) {
       t.exponent_correction[k * nodes + l] = static_cast<double>(k + 1);
       t.exponent_correction_slope[k * nodes + l] = 0;
     }
-  const InertiaAxis axis(t, "test");
+  const VelocityAxis axis(t, "test");
   const double first = axis.impact_overlap(t.speed_begin), end = axis.overlap_end();
   EXPECT_NEAR(first, 0.1 * (1 / 40.0) * (0.6 + 0.4 / 40), 1e-15);
-  const auto row = [&](double X) { return axis.turn(0.5 * X, X).exponent; };
+  const auto row = [&](double X) { return axis.reversal(0.5 * X, X).exponent; };
   EXPECT_EQ(axis.impact_overlap(1e-3 * t.speed_begin), first);  // held
   EXPECT_EQ(axis.impact_overlap(0), 0.0);
   EXPECT_NEAR(row(first), 1.0, 1e-12);
@@ -128,7 +128,7 @@ TEST(InertiaAxis, ARateAxisBeginsAtItsSlowestImpactAndIsLinearInOctaves)
   EXPECT_EQ(examined.back(), end);
 }
 
-TEST(InertiaAxis, ARateLawIsOfOneSize)
+TEST(VelocityAxis, ARateLawIsOfOneSize)
 {
   Law law = SyntheticLaw{}.law_with_axis();
   law.bodies["powder"].curve = ContactCurve(SyntheticLaw{}.table(), SyntheticLaw{}.rate_axis(2e-3), "test");
@@ -146,7 +146,7 @@ TEST(InertiaAxis, ARateLawIsOfOneSize)
   EXPECT_FALSE(replay_collision(wall, 2e-3, mass, 3 * slow).held_speed);
 }
 
-TEST(InertiaAxis, WithoutAnImpactTheLawIsTheCurveWithoutAnAxisToTheBit)
+TEST(VelocityAxis, WithoutAnImpactTheLawIsTheCurveWithoutAnAxisToTheBit)
 {
   const ContactCurve plain = SyntheticLaw{}.curve(), with = SyntheticLaw{}.curve_with_axis();
   for (int k = 1; k < 400; ++k)
@@ -163,7 +163,7 @@ TEST(InertiaAxis, WithoutAnImpactTheLawIsTheCurveWithoutAnAxisToTheBit)
   ASSERT_NE(with.axis(), nullptr);
 }
 
-TEST(InertiaAxis, VanishesForSmallImpactsAndWellBeyondThem)
+TEST(VelocityAxis, VanishesForSmallImpactsAndWellBeyondThem)
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
   for (const double x : {1e-6, 1e-3, 0.02, 0.09}) {
@@ -174,14 +174,14 @@ TEST(InertiaAxis, VanishesForSmallImpactsAndWellBeyondThem)
   }
 }
 
-RC_GTEST_PROP(InertiaAxis, StiffnessIsTheDerivativeOfTheForce, ())
+RC_GTEST_PROP(VelocityAxis, StiffnessIsTheDerivativeOfTheForce, ())
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
   testing::stiffness_is_the_derivative(curve, curve,
                                        curve.axis()->overlap_end() * *rc::gen::inRange(1, 1000) / 1000.0);
 }
 
-TEST(InertiaAxis, WorkFunctionsAreTheIntegralsOfTheForce)
+TEST(VelocityAxis, WorkFunctionsAreTheIntegralsOfTheForce)
 {
   using boost::math::quadrature::gauss_kronrod;
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
@@ -191,13 +191,13 @@ TEST(InertiaAxis, WorkFunctionsAreTheIntegralsOfTheForce)
       const double loading = gauss_kronrod<double, 61>::integrate(in_s, 0.0, std::pow(x, 0.25), 15, 1e-12);
       EXPECT_NEAR(curve.work_loading(x, overlap) / loading, 1.0, 1e-9) << x;
       const auto back = [&](double y) { return curve.evaluate(unit_pair, 1.0, y, x, overlap).force; };
-      const double residual = x > curve.onset() ? curve.turning(x, overlap).residual : 0.0;
+      const double residual = x > curve.onset() ? curve.reversal(x, overlap).residual : 0.0;
       const double unloading = gauss_kronrod<double, 61>::integrate(back, residual, x, 15, 1e-12);
       EXPECT_NEAR(curve.work_unloading(x, overlap) / unloading, 1.0, 1e-9) << x;
     }
 }
 
-TEST(InertiaAxis, WorkOfManyOverlapsIsThatOfEach)
+TEST(VelocityAxis, WorkOfManyOverlapsIsThatOfEach)
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
   const double end = curve.x_end(), latched = 0.4 * curve.axis()->overlap_end();
@@ -215,7 +215,7 @@ TEST(InertiaAxis, WorkOfManyOverlapsIsThatOfEach)
   }
 }
 
-TEST(InertiaAxis, AdmissibilityIsThatOfEveryImpactOverlap)
+TEST(VelocityAxis, AdmissibilityIsThatOfEveryImpactOverlap)
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
   double least = curve.admissibility_margin(0.0);
@@ -223,13 +223,13 @@ TEST(InertiaAxis, AdmissibilityIsThatOfEveryImpactOverlap)
     least = std::min(least, curve.admissibility_margin(curve.axis()->overlap_end() * k / 16));
   EXPECT_EQ(curve.admissibility_margin(), least);
   EXPECT_GE(least, 0);
-  // an axis that raises the unloading work of deep turns, of its largest X only, is found out
+  // an axis that raises the unloading work of deep reversals, of its largest X only, is found out
   SyntheticLaw law;
-  InertiaAxis::Table bad = law.axis();
+  VelocityAxis::Table bad = law.axis();
   const std::size_t nodes = bad.ratio_nodes();
   for (std::size_t l = 0; l < nodes; ++l) {
-    double& b = bad.residual_correction[(bad.slices - 1) * nodes + l];
-    bad.residual_correction_slope[(bad.slices - 1) * nodes + l] = 0;
+    double& b = bad.residual_correction[(bad.levels - 1) * nodes + l];
+    bad.residual_correction_slope[(bad.levels - 1) * nodes + l] = 0;
     b = l > nodes / 2 ? -0.5 : 0.0;
   }
   const ContactCurve cheat(law.table(), bad, "test");
@@ -237,10 +237,10 @@ TEST(InertiaAxis, AdmissibilityIsThatOfEveryImpactOverlap)
   EXPECT_LT(cheat.admissibility_margin(), 0);
 }
 
-RC_GTEST_PROP(InertiaAxis, NoClosedCycleGainsEnergy, ())
+RC_GTEST_PROP(VelocityAxis, NoClosedCycleGainsEnergy, ())
 {
   SyntheticLaw law;
-  law.softening = *rc::gen::inRange(50, 250) / 100.0;
+  law.force_reduction = *rc::gen::inRange(50, 250) / 100.0;
   law.depth = *rc::gen::inRange(20, 200) / 100.0;
   law.onset = std::pow(10.0, -*rc::gen::inRange(200, 600) / 100.0);
   const ContactCurve curve = law.curve_with_axis();
@@ -249,7 +249,7 @@ RC_GTEST_PROP(InertiaAxis, NoClosedCycleGainsEnergy, ())
                                  curve.axis()->overlap_end() * *rc::gen::inRange(0, 1001) / 1000.0);
 }
 
-TEST(InertiaAxis, SpeedsOfPairs)
+TEST(VelocityAxis, SpeedsOfPairs)
 {
   const Law law = SyntheticLaw{}.law_with_axis();
   const PairLaw wall = resolve_pair(law, "powder", "wall", "test"),
@@ -283,7 +283,7 @@ TEST(InertiaAxis, SpeedsOfPairs)
               1e-12 * X);  // two walls at half the speed
 }
 
-TEST(InertiaAxis, AReplayLatchesItsOwnSpeed)
+TEST(VelocityAxis, AReplayLatchesItsOwnSpeed)
 {
   const Law law = SyntheticLaw{}.law_with_axis();
   const PairLaw wall = resolve_pair(law, "powder", "wall", "test");
@@ -301,9 +301,9 @@ TEST(InertiaAxis, AReplayLatchesItsOwnSpeed)
   EXPECT_TRUE(replay_collision(wall, R, mass, 2.5 * speed).left_speeds);
 }
 
-TEST(InertiaAxis, RefusesUnusableTables)
+TEST(VelocityAxis, RefusesUnusableTables)
 {
-  using Table = InertiaAxis::Table;
+  using Table = VelocityAxis::Table;
   const auto refused = [](auto change) -> std::string {
     Table axis = SyntheticLaw{}.axis();
     change(axis);
@@ -319,15 +319,15 @@ TEST(InertiaAxis, RefusesUnusableTables)
     const std::string sentence = refused(change);
     EXPECT_NE(sentence.find(what), std::string::npos) << "wanted '" << what << "', got: " << sentence;
   };
-  says([](Table& t) { t.slices = 0; }, "slices");
-  says([](Table& t) { t.slices = 1000; }, "slices");
-  says([](Table& t) { t.slices = 7; }, "length");
-  says([](Table& t) { t.first_slices = 9; }, "first_slices");
-  says([](Table& t) { t.first_slices = 0; }, "first_slices");
+  says([](Table& t) { t.levels = 0; }, "slices");
+  says([](Table& t) { t.levels = 1000; }, "slices");
+  says([](Table& t) { t.levels = 7; }, "length");
+  says([](Table& t) { t.first_levels = 9; }, "first_slices");
+  says([](Table& t) { t.first_levels = 0; }, "first_slices");
   says([](Table& t) { t.speed_end = NAN; }, "speed_end");
   says([](Table& t) { t.ratio_end = 0; }, "ratio_end");
   says([](Table& t) { t.reference_radius = 1e-3; }, "reference_radius");
-  says([](Table& t) { t.kind = InertiaAxis::Kind::rate; }, "reference_radius");
+  says([](Table& t) { t.kind = VelocityAxis::Kind::rate; }, "reference_radius");
   says([](Table& t) { t.speed_begin = 1e-3; }, "speed_begin");
   says([](Table& t) { t = SyntheticLaw{}.rate_axis(1e-3), t.speed_begin = 0; }, "speed_begin");
   says([](Table& t) { t = SyntheticLaw{}.rate_axis(1e-3), t.speed_begin = t.speed_end; }, "speed_begin");
@@ -362,10 +362,10 @@ TEST(InertiaAxis, RefusesUnusableTables)
 }
 
 /// What is accepted evaluates to finite, never negative forces, however wild.
-RC_GTEST_PROP(InertiaAxis, WhatIsAcceptedIsUsable, ())
+RC_GTEST_PROP(VelocityAxis, WhatIsAcceptedIsUsable, ())
 {
   SyntheticLaw law;
-  InertiaAxis::Table axis = law.axis(3, 6);
+  VelocityAxis::Table axis = law.axis(3, 6);
   const auto shake = [&](std::vector<double>& values, double size) {
     const int hits = *rc::gen::inRange(0, 4);
     for (int k = 0; k < hits; ++k)

@@ -1,4 +1,4 @@
-#include "characterise/shallow_guide.hpp"
+#include "characterise/onset_similarity.hpp"
 
 #include <fmt/format.h>
 
@@ -26,19 +26,19 @@ constexpr int slow_cells = 17;
 /// Overlap/R beyond which a sphere's finite size, not its onset, tells its law.
 constexpr double similar = 0.2;
 
-const Material& pole_material(const Subject& s)
+const Material& pole_material(const CharacterisedBody& s)
 {
   return s.particle.materials[static_cast<std::size_t>(s.pole_material)];
 }
 
 /// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones
 /// too: hardening is the same at strains over Y/E*.
-Subject softer_sphere(Material m, double share)
+CharacterisedBody softer_sphere(Material m, double share)
 {
-  m = with_strains_stretched(m, 1 / share);
+  m = with_strains_scaled(m, 1 / share);
   m.youngs_modulus *= share;
   m.rate = {};
-  return subject_of(m);
+  return characterised_body_of(m);
 }
 
 /// Linear hardening d(sigma_y)/d(ep) of least squares through the yield stress, over plastic strains up to
@@ -76,37 +76,37 @@ LawShape beyond(double stiffness, const OfStiffness& a, const OfStiffness& b)
   return shape;
 }
 
-void require_thick_skin(const Subject& subject, double first)
+void require_thick_skin(const CharacterisedBody& body, double first)
 {
   // Contact radii to the skin: what lies below changes the elastic part, which the body's own press tells.
   constexpr double least_skin = 3;
   const double skin = least_skin * std::sqrt(2 * first);
-  if (subject.skin < skin || pole_onset(subject) > subject.onset)
+  if (body.skin < skin || pole_onset(body) > body.onset)
     fail("contact law",
          "yields at overlaps too small to be run: there the body's law is that of its skin, which must yield "
          "first and be thick",
-         fmt::format("onset at delta/R = {:.2g}, at the pole {:.2g}, skin {:.2g} R", subject.onset,
-                     pole_onset(subject), subject.skin),
+         fmt::format("onset at delta/R = {:.2g}, at the pole {:.2g}, skin {:.2g} R", body.onset,
+                     pole_onset(body), body.skin),
          fmt::format("an onset of about 1e-4 or more, or a skin of {:.2g} R", skin));
 }
 
 }  // namespace
 
-SurveyPlan::Press elastic_press_of(const Subject& subject, int cells)
+SamplingPlan::Press elastic_press_of(const CharacterisedBody& body, int cells)
 {
-  return {std::clamp(1.5 * subject.onset, 0.02, 0.04), {}, cells, 2};
+  return {std::clamp(1.5 * body.onset, 0.02, 0.04), {}, cells, 2};
 }
 
-ShallowGuide::ShallowGuide(const Subject& subject, const Needs& needs, const Atlas* atlas)
-    : subject_(subject),
+OnsetSimilarity::OnsetSimilarity(const CharacterisedBody& body, const Needs& needs, const Atlas* atlas)
+    : body_(body),
       needs_(needs),
       atlas_(atlas),
-      is_sphere_(subject.particle.is_homogeneous_sphere()),
-      spares_first_(std::isinf(subject.skin))
+      is_sphere_(body.particle.is_homogeneous_sphere()),
+      spares_first_(std::isinf(body.skin))
 {
-  require_thick_skin(subject, needs.first);
-  const Material& m = pole_material(subject);
-  const double stiffness = subject.scale.stress / m.yield_stress;
+  require_thick_skin(body, needs.first);
+  const Material& m = pole_material(body);
+  const double stiffness = body.scale.stress / m.yield_stress;
   // Tabor's representative strain is a fifth of a/R; near the edge of the contact it is more than twice that
   const NearlyLinear line = linear_hardening(m, 0.5 * std::sqrt(2 * needs.first));
   ratios_ = {stiffness, m.poisson_ratio, line.modulus / m.youngs_modulus};
@@ -129,15 +129,15 @@ ShallowGuide::ShallowGuide(const Subject& subject, const Needs& needs, const Atl
                       : fmt::format("its difference by one of {:g}", least_stiff);
   const auto add = [&](double k) {
     Sphere sphere;
-    sphere.subject = softer_sphere(m, k / stiffness);
+    sphere.body = softer_sphere(m, k / stiffness);
     // delta/delta_onset that it must reach: the rest of a body that is no sphere changes the overlap
-    const double reach = (is_sphere_ ? 1.2 : 2.0) * needs.first / subject.onset;
-    sphere.depth = std::clamp(reach * sphere.subject.onset, 0.0075, 0.5);
-    if (reach * sphere.subject.onset > similar) spares_first_ = false;
-    SurveyRange range;
+    const double reach = (is_sphere_ ? 1.2 : 2.0) * needs.first / body.onset;
+    sphere.depth = std::clamp(reach * sphere.body.onset, 0.0075, 0.5);
+    if (reach * sphere.body.onset > similar) spares_first_ = false;
+    SamplingRange range;
     range.depth = sphere.depth, range.fastest = 0, range.stops = 2, range.brisk = needs.brisk;
     range.from_onset = from_onset;
-    sphere.plan = plan_survey(sphere.subject, range);
+    sphere.plan = plan_sampling(sphere.body, range);
     sphere.plan.resolution = slow_cells;
     spheres_.push_back(std::move(sphere));
   };
@@ -146,40 +146,40 @@ ShallowGuide::ShallowGuide(const Subject& subject, const Needs& needs, const Atl
   if (is_sphere_) return;
   // an elastic sphere's correction is the same at any stiffness; a sphere's own is the body's
   Sphere elastic;
-  const Subject skin = softer_sphere(m, 1);
-  elastic.subject = skin.elastic();
+  const CharacterisedBody skin = softer_sphere(m, 1);
+  elastic.body = skin.elastic();
   elastic.plan.presses.push_back(elastic_press_of(skin, needs.press_cells));
   spheres_.push_back(std::move(elastic));
   runs_elastic_ = true;
 }
 
 /// ln of the body's range of overlaps from the onset on.
-double ShallowGuide::range() const
+double OnsetSimilarity::range() const
 {
-  return std::log(needs_.depth / subject_.onset);
+  return std::log(needs_.depth / body_.onset);
 }
 
-LawShape ShallowGuide::of_atlas(double stiffness) const
+LawShape OnsetSimilarity::of_atlas(double stiffness) const
 {
   const auto at = [&](double k) {
     MaterialRatios ratios = ratios_;
     ratios.stiffness = k;
-    const double onset = subject_of(k, ratios.poisson_ratio, 0).onset;
-    return atlas_->shape(ratios).stretched(range() / std::log(Atlas::depth / onset));
+    const double onset = characterised_body_of(k, ratios.poisson_ratio, 0).onset;
+    return atlas_->shape(ratios).rescaled(range() / std::log(Atlas::depth / onset));
   };
   const double stiffest = atlas_->grid().stiffnesses.back();
   if (stiffness <= stiffest) return at(stiffness);
   return beyond(stiffness, {stiffest, at(stiffest)}, {0.5 * stiffest, at(0.5 * stiffest)});
 }
 
-LawShape ShallowGuide::of_runs(const Sphere& sphere, const ElasticCorrection& elastic) const
+LawShape OnsetSimilarity::of_runs(const Sphere& sphere, const ElasticCorrection& elastic) const
 {
-  const double onset = sphere.subject.onset;
+  const double onset = sphere.body.onset;
   return fit_shape(sphere.found, elastic, onset, sphere.depth)
-      .shape.stretched(range() / std::log(sphere.depth / onset));
+      .shape.rescaled(range() / std::log(sphere.depth / onset));
 }
 
-LawShape ShallowGuide::shape(const ElasticCorrection& elastic) const
+LawShape OnsetSimilarity::shape(const ElasticCorrection& elastic) const
 {
   const double stiffness = ratios_.stiffness;
   LawShape guide = LawShape::zero();
@@ -188,7 +188,7 @@ LawShape ShallowGuide::shape(const ElasticCorrection& elastic) const
   } else {
     ElasticCorrection of_sphere = elastic;
     if (runs_elastic_) {
-      const std::vector<Pressing>& press = spheres_.back().found.slow;
+      const std::vector<ContactRecord>& press = spheres_.back().found.slow;
       if (press.empty()) fail("contact law", "the elastic press of a sphere of its skin failed");
       of_sphere = fit_elastic(press.front());
     }
@@ -201,7 +201,7 @@ LawShape ShallowGuide::shape(const ElasticCorrection& elastic) const
       guide = beyond(stiffness, {less_stiff, softer}, {least_stiff, of_runs(spheres_[1], of_sphere)});
     }
   }
-  if (!is_sphere_) guide = guide.as_skin_of(elastic, subject_.onset, needs_.depth, 2 * needs_.first);
+  if (!is_sphere_) guide = guide.as_skin_of(elastic, body_.onset, needs_.depth, 2 * needs_.first);
   return guide;
 }
 

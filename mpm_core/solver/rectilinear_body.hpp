@@ -10,7 +10,7 @@
 
 namespace granulaw {
 
-/// The meridian section of any body of revolution and the graded Cartesian ("tartan") grid over it, solver
+/// The meridian section of any body of revolution and the graded rectilinear grid over it, solver
 /// units.
 ///
 ///     | | | |  |   |     |
@@ -35,14 +35,14 @@ struct Section
   double shift = 0;  ///< part of a step that all lines r move towards the axis
 };
 
-/// Total-Lagrangian body on the tartan grid, quadratic B-splines (spline_axis.hpp).
+/// Total-Lagrangian body on the rectilinear grid, quadratic B-splines (spline_axis.hpp).
 ///
 /// Every cell is quartered; of each quarter, each phase that it holds makes one material point, whose volume,
 /// masses and mean gradients are integrated over that piece: exactly where the quarter is whole, by 8 x 8
 /// samples where the surface or an interface cuts it. Nodes near the surface keep the little mass that is
 /// really theirs: with lumped masses their stiffness falls with it, so the time step stays, while a least
 /// mass would make them lag behind (a tenth of the full one: 2 % of the energy of an elastic impact lost).
-Body tartan_body(const Section& section);
+Body rectilinear_body(const Section& section);
 
 /// The surface markers of a section, r, z only: `per_column` in each column of cells, and one at the pole.
 /// A column has about one degree of freedom for the shape of its surface. With more markers the impulses are

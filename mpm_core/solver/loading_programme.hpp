@@ -9,10 +9,10 @@ namespace granulaw {
 
 /// What moves the bodies: sets velocities after the contact impulse of a step (before it, the reported
 /// overlap would drift by the integral of F dt^2/m) and knows when the run is over. Solver units.
-class Drive
+class LoadingProgramme
 {
  public:
-  virtual ~Drive() = default;
+  virtual ~LoadingProgramme() = default;
   /// Velocities for the step from `time` to `time + dt`; `touching`: the contact pushed in this step.
   virtual void apply(Scene& scene, double time, double dt, bool touching) = 0;
   virtual bool finished() const = 0;
@@ -20,18 +20,18 @@ class Drive
   virtual int segment() const = 0;
   /// 0..1
   virtual double progress() const = 0;
-  /// Overlap: displacement towards the plane of what the drive calls the body's position.
+  /// Overlap: displacement towards the plane of what the loading programme calls the body's position.
   virtual double overlap(const Scene& scene) const { return scene.overlap(); }
-  /// Work done on the bodies by the drive so far (impact: none).
+  /// Work done on the bodies by the loading programme so far (impact: none).
   virtual double work() const { return 0; }
   virtual void visit_state(StateArchive& archive) = 0;
 };
 
 /// Free bodies; over when they have parted for good.
-class ImpactDrive : public Drive
+class ImpactProgramme : public LoadingProgramme
 {
  public:
-  explicit ImpactDrive(double expected_duration) : expected_(expected_duration) {}
+  explicit ImpactProgramme(double expected_duration) : expected_(expected_duration) {}
   void apply(Scene& scene, double time, double dt, bool touching) override;
   bool finished() const override { return finished_; }
   Branch branch() const override { return rebounding_ ? Branch::unload : Branch::load; }
@@ -47,7 +47,7 @@ class ImpactDrive : public Drive
 /// Bodies pressed along smooth ramps by uniform body forces (free) or by the equator plane (midplane, one
 /// body): overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at first touch);
 /// unloading at a speed that grows smoothly to a constant until the force has ended.
-class PressDrive : public Drive
+class PressProgramme : public LoadingProgramme
 {
  public:
   struct Plan
@@ -59,7 +59,7 @@ class PressDrive : public Drive
     Support support;
   };
   /// `e_star_contact`: 1/(1/E*_1 + 1/E*_2), which sets the speed of unloading.
-  PressDrive(const Plan& plan, double e_star_contact) : plan_(plan), e_star_(e_star_contact)
+  PressProgramme(const Plan& plan, double e_star_contact) : plan_(plan), e_star_(e_star_contact)
   {
     start_loading(0, 0);
   }
@@ -80,7 +80,7 @@ class PressDrive : public Drive
   void start_holding(double time);
   void start_unloading(double time);
   double target_velocity(double time) const;
-  /// Takes `share` of every velocity relative to the drive's own out of the bodies.
+  /// Takes `share` of every velocity relative to the loading programme's own out of the bodies.
   void damp(Scene& scene, double velocity, double share);
 
   Plan plan_;

@@ -46,7 +46,8 @@ struct LogHistogram
   static const std::array<std::size_t, octaves> first_of_octave;  ///< bin of 2^octave
 };
 
-/// Which contacts share one line of the ledger: those of a pair of atom types, or of a type with a wall's.
+/// Which contacts share one line of the contact statistics: those of a pair of atom types, or of a type with
+/// a wall's.
 struct PairKey
 {
   enum Kind : int { particles, rigid_wall, deformable_wall };
@@ -72,15 +73,15 @@ constexpr int row_of_types(const PairKey& key, int types)
 /// What the law says about a pair of types when a run begins. Not counted, not reduced: alike on all ranks.
 struct PairInfo
 {
-  bool needed = false;         ///< particles (or templates) and walls of these types exist
-  std::string a, b, law;       ///< material names, "mpm" or "thornton" and the law file
-  std::string rule;            ///< "own": the pair rule is exact; "reduced (e 1%)": what it costs
-  std::string error;           ///< what the law states about itself
-  double stiffness_ratio = 0;  ///< E*/Y of the yielding body; 0: it does not yield
-  double overlap_limit = 0;    ///< overlap/R* where the table ends; infinity: nowhere
-  double inertia_limit = 0;    ///< I up to which the law holds; 0: not stated
-  double onset_speed = 0;      ///< m/s, of first yield between the smallest particles; infinity: never
-  double dt_limit = 0;         ///< s, dt_fraction of the stiffest contact's period; 0: no limit known
+  bool needed = false;             ///< particles (or templates) and walls of these types exist
+  std::string a, b, law;           ///< material names, "mpm" or "thornton" and the law file
+  std::string rule;                ///< "own": the pair rule is exact; "reduced (e 1%)": what it costs
+  std::string error;               ///< what the law states about itself
+  double stiffness_ratio = 0;      ///< E*/Y of the yielding body; 0: it does not yield
+  double overlap_limit = 0;        ///< overlap/R* where the table ends; infinity: nowhere
+  double damage_number_limit = 0;  ///< I up to which the law holds; 0: not stated
+  double onset_speed = 0;          ///< m/s, of first yield between the smallest particles; infinity: never
+  double dt_limit = 0;             ///< s, dt_fraction of the stiffest contact's period; 0: no limit known
 };
 
 /// A step may take this part of the period 2 pi sqrt(m*/k) of the stiffest contact. Ten steps or more for a
@@ -93,9 +94,9 @@ inline constexpr double near_edge = 0.9;
 ///
 /// A pair of a local particle and a ghost is computed on both ranks (or twice on one, across a periodic
 /// boundary): it counts with `weight` 1/2 each time, so that sums over ranks are right.
-struct ContactLedger
+struct ContactStatistics
 {
-  struct Side
+  struct Pair
   {
     double dissipated = 0;   ///< J: loading work minus recoverable work, from the law's own work functions
     double other_work = 0;   ///< J, taken by all but the normal law (friction, rolling, ...); energy on only
@@ -110,14 +111,15 @@ struct ContactLedger
     double brought = 0;      ///< J, elastic energy that those held when they began
     double speed_max = 0;    ///< m/s, largest approach speed at first touch
     double overlap_max = 0;  ///< largest overlap/R*
-    double inertia_max = 0;  ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
-    double frequency2 = 0;   ///< 1/s^2, largest stiffness over effective mass
+    double damage_number_max = 0;  ///< largest I = rho V^2/Y at first touch (V: the yielding body's share)
+    double frequency2 = 0;         ///< 1/s^2, largest stiffness over effective mass
     double speed_min = std::numeric_limits<double>::infinity();    ///< m/s, slowest first touch
     double overlap_min = std::numeric_limits<double>::infinity();  ///< lower edge of the lowest bin of
                                                                    ///< `overlap` that holds an ended one
     LogHistogram speed{1e-6};                                      ///< approach speed at first touch, m/s
     /// Largest overlap/R* so far of each contact, ended or open: LIGGGHTS does not always tell when one ends.
-    /// The open ones are taken out when the ledger is read (take_out_open), which leaves those that ended.
+    /// The open ones are taken out when the contact statistics are read (take_out_open), which leaves those
+    /// that ended.
     LogHistogram overlap{1e-10};
     /// Each contact by both, at [bin of speed * bins + bin of overlap]; empty: `contactMap off`.
     std::vector<double> map;
@@ -129,9 +131,9 @@ struct ContactLedger
     /// counts.
     std::array<double*, sums + maxima + minima> numbers()
     {
-      return {&dissipated,  &other_work,  &touches,    &ended,     &near,       &past,
-              &beyond,      &too_fast,    &too_slow,   &sudden,    &brought,    &speed_max,
-              &overlap_max, &inertia_max, &frequency2, &speed_min, &overlap_min};
+      return {&dissipated,  &other_work,        &touches,    &ended,     &near,       &past,
+              &beyond,      &too_fast,          &too_slow,   &sudden,    &brought,    &speed_max,
+              &overlap_max, &damage_number_max, &frequency2, &speed_min, &overlap_min};
     }
     /// Counts a contact in its bin of overlap, with `contactMap on` (touch_speed >= 0) in the map; a negative
     /// weight takes it out. A pair that two ranks see counts half on each, and may have begun on one of them
@@ -147,9 +149,9 @@ struct ContactLedger
     void count_ended();
     void open_map() { map.resize(static_cast<std::size_t>(LogHistogram::bins * LogHistogram::bins)); }
     /// The same in SI; the contact loops count in the deck's units.
-    Side in_si(const DeckUnits& units) const;
+    Pair in_si(const DeckUnits& units) const;
     /// Adds `other`: sums, largest and least values, histograms.
-    void merge(const Side& other);
+    void merge(const Pair& other);
     /// s, dt_fraction of the period of the stiffest contact so far; infinity: none yet.
     double dt_allowed() const
     {
@@ -158,11 +160,11 @@ struct ContactLedger
     }
   };
 
-  std::map<PairKey, Side> sides;  ///< nodes stay where they are: contact models keep pointers
+  std::map<PairKey, Pair> pairs;  ///< nodes stay where they are: contact models keep pointers
 
   /// All contacts between particles, all with walls.
-  Side total(bool walls) const;
-  Side total() const;
+  Pair total(bool walls) const;
+  Pair total() const;
 
   /// Everything that counts as plain numbers, for restart files, and back. Restoring replaces what is there,
   /// but keeps each side's info; `sums` false: only largest and least values (all ranks but one). A side is
@@ -172,11 +174,11 @@ struct ContactLedger
   bool unpack(const double* values, std::size_t count, bool sums);
 };
 
-/// `ledger` (summed over ranks, in the deck's units) as JSON, in SI; `header` is placed first ("\"key\":
-/// value,\n" lines). Schema: docs/pair_gran_model_mpm.md.
-std::string to_json(const ContactLedger& ledger, const std::string& header, const DeckUnits& units);
+/// `contact statistics` (summed over ranks, in the deck's units) as JSON, in SI; `header` is placed first
+/// ("\"key\": value,\n" lines). Schema: docs/pair_gran_model_mpm.md.
+std::string to_json(const ContactStatistics& statistics, const std::string& header, const DeckUnits& units);
 
 /// The start-up table: one line for each pair of types that can meet. In SI. Empty if there is none.
-std::string start_table(const ContactLedger& ledger, const DeckUnits& units);
+std::string start_table(const ContactStatistics& statistics, const DeckUnits& units);
 
 }  // namespace granulaw::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "liggghts_plugin/ledger.hpp"
+#include "liggghts_plugin/contact_statistics.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 
 namespace granulaw::plugin {
@@ -8,7 +8,7 @@ namespace granulaw::plugin {
 /// Energies of single particles and the work of all forces but the normal law's: only with `energy on`.
 ///
 /// Each particle of a pair owns half of what their contact holds and loses; at a wall the particle owns all.
-class EnergyBooks
+class EnergyTally
 {
   using SurfacesIntersectData = LIGGGHTS::ContactModels::SurfacesIntersectData;
   using ForceData = LIGGGHTS::ContactModels::ForceData;
@@ -24,7 +24,7 @@ class EnergyBooks
   double** dissipated_energy =
       nullptr;           ///< LIGGGHTS's property of that name, energy first; null: not asked for
   double law_force = 0;  ///< N, of the law alone, in the contact computed last
-  ContactLedger::Side* side = nullptr;  ///< of that contact
+  ContactStatistics::Pair* counts = nullptr;  ///< of that contact
 
   void share(const SurfacesIntersectData& sidata, Column column, double energy, int nlocal) const
   {
@@ -64,7 +64,7 @@ class EnergyBooks
         if (!sidata.is_wall) power -= (mean_couple[c] + sidata.crj * arm[c]) * sidata.omega_j[c];
       }
       const double taken = -power * dt;
-      side->other_work += (sidata.is_wall || sidata.j < nlocal ? 1.0 : 0.5) * taken;
+      counts->other_work += (sidata.is_wall || sidata.j < nlocal ? 1.0 : 0.5) * taken;
       share(sidata, other_work, taken, nlocal);
     }
     for (int c = 0; c < 3; ++c) last[c] = force[c], last[3 + c] = couple[c];

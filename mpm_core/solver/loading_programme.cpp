@@ -1,4 +1,4 @@
-#include "solver/drive.hpp"
+#include "solver/loading_programme.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +19,15 @@ double smooth_step(double t)
 /// do; a surface vibration can close the contact again within about one crossing of the sphere (2 R/c).
 constexpr double leaving_time = 2.0;
 
-/// At a turn of the press the body is held and its vibration (slowest mode: period about 2.6 R/c) damped out
-/// at about critical rate. Without it e at 0.02 R would still depend on the ramp: .5845, .5877, .5890 for 40,
-/// 80, 160.
+/// At a reversal of the press the body is held and its vibration (slowest mode: period about 2.6 R/c) damped
+/// out at about critical rate. Without it e at 0.02 R would still depend on the ramp: .5845, .5877, .5890 for
+/// 40, 80, 160.
 constexpr double hold_time = 6.0, hold_damping = 1.5;
 
 /// Damping already begins while the press slows down. Where material flows that is a body force of about
 /// rho rate v, over R a stress; it must stay small beside the yield stress: at 1 % of it two ramps agree in F
 /// to 0.1 %, without a bound they differed by 0.3 % at E*/Y = 1000 and 0.8 % at 5000 (press to 0.1 R, and F
-/// at the turn was 0.7 % and 1.7 % high).
+/// at the reversal was 0.7 % and 1.7 % high).
 double most_damping(const Scene& scene, double velocity)
 {
   double rate = hold_damping;
@@ -40,7 +40,7 @@ double most_damping(const Scene& scene, double velocity)
 
 }  // namespace
 
-void ImpactDrive::apply(Scene& scene, double time, double dt, bool touching)
+void ImpactProgramme::apply(Scene& scene, double time, double dt, bool touching)
 {
   time_ = time + dt;
   if (touching) last_touch_ = time_;
@@ -48,17 +48,17 @@ void ImpactDrive::apply(Scene& scene, double time, double dt, bool touching)
   finished_ = rebounding_ && time_ - last_touch_ > leaving_time;
 }
 
-double ImpactDrive::progress() const
+double ImpactProgramme::progress() const
 {
   return std::min(1.0, time_ / expected_);
 }
 
-void ImpactDrive::visit_state(StateArchive& a)
+void ImpactProgramme::visit_state(StateArchive& a)
 {
   a.value(last_touch_), a.value(time_), a.value(rebounding_), a.value(finished_);
 }
 
-void PressDrive::start_loading(double time, double overlap)
+void PressProgramme::start_loading(double time, double overlap)
 {
   phase_ = Phase::load;
   start_ = time;
@@ -70,13 +70,13 @@ void PressDrive::start_loading(double time, double overlap)
   reached_new_depth_ = deepest_ == 0;
 }
 
-void PressDrive::start_holding(double time)
+void PressProgramme::start_holding(double time)
 {
   phase_ = Phase::hold;
   start_ = time;
 }
 
-void PressDrive::start_unloading(double time)
+void PressProgramme::start_unloading(double time)
 {
   phase_ = Phase::unload;
   ++segment_;
@@ -85,7 +85,7 @@ void PressDrive::start_unloading(double time)
   speed_ = 1.5 * force_ / (2 * e_star_ * std::max(radius_, 1e-6)) / plan_.unload_ramp;
 }
 
-double PressDrive::target_velocity(double time) const
+double PressProgramme::target_velocity(double time) const
 {
   const double t = time - start_;
   switch (phase_) {
@@ -103,7 +103,7 @@ double PressDrive::target_velocity(double time) const
   return 0;
 }
 
-void PressDrive::damp(Scene& scene, double velocity, double share)
+void PressProgramme::damp(Scene& scene, double velocity, double share)
 {
   const double keep = 1 - share;
   for (Body& body : scene.bodies) {
@@ -119,7 +119,7 @@ void PressDrive::damp(Scene& scene, double velocity, double share)
   }
 }
 
-void PressDrive::apply(Scene& scene, double time, double dt, bool touching)
+void PressProgramme::apply(Scene& scene, double time, double dt, bool touching)
 {
   if (touching) last_touch_ = time + dt;
   const double velocity = -target_velocity(time + 0.5 * dt);  // overlap grows as the bodies move down
@@ -187,19 +187,19 @@ void PressDrive::apply(Scene& scene, double time, double dt, bool touching)
   }
 }
 
-Branch PressDrive::branch() const
+Branch PressProgramme::branch() const
 {
   if (phase_ == Phase::unload || phase_ == Phase::stop) return Branch::unload;
   return reached_new_depth_ ? Branch::load : Branch::reload;
 }
 
-double PressDrive::progress() const
+double PressProgramme::progress() const
 {
   const double stops = static_cast<double>(plan_.stops.size());
   return std::min(1.0, (static_cast<double>(stop_) + (phase_ == Phase::load ? 0.3 : 0.7)) / stops);
 }
 
-void PressDrive::visit_state(StateArchive& a)
+void PressProgramme::visit_state(StateArchive& a)
 {
   a.expect(plan_.stops.size(), "stops of the press");
   a.value(phase_), a.value(stop_), a.value(segment_);
@@ -209,7 +209,7 @@ void PressDrive::visit_state(StateArchive& a)
   a.value(reached_new_depth_), a.value(finished_);
 }
 
-double PressDrive::overlap(const Scene& scene) const
+double PressProgramme::overlap(const Scene& scene) const
 {
   return plan_.support == Support::free ? scene.overlap() : -driven_;
 }
