@@ -372,7 +372,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   for (const int type : unknown_yield)
     ask(plan, fmt::format("the yield stress of type {}", type), "--materials-file FILE --materials NAME...");
   if (std::isfinite(shortest)) plan.time_step = scene.stretch * shortest / steps_per_contact;
-  plan.axis_matters = fastest > negligible_inertia;
+  plan.axis_matters = fastest > negligible_damage_number;
   // a fifth more than foreseen, in two digits
   const auto rounded_up = [](double x) {
     if (x <= 0) return 0.0;
@@ -411,7 +411,7 @@ std::string table_command(const Plan& plan, const std::string& materials_file)
     ratio = std::max(ratio, radius_ratio(plan, p.meeting));
   }
   if (pairs.empty() || plan.depth <= 0) return {};
-  return fmt::format("mpm table {}{} --depth {:.3g} --inertia {:.3g}{} -o law.h5",
+  return fmt::format("mpm table {}{} --depth {:.3g} --damage-number {:.3g}{} -o law.h5",
                      materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
                      plan.damage_number, ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", ratio) : "");
 }
