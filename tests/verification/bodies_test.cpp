@@ -42,7 +42,7 @@ Partner wall(double e_over_y, double stiffness = 1, double density = 1)
 RunOptions options_of(int resolution, int shifted_grids, GridKind grid = GridKind::automatic)
 {
   RunOptions o;
-  o.resolution = resolution, o.shifted_grids = phases, o.grid = grid;
+  o.resolution = resolution, o.shifted_grids = shifted_grids, o.grid = grid;
   return o;
 }
 
@@ -115,7 +115,7 @@ TEST_P(Exchange, ChangesNothing)
   const RunSummary a = run_impact(small, 0.01, o, against(large)).summary;
   const RunSummary b = run_impact(large, 0.01, o, against(small)).summary;
   // The resolution's own error: 16 and 24 cells differ by 2e-3 in e, 1e-3 in F. Measured (mapped,
-  // rectilinear): e 1.7e-3, 9e-4; F 1.6e-3, 5e-4; overlap 9e-4, 2e-4; at V = 0.004, 16 cells, 4 phases: 2e-4
+  // rectilinear): e 1.7e-3, 9e-4; F 1.6e-3, 5e-4; overlap 9e-4, 2e-4; at V = 0.004, 16 cells, 4 grids: 2e-4
   // in all.
   EXPECT_NEAR(a.restitution, b.restitution, 3e-3 * a.restitution);
   EXPECT_NEAR(a.force_max, b.force_max, 2e-3 * a.force_max);

@@ -29,7 +29,7 @@ Particle sphere(double e_over_y)
 RunOptions options_of(int resolution, int shifted_grids, GridKind grid = GridKind::automatic)
 {
   RunOptions o;
-  o.resolution = resolution, o.shifted_grids = phases, o.grid = grid;
+  o.resolution = resolution, o.shifted_grids = shifted_grids, o.grid = grid;
   return o;
 }
 

@@ -40,7 +40,7 @@ double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curv
   const auto loading = [&](double x) {
     const double s = std::pow(x, 0.25), q = q_of(s);
     return std::pow(x, 1.5) * (1 + shape.finite_sphere * s * s) *
-           std::exp(-shape.softening * q * q / (1 + q));
+           std::exp(-shape.force_reduction * q * q / (1 + q));
   };
   return worst_error(curve, [&](double x, double x_max, double) {
     if (x >= x_max || x_max <= shape.onset) return loading(x);
