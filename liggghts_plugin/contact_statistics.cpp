@@ -88,6 +88,7 @@ std::string counts_json(const ContactStatistics::Pair& s, const std::string& ind
       {"impact_speed_max_m_per_s", number(s.speed_max)},
       {"overlap_over_radius_min", number(s.overlap_min)},
       {"overlap_over_radius_max", number(s.overlap_max)},
+      {"damage_number_max", number(s.damage_number_max)},
       {"inertia_number_max", number(s.damage_number_max)},
       {"contacts_near_table_edge", number(s.near)},
       {"contacts_past_table", number(s.past)},
@@ -118,14 +119,17 @@ const char* kind_name(int kind)
 std::string pair_json(const PairKey& key, const ContactStatistics::Pair& s)
 {
   const PairInfo& info = s.info;
+  const std::string damage_number_limit =
+      info.damage_number_limit > 0 ? number(info.damage_number_limit) : "null";
   return fmt::format(
       "    {{\n      \"kind\": \"{}\",\n      \"types\": [{}, {}],\n      \"materials\": [{}, {}],\n"
       "      \"law\": {},\n      \"rule\": {},\n      \"overlap_over_radius_limit\": {},\n"
-      "      \"inertia_number_limit\": {},\n      \"onset_speed_m_per_s\": {},\n"
+      "      \"damage_number_limit\": {},\n      \"inertia_number_limit\": {},\n      "
+      "\"onset_speed_m_per_s\": {},\n"
       "      \"time_step_limit_of_law_s\": {},\n{}\n    }}",
       kind_name(key.kind), key.i, key.j, quoted(info.a), quoted(info.b), quoted(info.law), quoted(info.rule),
-      number(info.overlap_limit), info.damage_number_limit > 0 ? number(info.damage_number_limit) : "null",
-      number(info.onset_speed), info.dt_limit > 0 ? number(info.dt_limit) : "null", counts_json(s, "      "));
+      number(info.overlap_limit), damage_number_limit, damage_number_limit, number(info.onset_speed),
+      info.dt_limit > 0 ? number(info.dt_limit) : "null", counts_json(s, "      "));
 }
 
 }  // namespace

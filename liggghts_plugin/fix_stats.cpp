@@ -330,7 +330,7 @@ void FixStats::post_run()
     line += fmt::format(
         "; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
         "restitution",
-        all.damage_number_max, session_->damage_number_limit);
+        all.damage_number_max, session_->damage_number_limit, session_->damage_number_limit);
   if (all.frequency2 > 0)
     line += fmt::format("; the stiffest contact allowed a time step of {:.4g} s, used were {:.4g} s",
                         all.dt_allowed(), largest_dt_);
@@ -393,9 +393,10 @@ void FixStats::write_json(const ContactStatistics& sum, const std::string& path)
 {
   const std::string header = fmt::format(
       "  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": {:.10g},\n"
-      "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"inertia_number_limit_of_law\": {:.6g},\n",
+      "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"damage_number_limit_of_law\": {:.6g},\n"
+      "  \"inertia_number_limit_of_law\": {:.6g},\n",
       version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_,
-      session_->damage_number_limit);
+      session_->damage_number_limit, session_->damage_number_limit);
   const std::string text = to_json(sum, header, deck_units()),
                     temporary = fmt::format("{}.tmp.{}", path, getpid());
   FILE* file = std::fopen(temporary.c_str(), "w");

@@ -247,7 +247,7 @@ def case_wrong_words():
     table, law = ["table", name, "-o", "new.h5"], ["law", "law.h5", "--pair", "powder:wall", "--velocity", "1"]
     for depth in ("0.9", "0", "-0.1", "nan", "inf", "20 %"):
         refused([*table, "--depth", depth], "--depth", f"found '{depth}'", "over 0, up to 0.5", code=2)
-    for option, allowed in (("--tolerance", "0.0001 to 0.5"), ("--inertia", "0 to 0.09"), ("--radius-ratio", "1 to 10"), ("--slowest", "over 0"),
+    for option, allowed in (("--tolerance", "0.0001 to 0.5"), ("--damage-number", "0 to 0.09"), ("--inertia", "0 to 0.09"), ("--radius-ratio", "1 to 10"), ("--slowest", "over 0"),
                             ("--jobs", "1 to 1024")):
         for value in ("nan", "-1", "inf", "1e300", "x"):
             if (option, value) != ("--slowest", "1e300"):

@@ -94,7 +94,7 @@ json study(const std::string& job, const Sphere& sphere, double velocity, bool q
       for (const int shifted_grids : {1, 4})
         for (const int cells : {8, 12, 16, 24, 32}) {
           if (cells > (quick ? 16 : grid == GridKind::updated ? 24 : 32)) continue;
-          if (phases == 1 && grid != GridKind::mapped) continue;
+          if (shifted_grids == 1 && grid != GridKind::mapped) continue;
           o.grid = grid, o.precision = precision, o.resolution = cells, o.shifted_grids = shifted_grids;
           found["rows"].push_back(row(job, o, run_impact(sphere, velocity, o), reference));
         }

@@ -200,7 +200,8 @@ TEST(ReductionError, IsMeasuredAsNoneForLikeSpheres)
   const LawMaterial powder = material(2e9, 50, 0.3, 1500);
   const UnlikePair like{powder, powder, 1};
   const MeasuredReduction none = measure_reduction_error(like, 20 * like.yield_velocity());
-  // 10 and 14 cells, two grids: the pair's contact sweeps stop at 1e-7 and its reversal is found a step later
+  // 10 and 14 cells, two grids: the pair's contact sweeps stop at 1e-7 and its reversal is found a step
+  // later
   EXPECT_NEAR(none.error.force, 0, 0.003);
   EXPECT_NEAR(none.error.restitution, 0, 0.003);
   // a partner that cannot yield: the rule's e is too low, by more than the solver leaves open

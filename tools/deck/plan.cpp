@@ -411,7 +411,7 @@ std::string table_command(const Plan& plan, const std::string& materials_file)
     ratio = std::max(ratio, radius_ratio(plan, p.meeting));
   }
   if (pairs.empty() || plan.depth <= 0) return {};
-  return fmt::format("mpm table {}{} --depth {:.3g} --inertia {:.3g}{} -o law.h5",
+  return fmt::format("mpm table {}{} --depth {:.3g} --damage-number {:.3g}{} -o law.h5",
                      materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
                      plan.damage_number, ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", ratio) : "");
 }

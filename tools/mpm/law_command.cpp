@@ -97,14 +97,15 @@ void replay(const LawRequest& r)
          fmt::format("up to {:.4g} m", (1 + overlap_margin) * limit));
 
   const LawMaterial& m = pair.yielding->material;
-  const double speed = m.yields() ? pair.axis_speed(r_eff, m_eff, r.velocity) : 0.0, inertia = speed * speed;
+  const double speed = m.yields() ? pair.axis_speed(r_eff, m_eff, r.velocity) : 0.0,
+               damage_number = speed * speed;
   const double allowed = pair.yielding->certificate.damage_number_max;
-  const bool needs_axis = inertia > allowed && !pair.curve->axis();
+  const bool needs_axis = damage_number > allowed && !pair.curve->axis();
   if (needs_axis)
     fmt::print(stderr,
                "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: there the law would need a velocity axis, which "
                "this file does not have; e and force are too high\n",
-               inertia, allowed);
+               damage_number, allowed);
   if (result.left_speeds)
     fmt::print(
         stderr,
@@ -121,7 +122,7 @@ void replay(const LawRequest& r)
   if (r.json) {
     nlohmann::ordered_json out = collision_json(result);
     put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0, error);  // no solver: no points
-    out["inertia"] = inertia;
+    out["damage_number"] = out["inertia"] = damage_number;
     out["needs_velocity_axis"] = needs_axis;
     out["beyond_velocity_axis"] = result.left_speeds;
     out["below_velocity_axis"] = result.held_speed;
@@ -129,7 +130,7 @@ void replay(const LawRequest& r)
     return;
   }
   fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}\n", a, b, r.velocity, r_eff,
-             inertia);
+             damage_number);
   print_collision(result, fmt::format("{:.3g} of the law's range", result.delta_max / limit));
   if (error > 0) fmt::print("stated error of F and e        {:.2g}\n", error);
 }

@@ -66,6 +66,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
          {"onset_speed_m_per_s", p.meeting.known_yield ? json_number(p.onset) : ordered_json(nullptr)},
          {"yield_velocity_m_per_s",
           p.meeting.known_yield ? json_number(p.yield_velocity) : ordered_json(nullptr)},
+         {"damage_number_max", json_number(p.damage_number)},
          {"inertia_number_max", json_number(p.damage_number)},
          {"overlap_over_radius_max", json_number(p.overlap)},
          {"overlap_by", p.overlap_basis},
@@ -152,7 +153,7 @@ void plan(const PlanRequest& r)
       fmt::print("  {}:wall {}: the lowest particles shield the floor from a fall of {:.3g} m/s\n",
                  p.meeting.a, p.meeting.b, std::sqrt(2 * deck::norm(d.scene.gravity) * plan.fall));
   if (plan.damage_number > 0)
-    fmt::print("axes of the law: overlap; inertia {}\n",
+    fmt::print("axes of the law: overlap; velocity {}\n",
                plan.axis_matters
                    ? fmt::format("(I up to {:.2g})", plan.damage_number)
                    : fmt::format("not needed (I stays below {:g})", deck::negligible_damage_number));

@@ -33,7 +33,7 @@ struct RunRequest
   double courant = RunOptions{}.courant;
   std::optional<double> tolerance, ramp;
   std::optional<int> resolution;
-  int jobs = 1, frames = 40, phases = RunOptions{}.shifted_grids;
+  int jobs = 1, frames = 40, shifted_grids = RunOptions{}.shifted_grids;
   bool json = false, no_estimate = false;
 };
 
@@ -47,7 +47,7 @@ void add_common(CLI::App& command, RunRequest& r)
                      "a material of that file: a thick deformable wall of it (default: rigid)");
   command.add_option(
       "--grid", r.grid,
-      "mapped (fitted to the sphere), rectilinear (graded Cartesian: any shape, layers, inclusions), "
+      "mapped (fitted to the sphere), rectilinear or tartan (graded: any shape, layers, inclusions), "
       "updated (points move through the grid: the independent check); default: what the particle "
       "needs");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
@@ -76,7 +76,7 @@ void add_common(CLI::App& command, RunRequest& r)
       ->needs(checkpoint);
   command.add_option("--jobs", r.jobs, "threads (default 1)")->check(whole_from_to(1, 256));
   command.add_option(
-      "--phases", r.phases,
+      "--shifted-grids,--phases", r.shifted_grids,
       "runs on grids shifted against each other by equal parts of a cell, 1 to 64; results are "
       "their mean, free of the first harmonics of the contact-edge grid noise (default 4)");
   command.add_option("--courant", r.courant,
@@ -90,7 +90,8 @@ void add_common(CLI::App& command, RunRequest& r)
       "contact-edge grid noise if there is one grid only, e_raw is not; force_max_N: of an impact the peak "
       "of "
       "the grids' mean trace, smoothed over 2 % of the loading; of a press or one grid that of a fit; "
-      "ripple: rms of raw over fitted force, less 1; energy_error: |kinetic + elastic + plastic energy + "
+      "grid_noise (also ripple): rms of raw over fitted force, less 1; energy_error: |kinetic + elastic + "
+      "plastic energy + "
       "contact loss "
       "- work put in| over the energy put in, at the end; contact_loss: the part of it that nodes lost "
       "when they reached the other side and stopped, proportional to the cell size; hourglass: the part "
@@ -100,6 +101,7 @@ void add_common(CLI::App& command, RunRequest& r)
 
 GridKind grid_of(const std::string& name)
 {
+  if (name == "tartan") return GridKind::rectilinear;  // an alias
   for (const GridKind grid :
        {GridKind::automatic, GridKind::mapped, GridKind::rectilinear, GridKind::updated})
     if (name == name_of(grid)) return grid;
@@ -140,8 +142,9 @@ void check(const RunRequest& r)
   if (!(r.courant >= 0.05 && r.courant <= 1.0))
     fail("--courant", r.courant > 1 ? "explicit time stepping is unstable above 1" : "cannot be used",
          fmt::format("{:g}", r.courant), "0.05 to 1");
-  if (r.phases < 1 || r.phases > 64)
-    fail("--phases", "cannot be used", std::to_string(r.phases), "1 to 64 shifted grids");
+  if (r.shifted_grids < 1 || r.shifted_grids > 64)
+    fail("--shifted-grids (--phases)", "cannot be used", std::to_string(r.shifted_grids),
+         "1 to 64 shifted grids");
   if (r.tolerance && !(*r.tolerance >= 1e-4 && *r.tolerance <= 0.5))
     fail("--tolerance", "cannot be used", fmt::format("{:g}", *r.tolerance), "1e-4 to 0.5");
   if (r.resolution && !(*r.resolution >= 6 && *r.resolution <= 200))
@@ -170,7 +173,7 @@ RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, const
   options.grid = grid_of(r.grid);
   options.precision = r.precision == "single" ? Precision::single : Precision::full;
   options.threads = r.jobs;
-  options.shifted_grids = r.phases;
+  options.shifted_grids = r.shifted_grids;
   options.courant = r.courant;
   options.fields = fields;
   options.progress = [&](double done) { bar.update(done, ""); };
@@ -209,7 +212,7 @@ void print_json(const RunRequest& r, const Particle& particle, const RunSummary&
   out["resolution"] = s.resolution;
   out["grids"] = s.grids;
   out["energy_error"] = s.energy_error;
-  out["ripple"] = s.grid_noise;
+  out["grid_noise"] = out["ripple"] = s.grid_noise;
   out["e_raw"] = s.restitution_raw;
   out["plastic_strain_max"] = s.plastic_strain_max;
   out["contact_loss"] = s.contact_loss;

@@ -219,7 +219,7 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   if (pairs.empty()) return false;
   if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
   if (command.count("--depth") == 0) r.range.depth = d.plan.depth;
-  if (command.count("--inertia") == 0) r.damage_number = d.plan.damage_number;
+  if (command.count("--damage-number") == 0) r.damage_number = d.plan.damage_number;
   if (command.count("--radius-ratio") == 0) r.radius_ratio = ratio;
   if (rank() == 0)
     fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
@@ -247,7 +247,7 @@ void check_slowest(const TableRequest& r, const std::map<std::string, Entry>& en
     const double fastest =
         std::sqrt(r.damage_number * entry.material.yield_stress / entry.material.density);  // on a wall
     if (r.slowest > 0.7 * fastest)
-      fail("--slowest", fmt::format("is no slower than the fastest impact of '{}' (--inertia)", name),
+      fail("--slowest", fmt::format("is no slower than the fastest impact of '{}' (--damage-number)", name),
            fmt::format("{:g} m/s", r.slowest), fmt::format("up to {:.4g} m/s", 0.7 * fastest));
   }
   if (!used) fail("--slowest", "no body of the pairs depends on the rate: leave it out");
@@ -315,12 +315,12 @@ void build(const TableRequest& r)
       BuiltLaw built = build_law(entry.material, entry.characterised, options);
       law.bodies[name] = std::move(built.law);
       warnings += tolerance_missed(name, built, options.tolerance);
-      remarks.push_back(fmt::format("{}: by {} runs, {} of the densest survey ({})", name, built.runs,
+      remarks.push_back(fmt::format("{}: by {} runs, {} of the densest sampling plan ({})", name, built.runs,
                                     built.runs_full, why));
       for (std::size_t k = 0; k < built.holes.size(); ++k)
         law.provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
-      law.provenance["survey." + name] =
-          fmt::format("{} runs, {} of the densest survey", built.runs, built.runs_full);
+      law.provenance["sampling_plan." + name] = law.provenance["survey." + name] =
+          fmt::format("{} runs, {} of the densest sampling plan", built.runs, built.runs_full);
       if (!built.shallow.empty()) law.provenance["shallow." + name] = built.shallow;
       if (!built.rate_free.empty()) law.provenance["rate_free." + name] = built.rate_free;
       const auto& materials = entry.characterised.particle.materials;
@@ -433,7 +433,9 @@ void add_table(CLI::App& app)
   command->add_option("--depth", r->range.depth, "largest overlap over the radius, up to 0.5")
       ->check(above_zero_to(0.5))
       ->capture_default_str();
-  command->add_option("--inertia", r->damage_number, "largest I = rho V^2/Y, up to 0.09; 0: a rate-free law")
+  command
+      ->add_option("--damage-number,--inertia", r->damage_number,
+                   "largest damage number I = rho V^2/Y, up to 0.09; 0: a rate-free law")
       ->check(from_to(0, 0.09))
       ->capture_default_str();
   command
