@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "deck/hertz.hpp"
 #include "deck/mesh_file.hpp"
 #include "deck/plan.hpp"
 #include "deck/script.hpp"

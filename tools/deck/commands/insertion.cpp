@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deck/commands/particles.hpp"
 #include "deck/commands/reading.hpp"
 
 namespace granulaw::deck {
@@ -155,9 +156,7 @@ double added_by(const Insertion& in, double steps, double duration)
   return std::isfinite(number) ? number : 0;
 }
 
-}  // namespace
-
-void follow_insertion(Reading& reading, const Fix& fix, Words w)
+void insert(Reading& reading, const Fix& fix, const Words& w)
 {
   const Request r = request(reading, w);
   const Mixture m = mixture(reading, reading.distributions.at(r.distribution));
@@ -167,6 +166,13 @@ void follow_insertion(Reading& reading, const Fix& fix, Words w)
     reading.scene.unknown_particles.push_back(
         fmt::format("{}: {}: how many particles is not understood", w.where(), fix.style));
   reading.insertions.put(fix.id, insertion);
+}
+
+}  // namespace
+
+void follow_insertion(Reading& reading, const Fix& fix, Words w)
+{
+  bring_particles(reading, w, [&] { insert(reading, fix, w); });
 }
 
 void insert_particles(Reading& reading, double steps, double duration)

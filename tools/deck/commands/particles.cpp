@@ -27,6 +27,28 @@ void scatter(const Reading& reading, Words& w, Source& s)
   s.centres = w.take("NULL") ? reading.scene.domain : reading.regions.at(w.word()).box;
 }
 
+/// TYPE single|region|box|random ...
+Source created(const Reading& reading, Words w)
+{
+  Source s;
+  s.where = w.where();
+  s.type = w.atom_type();
+  const std::string style = w.word();
+  if (style == "single") {
+    s.centres.include(w.vector());
+    s.count = 1;
+  } else if (style == "box") {
+    fill(reading, {reading.scene.domain, reading.scene.domain.volume()}, s);
+  } else if (style == "region") {
+    fill(reading, reading.regions.at(w.word()), s);
+  } else if (style == "random") {
+    scatter(reading, w, s);
+  } else {
+    misread(fmt::format("'{}' is not understood", style));
+  }
+  return s;
+}
+
 /// The keywords of `set`.
 struct Change
 {
@@ -70,25 +92,20 @@ void apply(const Change& change, bool whole, Source& s)
 
 }  // namespace
 
+void bring_particles(Reading& reading, const Words& w, const std::function<void()>& bring)
+{
+  try {
+    bring();
+  } catch (const Unknown& error) {
+    reading.scene.unknown_particles.push_back(
+        fmt::format("{}: particles are not known: {}", w.where(), error.what()));
+    throw;
+  }
+}
+
 void follow_create_atoms(Reading& reading, Words w)
 {
-  Source s;
-  s.where = w.where();
-  s.type = w.atom_type();
-  const std::string style = w.word();
-  if (style == "single") {
-    s.centres.include(w.vector());
-    s.count = 1;
-  } else if (style == "box") {
-    fill(reading, {reading.scene.domain, reading.scene.domain.volume()}, s);
-  } else if (style == "region") {
-    fill(reading, reading.regions.at(w.word()), s);
-  } else if (style == "random") {
-    scatter(reading, w, s);
-  } else {
-    misread(fmt::format("'{}' is not understood", style));
-  }
-  reading.scene.sources.push_back(s);
+  bring_particles(reading, w, [&] { reading.scene.sources.push_back(created(reading, w)); });
 }
 
 void follow_set(Reading& reading, Words w)

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <functional>
+
 #include "deck/commands/handlers.hpp"
 
 namespace granulaw::deck {
+
+/// Calls `bring`, which adds particles. Where it throws Unknown, the plan asks for them.
+void bring_particles(Reading& reading, const Words& words, const std::function<void()>& bring);
 
 /// `create_atoms TYPE single|region|box|random ...`
 void follow_create_atoms(Reading& reading, Words words);

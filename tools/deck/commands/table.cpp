@@ -56,56 +56,58 @@ constexpr std::array commands{
 };
 
 /// The commands that have no bearing on a plan.
-constexpr auto without_bearing = std::to_array<std::string_view>({"atom_modify",
-                                                                  "bond_coeff",
-                                                                  "bond_style",
-                                                                  "box",
-                                                                  "change_box",
-                                                                  "coarsegraining",
-                                                                  "communicate",
-                                                                  "compute",
-                                                                  "compute_modify",
-                                                                  "debug",
-                                                                  "delete_atoms",
-                                                                  "dielectric",
-                                                                  "dimension",
-                                                                  "dump",
-                                                                  "dump_modify",
-                                                                  "echo",
-                                                                  "fix_modify",
-                                                                  "group",
-                                                                  "hard_particles",
-                                                                  "info",
-                                                                  "log",
-                                                                  "mass",
-                                                                  "min_style",
-                                                                  "minimize",
-                                                                  "modify_timing",
-                                                                  "neigh_modify",
-                                                                  "neighbor",
-                                                                  "newton",
-                                                                  "pair_coeff",
-                                                                  "partition",
-                                                                  "print",
-                                                                  "processors",
-                                                                  "quit",
-                                                                  "replicate",
-                                                                  "reset_timestep",
-                                                                  "restart",
-                                                                  "run_style",
-                                                                  "shell",
-                                                                  "soft_particles",
-                                                                  "suffix",
-                                                                  "thermo",
-                                                                  "thermo_log",
-                                                                  "thermo_modify",
-                                                                  "thermo_style",
-                                                                  "timer",
-                                                                  "uncompute",
-                                                                  "undump",
-                                                                  "write_data",
-                                                                  "write_dump",
-                                                                  "write_restart"});
+constexpr std::string_view without_bearing[] = {
+    "atom_modify",
+    "bond_coeff",
+    "bond_style",
+    "box",
+    "change_box",
+    "coarsegraining",
+    "communicate",
+    "compute",
+    "compute_modify",
+    "debug",
+    "delete_atoms",
+    "dielectric",
+    "dimension",
+    "dump",
+    "dump_modify",
+    "echo",
+    "fix_modify",
+    "group",
+    "hard_particles",
+    "info",
+    "log",
+    "mass",
+    "min_style",
+    "minimize",
+    "modify_timing",
+    "neigh_modify",
+    "neighbor",
+    "newton",
+    "pair_coeff",
+    "partition",
+    "print",
+    "processors",
+    "quit",
+    "replicate",
+    "reset_timestep",
+    "restart",
+    "run_style",
+    "shell",
+    "soft_particles",
+    "suffix",
+    "thermo",
+    "thermo_log",
+    "thermo_modify",
+    "thermo_style",
+    "timer",
+    "uncompute",
+    "undump",
+    "write_data",
+    "write_dump",
+    "write_restart",
+};
 
 struct FixEntry
 {
@@ -162,7 +164,7 @@ void follow_unfix(Reading& reading, Words w)
 
 CommandHandler handler_of(const std::string& name)
 {
-  std::vector<std::string> known(without_bearing.begin(), without_bearing.end());
+  std::vector<std::string> known(std::begin(without_bearing), std::end(without_bearing));
   for (const CommandEntry& entry : commands) {
     if (entry.name == name) return entry.follow;
     known.emplace_back(entry.name);
@@ -181,7 +183,8 @@ std::string title(const Command& c)
 void follow(Reading& reading, const Command& c)
 {
   const std::string& name = c.words[0];
-  if (std::find(without_bearing.begin(), without_bearing.end(), name) != without_bearing.end()) return;
+  if (std::find(std::begin(without_bearing), std::end(without_bearing), name) != std::end(without_bearing))
+    return;
   try {
     if (!c.unknown.empty()) misread(c.unknown);
     handler_of(name)(reading, Words(c));
