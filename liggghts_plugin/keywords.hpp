@@ -43,7 +43,7 @@ inline constexpr std::array keyword_table{
     Keyword{.name = "limitForce", .reader = KeywordReader::contact_models},
     Keyword{.name = "tangential_reduce", .reader = KeywordReader::contact_models},
     Keyword{.name = "computeElasticPotential", .reader = KeywordReader::contact_models},
-    Keyword{.name = "computeDissipatedEnergy", .reader = KeywordReader::contact_models},
+    Keyword{.name = "computeDissipatedEnergy"},
     Keyword{.name = "heating_tracking", .reader = KeywordReader::contact_models},
     Keyword{.name = "heating_tangential_history", .reader = KeywordReader::contact_models},
     Keyword{.name = "heating_tangential_no_history", .reader = KeywordReader::contact_models},

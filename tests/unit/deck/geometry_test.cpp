@@ -76,5 +76,17 @@ TEST(Rotated, KeepsLengthAndAxisAndGoesAroundOnce)
   EXPECT_EQ(rotated(p, {0, 0, 0}, 30), p);  // no axis
 }
 
+TEST(Geometry, VolumeOfABall)
+{
+  EXPECT_DOUBLE_EQ(ball_volume(0.5), M_PI / 6);
+}
+
+TEST(Geometry, RotatesAsTheRightHandDoes)
+{
+  const Vec3 p = rotated({1, 0, 0}, {0, 0, 2}, 90);
+  EXPECT_NEAR(p[0], 0, 1e-15);  // rounding of cos 90 degrees
+  EXPECT_NEAR(p[1], 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace granulaw::deck
