@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "liggghts_plugin/keywords.hpp"
 
 namespace granulaw::plugin {
 
@@ -15,33 +16,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Words that LIGGGHTS itself reads behind the models, each followed by on or off.
-const Words passed_on = {"tangential_damping",
-                         "limitForce",
-                         "tangential_reduce",
-                         "computeElasticPotential",
-                         "computeDissipatedEnergy",
-                         "heating_tracking",
-                         "heating_tangential_history",
-                         "heating_tangential_no_history",
-                         "torsionTorque"};
-const Words model_kinds = {"model", "tangential", "cohesion", "rolling_friction", "surface"};
-/// Words of `fix wall/gran` that must stand before the model's.
-const Words wall_words = {"primitive",
-                          "mesh",
-                          "n_meshes",
-                          "meshes",
-                          "shear",
-                          "store_force",
-                          "store_force_contact",
-                          "store_force_contact_every",
-                          "store_force_contact_stress",
-                          "temperature",
-                          "contact_area",
-                          "track_energy",
-                          "allow_special_domain_periodic"};
-
-bool contains(const Words& words, const std::string& word)
+bool contains(const auto& words, const std::string& word)
 {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -86,11 +61,11 @@ const char* model_name(Model model)
 
 Words keywords(Model model, bool is_wall)
 {
-  Words words = {"tangentialDampingRatio",  "tangentialStiffness", "elasticDamping", "stretch", "heatArea",
-                 is_wall ? "wall" : "stats"};
-  if (!is_wall) words.insert(words.end(), {"energy", "contactMap"});
-  if (model == Model::mpm) words.insert(words.end(), {"law", "materials", "beyondRange"});
-  words.insert(words.end(), passed_on.begin(), passed_on.end());
+  Words words;
+  for (const Keyword& k : keyword_table)
+    if ((is_wall ? k.in_wall : k.in_pair_style) && (model == Model::mpm || !k.only_mpm) &&
+        k.reader != KeywordReader::surface_model)
+      words.emplace_back(k.name);
   return words;
 }
 
@@ -112,9 +87,6 @@ void Options::inherit(const Options& pair)
 Options parse_options(Model model, bool is_wall, const std::string& where, const Words& words, Words& rest)
 {
   const Words known = keywords(model, is_wall);
-  const auto is_reserved = [&](const std::string& word) {
-    return contains(known, word) || contains(model_kinds, word) || (is_wall && contains(wall_words, word));
-  };
   Options options;
   Words seen;
   for (std::size_t i = 0; i < words.size();) {
@@ -133,7 +105,7 @@ Options parse_options(Model model, bool is_wall, const std::string& where, const
     if (i >= words.size()) fail(where, fmt::format("'{}' needs a value", key));
 
     if (key == "materials") {
-      while (i < words.size() && !is_reserved(words[i])) options.materials.push_back(words[i++]);
+      while (i < words.size() && !is_reserved(words[i], is_wall)) options.materials.push_back(words[i++]);
       if (options.materials.empty()) fail(where, "'materials' needs one name for each atom type");
       continue;
     }

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace granulaw::deck {
 
@@ -32,6 +30,9 @@ inline double norm(const Vec3& a)
   return std::sqrt(dot(a, a));
 }
 
+/// Volume of a sphere.
+double ball_volume(double radius);
+
 /// A box with edges along the axes; as made it is empty. Sides may be infinite.
 struct Box
 {
@@ -52,8 +53,5 @@ struct Box
 
 /// `p` turned by `degrees` about `axis` (any length) through the origin.
 Vec3 rotated(const Vec3& p, const Vec3& axis, double degrees);
-
-/// Vertices of a triangle mesh: STL as text or binary, or the POINTS of a VTK text file. Throws Error.
-std::vector<Vec3> mesh_vertices(const std::string& path);
 
 }  // namespace granulaw::deck

@@ -6,29 +6,75 @@
 #include <cmath>
 
 #include "base/scales.hpp"
+#include "deck/hertz.hpp"
 #include "law/thornton.hpp"
 
 namespace granulaw::deck {
 
 namespace {
 
-/// Height of the bed if all particles lie on the ground that walls and domain enclose.
-double bed_height(const Scene& scene, const Plan& plan, const PlanOptions& options, double solid_fraction)
+/// R*, m, and m*, kg, of a sphere and its like, or a plane.
+struct Effective
+{
+  double radius, mass;
+};
+
+Effective smallest(const Plan& plan, const Meeting& m)
+{
+  return m.wall ? Effective{plan.radius_min, plan.mass_min}
+                : Effective{0.5 * plan.radius_min, 0.5 * plan.mass_min};
+}
+
+Effective largest(const Plan& plan, const Meeting& m)
+{
+  return m.wall ? Effective{plan.radius_max, plan.mass_max}
+                : Effective{0.5 * plan.radius_max, 0.5 * plan.mass_max};
+}
+
+std::string name_of(const Meeting& m)
+{
+  return m.name_a + ":" + m.name_b;
+}
+
+/// Volume of all particles, m^3.
+double solid_volume(const Scene& scene, const Plan& plan, const PlanOptions& options)
 {
   double volume = 0;
-  for (const Source& s : scene.sources)
-    volume += s.count * 4.0 / 3.0 * M_PI * std::pow(0.5 * (s.radius_min + s.radius_max), 3);
-  if (volume == 0) volume = options.particles.value_or(0) * 4.0 / 3.0 * M_PI * std::pow(plan.radius_max, 3);
+  for (const Source& s : scene.sources) volume += s.count * ball_volume(0.5 * (s.radius_min + s.radius_max));
+  return volume > 0 ? volume : options.particles.value_or(0) * ball_volume(plan.radius_max);
+}
+
+/// Area, seen along gravity, of the box that walls and domain enclose, m^2; 0: it has none.
+double ground_area(const Scene& scene)
+{
   Box ground;
   for (const Wall& w : scene.walls) ground.include(w.box);
   if (!scene.domain.empty()) ground = ground.empty() ? scene.domain : ground.within(scene.domain);
   const double g = norm(scene.gravity);
   if (ground.empty() || g == 0) return 0;
-  // the area under the box, seen along gravity
   const Vec3 size = ground.size(), n = 1 / g * scene.gravity;
-  const double area = std::abs(n[0]) * size[1] * size[2] + std::abs(n[1]) * size[0] * size[2] +
-                      std::abs(n[2]) * size[0] * size[1];
-  return area > 0 && std::isfinite(area) ? volume / solid_fraction / area : 0;
+  return std::abs(n[0]) * size[1] * size[2] + std::abs(n[1]) * size[0] * size[2] +
+         std::abs(n[2]) * size[0] * size[1];
+}
+
+/// Height of the bed if all particles lie on the ground, m.
+double bed_height(const Scene& scene, const Plan& plan, const PlanOptions& options, double solid_fraction)
+{
+  const double area = ground_area(scene);
+  if (!(area > 0) || !std::isfinite(area)) return 0;
+  return solid_volume(scene, plan, options) / solid_fraction / area;
+}
+
+/// The flow's own time, s: the fall through one radius, or the walls' time over a diameter; infinity:
+/// neither.
+double flow_time(const Scene& scene, double diameter)
+{
+  const double g = norm(scene.gravity);
+  double wall_speed = 0;
+  for (const Wall& w : scene.walls) wall_speed = std::max({wall_speed, w.speed, w.drag_speed});
+  double time = g > 0 ? std::sqrt(diameter / g) : Box::infinity;
+  if (wall_speed > 0) time = std::min(time, diameter / wall_speed);
+  return time;
 }
 
 double two_digits_down(double x)
@@ -37,16 +83,92 @@ double two_digits_down(double x)
   return std::floor(x / unit * (1 + 1e-12)) * unit;
 }
 
+/// F_y, N: Hertz's force at the overlap where yield begins; infinity: elastic.
+double yield_load(const Meeting& m, double r_eff)
+{
+  if (!m.yields.yields()) return Box::infinity;
+  const double x = onset_overlap(m.mapping.e_star, m.yields.yield_stress, m.yields.poisson_ratio);
+  return m.mapping.force(r_eff) * x * std::sqrt(x);
+}
+
+/// What one pair allows, within the limits.
+PairStretch stretch_of(const PairPlan& p, const Plan& plan, const Softening& scene, double g,
+                       const SoftenLimits& limits)
+{
+  const Meeting& m = p.meeting;
+  const double diameter = 2 * plan.radius_min, density = plan.mass_min / ball_volume(plan.radius_min);
+  PairStretch q;
+  q.pair = &p;
+  q.slow_speed = g > 0 ? std::min(p.speed, std::sqrt(2 * g * diameter)) : p.speed;
+  const Effective large = largest(plan, m);
+  q.contact_time = hertz_time(m.mapping.e_star_pair(), large.radius, large.mass, q.slow_speed);
+  q.static_load = limits.solid_fraction * density * g * scene.fill_height * diameter * diameter;
+  q.yield_load = yield_load(m, smallest(plan, m).radius);
+  const double time = std::isfinite(scene.flow_time) ? scene.flow_time : diameter / p.speed;
+  q.by_overlap = p.overlap > 0 ? limits.overlap / p.overlap : Box::infinity;
+  q.by_time = limits.time_fraction * time / q.contact_time;
+  q.by_static = q.static_load > 0 ? limits.static_load * q.yield_load / q.static_load : Box::infinity;
+  return q;
+}
+
+/// The smallest of all bounds, and which one it is.
+void set_stretch(Softening& result)
+{
+  double bound = 1000;  // what the plug-in takes
+  result.bound = "the plug-in's largest stretch";
+  const auto include = [&](double s, const char* limit, const PairStretch& q) {
+    if (!(s < bound)) return;
+    bound = s;
+    result.bound = fmt::format("{} {}", limit, name_of(q.pair->meeting));
+  };
+  for (const PairStretch& q : result.pairs) {
+    include(q.by_overlap, "overlap of", q);
+    include(q.by_time, "contact duration of", q);
+    include(q.by_static, "static load on", q);
+  }
+  result.stretch = std::max(1.0, two_digits_down(bound));
+}
+
+/// Largest overlap, and load and plastic set at the bed's foot, under the stretch.
+void include_loads(Softening& result, const PairStretch& q, double r_eff)
+{
+  const double s = result.stretch, load = s * q.static_load;
+  result.overlap = std::max(result.overlap, s * q.pair->overlap);
+  result.static_ratio = std::max(result.static_ratio, load / q.yield_load);
+  if (load > q.yield_load) {
+    const double yield_pressure = 1.6 * q.pair->meeting.yields.yield_stress;
+    result.extra_set =
+        std::max(result.extra_set, s * (load - q.yield_load) / (M_PI * yield_pressure * r_eff * r_eff));
+  }
+}
+
 /// e by the law at hand, else by Thornton's closed form.
-double restitution(const PlanOptions& options, const Meeting& m, double r_eff, double m_eff, double speed,
+double restitution(const PlanOptions& options, const Meeting& m, const Effective& size, double speed,
                    std::string& basis)
 {
   if (options.collide)
-    if (const auto collision = options.collide(m, r_eff, m_eff, speed)) return collision->restitution;
+    if (const auto collision = options.collide(m, size.radius, size.mass, speed))
+      return collision->restitution;
   basis = "Thornton";
   if (!m.yields.yields()) return 1;
-  return thornton_restitution(
-      speed / yield_velocity(m.mapping.e_star, m.yields.yield_stress, m.one_body_density(r_eff, m_eff)));
+  const double density = m.one_body_density(size.radius, size.mass);
+  return thornton_restitution(speed / yield_velocity(m.mapping.e_star, m.yields.yield_stress, density));
+}
+
+/// The pair with Young's modulus lowered to the same time step.
+Softening::Naive lowered_modulus(const PairPlan& p, const Effective& size, double modulus_factor,
+                                 const PlanOptions& options)
+{
+  Softening::Naive n;
+  n.pair = name_of(p.meeting);
+  n.speed = p.speed;
+  n.basis = "law";
+  n.e = restitution(options, p.meeting, size, p.speed, n.basis);
+  Meeting soft = p.meeting;
+  soft.yields.youngs_modulus *= modulus_factor;
+  soft.mapping.e_star *= modulus_factor;
+  n.e_naive = restitution(options, soft, size, p.speed, n.basis);
+  return n;
 }
 
 }  // namespace
@@ -54,71 +176,23 @@ double restitution(const PlanOptions& options, const Meeting& m, double r_eff, d
 Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& options, const SoftenLimits& limits)
 {
   Softening result;
-  const double g = norm(scene.gravity), diameter = 2 * plan.radius_min;
   result.fill_height =
       limits.fill_height > 0 ? limits.fill_height : bed_height(scene, plan, options, limits.solid_fraction);
-  double wall_speed = 0;
-  for (const Wall& w : scene.walls) wall_speed = std::max({wall_speed, w.speed, w.drag_speed});
-  result.flow_time = g > 0 ? std::sqrt(diameter / g) : Box::infinity;  // a fall through one radius
-  if (wall_speed > 0) result.flow_time = std::min(result.flow_time, diameter / wall_speed);
-
-  double largest = 1000;  // what the plug-in takes
-  result.bound = "the plug-in's largest stretch";
-  const auto bind = [&](double s, const std::string& why) {
-    if (s < largest) largest = s, result.bound = why;
-  };
-  for (const PairPlan& p : plan.pairs) {
-    if (!p.visited || p.speed <= 0) continue;
-    const Meeting& m = p.meeting;
-    PairStretch q;
-    q.pair = &p;
-    const double density = plan.mass_min / (4.0 / 3.0 * M_PI * std::pow(plan.radius_min, 3));
-    const double r_eff = m.wall ? plan.radius_min : 0.5 * plan.radius_min;
-    const double r_big = m.wall ? plan.radius_max : 0.5 * plan.radius_max,
-                 m_big = m.wall ? plan.mass_max : 0.5 * plan.mass_max;
-    q.slow_speed = g > 0 ? std::min(p.speed, std::sqrt(2 * g * diameter)) : p.speed;
-    q.contact_time = hertz_time(m.mapping.e_star_pair(), r_big, m_big, q.slow_speed);
-    q.by_overlap = p.overlap > 0 ? limits.overlap / p.overlap : Box::infinity;
-    const double flow_time = std::isfinite(result.flow_time) ? result.flow_time : diameter / p.speed;
-    q.by_time = limits.time_fraction * flow_time / q.contact_time;
-    q.static_load = limits.solid_fraction * density * g * result.fill_height * diameter * diameter;
-    const double x = m.yields.yields()
-                         ? onset_overlap(m.mapping.e_star, m.yields.yield_stress, m.yields.poisson_ratio)
-                         : Box::infinity;
-    q.yield_load = m.mapping.force(r_eff) * x * std::sqrt(x);
-    q.by_static = q.static_load > 0 ? limits.static_load * q.yield_load / q.static_load : Box::infinity;
-    const std::string name = m.name_a + ":" + m.name_b;
-    bind(q.by_overlap, fmt::format("overlap of {}", name));
-    bind(q.by_time, fmt::format("contact duration of {}", name));
-    bind(q.by_static, fmt::format("static load on {}", name));
-    result.pairs.push_back(q);
-  }
-  result.stretch = std::max(1.0, two_digits_down(largest));
-  const double s = result.stretch;
+  result.flow_time = flow_time(scene, 2 * plan.radius_min);
+  for (const PairPlan& p : plan.pairs)
+    if (p.visited && p.speed > 0)
+      result.pairs.push_back(stretch_of(p, plan, result, norm(scene.gravity), limits));
+  set_stretch(result);
   // the deck's own stretch is in both; the new one takes its place
-  result.time_step = s / scene.stretch * (scene.time_step > 0 ? scene.time_step : plan.time_step);
-  result.modulus_factor = std::pow(s, -2.5);  // Hertz: t ~ E^-0.4
+  result.time_step =
+      result.stretch / scene.stretch * (scene.time_step > 0 ? scene.time_step : plan.time_step);
+  result.modulus_factor = std::pow(result.stretch, -2.5);  // Hertz: t ~ E^-0.4
   for (const PairStretch& q : result.pairs) {
-    const PairPlan& p = *q.pair;
-    const Meeting& m = p.meeting;
-    const double r_eff = m.wall ? plan.radius_min : 0.5 * plan.radius_min,
-                 m_eff = m.wall ? plan.mass_min : 0.5 * plan.mass_min;
-    result.overlap = std::max(result.overlap, s * p.overlap);
-    result.static_ratio = std::max(result.static_ratio, s * q.static_load / q.yield_load);
-    if (s * q.static_load > q.yield_load)
-      result.extra_set = std::max(result.extra_set, s * (s * q.static_load - q.yield_load) /
-                                                        (M_PI * 1.6 * m.yields.yield_stress * r_eff * r_eff));
-    if (!m.known_yield || !m.yields.yields()) continue;
-    Softening::Naive n;
-    n.pair = m.name_a + ":" + m.name_b;
-    n.speed = p.speed;
-    n.basis = "law";
-    n.e = restitution(options, m, r_eff, m_eff, p.speed, n.basis);
-    Meeting soft = m;
-    soft.yields.youngs_modulus *= result.modulus_factor;
-    soft.mapping.e_star *= result.modulus_factor;
-    n.e_naive = restitution(options, soft, r_eff, m_eff, p.speed, n.basis);
-    result.naive.push_back(n);
+    const Meeting& m = q.pair->meeting;
+    const Effective small = smallest(plan, m);
+    include_loads(result, q, small.radius);
+    if (m.known_yield && m.yields.yields())
+      result.naive.push_back(lowered_modulus(*q.pair, small, result.modulus_factor, options));
   }
   return result;
 }

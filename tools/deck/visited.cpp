@@ -1,12 +1,11 @@
-// What a run visited: the JSON file of fix granulaw/stats.
-#include <fmt/format.h>
+#include "deck/visited.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "deck/plan.hpp"
 
 namespace granulaw::deck {
 
@@ -31,42 +30,66 @@ Visited::Range range_of(const json& side)
   return r;
 }
 
-}  // namespace
-
-Visited read_visited(const std::string& path)
+json parsed(const std::string& path)
 {
   std::error_code ignored;
   std::ifstream in(path);
   if (!in || !std::filesystem::is_regular_file(path, ignored)) fail(path, "cannot be read");
-  json root;
-  try {
-    root = json::parse(in);
-  } catch (const json::exception&) {
-    fail(path, "is no JSON file of fix granulaw/stats");
-  }
+  json root = json::parse(in, nullptr, false);
+  if (!root.is_object()) fail(path, "is no JSON file of fix granulaw/stats");
+  return root;
+}
+
+/// The two types of an entry; 0 where it does not say them.
+std::pair<int, int> types_of(const json& entry)
+{
+  if (const auto types = entry.find("types"); types != entry.end() && types->is_array() &&
+                                              types->size() == 2 && (*types)[0].is_number_integer() &&
+                                              (*types)[1].is_number_integer())
+    return {(*types)[0].get<int>(), (*types)[1].get<int>()};
+  return {static_cast<int>(number_at(entry, {"type_i", "i"})),
+          static_cast<int>(number_at(entry, {"type_j", "j"}))};
+}
+
+bool is_wall(const json& entry)
+{
+  const auto kind = entry.find("kind");
+  return kind != entry.end() && kind->is_string() &&
+         kind->get<std::string>().find("wall") != std::string::npos;
+}
+
+/// Rigid and deformable walls of one type are one range: the larger of each.
+void widen(Visited::Range& range, const Visited::Range& by)
+{
+  range.speed = std::max(range.speed, by.speed);
+  range.overlap = std::max(range.overlap, by.overlap);
+  range.inertia = std::max(range.inertia, by.inertia);
+  range.met = range.met || by.met;
+}
+
+}  // namespace
+
+std::optional<Visited::Range> Visited::range(int a, int b, bool is_wall) const
+{
+  if (pairs.empty() && walls.empty()) return is_wall ? wall : pair;  // the file does not tell types apart
+  const auto& by_types = is_wall ? walls : pairs;
+  const auto found = by_types.find(is_wall ? std::pair(a, b) : std::pair(std::min(a, b), std::max(a, b)));
+  return found == by_types.end() ? Range{} : found->second;
+}
+
+Visited read_visited(const std::string& path)
+{
+  const json root = parsed(path);
   Visited v;
   v.path = path;
-  if (!root.is_object()) fail(path, "is no JSON file of fix granulaw/stats");
   if (const auto at = root.find("pair"); at != root.end() && at->is_object()) v.pair = range_of(*at);
   if (const auto at = root.find("wall"); at != root.end() && at->is_object()) v.wall = range_of(*at);
   if (const auto list = root.find("pairs"); list != root.end() && list->is_array())
     for (const json& entry : *list) {
       if (!entry.is_object()) continue;
-      const auto types = entry.find("types");
-      int a = static_cast<int>(number_at(entry, {"type_i", "i"})),
-          b = static_cast<int>(number_at(entry, {"type_j", "j"}));
-      if (types != entry.end() && types->is_array() && types->size() == 2 &&
-          (*types)[0].is_number_integer() && (*types)[1].is_number_integer())
-        a = (*types)[0].get<int>(), b = (*types)[1].get<int>();
+      const auto [a, b] = types_of(entry);
       if (a < 1 || b < 1) continue;
-      const auto kind = entry.find("kind");
-      const bool wall = kind != entry.end() && kind->is_string() &&
-                        kind->get<std::string>().find("wall") != std::string::npos;
-      // rigid and deformable walls of one type are one meeting of the plan
-      auto& into = wall ? v.walls[{a, b}] : v.pairs[{std::min(a, b), std::max(a, b)}];
-      const Visited::Range r = range_of(entry);
-      into.speed = std::max(into.speed, r.speed), into.overlap = std::max(into.overlap, r.overlap);
-      into.damage_number = std::max(into.damage_number, r.damage_number), into.met = into.met || r.met;
+      widen(is_wall(entry) ? v.walls[{a, b}] : v.pairs[{std::min(a, b), std::max(a, b)}], range_of(entry));
     }
   if (!v.pair && !v.wall && v.pairs.empty() && v.walls.empty())
     fail(path, "holds no contacts", "", "the JSON file of fix granulaw/stats");

@@ -68,12 +68,24 @@ TEST(Rotated, KeepsLengthAndAxisAndGoesAroundOnce)
     EXPECT_NEAR(dot(q, axis), dot(p, axis), 1e-14);
     EXPECT_NEAR(norm(back - p), 0, 1e-14);
     // the angle, between what stands on the axis
-    const Vec3 hertz_share = dot(p, axis) / dot(axis, axis) * axis, a = p - hertz_share, b = q - hertz_share;
+    const Vec3 foot = dot(p, axis) / dot(axis, axis) * axis, a = p - foot, b = q - foot;
     EXPECT_NEAR(dot(a, b) / dot(a, a), std::cos(degrees * M_PI / 180), 1e-14);
     const Vec3 cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     EXPECT_NEAR(dot(cross, axis) / norm(axis) / dot(a, a), std::sin(degrees * M_PI / 180), 1e-14);
   }
   EXPECT_EQ(rotated(p, {0, 0, 0}, 30), p);  // no axis
+}
+
+TEST(Geometry, VolumeOfABall)
+{
+  EXPECT_DOUBLE_EQ(ball_volume(0.5), M_PI / 6);
+}
+
+TEST(Geometry, RotatesAsTheRightHandDoes)
+{
+  const Vec3 p = rotated({1, 0, 0}, {0, 0, 2}, 90);
+  EXPECT_NEAR(p[0], 0, 1e-15);  // rounding of cos 90 degrees
+  EXPECT_NEAR(p[1], 1, 1e-15);
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+#include "deck/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "deck_fixture.hpp"
+
+namespace granulaw::deck {
+namespace {
+
+using DeckPlan = Deck;
+
+Plan plan_of(const Scene& scene, double speed)
+{
+  PlanOptions options;
+  options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
+  options.speed = speed;
+  return make_plan(scene, options);
+}
+
+TEST_F(DeckPlan, TheTableReachesAFifthBeyondInTwoDigits)
+{
+  const Scene s = scene(falling(""));
+  for (const double speed : {0.05, 0.3, 2.0}) {
+    const Plan plan = plan_of(s, speed);
+    double depth = 0, damage_number = 0;
+    for (const PairPlan& p : plan.pairs)
+      depth = std::max(depth, p.depth), damage_number = std::max(damage_number, p.damage_number);
+    ASSERT_GT(depth, 0);
+    const double largest_depth = std::min(0.5, 1.2 * depth),
+                 largest_inertia = std::min(0.09, 1.2 * damage_number);
+    EXPECT_GE(plan.depth, largest_depth);
+    EXPECT_LE(plan.depth, std::min(0.5, 1.1 * largest_depth));
+    EXPECT_GE(plan.damage_number, largest_inertia);
+    EXPECT_LE(plan.damage_number, std::min(0.09, 1.1 * largest_inertia));
+    EXPECT_EQ(plan.axis_matters, damage_number > negligible_damage_number);
+  }
+}
+
+TEST_F(DeckPlan, TheCostIsThatOfAllRuns)
+{
+  const Scene s = scene(falling("run 1000"));
+  EXPECT_EQ(plan_of(s, 1).particle_steps, 50 * 1000 + 100 * 1000);
+  PlanOptions options;
+  options.particles = 7;
+  options.rate = 1000;
+  EXPECT_EQ(make_plan(s, options).particle_steps, 14000);
+  EXPECT_DOUBLE_EQ(make_plan(s, options).hours, 14.0 / 3600);
+}
+
+TEST_F(DeckPlan, ASingleParticleMeetsOnlyWalls)
+{
+  const std::string deck =
+      "units si\nfix m all property/global youngsModulus peratomtype 91e6\n"
+      "fix g all gravity 9.81 vector 0 0 -1\nfix w all wall/gran model hertz primitive type 1 zplane 0.0\n"
+      "create_atoms 1 single 0 0 0.1\n";
+  const std::string set = "set type 1 diameter 0.004 density 1000\n";
+  const Plan one = plan_of(scene(deck + set), 1),
+             two = plan_of(scene(deck + "create_atoms 1 single 0 0 0.2\n" + set), 1);
+  ASSERT_EQ(one.pairs.size(), 1u);
+  EXPECT_TRUE(one.pairs[0].meeting.wall);
+  EXPECT_EQ(two.pairs.size(), 2u);
+}
+
+/// Walls of one type count once, rigid and deformable ones apart, at the fastest approach.
+TEST_F(DeckPlan, WallsOfATypeAreOneBody)
+{
+  const std::string wall = "\nfix v all wall/gran model hertz primitive type 2 zplane -0.1 ";
+  const Plan plan =
+      make_plan(scene(falling(wall + "\nfix u all wall/gran primitive type 2 zplane 0 wall deformable")), {});
+  ASSERT_EQ(plan.pairs.size(), 3u);
+  EXPECT_FALSE(plan.pairs[1].meeting.deformable);
+  EXPECT_TRUE(plan.pairs[2].meeting.deformable);
+  EXPECT_NEAR(plan.pairs[1].speed, std::sqrt(0.5 * 0.5 + 2 * 9.81 * 0.3), 1e-12);
+}
+
+}  // namespace
+}  // namespace granulaw::deck

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "deck/meeting.hpp"
+#include "deck/speeds.hpp"
+#include "deck/visited.hpp"
+
+namespace granulaw::deck {
+
+struct PlanOptions;
+
+/// What one pair of the scene needs.
+struct PairPlan
+{
+  Meeting meeting;
+  double speed = 0;           ///< m/s, largest approach speed
+  std::string speed_basis;    ///< "fall", "shielded fall" (deck/shielding.hpp), "given" or "visited"
+  double onset = 0;           ///< m/s, where yield begins, the least over the sizes; infinity: never
+  double yield_velocity = 0;  ///< m/s, customary V_y, the least over the sizes; infinity: elastic
+  double damage_number = 0;   ///< largest I = rho V^2/Y of the pair's one body
+  double overlap = 0;         ///< largest, over R*, of the real contact: the deck's over its stretch
+  double depth = 0;           ///< largest, over lambda R*: the table's own coordinate
+  std::string overlap_basis;  ///< "law", "Hertz" or "visited"
+  double contact_time = 0;    ///< s, shortest: Hertz at the largest speed, smallest particles
+  bool needs_table = false;   ///< it yields; false: Hertz suffices
+  bool visited = true;        ///< false: a run did not meet it
+};
+
+/// Two types that may meet, and how fast. `b`: null for a wall.
+struct Encounter
+{
+  Meeting meeting;
+  const AtomType* a = nullptr;
+  const AtomType* b = nullptr;
+  SpeedBound::Approach approach;
+};
+
+/// `stretch`: of the deck's law; what the run `visited` (null: none) replaces what is foreseen.
+PairPlan plan_pair(const Encounter& encounter, const PlanOptions& options, double stretch,
+                   const Visited* visited);
+
+}  // namespace granulaw::deck

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "deck/meeting.hpp"
+#include "law/law.hpp"
+
+namespace granulaw::deck {
+
+/// A collision as a law computes it.
+struct Collision
+{
+  double depth = 0;        ///< largest overlap/(lambda R*)
+  double restitution = 1;  ///< e
+};
+/// The collision of two bodies at the relative speed `speed` (m/s); empty: no law at hand.
+using Collide =
+    std::function<std::optional<Collision>(const Meeting&, double r_eff, double m_eff, double speed)>;
+
+/// What the deck does not say, or says otherwise; SI units.
+struct PlanOptions
+{
+  std::optional<double> drop_height;                      ///< m, of every particle to the lowest wall
+  std::optional<double> radius_min, radius_max, density;  ///< of particles whose own are not known
+  std::optional<double> speed;                            ///< m/s, largest approach speed of any contact
+  std::optional<double> particles;                        ///< number, for the cost
+  double rate = 2e6;                                      ///< particle-steps a second
+  std::map<int, LawMaterial> materials;                   ///< by atom type, where a name is known for it
+  Collide collide;
+};
+
+}  // namespace granulaw::deck

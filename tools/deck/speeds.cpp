@@ -1,0 +1,180 @@
+#include "deck/speeds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "deck/plan_options.hpp"
+#include "deck/shielding.hpp"
+
+namespace granulaw::deck {
+
+namespace {
+
+bool is_flat(const Wall& wall, std::size_t axis)
+{
+  return wall.box.low[axis] == wall.box.high[axis];
+}
+
+/// Whether all of the scene's particles are known, equal, start together and at rest.
+bool starts_as_cloud(const Scene& scene)
+{
+  return scene.sources.size() == 1 && !scene.sources[0].together.empty() && scene.sources[0].radius_max > 0 &&
+         scene.unknown_particles.empty() && scene.unknown_heights.empty() && scene.unknown_speeds.empty();
+}
+
+/// The one floor across `axis`; empty: there is none, several, or what slides down a slope hits others from
+/// the side. Walls along the axis may stand around it, and none may move.
+std::optional<double> single_floor(const Scene& scene, std::size_t axis)
+{
+  std::optional<double> floor;
+  for (const Wall& w : scene.walls) {
+    if (w.speed > 0 || w.drag_speed > 0) return {};
+    if (is_flat(w, axis)) {
+      if (floor.value_or(w.box.low[axis]) != w.box.low[axis]) return {};
+      floor = w.box.low[axis];
+    } else if (!is_flat(w, (axis + 1) % 3) && !is_flat(w, (axis + 2) % 3)) {
+      return {};
+    }
+  }
+  return floor;
+}
+
+/// The cloud of the deck, if its particles are one, lie at random, and fall on one floor that stands still.
+std::optional<Cloud> cloud_of(const Scene& scene, const Vec3& upward)
+{
+  if (!starts_as_cloud(scene)) return {};
+  const auto along = std::find_if(upward.begin(), upward.end(), [](double x) { return std::abs(x) == 1; });
+  if (along == upward.end()) return {};
+  const auto axis = static_cast<std::size_t>(along - upward.begin());
+  const auto floor = single_floor(scene, axis);
+  if (!floor) return {};
+  Cloud cloud;
+  cloud.centres = scene.sources[0].together;
+  cloud.radius = scene.sources[0].radius_max;
+  cloud.g = norm(scene.gravity);
+  cloud.axis = axis;
+  cloud.up = *along;
+  cloud.floor = *floor;
+  cloud.domain = scene.domain;
+  cloud.periodic = scene.periodic;
+  if (!at_random(cloud)) return {};
+  return cloud;
+}
+
+}  // namespace
+
+SpeedBound::SpeedBound(const Scene& scene, const std::map<int, AtomType>& types, const PlanOptions& options)
+    : scene_(scene), g_(norm(scene.gravity)), drop_height_(options.drop_height)
+{
+  if (g_ > 0) upward_ = -1 / g_ * scene.gravity;
+  for (const Wall& w : scene.walls) {
+    push_ = std::max(push_, w.speed);
+    drag_ = std::max(drag_, w.drag_speed);
+  }
+  follow_sources(types);
+  double largest_radius = 0;
+  for (const auto& [type, t] : types) largest_radius = std::max(largest_radius, t.radius_max);
+  find_walls(largest_radius);
+  if (!options.speed && !options.drop_height && g_ > 0)
+    if (const auto cloud = cloud_of(scene, upward_)) landing_ = landing_speed(*cloud);
+}
+
+/// A wall that moves against gravity lifts particles to its top.
+double SpeedBound::highest_lift() const
+{
+  double height = -Box::infinity;
+  if (g_ > 0)
+    for (const Wall& w : scene_.walls)
+      if (w.speed > 0) height = std::max(height, w.box.top(upward_));
+  return height;
+}
+
+void SpeedBound::follow_sources(const std::map<int, AtomType>& types)
+{
+  const double lift = highest_lift();
+  for (const Source& s : scene_.sources) {
+    const auto [found, is_new] = flights_.try_emplace(s.type);
+    Flight& f = found->second;
+    const double top = g_ > 0 ? s.centres.top(upward_) : 0.0;
+    f.known = f.known && (g_ == 0 || std::isfinite(top));
+    f.top = std::max(is_new ? lift : f.top, top);
+    f.speed = std::max(f.speed, s.speed);
+  }
+  for (const auto& [type, t] : types) flights_.try_emplace(type, Flight{0, 0, g_ == 0});
+}
+
+/// Of all that particles reach, thrown upwards at their first speed.
+double SpeedBound::highest() const
+{
+  if (g_ == 0) return Box::infinity;
+  double height = highest_lift();
+  for (const Source& s : scene_.sources) {
+    const Flight& f = flights_.at(s.type);
+    height = std::max(height, f.top + f.speed * f.speed / (2 * g_));
+  }
+  return height;
+}
+
+void SpeedBound::find_walls(double largest_radius)
+{
+  const double reached = highest() + largest_radius;
+  for (const Wall& w : scene_.walls) {
+    if (g_ > 0 && w.box.bottom(upward_) > reached) continue;
+    walls_.push_back(&w);
+    if (g_ > 0) floor_ = std::min(floor_, w.box.bottom(upward_));
+  }
+  if (g_ > 0 && walls_.empty() && !scene_.domain.empty()) floor_ = scene_.domain.bottom(upward_);
+}
+
+double SpeedBound::falling_speed(const Flight& f, double height) const
+{
+  return std::sqrt(f.speed * f.speed + 2 * g_ * std::max(0.0, f.top - height));
+}
+
+double SpeedBound::speed_at(int type, double height) const
+{
+  const Flight& f = flights_.at(type);
+  double speed = f.known ? falling_speed(f, height) : 0.0;
+  if (drop_height_) speed = std::sqrt(f.speed * f.speed + 2 * g_ * *drop_height_);
+  return std::isfinite(speed) ? speed : 0.0;
+}
+
+void SpeedBound::ask_for_missing(std::vector<Question>& questions) const
+{
+  bool unknown = !scene_.unknown_heights.empty();
+  for (const auto& [type, f] : flights_)
+    if (g_ > 0 && (!f.known || !std::isfinite(floor_) || !std::isfinite(falling_speed(f, floor_))))
+      unknown = true;
+  if (unknown && !drop_height_)
+    ask(questions,
+        scene_.unknown_heights.empty() ? "from how high the particles fall"
+                                       : first_of(scene_.unknown_heights),
+        "--drop-height H");
+  if (!scene_.unknown_speeds.empty()) ask(questions, first_of(scene_.unknown_speeds), "--speed V");
+}
+
+double SpeedBound::between(int a, int b) const
+{
+  return speed_at(a, floor_) + speed_at(b, floor_) + 2 * (2 * push_ + drag_);
+}
+
+SpeedBound::Approach SpeedBound::to(const Wall& w, int type) const
+{
+  const double height = g_ > 0 ? w.box.bottom(upward_) : 0.0;
+  const double speed = speed_at(type, height) + 2 * push_ + drag_ + w.speed + w.drag_speed;
+  const bool is_floor = w.box.bottom(upward_) == w.box.top(upward_);
+  if (landing_ && is_floor && *landing_ <= speed) return {*landing_, true};
+  return {speed, false};
+}
+
+double SpeedBound::fall() const
+{
+  if (drop_height_) return *drop_height_;
+  double largest = 0;
+  if (g_ > 0 && std::isfinite(floor_))
+    for (const auto& [type, f] : flights_)
+      if (f.known) largest = std::max(largest, f.top - floor_);
+  return largest;
+}
+
+}  // namespace granulaw::deck
