@@ -59,15 +59,6 @@ double smallest_yield(const std::vector<Material>& materials)
   return least;
 }
 
-double height_of_largest_radius(const Particle& p)
-{
-  if (p.is_sphere()) return p.radius;
-  const auto widest =
-      std::max_element(p.profile.begin(), p.profile.end(),
-                       [](const ProfilePoint& a, const ProfilePoint& b) { return a.r < b.r; });
-  return widest->z;
-}
-
 /// A point outside the body is moved towards the middle of its axis until it lies on the surface; over
 /// `length`.
 std::pair<double, double> onto_body(const Particle& p, double r, double z, double length)
@@ -259,7 +250,7 @@ Scene Collision::build(double deepest, int cells, double shift) const
       };
     s.radius = radius;
     s.pore_walls = pore_walls(p, scale_.length);
-    s.height = (support_ == Support::free ? p.height() : height_of_largest_radius(p)) / scale_.length;
+    s.height = (support_ == Support::free ? p.height() : p.height_of_largest_radius()) / scale_.length;
     if (support_ == Support::free) s.mass = mass_of(p) / scale_.mass();
     s.block = block, s.depth = 0.8 * block;
     s.fine = block / cells;
