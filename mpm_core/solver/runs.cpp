@@ -30,18 +30,6 @@ void check(const RunOptions& options)
     fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
 }
 
-/// Loading time, R/c*, of a press that is slow enough for the rate-free law. Elastic: 40 (half as long
-/// changes F by 0.15 %). Plastic: 60 at E*/Y = 100 (40 changes e by 0.1 %), and the longer the less is given
-/// back (E*/Y = 1000 to 0.02 R: 60, 90, 120, 240 give e .1980, .1991, .1995, .1996); and inertia enters with
-/// I = rho v^2/Y (docs/method.md): the top speed pi depth/(2 ramp) keeps I below 4e-4.
-double default_ramp(double depth, double yield_over_e_star)
-{
-  if (!std::isfinite(yield_over_e_star)) return 40.0;
-  const double stiffness = 1 / yield_over_e_star;
-  return std::max(
-      {60.0, 60.0 * std::pow(stiffness / 100, 0.25), 0.5 * M_PI * depth * std::sqrt(stiffness / 4e-4)});
-}
-
 /// Ripple, as a share of the force, beyond which the fit does not describe the loading: fast, deep impacts,
 /// where inertia makes the early force the largest.
 constexpr double most_ripple = 0.05;
@@ -108,21 +96,6 @@ void summarise(RunResult& result, const std::vector<RunResult>& members, bool ri
   s.restitution *= std::sqrt(correction);
 }
 
-void to_si(RunResult& result, const Scales& scale)
-{
-  for (TraceSample& t : result.trace) {
-    t.time *= scale.time();
-    t.delta *= scale.length;
-    t.force *= scale.force();
-    t.contact_radius *= scale.length;
-  }
-  RunSummary& s = result.summary;
-  s.force_max *= scale.force();
-  s.delta_max *= scale.length, s.delta_residual *= scale.length;
-  s.contact_time *= scale.time();
-  s.work_load *= scale.energy(), s.work_unload *= scale.energy();
-}
-
 /// Cells across the block: 20, and more for deep contacts, where steps are few and strains large.
 int resolution_of(const RunOptions& options, double deepest)
 {
@@ -163,8 +136,7 @@ RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& 
   summarise(result, members, rings);
   result.summary.resolution = cells;
   result.summary.grids = options.phases;
-  to_si(result, scale);
-  return result;
+  return in_si(std::move(result), scale);
 }
 
 }  // namespace
@@ -209,6 +181,17 @@ RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& op
   return run_impact(Particle::from(sphere), velocity, options);
 }
 
+// Elastic: half as long changes F by 0.15 %. Plastic: 60 at E*/Y = 100 (40 changes e by 0.1 %), and the
+// longer the less is given back (E*/Y = 1000 to 0.02 R: 60, 90, 120, 240 give e .1980, .1991, .1995, .1996);
+// and inertia enters with I = rho v^2/Y (docs/method.md): the top speed pi depth/(2 ramp) keeps I below 4e-4.
+double default_press_ramp(double depth, double yield_over_e_star)
+{
+  if (!std::isfinite(yield_over_e_star)) return 40.0;
+  const double stiffness = 1 / yield_over_e_star;
+  return std::max(
+      {60.0, 60.0 * std::pow(stiffness / 100, 0.25), 0.5 * M_PI * depth * std::sqrt(stiffness / 4e-4)});
+}
+
 RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options,
                     const Partner& partner)
 {
@@ -229,8 +212,9 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
     stops.stops.push_back(x);
   }
   stops.stops.push_back(depth);
-  stops.ramp = options.slowness *
-               (plan.ramp > 0 ? plan.ramp : default_ramp(depth, collision.yield_stress() / scale.stress));
+  stops.ramp =
+      options.slowness *
+      (plan.ramp > 0 ? plan.ramp : default_press_ramp(depth, collision.yield_stress() / scale.stress));
   stops.unload_ramp = 0.4 * stops.ramp;
   stops.support = plan.support;
   const double duration = stops.ramp + stops.unload_ramp;
