@@ -158,6 +158,9 @@ struct PairLaw
   double speed_coordinate(double r_eff, double m_eff) const;
 };
 
+/// A body against the rigid wall.
+PairLaw wall_pair(const BodyLaw& body);
+
 /// Resolves materials `a` and `b` (b may be "wall": rigid), in either order: the pair's own law if the file
 /// has one, else the law of the body that yields (`yields_first`). Throws Error naming `where` where the law
 /// has no such material or was not built for the pair, or where a body that is no homogeneous sphere would
