@@ -14,7 +14,7 @@ Law read_law(const std::string& path);
 /// The same out of `image`, the bytes of a law file that read_law(path) accepts: for the other ranks of an MPI run.
 Law read_law_image(std::span<const char> image, const std::string& path);
 
-/// Writes to PATH.tmp.<pid> and renames: a reader sees the old file or the new one, never a part.
+/// Atomically (base/atomic_write.hpp): a reader sees the old file or the new one, never a part.
 void write_law(const Law& law, const std::string& path);
 
 }  // namespace granulaw
