@@ -31,6 +31,9 @@ class TreatedLoading
   double ripple() const { return ripple_; }
 
  private:
+  void fit(const std::vector<const TraceSample*>& samples, double deepest);
+  void measure_ripple(const std::vector<const TraceSample*>& samples, double deepest);
+
   std::vector<double> coefficients_;
   double from_ = 0, centre_ = 0, half_ = 1, ripple_ = 0;
 };

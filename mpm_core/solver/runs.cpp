@@ -34,14 +34,12 @@ void check(const RunOptions& options)
 /// where inertia makes the early force the largest.
 constexpr double most_ripple = 0.05;
 
-/// Summary of one or several runs of the same job on shifted grids, whose mean trace is `result.trace`
-/// (ensemble.hpp); solver units. The loading force is treated for the ripple that is left (ripple.hpp), but
-/// in the mean of impacts, after which the body `rings`.
-void summarise(RunResult& result, const std::vector<RunResult>& members, bool rings)
+/// Means and largest values of the members' numbers; their cost together.
+RunSummary combined(const std::vector<RunResult>& members)
 {
-  RunSummary& s = result.summary;
+  RunSummary s;
   const double weight = 1.0 / static_cast<double>(members.size());
-  double spread = 0, updates = 0;
+  double updates = 0;
   for (const RunResult& member : members) {
     const RunSummary& m = member.summary;
     s.restitution_raw += weight * m.restitution_raw;
@@ -60,31 +58,22 @@ void summarise(RunResult& result, const std::vector<RunResult>& members, bool ri
     s.hourglass = std::max(s.hourglass, m.hourglass);
   }
   for (const RunResult& member : members)
-    spread = std::max(spread, std::abs(member.summary.restitution_raw - s.restitution_raw));
-  s.restitution_spread = spread;
+    s.restitution_spread =
+        std::max(s.restitution_spread, std::abs(member.summary.restitution_raw - s.restitution_raw));
   s.points /= static_cast<long>(members.size());
   s.point_updates_per_s = updates / s.cpu_s;
-
-  const TreatedLoading treated(result.trace);
-  for (const TraceSample& t : result.trace) s.force_max = std::max(s.force_max, t.force);
   s.restitution = s.restitution_raw;
-  if (!treated.valid()) return;
-  s.ripple = treated.ripple();
-  // After an impact the body rings, and the force with it: the fit is 0.6 % (rms) off its peak however many
-  // grids there are, up to 1.6 %. The smoothed peak of the mean is by 0.23, 0.15, 0.13 % with two, three,
-  // four (against twelve grids of 1.4 times the resolution; 20 impacts, E*/Y 20 to 1800).
-  if (rings && members.size() > 1) {
-    if (const double peak = smoothed_peak(result.trace); peak > 0) s.force_max = peak;
-    return;
-  }
-  if (s.ripple > most_ripple) return;  // no ripple about a smooth law any more: the raw peak stands
-  s.force_max = treated.largest_force(s.delta_max);
-  if (members.size() > 1) return;
-  // A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
-  // What is elastic is given back whatever the phase: only the dissipated share is corrected.
+  return s;
+}
+
+/// A single grid turns at some phase of the ripple, and the work given back follows the force at the turn.
+/// What is elastic is given back whatever the phase: only the dissipated share is corrected.
+void correct_work_given_back(RunSummary& s, const std::vector<TraceSample>& trace,
+                             const TreatedLoading& treated)
+{
   double raw_over_treated = 0;
   int at_turn = 0;
-  for (const TraceSample& t : result.trace)
+  for (const TraceSample& t : trace)
     if (t.branch == Branch::load && t.delta >= 0.99 * s.delta_max) {
       raw_over_treated += t.force / treated.force(t.delta);
       ++at_turn;
@@ -94,6 +83,30 @@ void summarise(RunResult& result, const std::vector<RunResult>& members, bool ri
   const double correction = 1 + (at_turn / raw_over_treated - 1) * dissipated;
   s.work_unload *= correction;
   s.restitution *= std::sqrt(correction);
+}
+
+/// Summary of one or several runs of the same job on shifted grids, whose mean trace is `trace`
+/// (ensemble.hpp); solver units. The loading force is treated for the ripple that is left (ripple.hpp), but
+/// in the mean of impacts, after which the body `rings`.
+RunSummary summary_of(const std::vector<TraceSample>& trace, const std::vector<RunResult>& members,
+                      bool rings)
+{
+  RunSummary s = combined(members);
+  for (const TraceSample& t : trace) s.force_max = std::max(s.force_max, t.force);
+  const TreatedLoading treated(trace);
+  if (!treated.valid()) return s;
+  s.ripple = treated.ripple();
+  // After an impact the body rings, and the force with it: the fit is 0.6 % (rms) off its peak however many
+  // grids there are, up to 1.6 %. The smoothed peak of the mean is by 0.23, 0.15, 0.13 % with two, three,
+  // four (against twelve grids of 1.4 times the resolution; 20 impacts, E*/Y 20 to 1800).
+  if (rings && members.size() > 1) {
+    if (const double peak = smoothed_peak(trace); peak > 0) s.force_max = peak;
+    return s;
+  }
+  if (s.ripple > most_ripple) return s;  // no ripple about a smooth law any more: the raw peak stands
+  s.force_max = treated.largest_force(s.delta_max);
+  if (members.size() == 1) correct_work_given_back(s, trace, treated);
+  return s;
 }
 
 /// Cells across the block: 20, and more for deep contacts, where steps are few and strains large.
@@ -133,7 +146,7 @@ RunResult run_ensemble(const RunOptions& options, double deepest, const Scales& 
   const std::vector<RunResult> members = run_phases(options.phases, options.threads, options.progress, one);
   RunResult result;
   result.trace = mean_trace(members);
-  summarise(result, members, rings);
+  result.summary = summary_of(result.trace, members, rings);
   result.summary.resolution = cells;
   result.summary.grids = options.phases;
   return in_si(std::move(result), scale);

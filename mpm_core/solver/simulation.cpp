@@ -63,24 +63,8 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
   checkpoint.resume(visit);
   const double cpu = cpu_seconds() - cpu_s_;
   while (!drive.finished()) {
-    const double overlap_before = overlap_;
-    const Branch branch = drive.branch();
-    const int segment = drive.segment();
-    const double push = advance(scene, drive, time_, 0.5 * (last_dt_ + dt_), dt_);
-    last_dt_ = dt_;
-    overlap_ = drive.overlap(scene);
-    impulse_ += push;
-    overlap_sum_ += overlap_before;
-    ++in_window_;
-    ++steps_;
-    time_ += dt_;
-    if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
-    const bool turned = drive.segment() != segment || drive.finished();
-    const bool sampled = time_ >= window_end_ || turned;
+    const bool sampled = step(drive);
     if (sampled) {
-      // at equal times since the turn, whatever the step: samples of shifted grids are averaged one by one
-      window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
-      end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
       fields.sample(scene, time_, overlap_, result.trace.back().force, drive.finished());
     }
@@ -95,6 +79,29 @@ void Simulation::run(Drive& drive, FieldRecorder fields, const std::function<voi
   if (progress) progress(1.0);
   result.summary.cpu_s = cpu_seconds() - cpu;
   summarise(drive);
+}
+
+/// One step; true if it ends a sample.
+bool Simulation::step(Drive& drive)
+{
+  const double overlap_before = overlap_;
+  const Branch branch = drive.branch();
+  const int segment = drive.segment();
+  const double push = advance(scene, drive, time_, 0.5 * (last_dt_ + dt_), dt_);
+  last_dt_ = dt_;
+  overlap_ = drive.overlap(scene);
+  impulse_ += push;
+  overlap_sum_ += overlap_before;
+  ++in_window_;
+  ++steps_;
+  time_ += dt_;
+  if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
+  const bool turned = drive.segment() != segment || drive.finished();
+  if (!turned && time_ < window_end_) return false;
+  // at equal times since the turn, whatever the step: samples of shifted grids are averaged one by one
+  window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
+  end_sample(branch, segment, overlap_before);
+  return true;
 }
 
 void Simulation::end_sample(Branch branch, int segment, double overlap_before)

@@ -36,6 +36,7 @@ class Simulation
  private:
   double step_limit() const;
   double work(bool load) const;
+  bool step(Drive& drive);
   void end_sample(Branch branch, int segment, double overlap_before);
   void summarise(const Drive& drive);
   void visit_state(Drive& drive, StateArchive& archive);
