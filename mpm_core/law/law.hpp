@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scales.hpp"
 #include "law/contact_curve.hpp"
 
 namespace granulaw {
@@ -20,7 +21,7 @@ struct LawMaterial
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
   double hardening_modulus = 0;  ///< Pa, d(yield stress)/d(equivalent plastic strain); 0: perfectly plastic
 
-  double e_star() const { return youngs_modulus / (1.0 - poisson_ratio * poisson_ratio); }
+  double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
   bool yields() const { return yield_stress < std::numeric_limits<double>::infinity(); }
 };
 
