@@ -1,13 +1,13 @@
 #include "liggghts_plugin/fix_stats.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "liggghts_plugin/fix_style.hpp"
@@ -397,13 +397,9 @@ void FixStats::write_json(const ContactStatistics& sum, const std::string& path)
       "  \"inertia_number_limit_of_law\": {:.6g},\n",
       version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_,
       session_->damage_number_limit, session_->damage_number_limit);
-  const std::string text = to_json(sum, header, deck_units()),
-                    temporary = fmt::format("{}.tmp.{}", path, getpid());
-  FILE* file = std::fopen(temporary.c_str(), "w");
-  const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = file && std::fclose(file) == 0;
-  if (!written || !closed || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    std::remove(temporary.c_str());
+  try {
+    write_text_atomically(path, to_json(sum, header, deck_units()));
+  } catch (const Error&) {
     error->warning(FLERR, fmt::format("fix {} granulaw/stats: cannot write '{}'", id, path).c_str());
   }
 }

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "base/error.hpp"
 
@@ -14,12 +16,25 @@ namespace granulaw {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// A name beside `path` that no other thread, process or machine that shares the folder takes.
+std::string temporary_name(const std::string& path)
+{
+  static std::atomic<long> count{0};
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  const fs::path target(path);
+  return (target.parent_path() / fmt::format(".{}.tmp{}-{}-{}{}", target.stem().string(), host, getpid(),
+                                             count++, target.extension().string()))
+      .string();
+}
+
+}  // namespace
+
 void write_atomically(const std::string& path, const std::function<void(const std::string&)>& write)
 {
-  const fs::path target(path);
-  const std::string temporary = (target.parent_path() / fmt::format(".{}.tmp{}{}", target.stem().string(),
-                                                                    getpid(), target.extension().string()))
-                                    .string();
+  const std::string temporary = temporary_name(path);
   try {
     write(temporary);
     if (std::rename(temporary.c_str(), path.c_str()) != 0)
@@ -28,6 +43,16 @@ void write_atomically(const std::string& path, const std::function<void(const st
     std::remove(temporary.c_str());
     throw;
   }
+}
+
+void write_text_atomically(const std::string& path, const std::string& text)
+{
+  write_atomically(path, [&](const std::string& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.close();
+    if (!out) fail(path, "cannot be written (disk full?)");
+  });
 }
 
 void require_writable(const std::string& path, const std::string& where)

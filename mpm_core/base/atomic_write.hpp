@@ -7,8 +7,12 @@ namespace granulaw {
 
 /// Calls `write(temporary path)` and renames the result to `path`: readers see the old file or the new one,
 /// never a part, and nothing is lost where writing fails (the temporary file is removed, the exception goes
-/// on). The temporary file stands beside `path` and keeps its ending.
+/// on). The temporary file stands beside `path` and keeps its ending. Any number of threads, processes and
+/// machines that share the folder may write one path at once: the last one's file stays.
 void write_atomically(const std::string& path, const std::function<void(const std::string&)>& write);
+
+/// The same for bytes at hand. Throws Error if they cannot be written.
+void write_text_atomically(const std::string& path, const std::string& text);
 
 /// Throws Error now if `path` could not be written later: its folder is missing or not writable.
 void require_writable(const std::string& path, const std::string& where);

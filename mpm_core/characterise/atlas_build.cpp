@@ -205,8 +205,7 @@ std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, u
     const BodyLaw law = law_from(
         atlas, {"check", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus},
         options);
-    const PairLaw wall{&law.curve, PairMapping::rigid_partner(1.0), &law};
-    const Replay replay = replay_collision(wall, 1.0, body.mass, velocity);
+    const Replay replay = replay_on_wall(law, 1.0, body.mass, velocity);
     if (replay.delta_max < least_overlap) continue;
     checks.push_back(c);
     said.push_back(replay);

@@ -137,9 +137,8 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody
   const auto replay = [&](const ContactCurve& curve, double v) {
     BodyLaw other = law;
     other.curve = curve;
-    const PairLaw wall{&other.curve, PairMapping::rigid_partner(law.material.e_star()), &other};
-    return replay_collision(wall, unit.length, body.mass * unit.mass(),
-                            v * std::sqrt(body.yield) * unit.velocity());
+    return replay_on_wall(body, unit.length, body.mass * unit.mass(),
+                          v * std::sqrt(body.yield) * unit.velocity());
   };
   double worst = 0;
   // what a rate raises at the fast end inertia may take away again
@@ -450,13 +449,12 @@ void Build::verify(const std::vector<double>& speeds)
   const std::vector<RunOutcome> outcomes = run(jobs, 1.0);
   Certificate& c = law_.certificate;
   const LawMaterial& m = law_.material;
-  const PairLaw wall{&law_.curve, PairMapping::rigid_partner(m.e_star()), &law_};
   const Scales unit{body_.scale.length, m.e_star(), m.density};
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     if (outcomes[k].failed()) continue;
     const RunSummary& run = outcomes[k].result.summary;
-    const Replay replay = replay_collision(wall, unit.length, body_.mass * unit.mass(),
-                                           speeds[k] * std::sqrt(body_.yield) * unit.velocity());
+    const Replay replay = replay_on_wall(law_, unit.length, body_.mass * unit.mass(),
+                                         speeds[k] * std::sqrt(body_.yield) * unit.velocity());
     const double force = std::abs(replay.force_max / unit.force() / run.force_max - 1),
                  e = std::abs(replay.restitution / run.restitution - 1);
     c.verification_error_force = std::max(c.verification_error_force, force);

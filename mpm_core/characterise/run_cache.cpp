@@ -1,13 +1,13 @@
 #include "characterise/run_cache.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "solver/state_archive.hpp"
 
@@ -73,20 +73,10 @@ void RunCache::store(const std::string& key, double cost, const RunOutcome& outc
   StateArchive archive;
   visit_state(archive, copy);
   const std::string body = archive.take();
-  const std::string text = header_of(key, cost, outcome.cpu_s, body) + body;
-
-  std::string temporary = folder_ + "/.run.XXXXXX";  // a name of its own on every machine of the cluster
-  const int file = mkstemp(temporary.data());
-  if (file < 0) return;
-  bool written = true;
-  for (std::size_t at = 0; written && at < text.size();) {
-    const ssize_t count = write(file, text.data() + at, text.size() - at);
-    written = count > 0;
-    if (written) at += static_cast<std::size_t>(count);
+  try {
+    write_text_atomically(file_of(key), header_of(key, cost, outcome.cpu_s, body) + body);
+  } catch (const Error&) {  // no room, no permission: the run is made again next time
   }
-  written = close(file) == 0 && written;
-  if (written) fs::rename(temporary, file_of(key), ignored);
-  if (!written || ignored) fs::remove(temporary, ignored);
 }
 
 std::string default_cache_folder()

@@ -63,30 +63,6 @@ double top_speed_ramp(double depth, double speed_squared)
   return 0.5 * M_PI * depth / std::sqrt(speed_squared);
 }
 
-/// Loading time of a press whose body yields or not, as the solver chooses it (runs.cpp).
-double solvers_ramp(const CharacterisedBody& s, double depth)
-{
-  if (!s.yields()) return 40.0;
-  return std::max({60.0, 60.0 * std::pow(0.01 / s.yield, 0.25), top_speed_ramp(depth, 4e-4 * s.yield)});
-}
-
-/// A run's numbers over the body's scales.
-RunResult dimensionless(RunResult run, const Scales& scale)
-{
-  for (TraceSample& t : run.trace) {
-    t.time /= scale.time();
-    t.delta /= scale.length;
-    t.force /= scale.force();
-    t.contact_radius /= scale.length;
-  }
-  RunSummary& s = run.summary;
-  s.force_max /= scale.force();
-  s.delta_max /= scale.length, s.delta_residual /= scale.length;
-  s.contact_time /= scale.time();
-  s.work_load /= scale.energy(), s.work_unload /= scale.energy();
-  return run;
-}
-
 }  // namespace
 
 double expected_depth(double velocity, const CharacterisedBody& s)
@@ -112,7 +88,7 @@ RunJob press_job(const CharacterisedBody& body, const SamplingPlan::Press& press
   std::string path;
   for (const double stop : press.stops) path += fmt::format(" unload={:.17g}", stop);
   if (press.ramp > 0) path += fmt::format(" ramp={:.17g}", press.ramp);
-  const double ramp = press.ramp > 0 ? press.ramp : solvers_ramp(body, press.depth);
+  const double ramp = press.ramp > 0 ? press.ramp : default_press_ramp(press.depth, body.yield);
   const auto stops = static_cast<double>(press.stops.size());  // off and on again takes 0.4 of the ramp each
   return {fmt::format("press to {:.3g} R", press.depth),
           key(body, press.resolution, press.shifted_grids,

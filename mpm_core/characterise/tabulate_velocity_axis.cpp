@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/gauss.hpp"
 #include "characterise/interpolation.hpp"
 #include "characterise/law_shape.hpp"
 #include "law/cubic.hpp"
@@ -220,17 +221,12 @@ ImpactLevel level_at(const Speeds& speeds, const LawShape& shape, const ContactC
   for (int l = 0; l <= count; ++l) {
     const double xi = share_spacing * l;
     if (l > 0) {
-      // 4-point Gauss-Legendre over the share, twice: F goes as xi^1.5 near 0
-      constexpr double node[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                                  0.8611363115940526};
-      constexpr double weight[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                    0.3478548451374538};
-      for (int half = 0; half < 2; ++half)
-        for (int g = 0; g < 4; ++g) {
-          const double at = xi - share_spacing * (1 - 0.25 * (2 * half + 1 + node[g]));
-          work += weight[g] * share_spacing / 4 * impact_overlap * slow.loading(at * impact_overlap).force *
-                  (1 + correction(at));
-        }
+      const auto work_per_share = [&](double at) {
+        return impact_overlap * slow.loading(at * impact_overlap).force * (1 + correction(at));
+      };
+      // in two halves: F goes as xi^1.5 near 0
+      const double middle = xi - 0.5 * share_spacing;
+      work += gauss<4>(xi - share_spacing, middle, work_per_share) + gauss<4>(middle, xi, work_per_share);
     }
     if (l == 0) {
       level.residual.push_back(0), level.exponent.push_back(0);

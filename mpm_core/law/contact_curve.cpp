@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "law/gauss.hpp"
+#include "base/gauss.hpp"
 #include "law/table_checks.hpp"
 
 namespace granulaw {
@@ -170,7 +170,7 @@ double ContactCurve::correction_work(double from, double to, double impact_overl
     const double s_axis = std::pow(static_cast<double>(axis_node) / per_ratio * impact_overlap, 0.25);
     const double next = std::min({s_curve, s_axis, s_stop});
     if (next > s)
-      sum += gauss(s, next, [&](double at) {
+      sum += gauss<7>(s, next, [&](double at) {
         const double here = at * at * at * at;
         return 4.0 * at * at * at * quasi_static(here).force * axis_->force(here, impact_overlap).value;
       });
@@ -184,10 +184,11 @@ double ContactCurve::correction_work(double from, double to, double impact_overl
 double ContactCurve::interval_work(std::size_t k, double t_end) const
 {
   // integral of F dx = x^1.5 g dx = 4 s^9 g ds: of degree 12
-  return gauss(0.0, t_end,
-               [&](double t) {
-                 return 4.0 * std::pow((static_cast<double>(k) + t) / per_h_, 9) * cubic(intervals_[k].g, t);
-               }) /
+  return gauss<7>(0.0, t_end,
+                  [&](double t) {
+                    return 4.0 * std::pow((static_cast<double>(k) + t) / per_h_, 9) *
+                           cubic(intervals_[k].g, t);
+                  }) /
          per_h_;
 }
 

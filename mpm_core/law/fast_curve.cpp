@@ -1,6 +1,6 @@
 #include "law/fast_curve.hpp"
 
-#include "law/gauss.hpp"
+#include "base/gauss.hpp"
 
 namespace granulaw {
 
@@ -77,8 +77,8 @@ double FastCurve::loading_work(double x, double impact_overlap) const
     return 4.0 * s3 * loading_force(x * s * s3, impact_overlap);
   };
   // the corrections are splines: short pieces
-  double work = gauss(0.0, 0.4, at);
-  for (int k = 4; k < 10; ++k) work += gauss(0.1 * k, 0.1 * (k + 1), at);
+  double work = gauss<7>(0.0, 0.4, at);
+  for (int k = 4; k < 10; ++k) work += gauss<7>(0.1 * k, 0.1 * (k + 1), at);
   return x * work;
 }
 

@@ -101,6 +101,11 @@ void check_size(const PairLaw& pair, double radius, const std::string& where)
          fmt::format("{:.6g} m within {:.0f} %: make a law for each size", only, 100 * size_tolerance));
 }
 
+PairLaw wall_pair(const BodyLaw& body)
+{
+  return {&body.curve, PairMapping::rigid_partner(body.material.e_star()), &body};
+}
+
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where)
 {
   if (a == wall_name && b != wall_name) return resolve_pair(law, b, a, where);
@@ -110,7 +115,7 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
     fail(where, fmt::format("the law was not built for the pair '{}:{}'", a, b), {}, law.pair_list());
   if (second) check_partners(first, *second, where);
 
-  if (!second) return {&first.curve, PairMapping::rigid_partner(first.material.e_star()), &first};
+  if (!second) return wall_pair(first);
   const bool swap = !yields_first(first.material, second->material);
   const BodyLaw &yielding = swap ? *second : first, &partner = swap ? first : *second;
   const TwoBodyLaw* own = law.find_pair_law(a, b);

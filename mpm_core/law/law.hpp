@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scales.hpp"
 #include "law/contact_curve.hpp"
 
 namespace granulaw {
@@ -20,7 +21,7 @@ struct LawMaterial
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
   double hardening_modulus = 0;  ///< Pa, d(yield stress)/d(equivalent plastic strain); 0: perfectly plastic
 
-  double e_star() const { return youngs_modulus / (1.0 - poisson_ratio * poisson_ratio); }
+  double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
   bool yields() const { return yield_stress < std::numeric_limits<double>::infinity(); }
 };
 
@@ -157,6 +158,9 @@ struct PairLaw
   /// v of the velocity axis over the relative normal speed, s/m (velocity_axis.hpp).
   double speed_coordinate(double r_eff, double m_eff) const;
 };
+
+/// A body against the rigid wall.
+PairLaw wall_pair(const BodyLaw& body);
 
 /// Resolves materials `a` and `b` (b may be "wall": rigid), in either order: the pair's own law if the file
 /// has one, else the law of the body that yields (`yields_first`). Throws Error naming `where` where the law

@@ -15,7 +15,7 @@ Law read_law(const std::string& path);
 /// MPI run.
 Law read_law_image(std::span<const char> image, const std::string& path);
 
-/// Writes to PATH.tmp.<pid> and renames: a reader sees the old file or the new one, never a part.
+/// Atomically (base/atomic_write.hpp): a reader sees the old file or the new one, never a part.
 void write_law(const Law& law, const std::string& path);
 
 }  // namespace granulaw

@@ -60,4 +60,9 @@ Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass
   return result;
 }
 
+Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity)
+{
+  return replay_collision(wall_pair(body), radius, mass, velocity);
+}
+
 }  // namespace granulaw

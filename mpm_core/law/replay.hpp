@@ -40,4 +40,7 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
                         int steps_per_contact = 20000);
 
+/// One body against the rigid wall: `radius` of curvature at its pole (m), its mass (kg).
+Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity);
+
 }  // namespace granulaw

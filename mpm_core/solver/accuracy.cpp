@@ -75,63 +75,105 @@ RunResult run_with_estimate(const RunOptions& options, const Run& run)
   return fine;
 }
 
+namespace {
+
+/// The search of run_to_tolerance: each step refines `options` and notes what error is left.
+class ToleranceSearch
+{
+ public:
+  ToleranceSearch(double tolerance, const RunOptions& options, const Run& run)
+      : tolerance_(tolerance), options_(options), run_(run)
+  {
+    options_.estimate_error = false;
+    base_ = probe(options_);
+  }
+
+  /// The scheme is of second order in the step: half the step leaves a quarter of the error.
+  void shorten_step()
+  {
+    for (;;) {
+      RunOptions half = options_;
+      half.courant = 0.5 * options_.courant;
+      if (agrees(half, found_.step_error) || half.courant < 0.1) return;
+      take(half);
+    }
+  }
+
+  /// What the ramp adds falls like its inverse square (inertia) or faster.
+  void lengthen_ramp()
+  {
+    for (;;) {
+      RunOptions slower = options_;
+      slower.slowness = 2 * options_.slowness;
+      if (agrees(slower, found_.ramp_error) || slower.slowness > 16) return;
+      take(slower);
+    }
+  }
+
+  ToleranceResult raise_resolution()
+  {
+    int cells = std::max(first_resolution, options_.resolution);
+    RunResult coarse = run_at(options_, coarse_partner(cells));
+    add_cost(spent_, coarse.summary);
+    for (;; cells = static_cast<int>(std::lround(cells / 0.7))) {
+      options_.resolution = cells;
+      found_.result = run_(options_);
+      RunSummary& s = found_.result.summary;
+      found_.resolution_error = error_between(found_.result, coarse);
+      s.error_estimate = std::hypot(found_.resolution_error, found_.step_error, found_.ramp_error);
+      found_.reached = s.error_estimate <= tolerance_;
+      if (found_.reached || cells / 0.7 > last_resolution) break;
+      add_cost(spent_, s);
+      coarse = std::move(found_.result);
+    }
+    add_cost(found_.result.summary, spent_);
+    return std::move(found_);
+  }
+
+ private:
+  /// Without fields: those shown are the finest run's.
+  RunResult run_at(RunOptions options, int cells)
+  {
+    options.resolution = cells;
+    options.fields = {};
+    return run_(options);
+  }
+  RunResult probe(const RunOptions& options)
+  {
+    RunResult probed = run_at(options, probe_resolution);
+    add_cost(spent_, probed.summary);
+    return probed;
+  }
+  /// Whether the probe with finer options differs by no more than its share of the tolerance; `error` becomes
+  /// what the coarser options leave.
+  bool agrees(const RunOptions& finer, double& error)
+  {
+    finer_ = probe(finer);
+    error = 4.0 / 3.0 * difference(base_, finer_);
+    return error <= share * tolerance_;
+  }
+  void take(const RunOptions& finer)
+  {
+    options_ = finer;
+    base_ = std::move(finer_);
+  }
+
+  double tolerance_;
+  RunOptions options_;
+  const Run& run_;
+  RunResult base_, finer_;  ///< probes with the options so far, and with those tried last
+  RunSummary spent_{};
+  ToleranceResult found_;
+};
+
+}  // namespace
+
 ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run)
 {
-  ToleranceResult found;
-  RunOptions own = options;
-  own.estimate_error = false;
-  RunSummary spent{};
-  const auto probe = [&](const RunOptions& changed) {
-    RunOptions o = changed;
-    o.resolution = probe_resolution;
-    o.fields = {};
-    RunResult probed = run(o);
-    add_cost(spent, probed.summary);
-    return probed;
-  };
-
-  RunResult base = probe(own);
-  // The scheme is of second order in the step: half the step leaves a quarter of the error.
-  for (;;) {
-    RunOptions half = own;
-    half.courant = 0.5 * own.courant;
-    RunResult finer = probe(half);
-    found.step_error = 4.0 / 3.0 * difference(base, finer);
-    if (found.step_error <= share * tolerance || half.courant < 0.1) break;
-    own = half, base = std::move(finer);
-  }
-  // What the ramp adds falls like its inverse square (inertia) or faster.
-  while (has_ramp) {
-    RunOptions slower = own;
-    slower.slowness = 2 * own.slowness;
-    RunResult calmer = probe(slower);
-    found.ramp_error = 4.0 / 3.0 * difference(base, calmer);
-    if (found.ramp_error <= share * tolerance || slower.slowness > 16) break;
-    own = slower, base = std::move(calmer);
-  }
-
-  RunResult coarse{};
-  for (int n = std::max(first_resolution, options.resolution);; n = static_cast<int>(std::lround(n / 0.7))) {
-    own.fields = options.fields;
-    own.resolution = n;
-    if (coarse.summary.resolution == 0) {
-      RunOptions first = own;
-      first.resolution = coarse_partner(n);
-      first.fields = {};
-      coarse = run(first);
-      add_cost(spent, coarse.summary);
-    }
-    found.result = run(own);
-    RunSummary& s = found.result.summary;
-    found.resolution_error = error_between(found.result, coarse);
-    s.error_estimate = std::hypot(found.resolution_error, found.step_error, found.ramp_error);
-    found.reached = s.error_estimate <= tolerance;
-    if (found.reached || n / 0.7 > last_resolution) break;
-    add_cost(spent, s);
-    coarse = std::move(found.result);
-  }
-  add_cost(found.result.summary, spent);
-  return found;
+  ToleranceSearch search(tolerance, options, run);
+  search.shorten_step();
+  if (has_ramp) search.lengthen_ramp();
+  return search.raise_resolution();
 }
 
 }  // namespace granulaw

@@ -45,7 +45,7 @@ const char* pack(const FlowLaw& law, double stress, double time, double* out)
     }
     lists.push_back(std::move(list));
   }
-  if constexpr (requires { Law::pack(out, 0, out, 0, out); }) {
+  if constexpr (flow::LawOfLists<Law>) {
     return Law::pack(lists[0].data(), static_cast<int>(lists[0].size()), lists[1].data(),
                      static_cast<int>(lists[1].size()), out);
   } else {
@@ -170,15 +170,13 @@ Material with_strains_scaled(Material m, double by)
   m.hardening_modulus /= by;
   with_law(flow::HardeningLaws{}, m.hardening.name, [&](auto chosen, int) {
     using Law = decltype(chosen);
-    if constexpr (requires(double* v) { Law::scale_strains(v, by); }) {
+    if constexpr (flow::LawOfNumbers<Law>) {
       std::vector<double> values;
       for (const flow::Parameter& p : Law::parameters) values.push_back(m.hardening.values.at(p.key).front());
       Law::scale_strains(values.data(), by);
       for (std::size_t k = 0; k < values.size(); ++k)
         m.hardening.values.at(Law::parameters[k].key) = {values[k]};
     } else {
-      static_assert(std::ranges::all_of(Law::parameters, &flow::Parameter::list),
-                    "a law with plain numbers says by scale_strains() which of them are strains");
       for (const flow::Parameter& p : Law::parameters)
         if (p.quantity == flow::Quantity::number)
           for (double& strain : m.hardening.values.at(p.key)) strain *= by;

@@ -6,21 +6,45 @@
 
 namespace granulaw {
 
-TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
+namespace {
+
+/// The samples of virgin loading from `from` of the deepest overlap on.
+std::vector<const TraceSample*> loading_samples(std::span<const TraceSample> trace, double from,
+                                                double deepest)
+{
+  std::vector<const TraceSample*> used;
+  for (const TraceSample& s : trace)
+    if (s.branch == Branch::load && s.delta >= from * deepest && s.force > 0) used.push_back(&s);
+  return used;
+}
+
+double deepest_loading(std::span<const TraceSample> trace)
 {
   double deepest = 0;
   for (const TraceSample& s : trace)
     if (s.branch == Branch::load) deepest = std::max(deepest, s.delta);
-  std::vector<const TraceSample*> used;
-  for (const TraceSample& s : trace)
-    if (s.branch == Branch::load && s.delta >= from * deepest && s.force > 0) used.push_back(&s);
+  return deepest;
+}
+
+}  // namespace
+
+TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
+{
+  const double deepest = deepest_loading(trace);
+  const std::vector<const TraceSample*> used = loading_samples(trace, from, deepest);
   if (used.size() < 12) return;
   from_ = from * deepest;
+  fit(used, deepest);
+  measure_ripple(used, deepest);
+}
+
+/// ln F by Chebyshev polynomials in ln delta, least squares. Relative grid noise falls like (h/a)^1.65, a^2 ~
+/// delta: weight of a residual in ln F ~ delta^0.8. Samples stand at equal times; what counts is equal steps
+/// of ln delta: weight by the step as well.
+void TreatedLoading::fit(const std::vector<const TraceSample*>& used, double deepest)
+{
   const double low = std::log(from_), high = std::log(deepest);
   centre_ = 0.5 * (low + high), half_ = 0.5 * (high - low);
-
-  // Relative grid noise falls like (h/a)^1.65, a^2 ~ delta: weight of a residual in ln F ~ delta^0.8. Samples
-  // stand at equal times; what counts is equal steps of ln delta: weight by the step as well.
   const int degree = used.size() > 60 ? 5 : 3;
   const auto rows = static_cast<Eigen::Index>(used.size());
   Eigen::MatrixXd a(rows, degree + 1);
@@ -37,7 +61,10 @@ TreatedLoading::TreatedLoading(std::span<const TraceSample> trace, double from)
   }
   const Eigen::VectorXd x = a.colPivHouseholderQr().solve(b);
   coefficients_.assign(x.data(), x.data() + x.size());
+}
 
+void TreatedLoading::measure_ripple(const std::vector<const TraceSample*>& used, double deepest)
+{
   double sum = 0;
   int count = 0;
   for (const TraceSample* s : used)

@@ -31,6 +31,9 @@ class TreatedLoading
   double grid_noise() const { return grid_noise_; }
 
  private:
+  void fit(const std::vector<const TraceSample*>& samples, double deepest);
+  void measure_ripple(const std::vector<const TraceSample*>& samples, double deepest);
+
   std::vector<double> coefficients_;
   double from_ = 0, centre_ = 0, half_ = 1, grid_noise_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "solver/flow/laws.hpp"
+#include "solver/flow/plastic_increment.hpp"
 #include "solver/kernels.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {

@@ -119,70 +119,92 @@ void PressProgramme::damp(Scene& scene, double velocity, double share)
   }
 }
 
+/// Equal and opposite body forces: two bodies share the change of velocity as the inverse of their masses.
+void PressProgramme::drive_bodies(Scene& scene, double velocity)
+{
+  const double shift = velocity - scene.separation_velocity(), reduced = scene.reduced_mass();
+  for (Body& body : scene.bodies) {
+    const double own = shift * reduced / body.mass;
+    for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += own;
+  }
+  work_ += shift * reduced * 0.5 * (velocity_ + velocity);
+}
+
+/// A uniform body force carries the bulk along with the equator: without it the accelerating equator would
+/// have to push the half sphere's mass through the body, and the force would lag behind the overlap.
+void PressProgramme::drive_equator(Body& body, double velocity, double dt)
+{
+  const double gain = velocity - velocity_;
+  for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += gain;
+  for (const int i : body.equator) {
+    work_ += body.mass_i[i] * (velocity - body.vz_i[i]) * 0.5 * (velocity_ + velocity);
+    body.vz_i[i] = velocity;
+  }
+  const double mean = body.mean_velocity();
+  work_ += gain * body.mass * 0.5 * (mean_ + mean);
+  mean_ = mean;
+  driven_ += dt * velocity;
+}
+
+/// Damps while the press slows down, notes where virgin loading begins, ends in a hold.
+void PressProgramme::continue_loading(Scene& scene, double now, double dt, double depth)
+{
+  if (now - start_ > 0.5 * duration_) {
+    const double slowness = 1 - std::sin(M_PI * std::min(1.0, (now - start_) / duration_));
+    const double rate = hold_damping * slowness * slowness * slowness * slowness;
+    damp(scene, velocity_, std::min(rate, most_damping(scene, velocity_)) * dt);
+  }
+  if (!reached_new_depth_ && depth > deepest_) {
+    reached_new_depth_ = true;
+    ++segment_;
+  }
+  if (now - start_ >= duration_) {
+    deepest_ = std::max(deepest_, depth);
+    start_holding(now);
+  }
+}
+
+/// Until the contact is gone for long enough; or, where the force ended at once (elastic at nearly no load),
+/// after two ramps.
+void PressProgramme::continue_unloading(double now, double depth)
+{
+  if (!(now - last_touch_ > leaving_time || depth < -0.5 * deepest_)) return;
+  if (stop_ + 1 == plan_.stops.size()) finished_ = true;
+  phase_ = Phase::stop;
+  start_ = now;
+}
+
+void PressProgramme::start_next_stop(double now, double depth)
+{
+  ++stop_;
+  ++segment_;
+  start_loading(now, depth);
+}
+
 void PressProgramme::apply(Scene& scene, double time, double dt, bool touching)
 {
   if (touching) last_touch_ = time + dt;
   const double velocity = -target_velocity(time + 0.5 * dt);  // overlap grows as the bodies move down
-  if (plan_.support == Support::free) {
-    // equal and opposite body forces: two bodies share the change of velocity as the inverse of their masses
-    const double shift = velocity - scene.separation_velocity(), reduced = scene.reduced_mass();
-    for (Body& body : scene.bodies) {
-      const double own = shift * reduced / body.mass;
-      for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += own;
-    }
-    work_ += shift * reduced * 0.5 * (velocity_ + velocity);
-  } else {
-    // A uniform body force carries the bulk along with the equator: without it the accelerating equator would
-    // have to push the half sphere's mass through the body, and the force would lag behind the overlap.
-    Body& body = scene.bodies.front();
-    const double gain = velocity - velocity_;
-    for (int i = 0; i < body.nodes; ++i) body.vz_i[i] += gain;
-    for (const int i : body.equator) {
-      work_ += body.mass_i[i] * (velocity - body.vz_i[i]) * 0.5 * (velocity_ + velocity);
-      body.vz_i[i] = velocity;
-    }
-    const double mean = body.mean_velocity();
-    work_ += gain * body.mass * 0.5 * (mean_ + mean);
-    mean_ = mean;
-    driven_ += dt * velocity;
-  }
+  if (plan_.support == Support::free)
+    drive_bodies(scene, velocity);
+  else
+    drive_equator(scene.bodies.front(), velocity, dt);
   velocity_ = velocity;
 
   const double now = time + dt, depth = overlap(scene);
   switch (phase_) {
     case Phase::load:
-      if (now - start_ > 0.5 * duration_) {
-        const double slowness = 1 - std::sin(M_PI * std::min(1.0, (now - start_) / duration_));
-        const double rate = hold_damping * slowness * slowness * slowness * slowness;
-        damp(scene, velocity, std::min(rate, most_damping(scene, velocity)) * dt);
-      }
-      if (!reached_new_depth_ && depth > deepest_) {
-        reached_new_depth_ = true;
-        ++segment_;
-      }
-      if (now - start_ >= duration_) {
-        deepest_ = std::max(deepest_, depth);
-        start_holding(now);
-      }
+      continue_loading(scene, now, dt, depth);
       break;
     case Phase::hold:
-      damp(scene, velocity, hold_damping * dt);
+      damp(scene, velocity_, hold_damping * dt);
       if (now - start_ >= hold_time) start_unloading(now);
       break;
     case Phase::unload:
-      // Gone for long enough; or, where the force ended at once (elastic at nearly no load), after two ramps.
-      if (now - last_touch_ > leaving_time || depth < -0.5 * deepest_) {
-        if (stop_ + 1 == plan_.stops.size()) finished_ = true;
-        phase_ = Phase::stop;
-        start_ = now;
-      }
+      continue_unloading(now, depth);
       break;
     case Phase::stop:
-      if (now - start_ >= 0.2 * plan_.unload_ramp && !finished_) {
-        ++stop_;
-        ++segment_;
-        start_loading(now, depth);
-      }
+      if (now - start_ >= 0.2 * plan_.unload_ramp && !finished_) start_next_stop(now, depth);
       break;
   }
 }

@@ -79,7 +79,13 @@ class PressProgramme : public LoadingProgramme
   void start_loading(double time, double overlap);
   void start_holding(double time);
   void start_unloading(double time);
+  void start_next_stop(double time, double overlap);
+  void continue_loading(Scene& scene, double time, double dt, double overlap);
+  void continue_unloading(double time, double overlap);
   double target_velocity(double time) const;
+  /// Bring the bodies, or the equator of the one body, to `velocity`, and count the work.
+  void drive_bodies(Scene& scene, double velocity);
+  void drive_equator(Body& body, double velocity, double dt);
   /// Takes `share` of every velocity relative to the loading programme's own out of the bodies.
   void damp(Scene& scene, double velocity, double share);
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/gauss.hpp"
 
 namespace granulaw {
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::array<double, 4> corner_x{-1, 1, 1, -1}, corner_y{-1, -1, 1, 1}, hourglass_sign{1, -1, 1, -1};
 
-/// Exact integrals over one bilinear axisymmetric cell: 2 x 2 Gauss points.
+/// Exact integrals over one bilinear axisymmetric cell: 2 x 2 Gauss points, all of weight 1.
 struct CellIntegrals
 {
   double volume = 0, area = 0;
@@ -22,9 +23,8 @@ struct CellIntegrals
 CellIntegrals integrate(const std::array<MappedGrid::Node, 4>& x)
 {
   CellIntegrals c;
-  const double g = 1 / std::sqrt(3.0);
-  for (const double xi : {-g, g})
-    for (const double eta : {-g, g}) {
+  for (const double xi : GaussPoints<2>::node)
+    for (const double eta : GaussPoints<2>::node) {
       std::array<double, 4> n, dx, dy;
       double rx = 0, ry = 0, zx = 0, zy = 0, r = 0;
       for (int k = 0; k < 4; ++k) {

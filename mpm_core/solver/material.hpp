@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/scales.hpp"
+
 namespace granulaw {
 
 /// A hardening or rate law of solver/flow by its name, with the values of its keys, SI; lists of one for
@@ -28,7 +30,7 @@ struct Material
   FlowLaw hardening{};           ///< any other hardening law; hardening_modulus is then unused
   FlowLaw rate{};                ///< rate dependence of the yield stress
 
-  double e_star() const { return youngs_modulus / (1.0 - poisson_ratio * poisson_ratio); }
+  double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
   /// The result then depends on R/c* against the time scale of the rate law: size invariance is lost.
   bool rate_dependent() const { return !rate.name.empty(); }
   bool yields() const { return yield_stress < std::numeric_limits<double>::infinity(); }

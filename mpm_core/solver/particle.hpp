@@ -1,35 +1,12 @@
 #pragma once
 
-#include <atomic>
 #include <string>
 #include <vector>
 
 #include "solver/material.hpp"
+#include "solver/profile.hpp"
 
 namespace granulaw {
-
-/// A point of a meridian curve, m: r from the axis, z above the contact pole.
-struct ProfilePoint
-{
-  double r, z;
-};
-
-class ProfileTree;
-
-/// Keeps the search tree of a profile from the first query on; several threads may ask at once. A copy
-/// starts empty.
-class ProfileCache
-{
- public:
-  ProfileCache() = default;
-  ProfileCache(const ProfileCache&) {}
-  ProfileCache& operator=(const ProfileCache&);
-  ~ProfileCache();
-  const ProfileTree& tree(const std::vector<ProfilePoint>& profile) const;
-
- private:
-  mutable std::atomic<const ProfileTree*> newest_{nullptr};
-};
 
 /// A body of revolution that hits along its axis; contact pole at (0, 0), body in z >= 0. SI.
 struct Particle
@@ -49,22 +26,18 @@ struct Particle
 
   double radius = 0;  ///< m: sphere's radius; of a profile: its largest distance from the axis
   std::vector<Material> materials{};  ///< materials[0]: the body (core of a layered one)
-  /// From the contact pole (0, 0) to the far pole (0, height), dense polyline (curved shapes sampled so
-  /// finely that the chord error is < 1e-6 radius); empty: a sphere. Between queries change it as a whole
-  /// only: the search tree notices a new or a scaled profile, not a single point that moved.
-  std::vector<ProfilePoint> profile{};
+  /// Curved shapes are sampled so finely that the chord error is below 1e-6 radius; empty: a sphere.
+  Profile profile{};
   std::vector<Layer> layers{};          ///< from the surface inwards
   std::vector<Inclusion> inclusions{};  ///< later ones on top of earlier ones and of layers
-  ProfileCache cache{};                 ///< not for users
 
   bool is_sphere() const { return profile.empty(); }
   bool is_homogeneous_sphere() const { return is_sphere() && layers.empty() && inclusions.empty(); }
-  double height() const;  ///< m
+  double height() const;                    ///< m
+  double height_of_largest_radius() const;  ///< m, above the contact pole
 
-  /// Radius of curvature at the contact pole, m. Sphere: radius. Profile: z = r^2/(2 R) + c r^4 by least
-  /// squares through its points near the pole: those with r up to 0.1 radius, or fewer until the fit is good
-  /// to 1e-4 of z (to 1e-3, 1e-2, 0.1 if it never is). Where three points are too few for that: the circle
-  /// through the first, so that a sharp tip has nearly 0. Infinity for a flat tip.
+  /// Radius of curvature at the contact pole, m. Sphere: radius. Profile: fitted within 0.1 radius of the
+  /// pole (profile.hpp); infinity for a flat tip.
   double pole_curvature_radius() const;
 
   /// Distance to the surface, m, positive inside. Of a profile: to the polyline, exactly.

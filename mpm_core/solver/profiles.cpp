@@ -12,7 +12,7 @@ namespace granulaw {
 
 namespace {
 
-using Profile = std::vector<ProfilePoint>;
+using Points = std::vector<ProfilePoint>;
 using std::numbers::pi;
 
 constexpr double over_zero = std::numeric_limits<double>::min(),
@@ -29,7 +29,7 @@ int segments_of_arc(double radius, double angle, double scale)
 
 /// Appends the arc about `centre`, angles in radians from straight down, counter-clockwise; without its first
 /// point where the curve already ends there. The widest point of the circle is always among them.
-void add_arc(Profile& profile, ProfilePoint centre, double radius, double from, double to, double scale)
+void add_arc(Points& profile, ProfilePoint centre, double radius, double from, double to, double scale)
 {
   if (!(to - from > 1e-9)) return;  // a tablet with cap_radius = radius has no edge
   if (from < pi / 2 && to > pi / 2) {
@@ -56,7 +56,7 @@ void check_size(const char* key, double value, double radius, const std::string&
 }
 
 /// The ends exactly on the axis, the first in the origin: rounding aside, that is where they are.
-Profile closed(Profile profile)
+Points closed(Points profile)
 {
   profile.front() = {0, 0};
   profile.back().r = 0;
@@ -65,12 +65,12 @@ Profile closed(Profile profile)
 
 }  // namespace
 
-Profile ellipsoid(double radius, double aspect)
+Points ellipsoid(double radius, double aspect)
 {
   const double half_height = aspect * radius;
   // The affine image of a circle: its chord error grows with the larger semi-axis.
   const int n = 2 * segments_of_arc(std::max(radius, half_height), pi / 2, radius);  // even: has the equator
-  Profile profile;
+  Points profile;
   for (int k = 0; k <= n; ++k) {
     const double angle = pi * k / n, half = std::sin(angle / 2);
     profile.push_back({radius * std::sin(angle), 2 * half_height * half * half});
@@ -78,7 +78,7 @@ Profile ellipsoid(double radius, double aspect)
   return closed(profile);
 }
 
-Profile flattened_sphere(double radius, double flat_radius, double fillet, const std::string& where)
+Points flattened_sphere(double radius, double flat_radius, double fillet, const std::string& where)
 {
   if (!(flat_radius + fillet < radius))
     fail(where, "'flat_radius' and 'fillet' leave no sphere: their sum is",
@@ -87,14 +87,14 @@ Profile flattened_sphere(double radius, double flat_radius, double fillet, const
   check_size("fillet", fillet, radius, where);
   const double angle = std::asin(flat_radius / (radius - fillet));
   const double centre = fillet + (radius - fillet) * std::cos(angle);
-  Profile profile{{0, 0}};
+  Points profile{{0, 0}};
   profile.push_back({flat_radius, 0});
   add_arc(profile, {flat_radius, fillet}, fillet, 0, angle, radius);
   add_arc(profile, {0, centre}, radius, angle, pi, radius);
   return closed(profile);
 }
 
-Profile conical_tip(double radius, double half_angle, double tip_radius, const std::string& where)
+Points conical_tip(double radius, double half_angle, double tip_radius, const std::string& where)
 {
   if (!(tip_radius < radius))
     fail(where, "'tip_radius' must be smaller than the body", fmt::format("{:g} m", tip_radius),
@@ -102,7 +102,7 @@ Profile conical_tip(double radius, double half_angle, double tip_radius, const s
   check_size("tip_radius", tip_radius, radius, where);
   const double flank = half_angle * pi / 180;
   const double centre = tip_radius + (radius - tip_radius) / std::sin(flank);
-  Profile profile;
+  Points profile;
   add_arc(profile, {0, tip_radius}, tip_radius, 0, pi / 2 - flank, radius);
   const double start = pi / 2 - flank;
   profile.push_back({radius * std::sin(start), centre - radius * std::cos(start)});
@@ -110,7 +110,7 @@ Profile conical_tip(double radius, double half_angle, double tip_radius, const s
   return closed(profile);
 }
 
-Profile tablet(double radius, double height, double cap_radius, double edge_radius, const std::string& where)
+Points tablet(double radius, double height, double cap_radius, double edge_radius, const std::string& where)
 {
   if (!(cap_radius >= radius && cap_radius <= 1000 * radius))
     fail(where, "'cap_radius' does not fit the band", fmt::format("{:g} m", cap_radius),
@@ -126,7 +126,7 @@ Profile tablet(double radius, double height, double cap_radius, double edge_radi
   if (!(height >= 2 * band * (1 - 1e-12)))
     fail(where, "'height' is too small for the two caps and edges", fmt::format("{:g} m", height),
          fmt::format("{:g} m or more", 2 * band));
-  Profile profile;
+  Points profile;
   add_arc(profile, {0, cap_radius}, cap_radius, 0, angle, radius);
   add_arc(profile, {out, band}, edge_radius, angle, pi / 2, radius);
   profile.front() = {0, 0};
@@ -136,7 +136,7 @@ Profile tablet(double radius, double height, double cap_radius, double edge_radi
   return profile;
 }
 
-Profile outline(Profile points, const std::string& where)
+Points outline(Points points, const std::string& where)
 {
   if (points.size() < 3)
     fail(where, "the points enclose no body", fmt::format("{} points", points.size()), "3 or more");

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/particle.hpp"
+#include "solver/profile.hpp"
 
 namespace granulaw {
 

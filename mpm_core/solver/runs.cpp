@@ -30,30 +30,16 @@ void check(const RunOptions& options)
     fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
 }
 
-/// Loading time, R/c*, of a press that is slow enough for the rate-free law. Elastic: 40 (half as long
-/// changes F by 0.15 %). Plastic: 60 at E*/Y = 100 (40 changes e by 0.1 %), and the longer the less is given
-/// back (E*/Y = 1000 to 0.02 R: 60, 90, 120, 240 give e .1980, .1991, .1995, .1996); and inertia enters with
-/// I = rho v^2/Y (docs/method.md): the top speed pi depth/(2 ramp) keeps I below 4e-4.
-double default_ramp(double depth, double yield_over_e_star)
-{
-  if (!std::isfinite(yield_over_e_star)) return 40.0;
-  const double stiffness = 1 / yield_over_e_star;
-  return std::max(
-      {60.0, 60.0 * std::pow(stiffness / 100, 0.25), 0.5 * M_PI * depth * std::sqrt(stiffness / 4e-4)});
-}
-
 /// Grid noise, as a share of the force, beyond which the fit does not describe the loading: fast, deep
 /// impacts, where inertia makes the early force the largest.
 constexpr double most_noise = 0.05;
 
-/// Summary of one or several runs of the same job on shifted grids, whose mean trace is `result.trace`
-/// (shifted_grids.hpp); solver units. The loading force is treated for the grid noise that is left
-/// (grid_noise.hpp), but in the mean of impacts, after which the body `rings`.
-void summarise(RunResult& result, const std::vector<RunResult>& members, bool rings)
+/// Means and largest values of the members' numbers; their cost together.
+RunSummary combined(const std::vector<RunResult>& members)
 {
-  RunSummary& s = result.summary;
+  RunSummary s;
   const double weight = 1.0 / static_cast<double>(members.size());
-  double spread = 0, updates = 0;
+  double updates = 0;
   for (const RunResult& member : members) {
     const RunSummary& m = member.summary;
     s.restitution_raw += weight * m.restitution_raw;
@@ -72,31 +58,22 @@ void summarise(RunResult& result, const std::vector<RunResult>& members, bool ri
     s.hourglass = std::max(s.hourglass, m.hourglass);
   }
   for (const RunResult& member : members)
-    spread = std::max(spread, std::abs(member.summary.restitution_raw - s.restitution_raw));
-  s.restitution_spread = spread;
+    s.restitution_spread =
+        std::max(s.restitution_spread, std::abs(member.summary.restitution_raw - s.restitution_raw));
   s.points /= static_cast<long>(members.size());
   s.point_updates_per_s = updates / s.cpu_s;
-
-  const TreatedLoading treated(result.trace);
-  for (const TraceSample& t : result.trace) s.force_max = std::max(s.force_max, t.force);
   s.restitution = s.restitution_raw;
-  if (!treated.valid()) return;
-  s.grid_noise = treated.grid_noise();
-  // After an impact the body rings, and the force with it: the fit is 0.6 % (rms) off its peak however many
-  // grids there are, up to 1.6 %. The smoothed peak of the mean is by 0.23, 0.15, 0.13 % with two, three,
-  // four (against twelve grids of 1.4 times the resolution; 20 impacts, E*/Y 20 to 1800).
-  if (rings && members.size() > 1) {
-    if (const double peak = smoothed_peak(result.trace); peak > 0) s.force_max = peak;
-    return;
-  }
-  if (s.grid_noise > most_noise) return;  // no grid noise about a smooth law any more: the raw peak stands
-  s.force_max = treated.largest_force(s.delta_max);
-  if (members.size() > 1) return;
-  // A single grid reverses at some phase of the grid noise, and the work given back follows the force at the
-  // reversal. What is elastic is given back whatever the phase: only the dissipated share is corrected.
+  return s;
+}
+
+/// A single grid reverses at some phase of the grid noise, and the work given back follows the force at the
+/// reversal. What is elastic is given back whatever the phase: only the dissipated share is corrected.
+void correct_work_given_back(RunSummary& s, const std::vector<TraceSample>& trace,
+                             const TreatedLoading& treated)
+{
   double raw_over_treated = 0;
   int at_turn = 0;
-  for (const TraceSample& t : result.trace)
+  for (const TraceSample& t : trace)
     if (t.branch == Branch::load && t.delta >= 0.99 * s.delta_max) {
       raw_over_treated += t.force / treated.force(t.delta);
       ++at_turn;
@@ -108,19 +85,28 @@ void summarise(RunResult& result, const std::vector<RunResult>& members, bool ri
   s.restitution *= std::sqrt(correction);
 }
 
-void to_si(RunResult& result, const Scales& scale)
+/// Summary of one or several runs of the same job on shifted grids, whose mean trace is `trace`
+/// (shifted_grids.hpp); solver units. The loading force is treated for the grid noise that is left
+/// (grid_noise.hpp), but in the mean of impacts, after which the body `rings`.
+RunSummary summary_of(const std::vector<TraceSample>& trace, const std::vector<RunResult>& members,
+                      bool rings)
 {
-  for (TraceSample& t : result.trace) {
-    t.time *= scale.time();
-    t.delta *= scale.length;
-    t.force *= scale.force();
-    t.contact_radius *= scale.length;
+  RunSummary s = combined(members);
+  for (const TraceSample& t : trace) s.force_max = std::max(s.force_max, t.force);
+  const TreatedLoading treated(trace);
+  if (!treated.valid()) return s;
+  s.grid_noise = treated.grid_noise();
+  // After an impact the body rings, and the force with it: the fit is 0.6 % (rms) off its peak however many
+  // grids there are, up to 1.6 %. The smoothed peak of the mean is by 0.23, 0.15, 0.13 % with two, three,
+  // four (against twelve grids of 1.4 times the resolution; 20 impacts, E*/Y 20 to 1800).
+  if (rings && members.size() > 1) {
+    if (const double peak = smoothed_peak(trace); peak > 0) s.force_max = peak;
+    return s;
   }
-  RunSummary& s = result.summary;
-  s.force_max *= scale.force();
-  s.delta_max *= scale.length, s.delta_residual *= scale.length;
-  s.contact_time *= scale.time();
-  s.work_load *= scale.energy(), s.work_unload *= scale.energy();
+  if (s.grid_noise > most_noise) return s;  // no grid noise about a smooth law any more: the raw peak stands
+  s.force_max = treated.largest_force(s.delta_max);
+  if (members.size() == 1) correct_work_given_back(s, trace, treated);
+  return s;
 }
 
 /// Cells across the block: 20, and more for deep contacts, where steps are few and strains large.
@@ -161,11 +147,10 @@ RunResult mean_of_shifted_grids(const RunOptions& options, double deepest, const
       run_on_shifted_grids(options.shifted_grids, options.threads, options.progress, one);
   RunResult result;
   result.trace = mean_trace(members);
-  summarise(result, members, rings);
+  result.summary = summary_of(result.trace, members, rings);
   result.summary.resolution = cells;
   result.summary.grids = options.shifted_grids;
-  to_si(result, scale);
-  return result;
+  return in_si(std::move(result), scale);
 }
 
 }  // namespace
@@ -210,6 +195,17 @@ RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& op
   return run_impact(Particle::from(sphere), velocity, options);
 }
 
+// Elastic: half as long changes F by 0.15 %. Plastic: 60 at E*/Y = 100 (40 changes e by 0.1 %), and the
+// longer the less is given back (E*/Y = 1000 to 0.02 R: 60, 90, 120, 240 give e .1980, .1991, .1995, .1996);
+// and inertia enters with I = rho v^2/Y (docs/method.md): the top speed pi depth/(2 ramp) keeps I below 4e-4.
+double default_press_ramp(double depth, double yield_over_e_star)
+{
+  if (!std::isfinite(yield_over_e_star)) return 40.0;
+  const double stiffness = 1 / yield_over_e_star;
+  return std::max(
+      {60.0, 60.0 * std::pow(stiffness / 100, 0.25), 0.5 * M_PI * depth * std::sqrt(stiffness / 4e-4)});
+}
+
 RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options,
                     const Partner& partner)
 {
@@ -230,8 +226,9 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
     stops.stops.push_back(x);
   }
   stops.stops.push_back(depth);
-  stops.ramp = options.slowness *
-               (plan.ramp > 0 ? plan.ramp : default_ramp(depth, collision.yield_stress() / scale.stress));
+  stops.ramp =
+      options.slowness *
+      (plan.ramp > 0 ? plan.ramp : default_press_ramp(depth, collision.yield_stress() / scale.stress));
   stops.unload_ramp = 0.4 * stops.ramp;
   stops.support = plan.support;
   const double duration = stops.ramp + stops.unload_ramp;

@@ -77,6 +77,10 @@ struct PressPlan
   double ramp = 0;      ///< loading time in R/c*; 0: the default of the run
 };
 
+/// Loading time, R/c*, that a press to `depth` (over R) takes where its plan names none: slow enough for the
+/// rate-free law. `yield_over_e_star`: Y/E* of the weakest body; infinity: elastic.
+double default_press_ramp(double depth, double yield_over_e_star);
+
 /// A particle pressed slowly along its axis onto its partner to plan.depth and taken off completely.
 RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options = {},
                     const Partner& partner = {});

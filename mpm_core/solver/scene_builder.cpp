@@ -59,15 +59,6 @@ double smallest_yield(const std::vector<Material>& materials)
   return least;
 }
 
-double height_of_largest_radius(const Particle& p)
-{
-  if (p.is_sphere()) return p.radius;
-  const auto widest =
-      std::max_element(p.profile.begin(), p.profile.end(),
-                       [](const ProfilePoint& a, const ProfilePoint& b) { return a.r < b.r; });
-  return widest->z;
-}
-
 /// A point outside the body is moved towards the middle of its axis until it lies on the surface; over
 /// `length`.
 std::pair<double, double> onto_body(const Particle& p, double r, double z, double length)
@@ -140,23 +131,9 @@ Collision::Collision(const Particle& particle, const Partner& partner, const Run
                      Support support)
     : particle_(particle), partner_(partner), options_(options), support_(support)
 {
-  check_particle(particle, "particle");
-  if (partner.particle) check_particle(*partner.particle, "partner");
-  if (partner.wall) validate(*partner.wall, "wall");
+  check_bodies();
+  check_grid();
   scale_ = scales_of(particle);
-  const bool two = partner.particle || partner.wall;
-  if (options.grid == GridKind::mapped)
-    for (const Particle* p : {&particle, partner.particle ? &*partner.particle : nullptr})
-      if (p && !p->is_homogeneous_sphere())
-        fail("--grid", "'mapped' is fitted to homogeneous spheres, and this particle is none", "mapped",
-             "rectilinear, updated");
-  if (two && support == Support::midplane)
-    fail("--support", "the midplane is driven against a rigid plane only, not against a second body",
-         "midplane", "free");
-  if (options.grid == GridKind::updated && (two || support == Support::midplane))
-    fail("--grid", "'updated' does one free body against the rigid plane", name_of(options.grid),
-         "mapped, rectilinear");
-
   double compliance = 1, inverse_mass = scale_.mass() / mass_of(particle), inverse_radius = 0;
   const auto pole = [&](const Particle& p) {
     return std::min(5.0, p.pole_curvature_radius() / scale_.length);
@@ -176,6 +153,29 @@ Collision::Collision(const Particle& particle, const Partner& partner, const Run
   e_star_ = 1 / compliance;
   reduced_mass_ = 1 / inverse_mass;
   length_ = 1 / inverse_radius;
+}
+
+void Collision::check_bodies() const
+{
+  check_particle(particle_, "particle");
+  if (partner_.particle) check_particle(*partner_.particle, "partner");
+  if (partner_.wall) validate(*partner_.wall, "wall");
+}
+
+void Collision::check_grid() const
+{
+  const bool two = partner_.particle || partner_.wall;
+  if (options_.grid == GridKind::mapped)
+    for (const Particle* p : {&particle_, partner_.particle ? &*partner_.particle : nullptr})
+      if (p && !p->is_homogeneous_sphere())
+        fail("--grid", "'mapped' is fitted to homogeneous spheres, and this particle is none", "mapped",
+             "rectilinear, updated");
+  if (two && support_ == Support::midplane)
+    fail("--support", "the midplane is driven against a rigid plane only, not against a second body",
+         "midplane", "free");
+  if (options_.grid == GridKind::updated && (two || support_ == Support::midplane))
+    fail("--grid", "'updated' does one free body against the rigid plane", name_of(options_.grid),
+         "mapped, rectilinear");
 }
 
 double Collision::expected_overlap(double v) const
@@ -233,51 +233,69 @@ double Collision::contact_radius(const Particle& p, double x) const
   return high;
 }
 
+/// Half width of the block of fine cells under a particle, R. Beyond 0.85 R grids of 8 and 10 cells fold; and
+/// a contact covers no more than 0.7 R of the reference surface: at V/V_y = 3000 it is 1.2 R wide, stretched
+/// from 0.63 R.
+double Collision::block_for(const Particle& p, double deepest) const
+{
+  return std::clamp(1.3 * contact_radius(p, deepest), 1e-4, 0.85 * p.radius / scale_.length);
+}
+
+Body Collision::fitted_sphere(const Particle& p, double block, int cells, double shift) const
+{
+  const double radius = p.radius / scale_.length;
+  const Phase phase = phase_of(p.materials.front(), scale_);
+  MappedGrid grid = MappedGrid::build(cells, block / radius, support_ == Support::free, shift);
+  grid.scale(radius);
+  return mapped_body(grid, phase, hourglass_modulus(phase.moduli));
+}
+
+Body Collision::thick_wall(const Material& material, double block, int cells, double shift) const
+{
+  const Phase phase = phase_of(material, scale_);
+  return mapped_body(MappedGrid::wall(cells, block, wall_extent, shift), phase,
+                     hourglass_modulus(phase.moduli));
+}
+
+/// `p` must outlive the section.
+Section Collision::section_of(const Particle& p, double block, int cells, double shift) const
+{
+  const double length = scale_.length;
+  Section s;
+  for (const Material& m : p.materials) s.phases.push_back(phase_of(m, scale_));
+  s.phase_at = [&p, length](double r, double z) { return p.material_at(r * length, z * length); };
+  s.surface_z = [&p, length](double r) { return p.surface_z(r * length) / length; };
+  if (options_.fields)
+    s.onto_body = [&p, length](double r, double z) { return onto_body(p, r * length, z * length, length); };
+  s.radius = p.radius / length;
+  s.pore_walls = pore_walls(p, length);
+  s.height = (support_ == Support::free ? p.height() : p.height_of_largest_radius()) / length;
+  if (support_ == Support::free) s.mass = mass_of(p) / scale_.mass();
+  s.block = block, s.depth = 0.8 * block;
+  s.fine = block / cells;
+  // two cells in a layer, as far as four times the cost allows
+  for (const Particle::Layer& layer : p.layers)
+    s.fine = std::min(s.fine, std::max(0.5 * layer.thickness / length, 0.5 * block / cells));
+  s.shift = shift;
+  return s;
+}
+
+Body Collision::body_of(const Particle& p, double block, int cells, double shift) const
+{
+  const GridKind grid = options_.grid == GridKind::automatic ? choose_grid(p).grid : options_.grid;
+  if (grid == GridKind::mapped) return fitted_sphere(p, block, cells, shift);
+  const Section section = section_of(p, block, cells, shift);
+  return grid == GridKind::updated ? updated_body(section) : rectilinear_body(section);
+}
+
 Scene Collision::build(double deepest, int cells, double shift) const
 {
-  const auto block_for = [&](const Particle& p) {
-    // Beyond 0.85 R grids of 8 and 10 cells fold; and a contact covers no more than 0.7 R of the reference
-    // surface: at V/V_y = 3000 it is 1.2 R wide, stretched from 0.63 R.
-    return std::clamp(1.3 * contact_radius(p, deepest), 1e-4, 0.85 * p.radius / scale_.length);
-  };
-  const auto body_of = [&](const Particle& p) {
-    const double block = block_for(p), radius = p.radius / scale_.length;
-    const GridKind grid = options_.grid == GridKind::automatic ? choose_grid(p).grid : options_.grid;
-    const Phase first = phase_of(p.materials.front(), scale_);
-    if (grid == GridKind::mapped) {
-      MappedGrid mapped = MappedGrid::build(cells, block / radius, support_ == Support::free, shift);
-      mapped.scale(radius);
-      return mapped_body(mapped, first, hourglass_modulus(first.moduli));
-    }
-    Section s;
-    for (const Material& m : p.materials) s.phases.push_back(phase_of(m, scale_));
-    s.phase_at = [&](double r, double z) { return p.material_at(r * scale_.length, z * scale_.length); };
-    s.surface_z = [&](double r) { return p.surface_z(r * scale_.length) / scale_.length; };
-    if (options_.fields)
-      s.onto_body = [&](double r, double z) {
-        return onto_body(p, r * scale_.length, z * scale_.length, scale_.length);
-      };
-    s.radius = radius;
-    s.pore_walls = pore_walls(p, scale_.length);
-    s.height = (support_ == Support::free ? p.height() : height_of_largest_radius(p)) / scale_.length;
-    if (support_ == Support::free) s.mass = mass_of(p) / scale_.mass();
-    s.block = block, s.depth = 0.8 * block;
-    s.fine = block / cells;
-    // two cells in a layer, as far as four times the cost allows
-    for (const Particle::Layer& layer : p.layers)
-      s.fine = std::min(s.fine, std::max(0.5 * layer.thickness / scale_.length, 0.5 * block / cells));
-    s.shift = shift;
-    return grid == GridKind::updated ? updated_body(s) : rectilinear_body(s);
-  };
-
   Scene scene;
-  scene.bodies.push_back(body_of(particle_));
-  if (partner_.particle) scene.bodies.push_back(body_of(*partner_.particle));
-  if (partner_.wall) {
-    const Phase phase = phase_of(*partner_.wall, scale_);
-    scene.bodies.push_back(mapped_body(MappedGrid::wall(cells, block_for(particle_), wall_extent, shift),
-                                       phase, hourglass_modulus(phase.moduli)));
-  }
+  const double block = block_for(particle_, deepest);
+  scene.bodies.push_back(body_of(particle_, block, cells, shift));
+  if (const auto& other = partner_.particle)
+    scene.bodies.push_back(body_of(*other, block_for(*other, deepest), cells, shift));
+  if (partner_.wall) scene.bodies.push_back(thick_wall(*partner_.wall, block, cells, shift));
   if (options_.precision == Precision::single)
     for (Body& body : scene.bodies) {
       if (body.moving) fail("--precision", "the updated grid does double precision only", "single", "double");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/scales.hpp"
+#include "solver/rectilinear_body.hpp"
 #include "solver/runs.hpp"
 #include "solver/scene.hpp"
 
@@ -31,6 +32,14 @@ class Collision
  private:
   /// Radius on the reference surface that the contact covers at overlap x. Sets the block only.
   double contact_radius(const Particle& particle, double x) const;
+  void check_bodies() const;
+  void check_grid() const;
+  double block_for(const Particle& particle, double deepest) const;
+  /// Bodies whose fine cells span `block`.
+  Body body_of(const Particle& particle, double block, int cells, double shift) const;
+  Body fitted_sphere(const Particle& sphere, double block, int cells, double shift) const;
+  Body thick_wall(const Material& material, double block, int cells, double shift) const;
+  Section section_of(const Particle& particle, double block, int cells, double shift) const;
 
   Particle particle_;
   Partner partner_;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <thread>
 
@@ -49,42 +50,60 @@ std::vector<RunResult> run_on_shifted_grids(
   return results;
 }
 
+namespace {
+
+/// A member's samples of one segment.
+using SegmentSamples = std::span<const TraceSample>;
+
+/// Cuts each member's samples of `segment` off the front of what is left of its trace.
+std::vector<SegmentSamples> take_segment(std::vector<SegmentSamples>& left, int segment)
+{
+  std::vector<SegmentSamples> taken;
+  for (SegmentSamples& samples : left) {
+    std::size_t length = 0;
+    while (length < samples.size() && samples[length].segment == segment) ++length;
+    taken.push_back(samples.first(length));
+    samples = samples.subspan(length);
+  }
+  return taken;
+}
+
+/// The mean at `place`, 0 at the segment's first sample, 1 at its last; linear between samples.
+TraceSample mean_at(const std::vector<SegmentSamples>& members, double place, TraceSample mean)
+{
+  const double weight = 1.0 / static_cast<double>(members.size());
+  mean.time = mean.delta = mean.force = mean.contact_radius = 0;
+  for (const SegmentSamples& samples : members) {
+    const std::size_t last = samples.size() - 1;
+    const double index = place * static_cast<double>(last);
+    const std::size_t below = std::min(static_cast<std::size_t>(index), last);
+    const TraceSample &a = samples[below], &b = samples[std::min(below + 1, last)];
+    const double t = index - static_cast<double>(below);
+    for (double TraceSample::*value :
+         {&TraceSample::time, &TraceSample::delta, &TraceSample::force, &TraceSample::contact_radius})
+      mean.*value += weight * ((1 - t) * a.*value + t * b.*value);
+  }
+  return mean;
+}
+
+}  // namespace
+
 std::vector<TraceSample> mean_trace(const std::vector<RunResult>& members)
 {
   if (members.size() == 1) return members.front().trace;
-  // start of each member's current segment, walked forward segment by segment
-  std::vector<std::size_t> at(members.size(), 0);
+  std::vector<SegmentSamples> left;
+  for (const RunResult& member : members) left.emplace_back(member.trace);
   std::vector<TraceSample> mean;
-  const double weight = 1.0 / static_cast<double>(members.size());
   for (int segment = 0;; ++segment) {
-    std::size_t common = SIZE_MAX;
-    std::vector<std::size_t> length(members.size(), 0);
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      const auto& trace = members[m].trace;
-      while (at[m] + length[m] < trace.size() && trace[at[m] + length[m]].segment == segment) ++length[m];
-      common = std::min(common, length[m]);
-    }
-    const bool any = std::any_of(length.begin(), length.end(), [](std::size_t l) { return l > 0; });
-    if (!any) return mean;
+    const std::vector<SegmentSamples> now = take_segment(left, segment);
+    const auto shorter = [](const SegmentSamples& a, const SegmentSamples& b) { return a.size() < b.size(); };
+    const auto [shortest, longest] = std::minmax_element(now.begin(), now.end(), shorter);
+    if (longest->empty()) return mean;
+    const std::size_t common = shortest->size();
     for (std::size_t k = 0; k < common; ++k) {
       const double place = common > 1 ? static_cast<double>(k) / static_cast<double>(common - 1) : 0.0;
-      TraceSample s = members.front().trace[at[0] + k];
-      s.time = s.delta = s.force = s.contact_radius = 0;
-      for (std::size_t m = 0; m < members.size(); ++m) {
-        const double index = place * static_cast<double>(length[m] - 1);
-        const std::size_t below = std::min(static_cast<std::size_t>(index), length[m] - 1);
-        const TraceSample& a = members[m].trace[at[m] + below];
-        const TraceSample& b = members[m].trace[at[m] + std::min(below + 1, length[m] - 1)];
-        const double t = index - static_cast<double>(below);
-        const auto add = [&](double TraceSample::*value) {
-          s.*value += weight * ((1 - t) * a.*value + t * b.*value);
-        };
-        add(&TraceSample::time), add(&TraceSample::delta);
-        add(&TraceSample::force), add(&TraceSample::contact_radius);
-      }
-      mean.push_back(s);
+      mean.push_back(mean_at(now, place, now.front()[k]));
     }
-    for (std::size_t m = 0; m < members.size(); ++m) at[m] += length[m];
   }
 }
 

@@ -64,25 +64,8 @@ void Simulation::run(LoadingProgramme& programme, FieldRecorder fields,
   checkpoint.resume(visit);
   const double cpu = cpu_seconds() - cpu_s_;
   while (!programme.finished()) {
-    const double overlap_before = overlap_;
-    const Branch branch = programme.branch();
-    const int segment = programme.segment();
-    const double push = advance(scene, programme, time_, 0.5 * (last_dt_ + dt_), dt_);
-    last_dt_ = dt_;
-    overlap_ = programme.overlap(scene);
-    impulse_ += push;
-    overlap_sum_ += overlap_before;
-    ++in_window_;
-    ++steps_;
-    time_ += dt_;
-    if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
-    const bool turned = programme.segment() != segment || programme.finished();
-    const bool sampled = time_ >= window_end_ || turned;
+    const bool sampled = step(programme);
     if (sampled) {
-      // at equal times since the reversal, whatever the step: samples of shifted grids are averaged one by
-      // one
-      window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
-      end_sample(branch, segment, overlap_before);
       observe(result.trace.back());
       fields.sample(scene, time_, overlap_, result.trace.back().force, programme.finished());
     }
@@ -97,6 +80,29 @@ void Simulation::run(LoadingProgramme& programme, FieldRecorder fields,
   if (progress) progress(1.0);
   result.summary.cpu_s = cpu_seconds() - cpu;
   summarise(programme);
+}
+
+/// One step; true if it ends a sample.
+bool Simulation::step(LoadingProgramme& programme)
+{
+  const double overlap_before = overlap_;
+  const Branch branch = programme.branch();
+  const int segment = programme.segment();
+  const double push = advance(scene, programme, time_, 0.5 * (last_dt_ + dt_), dt_);
+  last_dt_ = dt_;
+  overlap_ = programme.overlap(scene);
+  impulse_ += push;
+  overlap_sum_ += overlap_before;
+  ++in_window_;
+  ++steps_;
+  time_ += dt_;
+  if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
+  const bool turned = programme.segment() != segment || programme.finished();
+  if (!turned && time_ < window_end_) return false;
+  // at equal times since the reversal, whatever the step: samples of shifted grids are averaged one by one
+  window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
+  end_sample(branch, segment, overlap_before);
+  return true;
 }
 
 void Simulation::end_sample(Branch branch, int segment, double overlap_before)

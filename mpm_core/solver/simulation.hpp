@@ -36,6 +36,7 @@ class Simulation
  private:
   double step_limit() const;
   double work(bool load) const;
+  bool step(LoadingProgramme& programme);
   void end_sample(Branch branch, int segment, double overlap_before);
   void summarise(const LoadingProgramme& programme);
   void visit_state(LoadingProgramme& programme, StateArchive& archive);

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "base/scales.hpp"
+
 namespace granulaw {
 
 /// Which way the loading programme goes at a sample.
@@ -53,5 +55,10 @@ struct RunResult
   std::vector<TraceSample> trace;
   RunSummary summary;
 };
+
+/// A run whose numbers are over these scales, in SI.
+RunResult in_si(RunResult run, const Scales& scale);
+/// A run in SI, its numbers over these scales.
+RunResult dimensionless(RunResult run, const Scales& scale);
 
 }  // namespace granulaw

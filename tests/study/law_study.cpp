@@ -80,7 +80,7 @@ void study(const Atlas& atlas, const MaterialRatios& m, const References& refere
   BuildOptions options;
   options.depth = 0.2, options.fastest = 0.25;
   const BodyLaw law = law_from(atlas, material, options);
-  const PairLaw pair{&law.curve, PairMapping::rigid_partner(1), &law};
+  const PairLaw pair = wall_pair(law);
 
   const int impacts = references.impacts;
   const RunSource source;

@@ -162,21 +162,26 @@ TEST(RunIdentity, TellsRunsApart)
   const RunIdentity own = of(base);
   EXPECT_EQ(of(base), own);
 
-  const std::vector<std::function<double&(Particle&)>> numbers{
-      [](Particle& p) -> double& { return p.radius; },
-      [](Particle& p) -> double& { return p.materials[0].density; },
-      [](Particle& p) -> double& { return p.materials[1].youngs_modulus; },
-      [](Particle& p) -> double& { return p.materials[0].poisson_ratio; },
-      [](Particle& p) -> double& { return p.materials[0].yield_stress; },
-      [](Particle& p) -> double& { return p.materials[0].hardening_modulus; },
-      [](Particle& p) -> double& { return p.profile[1].z; },
-      [](Particle& p) -> double& { return p.layers[0].thickness; },
-      [](Particle& p) -> double& { return p.inclusions[0].r; },
-      [](Particle& p) -> double& { return p.inclusions[0].z; },
-      [](Particle& p) -> double& { return p.inclusions[0].radius; }};
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
+  const auto nudge = [](double& number) { number = std::nextafter(number, 1e300); };
+  const std::vector<std::function<void(Particle&)>> nudges{
+      [&](Particle& p) { nudge(p.radius); },
+      [&](Particle& p) { nudge(p.materials[0].density); },
+      [&](Particle& p) { nudge(p.materials[1].youngs_modulus); },
+      [&](Particle& p) { nudge(p.materials[0].poisson_ratio); },
+      [&](Particle& p) { nudge(p.materials[0].yield_stress); },
+      [&](Particle& p) { nudge(p.materials[0].hardening_modulus); },
+      [&](Particle& p) {
+        std::vector<ProfilePoint> points(p.profile.begin(), p.profile.end());
+        nudge(points[1].z);
+        p.profile = points;
+      },
+      [&](Particle& p) { nudge(p.layers[0].thickness); },
+      [&](Particle& p) { nudge(p.inclusions[0].r); },
+      [&](Particle& p) { nudge(p.inclusions[0].z); },
+      [&](Particle& p) { nudge(p.inclusions[0].radius); }};
+  for (std::size_t k = 0; k < nudges.size(); ++k) {
     Particle p = base;
-    numbers[k](p) = std::nextafter(numbers[k](p), 1e300);
+    nudges[k](p);
     EXPECT_NE(of(p), own) << "number " << k;
     EXPECT_NE(of(base, {p, {}}), of(base, {base, {}})) << "number " << k;
   }

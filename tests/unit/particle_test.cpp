@@ -310,7 +310,7 @@ TEST(Particle, ChangedProfilesAreNoticed)
   Particle p = body(1e-3, ellipsoid(1e-3, 1));
   EXPECT_NEAR(p.depth(0, 0.3e-3), 0.3e-3, 1e-9);
   const Particle copy = p;
-  for (ProfilePoint& point : p.profile) point.r *= 2, point.z *= 2;  // in place
+  p.profile = p.profile.scaled(2);
   EXPECT_NEAR(p.depth(0, 3e-3), 1e-3, 1e-8);
   EXPECT_NEAR(copy.depth(0, 0.3e-3), 0.3e-3, 1e-9);
   p.profile = copy.profile;

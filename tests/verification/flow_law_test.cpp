@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "solver/flow/plastic_increment.hpp"
 #include "solver/flow/vector_math.hpp"
 #include "solver/flow_laws.hpp"
 #include "solver/kernels.hpp"

@@ -124,9 +124,8 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, const Character
   }
   run.force_max /= characterised.scale.force();
   const Scales unit{characterised.scale.length, m.e_star(), m.density};
-  const PairLaw wall{&body.curve, PairMapping::rigid_partner(m.e_star()), &body};
   const Replay replay =
-      replay_collision(wall, unit.length, characterised.mass * unit.mass(), velocity * unit.velocity());
+      replay_on_wall(body, unit.length, characterised.mass * unit.mass(), velocity * unit.velocity());
   return within_claim(name, body.certificate, velocity * unit.velocity(),
                       std::abs(replay.force_max / unit.force() / run.force_max - 1),
                       std::abs(replay.restitution / run.restitution - 1), run.restitution);

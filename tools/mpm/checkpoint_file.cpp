@@ -147,13 +147,10 @@ void CheckpointFile::write() const
   }
   const std::string payload = archive.take();
   const Header header{payload.size(), checksum(payload)};
-  write_atomically(path_, [&](const std::string& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << title << format;
-    out.write(reinterpret_cast<const char*>(&header), sizeof header);
-    out << payload;
-    if (!out.flush()) fail(path_, "cannot be written (disk full?)");
-  });
+  std::string bytes{title};
+  bytes += format;
+  bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
+  write_text_atomically(path_, bytes + payload);
 }
 
 bool CheckpointFile::due(const std::string& key)

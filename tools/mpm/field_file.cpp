@@ -194,11 +194,7 @@ RunResult run_with_fields(const std::string& path, int frames,
     file.close();
     xdmf = file.xdmf(fs::path(h5_path).filename().string());
   });
-  write_atomically(path, [&](const std::string& temporary) {
-    std::ofstream out(temporary);
-    out << xdmf;
-    if (!out.flush()) fail(path, "cannot be written (disk full?)");
-  });
+  write_text_atomically(path, xdmf);
   return result;
 }
 

@@ -259,8 +259,7 @@ void read_outline(const Section& s, const Section& p, Particle& particle)
   for (const auto& [r, z] : p.pairs("points", "[[0, 0], [0.5e-3, 0.1e-3], ..., [0, 2e-3]] in m"))
     points.push_back({r, z});
   particle.profile = outline(std::move(points), p.where(p.node("points")));
-  double widest = 0;
-  for (const ProfilePoint& point : particle.profile) widest = std::max(widest, point.r);
+  const double widest = particle.profile.widest().r;
   if (s.has("radius") && !(std::abs(s.positive("radius", "m") / widest - 1) <= 0.01))
     fail(s.where(s.node("radius")), "'radius' is not the largest r of the points, to 1 %",
          fmt::format("{:g} m", s.number("radius", "m")), fmt::format("{:g} m, or no radius", widest));

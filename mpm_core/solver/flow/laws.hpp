@@ -1,9 +1,10 @@
 #pragma once
 
+#include "solver/flow/concepts.hpp"
 #include "solver/flow/cowper_symonds.hpp"
 #include "solver/flow/johnson_cook.hpp"
 #include "solver/flow/linear.hpp"
-#include "solver/flow/plastic_increment.hpp"
+#include "solver/flow/rate_independent.hpp"
 #include "solver/flow/swift.hpp"
 #include "solver/flow/tabulated.hpp"
 #include "solver/flow/voce.hpp"
@@ -15,11 +16,30 @@ struct LawList
 {
 };
 
-// A new law: one file beside the others, and its name here. `scale_strains` makes every plastic strain of a
-// hardening law `by` times as large; lists of strains are scaled as they are. Kernels, materials file and
-// checks follow these lists; the first of each is what a material has that names none.
+// A new law: one file beside the others with what concepts.hpp asks for, included above and named here.
+// Kernels, materials file, checks and messages follow these lists. The first of each is what a material has
+// that names none.
 using HardeningLaws = LawList<Linear, Swift, Voce, JohnsonCook, Tabulated>;
 using RateLaws = LawList<RateIndependent, JohnsonCookRate, CowperSymonds>;
+
+/// Each law on its own, so that the compiler's message names the law and the member that it lacks.
+template <class Law>
+struct RequireHardening
+{
+  static_assert(HardeningLaw<Law>, "a hardening law lacks what concepts.hpp asks for");
+};
+template <class Law>
+struct RequireRate
+{
+  static_assert(RateLaw<Law>, "a rate law lacks what concepts.hpp asks for");
+};
+template <template <class> class Require, class... Law>
+consteval bool all(LawList<Law...>)
+{
+  return ((sizeof(Require<Law>) > 0) && ...);
+}
+static_assert(all<RequireHardening>(HardeningLaws{}));
+static_assert(all<RequireRate>(RateLaws{}));
 
 /// The laws of one material as the kernels read them: places in the lists, parameters in their order (a list
 /// of points as its law wants it), in solver units. Plain data.
@@ -27,7 +47,7 @@ struct Flow
 {
   int hardening = 0, rate = 0;
   double hardening_values[law_room]{};
-  double rate_values[8]{};
+  double rate_values[rate_room]{};
 };
 
 }  // namespace granulaw::flow

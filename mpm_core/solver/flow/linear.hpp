@@ -16,8 +16,6 @@ struct Linear
   static GRANULAW_MEMBER Linear from(double yield_stress, const double* v) { return {yield_stress, v[0]}; }
   static void scale_strains(double* v, double by) { v[0] /= by; }
   GRANULAW_MEMBER ValueAndSlope operator()(double ep) const { return {yield + modulus * ep, modulus}; }
-  /// A strain by which `stress`, more than the yield stress, is reached; any large number if that is of no
-  /// help.
   GRANULAW_MEMBER double strain_at(double) const { return unreached; }
 };
 

@@ -37,7 +37,7 @@ inline constexpr double no_limit = std::numeric_limits<double>::max();
 /// "Not below any strain or rate that occurs."
 inline constexpr double unreached = 1e150;
 
-/// Room for what a law keeps for the kernel, in doubles.
-inline constexpr int law_room = 96;
+/// Room for what a hardening law and a rate law keep for the kernel, in doubles.
+inline constexpr int law_room = 96, rate_room = 8;
 
 }  // namespace granulaw::flow

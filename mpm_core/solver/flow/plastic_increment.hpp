@@ -4,17 +4,6 @@
 
 namespace granulaw::flow {
 
-/// Rate factor of a material that does not depend on the rate.
-struct RateIndependent
-{
-  static constexpr const char* name = "none";
-  static constexpr Parameter parameters[] = {{"", Quantity::number, 0, 0}};
-  static GRANULAW_MEMBER RateIndependent from(const double*) { return {}; }
-  GRANULAW_MEMBER ValueAndSlope operator()(double) const { return {1.0, 0.0}; }
-  /// The rate at which the factor is 1 + excess; any large number if that is of no help.
-  GRANULAW_MEMBER double rate_at(double) const { return unreached; }
-};
-
 /// Most Newton steps of a search; flow_law_test.cpp shows what is left after them.
 inline constexpr int newton_steps = 8;
 
