@@ -1,7 +1,6 @@
 #include "materials_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -23,33 +22,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-template <class Map>
-Words names_of(const Map& map)
-{
-  Words names;
-  for (const auto& entry : map) names.push_back(entry.first);
-  return names;
-}
-
-/// A text of the file as a sentence can hold it: cut after `longest` bytes, between characters.
-std::string cut(const std::string& text, std::size_t longest = 60)
-{
-  if (text.size() <= longest) return text;
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end) + "...";
-}
-
-/// The allowed words; of many the first.
-std::string list_of(const Words& words)
-{
-  constexpr std::size_t most = 20;
-  Words shown;
-  for (std::size_t k = 0; k < std::min(words.size(), most); ++k) shown.push_back(cut(words[k]));
-  if (words.size() > most) shown.push_back(fmt::format("... ({} in all)", words.size()));
-  return fmt::format("{}", fmt::join(shown, ", "));
-}
-
 /// One table of the file, with the words that lead its messages.
 class Section
 {
@@ -70,8 +42,7 @@ class Section
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
       if (std::find(known.begin(), known.end(), word) == known.end())
-        fail(where(node), fmt::format("unknown key '{}'{}", cut(word), did_you_mean(word, known)), {},
-             list_of(known));
+        fail_unknown(where(node), "unknown key", word, known);
     }
   }
   bool has(const char* key) const { return table_.contains(key); }
@@ -182,9 +153,7 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
   for (const FlowLawKeys& entry : known) names.push_back(entry.name);
   const auto found = std::find(names.begin(), names.end(), law.name);
   if (found == names.end())
-    fail(s.where(s.node("law")),
-         fmt::format("no {} law '{}'{}", kind, cut(law.name), did_you_mean(law.name, names)), {},
-         list_of(names));
+    fail_unknown(s.where(s.node("law")), fmt::format("no {} law", kind), law.name, names);
   const std::vector<flow::Parameter>& parameters = known[found - names.begin()].parameters;
   Words keys{"law"};
   for (const flow::Parameter& p : parameters) keys.push_back(p.key);
@@ -275,8 +244,7 @@ void read_shape(const Section& p, Particle& particle)
   for (const ProfileShape& shape : profile_shapes()) names.push_back(shape.name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    fail(p.where(p.node("shape")), fmt::format("no shape '{}'{}", cut(name), did_you_mean(name, names)), {},
-         fmt::format("{}, or points = [[r, z], ...]", list_of(names)));
+    fail_unknown(p.where(p.node("shape")), "no shape", name, names, ", or points = [[r, z], ...]");
   const ProfileShape& shape = profile_shapes()[found - names.begin()];
   Words keys{"shape"};
   for (const ProfileKey& key : shape.keys) keys.push_back(key.name);
@@ -295,11 +263,8 @@ Particle read_particle(const Section& s, const std::map<std::string, Material>& 
   const auto place_of = [&](const Section& at) {
     const std::string name = at.text("material");
     const auto found = materials.find(name);
-    if (found == materials.end()) {
-      const Words names = names_of(materials);
-      fail(at.where(at.node("material")),
-           fmt::format("no material '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
-    }
+    if (found == materials.end())
+      fail_unknown(at.where(at.node("material")), "no material", name, names_of(materials));
     const auto [entry, is_new] = places.emplace(name, static_cast<int>(particle.materials.size()));
     if (is_new) particle.materials.push_back(found->second);
     return entry->second;
@@ -367,32 +332,14 @@ void each_section(const std::string& path, const toml::table& root, const char* 
 
 }  // namespace
 
-const Material& MaterialsFile::material(const std::string& name) const
-{
-  const auto found = materials.find(name);
-  if (found != materials.end()) return found->second;
-  const Words names = names_of(materials);
-  fail(path, fmt::format("no material '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
-}
-
-const Particle& MaterialsFile::particle(const std::string& name) const
-{
-  const auto found = particles.find(name);
-  if (found != particles.end()) return found->second;
-  const Words names = names_of(particles);
-  if (names.empty())
-    fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", cut(name)));
-  fail(path, fmt::format("no particle '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
-}
-
 Sphere MaterialsFile::sphere(const std::string& name) const
 {
   const Particle& p = particle(name);
   if (!p.is_homogeneous_sphere())
-    fail(path, fmt::format("[particle.{}] {}: only homogeneous spheres can be used here so far", name,
-                           !p.is_sphere()      ? "has a profile"
-                           : !p.layers.empty() ? "is layered"
-                                               : "has inclusions"));
+    fail(source, fmt::format("[particle.{}] {}: only homogeneous spheres can be used here so far", name,
+                             !p.is_sphere()      ? "has a profile"
+                             : !p.layers.empty() ? "is layered"
+                                                 : "has inclusions"));
   return {p.radius, p.materials.front()};
 }
 
@@ -409,7 +356,7 @@ MaterialsFile read_materials(const std::string& path)
     fail(fmt::format("{}:{}", path, error.source().begin.line), cut(std::string(error.description()), 200));
   }
   MaterialsFile file;
-  file.path = path;
+  file.source = path;
   Section(path, root, "file").check_keys({"material", "particle"});
   each_section(path, root, "material",
                [&](const std::string& name, const Section& s) { file.materials[name] = read_material(s); });
