@@ -51,7 +51,8 @@ std::vector<Names> pairs_of(const LawFileRequest& r)
 {
   if (r.pairs.empty()) return every_pair(r.materials);
   std::vector<Names> pairs;
-  for (const Names& pair : r.pairs) {
+  for (Names pair : r.pairs) {
+    if (pair.first == wall_name) std::swap(pair.first, pair.second);
     r.materials.require(pair.first);
     if (pair.second != wall_name) r.materials.require(pair.second);
     for (const Names& other : pairs)
@@ -122,16 +123,19 @@ void check_slowest(const LawFileRequest& r, const std::map<std::string, LawFileP
 
 LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
 {
-  LawFilePlan::Pair pair{names.first, names.second, {}, false, false};
+  LawFilePlan::Pair pair;
+  pair.a = names.first;
+  pair.b = names.second;
   const LawFileRequest& r = plan.request;
   if (pair.b == wall_name) return pair;
   const LawBody &a = plan.bodies.at(pair.a).body, &b = plan.bodies.at(pair.b).body;
   if (pair.a == pair.b && r.radius_ratio == 1) return pair;
-  pair.by_rule = pair_rule_error(a.material, b.material, r.radius_ratio);
+  pair.by_rule = pair.stated = pair_rule_error(a.material, b.material, r.radius_ratio);
   if (pair.a == pair.b || !a.is_plain_sphere() || !b.is_plain_sphere()) return pair;
   pair.worth_own_law = unlike_pair(a.material, b.material).yielding.yields() &&
                        std::max(pair.by_rule.force, pair.by_rule.restitution) > r.tolerance;
   pair.own_law = r.own_laws && pair.worth_own_law;
+  if (pair.own_law) pair.stated = own_law_error(a.material, b.material, r.radius_ratio, own_law_radius_ratio);
   return pair;
 }
 

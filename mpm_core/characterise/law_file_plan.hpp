@@ -15,7 +15,7 @@ namespace granulaw {
 struct LawFileRequest
 {
   Materials materials;
-  /// Names of materials or particles, each pair once; the second may be wall_name, the rigid wall. Empty:
+  /// Names of materials or particles, each pair once; one of the two may be wall_name, the rigid wall. Empty:
   /// every material with every other, itself and the wall.
   std::vector<std::pair<std::string, std::string>> pairs;
 
@@ -48,14 +48,15 @@ struct LawFilePlan
   };
   struct Pair
   {
-    std::string a, b;  ///< names; b may be wall_name
+    std::string a, b;  ///< names; b may be wall_name, a is not
     /// What the pair rule costs, whichever of the two bodies is the larger; 0 where the rule is exact.
-    /// `within_measured` is false where the estimate is an extrapolation.
     ReductionError by_rule;
+    ReductionError stated;  ///< what the file states: by_rule, or what other radii cost the pair's own law
     bool worth_own_law = false;  ///< two plain spheres that the rule serves worse than the tolerance
     bool own_law = false;        ///< its own law will be made
 
     std::string name() const { return a + ":" + b; }
+    bool is_extrapolated() const { return !by_rule.within_measured || !stated.within_measured; }
   };
 
   LawFileRequest request;
@@ -64,6 +65,9 @@ struct LawFilePlan
 
   bool needs_runs() const;  ///< of the solver, which takes from seconds to minutes of CPU for each law
 };
+
+/// Partner's radius over the yielding body's in the runs of a pair's own law.
+inline constexpr double own_law_radius_ratio = 1;
 
 /// Checks the request and says what it takes. Throws Error, one sentence for the user: an unknown name (with
 /// the nearest), a pair named twice, two different bodies of which one is no homogeneous sphere, a material

@@ -139,22 +139,17 @@ class Maker
 
   void add_pair(const LawFilePlan::Pair& pair)
   {
-    ReductionError error = pair.by_rule;
-    if (pair.own_law) {
-      add_own_law(pair);
-      error = own_law_error(material(pair.a), material(pair.b), plan_.request.radius_ratio, 1);
-    }
-    file_.law.pairs.push_back({pair.a, pair.b, error.force, error.restitution});
+    if (pair.own_law) add_own_law(pair);
+    file_.law.pairs.push_back({pair.a, pair.b, pair.stated.force, pair.stated.restitution});
   }
 
-  /// By runs of the two bodies at equal radii.
   void add_own_law(const LawFilePlan::Pair& pair)
   {
-    BuiltLaw built =
-        build_two_body_law(unlike_pair(material(pair.a), material(pair.b)), options_named(pair.name()));
+    const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b), own_law_radius_ratio);
+    BuiltLaw built = build_two_body_law(bodies, options_named(pair.name()));
     note_holes(pair.name(), built, file_.law.provenance);
     file_.runs[pair.name()] = {built.runs, built.runs_full, built.sampling_error, {}};
-    file_.law.pair_laws[pair.name()] = {std::move(built.law), 1};
+    file_.law.pair_laws[pair.name()] = {std::move(built.law), own_law_radius_ratio};
     ++finished_;
   }
 

@@ -15,7 +15,7 @@ struct MadeLawFile
     std::size_t densest = 0;    ///< runs that the densest sampling would have
     double sampling_error = 0;  ///< largest where nothing was sampled, as it counts for the tolerance: above
                                 ///< it where sampling ended before it was reached
-    std::string size;  ///< of a rate-dependent body: the size and the speeds that its law holds for
+    std::string size;           ///< of a rate-dependent body: the size and the speeds that its law holds for
   };
   Law law;                           ///< write_law() writes it
   std::map<std::string, Runs> runs;  ///< by name of the body, or of the pair ("a:b") whose own law it is

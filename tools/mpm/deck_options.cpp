@@ -8,6 +8,7 @@
 #include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "characterise/build_law.hpp"
+#include "characterise/law_material.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
 #include "materials_file.hpp"
@@ -16,11 +17,6 @@
 namespace granulaw {
 
 namespace {
-
-LawMaterial law_material(const std::string& name, const Material& m)
-{
-  return {name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
-}
 
 /// Materials of the atom types by the names that --materials or the deck's pair_style gives them. A name that
 /// the file does not hold stays as the deck describes it, elastic: a wall's, or an elastic partner's.
@@ -71,9 +67,8 @@ void name_materials(deck::PlanOptions& into, const deck::Scene& scene, const Dec
 /// Collisions by the atlas's laws; each law is made once.
 deck::Collide collide_by_atlas()
 {
-  const std::string path = atlas_path();
-  if (path.empty()) return {};
-  const auto atlas = std::make_shared<Atlas>(read_atlas(path));
+  const auto atlas = std::make_shared<const std::optional<Atlas>>(own_atlas());
+  if (!*atlas) return {};
   const auto laws = std::make_shared<std::map<std::string, std::optional<BodyLaw>>>();
   return [atlas, laws](const deck::Meeting& m, double r_eff, double m_eff,
                        double speed) -> std::optional<deck::Collision> {
@@ -83,10 +78,10 @@ deck::Collide collide_by_atlas()
                     material.yield_stress, material.hardening_modulus);
     if (!laws->contains(key)) {
       std::optional<BodyLaw>& law = (*laws)[key];
-      if (!material.yields() || atlas->why_not(MaterialRatios::of(material)).empty()) {
+      if (!material.yields() || (*atlas)->why_not(MaterialRatios::of(material)).empty()) {
         BuildOptions options;
         options.depth = 0.5, options.fastest = 0.3;
-        law = law_from(*atlas, material, options);
+        law = law_from(**atlas, material, options);
       }
     }
     const std::optional<BodyLaw>& law = laws->at(key);
@@ -159,17 +154,24 @@ PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)
   return result;
 }
 
-nlohmann::ordered_json json_number(double value)
-{
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
 std::string questions_text(const deck::Plan& plan)
 {
   std::string text;
   for (const deck::Question& q : plan.questions)
     text += fmt::format("  {}: give it by {}\n", printable(q.what), q.option);
   return text;
+}
+
+void require_answers(const deck::Plan& plan, const std::string& deck)
+{
+  for (const deck::Question& q : plan.questions)
+    if (q.option != "--particles N")
+      fail(deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
+}
+
+std::string types_text(const deck::Meeting& meeting)
+{
+  return fmt::format("{}:{}{}", meeting.a, meeting.wall ? "wall " : "", meeting.b);
 }
 
 }  // namespace granulaw
