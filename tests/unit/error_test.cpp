@@ -32,9 +32,9 @@ TEST(Error, AListOfManyWordsNamesTheFirstTwenty)
   const std::vector<std::string> two{"a", "b"};
   EXPECT_EQ(list_of(two), "a, b");
   std::vector<std::string> many;
-  for (int k = 0; k < 21; ++k) many.push_back("w" + std::to_string(k));
+  for (int k = 0; k < 21; ++k) many.push_back(std::to_string(k));
   const std::string list = list_of(many);
-  EXPECT_TRUE(list.ends_with("w19, ... (21 in all)")) << list;
+  EXPECT_TRUE(list.ends_with("18, 19, ... (21 in all)")) << list;
 }
 
 TEST(Error, AnUnknownWordIsNamedWithTheNearestKnownOne)
