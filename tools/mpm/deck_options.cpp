@@ -18,46 +18,65 @@ namespace granulaw {
 
 namespace {
 
+using KnownMaterials = std::map<std::string, LawMaterial>;
+
+/// Throws Error for a name of --materials that the file lacks, unless the deck itself describes its type.
+void check_given(const DeckOptions& o, const deck::Scene& scene, const MaterialsFile& file)
+{
+  for (std::size_t k = 0; k < o.materials.size(); ++k)
+    if (!scene.materials.contains(static_cast<int>(k) + 1)) file.material(o.materials[k]);
+}
+
+/// The materials of the materials file, else of the deck's law file; none if there is neither.
+KnownMaterials known_materials(const DeckOptions& o, const deck::Scene& scene)
+{
+  KnownMaterials known;
+  if (!o.materials_file.empty()) {
+    const MaterialsFile file = read_materials(o.materials_file);
+    check_given(o, scene, file);
+    for (const auto& [name, m] : file.materials) known[name] = law_material(name, m);
+  } else if (!scene.law_file.empty() && std::ifstream(scene.law_file)) {
+    const Law law = read_law(scene.law_file);
+    for (const auto& [name, body] : law.bodies) known[name] = body.material;
+  } else if (!o.materials.empty()) {
+    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
+  }
+  return known;
+}
+
+/// The material of an atom type as the deck describes it, elastic; none if it does not.
+std::optional<LawMaterial> material_by_deck(const std::string& name, int type, const deck::Scene& scene)
+{
+  const auto found = scene.materials.find(type);
+  if (found == scene.materials.end() || !found->second.youngs_modulus) return std::nullopt;
+  LawMaterial m;
+  m.name = name;
+  m.youngs_modulus = *found->second.youngs_modulus;
+  m.poisson_ratio = found->second.poisson_ratio.value_or(0);
+  for (const deck::Source& s : scene.sources)
+    if (s.type == type) m.density = s.density;
+  return m;
+}
+
 /// Materials of the atom types by the names that --materials or the deck's pair_style gives them. A name that
 /// the file does not hold stays as the deck describes it, elastic: a wall's, or an elastic partner's.
 void name_materials(deck::PlanOptions& into, const deck::Scene& scene, const DeckOptions& o)
 {
   const bool given = !o.materials.empty();
   const std::vector<std::string>& names = given ? o.materials : scene.material_names;
-  std::map<std::string, LawMaterial> known;
-  if (!o.materials_file.empty()) {
-    const MaterialsFile file = read_materials(o.materials_file);
-    for (const auto& [name, m] : file.materials) known[name] = law_material(name, m);
-    if (given)
-      for (const std::string& name : names) {
-        const bool elastic_by_deck = scene.materials.contains(static_cast<int>(&name - names.data()) + 1);
-        if (!elastic_by_deck) file.material(name);
-      }
-    // one material, one type: there is nothing to name
-    if (names.empty() && known.size() == 1 && scene.types <= 1) into.materials[1] = known.begin()->second;
-  } else if (!scene.law_file.empty() && std::ifstream(scene.law_file)) {
-    const Law law = read_law(scene.law_file);
-    for (const auto& [name, body] : law.bodies) known[name] = body.material;
-  } else if (given) {
-    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
-  }
+  const KnownMaterials known = known_materials(o, scene);
+  // one material, one type: there is nothing to name
+  if (!o.materials_file.empty() && names.empty() && known.size() == 1 && scene.types <= 1)
+    into.materials[1] = known.begin()->second;
   bool any = false;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const int type = static_cast<int>(k) + 1;
     if (const auto m = known.find(names[k]); m != known.end()) {
       into.materials[type] = m->second;
       any = true;
-      continue;
+    } else if (!known.empty()) {
+      if (const auto by_deck = material_by_deck(names[k], type, scene)) into.materials[type] = *by_deck;
     }
-    const auto of_deck = scene.materials.find(type);
-    if (known.empty() || of_deck == scene.materials.end() || !of_deck->second.youngs_modulus) continue;
-    LawMaterial m;
-    m.name = names[k];
-    m.youngs_modulus = *of_deck->second.youngs_modulus;
-    m.poisson_ratio = of_deck->second.poisson_ratio.value_or(0);
-    for (const deck::Source& s : scene.sources)
-      if (s.type == type) m.density = s.density;
-    into.materials[type] = m;
   }
   if (given && !any)
     fail("--materials", fmt::format("none of them is in {}", o.materials_file),

@@ -164,6 +164,26 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
   return law;
 }
 
+void read_hardening(const Section& h, Material& m)
+{
+  const FlowLaw law = read_flow_law(h, "hardening", hardening_laws());
+  if (law.name != flow::Linear::name) {
+    m.hardening = law;
+    validate_flow(m, h.where());
+    return;
+  }
+  m.hardening_modulus = law.values.at("modulus").front();
+  if (!(m.hardening_modulus >= 0 && m.hardening_modulus <= m.youngs_modulus))
+    fail(h.where(h.node("modulus")), "'modulus' is out of range", fmt::format("{:g} Pa", m.hardening_modulus),
+         "0 to youngs_modulus");
+}
+
+void read_rate(const Section& r, Material& m)
+{
+  m.rate = read_flow_law(r, "rate", rate_laws());
+  validate_flow(m, r.where());
+}
+
 Material read_material(const Section& s)
 {
   s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate"});
@@ -185,24 +205,9 @@ Material read_material(const Section& s)
     const char* key = s.has("hardening") ? "hardening" : "rate";
     fail(s.where(s.node(key)), fmt::format("'{}' needs a 'yield_stress'", key));
   }
-  if (s.has("hardening")) {
-    const Section h = s.table("hardening", "{law = \"linear\", modulus = 1e9}");
-    const FlowLaw law = read_flow_law(h, "hardening", hardening_laws());
-    if (law.name == flow::Linear::name) {
-      m.hardening_modulus = law.values.at("modulus").front();
-      if (!(m.hardening_modulus >= 0 && m.hardening_modulus <= m.youngs_modulus))
-        fail(h.where(h.node("modulus")), "'modulus' is out of range",
-             fmt::format("{:g} Pa", m.hardening_modulus), "0 to youngs_modulus");
-    } else {
-      m.hardening = law;
-      validate_flow(m, h.where());
-    }
-  }
-  if (s.has("rate")) {
-    const Section r = s.table("rate", "{law = \"cowper-symonds\", reference_rate = 40, exponent = 5}");
-    m.rate = read_flow_law(r, "rate", rate_laws());
-    validate_flow(m, r.where());
-  }
+  if (s.has("hardening")) read_hardening(s.table("hardening", "{law = \"linear\", modulus = 1e9}"), m);
+  if (s.has("rate"))
+    read_rate(s.table("rate", "{law = \"cowper-symonds\", reference_rate = 40, exponent = 5}"), m);
   return m;
 }
 
@@ -255,48 +260,71 @@ void read_shape(const Section& p, Particle& particle)
   particle.profile = shape.make(particle.radius, values, p.where());
 }
 
+/// The materials of one particle, in the order in which its keys name them.
+class Places
+{
+ public:
+  Places(const std::map<std::string, Material>& known, Particle& particle)
+      : known_(known), particle_(particle)
+  {
+  }
+  /// The index into Particle::materials of the one that the section's key 'material' names.
+  int of(const Section& section)
+  {
+    const std::string name = section.text("material");
+    const auto found = known_.find(name);
+    if (found == known_.end())
+      fail_unknown(section.where(section.node("material")), "no material", name, names_of(known_));
+    const auto [entry, is_new] = places_.emplace(name, static_cast<int>(particle_.materials.size()));
+    if (is_new) particle_.materials.push_back(found->second);
+    return entry->second;
+  }
+
+ private:
+  const std::map<std::string, Material>& known_;
+  Particle& particle_;
+  std::map<std::string, int> places_;
+};
+
+/// Radius and profile.
+void read_outside(const Section& s, Particle& particle)
+{
+  if (!s.has("profile")) {
+    particle.radius = s.positive("radius", "m");
+    return;
+  }
+  const Section p = s.table("profile", "{shape = \"ellipsoid\", aspect = 1.5} or {points = [[r, z], ...]}");
+  if (p.has("points")) return read_outline(s, p, particle);
+  particle.radius = s.positive("radius", "m");
+  read_shape(p, particle);
+}
+
+Particle::Inclusion read_inclusion(const Section& i, Places& places)
+{
+  i.check_keys({"material", "pore", "radius", "z", "r"});
+  if (i.has("pore") == i.has("material"))
+    fail(i.where(), "an inclusion needs one of 'material' and 'pore = true'",
+         i.has("pore") ? "both" : "none");
+  if (i.has("pore")) i.check_true("pore");
+  return {i.has("r") ? i.number("r", "m") : 0.0, i.number("z", "m"), i.positive("radius", "m"),
+          i.has("pore") ? -1 : places.of(i)};
+}
+
 Particle read_particle(const Section& s, const std::map<std::string, Material>& materials)
 {
   s.check_keys({"radius", "material", "layers", "inclusions", "profile"});
   Particle particle;
-  std::map<std::string, int> places;
-  const auto place_of = [&](const Section& at) {
-    const std::string name = at.text("material");
-    const auto found = materials.find(name);
-    if (found == materials.end())
-      fail_unknown(at.where(at.node("material")), "no material", name, names_of(materials));
-    const auto [entry, is_new] = places.emplace(name, static_cast<int>(particle.materials.size()));
-    if (is_new) particle.materials.push_back(found->second);
-    return entry->second;
-  };
-  place_of(s);
-
-  if (s.has("profile")) {
-    const Section p = s.table("profile", "{shape = \"ellipsoid\", aspect = 1.5} or {points = [[r, z], ...]}");
-    if (p.has("points")) {
-      read_outline(s, p, particle);
-    } else {
-      particle.radius = s.positive("radius", "m");
-      read_shape(p, particle);
-    }
-  } else {
-    particle.radius = s.positive("radius", "m");
-  }
+  Places places(materials, particle);
+  places.of(s);
+  read_outside(s, particle);
   if (s.has("layers"))
     for (const Section& layer : s.tables("layers", "[{material = \"shell\", thickness = 20e-6}]")) {
       layer.check_keys({"material", "thickness"});
-      particle.layers.push_back({layer.positive("thickness", "m"), place_of(layer)});
+      particle.layers.push_back({layer.positive("thickness", "m"), places.of(layer)});
     }
   if (s.has("inclusions"))
-    for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]")) {
-      i.check_keys({"material", "pore", "radius", "z", "r"});
-      if (i.has("pore") == i.has("material"))
-        fail(i.where(), "an inclusion needs one of 'material' and 'pore = true'",
-             i.has("pore") ? "both" : "none");
-      if (i.has("pore")) i.check_true("pore");
-      particle.inclusions.push_back({i.has("r") ? i.number("r", "m") : 0.0, i.number("z", "m"),
-                                     i.positive("radius", "m"), i.has("pore") ? -1 : place_of(i)});
-    }
+    for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]"))
+      particle.inclusions.push_back(read_inclusion(i, places));
   validate(particle, s.where());
   return particle;
 }

@@ -58,55 +58,75 @@ void check_fields(const RunRequest& r)
     fail("--fields", "its HDF5 file would be the trace's, -o", r.output, "another name");
 }
 
-}  // namespace
-
-void RunRequest::add_to(CLI::App& command)
+void add_bodies(CLI::App& command, RunRequest& r)
 {
-  command.add_option("MATERIALS", materials, "TOML file with [material.NAME] and [particle.NAME]")
+  command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")
       ->required();
-  command.add_option("--particle", particle, "particle of that file")->required();
-  command.add_option("--against", against, "a second particle of that file, hit pole against pole");
-  command.add_option("--wall", wall,
+  command.add_option("--particle", r.particle, "particle of that file")->required();
+  command.add_option("--against", r.against, "a second particle of that file, hit pole against pole");
+  command.add_option("--wall", r.wall,
                      "a material of that file: a thick deformable wall of it (default: rigid)");
+}
+
+void add_accuracy(CLI::App& command, RunRequest& r)
+{
   command.add_option(
-      "--grid", grid,
+      "--grid", r.grid,
       "mapped (fitted to the sphere), tartan (graded Cartesian: any shape, layers, inclusions), "
       "updated (points move through the grid: the independent check); default: what the particle "
       "needs");
-  command.add_option("--precision", precision, "of the material points: double (default) or single");
+  command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   CLI::Option* with_resolution = command.add_option(
-      "--resolution", resolution, "cells across the contact block, 6 to 200 (default: the run's own)");
+      "--resolution", r.resolution, "cells across the contact block, 6 to 200 (default: the run's own)");
   command
-      .add_option("--tolerance", tolerance,
+      .add_option("--tolerance", r.tolerance,
                   "relative error of F_max and e to reach, such as 0.01: resolution, time step and ramp are "
                   "refined until the run's own estimate meets it")
       ->excludes(with_resolution);
-  command.add_option("-o,--output", output, "trace of the run: NAME.csv or NAME.h5");
+}
+
+void add_outputs(CLI::App& command, RunRequest& r)
+{
+  command.add_option("-o,--output", r.output, "trace of the run: NAME.csv or NAME.h5");
   CLI::Option* with_fields = command.add_option(
-      "--fields", fields, "the deformed body over time for ParaView: NAME.xdmf, and NAME.h5 beside it");
-  command.add_option("--frames", frames, "about so many moments in it, 2 to 10000 (default 40)")
+      "--fields", r.fields, "the deformed body over time for ParaView: NAME.xdmf, and NAME.h5 beside it");
+  command.add_option("--frames", r.frames, "about so many moments in it, 2 to 10000 (default 40)")
       ->check(whole_from_to(2, 10000))
       ->needs(with_fields);
   CLI::Option* with_checkpoint = command.add_option(
-      "--checkpoint", checkpoint,
+      "--checkpoint", r.checkpoint,
       "keeps the state of the run in this file; the same command goes on from there after it was stopped or "
       "killed, with the identical trace. The file is removed when the run is finished and its outputs are "
       "written");
   command
-      .add_option("--checkpoint-every", checkpoint_every,
+      .add_option("--checkpoint-every", r.checkpoint_every,
                   "seconds between two states (default 30; 0: at every sample of the trace)")
       ->check(from_to(0, 86400))
       ->needs(with_checkpoint);
-  command.add_option("--jobs", jobs, "threads (default 1)")->check(whole_from_to(1, 256));
+}
+
+void add_effort(CLI::App& command, RunRequest& r)
+{
+  command.add_option("--jobs", r.jobs, "threads (default 1)")->check(whole_from_to(1, 256));
   command.add_option(
-      "--phases", phases,
+      "--phases", r.phases,
       "runs on grids shifted against each other by equal parts of a cell, 1 to 64; results are "
       "their mean, free of the first harmonics of the contact-edge ripple (default 4)");
-  command.add_option("--courant", courant,
+  command.add_option("--courant", r.courant,
                      "time step over its stability limit, 0.05 to 1 (default 0.85); above 1 explicit time "
                      "stepping is unstable");
-  command.add_flag("--no-estimate", no_estimate,
+  command.add_flag("--no-estimate", r.no_estimate,
                    "leave out the second, coarser run that the error estimate needs (a third of the time)");
+}
+
+}  // namespace
+
+void RunRequest::add_to(CLI::App& command)
+{
+  add_bodies(command, *this);
+  add_accuracy(command, *this);
+  add_outputs(command, *this);
+  add_effort(command, *this);
   command.add_flag(
       "--json", json,
       "print one JSON object instead of the summary, SI units; in it, e is corrected for the "
