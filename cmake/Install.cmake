@@ -4,7 +4,8 @@ install(EXPORT granulawTargets NAMESPACE granulaw::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/granulaw)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/granulawConfig.cmake.in
   ${PROJECT_BINARY_DIR}/granulawConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/granulaw)
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/granulaw
+  PATH_VARS CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/granulawConfigVersion.cmake
   COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/granulawConfig.cmake

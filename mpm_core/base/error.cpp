@@ -71,4 +71,29 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   return near.empty() ? std::string{} : fmt::format(" (did you mean '{}'?)", near);
 }
 
+std::string cut(std::string_view text, std::size_t longest)
+{
+  if (text.size() <= longest) return std::string(text);
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return std::string(text.substr(0, end)) + "...";
+}
+
+std::string list_of(std::span<const std::string> words)
+{
+  constexpr std::size_t most = 20;
+  std::string list;
+  for (const std::string& word : words.first(std::min(words.size(), most)))
+    list += (list.empty() ? "" : ", ") + cut(word);
+  if (words.size() > most) list += fmt::format(", ... ({} in all)", words.size());
+  return list;
+}
+
+void fail_unknown(std::string_view where, std::string_view what, std::string_view word,
+                  std::span<const std::string> known, std::string_view more)
+{
+  fail(where, fmt::format("{} '{}'{}", what, cut(word), did_you_mean(word, known)), {},
+       list_of(known) + std::string(more));
+}
+
 }  // namespace granulaw

@@ -31,4 +31,15 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 /// " (did you mean 'X'?)" or "".
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
+/// `text` as a sentence can hold it: cut after `longest` bytes, between characters.
+std::string cut(std::string_view text, std::size_t longest = 60);
+
+/// "a, b, c", each word cut; of many words the first twenty and their number.
+std::string list_of(std::span<const std::string> words);
+
+/// Throws Error "WHERE: WHAT 'WORD' (did you mean 'X'?): allowed is KNOWN". WHAT: "no material", "unknown
+/// key". `more` follows the list of what is known.
+[[noreturn]] void fail_unknown(std::string_view where, std::string_view what, std::string_view word,
+                               std::span<const std::string> known, std::string_view more = {});
+
 }  // namespace granulaw

@@ -11,3 +11,6 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/p
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 run(${WORK}/prefix/bin/mpm --version)
+# the law that the consumer's own program made
+run(${WORK}/prefix/bin/mpm law ${WORK}/build/law.h5 --pair powder:wall --velocity 1)
+run(${WORK}/prefix/bin/mpm check ${WORK}/build/law.h5 --impacts 0)

@@ -116,11 +116,11 @@ void set_axes(Plan& plan)
   for (const PairPlan& p : plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     depth = std::max(depth, p.depth);
-    inertia = std::max(inertia, p.damage_number);
+    damage_number = std::max(damage_number, p.damage_number);
   }
-  plan.axis_matters = inertia > negligible_damage_number;
+  plan.axis_matters = damage_number > negligible_damage_number;
   plan.depth = std::min(deepest_table, rounded_up(margin * depth));
-  plan.damage_number = std::min(fastest_table, rounded_up(margin * inertia));
+  plan.damage_number = std::min(fastest_table, rounded_up(margin * damage_number));
 }
 
 void set_time_step(Plan& plan, double stretch)

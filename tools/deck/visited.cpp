@@ -63,7 +63,7 @@ void widen(Visited::Range& range, const Visited::Range& by)
 {
   range.speed = std::max(range.speed, by.speed);
   range.overlap = std::max(range.overlap, by.overlap);
-  range.inertia = std::max(range.inertia, by.inertia);
+  range.damage_number = std::max(range.damage_number, by.damage_number);
   range.met = range.met || by.met;
 }
 

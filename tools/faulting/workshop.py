@@ -40,7 +40,7 @@ MIRRORED = {
     "mpm_core/characterise": ("characterise", "solver", "law", "base"),
     "liggghts_plugin": (),
     "tools/deck": ("deck", "law", "base"),
-    "tools/mpm": ("solver", "law", "base"),
+    "tools/mpm": ("mpm_parts", "deck", "characterise", "solver", "law", "base"),
 }
 NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer")  # they run none of the six folders
 CHEAP = 2.0  # s; tests up to it come before the battery
@@ -160,8 +160,7 @@ class Workshop:
             return None
         ours = [w for w in words if w.endswith(".a") and not w.startswith("/")]
         libraries = [w for w in ours if any(w.endswith(f"granulaw_{n}.a") for n in MIRRORED[fault.folder])]
-        kept = [own] + [w for w in objects if fault.folder == "tools/mpm" and not w.endswith("_test.cpp.o")]
-        problem = self.make([*kept, *libraries])
+        problem = self.make([own, *libraries])
         if problem:
             return "not compiled", problem
         program = self.temporary / stem
@@ -169,7 +168,7 @@ class Workshop:
         rest = words[words.index("-o") + 2:]
         rest = rest[:rest.index("&&")] if "&&" in rest else rest
         stale = [w for w in ours if w not in libraries]  # not built just now
-        status, _ = run([compiler, *kept, *(w for w in rest if w not in stale), "-o", program], 300, cwd=self.build, env=self.env, log=self.home / "build.log")
+        status, _ = run([compiler, own, *(w for w in rest if w not in stale), "-o", program], 300, cwd=self.build, env=self.env, log=self.home / "build.log")
         if status != 0:
             return None  # it needs another's objects: the whole stage follows
         status, text = run([program, "--gtest_fail_fast", "--gtest_filter=-*Slow.*"], 120, env=self.env, log=self.home / "mirror.log")

@@ -20,4 +20,11 @@ std::string atlas_path()
   return own_file("atlas.h5");
 }
 
+std::optional<Atlas> own_atlas()
+{
+  const std::string path = atlas_path();
+  if (path.empty()) return std::nullopt;
+  return read_atlas(path);
+}
+
 }  // namespace granulaw

@@ -1,12 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "characterise/atlas.hpp"
 
 namespace granulaw {
 
 /// The atlas that came with the program: $GRANULAW_ATLAS, else atlas.h5 beside the program or where
 /// cmake --install puts it; empty if there is none.
 std::string atlas_path();
+
+/// That atlas, read; none if there is none. Throws Error if it cannot be used.
+std::optional<Atlas> own_atlas();
 
 /// A data file or script that belongs to the program, beside it or installed; empty: not found.
 std::string own_file(const std::string& name);

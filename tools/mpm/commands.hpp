@@ -1,24 +1,32 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <string>
+#include <array>
+
+#include "command.hpp"
+
+// All commands, in the order of mpm --help. To add one, write NAME_command.cpp, which defines
+// `extern const Command NAME_command`, and put its name here.
+#define MPM_COMMANDS(ENTRY) \
+  ENTRY(impact)             \
+  ENTRY(press)              \
+  ENTRY(table)              \
+  ENTRY(atlas)              \
+  ENTRY(law)                \
+  ENTRY(check)              \
+  ENTRY(info)               \
+  ENTRY(plot)               \
+  ENTRY(export)             \
+  ENTRY(plan)               \
+  ENTRY(soften)
 
 namespace granulaw {
 
-/// Each command adds its options and its callback to the application; one file each.
-void add_impact(CLI::App& app);
-void add_press(CLI::App& app);
-void add_table(CLI::App& app);
-void add_atlas(CLI::App& app);
-void add_law(CLI::App& app);
-void add_check(CLI::App& app);
-void add_info(CLI::App& app);
-void add_plot(CLI::App& app);
-void add_export(CLI::App& app);
-void add_plan(CLI::App& app);
-void add_soften(CLI::App& app);
+#define MPM_DECLARE(NAME) extern const Command NAME##_command;
+MPM_COMMANDS(MPM_DECLARE)
+#undef MPM_DECLARE
 
-/// The command line as typed, for provenance; set by main.
-extern std::string command_line;
+#define MPM_ADDRESS(NAME) &NAME##_command,
+inline const std::array commands{MPM_COMMANDS(MPM_ADDRESS)};
+#undef MPM_ADDRESS
 
 }  // namespace granulaw

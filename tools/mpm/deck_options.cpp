@@ -8,6 +8,7 @@
 #include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "characterise/build_law.hpp"
+#include "characterise/law_material.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
 #include "materials_file.hpp"
@@ -17,9 +18,44 @@ namespace granulaw {
 
 namespace {
 
-LawMaterial law_material(const std::string& name, const Material& m)
+using KnownMaterials = std::map<std::string, LawMaterial>;
+
+/// Throws Error for a name of --materials that the file lacks, unless the deck itself describes its type.
+void check_given(const DeckOptions& o, const deck::Scene& scene, const MaterialsFile& file)
 {
-  return {name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
+  for (std::size_t k = 0; k < o.materials.size(); ++k)
+    if (!scene.materials.contains(static_cast<int>(k) + 1)) file.material(o.materials[k]);
+}
+
+/// The materials of the materials file, else of the deck's law file; none if there is neither.
+KnownMaterials known_materials(const DeckOptions& o, const deck::Scene& scene)
+{
+  KnownMaterials known;
+  if (!o.materials_file.empty()) {
+    const MaterialsFile file = read_materials(o.materials_file);
+    check_given(o, scene, file);
+    for (const auto& [name, m] : file.materials) known[name] = law_material(name, m);
+  } else if (!scene.law_file.empty() && std::ifstream(scene.law_file)) {
+    const Law law = read_law(scene.law_file);
+    for (const auto& [name, body] : law.bodies) known[name] = body.material;
+  } else if (!o.materials.empty()) {
+    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
+  }
+  return known;
+}
+
+/// The material of an atom type as the deck describes it, elastic; none if it does not.
+std::optional<LawMaterial> material_by_deck(const std::string& name, int type, const deck::Scene& scene)
+{
+  const auto found = scene.materials.find(type);
+  if (found == scene.materials.end() || !found->second.youngs_modulus) return std::nullopt;
+  LawMaterial m;
+  m.name = name;
+  m.youngs_modulus = *found->second.youngs_modulus;
+  m.poisson_ratio = found->second.poisson_ratio.value_or(0);
+  for (const deck::Source& s : scene.sources)
+    if (s.type == type) m.density = s.density;
+  return m;
 }
 
 /// Materials of the atom types by the names that --materials or the deck's pair_style gives them. A name that
@@ -28,40 +64,19 @@ void name_materials(deck::PlanOptions& into, const deck::Scene& scene, const Dec
 {
   const bool given = !o.materials.empty();
   const std::vector<std::string>& names = given ? o.materials : scene.material_names;
-  std::map<std::string, LawMaterial> known;
-  if (!o.materials_file.empty()) {
-    const MaterialsFile file = read_materials(o.materials_file);
-    for (const auto& [name, m] : file.materials) known[name] = law_material(name, m);
-    if (given)
-      for (const std::string& name : names) {
-        const bool elastic_by_deck = scene.materials.contains(static_cast<int>(&name - names.data()) + 1);
-        if (!elastic_by_deck) file.material(name);
-      }
-    // one material, one type: there is nothing to name
-    if (names.empty() && known.size() == 1 && scene.types <= 1) into.materials[1] = known.begin()->second;
-  } else if (!scene.law_file.empty() && std::ifstream(scene.law_file)) {
-    const Law law = read_law(scene.law_file);
-    for (const auto& [name, body] : law.bodies) known[name] = body.material;
-  } else if (given) {
-    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
-  }
+  const KnownMaterials known = known_materials(o, scene);
+  // one material, one type: there is nothing to name
+  if (!o.materials_file.empty() && names.empty() && known.size() == 1 && scene.types <= 1)
+    into.materials[1] = known.begin()->second;
   bool any = false;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const int type = static_cast<int>(k) + 1;
     if (const auto m = known.find(names[k]); m != known.end()) {
       into.materials[type] = m->second;
       any = true;
-      continue;
+    } else if (!known.empty()) {
+      if (const auto by_deck = material_by_deck(names[k], type, scene)) into.materials[type] = *by_deck;
     }
-    const auto of_deck = scene.materials.find(type);
-    if (known.empty() || of_deck == scene.materials.end() || !of_deck->second.youngs_modulus) continue;
-    LawMaterial m;
-    m.name = names[k];
-    m.youngs_modulus = *of_deck->second.youngs_modulus;
-    m.poisson_ratio = of_deck->second.poisson_ratio.value_or(0);
-    for (const deck::Source& s : scene.sources)
-      if (s.type == type) m.density = s.density;
-    into.materials[type] = m;
   }
   if (given && !any)
     fail("--materials", fmt::format("none of them is in {}", o.materials_file),
@@ -71,9 +86,8 @@ void name_materials(deck::PlanOptions& into, const deck::Scene& scene, const Dec
 /// Collisions by the atlas's laws; each law is made once.
 deck::Collide collide_by_atlas()
 {
-  const std::string path = atlas_path();
-  if (path.empty()) return {};
-  const auto atlas = std::make_shared<Atlas>(read_atlas(path));
+  const auto atlas = std::make_shared<const std::optional<Atlas>>(own_atlas());
+  if (!*atlas) return {};
   const auto laws = std::make_shared<std::map<std::string, std::optional<BodyLaw>>>();
   return [atlas, laws](const deck::Meeting& m, double r_eff, double m_eff,
                        double speed) -> std::optional<deck::Collision> {
@@ -83,10 +97,10 @@ deck::Collide collide_by_atlas()
                     material.yield_stress, material.hardening_modulus);
     if (!laws->contains(key)) {
       std::optional<BodyLaw>& law = (*laws)[key];
-      if (!material.yields() || atlas->why_not(MaterialRatios::of(material)).empty()) {
+      if (!material.yields() || (*atlas)->why_not(MaterialRatios::of(material)).empty()) {
         BuildOptions options;
         options.depth = 0.5, options.fastest = 0.3;
-        law = law_from(*atlas, material, options);
+        law = law_from(**atlas, material, options);
       }
     }
     const std::optional<BodyLaw>& law = laws->at(key);
@@ -159,17 +173,24 @@ PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)
   return result;
 }
 
-nlohmann::ordered_json json_number(double value)
-{
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
 std::string questions_text(const deck::Plan& plan)
 {
   std::string text;
   for (const deck::Question& q : plan.questions)
     text += fmt::format("  {}: give it by {}\n", printable(q.what), q.option);
   return text;
+}
+
+void require_answers(const deck::Plan& plan, const std::string& deck)
+{
+  for (const deck::Question& q : plan.questions)
+    if (q.option != "--particles N")
+      fail(deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
+}
+
+std::string types_text(const deck::Meeting& meeting)
+{
+  return fmt::format("{}:{}{}", meeting.a, meeting.wall ? "wall " : "", meeting.b);
 }
 
 }  // namespace granulaw

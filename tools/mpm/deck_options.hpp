@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -36,10 +35,13 @@ struct PlannedDeck
 /// Throws Error.
 PlannedDeck plan_deck(const std::string& deck, const DeckOptions& options);
 
-/// Number as JSON, null where it is not finite.
-nlohmann::ordered_json json_number(double value);
-
 /// What is left to be asked, one line each.
 std::string questions_text(const deck::Plan& plan);
+
+/// Throws Error with the first question that is left, unless it only matters for the cost.
+void require_answers(const deck::Plan& plan, const std::string& deck);
+
+/// The atom types of two bodies that meet: "1:2", "1:wall 2".
+std::string types_text(const deck::Meeting& meeting);
 
 }  // namespace granulaw

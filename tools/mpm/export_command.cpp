@@ -7,8 +7,10 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "law/law_file.hpp"
+#include "option_checks.hpp"
+#include "pair_names.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -23,21 +25,6 @@ struct ExportRequest
   bool dimensionless = false;
   int points = 400;
 };
-
-using Pairs = std::vector<std::pair<std::string, std::string>>;
-
-Pairs wanted_pairs(const Law& law, const ExportRequest& r)
-{
-  if (r.pair.empty()) {
-    Pairs all;
-    for (const LawPair& pair : law.pairs) all.emplace_back(pair.a, pair.b);
-    return all;
-  }
-  const auto colon = r.pair.find(':');
-  if (colon == std::string::npos)
-    fail("--pair", "cannot be used", fmt::format("'{}'", r.pair), law.pair_list());
-  return {{r.pair.substr(0, colon), r.pair.substr(colon + 1)}};
-}
 
 void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
 {
@@ -95,29 +82,25 @@ void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name,
   }
 }
 
-void export_law(const ExportRequest& r)
+/// Throws Error where the pair's law does not hold for the size or the speed asked for.
+void check_pair(const PairLaw& pair, const PairNames& names, const ExportRequest& r)
 {
-  check_output(r.output, ".csv");
-  const Law law = read_law(r.law);
-  if (!(r.r_eff > 0 && std::isfinite(r.r_eff)))
-    fail("--effective-radius", "cannot be used", fmt::format("{:g} m", r.r_eff), "over 0");
-  const Pairs pairs = wanted_pairs(law, r);
-  if (!(r.speed >= 0 && std::isfinite(r.speed)))
-    fail("--speed", "cannot be used", fmt::format("{:g} m/s", r.speed), "0 or more");
-  for (const auto& [a, b] : pairs) {  // before anything is written
-    const PairLaw pair = resolve_pair(law, a, b, r.law);
-    // a rate-dependent law's one size: as R* on a wall and in a like pair; other partners have any
-    if (!r.dimensionless && (b == wall_name || a == b))
-      check_size(pair, b == wall_name ? r.r_eff : 2 * r.r_eff, "--effective-radius");
-    if (r.speed > 0 && r.speed < pair.min_speed(r.r_eff, pair.usual_mass(r.r_eff)))
-      fail("--speed", fmt::format("the rate axis of the law for {}:{} begins above it", a, b),
-           fmt::format("{:g} m/s", r.speed),
-           fmt::format("{:g} m/s or more", pair.min_speed(r.r_eff, pair.usual_mass(r.r_eff))));
-    if (r.speed > pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff)))
-      fail("--speed", fmt::format("the law's velocity axis for {}:{} ends below it", a, b),
-           fmt::format("{:g} m/s", r.speed),
-           fmt::format("up to {:g} m/s", pair.max_speed(r.r_eff, pair.usual_mass(r.r_eff))));
-  }
+  const auto& [a, b] = names;
+  // a rate-dependent law's one size: as R* on a wall and in a like pair; other partners have any
+  if (!r.dimensionless && (b == wall_name || a == b))
+    check_size(pair, b == wall_name ? r.r_eff : 2 * r.r_eff, "--effective-radius");
+  const double mass = pair.usual_mass(r.r_eff), slowest = pair.min_speed(r.r_eff, mass),
+               fastest = pair.max_speed(r.r_eff, mass);
+  if (r.speed > 0 && r.speed < slowest)
+    fail("--speed", fmt::format("the rate axis of the law for {}:{} begins above it", a, b),
+         fmt::format("{:g} m/s", r.speed), fmt::format("{:g} m/s or more", slowest));
+  if (r.speed > fastest)
+    fail("--speed", fmt::format("the law's velocity axis for {}:{} ends below it", a, b),
+         fmt::format("{:g} m/s", r.speed), fmt::format("up to {:g} m/s", fastest));
+}
+
+void write_csv(const Law& law, const std::vector<PairNames>& pairs, const ExportRequest& r)
+{
   write_atomically(r.output, [&](const std::string& temporary) {
     std::ofstream out(temporary);
     write_heading(out, law, r);
@@ -128,38 +111,53 @@ void export_law(const ExportRequest& r)
     for (const auto& [a, b] : pairs) write_pair(out, resolve_pair(law, a, b, r.law), a + ":" + b, r);
     if (!out.flush()) fail(r.output, "cannot be written (disk full?)");
   });
+}
+
+void export_law(const ExportRequest& r)
+{
+  check_output(r.output, ".csv");
+  const Law law = read_law(r.law);
+  require(r.r_eff > 0 && std::isfinite(r.r_eff), "--effective-radius", fmt::format("{:g} m", r.r_eff),
+          "over 0");
+  const std::vector<PairNames> pairs = pairs_asked(r.pair, law);
+  require(r.speed >= 0 && std::isfinite(r.speed), "--speed", fmt::format("{:g} m/s", r.speed), "0 or more");
+  for (const PairNames& names : pairs)
+    check_pair(resolve_pair(law, names.first, names.second, r.law), names, r);
+  write_csv(law, pairs, r);
   fmt::print("wrote {}: {} pairs of {} rows\n", r.output, pairs.size(), r.points + 1);
+}
+
+void define(CLI::App& command)
+{
+  const auto r = std::make_shared<ExportRequest>();
+  command.add_option("LAW", r->law, "law file of mpm table")->required();
+  command.add_option("-o,--output", r->output, "NAME.csv")->required();
+  command.add_option("--pair", r->pair, "a:b or a:wall (default: every pair of the file)");
+  CLI::Option* radius = command.add_option("--effective-radius", r->r_eff,
+                                           "R* = R_i R_j/(R_i + R_j), on a wall R_i, m (default 1e-3)");
+  command
+      .add_flag("--dimensionless", r->dimensionless,
+                "overlap in lambda R*, force in 4/3 E* lambda R*^2, and so on")
+      ->excludes(radius);
+  command.add_option("--speed", r->speed,
+                     "relative normal speed at first touch, m/s, for laws with a velocity axis (default 0: "
+                     "quasi-static)");
+  command.add_option("--points", r->points, "intervals, uniform in overlap^(1/4) (default 400)")
+      ->check(CLI::Range(10, 100000));
+  command.callback([r] { export_law(*r); });
 }
 
 }  // namespace
 
-void add_export(CLI::App& app)
-{
-  const auto r = std::make_shared<ExportRequest>();
-  CLI::App* command = app.add_subcommand(
-      "export",
-      "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
-      "overlap, residual overlap, exponent and hertz_share of the unloading after a reversal there. Lines "
-      "that begin "
-      "with # state "
-      "the\n"
-      "units and the formulas. Example: mpm export law.h5 -o law.csv --pair powder:wall --effective-radius "
-      "2e-3");
-  command->add_option("LAW", r->law, "law file of mpm table")->required();
-  command->add_option("-o,--output", r->output, "NAME.csv")->required();
-  command->add_option("--pair", r->pair, "a:b or a:wall (default: every pair of the file)");
-  CLI::Option* radius = command->add_option("--effective-radius", r->r_eff,
-                                            "R* = R_i R_j/(R_i + R_j), on a wall R_i, m (default 1e-3)");
-  command
-      ->add_flag("--dimensionless", r->dimensionless,
-                 "overlap in lambda R*, force in 4/3 E* lambda R*^2, and so on")
-      ->excludes(radius);
-  command->add_option("--speed", r->speed,
-                      "relative normal speed at first touch, m/s, for laws with a velocity axis (default 0: "
-                      "quasi-static)");
-  command->add_option("--points", r->points, "intervals, uniform in overlap^(1/4) (default 400)")
-      ->check(CLI::Range(10, 100000));
-  command->callback([r] { export_law(*r); });
-}
+extern const Command export_command{
+    "export",
+    "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
+    "overlap, residual overlap, exponent and hertz_share of the unloading after a reversal there. Lines that "
+    "begin "
+    "with # state "
+    "the\n"
+    "units and the formulas. Example: mpm export law.h5 -o law.csv --pair powder:wall --effective-radius "
+    "2e-3",
+    define};
 
 }  // namespace granulaw

@@ -12,15 +12,15 @@
 
 namespace granulaw {
 
-void FarmOptions::add_to(CLI::App* command)
+void FarmOptions::add_to(CLI::App& command)
 {
   command
-      ->add_option("--jobs", jobs,
-                   "runs at the same time in each process (default: one for each core; under mpirun: one)")
+      .add_option("--jobs", jobs,
+                  "runs at the same time in each process (default: one for each core; under mpirun: one)")
       ->check(whole_from_to(1, 1024));
   CLI::Option* folder =
-      command->add_option("--cache", cache, "folder for finished runs")->capture_default_str();
-  command->add_flag("--no-cache", no_cache, "keep no finished run and reuse none")->excludes(folder);
+      command.add_option("--cache", cache, "folder for finished runs")->capture_default_str();
+  command.add_flag("--no-cache", no_cache, "keep no finished run and reuse none")->excludes(folder);
 }
 
 void FarmOptions::check() const
@@ -38,16 +38,6 @@ std::unique_ptr<Farm> FarmOptions::farm() const
   std::filesystem::create_directories(cache, problem);
   if (problem) fail("--cache", fmt::format("the folder '{}' cannot be made ({})", cache, problem.message()));
   return make_farm(threads, RunCache(cache));
-}
-
-void note(const FarmCount& c, std::map<std::string, std::string>& provenance)
-{
-  provenance["runs_made"] = fmt::format("{}", c.made);
-  provenance["runs_from_cache"] = fmt::format("{}", c.from_cache);
-  provenance["runs_retried"] = fmt::format("{}", c.retried);
-  provenance["runs_failed"] = fmt::format("{}", c.failed);
-  provenance["cpu_s"] = fmt::format("{:.1f}", c.cpu_s);
-  provenance["ranks"] = fmt::format("{}", ranks());
 }
 
 void print_count(const FarmCount& c)

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -16,14 +15,13 @@ struct FarmOptions
   std::string cache = default_cache_folder();
   bool no_cache = false;
 
-  void add_to(CLI::App* command);
+  void add_to(CLI::App& command);
   /// Throws Error if the cache cannot be a folder: before anything is computed.
   void check() const;
   std::unique_ptr<Farm> farm() const;
 };
 
-/// What the farm spent and saved, into a file's provenance and as one line.
-void note(const FarmCount& count, std::map<std::string, std::string>& provenance);
+/// What the farm spent and saved, as one line.
 void print_count(const FarmCount& count);
 
 }  // namespace granulaw

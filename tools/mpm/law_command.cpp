@@ -10,9 +10,12 @@
 #include "base/error.hpp"
 #include "claim.hpp"
 #include "collision_report.hpp"
-#include "commands.hpp"
+#include "command.hpp"
+#include "json_output.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
+#include "option_checks.hpp"
+#include "pair_names.hpp"
 
 namespace granulaw {
 
@@ -29,16 +32,12 @@ struct LawRequest
 /// Past the table's last overlap the force goes on with its last stiffness: good enough for this share of it.
 constexpr double overlap_margin = 0.05;
 
-std::pair<std::string, std::string> choose_pair(const Law& law, const LawRequest& r)
+PairNames choose_pair(const Law& law, const LawRequest& r)
 {
-  if (r.pair.empty()) {
-    if (law.pairs.size() == 1) return {law.pairs.front().a, law.pairs.front().b};
-    fail("--pair", "the law holds several pairs: name one", {}, law.pair_list());
-  }
-  const auto colon = r.pair.find(':');
-  if (colon == std::string::npos)
-    fail("--pair", "cannot be used", fmt::format("'{}'", r.pair), law.pair_list());
-  return {r.pair.substr(0, colon), r.pair.substr(colon + 1)};
+  const std::vector<PairNames> asked = pairs_asked(r.pair, law);
+  if (asked.size() != 1) fail("--pair", "the law holds several pairs: name one", {}, law.pair_list());
+  const auto& [a, b] = asked.front();
+  return a == wall_name ? PairNames(b, a) : asked.front();
 }
 
 /// kg, of a body whose radius (of curvature at the pole) is `radius`.
@@ -49,114 +48,159 @@ double body_mass(const BodyLaw& body, double radius)
 
 /// What the file states for this collision, relative, the larger of F_max and e: the certificate's claim and
 /// what the pair rule costs. 0: it states nothing, the law is exact but for the solver (elastic bodies).
-double stated_error(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b, double e)
+double stated_error(const Law& law, const PairLaw& pair, const PairNames& names, double e)
 {
   const Claim claim = claim_of(pair.yielding->certificate, e);
-  const LawPair* entry = law.find_pair(a, b);
+  const LawPair* entry = law.find_pair(names.first, names.second);
   return std::max(claim.force + (entry ? entry->reduction_error_force : 0.0),
                   claim.restitution + (entry ? entry->reduction_error_restitution : 0.0));
 }
 
-/// Wider than any particle or collision; within, no number of the replay leaves the range of a double.
-void require_within(const char* option, double value, const char* unit, double low, double high)
+/// Two bodies about to collide: SI.
+struct Collision
 {
-  if (!(value >= low && value <= high))
-    fail(option, "cannot be used", fmt::format("{:g} {}", value, unit),
-         fmt::format("{:g} to {:g} {}", low, high, unit));
-}
+  PairNames names;
+  PairLaw pair;
+  double r_eff, m_eff, velocity;
 
-void replay(const LawRequest& r)
+  double limit() const { return pair.max_overlap(r_eff); }  ///< m, where the law's table ends
+};
+
+/// Wider than any particle or collision; within, no number of the replay leaves the range of a double.
+void check_numbers(const LawRequest& r, const PairNames& names, double radius, double radius2)
 {
-  const Law law = read_law(r.law);
-  auto [a, b] = choose_pair(law, r);
-  if (a == wall_name) std::swap(a, b);
-  const PairLaw pair = resolve_pair(law, a, b, r.law);
-  const double radius = r.radius.value_or(pair.only_radius() > 0 ? pair.only_radius() : 1e-3);
-  const double radius2 = r.radius2.value_or(radius);
-  const bool wall = b == wall_name;
-  if (wall && r.radius2) fail("--radius2", "a wall has no radius");
+  if (names.second == wall_name && r.radius2) fail("--radius2", "a wall has no radius");
   require_within("--radius", radius, "m", 1e-9, 1e3);
   require_within("--radius2", radius2, "m", 1e-9, 1e3);
   require_within("--velocity", r.velocity, "m/s", 1e-12, 1e6);
+}
+
+Collision collision_of(const Law& law, const LawRequest& r)
+{
+  const PairNames names = choose_pair(law, r);
+  const auto& [a, b] = names;
+  const PairLaw pair = resolve_pair(law, a, b, r.law);
+  const double radius = r.radius.value_or(pair.only_radius() > 0 ? pair.only_radius() : 1e-3);
+  const double radius2 = r.radius2.value_or(radius);
+  check_numbers(r, names, radius, radius2);
 
   const std::string& yielding = pair.yielding->material.name;
   if (a == yielding) check_size(pair, radius, "--radius");
   if (b == yielding) check_size(pair, radius2, "--radius2");
 
   const double mass = body_mass(law.bodies.at(a), radius);
-  const double m_eff = wall ? mass : effective_mass(mass, body_mass(law.bodies.at(b), radius2));
-  const double r_eff = wall ? radius : effective_radius(radius, radius2);
-  const std::clock_t start = std::clock();
-  const Replay result = replay_collision(pair, r_eff, m_eff, r.velocity);
-  const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  if (b == wall_name) return {names, pair, radius, mass, r.velocity};
+  return {names, pair, effective_radius(radius, radius2),
+          effective_mass(mass, body_mass(law.bodies.at(b), radius2)), r.velocity};
+}
 
-  const double limit = pair.max_overlap(r_eff);
-  if (result.delta_max > (1 + overlap_margin) * limit)
+/// Throws where the collision goes deeper than the law is good for.
+void check_depth(const LawRequest& r, const Collision& c, const Replay& result)
+{
+  const double allowed = (1 + overlap_margin) * c.limit();
+  if (result.delta_max > allowed)
     fail(r.law, "the collision leaves the law's range of overlaps by more than 5 %",
-         fmt::format("{:.4g} m", result.delta_max),
-         fmt::format("up to {:.4g} m", (1 + overlap_margin) * limit));
+         fmt::format("{:.4g} m", result.delta_max), fmt::format("up to {:.4g} m", allowed));
+}
 
-  const LawMaterial& m = pair.yielding->material;
-  const double speed = m.yields() ? pair.axis_speed(r_eff, m_eff, r.velocity) : 0.0,
-               damage_number = speed * speed;
-  const double allowed = pair.yielding->certificate.damage_number_max;
-  const bool needs_axis = damage_number > allowed && !pair.curve->axis();
-  if (needs_axis)
+/// How fast the collision is for the law.
+struct Speed
+{
+  double damage_number;  ///< I = rho V^2/Y; 0: elastic
+  double allowed;        ///< up to which the law holds
+  bool needs_axis;       ///< beyond it, and the law has no velocity axis
+};
+
+Speed speed_of(const Collision& c)
+{
+  const bool yields = c.pair.yielding->material.yields();
+  const double speed = yields ? c.pair.axis_speed(c.r_eff, c.m_eff, c.velocity) : 0.0;
+  const double damage_number = speed * speed, allowed = c.pair.yielding->certificate.damage_number_max;
+  return {damage_number, allowed, damage_number > allowed && !c.pair.curve->axis()};
+}
+
+void print_warnings(const Collision& c, const Speed& speed, const Replay& result)
+{
+  if (speed.needs_axis)
     fmt::print(stderr,
                "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: there the law would need a velocity axis, which "
                "this file does not have; e and force are too high\n",
-               damage_number, allowed);
+               speed.damage_number, speed.allowed);
   if (result.left_speeds)
     fmt::print(
         stderr,
         "mpm: {:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: it answers with the "
         "corrections of that speed\n",
-        r.velocity, pair.max_speed(r_eff, m_eff));
+        c.velocity, c.pair.max_speed(c.r_eff, c.m_eff));
   if (result.held_speed)
     fmt::print(
         stderr,
         "mpm: {:.4g} m/s is below {:.4g} m/s, the slowest impact that this rate-dependent law knows: it "
         "answers as at that rate\n",
-        r.velocity, pair.min_speed(r_eff, m_eff));
-  const double error = stated_error(law, pair, a, b, result.restitution);
-  if (r.json) {
-    nlohmann::ordered_json out = collision_json(result);
-    put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0, error);  // no solver: no points
-    out["damage_number"] = out["inertia"] = damage_number;
-    out["needs_velocity_axis"] = needs_axis;
-    out["beyond_velocity_axis"] = result.left_speeds;
-    out["below_velocity_axis"] = result.held_speed;
-    fmt::print("{}\n", out.dump(2));
-    return;
-  }
-  fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}\n", a, b, r.velocity, r_eff,
-             damage_number);
-  print_collision(result, fmt::format("{:.3g} of the law's range", result.delta_max / limit));
+        c.velocity, c.pair.min_speed(c.r_eff, c.m_eff));
+}
+
+void print_as_json(const Speed& speed, const Replay& result, double cpu_s, double error)
+{
+  nlohmann::ordered_json out = collision_json(result);
+  put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0, error);  // no solver: no points
+  out["damage_number"] = out["inertia"] = speed.damage_number;
+  out["needs_velocity_axis"] = speed.needs_axis;
+  out["beyond_velocity_axis"] = result.left_speeds;
+  out["below_velocity_axis"] = result.held_speed;
+  print_json(out, 2);
+}
+
+void print(const Collision& c, const Speed& speed, const Replay& result, double error)
+{
+  fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}\n", c.names.first, c.names.second,
+             c.velocity, c.r_eff, speed.damage_number);
+  print_collision(result, fmt::format("{:.3g} of the law's range", result.delta_max / c.limit()));
   if (error > 0) fmt::print("stated error of F and e        {:.2g}\n", error);
+}
+
+void replay(const LawRequest& r)
+{
+  const Law law = read_law(r.law);
+  const Collision c = collision_of(law, r);
+  const std::clock_t start = std::clock();
+  const Replay result = replay_collision(c.pair, c.r_eff, c.m_eff, c.velocity);
+  const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  check_depth(r, c, result);
+
+  const Speed speed = speed_of(c);
+  const double error = stated_error(law, c.pair, c.names, result.restitution);
+  print_warnings(c, speed, result);
+  if (r.json)
+    print_as_json(speed, result, cpu_s, error);
+  else
+    print(c, speed, result, error);
+}
+
+void define(CLI::App& command)
+{
+  const auto r = std::make_shared<LawRequest>();
+  command.add_option("LAW", r->law, "law file of mpm table")->required();
+  command.add_option("--pair", r->pair, "a:b or a:wall; may be left out if the file holds one");
+  command.add_option(
+      "--radius", r->radius,
+      "radius of the first body, m (default 1e-3, e depends on no radius; of a rate-dependent\n"
+      "law the one it was made for, and no other is allowed)");
+  command.add_option("--radius2", r->radius2, "radius of the second body, m (default: the first's)");
+  command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
+  command.add_flag("--json", r->json,
+                   "print one JSON object instead of the summary: the keys of mpm impact; error_estimate: "
+                   "the certificate's "
+                   "claim and what the pair rule costs, the larger of F_max and e");
+  command.callback([r] { replay(*r); });
 }
 
 }  // namespace
 
-void add_law(CLI::App& app)
-{
-  const auto r = std::make_shared<LawRequest>();
-  CLI::App* command =
-      app.add_subcommand("law",
-                         "One head-on collision by the law, as a particle code computes it; no solver.\n"
-                         "Example: mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 0.5 --json");
-  command->add_option("LAW", r->law, "law file of mpm table")->required();
-  command->add_option("--pair", r->pair, "a:b or a:wall; may be left out if the file holds one");
-  command->add_option(
-      "--radius", r->radius,
-      "radius of the first body, m (default 1e-3, e depends on no radius; of a rate-dependent\n"
-      "law the one it was made for, and no other is allowed)");
-  command->add_option("--radius2", r->radius2, "radius of the second body, m (default: the first's)");
-  command->add_option("--velocity", r->velocity, "approach speed, m/s")->required();
-  command->add_flag("--json", r->json,
-                    "print one JSON object instead of the summary: the keys of mpm impact; error_estimate: "
-                    "the certificate's "
-                    "claim and what the pair rule costs, the larger of F_max and e");
-  command->callback([r] { replay(*r); });
-}
+extern const Command law_command{
+    "law",
+    "One head-on collision by the law, as a particle code computes it; no solver.\n"
+    "Example: mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 0.5 --json",
+    define};
 
 }  // namespace granulaw

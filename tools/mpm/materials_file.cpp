@@ -1,7 +1,6 @@
 #include "materials_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -23,33 +22,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-template <class Map>
-Words names_of(const Map& map)
-{
-  Words names;
-  for (const auto& entry : map) names.push_back(entry.first);
-  return names;
-}
-
-/// A text of the file as a sentence can hold it: cut after `longest` bytes, between characters.
-std::string cut(const std::string& text, std::size_t longest = 60)
-{
-  if (text.size() <= longest) return text;
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end) + "...";
-}
-
-/// The allowed words; of many the first.
-std::string list_of(const Words& words)
-{
-  constexpr std::size_t most = 20;
-  Words shown;
-  for (std::size_t k = 0; k < std::min(words.size(), most); ++k) shown.push_back(cut(words[k]));
-  if (words.size() > most) shown.push_back(fmt::format("... ({} in all)", words.size()));
-  return fmt::format("{}", fmt::join(shown, ", "));
-}
-
 /// One table of the file, with the words that lead its messages.
 class Section
 {
@@ -70,8 +42,7 @@ class Section
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
       if (std::find(known.begin(), known.end(), word) == known.end())
-        fail(where(node), fmt::format("unknown key '{}'{}", cut(word), did_you_mean(word, known)), {},
-             list_of(known));
+        fail_unknown(where(node), "unknown key", word, known);
     }
   }
   bool has(const char* key) const { return table_.contains(key); }
@@ -182,9 +153,7 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
   for (const FlowLawKeys& entry : known) names.push_back(entry.name);
   const auto found = std::find(names.begin(), names.end(), law.name);
   if (found == names.end())
-    fail(s.where(s.node("law")),
-         fmt::format("no {} law '{}'{}", kind, cut(law.name), did_you_mean(law.name, names)), {},
-         list_of(names));
+    fail_unknown(s.where(s.node("law")), fmt::format("no {} law", kind), law.name, names);
   const std::vector<flow::Parameter>& parameters = known[found - names.begin()].parameters;
   Words keys{"law"};
   for (const flow::Parameter& p : parameters) keys.push_back(p.key);
@@ -193,6 +162,26 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
     law.values[p.key] =
         p.list ? s.numbers(p.key, unit_of(p.quantity)) : std::vector{s.number(p.key, unit_of(p.quantity))};
   return law;
+}
+
+void read_hardening(const Section& h, Material& m)
+{
+  const FlowLaw law = read_flow_law(h, "hardening", hardening_laws());
+  if (law.name != flow::Linear::name) {
+    m.hardening = law;
+    validate_flow(m, h.where());
+    return;
+  }
+  m.hardening_modulus = law.values.at("modulus").front();
+  if (!(m.hardening_modulus >= 0 && m.hardening_modulus <= m.youngs_modulus))
+    fail(h.where(h.node("modulus")), "'modulus' is out of range", fmt::format("{:g} Pa", m.hardening_modulus),
+         "0 to youngs_modulus");
+}
+
+void read_rate(const Section& r, Material& m)
+{
+  m.rate = read_flow_law(r, "rate", rate_laws());
+  validate_flow(m, r.where());
 }
 
 Material read_material(const Section& s)
@@ -216,24 +205,9 @@ Material read_material(const Section& s)
     const char* key = s.has("hardening") ? "hardening" : "rate";
     fail(s.where(s.node(key)), fmt::format("'{}' needs a 'yield_stress'", key));
   }
-  if (s.has("hardening")) {
-    const Section h = s.table("hardening", "{law = \"linear\", modulus = 1e9}");
-    const FlowLaw law = read_flow_law(h, "hardening", hardening_laws());
-    if (law.name == flow::Linear::name) {
-      m.hardening_modulus = law.values.at("modulus").front();
-      if (!(m.hardening_modulus >= 0 && m.hardening_modulus <= m.youngs_modulus))
-        fail(h.where(h.node("modulus")), "'modulus' is out of range",
-             fmt::format("{:g} Pa", m.hardening_modulus), "0 to youngs_modulus");
-    } else {
-      m.hardening = law;
-      validate_flow(m, h.where());
-    }
-  }
-  if (s.has("rate")) {
-    const Section r = s.table("rate", "{law = \"cowper-symonds\", reference_rate = 40, exponent = 5}");
-    m.rate = read_flow_law(r, "rate", rate_laws());
-    validate_flow(m, r.where());
-  }
+  if (s.has("hardening")) read_hardening(s.table("hardening", "{law = \"linear\", modulus = 1e9}"), m);
+  if (s.has("rate"))
+    read_rate(s.table("rate", "{law = \"cowper-symonds\", reference_rate = 40, exponent = 5}"), m);
   return m;
 }
 
@@ -274,8 +248,7 @@ void read_shape(const Section& p, Particle& particle)
   for (const ProfileShape& shape : profile_shapes()) names.push_back(shape.name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    fail(p.where(p.node("shape")), fmt::format("no shape '{}'{}", cut(name), did_you_mean(name, names)), {},
-         fmt::format("{}, or points = [[r, z], ...]", list_of(names)));
+    fail_unknown(p.where(p.node("shape")), "no shape", name, names, ", or points = [[r, z], ...]");
   const ProfileShape& shape = profile_shapes()[found - names.begin()];
   Words keys{"shape"};
   for (const ProfileKey& key : shape.keys) keys.push_back(key.name);
@@ -286,51 +259,71 @@ void read_shape(const Section& p, Particle& particle)
   particle.profile = shape.make(particle.radius, values, p.where());
 }
 
+/// The materials of one particle, in the order in which its keys name them.
+class Places
+{
+ public:
+  Places(const std::map<std::string, Material>& known, Particle& particle)
+      : known_(known), particle_(particle)
+  {
+  }
+  /// The index into Particle::materials of the one that the section's key 'material' names.
+  int of(const Section& section)
+  {
+    const std::string name = section.text("material");
+    const auto found = known_.find(name);
+    if (found == known_.end())
+      fail_unknown(section.where(section.node("material")), "no material", name, names_of(known_));
+    const auto [entry, is_new] = places_.emplace(name, static_cast<int>(particle_.materials.size()));
+    if (is_new) particle_.materials.push_back(found->second);
+    return entry->second;
+  }
+
+ private:
+  const std::map<std::string, Material>& known_;
+  Particle& particle_;
+  std::map<std::string, int> places_;
+};
+
+/// Radius and profile.
+void read_outside(const Section& s, Particle& particle)
+{
+  if (!s.has("profile")) {
+    particle.radius = s.positive("radius", "m");
+    return;
+  }
+  const Section p = s.table("profile", "{shape = \"ellipsoid\", aspect = 1.5} or {points = [[r, z], ...]}");
+  if (p.has("points")) return read_outline(s, p, particle);
+  particle.radius = s.positive("radius", "m");
+  read_shape(p, particle);
+}
+
+Particle::Inclusion read_inclusion(const Section& i, Places& places)
+{
+  i.check_keys({"material", "pore", "radius", "z", "r"});
+  if (i.has("pore") == i.has("material"))
+    fail(i.where(), "an inclusion needs one of 'material' and 'pore = true'",
+         i.has("pore") ? "both" : "none");
+  if (i.has("pore")) i.check_true("pore");
+  return {i.has("r") ? i.number("r", "m") : 0.0, i.number("z", "m"), i.positive("radius", "m"),
+          i.has("pore") ? -1 : places.of(i)};
+}
+
 Particle read_particle(const Section& s, const std::map<std::string, Material>& materials)
 {
   s.check_keys({"radius", "material", "layers", "inclusions", "profile"});
   Particle particle;
-  std::map<std::string, int> places;
-  const auto place_of = [&](const Section& at) {
-    const std::string name = at.text("material");
-    const auto found = materials.find(name);
-    if (found == materials.end()) {
-      const Words names = names_of(materials);
-      fail(at.where(at.node("material")),
-           fmt::format("no material '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
-    }
-    const auto [entry, is_new] = places.emplace(name, static_cast<int>(particle.materials.size()));
-    if (is_new) particle.materials.push_back(found->second);
-    return entry->second;
-  };
-  place_of(s);
-
-  if (s.has("profile")) {
-    const Section p = s.table("profile", "{shape = \"ellipsoid\", aspect = 1.5} or {points = [[r, z], ...]}");
-    if (p.has("points")) {
-      read_outline(s, p, particle);
-    } else {
-      particle.radius = s.positive("radius", "m");
-      read_shape(p, particle);
-    }
-  } else {
-    particle.radius = s.positive("radius", "m");
-  }
+  Places places(materials, particle);
+  places.of(s);
+  read_outside(s, particle);
   if (s.has("layers"))
     for (const Section& layer : s.tables("layers", "[{material = \"shell\", thickness = 20e-6}]")) {
       layer.check_keys({"material", "thickness"});
-      particle.layers.push_back({layer.positive("thickness", "m"), place_of(layer)});
+      particle.layers.push_back({layer.positive("thickness", "m"), places.of(layer)});
     }
   if (s.has("inclusions"))
-    for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]")) {
-      i.check_keys({"material", "pore", "radius", "z", "r"});
-      if (i.has("pore") == i.has("material"))
-        fail(i.where(), "an inclusion needs one of 'material' and 'pore = true'",
-             i.has("pore") ? "both" : "none");
-      if (i.has("pore")) i.check_true("pore");
-      particle.inclusions.push_back({i.has("r") ? i.number("r", "m") : 0.0, i.number("z", "m"),
-                                     i.positive("radius", "m"), i.has("pore") ? -1 : place_of(i)});
-    }
+    for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]"))
+      particle.inclusions.push_back(read_inclusion(i, places));
   validate(particle, s.where());
   return particle;
 }
@@ -366,32 +359,14 @@ void each_section(const std::string& path, const toml::table& root, const char* 
 
 }  // namespace
 
-const Material& MaterialsFile::material(const std::string& name) const
-{
-  const auto found = materials.find(name);
-  if (found != materials.end()) return found->second;
-  const Words names = names_of(materials);
-  fail(path, fmt::format("no material '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
-}
-
-const Particle& MaterialsFile::particle(const std::string& name) const
-{
-  const auto found = particles.find(name);
-  if (found != particles.end()) return found->second;
-  const Words names = names_of(particles);
-  if (names.empty())
-    fail(path, fmt::format("no particle '{}': the file defines none, as [particle.NAME]", cut(name)));
-  fail(path, fmt::format("no particle '{}'{}", cut(name), did_you_mean(name, names)), {}, list_of(names));
-}
-
 Sphere MaterialsFile::sphere(const std::string& name) const
 {
   const Particle& p = particle(name);
   if (!p.is_homogeneous_sphere())
-    fail(path, fmt::format("[particle.{}] {}: only homogeneous spheres can be used here so far", name,
-                           !p.is_sphere()      ? "has a profile"
-                           : !p.layers.empty() ? "is layered"
-                                               : "has inclusions"));
+    fail(source, fmt::format("[particle.{}] {}: only homogeneous spheres can be used here so far", name,
+                             !p.is_sphere()      ? "has a profile"
+                             : !p.layers.empty() ? "is layered"
+                                                 : "has inclusions"));
   return {p.radius, p.materials.front()};
 }
 
@@ -408,7 +383,7 @@ MaterialsFile read_materials(const std::string& path)
     fail(fmt::format("{}:{}", path, error.source().begin.line), cut(std::string(error.description()), 200));
   }
   MaterialsFile file;
-  file.path = path;
+  file.source = path;
   Section(path, root, "file").check_keys({"material", "particle"});
   each_section(path, root, "material",
                [&](const std::string& name, const Section& s) { file.materials[name] = read_material(s); });

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <map>
 #include <string>
 
-#include "solver/particle.hpp"
+#include "characterise/materials.hpp"
 
 namespace granulaw {
 
-/// MATERIALS.toml, read and checked: SI numbers.
+/// MATERIALS.toml, read and checked: SI numbers. Its path is the source of the Materials.
 ///
 ///     [material.powder]            # any number of materials
 ///     density = 1500               # kg/m^3
@@ -44,15 +43,8 @@ namespace granulaw {
 ///     profile = {shape = "ellipsoid", aspect = 1.5}; or
 ///         # [r, z] from the contact pole to the far pole; m
 ///         {points = [[0, 0], [1e-3, 0.2e-3], [0, 2e-3]]}
-struct MaterialsFile
+struct MaterialsFile : Materials
 {
-  std::string path;
-  std::map<std::string, Material> materials;
-  std::map<std::string, Particle> particles;  ///< checked
-
-  /// These throw Error naming the nearest where there is no such particle or material.
-  const Particle& particle(const std::string& name) const;
-  const Material& material(const std::string& name) const;
   /// A particle that is a homogeneous sphere; of any other it says so, as Error.
   Sphere sphere(const std::string& particle) const;
 };

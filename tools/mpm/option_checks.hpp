@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "base/error.hpp"
+
 namespace granulaw {
 
 /// Checks of options that are numbers: what was found, what is allowed. CLI11's own let "nan" pass (it
@@ -61,6 +63,19 @@ inline CLI::Validator above_zero()
   return number_check(
       "a number over 0", [](double value, double, double) { return value > 0 && std::isfinite(value); }, 0,
       0);
+}
+
+/// What a validator cannot say, as Error "--depth: cannot be used: found FOUND, allowed is ALLOWED".
+inline void require(bool good, const char* option, const std::string& found, const std::string& allowed)
+{
+  if (!good) fail(option, "cannot be used", found, allowed);
+}
+
+/// The same of a number with a unit, from `low` to `high`.
+inline void require_within(const char* option, double value, const char* unit, double low, double high)
+{
+  require(value >= low && value <= high, option, fmt::format("{:g} {}", value, unit),
+          fmt::format("{:g} to {:g} {}", low, high, unit));
 }
 
 }  // namespace granulaw

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -16,9 +15,6 @@
 namespace granulaw {
 
 namespace {
-
-/// Commands whose runs are shared by all ranks.
-constexpr std::array shared_commands{"table", "atlas"};
 
 int from_environment(std::initializer_list<const char*> names, int without)
 {
@@ -57,10 +53,10 @@ int ranks()
   return launched().size;
 }
 
-void join_ranks(const std::string& command)
+void join_ranks(const std::string& command, bool shares_runs)
 {
   if (ranks() == 1) return;
-  if (std::find(shared_commands.begin(), shared_commands.end(), command) == shared_commands.end())
+  if (!shares_runs)
     fail(fmt::format("mpm {}", command),
          "runs in one process: start it without mpirun (mpm table shares its runs among ranks)",
          fmt::format("{} processes", ranks()), "1");

@@ -10,10 +10,10 @@ namespace granulaw {
 /// The processes that a launcher (mpirun, mpiexec, srun) has started for one command. Without a launcher
 /// there is one, and MPI is not started.
 
-/// To be called once, before the command is carried out. `command` is the first word of the command line.
-/// Throws Error if there are several processes and the command is one that runs in one only, or MPI is not
-/// built in. Ranks other than the first print nothing from here on.
-void join_ranks(const std::string& command);
+/// To be called once, before the command is carried out. `command` is the first word of the command line,
+/// `shares_runs` its Command::on_ranks. Throws Error if there are several processes and the command is one
+/// that runs in one only, or MPI is not built in. Ranks other than the first print nothing from here on.
+void join_ranks(const std::string& command, bool shares_runs);
 
 /// Of the launcher's processes, by its environment if join_ranks has not been called or has thrown.
 int rank();

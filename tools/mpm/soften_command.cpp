@@ -5,9 +5,10 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "deck/soften.hpp"
 #include "deck_options.hpp"
+#include "json_output.hpp"
 #include "option_checks.hpp"
 
 namespace granulaw {
@@ -29,106 +30,141 @@ std::string largest(double s)
   return std::isfinite(s) ? fmt::format("{:.3g}", s) : std::string("any");
 }
 
-void soften(const SoftenRequest& r)
+/// The lines to paste into the deck.
+struct Paste
 {
-  const PlannedDeck d = plan_deck(r.deck, r.options);
-  for (const deck::Question& q : d.plan.questions)
-    if (q.option != "--particles N")
-      fail(r.deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
-  const deck::Softening s = deck::soften(d.scene, d.plan, d.options, r.limits);
-  if (s.pairs.empty()) fail(r.deck, "no two bodies of it meet at any speed: there is nothing to stretch");
-  const std::string stretch_line = fmt::format("stretch {:.3g}", s.stretch),
-                    step_line = fmt::format("timestep {:.3g}", s.time_step);
-  if (r.json) {
-    ordered_json root{{"deck", printable(r.deck)},
-                      {"stretch", s.stretch},
-                      {"bound_by", printable(s.bound)},
-                      {"time_step_s", json_number(s.time_step)},
-                      {"overlap_over_radius", json_number(s.overlap)},
-                      {"flow_time_s", json_number(s.flow_time)},
-                      {"fill_height_m", json_number(s.fill_height)},
-                      {"static_load_over_yield_load", json_number(s.static_ratio)},
-                      {"extra_plastic_set_over_radius", json_number(s.extra_set)}};
-    ordered_json pairs = ordered_json::array();
-    for (const deck::PairStretch& q : s.pairs)
-      pairs.push_back({{"types", {q.pair->meeting.a, q.pair->meeting.b}},
-                       {"wall", q.pair->meeting.wall},
-                       {"largest_by_overlap", json_number(q.by_overlap)},
-                       {"largest_by_contact_time", json_number(q.by_time)},
-                       {"largest_by_static_load", json_number(q.by_static)},
-                       {"contact_time_s", json_number(q.contact_time)},
-                       {"static_load_N", json_number(q.static_load)},
-                       {"yield_load_N", json_number(q.yield_load)}});
-    root["pairs"] = pairs;
-    ordered_json naive = ordered_json::array();
-    for (const auto& n : s.naive)
-      naive.push_back({{"pair", printable(n.pair)},
-                       {"speed_m_per_s", n.speed},
-                       {"e_stretched", n.e},
-                       {"e_modulus_lowered", n.e_naive},
-                       {"by", n.basis}});
-    root["modulus_lowered"] = {{"factor", s.modulus_factor}, {"restitution", naive}};
-    root["paste"] = {stretch_line, step_line};
-    fmt::print("{}\n", root.dump(1));
-    return;
-  }
+  std::string stretch, time_step;
+};
+
+Paste paste_of(const deck::Softening& s)
+{
+  return {fmt::format("stretch {:.3g}", s.stretch), fmt::format("timestep {:.3g}", s.time_step)};
+}
+
+ordered_json pairs_json(const deck::Softening& s)
+{
+  ordered_json pairs = ordered_json::array();
+  for (const deck::PairStretch& q : s.pairs)
+    pairs.push_back({{"types", {q.pair->meeting.a, q.pair->meeting.b}},
+                     {"wall", q.pair->meeting.wall},
+                     {"largest_by_overlap", json_number(q.by_overlap)},
+                     {"largest_by_contact_time", json_number(q.by_time)},
+                     {"largest_by_static_load", json_number(q.by_static)},
+                     {"contact_time_s", json_number(q.contact_time)},
+                     {"static_load_N", json_number(q.static_load)},
+                     {"yield_load_N", json_number(q.yield_load)}});
+  return pairs;
+}
+
+/// What lowering E instead would do to e.
+ordered_json lowered_modulus_json(const deck::Softening& s)
+{
+  ordered_json restitution = ordered_json::array();
+  for (const auto& n : s.naive)
+    restitution.push_back({{"pair", printable(n.pair)},
+                           {"speed_m_per_s", n.speed},
+                           {"e_stretched", n.e},
+                           {"e_modulus_lowered", n.e_naive},
+                           {"by", n.basis}});
+  return {{"factor", s.modulus_factor}, {"restitution", restitution}};
+}
+
+ordered_json to_json(const std::string& deck, const deck::Softening& s)
+{
+  ordered_json root{{"deck", printable(deck)},
+                    {"stretch", s.stretch},
+                    {"bound_by", printable(s.bound)},
+                    {"time_step_s", json_number(s.time_step)},
+                    {"overlap_over_radius", json_number(s.overlap)},
+                    {"flow_time_s", json_number(s.flow_time)},
+                    {"fill_height_m", json_number(s.fill_height)},
+                    {"static_load_over_yield_load", json_number(s.static_ratio)},
+                    {"extra_plastic_set_over_radius", json_number(s.extra_set)}};
+  root["pairs"] = pairs_json(s);
+  root["modulus_lowered"] = lowered_modulus_json(s);
+  root["paste"] = {paste_of(s).stretch, paste_of(s).time_step};
+  return root;
+}
+
+void print_pairs(const deck::Softening& s)
+{
+  fmt::print("  {:<10} {:>10} {:>10} {:>10}   largest s by each\n", "types", "overlap", "duration", "static");
+  for (const deck::PairStretch& q : s.pairs)
+    fmt::print("  {:<10} {:>10} {:>10} {:>10}\n", types_text(q.pair->meeting), largest(q.by_overlap),
+               largest(q.by_time), largest(q.by_static));
+}
+
+void print_lowered_modulus(const deck::Softening& s)
+{
+  for (const auto& n : s.naive)
+    fmt::print("instead E times {:.3g}: e of {} at {:.3g} m/s would be {:.3f}, not {:.3f} (by {})\n",
+               s.modulus_factor, printable(n.pair), n.speed, n.e_naive, n.e,
+               n.basis == "law" ? "the atlas" : "Thornton's closed form");
+}
+
+void print(const deck::SoftenLimits& limits, const deck::Softening& s)
+{
   fmt::print(
       "limits: s delta_max/R* <= {:g}; s t_contact <= {:g} of {:.3g} s; s P_static <= {:g} F_y (bed {:.3g} m "
       "high)\n",
-      r.limits.overlap, r.limits.time_fraction, s.flow_time, r.limits.static_load, s.fill_height);
-  fmt::print("  {:<10} {:>10} {:>10} {:>10}   largest s by each\n", "types", "overlap", "duration", "static");
-  for (const deck::PairStretch& q : s.pairs)
-    fmt::print(
-        "  {:<10} {:>10} {:>10} {:>10}\n",
-        fmt::format("{}:{}{}", q.pair->meeting.a, q.pair->meeting.wall ? "wall " : "", q.pair->meeting.b),
-        largest(q.by_overlap), largest(q.by_time), largest(q.by_static));
+      limits.overlap, limits.time_fraction, s.flow_time, limits.static_load, s.fill_height);
+  print_pairs(s);
   fmt::print("largest stretch: {:.3g}, bound by the {}; then overlap {:.3g} R*, static load {:.3g} F_y",
              s.stretch, printable(s.bound), s.overlap, s.static_ratio);
   fmt::print("{}\n", s.extra_set > 0 ? fmt::format(", extra plastic set {:.3g} R*", s.extra_set) : "");
   fmt::print(
       "the deck keeps its moduli; after the model's words in pair_style and fix wall/gran, and for the time "
       "step:\n");
-  fmt::print("  {}\n  {}\n", stretch_line, step_line);
-  if (s.stretch > 1)
-    for (const auto& n : s.naive)
-      fmt::print("instead E times {:.3g}: e of {} at {:.3g} m/s would be {:.3f}, not {:.3f} (by {})\n",
-                 s.modulus_factor, printable(n.pair), n.speed, n.e_naive, n.e,
-                 n.basis == "law" ? "the atlas" : "Thornton's closed form");
+  fmt::print("  {}\n  {}\n", paste_of(s).stretch, paste_of(s).time_step);
+  if (s.stretch > 1) print_lowered_modulus(s);
 }
 
-}  // namespace
+void soften(const SoftenRequest& r)
+{
+  const PlannedDeck d = plan_deck(r.deck, r.options);
+  require_answers(d.plan, r.deck);
+  const deck::Softening s = deck::soften(d.scene, d.plan, d.options, r.limits);
+  if (s.pairs.empty()) fail(r.deck, "no two bodies of it meet at any speed: there is nothing to stretch");
+  if (r.json)
+    print_json(to_json(r.deck, s), 1);
+  else
+    print(r.limits, s);
+}
 
-void add_soften(CLI::App& app)
+void define(CLI::App& command)
 {
   const auto r = std::make_shared<SoftenRequest>();
-  CLI::App* command = app.add_subcommand(
-      "soften",
-      "The largest stretch s of a deck's contact law F(delta/s)/s within limits: the time step grows by s, "
-      "every\n"
-      "binary impact keeps its e (docs/plan.md). Prints the lines to paste.\n"
-      "Example: mpm soften in.hopper --var model mpm --var scene out/scene --materials-file materials.toml");
-  command->add_option("DECK", r->deck, "LIGGGHTS input script")->required();
-  r->options.add_to(*command, true);
-  command->add_option("--max-overlap", r->limits.overlap, "largest s delta_max/R*")
+  command.add_option("DECK", r->deck, "LIGGGHTS input script")->required();
+  r->options.add_to(command, true);
+  command.add_option("--max-overlap", r->limits.overlap, "largest s delta_max/R*")
       ->check(from_to(0.001, 0.5))
       ->capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "--time-fraction", r->limits.time_fraction,
           "longest contact over the flow's own time: a fall through one radius, a wall's way of one diameter")
       ->check(from_to(0.001, 10))
       ->capture_default_str();
   command
-      ->add_option("--static-limit", r->limits.static_load,
-                   "largest s P_static/F_y; above 1 the extra plastic set of the bed is stated")
+      .add_option("--static-limit", r->limits.static_load,
+                  "largest s P_static/F_y; above 1 the extra plastic set of the bed is stated")
       ->check(from_to(0.001, 1e6))
       ->capture_default_str();
   command
-      ->add_option("--fill-height", r->limits.fill_height,
-                   "m, of the bed (default: from particles and walls)")
+      .add_option("--fill-height", r->limits.fill_height, "m, of the bed (default: from particles and walls)")
       ->check(above_zero());
-  command->add_flag("--json", r->json, "as JSON");
-  command->callback([r] { soften(*r); });
+  command.add_flag("--json", r->json, "as JSON");
+  command.callback([r] { soften(*r); });
 }
+
+}  // namespace
+
+extern const Command soften_command{
+    "soften",
+    "The largest stretch s of a deck's contact law F(delta/s)/s within limits: the time step grows by s, "
+    "every\n"
+    "binary impact keeps its e (docs/plan.md). Prints the lines to paste.\n"
+    "Example: mpm soften in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
+    define};
 
 }  // namespace granulaw

@@ -1,0 +1,54 @@
+#include "characterise/law_body.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "characterise/law_material.hpp"
+#include "solver/state_archive.hpp"
+
+namespace granulaw {
+
+namespace {
+
+LawBody body_of_particle(const std::string& name, const Particle& particle)
+{
+  const CharacterisedBody body = characterised_body_of(particle);
+  const Material& at_pole = particle.materials[static_cast<std::size_t>(body.pole_material)];
+  LawBody body{law_material(name, at_pole), body, sphere_name, material_hash(body, at_pole)};
+  if (particle.is_homogeneous_sphere()) return body;
+  body.body = name;
+  if (body.yields()) body.material.yield_stress = body.yield * body.scale.stress;
+  return body;
+}
+
+LawBody body_of_material(const std::string& name, const Material& material)
+{
+  const CharacterisedBody body = characterised_body_of(material);
+  return {law_material(name, material), body, sphere_name, material_hash(body, material)};
+}
+
+}  // namespace
+
+LawBody law_body(const std::string& name, const Materials& materials, const std::string& hint)
+{
+  if (materials.means_particle(name)) return body_of_particle(name, materials.particle(name));
+  const Material& material = materials.material(name);
+  if (material.rate_dependent())
+    fail(
+        fmt::format("{}: [material.{}]", materials.source, name),
+        fmt::format("its yield stress depends on the rate ('{}'), so its law depends on the particle's size: "
+                    "{}",
+                    material.rate.name, hint));
+  return body_of_material(name, material);
+}
+
+std::string material_hash(const CharacterisedBody& body, const Material& m)
+{
+  const std::string text =
+      body.is_plain() ? fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus,
+                                    m.poisson_ratio, m.yield_stress, m.hardening_modulus)
+                      : body.description;
+  return fmt::format("{:016x}", checksum(text));
+}
+
+}  // namespace granulaw

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "characterise/characterised_body.hpp"
+#include "characterise/materials.hpp"
+#include "law/law.hpp"
+
+namespace granulaw {
+
+/// One body of a law file: what it is called there, and what its law is made from.
+struct LawBody
+{
+  LawMaterial material;  ///< its name is the body's; of several materials the one at the pole, and the
+                         ///< smallest yield stress in the body
+  CharacterisedBody body;
+  std::string body = sphere_name;  ///< BodyLaw::body
+  std::string hash;                ///< material_hash() of all that determines the law
+
+  /// Whether the atlas and the pair rule may serve it: a homogeneous sphere of five numbers.
+  bool is_plain_sphere() const { return body == sphere_name && body.is_plain(); }
+};
+
+/// The body that `name` means: a material's homogeneous sphere, else a particle. Throws Error if there is
+/// neither, or if the material depends on the rate: its law then needs a particle of a certain size, which
+/// `hint` tells how to name.
+LawBody law_body(const std::string& name, const Materials& materials,
+                 const std::string& hint = "name a particle of it");
+
+/// Tells whether a law was made from this very body: FNV-1a, 16 hexadecimal digits, of the five numbers of
+/// `material` (SI) for a plain body (CharacterisedBody::is_plain), of CharacterisedBody::description for any
+/// other.
+std::string material_hash(const CharacterisedBody& body, const Material& material);
+
+}  // namespace granulaw

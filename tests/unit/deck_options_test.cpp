@@ -1,0 +1,99 @@
+#include "deck_options.hpp"
+
+#include "scratch_folder.hpp"
+
+namespace granulaw {
+namespace {
+
+constexpr const char* deck_text =
+    "atom_style granular\n"
+    "boundary f f f\n"
+    "units si\n"
+    "region box block -0.05 0.05 -0.05 0.05 0 0.5 units box\n"
+    "create_box 2 box\n"
+    "fix m1 all property/global youngsModulus peratomtype 9.1e9 2e11\n"
+    "fix m2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
+    "pair_style gran model mpm tangential history law law.h5 materials powder steel\n"
+    "pair_coeff * *\n"
+    "timestep 1e-6\n"
+    "fix g all gravity 9.81 vector 0 0 -1\n"
+    "fix floor all wall/gran model mpm tangential history primitive type 2 zplane 0.0\n"
+    "fix t1 all particletemplate/sphere 15485863 atom_type 1 density constant 1500 radius constant ${r}\n"
+    "fix d1 all particledistribution/discrete 32452843 1 t1 1.0\n"
+    "fix i1 all insert/pack seed 32452867 distributiontemplate d1 vel constant 0 0 -2 insert_every once "
+    "overlapcheck yes particles_in_region 100 region box\n"
+    "run 1000\n";
+
+constexpr const char* materials_text =
+    "[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = 0.3\nyield_stress = 1e8\n";
+
+class DeckOptionsTest : public ScratchFolder
+{
+ protected:
+  void SetUp() override
+  {
+    ScratchFolder::SetUp();
+    options_.materials_file = write("m.toml", materials_text);
+    options_.variables = {"r", "2e-3"};
+  }
+  PlannedDeck planned(const std::string& text = deck_text) const
+  {
+    return plan_deck(write("in.deck", text), options_);
+  }
+  DeckOptions options_;
+};
+
+TEST_F(DeckOptionsTest, MaterialsGoByTheDecksNames)
+{
+  const PlannedDeck d = planned();
+  EXPECT_EQ(d.options.materials.at(1).yield_stress, 1e8);
+  EXPECT_EQ(d.options.materials.at(2).name, "steel");  // not in the file: elastic, as the deck has it
+  EXPECT_FALSE(d.options.materials.at(2).yields());
+  EXPECT_EQ(d.plan.radius_max, 2e-3);
+  EXPECT_GT(d.plan.depth, 0);
+}
+
+TEST_F(DeckOptionsTest, NamesMayBeGiven)
+{
+  options_.materials = {"powder", "steel"};
+  EXPECT_EQ(planned().options.materials.at(1).name, "powder");
+  options_.materials = {"x", "y"};
+  expect_error("--materials: none of them is in", [&] { planned(); });
+  options_.materials_file = "";
+  expect_error("--materials-file FILE", [&] { planned(); });
+}
+
+TEST_F(DeckOptionsTest, WhatTheDeckDoesNotTellIsAskedFor)
+{
+  options_.variables = {};  // no radius
+  const PlannedDeck d = planned();
+  EXPECT_FALSE(d.plan.complete());
+  EXPECT_NE(questions_text(d.plan).find(": give it by --"), std::string::npos);
+  expect_error("in.x: not in the deck: ", [&] { require_answers(d.plan, "in.x"); });
+  deck::Plan complete;
+  EXPECT_EQ(sentence_of([&] { require_answers(complete, "in.x"); }), "");
+  complete.questions.push_back({"how many particles there are", "--particles N"});
+  EXPECT_EQ(sentence_of([&] { require_answers(complete, "in.x"); }), "");  // of the cost only
+}
+
+TEST_F(DeckOptionsTest, RadiiMayStandInEitherOrder)
+{
+  options_.variables = {};
+  options_.radius = {3e-3, 1e-3};
+  const PlannedDeck d = planned();
+  EXPECT_EQ(*d.options.radius_min, 1e-3);
+  EXPECT_EQ(*d.options.radius_max, 3e-3);
+}
+
+TEST_F(DeckOptionsTest, TypesOfAPair)
+{
+  deck::Meeting meeting;
+  meeting.a = 1;
+  meeting.b = 2;
+  EXPECT_EQ(types_text(meeting), "1:2");
+  meeting.wall = true;
+  EXPECT_EQ(types_text(meeting), "1:wall 2");
+}
+
+}  // namespace
+}  // namespace granulaw

@@ -1,0 +1,126 @@
+#include "characterise/law_file_plan.hpp"
+
+#include "characterise/law_material.hpp"
+#include "scratch_folder.hpp"
+#include "some_materials.hpp"
+
+namespace granulaw {
+namespace {
+
+const Atlas& atlas()
+{
+  static const Atlas read = read_atlas(GRANULAW_ATLAS_FILE);
+  return read;
+}
+
+LawFileRequest request(std::vector<std::pair<std::string, std::string>> pairs = {})
+{
+  LawFileRequest r;
+  r.materials = some_materials();
+  r.pairs = std::move(pairs);
+  r.atlas = &atlas();
+  return r;
+}
+
+TEST(LawFilePlan, WithoutPairsEveryMaterialMeetsEveryOtherItselfAndTheWall)
+{
+  const LawFilePlan plan = plan_law_file(request());
+  std::string names;
+  for (const LawFilePlan::Pair& pair : plan.pairs) names += pair.name() + " ";
+  EXPECT_EQ(names,
+            "glass:glass glass:powder glass:stronger glass:wall powder:powder powder:stronger powder:wall "
+            "stronger:stronger stronger:wall ");
+  EXPECT_EQ(plan.bodies.size(), 3u);
+  EXPECT_FALSE(plan.needs_runs());
+}
+
+TEST(LawFilePlan, TheWallMayStandFirst)
+{
+  const LawFilePlan plan = plan_law_file(request({{"wall", "grain"}}));
+  EXPECT_EQ(plan.pairs.at(0).name(), "grain:wall");
+  EXPECT_EQ(plan.pairs.at(0).by_rule.force, 0);
+}
+
+TEST(LawFilePlan, SaysWhyABodyNeedsRuns)
+{
+  const LawFilePlan layered = plan_law_file(request({{"coated", "wall"}, {"powder", "wall"}}));
+  EXPECT_EQ(layered.bodies.at("coated").why_runs, "its law is its own");
+  EXPECT_TRUE(layered.bodies.at("powder").from_atlas());
+  EXPECT_TRUE(layered.needs_runs());
+
+  LawFileRequest r = request({{"powder", "wall"}, {"glass", "wall"}});
+  r.atlas = nullptr;
+  r.words.no_atlas = "it was lost";
+  for (const auto& [name, planned] : plan_law_file(r).bodies) EXPECT_EQ(planned.why_runs, "it was lost");
+
+  r = request({{"powder", "wall"}});
+  r.materials.materials["powder"].yield_stress = 250e6;
+  EXPECT_NE(plan_law_file(r).bodies.at("powder").why_runs.find("E*/Y = 12 lies outside"), std::string::npos);
+}
+
+TEST(LawFilePlan, APairThatTheRuleServesBadlyMayHaveItsOwnLaw)
+{
+  LawFileRequest r = request({{"powder", "glass"}, {"powder", "powder"}, {"powder", "wall"}});
+  LawFilePlan plan = plan_law_file(r);
+  EXPECT_GT(plan.pairs[0].by_rule.restitution, 0.01);
+  EXPECT_TRUE(plan.pairs[0].worth_own_law);
+  EXPECT_FALSE(plan.pairs[0].own_law);
+  EXPECT_EQ(plan.pairs[0].stated.force, plan.pairs[0].by_rule.force);
+  for (int k : {1, 2}) {
+    EXPECT_EQ(plan.pairs[k].by_rule.force, 0);
+    EXPECT_FALSE(plan.pairs[k].worth_own_law);
+  }
+  r.own_laws = true;
+  plan = plan_law_file(r);
+  EXPECT_TRUE(plan.pairs[0].own_law);
+  EXPECT_TRUE(plan.needs_runs());
+  EXPECT_EQ(plan.pairs[0].stated.restitution, 0);  // made at the radius ratio asked for
+  r.radius_ratio = 3;
+  plan = plan_law_file(r);
+  EXPECT_GT(plan.pairs[0].stated.restitution, 0);
+  EXPECT_LT(plan.pairs[0].stated.restitution, plan.pairs[0].by_rule.restitution);
+  EXPECT_GT(plan.pairs[1].by_rule.restitution, 0);  // like bodies of unlike radii
+}
+
+TEST(LawFilePlan, TheWeakerOfTwoYields)
+{
+  const LawMaterial weak = law_material("weak", soft_powder()), elastic = law_material("glass", glass());
+  EXPECT_EQ(unlike_pair(elastic, weak, 2).yielding.name, "weak");
+  EXPECT_EQ(unlike_pair(weak, elastic, 2).yielding.name, "weak");
+  EXPECT_EQ(unlike_pair(weak, elastic, 2).radius_ratio, 2);
+  // either body may be the larger one
+  EXPECT_EQ(pair_rule_error(weak, elastic, 3).force, pair_rule_error(weak, elastic, 1 / 3.).force);
+  EXPECT_EQ(own_law_error(weak, elastic, 1, 1).force, 0);
+}
+
+TEST(LawFilePlan, RefusesWhatCannotBeMade)
+{
+  const auto refuses = [](const std::string& part, const std::function<void(LawFileRequest&)>& spoil) {
+    LawFileRequest r = request({{"powder", "wall"}});
+    spoil(r);
+    expect_error(part, [&] { plan_law_file(r); });
+  };
+  refuses("no material or particle 'powdr'", [](auto& r) { r.pairs = {{"powdr", "wall"}}; });
+  refuses("pair: 'powder:wall' and 'powder:wall' are one pair", [](auto& r) {
+    r.pairs = {{"powder", "glass"}, {"powder", "wall"}, {"wall", "powder"}};
+  });
+  refuses("pair coated:glass", [](auto& r) { r.pairs = {{"coated", "glass"}}; });
+  refuses("name a particle of it, --pair PARTICLE:wall", [](auto& r) {
+    r.materials.materials["powder"] = rate_dependent_powder();
+    r.words.pair = "--pair";
+  });
+  refuses("slowest: no body of the pairs depends on the rate", [](auto& r) { r.slowest = 1; });
+  refuses("slowest: is no slower than the fastest impact of 'rated' (damage_number): found 60 m/s",
+          [](auto& r) {
+            r.pairs = {{"rated", "wall"}};
+            r.slowest = 60;  // the fastest: 0.25 sqrt(Y/rho) = 64.5 m/s
+          });
+  refuses("depth: cannot be used", [](auto& r) { r.depth = 0; });
+  refuses("depth: cannot be used", [](auto& r) { r.depth = 0.6; });
+  refuses("damage_number: cannot be used", [](auto& r) { r.damage_number = 1; });
+  refuses("tolerance: cannot be used", [](auto& r) { r.tolerance = std::nan(""); });
+  refuses("radius_ratio: cannot be used", [](auto& r) { r.radius_ratio = 0.5; });
+}
+
+}  // namespace
+}  // namespace granulaw

@@ -1,0 +1,51 @@
+#include "option_checks.hpp"
+
+#include "scratch_folder.hpp"
+
+namespace granulaw {
+namespace {
+
+/// The validator's complaint about the word; empty: it is accepted.
+std::string said(const CLI::Validator& validator, const std::string& word)
+{
+  std::string copy = word;
+  return validator(copy);
+}
+
+TEST(OptionChecks, ReadWholeWordsAsNumbers)
+{
+  EXPECT_EQ(number_in("1e-3"), 1e-3);
+  for (const char* word : {"", "1x", "x", "20 %"}) EXPECT_TRUE(std::isnan(number_in(word))) << word;
+}
+
+TEST(OptionChecks, AcceptTheirRangeOnly)
+{
+  const struct
+  {
+    CLI::Validator validator;
+    std::vector<std::string> good, bad;
+  } cases[] = {
+      {from_to(0, 0.5), {"0", "0.5", "1e-9"}, {"-1e-9", "0.51", "nan", "inf", "x"}},
+      {whole_from_to(1, 3), {"1", "3", "2.0"}, {"0", "4", "1.5", "nan"}},
+      {above_zero_to(0.5), {"0.5", "1e-300"}, {"0", "-1", "0.6", "nan"}},
+      {above_zero(), {"1e300"}, {"0", "inf", "nan"}},
+  };
+  for (const auto& c : cases) {
+    for (const std::string& word : c.good) EXPECT_EQ(said(c.validator, word), "") << word;
+    for (const std::string& word : c.bad) EXPECT_NE(said(c.validator, word), "") << word;
+  }
+  EXPECT_EQ(said(from_to(0, 0.5), "2"), "cannot be used: found '2', allowed is a number from 0 to 0.5");
+}
+
+TEST(OptionChecks, RequireSaysWhatIsAllowed)
+{
+  EXPECT_EQ(sentence_of([] { require(true, "--x", "1", "2"); }), "");
+  EXPECT_EQ(sentence_of([] { require(false, "--x", "1", "2"); }),
+            "--x: cannot be used: found 1, allowed is 2");
+  EXPECT_EQ(sentence_of([] { require_within("--radius", 1e4, "m", 1e-9, 1e3); }),
+            "--radius: cannot be used: found 10000 m, allowed is 1e-09 to 1000 m");
+  expect_error("found nan m", [] { require_within("--radius", std::nan(""), "m", 1e-9, 1e3); });
+}
+
+}  // namespace
+}  // namespace granulaw

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+
+/// Each test works in an empty folder of its own: several may run at the same time.
+class ScratchFolder : public testing::Test
+{
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  static std::string read(const std::string& path)
+  {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::size_t files() const
+  {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+
+ private:
+  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
+                                        ("granulaw_" + std::to_string(getpid()) + "_" +
+                                         testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+/// The sentence of the Error that `what` throws; empty: it throws none.
+inline std::string sentence_of(const std::function<void()>& what)
+{
+  try {
+    what();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Expects an Error whose sentence holds `part`.
+inline void expect_error(const std::string& part, const std::function<void()>& what)
+{
+  const std::string sentence = sentence_of(what);
+  EXPECT_NE(sentence.find(part), std::string::npos) << "'" << part << "' not in: " << sentence;
+}
+
+}  // namespace granulaw

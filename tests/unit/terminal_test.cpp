@@ -1,0 +1,58 @@
+#include "terminal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+
+namespace granulaw {
+namespace {
+
+TEST(Terminal, NothingIsInterruptedAtFirst)
+{
+  EXPECT_FALSE(is_interrupted());
+  EXPECT_NO_THROW(stop_if_interrupted());
+}
+
+/// What the signal leaves, as an exit code: the flag stays for the rest of the process.
+[[noreturn]] void interrupted_by(int signal)
+{
+  catch_interrupts();
+  std::raise(signal);
+  bool thrown = false;
+  try {
+    ProgressBar(false).update(0.5, "");  // looks for it even where it is not drawn
+  } catch (const Interrupted&) {
+    thrown = true;
+  }
+  std::_Exit(is_interrupted() && thrown ? 0 : 1);
+}
+
+TEST(TerminalDeathTest, TheFirstSignalSetsAFlagThatProgressSees)
+{
+  EXPECT_EXIT(interrupted_by(SIGINT), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(interrupted_by(SIGTERM), testing::ExitedWithCode(0), "");
+}
+
+TEST(TerminalDeathTest, TheSecondEndsTheProgram)
+{
+  const auto twice = [] {
+    catch_interrupts();
+    std::raise(SIGINT);
+    std::raise(SIGINT);
+  };
+  EXPECT_EXIT(twice(), testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Terminal, ABarThatIsNotWantedPrintsNothing)
+{
+  testing::internal::CaptureStderr();
+  {
+    ProgressBar bar(false);
+    bar.update(0.5, "half");
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace granulaw

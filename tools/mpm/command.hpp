@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace granulaw {
+
+/// The first word after mpm, its options, and what it does. NAME_command.cpp defines one, NAME_command.
+struct Command
+{
+  const char* name;
+  const char* summary;                ///< of mpm --help and of mpm NAME --help
+  void (*define)(CLI::App& command);  ///< adds its options, and the callback that carries it out
+  bool on_ranks = false;              ///< shares its runs among the processes of mpirun; others refuse them
+};
+
+/// The command line as typed, for provenance; set by main.
+extern std::string command_line;
+
+}  // namespace granulaw

@@ -1,0 +1,133 @@
+// mpm info: what a law file says about itself.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "base/error.hpp"
+#include "characterise/build_law.hpp"
+#include "characterise/law_material.hpp"
+#include "claim.hpp"
+#include "command.hpp"
+#include "law/law_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+void print_material(const LawMaterial& m, const std::map<std::string, std::string>& provenance)
+{
+  fmt::print(
+      "  density              {:.6g} kg/m^3\n  Young's modulus      {:.6g} Pa\n  Poisson's ratio      "
+      "{:.6g}\n",
+      m.density, m.youngs_modulus, m.poisson_ratio);
+  if (!m.yields()) return fmt::print("  elastic\n");
+  fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n", m.yield_stress,
+             m.e_star() / m.yield_stress);
+  const auto own = provenance.find("hardening." + m.name), rate = provenance.find("rate." + m.name);
+  if (own != provenance.end())
+    fmt::print("  hardening            {}\n", own->second);
+  else
+    fmt::print("  linear hardening     {:.6g} Pa\n", m.hardening_modulus);
+  if (rate != provenance.end()) fmt::print("  rate                 {}\n", rate->second);
+}
+
+/// The law's range along its velocity axis.
+void print_axis(const VelocityAxis& axis, const LawMaterial& m, const Certificate& c)
+{
+  const VelocityAxis::Table& t = axis.table();
+  if (axis.kind() == VelocityAxis::Kind::inertia)
+    fmt::print("  velocity axis         to I = rho V^2/Y = {:.3g}", t.speed_end * t.speed_end);
+  else
+    fmt::print("  rate axis            V = {:.3g} to {:.3g} m/s on a wall, for R = {:.4g} m only",
+               t.speed_begin * speed_unit(m), t.speed_end * speed_unit(m), t.reference_radius);
+  fmt::print(", {} levels of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.levels,
+             t.ratio_nodes(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
+}
+
+void print_origin(const Certificate& c)
+{
+  fmt::print("  origin               {}", printable(c.origin));
+  if (c.atlas_error_force > 0 || c.atlas_error_restitution > 0)
+    fmt::print(" ({}{})", c.origin == "atlas" ? "" : "at no rate the atlas: ", atlas_errors_text(c));
+  fmt::print("\n  support              {}\n", printable(c.support));
+}
+
+void print_errors(const Certificate& c)
+{
+  fmt::print("  solver error         force {}, e {} (two resolutions)\n", percent(c.solver_error_force),
+             percent(c.solver_error_restitution));
+  fmt::print("  interpolation error  {}", percent(c.interpolation_error));
+  if (c.origin == "runs")
+    fmt::print(";  held-out e {};  scatter of the runs {}\n  reload loop          {} of the loading work",
+               percent(c.held_out_error), percent(c.residual_scatter), percent(c.reload_loop_area));
+  fmt::print("\n");
+  if (c.verification_impacts > 0)
+    fmt::print("  against {:.0f} impacts    {}\n", c.verification_impacts,
+               errors_text(c.verification_error_force, c.verification_error_restitution));
+  if (c.slow_press_force != 0 || c.slow_press_restitution != 0)
+    fmt::print("  slow press instead   force {:+.2g} %, e {:+.2g} % at the deepest impact's overlap\n",
+               100 * c.slow_press_force, 100 * c.slow_press_restitution);
+}
+
+void print_body(const BodyLaw& body, const std::map<std::string, std::string>& provenance)
+{
+  const LawMaterial& m = body.material;
+  const Certificate& c = body.certificate;
+  fmt::print("material {}\n", m.name);
+  if (!body.is_sphere())
+    fmt::print(
+        "  body                 {}, radius of curvature {:.6g} m, mass {:.4g} rho 4/3 pi R^3: rigid wall and "
+        "like "
+        "pair only\n",
+        body.body, body.pole_radius, body.mass_ratio);
+  print_material(m, provenance);
+  fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
+             body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());
+  if (const VelocityAxis* axis = body.curve.axis()) print_axis(*axis, m, c);
+  print_origin(c);
+  print_errors(c);
+  if (std::isfinite(c.damage_number_max))
+    fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.damage_number_max);
+  if (m.yields())
+    fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n",
+               support_ratio(body.curve.x_end()));
+}
+
+void print_pair(const LawPair& pair, const TwoBodyLaw* own)
+{
+  if (own)
+    fmt::print("  pair {}:{} by its own law, made at radii 1:{:.4g} (yielding body : partner)\n", pair.a,
+               pair.b, own->radius_ratio);
+  if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
+    fmt::print("  pair {}:{} {}: {}\n", pair.a, pair.b, own ? "at other radii" : "by the pair rule",
+               errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
+}
+
+void info(const std::string& path)
+{
+  const Law law = read_law(path);
+  fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
+  for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
+  for (const LawPair& pair : law.pairs) print_pair(pair, law.find_pair_law(pair.a, pair.b));
+  for (const auto& entry : law.bodies) print_body(entry.second, law.provenance);
+  for (const auto& [name, own] : law.pair_laws) {
+    fmt::print("pair {}, its own law; yielding ", name);
+    print_body(own.law, law.provenance);
+  }
+}
+
+void define(CLI::App& command)
+{
+  const auto path = std::make_shared<std::string>();
+  command.add_option("LAW", *path, "law file of mpm table")->required();
+  command.callback([path] { info(*path); });
+}
+
+}  // namespace
+
+extern const Command info_command{
+    "info", "What a law holds: materials, pairs, errors, range, origin.\nExample: mpm info law.h5", define};
+
+}  // namespace granulaw

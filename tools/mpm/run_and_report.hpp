@@ -1,0 +1,15 @@
+#pragma once
+
+#include "checkpoint_file.hpp"
+#include "run_request.hpp"
+#include "solver/accuracy.hpp"
+
+namespace granulaw {
+
+/// Makes the run as the request asks for it (resolution or tolerance, progress bar, fields, checkpoint) and
+/// reports it. `asked`: the command and what it is told beyond the request, for the checkpoint's identity.
+/// `has_ramp`: of a press.
+void run_and_report(const RunRequest& request, const Meeting& meeting, const RunIdentity& asked,
+                    bool has_ramp, const Run& run);
+
+}  // namespace granulaw

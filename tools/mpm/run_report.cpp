@@ -1,0 +1,72 @@
+#include "run_report.hpp"
+
+#include <fmt/format.h>
+
+#include "base/scales.hpp"
+#include "collision_report.hpp"
+#include "json_output.hpp"
+#include "solver/scene_builder.hpp"
+#include "trace_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+void print_yield(const Material& m, double velocity)
+{
+  const double v_y = yield_velocity(m.e_star(), m.yield_stress, m.density);
+  fmt::print(", E*/Y = {:.4g}, yield velocity V_y = {:.4g} m/s", m.e_star() / m.yield_stress, v_y);
+  if (velocity > 0)
+    fmt::print(", V/V_y = {:.4g}, I = rho V^2/Y = {:.3g}", velocity / v_y,
+               m.density * velocity * velocity / m.yield_stress);
+}
+
+void print_as_json(const RunRequest& r, const Particle& particle, const RunSummary& s)
+{
+  nlohmann::ordered_json out = collision_json(s);
+  put_effort(out, s.points, s.steps, s.cpu_s, s.point_updates_per_s, s.error_estimate);
+  out["grid"] = grid_name(r, particle);
+  out["resolution"] = s.resolution;
+  out["grids"] = s.grids;
+  out["energy_error"] = s.energy_error;
+  out["grid_noise"] = out["ripple"] = s.grid_noise;
+  out["e_raw"] = s.restitution_raw;
+  out["plastic_strain_max"] = s.plastic_strain_max;
+  out["contact_loss"] = s.contact_loss;
+  out["hourglass"] = s.hourglass;
+  print_json(out, 2);
+}
+
+}  // namespace
+
+void print_setting(const RunRequest& r, const Particle& particle, double velocity)
+{
+  if (r.json) return;
+  const Material& m = particle.materials.front();
+  fmt::print("{} of {:.4g} m radius, E* = {:.4g} Pa", particle.is_sphere() ? "sphere" : "body of revolution",
+             particle.radius, m.e_star());
+  if (m.yields())
+    print_yield(m, velocity);
+  else
+    fmt::print(", elastic");
+  if (r.grid == "auto") {
+    fmt::print("\ngrid: {} ({})\n", grid_name(r, particle), choose_grid(particle).reason);
+  } else {
+    fmt::print("\ngrid: {}, as asked\n", r.grid);
+  }
+}
+
+void report(const RunRequest& r, const Particle& particle, const RunResult& result)
+{
+  if (!r.output.empty()) write_trace(result, r.output);
+  const RunSummary& s = result.summary;
+  if (r.json) return print_as_json(r, particle, s);
+  print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
+  if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
+  fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
+             s.cpu_s, 1e-6 * s.point_updates_per_s);
+  if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
+  if (!r.fields.empty()) fmt::print("wrote {}\n", r.fields);
+}
+
+}  // namespace granulaw

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "solver/runs.hpp"
+
+namespace granulaw {
+
+/// What `mpm impact` and `mpm press` take: the bodies, how the run is made, and what it writes.
+struct RunRequest
+{
+  std::string materials, particle, against, wall;
+  std::string grid = "auto", precision = "double";
+  std::string output, fields, checkpoint;
+  double checkpoint_every = 30;  ///< s
+  double courant = RunOptions{}.courant;
+  std::optional<double> tolerance;
+  std::optional<int> resolution;
+  int jobs = 1, frames = 40, shifted_grids = RunOptions{}.shifted_grids;
+  bool json = false, no_estimate = false;
+
+  void add_to(CLI::App& command);
+  /// Throws Error where an option, or two together, cannot be used: before anything is read or computed.
+  void check() const;
+  /// For the solver, but for what watches the run.
+  RunOptions options() const;
+};
+
+/// A particle and what it meets.
+struct Meeting
+{
+  Particle particle;
+  Partner partner;
+};
+
+/// Those that the request names, from its materials file. Throws Error.
+Meeting read_meeting(const RunRequest& request);
+
+/// The grid of the particle, by name: the one asked for, else what the particle needs.
+std::string grid_name(const RunRequest& request, const Particle& particle);
+
+}  // namespace granulaw
