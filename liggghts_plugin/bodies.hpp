@@ -45,4 +45,19 @@ class Bodies
   LAMMPS_NS::LAMMPS* alone_ = nullptr;  // of one rank: it has every clump and looks one up when it is asked
 };
 
+/// kg, the mass that the contact's normal velocity sees: where a sphere is part of a rigid body and is hit
+/// beside its centre, less than the body's.
+inline double contact_mass(const Bodies& bodies,
+                           const LIGGGHTS::ContactModels::SurfacesIntersectData& contact)
+{
+  if (!bodies.known()) [[likely]]
+    return contact.meff;
+  if (contact.is_wall) return 1.0 / bodies.inverse_mass(contact.i, contact.en, contact.mi);
+  // a frozen sphere leaves the other's mass as the effective one
+  double inverse = 0.0;
+  if (contact.meff != contact.mj) inverse += bodies.inverse_mass(contact.i, contact.en, contact.mi);
+  if (contact.meff != contact.mi) inverse += bodies.inverse_mass(contact.j, contact.en, contact.mj);
+  return inverse > 0.0 ? 1.0 / inverse : contact.meff;
+}
+
 }  // namespace granulaw::plugin
