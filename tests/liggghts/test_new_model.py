@@ -72,7 +72,7 @@ class Concept(unittest.TestCase):
         """A model that lacks something does not compile, and the compiler says what."""
         source = (ROOT / "tests" / "liggghts" / "plain_hertz" / "plain_hertz_physics.hpp").read_text()
         for member, without in (("law.stiffness(", source.replace("double stiffness(", "double rigidity(")),
-                                ("known.describe(", source.replace("PairInfo describe(", "PairInfo explain(")),
+                                ("prepared.describe(", source.replace("PairInfo describe(", "PairInfo explain(")),
                                 ("Physics::id", source.replace("id = 44", "id = 9"))):
             done = subprocess.run(["c++", "-std=c++20", "-fsyntax-only", "-x", "c++", f"-I{ROOT}", f"-I{ROOT / 'mpm_core'}", "-"],
                                   input=without.replace("#pragma once", ""), capture_output=True, text=True)
