@@ -34,6 +34,11 @@ class Bodies
  private:
   enum Column : int { mass_column, arm, inverse_inertia = 4, columns = 10 };  // xx yy zz xy xz yz
 
+  /// Before a step's numbers come in.
+  void clear(const LAMMPS_NS::Atom& atom) const;
+  /// The spheres of bodies that this rank holds. The first is false where the deck has no fix rigid.
+  bool fill_rigid(LAMMPS_NS::LAMMPS* lmp) const;
+  void fill_clumps(LAMMPS_NS::LAMMPS* lmp) const;
   void fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre, const double* moments,
             const double* ex, const double* ey, const double* ez) const;
 
