@@ -8,14 +8,12 @@
 // same lists.
 namespace granulaw::plugin {
 
-enum class Command { both, pair, wall };
-
 /// A keyword and what may follow it: one of `words`, a number from `least` to `most`, or, where it states
 /// neither, any one word.
 struct Keyword
 {
   std::string_view name;
-  Command command = Command::both;  ///< in which a deck may say it
+  bool in_pair_style = true, in_wall = true;  ///< where it may stand
   std::array<std::string_view, 2> words{};
   double least = 0.0, most = -1.0;  ///< least > most: no number
   /// What follows up to the next keyword where that is one word or more: "one name for each atom type".
@@ -23,10 +21,7 @@ struct Keyword
 
   constexpr bool takes_words() const { return !words[0].empty(); }
   constexpr bool takes_number() const { return least <= most; }
-  constexpr bool stands_in(bool is_wall) const
-  {
-    return command == Command::both || (command == Command::wall) == is_wall;
-  }
+  constexpr bool stands_in(bool wall) const { return wall ? in_wall : in_pair_style; }
 };
 
 /// Keywords of all models. docs/pair_gran_model_mpm.md says what they mean.
@@ -36,10 +31,10 @@ inline constexpr std::array shared_keywords{
     Keyword{.name = "elasticDamping", .words = {"off", "restitution"}, .least = 0.0, .most = 1.0},
     Keyword{.name = "stretch", .least = 1.0, .most = 1000.0},
     Keyword{.name = "heatArea", .words = {"law", "overlap"}},
-    Keyword{.name = "wall", .command = Command::wall, .words = {"deformable", "rigid"}},
-    Keyword{.name = "stats", .command = Command::pair},
-    Keyword{.name = "energy", .command = Command::pair, .words = {"on", "off"}},
-    Keyword{.name = "contactMap", .command = Command::pair, .words = {"on", "off"}},
+    Keyword{.name = "wall", .in_pair_style = false, .words = {"deformable", "rigid"}},
+    Keyword{.name = "stats", .in_wall = false},
+    Keyword{.name = "energy", .in_wall = false, .words = {"on", "off"}},
+    Keyword{.name = "contactMap", .in_wall = false, .words = {"on", "off"}},
     Keyword{.name = "computeDissipatedEnergy", .words = {"on", "off"}},
 };
 
@@ -56,6 +51,13 @@ inline constexpr std::array liggghts_keywords{
     Keyword{.name = "heating_tangential_history"},
     Keyword{.name = "heating_tangential_no_history"},
     Keyword{.name = "torsionTorque"},
+};
+
+/// Keywords of LIGGGHTS's surface model of superquadrics; superquadric.hpp checks what they say.
+inline constexpr std::array surface_keywords{
+    Keyword{.name = "meanCurvature"},
+    Keyword{.name = "gaussianCurvature"},
+    Keyword{.name = "curvatureLimitFactor"},
 };
 
 /// What names a model, in LIGGGHTS's order; all keywords stand behind.

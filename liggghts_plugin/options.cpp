@@ -21,6 +21,11 @@ bool contains(const List& list, std::string_view word)
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+bool is_among(std::span<const Keyword> keywords, std::string_view name)
+{
+  return std::any_of(keywords.begin(), keywords.end(), [&](const Keyword& k) { return k.name == name; });
+}
+
 /// The keywords that a command may say.
 class KnownKeywords
 {
@@ -49,7 +54,8 @@ class KnownKeywords
   /// Whether a list of names ends before this word.
   bool ends_list(const std::string& word) const
   {
-    return find(word) || contains(model_kinds, word) || (is_wall_ && contains(wall_words, word));
+    return find(word) || is_among(surface_keywords, word) || contains(model_kinds, word) ||
+           (is_wall_ && contains(wall_words, word));
   }
 
   /// Throws Error unless `key` is one of them.
@@ -124,9 +130,7 @@ Said read_words(const KnownKeywords& known, const std::string& where, const Word
       while (i < words.size() && !known.ends_list(words[i])) values.push_back(words[i++]);
       if (values.empty()) fail(where, fmt::format("'{}' needs {}", key, keyword.list));
     }
-    const auto is_it = [&](const Keyword& k) { return k.name == key; };
-    if (std::any_of(liggghts_keywords.begin(), liggghts_keywords.end(), is_it))
-      rest.insert(rest.end(), {key, values[0]});
+    if (is_among(liggghts_keywords, key)) rest.insert(rest.end(), {key, values[0]});
   }
   return said;
 }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "liggghts_plugin/deck_keywords.hpp"
 #include "liggghts_plugin/mpm_physics.hpp"
 #include "liggghts_plugin/thornton_physics.hpp"
 
@@ -88,6 +89,7 @@ TEST(Options, MaterialsEndAtWordsThatAreMisplaced)
 {
   EXPECT_TRUE(holds(refusal("materials a rolling_friction cdt"), "'rolling_friction' is out of order"));
   EXPECT_TRUE(holds(refused_at_wall("materials a primitive"), "'primitive' must stand before"));
+  EXPECT_TRUE(holds(refusal("materials a meanCurvature yes"), "unknown keyword 'meanCurvature'"));
   EXPECT_EQ(options("materials a primitive").own_words("materials"), (Words{"a", "primitive"}));  // no wall
 }
 
@@ -272,6 +274,24 @@ TEST(Options, KeywordNamesAreThoseOfModelAndCommand)
     EXPECT_FALSE(has(keyword_names(thornton, where), "materials"));
     EXPECT_EQ(has(keyword_names(thornton, where), "wall"), where);
     EXPECT_EQ(has(keyword_names(thornton, where), "stats"), !where);
+  }
+}
+
+TEST(DeckKeywords, AreThoseOfThePlugin)
+{
+  for (const bool is_wall : {pair, wall}) {
+    for (const std::string& name : keyword_names(mpm, is_wall)) {
+      EXPECT_TRUE(find_keyword(name, is_wall)) << name;
+      EXPECT_TRUE(is_reserved(name, is_wall)) << name;
+    }
+    EXPECT_TRUE(is_reserved("curvatureLimitFactor", is_wall));
+    EXPECT_TRUE(is_reserved("rolling_friction", is_wall));
+    EXPECT_EQ(is_reserved("primitive", is_wall), is_wall);
+    EXPECT_FALSE(is_reserved("wax", is_wall));
+  }
+  for (const Keyword& k : keyword_table) {
+    const auto same = [&](const Keyword& other) { return other.name == k.name; };
+    EXPECT_EQ(std::count_if(keyword_table.begin(), keyword_table.end(), same), 1) << k.name;
   }
 }
 
