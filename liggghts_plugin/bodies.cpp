@@ -12,41 +12,13 @@
 namespace granulaw::plugin {
 
 // fix rigid gives its mass and body numbers away (extract), but not the rest.
-struct RigidCentre
-{
-  friend auto exposed(RigidCentre);
-};
-struct RigidInertia
-{
-  friend auto exposed(RigidInertia);
-};
-struct RigidEx
-{
-  friend auto exposed(RigidEx);
-};
-struct RigidEy
-{
-  friend auto exposed(RigidEy);
-};
-struct RigidEz
-{
-  friend auto exposed(RigidEz);
-};
-template struct Expose<RigidCentre, &LAMMPS_NS::FixRigid::xcm>;
-template struct Expose<RigidInertia, &LAMMPS_NS::FixRigid::inertia>;
-template struct Expose<RigidEx, &LAMMPS_NS::FixRigid::ex_space>;
-template struct Expose<RigidEy, &LAMMPS_NS::FixRigid::ey_space>;
-template struct Expose<RigidEz, &LAMMPS_NS::FixRigid::ez_space>;
-struct TemplateCentres
-{
-  friend auto exposed(TemplateCentres);
-};
-struct TemplateRadii
-{
-  friend auto exposed(TemplateRadii);
-};
-template struct Expose<TemplateCentres, &LAMMPS_NS::FixTemplateMultiplespheres::x_sphere>;
-template struct Expose<TemplateRadii, &LAMMPS_NS::FixTemplateMultiplespheres::r_sphere>;
+GRANULAW_EXPOSE(RigidCentre, LAMMPS_NS::FixRigid, xcm);
+GRANULAW_EXPOSE(RigidInertia, LAMMPS_NS::FixRigid, inertia);
+GRANULAW_EXPOSE(RigidEx, LAMMPS_NS::FixRigid, ex_space);
+GRANULAW_EXPOSE(RigidEy, LAMMPS_NS::FixRigid, ey_space);
+GRANULAW_EXPOSE(RigidEz, LAMMPS_NS::FixRigid, ez_space);
+GRANULAW_EXPOSE(TemplateCentres, LAMMPS_NS::FixTemplateMultiplespheres, x_sphere);
+GRANULAW_EXPOSE(TemplateRadii, LAMMPS_NS::FixTemplateMultiplespheres, r_sphere);
 
 namespace {
 
@@ -64,6 +36,35 @@ LAMMPS_NS::FixPropertyAtom* property(LAMMPS_NS::LAMMPS* lmp)
 {
   return static_cast<LAMMPS_NS::FixPropertyAtom*>(
       lmp->modify->find_fix_property(property_name, "property/atom", "vector", 0, 0, property_name, false));
+}
+
+bool spheres_overlap(const double* a, double radius_a, const double* b, double radius_b)
+{
+  const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]}, sum = radius_a + radius_b;
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < sum * sum * (1.0 - 1e-12);
+}
+
+bool overlaps_itself(LAMMPS_NS::FixTemplateMultisphere& clump)
+{
+  double** x = clump.*exposed(TemplateCentres{});
+  const double* r = clump.*exposed(TemplateRadii{});
+  for (int i = 0; i < clump.number_spheres(); ++i)
+    for (int j = 0; j < i; ++j)
+      if (spheres_overlap(x[i], r[i], x[j], r[j])) return true;
+  return false;
+}
+
+/// Whether spheres of one body overlap, of those on this rank.
+bool any_overlaps_itself(LAMMPS_NS::FixMultisphere& clumps, const LAMMPS_NS::Atom& atom)
+{
+  std::map<int, std::vector<int>> of_body;
+  for (int i = 0; i < atom.nlocal; ++i)
+    if (clumps.belongs_to(i) >= 0) of_body[clumps.belongs_to(i)].push_back(i);
+  for (const auto& [tag, spheres] : of_body)
+    for (const int i : spheres)
+      for (const int j : spheres)
+        if (j < i && spheres_overlap(atom.x[i], atom.radius[i], atom.x[j], atom.radius[j])) return true;
+  return false;
 }
 
 }  // namespace
@@ -84,29 +85,12 @@ void Bodies::provide(LAMMPS_NS::LAMMPS* lmp, bool inertia)
 
 bool Bodies::overlap_themselves(LAMMPS_NS::LAMMPS* lmp)
 {
-  const auto overlap = [](const double* a, double radius_a, const double* b, double radius_b) {
-    const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]}, sum = radius_a + radius_b;
-    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < sum * sum * (1.0 - 1e-12);
-  };
   int f = 0;
-  while (auto* clump = next_fix<LAMMPS_NS::FixTemplateMultisphere>(lmp, f)) {
-    double** x = clump->*exposed(TemplateCentres{});
-    const double* r = clump->*exposed(TemplateRadii{});
-    for (int i = 0; i < clump->number_spheres(); ++i)
-      for (int j = 0; j < i; ++j)
-        if (overlap(x[i], r[i], x[j], r[j])) return true;
-  }
+  while (auto* clump = next_fix<LAMMPS_NS::FixTemplateMultisphere>(lmp, f))
+    if (overlaps_itself(*clump)) return true;
   f = 0;
-  const LAMMPS_NS::Atom& atom = *lmp->atom;
-  while (auto* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
-    std::map<int, std::vector<int>> of_body;
-    for (int i = 0; i < atom.nlocal; ++i)
-      if (clumps->belongs_to(i) >= 0) of_body[clumps->belongs_to(i)].push_back(i);
-    for (const auto& [tag, spheres] : of_body)
-      for (const int i : spheres)
-        for (const int j : spheres)
-          if (j < i && overlap(atom.x[i], atom.radius[i], atom.x[j], atom.radius[j])) return true;
-  }
+  while (auto* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f))
+    if (any_overlaps_itself(*clumps, *lmp->atom)) return true;
   return false;
 }
 
@@ -116,37 +100,53 @@ void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
   per_atom_ = values ? values->array_atom : nullptr;
   if (!per_atom_) return;
   alone_ = lmp->comm->nprocs == 1 ? lmp : nullptr;
-  LAMMPS_NS::Atom& atom = *lmp->atom;
-  const int all = atom.nlocal + atom.nghost;
-  for (int i = 0; i < all; ++i) {
+  clear(*lmp->atom);
+  const bool rigid_bodies = fill_rigid(lmp);
+  if (alone_) {
+    if (rigid_bodies) values->do_forward_comm();
+    return;
+  }
+  fill_clumps(lmp);
+  values->do_reverse_comm();  // sums: each sphere was filled once, on the rank of its body
+  values->do_forward_comm();
+}
+
+void Bodies::clear(const LAMMPS_NS::Atom& atom) const
+{
+  for (int i = 0; i < atom.nlocal + atom.nghost; ++i) {
     if (!alone_) std::fill_n(per_atom_[i], static_cast<int>(columns), 0.0);
     per_atom_[i][mass_column] = alone_ ? not_looked_up : 0.0;
   }
+}
 
+bool Bodies::fill_rigid(LAMMPS_NS::LAMMPS* lmp) const
+{
   int f = 0;
-  bool rigid_bodies = false;
+  bool any = false;
   while (LAMMPS_NS::FixRigid* rigid = next_fix<LAMMPS_NS::FixRigid>(lmp, f)) {
-    rigid_bodies = true;
+    any = true;
     int dim = 0;
     const int* body = static_cast<int*>(rigid->extract("body", dim));
     const double* mass = static_cast<double*>(rigid->extract("masstotal", dim));
-    for (int i = 0; i < atom.nlocal; ++i)
+    for (int i = 0; i < lmp->atom->nlocal; ++i)
       if (const int b = body[i]; b >= 0)
         fill(lmp, i, mass[b], (rigid->*exposed(RigidCentre{}))[b], (rigid->*exposed(RigidInertia{}))[b],
              (rigid->*exposed(RigidEx{}))[b], (rigid->*exposed(RigidEy{}))[b],
              (rigid->*exposed(RigidEz{}))[b]);
   }
-  if (alone_) {
-    if (rigid_bodies) values->do_forward_comm();
-    return;
-  }
-  f = 0;
+  return any;
+}
+
+void Bodies::fill_clumps(LAMMPS_NS::LAMMPS* lmp) const
+{
+  LAMMPS_NS::Atom& atom = *lmp->atom;
+  int f = 0;
   while (LAMMPS_NS::FixMultisphere* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
     LAMMPS_NS::Multisphere& bodies = clumps->data();
     const auto vectors = [&](const char* name) { return bodies.extract_double_vector(name); };
     double **centre = vectors("xcm"), **inertia = vectors("inertia"), **ex = vectors("ex_space"),
            **ey = vectors("ey_space"), **ez = vectors("ez_space");
-    for (int i = 0; i < all; ++i) {
+    for (int i = 0; i < atom.nlocal + atom.nghost; ++i) {
       const int tag = clumps->belongs_to(i);
       const int b = tag >= 0 ? bodies.map(tag) : -1;  // -1: the body belongs to another rank
       // of a sphere and its periodic images one is filled, and the others hear of it
@@ -154,8 +154,6 @@ void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
       fill(lmp, i, bodies.mass(b), centre[b], inertia[b], ex[b], ey[b], ez[b]);
     }
   }
-  values->do_reverse_comm();  // sums: each sphere was filled once, on the rank of its body
-  values->do_forward_comm();
 }
 
 void Bodies::find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const

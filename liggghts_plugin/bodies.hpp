@@ -34,6 +34,11 @@ class Bodies
  private:
   enum Column : int { mass_column, arm, inverse_inertia = 4, columns = 10 };  // xx yy zz xy xz yz
 
+  /// Before a step's numbers come in.
+  void clear(const LAMMPS_NS::Atom& atom) const;
+  /// The spheres of bodies that this rank holds. The first is false where the deck has no fix rigid.
+  bool fill_rigid(LAMMPS_NS::LAMMPS* lmp) const;
+  void fill_clumps(LAMMPS_NS::LAMMPS* lmp) const;
   void fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre, const double* moments,
             const double* ex, const double* ey, const double* ez) const;
 
@@ -44,5 +49,20 @@ class Bodies
   double** per_atom_ = nullptr;
   LAMMPS_NS::LAMMPS* alone_ = nullptr;  // of one rank: it has every clump and looks one up when it is asked
 };
+
+/// kg, the mass that the contact's normal velocity sees: where a sphere is part of a rigid body and is hit
+/// beside its centre, less than the body's.
+inline double contact_mass(const Bodies& bodies,
+                           const LIGGGHTS::ContactModels::SurfacesIntersectData& contact)
+{
+  if (!bodies.known()) [[likely]]
+    return contact.meff;
+  if (contact.is_wall) return 1.0 / bodies.inverse_mass(contact.i, contact.en, contact.mi);
+  // a frozen sphere leaves the other's mass as the effective one
+  double inverse = 0.0;
+  if (contact.meff != contact.mj) inverse += bodies.inverse_mass(contact.i, contact.en, contact.mi);
+  if (contact.meff != contact.mi) inverse += bodies.inverse_mass(contact.j, contact.en, contact.mj);
+  return inverse > 0.0 ? 1.0 / inverse : contact.meff;
+}
 
 }  // namespace granulaw::plugin

@@ -79,9 +79,7 @@ void check_inherited(const Setup& setup)
   if (!setup.wall || !session.pair_options) return;
   Options now = setup.own;
   now.inherit(*session.pair_options);
-  const bool other_law = setup.law && setup.own.law_path.empty() && session.pair_law &&
-                         setup.law->path != session.pair_law->path;
-  if (now != setup.options || other_law || setup.energy != (session.energy != nullptr) ||
+  if (now != setup.options || setup.energy != (session.energy != nullptr) ||
       setup.contact_map != session.contact_map)
     fail(setup.where,
          "it stands before the pair_style whose words it should take (energy, contactMap, stretch, damping, "

@@ -62,8 +62,8 @@ void ContactList::init()
     stop_all(
         lmp,
         fmt::format("compute {} {}: contactRadius, largestOverlap and dissipatedEnergy are known of contacts "
-                    "of the models mpm and thornton, and {} is of another",
-                    id, style, wall ? "the mesh wall" : "the pair style"));
+                    "of the models {}, and {} is of another",
+                    id, style, model_names(), wall ? "the mesh wall" : "the pair style"));
 }
 
 void ContactList::init_cpgl(bool requestflag)

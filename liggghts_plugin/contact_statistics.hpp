@@ -1,50 +1,17 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <compare>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "liggghts_plugin/deck_units.hpp"
+#include "liggghts_plugin/log_histogram.hpp"
 
 namespace granulaw::plugin {
-
-/// Counts in logarithmic bins, eight a decade, from `first` (lower edge of bin 0); the outer bins catch the
-/// rest.
-struct LogHistogram
-{
-  static constexpr int bins = 80, per_decade = 8;
-  double first;
-  std::array<double, bins> count{};
-
-  explicit LogHistogram(double lower_edge) : first(lower_edge) {}
-  /// Without a logarithm: each contact that grows deeper asks.
-  std::size_t bin(double value) const
-  {
-    const double ratio = value / first;
-    if (!(ratio > 1.0)) return 0;
-    // floor(log2 ratio), the exponent of the number, tells the bin but for the two behind it
-    const auto octave = static_cast<std::size_t>((std::bit_cast<std::uint64_t>(ratio) >> 52) - 1023);
-    std::size_t found = first_of_octave[std::min(octave, octaves - 1)];
-    while (found + 1 < bins && ratio >= upper_ratio[found]) ++found;
-    return found;
-  }
-  void add(double value, double weight) { count[bin(value)] += weight; }
-  /// Whether the bin's upper edge is above `value`.
-  bool ends_above(std::size_t bin, double value) const { return value / first < upper_ratio[bin]; }
-  double lower_edge(int bin) const { return first * std::pow(10.0, static_cast<double>(bin) / per_decade); }
-
- private:
-  static constexpr std::size_t octaves = 64;
-  static const std::array<double, bins> upper_ratio;              ///< of each bin's upper edge to `first`
-  static const std::array<std::size_t, octaves> first_of_octave;  ///< bin of 2^octave
-};
 
 /// Which contacts share one line of the contact statistics: those of a pair of atom types, or of a type with
 /// a wall's.
@@ -173,12 +140,5 @@ struct ContactStatistics
   std::vector<double> pack() const;
   bool unpack(const double* values, std::size_t count, bool sums);
 };
-
-/// `contact statistics` (summed over ranks, in the deck's units) as JSON, in SI; `header` is placed first
-/// ("\"key\": value,\n" lines). Schema: docs/pair_gran_model_mpm.md.
-std::string to_json(const ContactStatistics& statistics, const std::string& header, const DeckUnits& units);
-
-/// The start-up table: one line for each pair of types that can meet. In SI. Empty if there is none.
-std::string start_table(const ContactStatistics& statistics, const DeckUnits& units);
 
 }  // namespace granulaw::plugin

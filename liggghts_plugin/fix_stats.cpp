@@ -10,7 +10,12 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "liggghts_plugin/energy_properties.hpp"
 #include "liggghts_plugin/fix_style.hpp"
+#include "liggghts_plugin/rank_sums.hpp"
+#include "liggghts_plugin/restart_record.hpp"
+#include "liggghts_plugin/stats_json.hpp"
+#include "liggghts_plugin/stats_text.hpp"
 
 namespace granulaw::plugin {
 
@@ -23,69 +28,13 @@ LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
   return new FixStats(lmp, narg, arg);
 }
 
-void reduce(ContactStatistics::Pair& counts, MPI_Comm world)
-{
-  using Pair = ContactStatistics::Pair;
-  const auto numbers = counts.numbers();
-  double values[Pair::sums + Pair::maxima + Pair::minima];
-  for (std::size_t k = 0; k < numbers.size(); ++k) values[k] = *numbers[k];
-  double *largest = values + Pair::sums, *least = largest + Pair::maxima;
-  MPI_Allreduce(MPI_IN_PLACE, values, Pair::sums, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, largest, Pair::maxima, MPI_DOUBLE, MPI_MAX, world);
-  MPI_Allreduce(MPI_IN_PLACE, least, Pair::minima, MPI_DOUBLE, MPI_MIN, world);
-  for (std::size_t k = 0; k < numbers.size(); ++k) *numbers[k] = values[k];
-  MPI_Allreduce(MPI_IN_PLACE, counts.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, counts.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
-  int mapped = counts.map.empty() ? 0 : 1;  // one rank may have it alone, out of a restart file
-  MPI_Allreduce(MPI_IN_PLACE, &mapped, 1, MPI_INT, MPI_MAX, world);
-  if (!mapped) return;
-  counts.open_map();
-  MPI_Allreduce(MPI_IN_PLACE, counts.map.data(), static_cast<int>(counts.map.size()), MPI_DOUBLE, MPI_SUM,
-                world);
-}
-
-constexpr const char* energy_name = "granulaw_energy";
-/// Of `computeDissipatedEnergy on`, as LIGGGHTS's own models make it: energy, and six places that they work
-/// with.
-constexpr const char *dissipated_id = "dissipated_energy_", *dissipated_name = "dissipated_energy";
-
-LAMMPS_NS::FixPropertyAtom* dissipated_property(LAMMPS_NS::LAMMPS* lmp)
-{
-  return static_cast<LAMMPS_NS::FixPropertyAtom*>(
-      lmp->modify->find_fix_property(dissipated_name, "property/atom", "vector", 0, 0, style_name, false));
-}
-
-/// The per-atom property that EnergyTally fills; it moves with the particles and into restart files.
-LAMMPS_NS::FixPropertyAtom* energy_property(LAMMPS_NS::LAMMPS* lmp)
-{
-  return static_cast<LAMMPS_NS::FixPropertyAtom*>(
-      lmp->modify->find_fix_property(energy_name, "property/atom", "vector", 0, 0, style_name, false));
-}
-
-void provide_energy_property(LAMMPS_NS::LAMMPS* lmp)
-{
-  if (!Session::of(lmp)->energy || energy_property(lmp)) return;
-  const char* arg[] = {energy_name, "all", "property/atom", energy_name, "vector", "yes",
-                       "no",        "no",  "0.0",           "0.0",       "0.0"};
-  lmp->modify->add_fix_property_atom(11, const_cast<char**>(arg), style_name);
-}
-
-void provide_dissipated_property(LAMMPS_NS::LAMMPS* lmp)
-{
-  if (!Session::of(lmp)->dissipated_energy || dissipated_property(lmp)) return;
-  const char* arg[] = {dissipated_id, "all", "property/atom", dissipated_name, "vector", "yes", "yes", "no",
-                       "0.0",         "0.0", "0.0",           "0.0",           "0.0",    "0.0", "0.0"};
-  lmp->modify->add_fix_property_atom(15, const_cast<char**>(arg), style_name);
-}
-
 }  // namespace
 
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
 {
   register_fix_style(lmp, style_name, &make_fix);
   if (!lmp->domain->box_exist) return;
-  provide_energy_property(lmp);
-  provide_dissipated_property(lmp);
+  provide_energy_properties(lmp);
   if (lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw", "all", style_name};
   lmp->modify->add_fix(3, const_cast<char**>(arg));
@@ -106,6 +55,11 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
     size_peratom_cols = EnergyTally::columns;
     peratom_freq = 1;
   }
+  read_keywords(narg, arg);
+}
+
+void FixStats::read_keywords(int narg, char** arg)
+{
   nevery = 0;
   for (int i = 3; i < narg; i += 2) {
     const std::string key = arg[i], value = i + 1 < narg ? arg[i + 1] : "";
@@ -165,11 +119,8 @@ void FixStats::warn_of_clumps() const
          "contact is up to twice as stiff as the law's");
 }
 
-void FixStats::setup(int)
+void FixStats::warn_of_lost_contacts() const
 {
-  largest_dt_ = std::max(largest_dt_, update->dt);
-  if (!speaks()) return;
-  warn_of_clumps();
   for (const auto& [name, combination] : session_->restarted) {
     const std::string command = name == "pair" ? "pair_style gran" : fmt::format("fix {} wall/gran", name);
     warn("restarted " + name,
@@ -179,13 +130,14 @@ void FixStats::setup(int)
              command, describe_combination(combination),
              name == "pair" ? "" : "; give the walls their old ids"));
   }
-  std::string table = start_table(session_->statistics, deck_units());
-  if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
-  last_table_ = table;
-  print(table);
+}
+
+void FixStats::warn_of_long_steps() const
+{
+  if (comm->me != 0) return;
   for (const auto& [key, counts] : session_->statistics.pairs) {
     const PairInfo& info = counts.info;
-    if (!info.needed || !(info.dt_limit > 0) || update->dt <= info.dt_limit || comm->me != 0) continue;
+    if (!info.needed || !(info.dt_limit > 0) || update->dt <= info.dt_limit) continue;
     error->warning(
         FLERR, fmt::format("granulaw: the time step {:.4g} s is over {:.4g} s, 1/{:.0f} of the period of the "
                            "stiffest contact that the law knows for the smallest particles of type {} "
@@ -196,19 +148,26 @@ void FixStats::setup(int)
   }
 }
 
+void FixStats::setup(int)
+{
+  largest_dt_ = std::max(largest_dt_, update->dt);
+  if (!speaks()) return;
+  warn_of_clumps();
+  warn_of_lost_contacts();
+  std::string table = start_table(session_->statistics, deck_units());
+  if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
+  last_table_ = table;
+  print(table);
+  warn_of_long_steps();
+}
+
 void FixStats::pre_force(int)
 {
   session_->bodies.update(lmp);
   step_of_rows_ = -1;
   if (!session_->energy) return;
-  // the property's array moves when particles come in
-  LAMMPS_NS::FixPropertyAtom* property = energy_property(lmp);
-  session_->tally.per_atom = property ? property->array_atom : nullptr;
-  LAMMPS_NS::FixPropertyAtom* dissipated = session_->dissipated_energy ? dissipated_property(lmp) : nullptr;
-  session_->tally.dissipated_energy = dissipated ? dissipated->array_atom : nullptr;
+  find_energy_properties(lmp, session_->tally, session_->dissipated_energy);
   if (peratom_flag) array_atom = session_->tally.per_atom;
-  if (!property) return;
-  for (int a = 0; a < atom->nlocal; ++a) session_->tally.per_atom[a][EnergyTally::stored] = 0.0;
 }
 
 ContactStatistics FixStats::sum_of_ranks(bool with_open) const
@@ -300,41 +259,7 @@ void FixStats::post_run()
   const ContactStatistics sum = total();
   if (comm->me != 0) return;
   write_files(sum);
-  if (!speaks()) return;
-  const DeckUnits units = deck_units();
-  const ContactStatistics::Pair pair = sum.total(false).in_si(units), wall = sum.total(true).in_si(units),
-                                all = sum.total().in_si(units);
-  std::string line = fmt::format(
-      "granulaw: {:.0f} contacts between particles, {:.0f} with walls; impacts up to {:.4g} and {:.4g} m/s; "
-      "overlap/R* up to {:.4g} and {:.4g}; normal contacts dissipated {:.6g} J",
-      pair.touches, wall.touches, pair.speed_max, wall.speed_max, pair.overlap_max, wall.overlap_max,
-      all.dissipated);
-  if (all.near > 0)
-    line += fmt::format("; {:.0f} contacts came deeper than {:.0f} % of the law's table, {:.0f} beyond it",
-                        all.near, 100 * near_edge, all.past);
-  if (all.beyond > 0) line += fmt::format("; {:.0f} contact-steps beyond the law's table", all.beyond);
-  if (all.too_fast > 0)
-    line += fmt::format("; {:.0f} contacts began faster than the law's velocity axis goes", all.too_fast);
-  if (all.too_slow > 0)
-    line += fmt::format(
-        "; {:.0f} contacts began slower than the slowest impact that the rate-dependent law knows and "
-        "follow it as at that rate",
-        all.too_slow);
-  if (all.sudden > 0)
-    line += fmt::format(
-        "; {:.0f} contacts began deeper than the motion of a step can bring them (particles inserted into "
-        "each other, "
-        "edges of a mesh): they brought {:.6g} J, and none of it is in what was dissipated",
-        all.sudden, all.brought);
-  if (session_->damage_number_limit > 0 && all.damage_number_max > session_->damage_number_limit)
-    line += fmt::format(
-        "; impacts up to I = rho V^2/Y = {:.3g}, the law holds to {:.3g}: above that it overstates "
-        "restitution",
-        all.damage_number_max, session_->damage_number_limit, session_->damage_number_limit);
-  if (all.frequency2 > 0)
-    line += fmt::format("; the stiffest contact allowed a time step of {:.4g} s, used were {:.4g} s",
-                        all.dt_allowed(), largest_dt_);
-  print(line + "\n");
+  if (speaks()) print(end_line(sum, deck_units(), session_->damage_number_limit, largest_dt_));
 }
 
 void FixStats::write_files(const ContactStatistics& sum) const
@@ -348,15 +273,8 @@ void FixStats::write_files(const ContactStatistics& sum) const
 void FixStats::write_restart(FILE* file)
 {
   // with the open contacts, which go on after the restart
-  std::vector<double> values = sum_of_ranks(true).pack();
+  std::vector<double> values = RestartRecord{sum_of_ranks(true).pack(), session_->combinations}.numbers();
   if (comm->me != 0) return;
-  values.insert(values.begin(), static_cast<double>(values.size()));
-  // each command: number of its models and words, length and letters of its name
-  values.push_back(static_cast<double>(session_->combinations.size()));
-  for (const auto& [name, combination] : session_->combinations) {
-    values.insert(values.end(), {static_cast<double>(combination), static_cast<double>(name.size())});
-    values.insert(values.end(), name.begin(), name.end());
-  }
   values.insert(values.begin(), static_cast<double>(values.size()));
   const int size = static_cast<int>(values.size() * sizeof(double));
   std::fwrite(&size, sizeof(int), 1, file);
@@ -370,19 +288,10 @@ void FixStats::restart(char* buffer)
   std::memcpy(&count, buffer, sizeof(double));
   std::vector<double> values(static_cast<std::size_t>(count));
   std::memcpy(values.data(), buffer + sizeof(double), values.size() * sizeof(double));
-  const auto counts = values.empty() ? 0 : static_cast<std::size_t>(values[0]);
-  for (std::size_t k = counts + 2; k + 1 < values.size();) {
-    const auto length = static_cast<std::size_t>(values[k + 1]);
-    if (k + 2 + length > values.size()) break;
-    const auto name = values.begin() + static_cast<std::ptrdiff_t>(k + 2);
-    std::string text;
-    for (std::size_t c = 0; c < length; ++c) text += static_cast<char>(name[static_cast<std::ptrdiff_t>(c)]);
-    session_->restarted[text] = static_cast<long>(values[k]);
-    k += 2 + length;
-  }
-  const bool known = counts > 0 && counts < values.size() &&
-                     session_->statistics.unpack(values.data() + 1, counts, comm->me == 0);
-  if (!known && comm->me == 0)
+  const RestartRecord record = RestartRecord::from(values);
+  for (const auto& [command, combination] : record.combinations) session_->restarted[command] = combination;
+  if (!session_->statistics.unpack(record.counts.data(), record.counts.size(), comm->me == 0) &&
+      comm->me == 0)
     error->warning(FLERR, fmt::format("fix {} granulaw/stats: the restart file holds the counts of another "
                                       "version of the plug-in: they begin at zero",
                                       id)

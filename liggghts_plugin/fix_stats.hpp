@@ -8,7 +8,7 @@
 
 namespace granulaw::plugin {
 
-/// fix ID all granulaw/stats [file FILE] [every N]: what the normal contacts of models mpm and thornton did
+/// fix ID all granulaw/stats [file FILE] [every N]: what the normal contacts of our models did
 /// since one of them was first named. Added by pair_style or fix wall/gran itself as `fix granulaw all
 /// granulaw/stats` if the deck adds none. At the start of a run it prints the table of the laws and checks
 /// the time step; at the end it prints a line and writes FILE, which it also does every N steps. The counts
@@ -53,6 +53,7 @@ class FixStats : public LAMMPS_NS::Fix
   void restart(char* buffer) override;
 
  private:
+  void read_keywords(int narg, char** arg);
   /// The contact statistics summed (or its largest values) over ranks. Collective.
   ContactStatistics total() const;
   /// `with_open`: as the ranks keep it, with the contacts that are open (ContactStatistics::Pair::overlap).
@@ -64,6 +65,8 @@ class FixStats : public LAMMPS_NS::Fix
   /// Once for each `what`.
   void warn(const std::string& what, const std::string& text) const;
   void warn_of_clumps() const;
+  void warn_of_lost_contacts() const;
+  void warn_of_long_steps() const;
   /// True in the one fix that speaks, if a deck has several.
   bool speaks() const;
   DeckUnits deck_units() const;

@@ -5,16 +5,8 @@
 namespace granulaw::plugin {
 
 // Modify's maps are private, and LIGGGHTS has no call that adds a style.
-struct FixMapTag
-{
-  friend auto exposed(FixMapTag);
-};
-template struct Expose<FixMapTag, &LAMMPS_NS::Modify::fix_map>;
-struct ComputeMapTag
-{
-  friend auto exposed(ComputeMapTag);
-};
-template struct Expose<ComputeMapTag, &LAMMPS_NS::Modify::compute_map>;
+GRANULAW_EXPOSE(FixMapTag, LAMMPS_NS::Modify, fix_map);
+GRANULAW_EXPOSE(ComputeMapTag, LAMMPS_NS::Modify, compute_map);
 
 void register_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator create)
 {

@@ -13,11 +13,7 @@
 
 namespace granulaw::plugin {
 
-struct WallAreaMode
-{
-  friend auto exposed(WallAreaMode);
-};
-template struct Expose<WallAreaMode, &LAMMPS_NS::FixWallGran::area_calculation_mode_>;
+GRANULAW_EXPOSE(WallAreaMode, LAMMPS_NS::FixWallGran, area_calculation_mode_);
 
 namespace {
 

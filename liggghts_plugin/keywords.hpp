@@ -1,63 +1,70 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 
-/// The words of `pair_style gran` and `fix wall/gran` with the models `mpm` and `thornton`: read by the
-/// plug-in (options.hpp) and by what plans a deck without LIGGGHTS (tools/deck).
+// Every keyword behind the models in `pair_style gran` and `fix wall/gran`, but for those of a single model,
+// which stand with its physics (NormalPhysics::keywords). Needs nothing else: the reader of decks uses the
+// same lists.
 namespace granulaw::plugin {
 
-/// Who reads a keyword.
-enum class KeywordReader {
-  plugin,          ///< options.cpp
-  surface_model,   ///< LIGGGHTS's superquadrics, checked by the plug-in
-  contact_models,  ///< LIGGGHTS's other models, each followed by on or off
-};
-
-/// A word that may stand behind the models, and where.
+/// A keyword and what may follow it: one of `words`, a number from `least` to `most`, or, where it states
+/// neither, any one word.
 struct Keyword
 {
   std::string_view name;
-  KeywordReader reader = KeywordReader::plugin;
-  bool in_pair_style = true, in_wall = true;
-  bool only_mpm = false;     ///< not with the model `thornton`
-  bool many_values = false;  ///< up to the next keyword; else exactly one
+  bool in_pair_style = true, in_wall = true;  ///< where it may stand
+  std::array<std::string_view, 2> words{};
+  double least = 0.0, most = -1.0;  ///< least > most: no number
+  /// What follows up to the next keyword where that is one word or more: "one name for each atom type".
+  std::string_view list{};
+
+  constexpr bool takes_words() const { return !words[0].empty(); }
+  constexpr bool takes_number() const { return least <= most; }
+  constexpr bool stands_in(bool wall) const { return wall ? in_wall : in_pair_style; }
 };
 
-/// A new keyword of the plug-in is one line here, and what it does in options.cpp.
-inline constexpr std::array keyword_table{
-    Keyword{.name = "tangentialDampingRatio"},
-    Keyword{.name = "tangentialStiffness"},
-    Keyword{.name = "elasticDamping"},
-    Keyword{.name = "stretch"},
-    Keyword{.name = "heatArea"},
-    Keyword{.name = "wall", .in_pair_style = false},
+/// Keywords of all models. docs/pair_gran_model_mpm.md says what they mean.
+inline constexpr std::array shared_keywords{
+    Keyword{.name = "tangentialDampingRatio", .least = 0.0, .most = 1.0},
+    Keyword{.name = "tangentialStiffness", .words = {"computed", "mindlin"}},
+    Keyword{.name = "elasticDamping", .words = {"off", "restitution"}, .least = 0.0, .most = 1.0},
+    Keyword{.name = "stretch", .least = 1.0, .most = 1000.0},
+    Keyword{.name = "heatArea", .words = {"law", "overlap"}},
+    Keyword{.name = "wall", .in_pair_style = false, .words = {"deformable", "rigid"}},
     Keyword{.name = "stats", .in_wall = false},
-    Keyword{.name = "energy", .in_wall = false},
-    Keyword{.name = "contactMap", .in_wall = false},
-    Keyword{.name = "law", .only_mpm = true},
-    Keyword{.name = "materials", .only_mpm = true, .many_values = true},
-    Keyword{.name = "beyondRange", .only_mpm = true},
-    Keyword{.name = "tangential_damping", .reader = KeywordReader::contact_models},
-    Keyword{.name = "limitForce", .reader = KeywordReader::contact_models},
-    Keyword{.name = "tangential_reduce", .reader = KeywordReader::contact_models},
-    Keyword{.name = "computeElasticPotential", .reader = KeywordReader::contact_models},
-    Keyword{.name = "computeDissipatedEnergy"},
-    Keyword{.name = "heating_tracking", .reader = KeywordReader::contact_models},
-    Keyword{.name = "heating_tangential_history", .reader = KeywordReader::contact_models},
-    Keyword{.name = "heating_tangential_no_history", .reader = KeywordReader::contact_models},
-    Keyword{.name = "torsionTorque", .reader = KeywordReader::contact_models},
-    Keyword{.name = "meanCurvature", .reader = KeywordReader::surface_model},
-    Keyword{.name = "gaussianCurvature", .reader = KeywordReader::surface_model},
-    Keyword{.name = "curvatureLimitFactor", .reader = KeywordReader::surface_model},
+    Keyword{.name = "energy", .in_wall = false, .words = {"on", "off"}},
+    Keyword{.name = "contactMap", .in_wall = false, .words = {"on", "off"}},
+    Keyword{.name = "computeDissipatedEnergy", .words = {"on", "off"}},
 };
 
-/// The words that name the five models, in their order.
+/// For models whose law ends at a largest overlap: put it among the model's own keywords.
+inline constexpr Keyword beyond_range{.name = "beyondRange", .words = {"stop", "continue"}};
+
+/// Keywords that LIGGGHTS itself reads behind the models, each followed by on or off.
+inline constexpr std::array liggghts_keywords{
+    Keyword{.name = "tangential_damping"},
+    Keyword{.name = "limitForce"},
+    Keyword{.name = "tangential_reduce"},
+    Keyword{.name = "computeElasticPotential"},
+    Keyword{.name = "heating_tracking"},
+    Keyword{.name = "heating_tangential_history"},
+    Keyword{.name = "heating_tangential_no_history"},
+    Keyword{.name = "torsionTorque"},
+};
+
+/// Keywords of LIGGGHTS's surface model of superquadrics; superquadric.hpp checks what they say.
+inline constexpr std::array surface_keywords{
+    Keyword{.name = "meanCurvature"},
+    Keyword{.name = "gaussianCurvature"},
+    Keyword{.name = "curvatureLimitFactor"},
+};
+
+/// What names a model, in LIGGGHTS's order; all keywords stand behind.
 inline constexpr std::array<std::string_view, 5> model_kinds{"model", "tangential", "cohesion",
                                                              "rolling_friction", "surface"};
 
-/// LIGGGHTS's own words of `fix wall/gran`, which stand before the model's.
+/// Words of `fix wall/gran` itself; they stand before the model's keywords.
 inline constexpr std::array<std::string_view, 13> wall_words{"primitive",
                                                              "mesh",
                                                              "n_meshes",
@@ -71,22 +78,5 @@ inline constexpr std::array<std::string_view, 13> wall_words{"primitive",
                                                              "contact_area",
                                                              "track_energy",
                                                              "allow_special_domain_periodic"};
-
-/// The keyword of this name in `fix wall/gran` (`is_wall`) or `pair_style gran`; null: there is none.
-constexpr const Keyword* find_keyword(std::string_view name, bool is_wall)
-{
-  for (const Keyword& k : keyword_table)
-    if (k.name == name && (is_wall ? k.in_wall : k.in_pair_style)) return &k;
-  return nullptr;
-}
-
-/// Whether `word` ends the names that stand behind `materials`.
-constexpr bool is_reserved(std::string_view word, bool is_wall)
-{
-  const auto in = [&](const auto& words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  };
-  return find_keyword(word, is_wall) || in(model_kinds) || (is_wall && in(wall_words));
-}
 
 }  // namespace granulaw::plugin

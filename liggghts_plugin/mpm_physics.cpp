@@ -1,8 +1,13 @@
 #include "liggghts_plugin/mpm_physics.hpp"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/error.hpp"
 #include "base/scales.hpp"
+#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/loaded_law.hpp"
+#include "liggghts_plugin/session.hpp"
 
 namespace granulaw::plugin {
 
@@ -71,7 +76,43 @@ struct HertzBody
   }
 };
 
+std::string error_text(const Certificate& c)
+{
+  if (c.verification_impacts > 0)
+    return fmt::format("F {:.2g} %, e {:.2g} %{}", 100 * c.verification_error_force,
+                       100 * c.verification_error_restitution,
+                       c.origin == "atlas" ? " (atlas)" : " against fresh impacts");
+  if (c.origin == "atlas")
+    return fmt::format("F {:.2g} %, e {:.2g} (atlas)", 100 * c.atlas_error_force, c.atlas_error_restitution);
+  return "not stated";
+}
+
+/// Names end where the next keyword begins, so a misspelt keyword looks like one more material.
+std::string misspelt_keyword(const std::vector<std::string>& materials, std::size_t types, bool is_wall)
+{
+  const auto words = keyword_names(model_info<MpmPhysics>, is_wall);
+  for (std::size_t k = types; k < materials.size(); ++k)
+    if (const std::string word = nearest(materials[k], words); !word.empty())
+      return fmt::format("; '{}' is no keyword, did you mean '{}'?", materials[k], word);
+  return {};
+}
+
 }  // namespace
+
+void MpmPhysics::read_keywords(LAMMPS_NS::LAMMPS* lmp, Setup& setup)
+{
+  const auto& law = setup.own.own_words("law");
+  if (setup.wall && law.empty()) {
+    if (!setup.session->pair_law)
+      fail(setup.where, "'law FILE' is missing, and there is no pair_style gran model mpm to take it from");
+    setup.law = setup.session->pair_law;
+  } else {
+    if (law.empty()) fail(setup.where, "'law FILE' is missing");
+    setup.law = load_law(lmp, law[0], setup.where);
+  }
+  if (setup.options.own_words("materials").empty())
+    fail(setup.where, "'materials' is missing: one name for each atom type");
+}
 
 void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup& setup, const Types& types)
 {
@@ -81,17 +122,12 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
   for (int t = 1; t <= types.count; ++t)
     e_star_[static_cast<std::size_t>(t)] =
         plane_strain_modulus(types.youngs_modulus[t], types.poisson_ratio[t]);
-  const auto& materials = setup.options.materials;
-  if (materials.size() != static_cast<std::size_t>(types.count)) {
-    // names end where the next keyword begins, so a misspelt keyword looks like one more material
-    std::string hint;
-    const auto words = keywords(Model::mpm, setup.wall != nullptr);
-    for (std::size_t k = static_cast<std::size_t>(types.count); k < materials.size() && hint.empty(); ++k)
-      if (const std::string word = nearest(materials[k], words); !word.empty())
-        hint = fmt::format("; '{}' is no keyword, did you mean '{}'?", materials[k], word);
+  const auto& materials = setup.options.own_words("materials");
+  const auto count = static_cast<std::size_t>(types.count);
+  if (materials.size() != count)
     fail(setup.where, fmt::format("'materials' needs one name for each of the {} atom types, found {}: {}{}",
-                                  types.count, materials.size(), fmt::join(materials, " "), hint));
-  }
+                                  count, materials.size(), fmt::join(materials, " "),
+                                  misspelt_keyword(materials, count, setup.wall != nullptr)));
   double& limit = setup.session->damage_number_limit;
   const auto lower_limit = [&](const Certificate& certificate) {
     const double own = certificate.damage_number_max;
@@ -110,9 +146,14 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
   }
 }
 
+const std::string& MpmPhysics::material(int t) const
+{
+  return setup_->options.own_words("materials")[static_cast<std::size_t>(t - 1)];
+}
+
 const BodyLaw* MpmPhysics::body(int t) const
 {
-  const auto found = setup_->law->law.bodies.find(setup_->options.materials[static_cast<std::size_t>(t - 1)]);
+  const auto found = setup_->law->law.bodies.find(material(t));
   return found == setup_->law->law.bodies.end() ? nullptr : &found->second;
 }
 
@@ -121,7 +162,7 @@ void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
 {
   for (const int t : {i, is_wall ? i : j}) {
     const auto at = static_cast<std::size_t>(t);
-    if (setup_->options.materials[at - 1] != contact.law.yielding->material.name) continue;
+    if (material(t) != contact.law.yielding->material.name) continue;
     for (const double radius : {sizes.radius[at], sizes.largest_radius[at]})
       if (radius > 0 && std::isfinite(radius))
         check_size(contact.law, radius * units_.length,
@@ -131,8 +172,7 @@ void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
 
 MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& where) const
 {
-  const std::string& a = setup_->options.materials[static_cast<std::size_t>(i - 1)];
-  const std::string& b = setup_->options.materials[static_cast<std::size_t>(j - 1)];
+  const std::string &a = material(i), &b = material(j);
   const double stretch = setup_->options.stretch.value_or(1.0);
   const double e_star_i = e_star_[static_cast<std::size_t>(i)],
                e_star_j = e_star_[static_cast<std::size_t>(j)];
@@ -155,6 +195,52 @@ MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& wher
   } else
     law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
   return {law, setup_->law->curves.at(law.curve), stretch, units_};
+}
+
+PairInfo MpmPhysics::describe(const Contact& contact, const PairKey& key) const
+{
+  PairInfo info;
+  info.a = material(key.i);
+  info.b = key.kind == PairKey::rigid_wall ? wall_name : material(key.j);
+  info.law = fmt::format("mpm {}", setup_->law->path);
+  const LawPair* pair = setup_->law->law.find_pair(info.a, info.b);
+  const bool exact = info.a == info.b || key.kind == PairKey::rigid_wall;
+  const BodyLaw& body = *contact.law.yielding;
+  const auto of_body = setup_->law->law.bodies.find(body.material.name);
+  const bool of_pair =
+      of_body != setup_->law->law.bodies.end() && contact.law.curve != &of_body->second.curve;
+  info.rule = exact || of_pair ? "own"
+              : pair && pair->reduction_error_restitution > 0
+                  ? fmt::format("reduced (e {:.2g} %)", 100 * pair->reduction_error_restitution)
+                  : "reduced";
+  info.error = error_text(body.certificate);
+  if (body.material.yields()) info.stiffness_ratio = body.material.e_star() / body.material.yield_stress;
+  info.overlap_limit = contact.largest_overlap();
+  info.damage_number_limit = body.certificate.damage_number_max;
+  return info;
+}
+
+double MpmContact::stored_energy(double r_eff, double delta, double delta_max, double impact_overlap) const
+{
+  const double length = r_eff / per_lambda;
+  const double unit = force_scale * r_eff * r_eff * length;
+  const double x = delta / length, x_max = std::max(delta, delta_max) / length;
+  const ContactCurve& exact = curve->curve();
+  if (x_max <= exact.onset()) return unit * exact.work_loading(x, impact_overlap);
+  const ContactCurve::Reversal top = exact.reversal(x_max, impact_overlap);
+  const double span = x_max - top.residual, u = (x - top.residual) / span;
+  return u > 0.0 ? unit * top.force * span * top.shape.work(u) : 0.0;
+}
+
+double MpmContact::stiffness(double r_eff, double delta, double impact_overlap) const
+{
+  const double length = r_eff / per_lambda;
+  const double unit = force_scale * r_eff * r_eff / length;
+  const ContactCurve& exact = curve->curve();
+  const double x = delta / length;
+  if (x <= exact.onset()) return unit * exact.loading(x, impact_overlap).stiffness;
+  const ContactCurve::Reversal top = exact.reversal(x, impact_overlap);
+  return unit * std::max(top.stiffness, top.shape.exponent * top.force / (x - top.residual));
 }
 
 }  // namespace granulaw::plugin

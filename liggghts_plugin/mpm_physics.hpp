@@ -5,9 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <string>
+#include <vector>
 
+#include "law/fast_curve.hpp"
 #include "law/law.hpp"
-#include "liggghts_plugin/plastic_model.hpp"
+#include "liggghts_plugin/normal_physics.hpp"
 
 namespace granulaw::plugin {
 
@@ -38,7 +41,7 @@ struct MpmContact
     if (!law.curve->axis()) return 0.0;
     return law.impact_overlap(r_eff * units.length, m_eff * units.mass, speed * units.length);
   }
-  /// Where the law's inertia or rate axis ends; infinity without one.
+  /// Where the law's velocity axis ends; infinity without one.
   double max_speed(double r_eff, double m_eff) const
   {
     return law.max_speed(r_eff * units.length, m_eff * units.mass) / units.length;
@@ -67,26 +70,24 @@ struct MpmContact
     std::copy_n(kept, reversal_values, values.begin());
     return scale * std::bit_cast<Reversal>(values).force_at(x);
   }
-  /// Of the real, unstretched contact.
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
     return curve->evaluate(law.mapping, r_eff, per_stretch * delta, per_stretch * delta_max, impact_overlap)
         .contact_radius;
   }
-  /// Over R*, stretched.
   double yield_overlap() const { return curve->curve().onset() / per_lambda; }
-  /// E* of the pair.
   double pair_modulus() const { return law.mapping.e_star_pair() / units.pressure(); }
-  /// Whether the force depends on the mass of the bodies.
   bool needs_mass() const { return law.curve->axis() != nullptr; }
-  /// Spent on plastic strain while the largest overlap grew from `from` to `to`.
   double dissipated(double r_eff, double from, double to, double impact_overlap) const
   {
     const double length = r_eff / per_lambda;
     return force_scale * r_eff * r_eff * length *
            curve->dissipated(from / length, to / length, impact_overlap);
   }
+  double stored_energy(double r_eff, double delta, double delta_max, double impact_overlap) const;
+  double stiffness(double r_eff, double delta, double impact_overlap) const;
   double largest_overlap() const { return curve->curve().x_end() / per_lambda; }
+  double stiffness_range() const { return largest_overlap(); }
   double damage_number_per_speed2() const
   {
     // the yielding body's share of the approach is V/sqrt(lambda): all on a rigid wall, half in a like pair
@@ -103,16 +104,26 @@ class MpmPhysics
 {
  public:
   static constexpr const char* name = "mpm";
+  static constexpr int id = 40;
+  static constexpr std::array keywords{
+      Keyword{.name = "law"},  // FILE; a wall that does not say it takes the pair style's
+      Keyword{.name = "materials", .list = "one name for each atom type"},  // type 1 first
+      beyond_range,
+  };
   static constexpr bool latches_impact = true;
   using Contact = MpmContact;
 
+  static void read_keywords(LAMMPS_NS::LAMMPS* lmp, Setup& setup);
   void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
 
   Contact resolve(int i, int j, bool rigid, const std::string& where) const;
   /// A rate-dependent body has one radius: the rate is the speed over it.
   void check_sizes(int i, int j, bool is_wall, const Contact& contact, const ParticleSizes& sizes) const;
+  PairInfo describe(const Contact& contact, const PairKey& key) const;
 
  private:
+  /// The deck's name of the material of type t.
+  const std::string& material(int t) const;
   /// The law's body of type t; null: the type is `elastic`, or the law has no such material.
   const BodyLaw* body(int t) const;
 
@@ -120,5 +131,7 @@ class MpmPhysics
   std::vector<double> e_star_;  // Pa, by type
   DeckUnits units_;
 };
+
+static_assert(NormalPhysics<MpmPhysics>);
 
 }  // namespace granulaw::plugin

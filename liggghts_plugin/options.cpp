@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "liggghts_plugin/keywords.hpp"
 
 namespace granulaw::plugin {
 
@@ -16,65 +15,184 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-bool contains(const auto& words, const std::string& word)
+template <class List>
+bool contains(const List& list, std::string_view word)
 {
-  return std::find(words.begin(), words.end(), word) != words.end();
+  return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-double number(const std::string& text, const std::string& where, const std::string& key)
+bool is_among(std::span<const Keyword> keywords, std::string_view name)
+{
+  return std::any_of(keywords.begin(), keywords.end(), [&](const Keyword& k) { return k.name == name; });
+}
+
+/// The keywords that a command may say.
+class KnownKeywords
+{
+ public:
+  KnownKeywords(const ModelInfo& model, bool is_wall) : is_wall_(is_wall)
+  {
+    add(shared_keywords);
+    add(model.keywords);
+    add(liggghts_keywords);
+  }
+
+  const Keyword* find(std::string_view name) const
+  {
+    const auto is_it = [&](const Keyword* k) { return k->name == name; };
+    const auto found = std::find_if(keywords_.begin(), keywords_.end(), is_it);
+    return found == keywords_.end() ? nullptr : *found;
+  }
+
+  Words names() const
+  {
+    Words names;
+    for (const Keyword* k : keywords_) names.emplace_back(k->name);
+    return names;
+  }
+
+  /// Whether a list of names ends before this word.
+  bool ends_list(const std::string& word) const
+  {
+    return find(word) || is_among(surface_keywords, word) || contains(model_kinds, word) ||
+           (is_wall_ && contains(wall_words, word));
+  }
+
+  /// Throws Error unless `key` is one of them.
+  const Keyword& demand(const std::string& key, const std::string& where) const
+  {
+    if (contains(model_kinds, key))
+      fail(where, fmt::format("'{}' is out of order: the order is {}, then the model's keywords{}", key,
+                              fmt::join(model_kinds, ", "), is_wall_ ? ", after all of the wall's own" : ""));
+    if (is_wall_ && contains(wall_words, key))
+      fail(where,
+           fmt::format("'{}' must stand before the model's keywords ({})", key, fmt::join(names(), ", ")));
+    if (const Keyword* keyword = find(key)) return *keyword;
+    fail(where, fmt::format("unknown keyword '{}'{}", key, did_you_mean(key, names())), {},
+         fmt::format("{}", fmt::join(names(), ", ")));
+  }
+
+ private:
+  void add(std::span<const Keyword> keywords)
+  {
+    for (const Keyword& k : keywords)
+      if (k.stands_in(is_wall_)) keywords_.push_back(&k);
+  }
+
+  bool is_wall_;
+  std::vector<const Keyword*> keywords_;
+};
+
+/// Empty: the text is no finite number.
+std::optional<double> number(const std::string& text)
 {
   double value = 0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop != end || !std::isfinite(value))
-    fail(where, fmt::format("'{}' needs a number", key), fmt::format("'{}'", text));
+  if (error != std::errc{} || stop != end || !std::isfinite(value)) return {};
   return value;
 }
 
-bool choice(const std::string& text, const char* yes, const char* no, const std::string& where,
-            const std::string& key)
+/// Throws Error unless `value` may follow the keyword.
+void check_value(const Keyword& keyword, const std::string& value, const std::string& where)
 {
-  if (text == yes) return true;
-  if (text == no) return false;
-  fail(where, fmt::format("'{}' has an unknown value", key), fmt::format("'{}'", text),
-       fmt::format("{}, {}", yes, no));
+  if (contains(keyword.words, value) || (!keyword.takes_words() && !keyword.takes_number())) return;
+  const std::string range = fmt::format("{:g} to {:g}", keyword.least, keyword.most);
+  const bool has_digits = value.find_first_of("0123456789") != std::string::npos;
+  if (keyword.takes_words() && !(keyword.takes_number() && has_digits))
+    fail(where, fmt::format("'{}' has an unknown value", keyword.name), fmt::format("'{}'", value),
+         fmt::format("{}{}", keyword.takes_number() ? fmt::format("a number from {}, ", range) : "",
+                     fmt::join(keyword.words, ", ")));
+  const std::optional<double> found = number(value);
+  if (!found) fail(where, fmt::format("'{}' needs a number", keyword.name), fmt::format("'{}'", value));
+  if (!(*found >= keyword.least && *found <= keyword.most))
+    fail(where, fmt::format("'{}' is out of range", keyword.name), value, range);
 }
 
-ElasticDamping elastic_damping(const std::string& text, const std::string& where)
+/// What a command says: each keyword with the words behind it.
+using Said = std::map<std::string, Words>;
+
+/// Throws Error on an unknown or misplaced keyword, a missing or bad value. Keywords of LIGGGHTS go to
+/// `rest`, too.
+Said read_words(const KnownKeywords& known, const std::string& where, const Words& words, Words& rest)
 {
-  if (text == "off") return {0.0};
-  if (text == "restitution") return {0.0, true};
-  if (text.find_first_of("0123456789") == std::string::npos)
-    fail(where, "'elasticDamping' has an unknown value", fmt::format("'{}'", text),
-         "a number from 0 to 1, off, restitution");
-  const double ratio = number(text, where, "elasticDamping");
-  if (!(ratio >= 0 && ratio <= 1)) fail(where, "'elasticDamping' is out of range", text, "0 to 1");
-  return {ratio};
+  Said said;
+  for (std::size_t i = 0; i < words.size();) {
+    const std::string& key = words[i++];
+    const Keyword& keyword = known.demand(key, where);
+    if (said.contains(key)) fail(where, fmt::format("'{}' is given twice", key));
+    Words& values = said[key];
+    if (keyword.list.empty()) {
+      if (i >= words.size()) fail(where, fmt::format("'{}' needs a value", key));
+      values.push_back(words[i++]);
+      check_value(keyword, values[0], where);
+    } else {
+      while (i < words.size() && !known.ends_list(words[i])) values.push_back(words[i++]);
+      if (values.empty()) fail(where, fmt::format("'{}' needs {}", key, keyword.list));
+    }
+    if (is_among(liggghts_keywords, key)) rest.insert(rest.end(), {key, values[0]});
+  }
+  return said;
+}
+
+ElasticDamping elastic_damping(const std::string& value)
+{
+  if (value == "off") return {0.0};
+  if (value == "restitution") return {0.0, true};
+  return {*number(value)};
+}
+
+/// What is said of the keywords of all models.
+Options shared_options(const Said& said)
+{
+  const auto value = [&](const char* key) -> const std::string* {
+    const auto found = said.find(key);
+    return found == said.end() ? nullptr : &found->second[0];
+  };
+  const auto is = [&](const char* key, const char* word) { return value(key) && *value(key) == word; };
+  const auto choice = [&](const char* key, const char* yes) -> std::optional<bool> {
+    if (!value(key)) return {};
+    return *value(key) == yes;
+  };
+  const auto quantity = [&](const char* key) -> std::optional<double> {
+    if (!value(key)) return {};
+    return number(*value(key));
+  };
+  Options options;
+  options.deformable_wall = is("wall", "deformable");
+  options.tangential_damping = quantity("tangentialDampingRatio");
+  if (const std::string* text = value("tangential_damping")) options.tangential_damping_on = *text != "off";
+  options.tangential_computed = choice("tangentialStiffness", "computed");
+  if (const std::string* text = value("elasticDamping")) options.elastic_damping = elastic_damping(*text);
+  options.stretch = quantity("stretch");
+  if (const std::string* text = value("stats")) options.stats_path = *text;
+  options.energy = is("energy", "on");
+  options.dissipated_energy = is("computeDissipatedEnergy", "on");
+  options.contact_map = is("contactMap", "on");
+  options.stop_beyond_range = choice("beyondRange", "stop");
+  options.heat_by_law = choice("heatArea", "law");
+  return options;
 }
 
 }  // namespace
 
-const char* model_name(Model model)
+Words keyword_names(const ModelInfo& model, bool is_wall)
 {
-  return model == Model::mpm ? "mpm" : "thornton";
+  return KnownKeywords(model, is_wall).names();
 }
 
-Words keywords(Model model, bool is_wall)
+const Words& Options::own_words(const std::string& key) const
 {
-  Words words;
-  for (const Keyword& k : keyword_table)
-    if ((is_wall ? k.in_wall : k.in_pair_style) && (model == Model::mpm || !k.only_mpm) &&
-        k.reader != KeywordReader::surface_model)
-      words.emplace_back(k.name);
-  return words;
+  static const Words none;
+  const auto found = own.find(key);
+  return found == own.end() ? none : found->second;
 }
 
 void Options::inherit(const Options& pair)
 {
-  const auto take = [](auto& own, const auto& other) {
-    if (!own) own = other;
+  const auto take = [](auto& mine, const auto& other) {
+    if (!mine) mine = other;
   };
-  if (materials.empty()) materials = pair.materials;
   take(tangential_damping, pair.tangential_damping);
   take(tangential_damping_on, pair.tangential_damping_on);
   take(tangential_computed, pair.tangential_computed);
@@ -82,68 +200,17 @@ void Options::inherit(const Options& pair)
   take(stretch, pair.stretch);
   take(stop_beyond_range, pair.stop_beyond_range);
   take(heat_by_law, pair.heat_by_law);
+  own.insert(pair.own.begin(), pair.own.end());
 }
 
-Options parse_options(Model model, bool is_wall, const std::string& where, const Words& words, Words& rest)
+Options parse_options(const ModelInfo& model, bool is_wall, const std::string& where, const Words& words,
+                      Words& rest)
 {
-  const Words known = keywords(model, is_wall);
-  Options options;
-  Words seen;
-  for (std::size_t i = 0; i < words.size();) {
-    const std::string& key = words[i++];
-    if (contains(model_kinds, key))
-      fail(where, fmt::format("'{}' is out of order: the order is {}, then the model's keywords{}", key,
-                              fmt::join(model_kinds, ", "), is_wall ? ", after all of the wall's own" : ""));
-    if (is_wall && contains(wall_words, key))
-      fail(where,
-           fmt::format("'{}' must stand before the model's keywords ({})", key, fmt::join(known, ", ")));
-    if (!contains(known, key))
-      fail(where, fmt::format("unknown keyword '{}'{}", key, did_you_mean(key, known)), {},
-           fmt::format("{}", fmt::join(known, ", ")));
-    if (contains(seen, key)) fail(where, fmt::format("'{}' is given twice", key));
-    seen.push_back(key);
-    if (i >= words.size()) fail(where, fmt::format("'{}' needs a value", key));
-
-    if (key == "materials") {
-      while (i < words.size() && !is_reserved(words[i], is_wall)) options.materials.push_back(words[i++]);
-      if (options.materials.empty()) fail(where, "'materials' needs one name for each atom type");
-      continue;
-    }
-    const std::string& value = words[i++];
-    if (key == "law")
-      options.law_path = value;
-    else if (key == "stats")
-      options.stats_path = value;
-    else if (key == "energy")
-      options.energy = choice(value, "on", "off", where, key);
-    else if (key == "computeDissipatedEnergy")
-      options.dissipated_energy = choice(value, "on", "off", where, key);
-    else if (key == "contactMap")
-      options.contact_map = choice(value, "on", "off", where, key);
-    else if (key == "wall")
-      options.deformable_wall = choice(value, "deformable", "rigid", where, key);
-    else if (key == "beyondRange")
-      options.stop_beyond_range = choice(value, "stop", "continue", where, key);
-    else if (key == "heatArea")
-      options.heat_by_law = choice(value, "law", "overlap", where, key);
-    else if (key == "tangentialDampingRatio") {
-      options.tangential_damping = number(value, where, key);
-      if (!(*options.tangential_damping >= 0 && *options.tangential_damping <= 1))
-        fail(where, "'tangentialDampingRatio' is out of range", value, "0 to 1");
-    } else if (key == "tangentialStiffness")
-      options.tangential_computed = choice(value, "computed", "mindlin", where, key);
-    else if (key == "stretch") {
-      options.stretch = number(value, where, key);
-      if (!(*options.stretch >= 1 && *options.stretch <= 1000))
-        fail(where, "'stretch' is out of range", value, "1 to 1000");
-    } else if (key == "elasticDamping")
-      options.elastic_damping = elastic_damping(value, where);
-    else {
-      if (key == "tangential_damping") options.tangential_damping_on = value != "off";
-      rest.push_back(key);
-      rest.push_back(value);
-    }
-  }
+  const Said said = read_words(KnownKeywords(model, is_wall), where, words, rest);
+  Options options = shared_options(said);
+  for (const Keyword& keyword : model.keywords)
+    if (const auto found = said.find(std::string(keyword.name)); found != said.end())
+      options.own.insert(*found);
   return options;
 }
 

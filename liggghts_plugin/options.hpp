@@ -1,14 +1,13 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace granulaw::plugin {
+#include "liggghts_plugin/model_info.hpp"
 
-/// Which of the two laws a command asks for.
-enum class Model { mpm, thornton };
-const char* model_name(Model model);
+namespace granulaw::plugin {
 
 /// Viscous damping of contacts where the law is elastic.
 struct ElasticDamping
@@ -26,10 +25,7 @@ inline constexpr double stretched_overlap_limit = 0.5;
 /// docs/pair_gran_model_mpm.md.
 struct Options
 {
-  std::string law_path;  ///< `law FILE` (mpm)
-  std::vector<std::string>
-      materials;                 ///< `materials A B ...`: one name for each atom type, type 1 first (mpm)
-  bool deformable_wall = false;  ///< `wall rigid|deformable` (walls)
+  bool deformable_wall = false;               ///< `wall rigid|deformable` (walls)
   std::optional<double> tangential_damping;   ///< `tangentialDampingRatio Z`: fraction of critical damping
   std::optional<bool> tangential_damping_on;  ///< LIGGGHTS's own `tangential_damping on|off`
   std::optional<bool> tangential_computed;    ///< `tangentialStiffness mindlin|computed`
@@ -39,10 +35,15 @@ struct Options
   bool energy = false;                    ///< `energy on|off` (pair): energies per particle, friction
   bool dissipated_energy = false;         ///< LIGGGHTS's own `computeDissipatedEnergy on|off`
   bool contact_map = false;               ///< `contactMap on|off` (pair): counts of speed and overlap, joint
-  std::optional<bool> stop_beyond_range;  ///< `beyondRange stop|continue` (mpm)
+  std::optional<bool> stop_beyond_range;  ///< `beyondRange stop|continue` (models with a table)
   std::optional<bool> heat_by_law;        ///< `heatArea overlap|law`: the area that heat passes through
 
+  /// Each of the model's own keywords that was said, with the words behind it.
+  std::map<std::string, std::vector<std::string>> own;
+
   bool operator==(const Options&) const = default;
+  /// The words behind one of the model's own keywords; none: it was not said.
+  const std::vector<std::string>& own_words(const std::string& key) const;
   /// What a wall's command leaves open is taken from the pair style's.
   void inherit(const Options& pair);
 };
@@ -50,12 +51,12 @@ struct Options
 /// Tangential damping where the deck says nothing: see docs, "Tangential force".
 inline constexpr double default_tangential_damping = 0.1;
 
-/// Every word that may stand behind the models: the plug-in's own, then those that LIGGGHTS reads.
-std::vector<std::string> keywords(Model model, bool is_wall);
+/// Every keyword that may stand behind the models: the plug-in's own, then those that LIGGGHTS reads.
+std::vector<std::string> keyword_names(const ModelInfo& model, bool is_wall);
 
 /// Takes the plug-in's words out of `words` and leaves the rest for LIGGGHTS in `rest`. Throws Error with one
 /// sentence that starts with `where` on an unknown or misplaced word, a missing or bad value.
-Options parse_options(Model model, bool is_wall, const std::string& where,
+Options parse_options(const ModelInfo& model, bool is_wall, const std::string& where,
                       const std::vector<std::string>& words, std::vector<std::string>& rest);
 
 }  // namespace granulaw::plugin

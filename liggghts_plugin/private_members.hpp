@@ -2,14 +2,7 @@
 
 namespace granulaw::plugin {
 
-/// Hands out a pointer to a private member of a class of LIGGGHTS that has no call for it. An explicit
-/// instantiation may name private members ([temp.spec]):
-///
-///   struct Tag { friend auto exposed(Tag); };
-///   template struct Expose<Tag, &Class::member>;
-///   object->*exposed(Tag{})
-///
-/// Tag and instantiation stand in this namespace itself.
+/// See GRANULAW_EXPOSE.
 template <class Tag, auto member>
 struct Expose
 {
@@ -17,3 +10,15 @@ struct Expose
 };
 
 }  // namespace granulaw::plugin
+
+/// Makes a private member of a class of LIGGGHTS reachable that has no call for it. An explicit instantiation
+/// may name private members ([temp.spec]). Stands in namespace granulaw::plugin:
+///
+///   GRANULAW_EXPOSE(Tag, Class, member);
+///   object->*exposed(Tag{})
+#define GRANULAW_EXPOSE(Tag, Class, member) \
+  struct Tag                                \
+  {                                         \
+    friend auto exposed(Tag);               \
+  };                                        \
+  template struct Expose<Tag, &Class::member>

@@ -1,8 +1,13 @@
 // Stock Hertz, compiled with the plug-in's flags, for the benchmark only: as model `hertz_granulaw` in
 // LIGGGHTS's loop over pairs, as `hertz_loop` in ours.
 #include "liggghts_plugin/liggghts.hpp"
-#include "liggghts_plugin/model_ids.hpp"
 #include "liggghts_plugin/pair_loop.hpp"
+
+namespace granulaw::plugin {
+
+inline constexpr int hertz_copy_id = 42, hertz_loop_id = 43;
+
+}  // namespace granulaw::plugin
 
 namespace LIGGGHTS::ContactModels {
 

@@ -70,7 +70,7 @@ class Session
   EnergyTally tally;
   Bodies bodies;
 
-  /// What walls of model `mpm` inherit: set by the pair style.
+  /// What walls inherit: set by the pair style.
   std::optional<Options> pair_options;
   std::shared_ptr<const LoadedLaw> pair_law;
 
@@ -103,13 +103,13 @@ class Session
 inline constexpr long combination_energy = 1l << 32, combination_contact_map = 1l << 33;
 
 /// One command's setup, handed to the contact model: LIGGGHTS builds the model before it reads the words, and
-/// keeps it out of reach. The wrapper (styles.hpp) owns the setup and makes it `current` while it calls the
-/// model's postSettings; it outlives the model's use of it.
+/// keeps it out of reach. The wrapper (pair_style.hpp, wall_style.hpp) owns the setup and makes it `current`
+/// while it calls the model's postSettings; it outlives the model's use of it.
 struct Setup
 {
   std::shared_ptr<Session> session;
   Options options;
-  std::shared_ptr<const LoadedLaw> law;      ///< mpm only
+  std::shared_ptr<const LoadedLaw> law;      ///< null where the model reads none
   std::string where;                         ///< "pair_style gran model mpm", "fix w wall/gran model mpm"
   LAMMPS_NS::FixWallGran* wall = nullptr;    ///< null for pairs
   Options own;                               ///< what the command itself says, before a wall inherits

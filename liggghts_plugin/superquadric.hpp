@@ -86,13 +86,12 @@ void check_particles(LAMMPS_NS::LAMMPS* lmp)
 }
 
 /// Throws Error where a surface model meets particles that it is not for, or a keyword what it cannot serve.
-template <class Style>
-void refuse_shape(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+inline void refuse_shape(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, bool superquadric_surface)
 {
   if constexpr (superquadrics_built) {
-    if (!is_superquadric<Style> && lmp->atom->superquadric_flag)
+    if (!superquadric_surface && lmp->atom->superquadric_flag)
       fail(setup.where, "atom_style superquadric needs 'surface superquadric' behind the other models");
-    if (is_superquadric<Style> && setup.session->energy)
+    if (superquadric_surface && setup.session->energy)
       fail(setup.where,
            "'energy on' is for spheres: of superquadrics the normal force does work on rotations, too, which "
            "these books do not hold");

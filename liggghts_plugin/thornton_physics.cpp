@@ -1,6 +1,14 @@
 #include "liggghts_plugin/thornton_physics.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
 #include "base/scales.hpp"
+#include "law/law.hpp"
+#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/session.hpp"
 
 namespace granulaw::plugin {
 
@@ -34,10 +42,36 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
 
 ThorntonContact ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
 {
-  if (rigid) return {ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}, per_stretch_};
-  return {ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
-                       1.6 * std::min(yield_stress_[i], yield_stress_[j])},
-          per_stretch_};
+  ThorntonContact contact;
+  contact.per_stretch = per_stretch_;
+  contact.law = rigid ? ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}
+                      : ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
+                                     1.6 * std::min(yield_stress_[i], yield_stress_[j])};
+  return contact;
+}
+
+PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) const
+{
+  PairInfo info{.a = "-",
+                .b = key.kind == PairKey::rigid_wall ? wall_name : "-",
+                .law = name,
+                .rule = "closed form",
+                .error = fmt::format("time step at d/R* = {:.2g}", FormulaContact::stiffness_range())};
+  info.stiffness_ratio = 1.6 * contact.law.e_star / contact.law.yield_pressure;
+  info.overlap_limit = std::numeric_limits<double>::infinity();
+  return info;
+}
+
+double ThorntonContact::stored_energy(double r_eff, double delta, double delta_max, double) const
+{
+  return law.stored_energy(r_eff, per_stretch * delta, per_stretch * delta_max);
+}
+
+double ThorntonContact::stiffness(double r_eff, double delta, double) const
+{
+  const double real = per_stretch * delta;
+  return per_stretch * per_stretch *
+         std::max(law.evaluate(r_eff, real, real).stiffness, law.unloading_stiffness(r_eff, real));
 }
 
 }  // namespace granulaw::plugin

@@ -1,6 +1,12 @@
-#include <fmt/format.h>
+#include "liggghts_plugin/types.hpp"
 
-#include "liggghts_plugin/plastic_model.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/session.hpp"
 
 namespace granulaw::plugin {
 

@@ -8,7 +8,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
-STYLES = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_STYLES"])  # the generated style_*_model.h
+STYLES = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_STYLES"])  # the generated style_*_model.h and register_*.cpp
 SMALLBIG = ["_ZN9LAMMPS_NS6Domain5remapEPdRi", "_ZN9LAMMPS_NS6Update14reset_timestepEl"]
 SUPERQUADRIC = "_ZTVN9LAMMPS_NS19AtomVecSuperquadricE"
 CONVEX = "_ZN9LAMMPS_NS17AtomVecConvexHullC1EPNS_6LAMMPSE"
@@ -65,9 +65,10 @@ class Configure(unittest.TestCase):
         words = ["-std=c++20", "-O0", "-c", "-o", str(self.folder / "object.o"), "-DOMPI_SKIP_MPICXX", "-DMPICH_SKIP_MPICXX",
                  "-DSUPERQUADRIC_ACTIVE_FLAG", "-DNONSPHERICAL_ACTIVE_FLAG", f"-I{ROOT}", f"-I{ROOT / 'mpm_core'}",
                  f"-isystem{STYLES}", f"-isystem{HEADERS}"]
-        for name in ("checks", "registration", "particle_sizes", "register_thornton"):
-            done = subprocess.run(["mpicxx", *words, str(ROOT / "liggghts_plugin" / f"{name}.cpp")], capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, f"{name}: {done.stderr[:2000]}")
+        for source in (*(ROOT / "liggghts_plugin" / f"{name}.cpp" for name in ("checks", "registration", "particle_sizes")),
+                       STYLES / "register_thornton.cpp"):
+            done = subprocess.run(["mpicxx", *words, str(source)], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, f"{source.name}: {done.stderr[:2000]}")
         symbols = subprocess.run(["nm", self.folder / "object.o"], capture_output=True, text=True, check=True).stdout
         self.assertTrue("extended_overlap_algorithm" in symbols, "the pair loop has no narrow phase")
 

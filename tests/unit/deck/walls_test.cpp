@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "deck_fixture.hpp"
-#include "liggghts_plugin/keywords.hpp"
+#include "liggghts_plugin/deck_keywords.hpp"
 
 namespace granulaw::deck {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "deck/commands/reading.hpp"
-#include "liggghts_plugin/keywords.hpp"
+#include "liggghts_plugin/deck_keywords.hpp"
 
 namespace granulaw::deck {
 

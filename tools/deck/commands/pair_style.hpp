@@ -4,7 +4,7 @@
 
 namespace granulaw::deck {
 
-/// `pair_style gran model ...` with the keywords of the plug-in (liggghts_plugin/keywords.hpp).
+/// `pair_style gran model ...` with the keywords of the plug-in (liggghts_plugin/deck_keywords.hpp).
 void follow_pair_style(Reading& reading, Words words);
 
 }  // namespace granulaw::deck

@@ -1,0 +1,133 @@
+#include "liggghts_plugin/command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "liggghts_plugin/contact_list.hpp"
+#include "liggghts_plugin/heat_conduction.hpp"
+#include "liggghts_plugin/runaway.hpp"
+
+namespace granulaw::plugin {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// What a wall's command leaves open comes from the pair style; LIGGGHTS's own words of it go to `rest`.
+void inherit(Setup& setup, Words& rest)
+{
+  Options& options = setup.options;
+  const bool own_switch = options.tangential_damping_on.has_value();
+  options.inherit(*setup.session->pair_options);
+  if (!own_switch && options.tangential_damping_on)
+    rest.insert(rest.end(), {"tangential_damping", *options.tangential_damping_on ? "on" : "off"});
+}
+
+/// What walls and the statistics take from the pair style.
+void share_with_session(Setup& setup)
+{
+  Session& session = *setup.session;
+  Options& options = setup.options;
+  session.dissipated_energy = options.dissipated_energy;
+  options.energy = options.energy || options.dissipated_energy;
+  session.pair_options = options;
+  session.pair_law = setup.law;
+  session.energy = options.energy ? &session.tally : nullptr;
+  session.contact_map = options.contact_map;
+}
+
+/// Reads our own words; `rest` stays for LIGGGHTS.
+void read_setup(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setup, const Words& words,
+                Words& rest)
+{
+  const bool is_wall = setup.wall != nullptr;
+  Session& session = *setup.session;
+  setup.own = setup.options = parse_options(models.normal, is_wall, setup.where, words, rest);
+  if (is_wall && session.pair_options) inherit(setup, rest);
+  models.read_keywords(lmp, setup);
+  if (setup.options.dissipated_energy && is_wall && !session.dissipated_energy)
+    fail(setup.where, "'computeDissipatedEnergy on' counts walls with the pair style's: say it there");
+  if (!is_wall) share_with_session(setup);
+  setup.energy = session.energy != nullptr;
+  setup.contact_map = session.contact_map;
+}
+
+/// The number that restart files keep of the command's models and words.
+void number_combination(const CommandModels& models, Setup& setup)
+{
+  setup.combination = models.hash | (setup.energy ? combination_energy : 0) |
+                      (setup.contact_map ? combination_contact_map : 0);
+  setup.session->combinations[setup.wall ? setup.wall->id : "pair"] = setup.combination;
+}
+
+/// The energy tally counts what happens in contact.
+void refuse_out_of_reach(const CommandModels& models, const Setup& setup)
+{
+  if (has_bridges(models.cohesion) && setup.energy)
+    fail(setup.where,
+         "'energy on' does not book the work of liquid bridges that pull across a gap: leave it out");
+}
+
+/// no_history is a dashpot capped at the Coulomb limit: without the dashpot there is no friction at all.
+void refuse_no_friction(const CommandModels& models, const Setup& setup, const Words& rest)
+{
+  if (models.tangential != cm::TANGENTIAL_NO_HISTORY) return;
+  const auto off = std::find(rest.begin(), rest.end(), "tangential_damping");
+  if ((off != rest.end() && *(off + 1) == "off") || setup.options.tangential_damping == 0.0)
+    fail(setup.where, "'tangential no_history' without tangential damping has no friction at all");
+}
+
+void warn_stretched_cohesion(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, const Setup& setup)
+{
+  const double s = setup.options.stretch.value_or(1.0);
+  if (models.cohesion == cm::COHESION_OFF || s <= 1.0) return;
+  if (!setup.session->first_time("stretched cohesion") || lmp->comm->me != 0) return;
+  lmp->error->warning(
+      FLERR,
+      fmt::format("{}: 'stretch {:g}' does not reach into the cohesion model: cohesionEnergyDensity must "
+                  "be the real one divided by {:g}, the square of the factor",
+                  setup.where, s, s * s)
+          .c_str());
+}
+
+/// Calls LIGGGHTS's own settings() with `words`, our setup being current for the model's postSettings.
+void with_setup(const Setup& setup, Words words, const std::function<void(int, char**)>& call)
+{
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  Setup::current = &setup;
+  call(static_cast<int>(words.size()), pointers.data());
+  Setup::current = nullptr;
+}
+
+}  // namespace
+
+void read_command(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setup, int nargs, char** args,
+                  const std::function<void(int, char**)>& call)
+{
+  // The factory counts the words down but leaves `args` on the last one where nothing is left.
+  std::vector<char*> pointers(args, args + std::max(0, nargs));
+  Words of_surface, rest;
+  if (models.superquadric) of_surface = take_curvature_words(setup.where, pointers);
+  read_setup(lmp, models, setup, Words(pointers.begin(), pointers.end()), rest);
+  rest.insert(rest.end(), of_surface.begin(), of_surface.end());
+  number_combination(models, setup);
+  refuse_out_of_reach(models, setup);
+  refuse_shape(lmp, setup, models.superquadric);
+  refuse_no_friction(models, setup, rest);
+  warn_stretched_cohesion(lmp, models, setup);
+  with_setup(setup, rest, call);
+}
+
+void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
+{
+  provide_heat_conduction(lmp);
+  provide_contact_list(lmp);
+  provide_stats_fix(lmp);
+  provide_runaway_fix(lmp);
+}
+
+}  // namespace granulaw::plugin

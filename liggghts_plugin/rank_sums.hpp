@@ -1,0 +1,12 @@
+#pragma once
+
+#include <mpi.h>
+
+#include "liggghts_plugin/contact_statistics.hpp"
+
+namespace granulaw::plugin {
+
+/// Makes sums, largest and least values those of all ranks. Collective.
+void reduce(ContactStatistics::Pair& counts, MPI_Comm world);
+
+}  // namespace granulaw::plugin

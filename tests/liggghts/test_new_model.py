@@ -1,0 +1,85 @@
+"""A model made as docs/new-contact-model.md says, of two files and a line (plain_hertz): against stock Hertz, and what a user sees."""
+import os
+import pathlib
+import subprocess
+import unittest
+
+from collisions import pair_deck, wall_deck
+from harness import GLASS, POWDER, Deck
+
+RADIUS, SPEED, DT = 1.7e-3, 1.0, 2e-7
+STEPS = 40  # within the contact, which takes 50 to 60 steps
+PLAIN = {"LD_PRELOAD": os.environ["GRANULAW_PLAIN_HERTZ"]}
+WORDS = "elasticDamping off tangentialDampingRatio 0"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class NewModel(Deck):
+    def pair(self, model, words, materials=(POWDER, POWDER), radii=(RADIUS, RADIUS), run="run 120"):
+        deck = pair_deck(model, words, materials, radii, SPEED, DT, run=run)
+        if model == "hertz":  # elastic
+            n = 1 if materials[0] is materials[1] else 2
+            deck = deck.replace("fix p1", f"fix p6 all property/global coefficientRestitution peratomtypepair {n} {'1.0 ' * n * n}\nfix p1")
+        return deck
+
+    def speed(self, deck):
+        return self.result(self.run_deck(deck, launcher="liggghts", environment=PLAIN), "SPEED")[0]
+
+    def test_two_spheres_collide_as_under_stock_hertz(self):
+        """In the middle of the collision and behind it, of like and of unlike spheres; to rounding, summed over the steps."""
+        for materials, radii in (((POWDER, POWDER), (RADIUS, RADIUS)), ((POWDER, GLASS), (RADIUS, 2 * RADIUS))):
+            for run in (f"run {STEPS}", "run 120"):
+                stock = self.speed(self.pair("hertz", "tangential_damping off", materials, radii, run))
+                ours = self.speed(self.pair("plain_hertz", WORDS, materials, radii, run))
+                self.assertAlmostEqual(ours, stock, delta=1e-9 * SPEED)
+            self.assertAlmostEqual(ours / SPEED, 1.0, delta=1e-3)  # elastic; the deck's 120 steps hold the whole collision
+
+    def test_its_own_keyword(self):
+        stiff = type(POWDER)("powder", POWDER.density, 4 * POWDER.youngs_modulus, POWDER.poisson_ratio, POWDER.yield_stress)
+        expected = self.speed(self.pair("plain_hertz", WORDS, (stiff, stiff), run=f"run {STEPS}"))
+        found = self.speed(self.pair("plain_hertz", WORDS + " modulusFactor 4", run=f"run {STEPS}"))
+        self.assertAlmostEqual(found, expected, delta=1e-9 * SPEED)
+
+    def test_a_wall_takes_the_keyword_from_the_pair_style(self):
+        deck = wall_deck("plain_hertz", WORDS + " modulusFactor 4", POWDER, RADIUS, SPEED, DT)
+        again = wall_deck("plain_hertz", WORDS + " modulusFactor 4", POWDER, RADIUS, SPEED, DT, wall_words="modulusFactor 4")
+        self.assertEqual(self.speed(deck), self.speed(again))
+        self.assertNotEqual(self.speed(deck), self.speed(wall_deck("plain_hertz", WORDS, POWDER, RADIUS, SPEED, DT)))
+
+    def refused(self, deck, *parts):
+        text = self.run_deck(deck, launcher="liggghts", environment=PLAIN, expect_failure=True)
+        for part in parts:
+            self.assertIn(part, text)
+
+    def test_refusals(self):
+        self.refused(self.pair("plain_hertz", "modulusFacto 4"), "pair_style gran model plain_hertz", "unknown keyword 'modulusFacto'",
+                     "did you mean 'modulusFactor'")
+        self.refused(self.pair("plain_hertz", "modulusFactor 40"), "'modulusFactor' is out of range", "0.1 to 10")
+        self.refused(self.pair("plain_hertz", "law x.h5"), "unknown keyword 'law'")
+
+    def test_other_combinations_are_refused(self):
+        deck = self.pair("plain_hertz", "").replace("tangential history", "tangential no_history")
+        self.refused(deck, "models plain_hertz are built for tangential history; cohesion off; rolling_friction off")
+
+    def test_statistics(self):
+        text = self.run_deck(self.pair("plain_hertz", WORDS), launcher="liggghts", environment=PLAIN)
+        self.assertIn("plain_hertz; none: elastic", text)
+        self.assertIn("granulaw: 1 contacts between particles", text)
+
+
+class Concept(unittest.TestCase):
+    def test_a_missing_member_is_named(self):
+        """A model that lacks something does not compile, and the compiler says what."""
+        source = (ROOT / "tests" / "liggghts" / "plain_hertz" / "plain_hertz_physics.hpp").read_text()
+        for member, without in (("law.stiffness(", source.replace("double stiffness(", "double rigidity(")),
+                                ("prepared.describe(", source.replace("PairInfo describe(", "PairInfo explain(")),
+                                ("Physics::id", source.replace("id = 44", "id = 9"))):
+            done = subprocess.run(["c++", "-std=c++20", "-fsyntax-only", "-x", "c++", f"-I{ROOT}", f"-I{ROOT / 'mpm_core'}", "-"],
+                                  input=without.replace("#pragma once", ""), capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("static assertion failed", done.stderr)
+            self.assertIn(member, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
