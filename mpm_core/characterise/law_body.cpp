@@ -12,19 +12,20 @@ namespace {
 
 LawBody body_of_particle(const std::string& name, const Particle& particle)
 {
-  const CharacterisedBody body = characterised_body_of(particle);
-  const Material& at_pole = particle.materials[static_cast<std::size_t>(body.pole_material)];
-  LawBody body{law_material(name, at_pole), body, sphere_name, material_hash(body, at_pole)};
+  const CharacterisedBody characterised = characterised_body_of(particle);
+  const Material& at_pole = particle.materials[static_cast<std::size_t>(characterised.pole_material)];
+  LawBody body{law_material(name, at_pole), characterised, sphere_name,
+               material_hash(characterised, at_pole)};
   if (particle.is_homogeneous_sphere()) return body;
   body.body = name;
-  if (body.yields()) body.material.yield_stress = body.yield * body.scale.stress;
+  if (characterised.yields()) body.material.yield_stress = characterised.yield * characterised.scale.stress;
   return body;
 }
 
 LawBody body_of_material(const std::string& name, const Material& material)
 {
-  const CharacterisedBody body = characterised_body_of(material);
-  return {law_material(name, material), body, sphere_name, material_hash(body, material)};
+  const CharacterisedBody characterised = characterised_body_of(material);
+  return {law_material(name, material), characterised, sphere_name, material_hash(characterised, material)};
 }
 
 }  // namespace
@@ -42,12 +43,13 @@ LawBody law_body(const std::string& name, const Materials& materials, const std:
   return body_of_material(name, material);
 }
 
-std::string material_hash(const CharacterisedBody& body, const Material& m)
+std::string material_hash(const CharacterisedBody& characterised, const Material& m)
 {
   const std::string text =
-      body.is_plain() ? fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus,
-                                    m.poisson_ratio, m.yield_stress, m.hardening_modulus)
-                      : body.description;
+      characterised.is_plain()
+          ? fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", m.density, m.youngs_modulus,
+                        m.poisson_ratio, m.yield_stress, m.hardening_modulus)
+          : characterised.description;
   return fmt::format("{:016x}", checksum(text));
 }
 

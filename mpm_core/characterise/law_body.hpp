@@ -13,12 +13,12 @@ struct LawBody
 {
   LawMaterial material;  ///< its name is the body's; of several materials the one at the pole, and the
                          ///< smallest yield stress in the body
-  CharacterisedBody body;
+  CharacterisedBody characterised;
   std::string body = sphere_name;  ///< BodyLaw::body
   std::string hash;                ///< material_hash() of all that determines the law
 
   /// Whether the atlas and the pair rule may serve it: a homogeneous sphere of five numbers.
-  bool is_plain_sphere() const { return body == sphere_name && body.is_plain(); }
+  bool is_plain_sphere() const { return body == sphere_name && characterised.is_plain(); }
 };
 
 /// The body that `name` means: a material's homogeneous sphere, else a particle. Throws Error if there is
@@ -30,6 +30,6 @@ LawBody law_body(const std::string& name, const Materials& materials,
 /// Tells whether a law was made from this very body: FNV-1a, 16 hexadecimal digits, of the five numbers of
 /// `material` (SI) for a plain body (CharacterisedBody::is_plain), of CharacterisedBody::description for any
 /// other.
-std::string material_hash(const CharacterisedBody& body, const Material& material);
+std::string material_hash(const CharacterisedBody& characterised, const Material& material);
 
 }  // namespace granulaw

@@ -69,9 +69,9 @@ std::vector<Names> pairs_of(const LawFileRequest& r)
 /// Why the law of this body needs runs; empty: the atlas has it.
 std::string why_runs(const LawBody& body, const LawFileRequest& r)
 {
-  if (!body.body.is_plain()) return "its law is its own";
+  if (!body.characterised.is_plain()) return "its law is its own";
   if (!r.atlas) return r.words.no_atlas;
-  return body.body.yields() ? r.atlas->why_not(MaterialRatios::of(body.material)) : std::string();
+  return body.characterised.yields() ? r.atlas->why_not(MaterialRatios::of(body.material)) : std::string();
 }
 
 std::map<std::string, LawFilePlan::Body> bodies_of(const std::vector<Names>& pairs, const LawFileRequest& r)
@@ -109,7 +109,7 @@ void check_slowest(const LawFileRequest& r, const std::map<std::string, LawFileP
   constexpr double room = 0.7;  // of the fastest impact, below which the axis has at least two nodes
   bool used = false;
   for (const auto& [name, planned] : bodies) {
-    if (!planned.body.body.rate_dependent()) continue;
+    if (!planned.body.characterised.rate_dependent()) continue;
     used = true;
     const LawMaterial& m = planned.body.material;
     const double limit = room * std::sqrt(r.damage_number * m.yield_stress / m.density);

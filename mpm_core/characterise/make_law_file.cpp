@@ -39,7 +39,7 @@ std::string text_of(const FlowLaw& law)
 /// The size and the speeds that the law of a rate-dependent body holds for.
 std::string size_of(const LawBody& body, const BodyLaw& law)
 {
-  const double radius = body.body.scale.length;
+  const double radius = body.characterised.scale.length;
   if (const VelocityAxis* axis = law.curve.axis())
     return fmt::format("rate-dependent: holds for R = {:g} m and from {:.3g} m/s on a wall", radius,
                        axis->speed_begin() * speed_unit(body.material));
@@ -114,8 +114,8 @@ class Maker
                                        : body_by_runs(name, body);
     law.body = body.body;
     if (!law.is_sphere()) {
-      law.pole_radius = body.body.scale.length;
-      law.mass_ratio = body.body.mass / (4.0 / 3.0 * M_PI);
+      law.pole_radius = body.characterised.scale.length;
+      law.mass_ratio = body.characterised.mass / (4.0 / 3.0 * M_PI);
     }
     file_.law.bodies[name] = std::move(law);
     file_.law.provenance["material_hash." + name] = body.hash;
@@ -125,15 +125,16 @@ class Maker
   BodyLaw body_by_runs(const std::string& name, const LawBody& body)
   {
     BuildOptions options = options_named(name);
-    if (body.body.rate_dependent())
+    if (body.characterised.rate_dependent())
       options.slowest = plan_.request.slowest * std::sqrt(body.material.density / body.material.yield_stress);
-    BuiltLaw built = build_law(body.material, body.body, options);
+    BuiltLaw built = build_law(body.material, body.characterised, options);
     Provenance& provenance = file_.law.provenance;
     note_runs(name, built, provenance);
-    note_flow_laws(name, body.body.particle.materials, provenance);
+    note_flow_laws(name, body.characterised.particle.materials, provenance);
     MadeLawFile::Runs& runs = file_.runs[name];
     runs = {built.runs, built.runs_full, built.sampling_error, {}};
-    if (body.body.rate_dependent()) runs.size = provenance["size." + name] = size_of(body, built.law);
+    if (body.characterised.rate_dependent())
+      runs.size = provenance["size." + name] = size_of(body, built.law);
     return std::move(built.law);
   }
 

@@ -57,7 +57,7 @@ TEST(LawBody, ARateNeedsAParticle)
   expect_error("test: [material.slow]: its yield stress depends on the rate ('cowper-symonds')",
                [&] { law_body("slow", m); });
   expect_error("particle's size: say PARTICLE", [&] { law_body("slow", m, "say PARTICLE"); });
-  EXPECT_TRUE(law_body("rated", m).body.rate_dependent());
+  EXPECT_TRUE(law_body("rated", m).characterised.rate_dependent());
 }
 
 TEST(LawBody, TheHashTellsEveryNumber)
