@@ -137,7 +137,7 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody
   const auto replay = [&](const ContactCurve& curve, double v) {
     BodyLaw other = law;
     other.curve = curve;
-    return replay_on_wall(body, unit.length, body.mass * unit.mass(),
+    return replay_on_wall(other, unit.length, body.mass * unit.mass(),
                           v * std::sqrt(body.yield) * unit.velocity());
   };
   double worst = 0;

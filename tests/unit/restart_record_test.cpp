@@ -37,21 +37,21 @@ TEST(ContactStatistics, PacksAndUnpacks)
 {
   ContactStatistics statistics;
   ContactStatistics::Pair& counts = statistics.pairs[{PairKey::rigid_wall, 2, 1}];
-  side.dissipated = 0.5;
-  side.speed_max = 3.0;
-  side.speed_min = 0.1;
-  side.speed.add(3.0, 1.0);
-  side.count(7, 3.0, 1.0);
+  counts.dissipated = 0.5;
+  counts.speed_max = 3.0;
+  counts.speed_min = 0.1;
+  counts.speed.add(3.0, 1.0);
+  counts.count(7, 3.0, 1.0);
   const std::vector<double> values = statistics.pack();
 
   ContactStatistics first, other;  // rank 0 takes sums, the others largest and least values alone
   ASSERT_TRUE(first.unpack(values.data(), values.size(), true));
   ASSERT_TRUE(other.unpack(values.data(), values.size(), false));
-  const ContactStatistics::Pair &all = first.sides.at({PairKey::rigid_wall, 2, 1}),
-                                &some = other.sides.at({PairKey::rigid_wall, 2, 1});
+  const ContactStatistics::Pair &all = first.pairs.at({PairKey::rigid_wall, 2, 1}),
+                                &some = other.pairs.at({PairKey::rigid_wall, 2, 1});
   EXPECT_EQ(all.dissipated, 0.5);
   EXPECT_EQ(all.overlap.count[7], 1.0);
-  EXPECT_EQ(all.map, side.map);
+  EXPECT_EQ(all.map, counts.map);
   EXPECT_EQ(some.dissipated, 0.0);
   EXPECT_EQ(some.overlap.count[7], 0.0);
   EXPECT_EQ(some.speed_max, 3.0);

@@ -22,7 +22,7 @@ TEST_F(RunRequestTest, WhatCannotBeUsedIsSaidFirst)
   refuses("--wall: cannot go with --against", [](auto& r) { r.wall = r.against = "x"; });
   refuses("--courant: explicit time stepping is unstable above 1", [](auto& r) { r.courant = 1.1; });
   refuses("--courant: cannot be used: found 0, allowed is 0.05 to 1", [](auto& r) { r.courant = 0; });
-  refuses("--phases", [](auto& r) { r.shifted_grids = 65; });
+  refuses("--shifted-grids", [](auto& r) { r.shifted_grids = 65; });
   refuses("--tolerance: cannot be used: found 0.6", [](auto& r) { r.tolerance = 0.6; });
   refuses("--resolution", [](auto& r) { r.resolution = 5; });
   refuses(".csv, .h5", [](auto& r) { r.output = "t.txt"; });
