@@ -165,7 +165,7 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
       nodes.push_back({m, *shape});
       if (known.impacts_anew)
         nodes.back().shape.velocity_effects =
-            fit_velocity_effects(records.fast, false, *shape, onset_of(m), Atlas::depth);
+            fit_velocity_effects(records.fast, *shape, onset_of(m), Atlas::depth);
       continue;
     }
     const bool begins_late = records.slow.front().depth > 2 * onset_of(m);

@@ -14,7 +14,7 @@ namespace granulaw {
 namespace {
 
 constexpr const char* format_value = "granulaw-atlas";
-constexpr int major = 2;
+constexpr int major = 3;
 constexpr std::size_t most = 1u << 20;  // numbers in one dataset
 
 using h5::Field;
@@ -38,8 +38,8 @@ constexpr Field residual{"residual", "1", "-ln(1 - delta_r/delta_m) at the nodes
 constexpr Field dissipation{"dissipation", "1", "-ln(W_u/W_L) at the nodes of each material"};
 constexpr Field hertz_share{"foot", "1", "A - A_elastic of the unloading at the nodes of each material"};
 constexpr Field reach{"impact_reach", "1", "ln(X/v) at the speeds of each material"};
-constexpr Field impact_dissipation{"impact_dissipation", "1", "dissipation over the slow press's, less 1"};
-constexpr Field impact_residual{"impact_residual", "1", "residual over the slow press's, less 1"};
+constexpr Field impact_dissipation{"impact_dissipation", "1", "dissipation less the slow press's"};
+constexpr Field impact_residual{"impact_residual", "1", "residual less the slow press's"};
 constexpr Field impact_force{"impact_force", "1",
                              "ln(F/F_press) at shares of X, at the speeds of each material"};
 

@@ -358,7 +358,7 @@ FittedShape Build::fit(const ContactRecords& records, const std::optional<OnsetS
   if (known_) {
     FittedShape fitted{*known_, {}};
     fitted.shape.velocity_effects =
-        fit_velocity_effects(records.fast, records.rate, *known_, body_.onset, shape_end());
+        fit_velocity_effects(records.fast, *known_, body_.onset, shape_end());
     return fitted;
   }
   if (!guide) return fit_shape(records, elastic_, body_.onset, options_.depth);
@@ -426,8 +426,7 @@ std::vector<double> Build::more_speeds(const std::vector<LawShape::VelocityEffec
     const auto told = [&](const std::vector<double>& values) {
       return std::inner_product(weights.begin(), weights.end(), values.begin(), 0.0);
     };
-    const double lost = -std::log(std::max(1e-6, impacts[k].path.work_ratio)) / (1 + found[k].dissipation);
-    double wrong = counted(0.5 * lost * std::abs(told(dissipation) - found[k].dissipation),
+    double wrong = counted(0.5 * std::abs(told(dissipation) - found[k].dissipation),
                            std::sqrt(std::max(0.0, impacts[k].path.work_ratio)));
     if (rate) wrong = std::max(wrong, std::abs(told(force) - found[k].force.back()));
     if (wrong <= options_.tolerance) continue;
@@ -529,7 +528,6 @@ void Build::plastic()
     plan.slow_impacts.erase(plan.slow_impacts.begin());
 
   ContactRecords records;
-  records.rate = body_.rate_dependent();
   FittedShape fitted;
   std::vector<double> tried_overlaps, tried_speeds;
   built_.runs = 0;

@@ -14,8 +14,6 @@ namespace granulaw {
 
 namespace {
 
-constexpr double least_lost = 0.02;  // -ln W_u/W_L, -ln(1 - delta_r/delta_m): less is not told from nothing
-constexpr double loss_noise = 0.05;  // of the same: where less is lost, grid noise is more of it than inertia
 /// Share of an elastic press's depth below which the contact spans too few cells.
 constexpr double elastic_from = 0.1;
 /// The same where it yields. The contact spans 24 cells at the press's depth, 14 at a third of it; below, its
@@ -201,8 +199,7 @@ ElasticFit fit_elastic(std::span<const ContactRecord> presses)
 }
 
 std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const ContactRecords::Impact> impacts,
-                                                           bool rate, const LawShape& slow, double onset,
-                                                           double x_end)
+                                                           const LawShape& slow, double onset, double x_end)
 {
   const double q_end = q_of(x_end, onset);
   const ShapeFunction force_reduction(slow.force_reduction, q_end), residual(slow.residual, q_end),
@@ -220,21 +217,10 @@ std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const Conta
                    std::max(0.0, elastic_hertz_share(slow.elastic, impact.depth) + hertz_share.value(q))));
     LawShape::VelocityEffect effect{speed, std::log(impact.depth / speed), 0, 0,
                                     impact_force_ratios(impact, press_force)};
-    // Where next to nothing is lost the ratios mean nothing, and little where little is.
-    const auto change = [](double fast, double press) {
-      return press > least_lost ? (fast / press - 1) / (1 + std::pow(loss_noise / press, 2)) : 0.0;
-    };
-    effect.dissipation = change(dissipation_measure(impact), dissipation.value(q));
-    effect.residual = change(residual_measure(residual_overlap / impact.depth), residual.value(q));
+    effect.dissipation = dissipation_measure(impact) - dissipation.value(q);
+    effect.residual = residual_measure(residual_overlap / impact.depth) - residual.value(q);
     all.push_back(std::move(effect));
   }
-  // There inertia changes nothing, but a rate as much as in the next faster impact: its yield begins later.
-  if (rate)
-    for (std::size_t k = impacts.size(); k-- > 1;) {
-      const double q = q_of(impacts[k - 1].path.depth, onset);
-      if (dissipation.value(q) <= least_lost) all[k - 1].dissipation = all[k].dissipation;
-      if (residual.value(q) <= least_lost) all[k - 1].residual = all[k].residual;
-    }
   return all;
 }
 
@@ -303,7 +289,7 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
   shape.residual = sampled(residual, q_end);
   shape.dissipation = sampled(dissipation, q_end);
   shape.hertz_share = sampled(hertz_share, q_end);
-  shape.velocity_effects = fit_velocity_effects(records.fast, records.rate, shape, onset, x_end);
+  shape.velocity_effects = fit_velocity_effects(records.fast, shape, onset, x_end);
 
   FitQuality& quality = fitted.quality;
   double sum = 0;

@@ -53,9 +53,9 @@ FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const Elastic
                         double onset, double x_end);
 
 /// What impacts change of a body whose slow presses have this shape, its own inertia apart; at the impacts'
-/// speeds. `rate`: where nothing is lost a rate still counts.
+/// speeds.
 std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const ContactRecords::Impact> impacts,
-                                                           bool rate, const LawShape& slow, double onset,
+                                                           const LawShape& slow, double onset,
                                                            double x_end);
 
 }  // namespace granulaw

@@ -48,8 +48,8 @@ struct LawShape
 
     double speed = 0;           ///< v
     double log_overlap = 0;     ///< ln(X/v), X the overlap/R reached
-    double dissipation = 0;     ///< (-ln W_u/W_L of the impact)/(that of the press) - 1
-    double residual = 0;        ///< the same of -ln(1 - delta_r/delta_m)
+    double dissipation = 0;     ///< -ln(W_u/W_L) less that of the press
+    double residual = 0;        ///< -ln(1 - delta_r/delta_m) less that of the press
     std::vector<double> force;  ///< ln(F_impact/F_press) at the shares
   };
 

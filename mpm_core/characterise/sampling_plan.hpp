@@ -101,7 +101,6 @@ struct ContactRecords
   std::vector<ContactRecord> slow;  ///< rate-free: presses (a partial unloading has no loading of its own)
                                     ///< and slow impacts; ascending depth
   std::vector<Impact> fast;  ///< ascending speed
-  bool rate = false;         ///< the fast impacts are those of a rate-dependent body
   double reload_loop = 0;    ///< largest area between a partial unloading and its reloading, over the work
 };
 

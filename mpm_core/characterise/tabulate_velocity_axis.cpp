@@ -176,6 +176,27 @@ struct ImpactLevel
   std::size_t last_raised = 0;  // node up to which a rate's force was kept rising
 };
 
+/// What a slow press to overlap x loses.
+struct PressLosses
+{
+  double dissipation;  ///< -ln(W_u/W_L)
+  double residual;     ///< -ln(1 - delta_r/delta_m)
+
+  PressLosses(const ContactCurve& slow, double x)
+      : dissipation(std::max(0.0, -std::log(slow.work_unloading(x) / slow.work_loading(x)))),
+        residual(-std::log1p(-slow.reversal(x).residual / x))
+  {
+  }
+};
+
+/// A loss at overlap x of a contact that latched X: the press's at x, and `more`, what the impact adds at X, in
+/// the share that the press has at x of its loss at X; all of it beyond. No contact gains.
+double with_impact(double press, double press_at_reversal, double more)
+{
+  const double share = press < press_at_reversal ? press / press_at_reversal : 1.0;
+  return std::max(0.0, press + share * more);
+}
+
 ImpactLevel level_at(const Speeds& speeds, const LawShape& shape, const ContactCurve& slow,
                      double impact_overlap, double slowest, double fastest, double ratio_end, bool rate)
 {
@@ -184,11 +205,11 @@ ImpactLevel level_at(const Speeds& speeds, const LawShape& shape, const ContactC
   std::vector<double> log_force;
   for (std::size_t n = 0; n < LawShape::VelocityEffect::shares; ++n)
     log_force.push_back(speeds.mix(v, [&](std::size_t j) { return shape.velocity_effects[j].force[n]; }));
-  // A cubic through few speeds may swing below what no impact can: to lose less than nothing.
+  const PressLosses at_reversal(slow, std::min(impact_overlap, slow.x_end()));
   const double more_dissipation =
-      1 + std::max(-1.0, speeds.mix(v, [&](std::size_t j) { return shape.velocity_effects[j].dissipation; }));
+      speeds.mix(v, [&](std::size_t j) { return shape.velocity_effects[j].dissipation; });
   const double more_residual =
-      1 + std::max(-1.0, speeds.mix(v, [&](std::size_t j) { return shape.velocity_effects[j].residual; }));
+      speeds.mix(v, [&](std::size_t j) { return shape.velocity_effects[j].residual; });
 
   const boost::math::interpolators::cardinal_cubic_b_spline<double> within(
       log_force.begin(), log_force.end(), 0.0, 1.0 / (LawShape::VelocityEffect::shares - 1));
@@ -234,9 +255,10 @@ ImpactLevel level_at(const Speeds& speeds, const LawShape& shape, const ContactC
     }
     const double x = std::min(xi * impact_overlap, slow.x_end());
     const ContactCurve::Reversal top = slow.reversal(x);
-    double kept = std::pow(1 - top.residual / x, more_residual);
+    const PressLosses press(slow, x);
+    double kept = std::exp(-with_impact(press.residual, at_reversal.residual, more_residual));
     const double returned =
-        std::pow(std::min(1.0, slow.work_unloading(x) / slow.work_loading(x)), more_dissipation);
+        std::exp(-with_impact(press.dissipation, at_reversal.dissipation, more_dissipation));
     const double share = 1 + correction(xi),
                  share_slope = (correction(xi + 1e-4) - correction(xi - 1e-4)) / 2e-4;
     const double hertz_share = top.shape.hertz_share, most = UnloadingShape::largest_exponent(hertz_share);
