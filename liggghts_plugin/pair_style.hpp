@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "law/pair.hpp"
-#include "liggghts_plugin/tallied_model.hpp"
 #include "liggghts_plugin/command_models.hpp"
 #include "liggghts_plugin/pair_loop.hpp"
 #include "liggghts_plugin/superquadric.hpp"
+#include "liggghts_plugin/tallied_model.hpp"
 
 namespace granulaw::plugin {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "liggghts_plugin/tallied_model.hpp"
 #include "liggghts_plugin/command_models.hpp"
 #include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/superquadric.hpp"
+#include "liggghts_plugin/tallied_model.hpp"
 #include "liggghts_plugin/wall_loop.hpp"
 
 namespace granulaw::plugin {

@@ -12,8 +12,8 @@
 #include "characterise/interpolation.hpp"
 #include "characterise/onset_similarity.hpp"
 #include "law/replay.hpp"
-#include "solver/accuracy.hpp"
-#include "solver/grid_noise.hpp"
+#include "solver/run/accuracy.hpp"
+#include "solver/run/grid_noise.hpp"
 
 namespace granulaw {
 
@@ -357,8 +357,7 @@ FittedShape Build::fit(const ContactRecords& records, const std::optional<OnsetS
 {
   if (known_) {
     FittedShape fitted{*known_, {}};
-    fitted.shape.velocity_effects =
-        fit_velocity_effects(records.fast, *known_, body_.onset, shape_end());
+    fitted.shape.velocity_effects = fit_velocity_effects(records.fast, *known_, body_.onset, shape_end());
     return fitted;
   }
   if (!guide) return fit_shape(records, elastic_, body_.onset, options_.depth);

@@ -55,7 +55,6 @@ FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const Elastic
 /// What impacts change of a body whose slow presses have this shape, its own inertia apart; at the impacts'
 /// speeds.
 std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const ContactRecords::Impact> impacts,
-                                                           const LawShape& slow, double onset,
-                                                           double x_end);
+                                                           const LawShape& slow, double onset, double x_end);
 
 }  // namespace granulaw

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/particle.hpp"
+#include "solver/particle/particle.hpp"
 
 namespace granulaw {
 

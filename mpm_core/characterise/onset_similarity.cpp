@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "characterise/fit_curve.hpp"
-#include "solver/flow_laws.hpp"
+#include "solver/flow/flow_laws.hpp"
 
 namespace granulaw {
 

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "characterise/run_cache.hpp"
-#include "solver/state_archive.hpp"
+#include "solver/output/state_archive.hpp"
 
 namespace granulaw {
 

@@ -100,8 +100,8 @@ struct ContactRecords
   };
   std::vector<ContactRecord> slow;  ///< rate-free: presses (a partial unloading has no loading of its own)
                                     ///< and slow impacts; ascending depth
-  std::vector<Impact> fast;  ///< ascending speed
-  double reload_loop = 0;    ///< largest area between a partial unloading and its reloading, over the work
+  std::vector<Impact> fast;         ///< ascending speed
+  double reload_loop = 0;  ///< largest area between a partial unloading and its reloading, over the work
 };
 
 /// Adds what the runs of a plan found; a failed run adds nothing.

@@ -189,8 +189,8 @@ struct PressLosses
   }
 };
 
-/// A loss at overlap x of a contact that latched X: the press's at x, and `more`, what the impact adds at X, in
-/// the share that the press has at x of its loss at X; all of it beyond. No contact gains.
+/// A loss at overlap x of a contact that latched X: the press's at x, and `more`, what the impact adds at X,
+/// in the share that the press has at x of its loss at X; all of it beyond. No contact gains.
 double with_impact(double press, double press_at_reversal, double more)
 {
   const double share = press < press_at_reversal ? press / press_at_reversal : 1.0;

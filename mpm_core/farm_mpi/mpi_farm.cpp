@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "characterise/worker_pool.hpp"
-#include "solver/state_archive.hpp"
+#include "solver/output/state_archive.hpp"
 
 namespace granulaw {
 

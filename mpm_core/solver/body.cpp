@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "solver/state_archive.hpp"
+#include "solver/output/state_archive.hpp"
 
 namespace granulaw {
 

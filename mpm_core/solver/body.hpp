@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "solver/flow/laws.hpp"
+#include "solver/grid/spline_axis.hpp"
 #include "solver/material.hpp"
-#include "solver/spline_axis.hpp"
 
 namespace granulaw {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "solver/state_archive.hpp"
+#include "solver/output/state_archive.hpp"
 
 namespace granulaw {
 

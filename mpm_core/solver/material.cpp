@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "solver/flow_laws.hpp"
+#include "solver/flow/flow_laws.hpp"
 
 namespace granulaw {
 

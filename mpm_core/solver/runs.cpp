@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "solver/accuracy.hpp"
-#include "solver/grid_noise.hpp"
-#include "solver/scene_builder.hpp"
-#include "solver/shifted_grids.hpp"
-#include "solver/simulation.hpp"
+#include "solver/run/accuracy.hpp"
+#include "solver/run/grid_noise.hpp"
+#include "solver/run/scene_builder.hpp"
+#include "solver/run/shifted_grids.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace granulaw {
 

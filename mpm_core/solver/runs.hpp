@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "solver/checkpoint.hpp"
-#include "solver/fields.hpp"
 #include "solver/material.hpp"
-#include "solver/particle.hpp"
-#include "solver/trace.hpp"
+#include "solver/output/checkpoint.hpp"
+#include "solver/output/fields.hpp"
+#include "solver/output/trace.hpp"
+#include "solver/particle/particle.hpp"
 
 namespace granulaw {
 

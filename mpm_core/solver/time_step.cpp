@@ -5,9 +5,9 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "solver/grid/updated_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/loading_programme.hpp"
-#include "solver/updated_body.hpp"
+#include "solver/run/loading_programme.hpp"
 
 namespace granulaw {
 

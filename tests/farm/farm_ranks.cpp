@@ -28,8 +28,8 @@
 
 #include "base/error.hpp"
 #include "farm_mpi/mpi_farm.hpp"
+#include "solver/output/state_archive.hpp"
 #include "solver/solver_id.hpp"
-#include "solver/state_archive.hpp"
 
 namespace {
 

@@ -26,7 +26,7 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "base/version.hpp"
-#include "solver/grid_noise.hpp"
+#include "solver/run/grid_noise.hpp"
 #include "solver/runs.hpp"
 
 namespace {

@@ -18,7 +18,7 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/run_cache.hpp"
-#include "solver/accuracy.hpp"
+#include "solver/run/accuracy.hpp"
 #include "solver/solver_id.hpp"
 
 namespace {

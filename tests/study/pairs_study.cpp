@@ -159,7 +159,7 @@ class Runner
 };
 
 /// Relative error of the rule in one quantity, and its uncertainty: twice the change from the coarser grids,
-/// as in solver/accuracy.hpp.
+/// as in solver/run/accuracy.hpp.
 struct Deviation
 {
   double value, uncertainty;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "law/replay.hpp"
-#include "solver/trace.hpp"
+#include "solver/output/trace.hpp"
 
 namespace granulaw {
 namespace {

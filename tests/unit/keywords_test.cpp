@@ -1,8 +1,8 @@
-#include "liggghts_plugin/deck_keywords.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "liggghts_plugin/deck_keywords.hpp"
 
 namespace granulaw::plugin {
 namespace {

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "solver/profiles.hpp"
+#include "solver/particle/shapes.hpp"
 
 namespace granulaw {
 namespace {

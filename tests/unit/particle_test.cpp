@@ -1,5 +1,5 @@
 // Geometry of particles against closed forms, and every sentence of validate.
-#include "solver/particle.hpp"
+#include "solver/particle/particle.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "solver/profiles.hpp"
+#include "solver/particle/shapes.hpp"
 
 namespace granulaw {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "characterise/run_queue.hpp"
-#include "solver/state_archive.hpp"
+#include "solver/output/state_archive.hpp"
 
 namespace granulaw {
 

@@ -1,4 +1,4 @@
-#include "solver/spline_axis.hpp"
+#include "solver/grid/spline_axis.hpp"
 
 #include <gtest/gtest.h>
 

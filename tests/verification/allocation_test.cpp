@@ -6,8 +6,8 @@
 #include <new>
 
 #include "references.hpp"
-#include "solver/loading_programme.hpp"
-#include "solver/scene_builder.hpp"
+#include "solver/run/loading_programme.hpp"
+#include "solver/run/scene_builder.hpp"
 #include "solver/time_step.hpp"
 
 namespace {

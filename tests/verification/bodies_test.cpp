@@ -6,12 +6,12 @@
 
 #include "base/scales.hpp"
 #include "references.hpp"
-#include "solver/grid_noise.hpp"
-#include "solver/loading_programme.hpp"
-#include "solver/mapped_body.hpp"
+#include "solver/grid/mapped_body.hpp"
+#include "solver/run/grid_noise.hpp"
+#include "solver/run/loading_programme.hpp"
+#include "solver/run/scene_builder.hpp"
+#include "solver/run/simulation.hpp"
 #include "solver/runs.hpp"
-#include "solver/scene_builder.hpp"
-#include "solver/simulation.hpp"
 #include "solver/time_step.hpp"
 
 namespace granulaw {

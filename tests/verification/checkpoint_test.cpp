@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "references.hpp"
-#include "solver/accuracy.hpp"
+#include "solver/run/accuracy.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {

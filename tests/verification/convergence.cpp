@@ -4,8 +4,8 @@
 
 #include "base/scales.hpp"
 #include "references.hpp"
+#include "solver/grid/mapped_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/mapped_body.hpp"
 #include "solver/time_step.hpp"
 
 namespace granulaw::verification {

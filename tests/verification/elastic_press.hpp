@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hertz.hpp"
-#include "solver/fields.hpp"
+#include "solver/output/fields.hpp"
 
 /// Stresses in a pressed elastic sphere, taken from what `--fields` writes. Units R = E* = 1.
 namespace granulaw::verification {

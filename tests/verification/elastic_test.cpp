@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "references.hpp"
-#include "solver/grid_noise.hpp"
+#include "solver/run/grid_noise.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {

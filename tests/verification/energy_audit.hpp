@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "solver/material.hpp"
-#include "solver/trace.hpp"
+#include "solver/output/trace.hpp"
 
 /// Where the energy of an impact is, computed from outside: from what `--fields` writes, by none of the
 /// solver's own sums.

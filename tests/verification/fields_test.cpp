@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
+#include "solver/grid/mapped_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/mapped_body.hpp"
+#include "solver/output/stress.hpp"
 #include "solver/runs.hpp"
-#include "solver/stress.hpp"
 
 namespace granulaw {
 namespace {

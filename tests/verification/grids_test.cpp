@@ -7,13 +7,13 @@
 
 #include "base/scales.hpp"
 #include "references.hpp"
-#include "solver/grid_noise.hpp"
+#include "solver/grid/rectilinear_body.hpp"
+#include "solver/grid/updated_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/loading_programme.hpp"
-#include "solver/rectilinear_body.hpp"
+#include "solver/run/grid_noise.hpp"
+#include "solver/run/loading_programme.hpp"
 #include "solver/runs.hpp"
 #include "solver/time_step.hpp"
-#include "solver/updated_body.hpp"
 
 namespace granulaw {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "solver/grid/mapped_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/mapped_body.hpp"
 
 namespace granulaw::verification {
 

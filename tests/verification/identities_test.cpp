@@ -5,8 +5,8 @@
 #include <random>
 
 #include "references.hpp"
+#include "solver/grid/mapped_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/mapped_body.hpp"
 
 namespace granulaw {
 namespace {

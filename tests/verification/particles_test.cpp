@@ -11,10 +11,10 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "references.hpp"
-#include "solver/grid_noise.hpp"
+#include "solver/grid/rectilinear_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/profiles.hpp"
-#include "solver/rectilinear_body.hpp"
+#include "solver/particle/shapes.hpp"
+#include "solver/run/grid_noise.hpp"
 #include "solver/runs.hpp"
 #include "solver/time_step.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "solver/grid/mapped_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/mapped_body.hpp"
 
 namespace granulaw {
 namespace {

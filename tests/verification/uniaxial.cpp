@@ -3,10 +3,10 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
-#include "solver/flow_laws.hpp"
+#include "solver/flow/flow_laws.hpp"
+#include "solver/grid/mapped_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/mapped_body.hpp"
-#include "solver/stress.hpp"
+#include "solver/output/stress.hpp"
 
 namespace granulaw::verification {
 

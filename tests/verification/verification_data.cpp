@@ -19,7 +19,7 @@
 #include "identities.hpp"
 #include "onset_impact.hpp"
 #include "references.hpp"
-#include "solver/grid_noise.hpp"
+#include "solver/run/grid_noise.hpp"
 #include "uniaxial.hpp"
 
 using namespace granulaw;
@@ -117,8 +117,8 @@ void write_convergence(const File& open)
   out.print("job,cells,phases,e,force,delta,time,spread,energy_error\n");
   const auto write = [&](const Job& job, int cells, int shifted_grids) {
     const RunSummary s = run(job, cells, shifted_grids);
-    out.print("{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g}\n", job.name, cells, shifted_grids, s.restitution,
-              s.force_max, s.delta_max, s.contact_time, s.restitution_spread, s.energy_error);
+    out.print("{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g}\n", job.name, cells, shifted_grids,
+              s.restitution, s.force_max, s.delta_max, s.contact_time, s.restitution_spread, s.energy_error);
   };
   for (const int shifted_grids : {1, 4})
     for (const int cells : {8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 22, 24, 28, 32})

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "solver/kernels.hpp"
-#include "solver/state_archive.hpp"
+#include "solver/output/state_archive.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {

@@ -9,7 +9,7 @@
 #include "command.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
-#include "solver/scene_builder.hpp"
+#include "solver/run/scene_builder.hpp"
 
 namespace granulaw {
 

@@ -13,8 +13,8 @@
 
 #include "base/error.hpp"
 #include "law/law.hpp"
-#include "solver/flow_laws.hpp"
-#include "solver/profiles.hpp"
+#include "solver/flow/flow_laws.hpp"
+#include "solver/particle/shapes.hpp"
 
 namespace granulaw {
 

@@ -2,7 +2,7 @@
 
 #include "checkpoint_file.hpp"
 #include "run_request.hpp"
-#include "solver/accuracy.hpp"
+#include "solver/run/accuracy.hpp"
 
 namespace granulaw {
 

@@ -5,7 +5,7 @@
 #include "base/scales.hpp"
 #include "collision_report.hpp"
 #include "json_output.hpp"
-#include "solver/scene_builder.hpp"
+#include "solver/run/scene_builder.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "run_request.hpp"
-#include "solver/trace.hpp"
+#include "solver/output/trace.hpp"
 
 namespace granulaw {
 

@@ -9,7 +9,7 @@
 #include "field_file.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
-#include "solver/scene_builder.hpp"
+#include "solver/run/scene_builder.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -136,7 +136,8 @@ void RunRequest::add_to(CLI::App& command)
       "contact-edge grid noise if there is one grid only, e_raw is not; force_max_N: of an impact the peak "
       "of "
       "the grids' mean trace, smoothed over 2 % of the loading; of a press or one grid that of a fit; "
-      "grid_noise (also ripple): rms of raw over fitted force, less 1; energy_error: |kinetic + elastic + plastic energy + "
+      "grid_noise (also ripple): rms of raw over fitted force, less 1; energy_error: |kinetic + elastic + "
+      "plastic energy + "
       "contact loss "
       "- work put in| over the energy put in, at the end; contact_loss: the part of it that nodes lost "
       "when they reached the other side and stopped, proportional to the cell size; hourglass: the part "

@@ -185,7 +185,8 @@ void add_range_options(CLI::App& command, LawFileRequest& file)
       ->check(above_zero_to(0.5))
       ->capture_default_str();
   command
-      .add_option("--damage-number,--inertia", file.damage_number, "largest damage number I = rho V^2/Y, up to 0.09; 0: a rate-free law")
+      .add_option("--damage-number,--inertia", file.damage_number,
+                  "largest damage number I = rho V^2/Y, up to 0.09; 0: a rate-free law")
       ->check(from_to(0, 0.09))
       ->capture_default_str();
   command

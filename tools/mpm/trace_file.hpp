@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "solver/trace.hpp"
+#include "solver/output/trace.hpp"
 
 namespace granulaw {
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "solver/grid/rectilinear_body.hpp"
+
+namespace granulaw {
+
+/// The same section on a rectilinear grid that stays where it is while the points move through it:
+/// updated-Lagrangian material point method with affine velocities (APIC: Jiang, Schroeder, Selle, Teran and
+/// Stomakhin 2015), quadratic B-splines and surface markers. The independent check of the other two grids,
+/// and nearest to the method of Li, Pan and Sinka (2009).
+Body updated_body(const Section& section);
+
+/// Points to grid: weights at the points' places, nodal masses and velocities, forces of the points'
+/// stresses.
+void updated_points_to_grid(Body& body);
+
+/// Grid to points, after `move`: velocities, affine velocities, places, stresses.
+void updated_grid_to_points(Body& body, double dt);
+
+}  // namespace granulaw

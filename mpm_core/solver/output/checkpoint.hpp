@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "solver/output/trace.hpp"
+
+namespace granulaw {
+
+class StateArchive;
+
+/// Where runs keep their state so that they can go on after they were killed; the solver knows nothing of
+/// files. One request makes several runs (shifted grids, two resolutions), each under its own key, and they
+/// may call at the same time from several threads. A state belongs to one request: the same particles,
+/// partner, drive and RunOptions (but for threads), the same program and instruction set. Then the run that
+/// goes on has the identical trace, bit for bit.
+struct CheckpointStore
+{
+  std::string name;  ///< leads the sentences about a state that cannot be used
+  /// What was saved last under `key`, empty if nothing was.
+  std::function<std::string(const std::string& key)> load;
+  /// Keeps `state` under `key`, in place of what it held. May throw to stop the run.
+  std::function<void(const std::string& key, std::string state)> save;
+  /// Asked at every sample of a trace: save now?
+  std::function<bool(const std::string& key)> due;
+
+  explicit operator bool() const { return static_cast<bool>(save); }
+};
+
+/// The place of one run in a store. Without a store every call is a single test.
+class CheckpointSlot
+{
+ public:
+  CheckpointSlot() = default;
+  CheckpointSlot(const CheckpointStore& store, std::string key) : store_(store), key_(std::move(key)) {}
+
+  /// The result, if this run had been finished.
+  std::optional<RunResult> finished() const;
+  void keep_finished(RunResult& result) const;
+
+  using Visit = std::function<void(StateArchive&)>;
+  /// Loads the state of a run that had been stopped; false: there is none, it starts from the beginning.
+  bool resume(const Visit& visit) const;
+  bool due() const { return store_ && store_.due(key_); }
+  void save(const Visit& visit) const;
+
+ private:
+  enum class Kind : char { running = 'r', finished = 'f' };
+  /// An archive to load from, if there is a state of that kind.
+  std::optional<StateArchive> open(Kind kind) const;
+  void store(Kind kind, const Visit& visit) const;
+
+  CheckpointStore store_;
+  std::string key_;
+};
+
+}  // namespace granulaw

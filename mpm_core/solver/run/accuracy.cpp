@@ -1,0 +1,179 @@
+#include "solver/run/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/run/grid_noise.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Where the raising starts and ends, cells across the block.
+constexpr int first_resolution = 14, last_resolution = 120;
+/// Resolution at which time step and ramp are varied: their effect on F and e does not depend on it.
+constexpr int probe_resolution = 10;
+/// Shares of the tolerance: the square root of the sum of the squares is the whole.
+constexpr double share = 0.25;
+
+/// Largest force by the fit through the loading, which no grid noise moves.
+double fitted_force(const RunResult& run)
+{
+  const TreatedLoading treated(run.trace);
+  return treated.valid() ? treated.largest_force(run.summary.delta_max) : run.summary.force_max;
+}
+
+/// Of the fitted force and e.
+double difference(const RunResult& a, const RunResult& b)
+{
+  return std::max(std::abs(fitted_force(b) / fitted_force(a) - 1),
+                  std::abs(b.summary.restitution / a.summary.restitution - 1));
+}
+
+void add_cost(RunSummary& s, const RunSummary& other)
+{
+  const double updates = s.point_updates_per_s * s.cpu_s + other.point_updates_per_s * other.cpu_s;
+  s.cpu_s += other.cpu_s;
+  s.steps += other.steps;
+  s.point_updates_per_s = updates / s.cpu_s;
+}
+
+}  // namespace
+
+int coarse_partner(int resolution)
+{
+  return std::max(6, static_cast<int>(std::lround(0.7 * resolution)));
+}
+
+double error_between(const RunResult& fine, const RunResult& coarse)
+{
+  const RunSummary& s = fine.summary;
+  // Errors fall at least like h: the difference to 0.7 of the resolution is at least 0.4 of the fine run's.
+  // Two runs may agree by chance: the grid noise that the mean over the shifted grids has left, half of which
+  // a peak may be off, and the scatter of e between them, bound it from below.
+  const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
+  const double scatter = s.restitution_spread / s.restitution / std::max(1, s.grids);
+  return 2 * std::max({difference(fine, coarse), peak, scatter, 0.5 * s.grid_noise});
+}
+
+RunResult run_with_estimate(const RunOptions& options, const Run& run)
+{
+  RunOptions own = options;
+  own.estimate_error = false;
+  double from = 0, to = 0.7;  // cost goes with the third power: 0.7^3 = 1/3
+  own.progress = [&](double done) {
+    if (options.progress) options.progress(from + (to - from) * done);
+  };
+  RunResult fine = run(own);
+  own.resolution = coarse_partner(fine.summary.resolution);
+  own.refine = 1;  // it is in the fine run's resolution
+  own.fields = {};
+  from = 0.7, to = 1.0;
+  const RunResult coarse = run(own);
+  fine.summary.error_estimate = error_between(fine, coarse);
+  add_cost(fine.summary, coarse.summary);
+  return fine;
+}
+
+namespace {
+
+/// The search of run_to_tolerance: each step refines `options` and notes what error is left.
+class ToleranceSearch
+{
+ public:
+  ToleranceSearch(double tolerance, const RunOptions& options, const Run& run)
+      : tolerance_(tolerance), options_(options), run_(run)
+  {
+    options_.estimate_error = false;
+    base_ = probe(options_);
+  }
+
+  /// The scheme is of second order in the step: half the step leaves a quarter of the error.
+  void shorten_step()
+  {
+    for (;;) {
+      RunOptions half = options_;
+      half.courant = 0.5 * options_.courant;
+      if (agrees(half, found_.step_error) || half.courant < 0.1) return;
+      take(half);
+    }
+  }
+
+  /// What the ramp adds falls like its inverse square (inertia) or faster.
+  void lengthen_ramp()
+  {
+    for (;;) {
+      RunOptions slower = options_;
+      slower.slowness = 2 * options_.slowness;
+      if (agrees(slower, found_.ramp_error) || slower.slowness > 16) return;
+      take(slower);
+    }
+  }
+
+  ToleranceResult raise_resolution()
+  {
+    int cells = std::max(first_resolution, options_.resolution);
+    RunResult coarse = run_at(options_, coarse_partner(cells));
+    add_cost(spent_, coarse.summary);
+    for (;; cells = static_cast<int>(std::lround(cells / 0.7))) {
+      options_.resolution = cells;
+      found_.result = run_(options_);
+      RunSummary& s = found_.result.summary;
+      found_.resolution_error = error_between(found_.result, coarse);
+      s.error_estimate = std::hypot(found_.resolution_error, found_.step_error, found_.ramp_error);
+      found_.reached = s.error_estimate <= tolerance_;
+      if (found_.reached || cells / 0.7 > last_resolution) break;
+      add_cost(spent_, s);
+      coarse = std::move(found_.result);
+    }
+    add_cost(found_.result.summary, spent_);
+    return std::move(found_);
+  }
+
+ private:
+  /// Without fields: those shown are the finest run's.
+  RunResult run_at(RunOptions options, int cells)
+  {
+    options.resolution = cells;
+    options.fields = {};
+    return run_(options);
+  }
+  RunResult probe(const RunOptions& options)
+  {
+    RunResult probed = run_at(options, probe_resolution);
+    add_cost(spent_, probed.summary);
+    return probed;
+  }
+  /// Whether the probe with finer options differs by no more than its share of the tolerance; `error` becomes
+  /// what the coarser options leave.
+  bool agrees(const RunOptions& finer, double& error)
+  {
+    finer_ = probe(finer);
+    error = 4.0 / 3.0 * difference(base_, finer_);
+    return error <= share * tolerance_;
+  }
+  void take(const RunOptions& finer)
+  {
+    options_ = finer;
+    base_ = std::move(finer_);
+  }
+
+  double tolerance_;
+  RunOptions options_;
+  const Run& run_;
+  RunResult base_, finer_;  ///< probes with the options so far, and with those tried last
+  RunSummary spent_{};
+  ToleranceResult found_;
+};
+
+}  // namespace
+
+ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run)
+{
+  ToleranceSearch search(tolerance, options, run);
+  search.shorten_step();
+  if (has_ramp) search.lengthen_ramp();
+  return search.raise_resolution();
+}
+
+}  // namespace granulaw
