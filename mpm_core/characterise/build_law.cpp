@@ -9,11 +9,11 @@
 
 #include "base/error.hpp"
 #include "characterise/fit_curve.hpp"
+#include "characterise/grid_convergence.hpp"
 #include "characterise/interpolation.hpp"
 #include "characterise/onset_similarity.hpp"
 #include "law/replay.hpp"
 #include "solver/run/accuracy.hpp"
-#include "solver/run/grid_noise.hpp"
 
 namespace granulaw {
 
@@ -56,54 +56,6 @@ bool is_new(double value, const std::vector<double>& tried)
 double counted(double error, double restitution)
 {
   return error * std::min(1.0, restitution / 0.5);
-}
-
-/// Error of F_max of the finer of two impacts of four grids, relative. In 52 (sqrt(I) = 0.1, E*/Y 30 to 4900,
-/// nu 0 to 0.45, H/E 0 to 0.2) 24 cells were off 48 by up to 0.6 %, and by no more than this: runs agree by
-/// chance to less than 0.35 %.
-double peak_error(const RunResult& fine, const RunResult& coarse, double grid_noise)
-{
-  const RunSummary &f = fine.summary, &c = coarse.summary;
-  return std::max(
-      {1.25 * std::abs(c.force_max / f.force_max - 1), 0.5 * grid_noise, 0.0035 * 24 / f.resolution});
-}
-double error_of_peak(const RunResult& fine, const RunResult& coarse)
-{
-  return peak_error(fine, coarse, fine.summary.grid_noise);
-}
-
-/// The same of a body whose force falls with its rate before the reversal: that, too, is scatter about the
-/// fit that tells the grid noise, but both resolutions have it. Grid noise falls as cells^1.65.
-double error_of_rated_peak(const RunResult& fine, const RunResult& coarse)
-{
-  const RunSummary &f = fine.summary, &c = coarse.summary;
-  const double fall = std::pow(static_cast<double>(c.resolution) / f.resolution, 2 * 1.65);
-  const double square =
-      std::max(0.0, c.grid_noise * c.grid_noise - f.grid_noise * f.grid_noise) * fall / (1 - fall);
-  return peak_error(fine, coarse, std::sqrt(square));
-}
-
-/// The same of a press's loading, where a law is fitted to it. The law passes through the grid noise, which
-/// is no error of it. From 17 to 24 cells errors fall by 1.8 and more (24 off 48 cells: 0.5 % at E*/Y = 100,
-/// 0.1 % at 500, 0.2 and, to 0.2 R, 0.6 % at 2000): the difference is more than 0.7 of the finer one's.
-double error_of_loading(const RunResult& fine, const RunResult& coarse)
-{
-  const TreatedLoading a(fine.trace), b(coarse.trace);
-  if (!a.valid() || !b.valid()) return error_of_peak(fine, coarse);
-  double worst = 0;
-  for (const double share : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
-    const double x = share * fine.summary.delta_max;
-    worst = std::max(worst, std::abs(b.force(x) / a.force(x) - 1));
-  }
-  return 1.5 * worst;
-}
-
-/// The same of e.
-double error_of_restitution(const RunResult& fine, const RunResult& coarse)
-{
-  const RunSummary &f = fine.summary, &c = coarse.summary;
-  return 2 * std::max(std::abs(c.restitution / f.restitution - 1),
-                      f.restitution_spread / f.restitution / std::max(1, f.grids));
 }
 
 /// sqrt(I) of the slowest impact on a rate axis.
@@ -192,13 +144,10 @@ class Build
   struct Probe
   {
     std::function<RunJob(int cells)> run;
-    double (*error_of_force)(const RunResult& fine, const RunResult& coarse);
     int* resolution;  // to be chosen
   };
   std::vector<Probe> probes(const SamplingPlan& plan);
   void choose_resolutions(std::vector<Probe> probes);
-  /// What shorter ramps change is a tenth of a per cent.
-  bool brisk() const { return options_.tolerance >= 0.005; }
   RunJob elastic_press() const;
   ElasticCorrection elastic_correction();
   std::optional<OnsetSimilarity> onset_similarity(double first) const;
@@ -265,7 +214,7 @@ std::vector<Build::Probe> Build::probes(const SamplingPlan& plan)
   probes.push_back({[this, velocity = speed * std::sqrt(body_.yield)](int cells) {
                       return impact_job(body_, velocity, cells, fast_shifted_grids, source_);
                     },
-                    body_.rate_dependent() ? error_of_rated_peak : error_of_peak, &impact_cells_});
+                    &impact_cells_});
   const auto cost = [&](const SamplingPlan::Press& press) {
     return press.shifted_grids > 1 ? press_job(slow_, press, source_).cost
                                    : std::numeric_limits<double>::infinity();
@@ -277,7 +226,7 @@ std::vector<Build::Probe> Build::probes(const SamplingPlan& plan)
                         press.resolution = cells;
                         return press_job(slow_, press, source_);
                       },
-                      error_of_loading, &press_cells_});
+                      &press_cells_});
   return probes;
 }
 
@@ -301,15 +250,15 @@ void Build::choose_resolutions(std::vector<Probe> probes)
     std::vector<Probe> open;
     for (std::size_t k = 0; k < probes.size(); ++k) {
       const RunResult &fine = outcomes[2 * k].result, &coarse = outcomes[2 * k + 1].result;
-      const double force = probes[k].error_of_force(fine, coarse), e = error_of_restitution(fine, coarse);
-      const double error = std::max(force, counted(e, fine.summary.restitution));
+      const DiscretisationError found = grid_convergence(fine, coarse);
+      const double error = std::max(found.force, counted(found.restitution, fine.summary.restitution));
       if (error > options_.tolerance) {
         open.push_back(probes[k]), reached = error;
         continue;
       }
       *probes[k].resolution = resolution;
-      c.solver_error_force = std::max(c.solver_error_force, force);
-      c.solver_error_restitution = std::max(c.solver_error_restitution, e);
+      c.solver_error_force = std::max(c.solver_error_force, found.force);
+      c.solver_error_restitution = std::max(c.solver_error_restitution, found.restitution);
     }
     probes = open;
     if (probes.empty()) {
@@ -349,7 +298,7 @@ std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
   if (known_ || first <= 2 * body_.onset) return {};
   OnsetSimilarity::Needs needs;
   needs.first = first, needs.depth = options_.depth;
-  needs.brisk = brisk(), needs.press_cells = press_cells_;
+  needs.tolerance = options_.tolerance, needs.press_cells = press_cells_;
   return OnsetSimilarity(body_, needs, options_.atlas);
 }
 
@@ -393,7 +342,7 @@ SamplingPlan Build::refinement(const FittedShape& fitted, const ContactRecords& 
       more.slow_impacts.push_back(velocity_to(overlaps[k], body_));
     } else if (more.presses.empty() || more.presses.back().depth > 4 * overlaps[k]) {
       more.presses.push_back(
-          {overlaps[k], {}, press_cells_, 2, brisk() ? brisk_ramp(slow_, overlaps[k]) : 0.0});
+          {overlaps[k], {}, press_cells_, 2, loading_ramp(slow_, overlaps[k], options_.tolerance)});
     } else if (auto& stops = more.presses.back().stops;
                overlaps[k] < 0.88 * (stops.empty() ? more.presses.back().depth : stops.front())) {
       stops.insert(stops.begin(), overlaps[k]);
@@ -468,7 +417,7 @@ void Build::elastic()
   choose_resolutions({{[&](int cells) {
                          return press_job(body_, {options_.depth, {}, cells, 2}, source_);
                        },
-                       error_of_loading, &press_cells_}});
+                       &press_cells_}});
   std::vector<RunJob> jobs;
   for (const double share : {0.15, 1.0})  // the contact of the deep press begins with too few cells
     jobs.push_back(press_job(body_, {share * options_.depth, {}, press_cells_, 2}, source_));
@@ -502,7 +451,7 @@ void Build::plastic()
   SamplingRange range;
   range.depth = options_.depth;
   range.fastest = options_.fastest;
-  range.brisk = brisk();
+  range.tolerance = options_.tolerance;
   SamplingPlan full = plan_sampling(slow_, range);
   range.stops = 2;
   range.speeds = coarse_speeds;

@@ -135,7 +135,7 @@ OnsetSimilarity::OnsetSimilarity(const CharacterisedBody& body, const Needs& nee
     sphere.depth = std::clamp(reach * sphere.body.onset, 0.0075, 0.5);
     if (reach * sphere.body.onset > similar) spares_first_ = false;
     SamplingRange range;
-    range.depth = sphere.depth, range.fastest = 0, range.stops = 2, range.brisk = needs.brisk;
+    range.depth = sphere.depth, range.fastest = 0, range.stops = 2, range.tolerance = needs.tolerance;
     range.from_onset = from_onset;
     sphere.plan = plan_sampling(sphere.body, range);
     sphere.plan.resolution = slow_cells;

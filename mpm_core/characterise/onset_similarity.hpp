@@ -20,9 +20,9 @@ class OnsetSimilarity
  public:
   struct Needs
   {
-    double first = 0;   ///< overlap/length of the shallowest run planned of the body
-    double depth = 0;   ///< where the body's law ends
-    bool brisk = true;  ///< presses load in brisk_ramp()
+    double first = 0;      ///< overlap/length of the shallowest run planned of the body
+    double depth = 0;      ///< where the body's law ends
+    double tolerance = 0;  ///< of F and e: presses load in loading_ramp()
     int press_cells = 24;
   };
   /// A less stiff sphere.

@@ -77,10 +77,13 @@ double velocity_to(double x, const CharacterisedBody& s)
                   x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
 }
 
-double brisk_ramp(const CharacterisedBody& s, double depth)
+double loading_ramp(const CharacterisedBody& s, double depth, double tolerance)
 {
-  if (!s.yields()) return 0;
-  return std::max({60.0, 42.0 * std::pow(0.01 / s.yield, 0.25), top_speed_ramp(depth, 1.6e-3 * s.yield)});
+  if (!s.yields() || tolerance <= 0) return 0;
+  const double allowed = std::min(tolerance, 0.01);
+  const double inertial = top_speed_ramp(depth, 0.16 * allowed * s.yield);
+  const double vibrational = 42.0 * std::pow(0.01 / s.yield, 0.25) * std::pow(0.01 / allowed, 0.2);
+  return std::max({60.0, vibrational, inertial});
 }
 
 RunJob press_job(const CharacterisedBody& body, const SamplingPlan::Press& press, const RunSource& source)
@@ -141,7 +144,7 @@ SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& r
       depth = range.depth;  // one that goes a little deeper spares the next
     if (depth < 1.3 * done) continue;
     SamplingPlan::Press press{depth, between(done, depth, range.stops), 24, 2,
-                              range.brisk ? brisk_ramp(body, depth) : 0.0};
+                              loading_ramp(body, depth, range.tolerance)};
     if (depth > exact_end) press.resolution = 20, press.shifted_grids = 1;
     plan.presses.push_back(press);
     done = depth;

@@ -65,16 +65,21 @@ struct SamplingRange
   double fastest = 0.3;      ///< sqrt(I) of the fastest impact, up to 0.3
   double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset tells
   double from_onset = 1.25;  ///< overlap over the onset's nearer to which nothing is run
-  bool brisk = false;        ///< presses load in brisk_ramp()
+  double tolerance = 0;      ///< of F and e: presses load in loading_ramp()
   int stops = 3;             ///< reversal points a press, its end among them
   std::span<const double> speeds = impact_speeds;  ///< sqrt(I) of impacts, those up to the fastest
 };
 
 SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& range);
 
-/// A loading time shorter than the solver's own, in R/c*: it changes F by up to 0.15 % and e by 0.0003
-/// (docs/method.md).
-double brisk_ramp(const CharacterisedBody& body, double depth);
+/// Loading time of a slow press, in R/c*, that a tolerance of F and e allows; 0, the solver's own: of a body
+/// that never yields, or where no tolerance is asked for. A ramp adds to F and e
+/// - its inertia: its damage number rho v^2/Y at the highest speed of loading, of which 0.16 of the tolerance
+/// is
+///   allowed;
+/// - the body's vibration at the reversal, which falls as the fifth power of the ramp (docs/decisions.md).
+/// A tolerance over 1 % counts as 1 %.
+double loading_ramp(const CharacterisedBody& body, double depth, double tolerance);
 
 /// A slow impact that reaches about this overlap.
 double velocity_to(double overlap, const CharacterisedBody& body);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "characterise/grid_convergence.hpp"
 #include "law/replay.hpp"
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"
@@ -244,14 +245,40 @@ TEST(PlanSampling, CoarsePressesBeginBeyondTheOthers)
   }
 }
 
-TEST(BuildLaw, AFineToleranceGetsTheSolversOwnRamp)
+/// The inertia of a press's loading is a share of the tolerance; beyond 1 % nothing gets faster.
+TEST(BuildLaw, RampsFollowFromTheTolerance)
 {
-  KnownSphere sphere;
-  sphere.build(0.01);
-  for (const auto& press : sphere.presses) EXPECT_GT(press.ramp, 0);
-  sphere.presses.clear();
-  sphere.build(0.004);
-  for (const auto& press : sphere.presses) EXPECT_EQ(press.ramp, 0);
+  const auto ramps = [](double tolerance) {
+    KnownSphere sphere;
+    sphere.build(tolerance);
+    std::vector<double> found;
+    for (const auto& press : sphere.presses) found.push_back(press.ramp);
+    EXPECT_FALSE(found.empty());
+    return found;
+  };
+  const std::vector<double> coarse = ramps(0.01), fine = ramps(0.004);
+  EXPECT_GT(*std::max_element(fine.begin(), fine.end()), *std::max_element(coarse.begin(), coarse.end()));
+  EXPECT_EQ(*std::max_element(coarse.begin(), coarse.end()), loading_ramp(KnownSphere().body(), 0.2, 0.02));
+  EXPECT_EQ(loading_ramp(KnownSphere().body(), 0.2, 0), 0);
+  EXPECT_EQ(loading_ramp(KnownSphere().body().elastic(), 0.2, 0.01), 0);
+}
+
+TEST(GridConvergence, IsTheIndexOfAForceThatConvergesAsObserved)
+{
+  // F = F_0 (1 + 0.01 (24/n)^1.65): the true error of 24 cells is 0.0099, of which the index is 1.25 times
+  const auto run = [](int cells) {
+    RunResult r;
+    for (int k = 1; k <= 200; ++k) {
+      const double x = 1e-4 * k;
+      r.trace.push_back(
+          {.delta = x, .force = x * (1 + 0.01 * std::pow(24. / cells, 1.65)), .branch = Branch::load});
+    }
+    r.summary.delta_max = 0.02, r.summary.restitution = 0.5, r.summary.resolution = cells;
+    return r;
+  };
+  const DiscretisationError found = grid_convergence(run(24), run(17));
+  EXPECT_NEAR(found.force, 1.25 * 0.01 / 1.01, 1e-6);
+  EXPECT_EQ(found.restitution, found.force);  // two e may agree by chance
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#include "characterise/grid_convergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "solver/run/grid_noise.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double observed_order = 1.65, safety = 1.25;
+
+/// Largest relative change of the fitted loading force.
+double change_of_loading(const RunResult& fine, const RunResult& coarse)
+{
+  const TreatedLoading a(fine.trace), b(coarse.trace);
+  if (!a.valid() || !b.valid()) fail("grid convergence", "too few samples in the loading of a run");
+  double most = 0;
+  for (const double share : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+    const double x = share * fine.summary.delta_max;
+    most = std::max(most, std::abs(b.force(x) / a.force(x) - 1));
+  }
+  return most;
+}
+
+}  // namespace
+
+DiscretisationError grid_convergence(const RunResult& fine, const RunResult& coarse)
+{
+  const double ratio = static_cast<double>(fine.summary.resolution) / coarse.summary.resolution;
+  const double index = safety / (std::pow(ratio, observed_order) - 1);
+  const double force = change_of_loading(fine, coarse);
+  const double e = std::abs(coarse.summary.restitution / fine.summary.restitution - 1);
+  return {index * force, index * std::max(force, e)};
+}
+
+}  // namespace granulaw
