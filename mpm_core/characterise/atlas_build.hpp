@@ -1,8 +1,8 @@
 #pragma once
 
 #include "characterise/atlas.hpp"
-#include "characterise/farm.hpp"
 #include "characterise/sampling_plan.hpp"
+#include "farm/farm.hpp"
 
 namespace granulaw {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "characterise/farm.hpp"
 #include "characterise/law_file_plan.hpp"
+#include "farm/farm.hpp"
 
 namespace granulaw {
 

@@ -9,7 +9,7 @@
 #include "characterise/characterised_body.hpp"
 #include "characterise/contact_record.hpp"
 #include "characterise/law_shape.hpp"
-#include "characterise/run_queue.hpp"
+#include "farm/run_queue.hpp"
 
 namespace granulaw {
 

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "characterise/worker_pool.hpp"
+#include "farm/worker_pool.hpp"
 #include "solver/output/state_archive.hpp"
 
 namespace granulaw {

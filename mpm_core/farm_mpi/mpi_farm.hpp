@@ -1,6 +1,6 @@
 #pragma once
 
-#include "characterise/farm.hpp"
+#include "farm/farm.hpp"
 #include "farm_mpi/mpi_session.hpp"
 
 namespace granulaw {

@@ -270,8 +270,7 @@ TEST(GridConvergence, IsTheIndexOfAForceThatConvergesAsObserved)
     RunResult r;
     for (int k = 1; k <= 200; ++k) {
       const double x = 1e-4 * k;
-      r.trace.push_back(
-          {.delta = x, .force = x * (1 + 0.01 * std::pow(24. / cells, 1.65)), .branch = Branch::load});
+      r.trace.push_back({0, x, x * (1 + 0.01 * std::pow(24. / cells, 1.65)), 0, Branch::load, 0});
     }
     r.summary.delta_max = 0.02, r.summary.restitution = 0.5, r.summary.resolution = cells;
     return r;

@@ -1,4 +1,4 @@
-#include "characterise/farm.hpp"
+#include "farm/farm.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The estimate of what the pair rule costs, against the two-body collisions that were measured
-// (tests/study/pairs.csv, made by pairs_study.cpp).
+// (tests/validation/pairs.csv, made by pairs_study.cpp).
 #include "characterise/reduction_error.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ struct Measured
 /// Impacts of the table; the presses in it have no velocity.
 std::vector<Measured> measured_impacts()
 {
-  std::ifstream file(GRANULAW_SOURCE_DIR "/tests/study/pairs.csv");
+  std::ifstream file(GRANULAW_SOURCE_DIR "/tests/validation/pairs.csv");
   std::vector<Measured> rows;
   std::string line, cell;
   std::getline(file, line);
@@ -94,7 +94,7 @@ TEST(ReductionError, IsBoundedForMixtures)
   EXPECT_EQ(over, 0);
 }
 
-/// A pair's own law, made at equal radii, at others (tests/study/pair_law_radii.py): what `mpm table
+/// A pair's own law, made at equal radii, at others (tests/validation/pair_law_radii.py): what `mpm table
 /// --radius-ratio` states of it.
 TEST(ReductionError, OfALawOfEqualRadiiIsBoundedAtOthers)
 {
@@ -108,7 +108,7 @@ TEST(ReductionError, OfALawOfEqualRadiiIsBoundedAtOthers)
     double restitution, force, solver;  // rule over two bodies
   };
   std::map<std::string, Row> equal;  // by damage number and partner
-  std::ifstream file(GRANULAW_SOURCE_DIR "/tests/study/pair_law_radii.csv");
+  std::ifstream file(GRANULAW_SOURCE_DIR "/tests/validation/pair_law_radii.csv");
   std::string line, damage_number, partner, cell;
   std::getline(file, line);
   int count = 0, over = 0;

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "characterise/run_queue.hpp"
+#include "farm/run_queue.hpp"
 #include "solver/output/state_archive.hpp"
 
 namespace granulaw {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "characterise/farm.hpp"
+#include "farm/farm.hpp"
 
 namespace granulaw {
 

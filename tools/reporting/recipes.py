@@ -10,7 +10,7 @@ MPM = "build/release/tools/mpm/mpm"
 
 def solver(out, quick):
     return ["cmake --build --preset release --target granulaw_cost_study",
-            f"build/release/tests/study/granulaw_cost_study {out}/solver/cost.json" + (" quick" if quick else "")]
+            f"build/release/tests/validation/granulaw_cost_study {out}/solver/cost.json" + (" quick" if quick else "")]
 
 
 def law(out, quick):

@@ -1,4 +1,4 @@
-#include "characterise/run_cache.hpp"
+#include "farm/run_cache.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "characterise/run_queue.hpp"
+#include "farm/run_queue.hpp"
 
 namespace granulaw {
 

@@ -17,7 +17,7 @@
 #include "../verification/references.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/run_cache.hpp"
+#include "farm/run_cache.hpp"
 #include "solver/run/accuracy.hpp"
 #include "solver/solver_id.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "characterise/run_queue.hpp"
+#include "farm/run_queue.hpp"
 
 namespace granulaw {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "characterise/run_cache.hpp"
-#include "characterise/run_queue.hpp"
+#include "farm/run_cache.hpp"
+#include "farm/run_queue.hpp"
 
 namespace granulaw {
 

@@ -8,7 +8,7 @@
 RUNS is a cache folder (~/.cache/granulaw/runs: its files hold the expected cost and the CPU seconds of each run) or a
 CSV file with columns cost and cpu_s, and batch where runs were made in several.
 
-The farm's policy (mpm_core/characterise/run_queue.hpp, mpm_core/farm_mpi): within a batch the runs start in the order
+The farm's policy (mpm_core/farm/run_queue.hpp, mpm_core/farm_mpi): within a batch the runs start in the order
 of their EXPECTED cost, the most expensive first, each on the next free thread; a batch starts when the one before it
 has ended. Each hand-out costs 4 ms on a rank other than 0 (both sides look for messages every 2 ms), and the outcomes
 of a batch go to all ranks at 1 GB/s, 30 kB each. Not modelled: what lies between batches (fits; seconds at most), and

@@ -1,11 +1,11 @@
-#include "characterise/run_queue.hpp"
+#include "farm/run_queue.hpp"
 
 #include <algorithm>
 #include <ctime>
 #include <unordered_map>
 
 #include "base/error.hpp"
-#include "characterise/run_cache.hpp"
+#include "farm/run_cache.hpp"
 #include "solver/output/state_archive.hpp"
 
 namespace granulaw {

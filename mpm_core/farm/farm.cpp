@@ -1,11 +1,11 @@
-#include "characterise/farm.hpp"
+#include "farm/farm.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "characterise/worker_pool.hpp"
+#include "farm/worker_pool.hpp"
 
 namespace granulaw {
 

@@ -18,7 +18,7 @@
 
 #include "base/error.hpp"
 #include "characterise/reduction_error.hpp"
-#include "characterise/run_cache.hpp"
+#include "farm/run_cache.hpp"
 #include "solver/solver_id.hpp"
 
 namespace {
