@@ -37,10 +37,10 @@ REACH = {
 MIRRORED = {
     "mpm_core/solver": ("solver", "base"),
     "mpm_core/law": ("law", "base"),
-    "mpm_core/characterise": ("characterise", "solver", "law", "base"),
+    "mpm_core/characterise": ("characterise", "farm", "solver", "law", "base"),
     "liggghts_plugin": (),
     "tools/deck": ("deck", "law", "base"),
-    "tools/mpm": ("mpm_parts", "deck", "characterise", "solver", "law", "base"),
+    "tools/mpm": ("mpm_parts", "deck", "characterise", "farm", "solver", "law", "base"),
 }
 NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer")  # they run none of the six folders
 CHEAP = 2.0  # s; tests up to it come before the battery
