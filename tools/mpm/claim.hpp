@@ -2,25 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "law/law.hpp"
 
 namespace granulaw {
 
-/// Errors that a law states for one collision, relative.
+/// Errors that a law states for one collision, relative: 95 % of impacts lie within.
 struct Claim
 {
   double force = 0;        ///< of F_max
   double restitution = 0;  ///< of e
+
+  /// With an error of another cause: independent ones add as squares.
+  Claim with(double other_force, double other_restitution) const
+  {
+    return {std::hypot(force, other_force), std::hypot(restitution, other_restitution)};
+  }
 };
 
-/// What the certificate claims against fresh impacts of the solver, and the solver's own error, for a
-/// collision whose coefficient of restitution is `e`.
+/// What a certificate states for a collision whose coefficient of restitution is `e`.
+/// - A yielding body of the atlas: the bound of its checks (docs/atlas.md). These are fresh impacts, so it
+///   holds whatever the solver's runs, the fit, the interpolation and the table leave.
+/// - A body by runs: what its verification found, impacts that took no part in the fit at the cells of those
+///   that did; and what these cells cost (grid_convergence.hpp). Without impacts, what fit and table leave.
 inline Claim claim_of(const Certificate& c, double e)
 {
-  return {c.verification_error_force + c.atlas_error_force + c.solver_error_force,
-          c.verification_error_restitution + c.atlas_error_restitution / e + c.solver_error_restitution};
+  const bool elastic = std::isinf(c.damage_number_max);
+  const Claim atlas{c.atlas_error_force, c.atlas_error_restitution / e};
+  if (c.origin == "atlas" && !elastic) return atlas;
+  const Claim fitted = c.verification_impacts > 0
+                           ? Claim{c.verification_error_force, c.verification_error_restitution}
+                           : atlas.with(c.interpolation_error, c.held_out_error);
+  return fitted.with(c.solver_error_force, c.solver_error_restitution);
 }
 
 /// A relative error in per cent.

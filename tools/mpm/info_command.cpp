@@ -56,6 +56,11 @@ void print_origin(const Certificate& c)
 
 void print_errors(const Certificate& c)
 {
+  const Claim claim = claim_of(c, 1.0);
+  fmt::print("  stated error         F_max {}, e {}{} (95 % of impacts lie within); of it:\n",
+             percent(claim.force),
+             c.origin == "atlas" ? fmt::format("{:.2g}", claim.restitution) : percent(claim.restitution),
+             c.origin == "atlas" ? "" : " of itself");
   fmt::print("  solver error         force {}, e {} (two resolutions)\n", percent(c.solver_error_force),
              percent(c.solver_error_restitution));
   fmt::print("  interpolation error  {}", percent(c.interpolation_error));

@@ -46,14 +46,12 @@ double body_mass(const BodyLaw& body, double radius)
   return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
 }
 
-/// What the file states for this collision, relative, the larger of F_max and e: the certificate's claim and
-/// what the pair rule costs. 0: it states nothing, the law is exact but for the solver (elastic bodies).
-double stated_error(const Law& law, const PairLaw& pair, const PairNames& names, double e)
+/// What the file states for this collision: the certificate's claim and what the pair rule costs. 0: nothing.
+Claim stated_error(const Law& law, const PairLaw& pair, const PairNames& names, double e)
 {
   const Claim claim = claim_of(pair.yielding->certificate, e);
   const LawPair* entry = law.find_pair(names.first, names.second);
-  return std::max(claim.force + (entry ? entry->reduction_error_force : 0.0),
-                  claim.restitution + (entry ? entry->reduction_error_restitution : 0.0));
+  return entry ? claim.with(entry->reduction_error_force, entry->reduction_error_restitution) : claim;
 }
 
 /// Two bodies about to collide: SI.
@@ -140,10 +138,13 @@ void print_warnings(const Collision& c, const Speed& speed, const Replay& result
         c.velocity, c.pair.min_speed(c.r_eff, c.m_eff));
 }
 
-void print_as_json(const Speed& speed, const Replay& result, double cpu_s, double error)
+void print_as_json(const Speed& speed, const Replay& result, double cpu_s, const Claim& error)
 {
   nlohmann::ordered_json out = collision_json(result);
-  put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0, error);  // no solver: no points
+  put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0,  // no solver: no points
+             std::max(error.force, error.restitution));
+  out["error_force"] = error.force;
+  out["error_restitution"] = error.restitution * result.restitution;
   out["damage_number"] = out["inertia"] = speed.damage_number;
   out["needs_velocity_axis"] = speed.needs_axis;
   out["beyond_velocity_axis"] = result.left_speeds;
@@ -151,12 +152,14 @@ void print_as_json(const Speed& speed, const Replay& result, double cpu_s, doubl
   print_json(out, 2);
 }
 
-void print(const Collision& c, const Speed& speed, const Replay& result, double error)
+void print(const Collision& c, const Speed& speed, const Replay& result, const Claim& error)
 {
   fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}\n", c.names.first, c.names.second,
              c.velocity, c.r_eff, speed.damage_number);
   print_collision(result, fmt::format("{:.3g} of the law's range", result.delta_max / c.limit()));
-  if (error > 0) fmt::print("stated error of F and e        {:.2g}\n", error);
+  if (error.force > 0 || error.restitution > 0)
+    fmt::print("stated error (95 %)            F_max {}, e {:.2g}\n", percent(error.force),
+               error.restitution * result.restitution);
 }
 
 void replay(const LawRequest& r)
@@ -169,7 +172,7 @@ void replay(const LawRequest& r)
   check_depth(r, c, result);
 
   const Speed speed = speed_of(c);
-  const double error = stated_error(law, c.pair, c.names, result.restitution);
+  const Claim error = stated_error(law, c.pair, c.names, result.restitution);
   print_warnings(c, speed, result);
   if (r.json)
     print_as_json(speed, result, cpu_s, error);
@@ -188,10 +191,11 @@ void define(CLI::App& command)
       "law the one it was made for, and no other is allowed)");
   command.add_option("--radius2", r->radius2, "radius of the second body, m (default: the first's)");
   command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
-  command.add_flag("--json", r->json,
-                   "print one JSON object instead of the summary: the keys of mpm impact; error_estimate: "
-                   "the certificate's "
-                   "claim and what the pair rule costs, the larger of F_max and e");
+  command.add_flag(
+      "--json", r->json,
+      "print one JSON object instead of the summary: the keys of mpm impact; error_force, "
+      "error_restitution: what 95 % of impacts lie within, by the certificate and by what the pair "
+      "rule costs, relative of F_max and absolute of e; error_estimate: the larger, both relative");
   command.callback([r] { replay(*r); });
 }
 
