@@ -39,7 +39,7 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
          "at d\n"
          "# unloading and reloading (d < d_m): F = force(d_m) phi(u), u = (d - d_r)/(d_m - d_r), 0 where u < "
          "0;\n"
-         "#   phi = A u^1.5 + B u^2 + C u^2.5, A = hertz_share, B = 5 - 2 A - 2 n, C = A + 2 n - 4, n = "
+         "#   phi = A u^1.5 + B u^2 + C u^2.5, A = foot, B = 5 - 2 A - 2 n, C = A + 2 n - 4, n = "
          "exponent,\n"
          "#   d_r = residual_overlap of the row at d_m; contact radius a(d_m) phi'(u)/n\n"
          "# while yielded = 0 at d_m the contact is elastic: loading, unloading and reloading are one curve\n"
@@ -107,7 +107,7 @@ void write_csv(const Law& law, const std::vector<PairNames>& pairs, const Export
     out << (r.dimensionless ? "pair,overlap,force,stiffness,contact_radius,residual_overlap,exponent,hertz_"
                               "share,yielded\n"
                             : "pair,overlap_m,force_N,stiffness_N_per_m,contact_radius_m,residual_overlap_m,"
-                              "exponent,hertz_share,yielded\n");
+                              "exponent,foot,yielded\n");
     for (const auto& [a, b] : pairs) write_pair(out, resolve_pair(law, a, b, r.law), a + ":" + b, r);
     if (!out.flush()) fail(r.output, "cannot be written (disk full?)");
   });
@@ -152,7 +152,7 @@ void define(CLI::App& command)
 extern const Command export_command{
     "export",
     "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
-    "overlap, residual overlap, exponent and hertz_share of the unloading after a reversal there. Lines that "
+    "overlap, residual overlap, exponent and foot (Hertz share) of the unloading after a reversal there. Lines that "
     "begin "
     "with # state "
     "the\n"
