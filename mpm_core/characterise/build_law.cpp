@@ -21,6 +21,7 @@ namespace {
 
 constexpr int most_rounds = 5;
 constexpr int resolutions[] = {24, 34, 48, 68};
+constexpr double rate_factor = 2.2;  // between two impacts of a rate-dependent body, to begin with
 constexpr double coarse_speeds[] = {0.06, 0.15, 0.25};  // sqrt(I): where a sampling plan begins
 
 void check(const BuildOptions& o)
@@ -159,6 +160,21 @@ class Build
                                   const std::vector<ContactRecords::Impact>& impacts,
                                   const std::vector<double>& tried) const;
   void verify(const std::vector<double>& speeds);
+  void require_lawful() const;
+  SamplingRange widest_range() const;
+  SamplingPlan first_plan() const;
+  std::size_t most_runs(const std::optional<OnsetSimilarity>& guide) const;
+  void run_round(const SamplingPlan& plan, ContactRecords& records,
+                 std::vector<OnsetSimilarity::Sphere>* spheres);
+  /// What was run, and the law's shape by it.
+  struct Sampled
+  {
+    ContactRecords records;
+    FittedShape fitted;
+  };
+  Sampled sample(SamplingPlan plan, std::optional<OnsetSimilarity>& guide);
+  void certify(const Sampled& sampled);
+  std::vector<double> verification_speeds(const ContactRecords& records) const;
 
   BuiltLaw built_;
   BodyLaw& law_ = built_.law;
@@ -438,97 +454,142 @@ void Build::elastic()
   built_.runs_full = built_.runs;
 }
 
-void Build::plastic()
+void Build::require_lawful() const
 {
+  const std::string where = fmt::format("material '{}'", law_.material.name);
   if (body_.onset > 0.2 * options_.depth)
-    fail(fmt::format("material '{}'", law_.material.name),
-         "yields too late in the overlaps that a law covers",
+    fail(where, "yields too late in the overlaps that a law covers",
          fmt::format("onset at delta/R = {:.3g}", body_.onset),
          fmt::format("up to {:.3g}", 0.2 * options_.depth));
   if (body_.rate_dependent() && options_.fastest == 0)
-    fail(fmt::format("material '{}'", law_.material.name),
-         "depends on the rate: its law needs impacts, not the rate-free law alone", "I = 0", "over 0");
+    fail(where, "depends on the rate: its law needs impacts, not the rate-free law alone", "I = 0", "over 0");
+}
+
+/// The runs to begin with: two reversal points a press, few impacts.
+SamplingPlan Build::first_plan() const
+{
+  SamplingRange range = widest_range();
+  range.stops = 2;
+  range.speeds = coarse_speeds;
+  SamplingPlan plan = plan_sampling(slow_, range);
+  // The fastest asked for is always run: nothing may be extrapolated.
+  if (options_.fastest > 0 && (plan.fast_speeds.empty() || plan.fast_speeds.back() < options_.fastest))
+    plan.fast_speeds.push_back(options_.fastest);
+  if (body_.rate_dependent())
+    plan.fast_speeds = by_factors(slowest_of(body_, options_), options_.fastest, rate_factor);
+  return plan;
+}
+
+/// How many runs the densest plan has.
+std::size_t Build::most_runs(const std::optional<OnsetSimilarity>& guide) const
+{
+  SamplingPlan full = plan_sampling(slow_, widest_range());
+  if (body_.rate_dependent())
+    full.fast_speeds = by_factors(slowest_of(body_, options_), options_.fastest, std::sqrt(rate_factor));
+  std::size_t runs = full.runs();
+  if (guide)
+    for (const OnsetSimilarity::Sphere& sphere : guide->spheres()) runs += sphere.plan.runs();
+  return runs;
+}
+
+SamplingRange Build::widest_range() const
+{
   SamplingRange range;
   range.depth = options_.depth;
   range.fastest = options_.fastest;
   range.tolerance = options_.tolerance;
-  SamplingPlan full = plan_sampling(slow_, range);
-  range.stops = 2;
-  range.speeds = coarse_speeds;
-  SamplingPlan plan = plan_sampling(slow_, range);
-  const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
-                                                 : expected_depth(plan.slow_impacts.front(), slow_);
-  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
-  choose_resolutions(probes(plan));
-  for (SamplingPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
-  // The fastest asked for is always run: nothing may be extrapolated.
-  if (options_.fastest > 0 && (plan.fast_speeds.empty() || plan.fast_speeds.back() < options_.fastest))
-    plan.fast_speeds.push_back(options_.fastest);
-  if (body_.rate_dependent()) {
-    const double slowest = slowest_of(body_, options_);
-    plan.fast_speeds = by_factors(slowest, options_.fastest, 2.2);
-    full.fast_speeds = by_factors(slowest, options_.fastest, std::sqrt(2.2));
-  }
+  return range;
+}
 
-  std::optional<OnsetSimilarity> guide = onset_similarity(first);
-  // the first impact would show what is known then, for a third of the time
-  if (guide && guide->spares_first() && !plan.slow_impacts.empty())
-    plan.slow_impacts.erase(plan.slow_impacts.begin());
+/// One round: presses of the body at no rate, its impacts, and with the first round the guide's spheres.
+void Build::run_round(const SamplingPlan& plan, ContactRecords& records,
+                      std::vector<OnsetSimilarity::Sphere>* spheres)
+{
+  SamplingPlan slow = plan, fast = plan;
+  slow.fast_speeds.clear();
+  slow.resolution = press_cells_;
+  fast.presses.clear();
+  fast.slow_impacts.clear();
+  fast.resolution = impact_cells_;
+  std::vector<SamplingPart> parts{{slow_, slow, records}, {body_, fast, records}};
+  if (spheres)
+    for (OnsetSimilarity::Sphere& sphere : *spheres)
+      parts.push_back({sphere.body, sphere.plan, sphere.found});
+  run(parts, done_ + 0.7 * (0.9 - done_));
+}
 
-  ContactRecords records;
-  FittedShape fitted;
+/// Runs and fits until nothing that is left out of the fit is missed by more than the tolerance.
+Build::Sampled Build::sample(SamplingPlan plan, std::optional<OnsetSimilarity>& guide)
+{
+  Sampled sampled;
   std::vector<double> tried_overlaps, tried_speeds;
-  built_.runs = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    SamplingPlan impacts = plan;
-    impacts.presses.clear(), impacts.slow_impacts.clear();
-    impacts.resolution = impact_cells_;
-    plan.fast_speeds.clear();
-    plan.resolution = press_cells_;
-    std::vector<SamplingPart> parts{{slow_, plan, records}, {body_, impacts, records}};
-    if (guide && round == 0)
-      for (OnsetSimilarity::Sphere& sphere : guide->spheres())
-        parts.push_back({sphere.body, sphere.plan, sphere.found});
-    run(parts, done_ + 0.7 * (0.9 - done_));
-    if (!body_.particle.is_homogeneous_sphere()) heed_early_yield(records);
-    fitted = fit(records, guide);
-    for (const ContactRecord& p : records.slow) tried_overlaps.push_back(p.depth);
-    for (const ContactRecords::Impact& i : records.fast) tried_speeds.push_back(i.speed);
-    plan = refinement(fitted, records, tried_overlaps, tried_speeds);
-    if (plan.runs() == 0) break;
+  for (int round = 0; round < most_rounds && plan.runs() > 0; ++round) {
+    run_round(plan, sampled.records, guide && round == 0 ? &guide->spheres() : nullptr);
+    if (!body_.particle.is_homogeneous_sphere()) heed_early_yield(sampled.records);
+    sampled.fitted = fit(sampled.records, guide);
+    for (const ContactRecord& p : sampled.records.slow) tried_overlaps.push_back(p.depth);
+    for (const ContactRecords::Impact& i : sampled.records.fast) tried_speeds.push_back(i.speed);
+    plan = refinement(sampled.fitted, sampled.records, tried_overlaps, tried_speeds);
   }
-  built_.runs_full = full.runs();
-  if (guide) {
-    built_.shallow = guide->how();
-    for (const OnsetSimilarity::Sphere& sphere : guide->spheres()) built_.runs_full += sphere.plan.runs();
-  }
+  return sampled;
+}
 
+/// What the runs and their fit say of the law's errors.
+void Build::certify(const Sampled& sampled)
+{
   Certificate& c = law_.certificate;
   c.damage_number_max = options_.fastest * options_.fastest;
-  c.reload_loop_area = records.reload_loop;
-  c.residual_scatter = fitted.quality.scatter;
-  c.held_out_error = fitted.quality.held_out;
+  c.reload_loop_area = sampled.records.reload_loop;
+  c.residual_scatter = sampled.fitted.quality.scatter;
+  c.held_out_error = sampled.fitted.quality.held_out;
   if (known_) {
     built_.rate_free = "from the atlas";
     c.atlas_error_force = options_.atlas->claimed_force();
     c.atlas_error_restitution = options_.atlas->claimed_restitution();
   }
-  for (std::size_t k = 0; k < records.slow.size(); ++k)
-    built_.sampling_error = std::max(built_.sampling_error, held_out(fitted, records, k));
-  c.interpolation_error = finish_curve(law_, fitted.shape, body_, options_, shape_end());
-  built_.change_of_restitution = change_of_restitution(fitted.shape, body_.onset, shape_end(), law_.curve);
-  if (options_.fastest > 0) {
-    const double fastest = std::sqrt(c.damage_number_max);
-    std::vector<double> speeds;
-    if (body_.rate_dependent()) {
-      const double slowest = records.fast.front().speed;
-      for (const double share : {0.1, 0.37, 0.63, 0.9})
-        speeds.push_back(slowest * std::pow(fastest / slowest, share));
-    } else {
-      for (const double share : {0.13, 0.42, 0.88}) speeds.push_back(share * fastest);
-    }
-    verify(speeds);
+  for (std::size_t k = 0; k < sampled.records.slow.size(); ++k)
+    built_.sampling_error = std::max(built_.sampling_error, held_out(sampled.fitted, sampled.records, k));
+}
+
+/// sqrt(I) between those of the runs, up to where the law's axis ends.
+std::vector<double> Build::verification_speeds(const ContactRecords& records) const
+{
+  const double fastest = std::sqrt(law_.certificate.damage_number_max);
+  std::vector<double> speeds;
+  if (body_.rate_dependent()) {
+    const double slowest = records.fast.front().speed;
+    for (const double share : {0.1, 0.37, 0.63, 0.9})
+      speeds.push_back(slowest * std::pow(fastest / slowest, share));
+  } else {
+    for (const double share : {0.13, 0.42, 0.88}) speeds.push_back(share * fastest);
   }
+  return speeds;
+}
+
+void Build::plastic()
+{
+  require_lawful();
+  SamplingPlan plan = first_plan();
+  const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
+                                                 : expected_depth(plan.slow_impacts.front(), slow_);
+  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
+  choose_resolutions(probes(plan));
+  for (SamplingPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
+  std::optional<OnsetSimilarity> guide = onset_similarity(first);
+  // the first impact would show what is known then, for a third of the time
+  if (guide && guide->spares_first() && !plan.slow_impacts.empty())
+    plan.slow_impacts.erase(plan.slow_impacts.begin());
+
+  built_.runs = 0;
+  const Sampled sampled = sample(plan, guide);
+  built_.runs_full = most_runs(guide);
+  if (guide) built_.shallow = guide->how();
+
+  certify(sampled);
+  const LawShape& shape = sampled.fitted.shape;
+  law_.certificate.interpolation_error = finish_curve(law_, shape, body_, options_, shape_end());
+  built_.change_of_restitution = change_of_restitution(shape, body_.onset, shape_end(), law_.curve);
+  if (options_.fastest > 0) verify(verification_speeds(sampled.records));
 }
 
 }  // namespace

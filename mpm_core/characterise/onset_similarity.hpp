@@ -40,6 +40,7 @@ class OnsetSimilarity
 
   /// Those to be run.
   std::vector<Sphere>& spheres() { return spheres_; }
+  const std::vector<Sphere>& spheres() const { return spheres_; }
   /// Whether the shallowest run planned would tell nothing more: not of a body of several materials, nor of
   /// one so stiff that a less stiff sphere at the same delta/delta_onset is pressed to over 0.2 R. Of a
   /// sphere of E*/Y = 500 whose yield stress goes as ep^0.3 the law without it is off by 0.0015 in e, 0.57 %
