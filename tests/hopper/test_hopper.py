@@ -90,7 +90,7 @@ class Hopper(unittest.TestCase):
 
     def test_the_contact_statistics_are_part_of_the_balance(self):
         if self.model == "hertz":
-            self.skipTest("stock Hertz keeps no ledger")
+            self.skipTest("stock Hertz keeps no contact statistics")
         for run in self.each():
             f = measures.filling(run)
             # normal contacts cannot take more than was lost; friction takes some too

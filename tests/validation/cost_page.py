@@ -55,7 +55,7 @@ def main():
         "",
         f"One core of: {study['processor']}. Four shifted grids (or one, dotted), three grids, both precisions; black line: how far",
         "the reference (mapped, 56 cells, 8 shifted grids, Courant number 0.5) is from the same at 40 cells. L2: deviation of the",
-        "treated loading force over 0.05 to 1 delta_max. F_max and e: deviation. Ripple: rms of raw/treated force - 1 over 0.25 to 1",
+        "treated loading force over 0.05 to 1 delta_max. F_max and e: deviation. Grid noise: rms of raw/treated force - 1 over 0.25 to 1",
         "delta_max, that is, of the mean of the shifted grids. F_max of several grids is the peak of their mean, of a single one the",
         "fit's, which does not follow the ringing: 0.7 % lower here. The treated force of a single grid (dotted) is as good as that of",
         "four for a quarter of the time; what the mean of four buys is e, and a trace that needs no treatment. Single precision",

@@ -218,7 +218,7 @@ TEST(Wall, RadiatesWhatLambSays)
   const Particle ball = sphere(1, 0);
   for (const double v : {0.001, 0.004}) {
     const RunResult r = run_impact(ball, v, options_of(12, 2), wall(0));
-    // dF/dt over spans of a fiftieth of the contact: longer than the ripple's steps, short against the pulse
+    // dF/dt over spans of a fiftieth of the contact: longer than the grid noise's steps, short against the pulse
     double squares = 0;
     const auto& t = r.trace;
     const std::size_t span = std::max<std::size_t>(1, t.size() / 60);

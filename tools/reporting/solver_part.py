@@ -103,7 +103,7 @@ def write(page, study, path, commands):
         page.table(["cheapest run with error of F within", *[f"{100 * t:g} %" for t in TARGETS]], rows)
         page.origin(f"Second line: its resolution and its error of e; {own}. `none`: no resolution of this study reaches it.")
         page.table(["grid", "precision", "cells", "shifted grids", "points", "CPU s", "million updates/s", "F, L2 %", "F_max %", "e %",
-                    "ripple %", "energy error"],
+                    "grid noise %", "energy error"],
                    [[r["grid"], r["precision"], r["cells"], r["grids"], r["points"], number(r["cpu_s"]), number(r["Mupd_s"]),
                      f"{100 * r['L2_force']:.3f}", f"{100 * r['err_force']:+.3f}", f"{100 * r['err_e']:+.3f}", f"{100 * r['ripple']:.3f}",
                      f"{r['energy']:.1e}"] for r in job["rows"]], fold=f"All {len(job['rows'])} runs")

@@ -36,7 +36,7 @@ struct MappedGrid
   /// `cells_across` N >= 4; `block` = radius the block covers on the surface, in units of R, up to 0.9;
   /// `full` = whole sphere, else the lower half up to the mid-plane.
   /// `shift` moves the block's grid lines towards the pole by that part of a cell: runs at different shifts
-  /// meet the contact edge at different phases, and their mean is free of the ripple's lower harmonics.
+  /// meet the contact edge at different phases, and their mean is free of the grid noise's lower harmonics.
   static MappedGrid build(int cells_across, double block, bool full, double shift = 0);
 
   /// A thick wall: half a ball of radius `extent` with its flat side, z = 0, in contact; the same block and
