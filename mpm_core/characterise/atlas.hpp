@@ -30,7 +30,7 @@ struct AtlasGrid
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.15, 0.3};
 
   std::vector<double> block_stiffnesses{20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 400, 600, 900, 5000};
-  /// Up to here the block tells reversals and inertia; stiffer ones the loading alone. Their e is known to
+  /// Up to here the block tells unloading and velocity effects; stiffer ones the loading alone. Their e is known to
   /// 0.003 (24 cells, two grids), which is what another ratio changes there.
   static constexpr double block_unloading_end = 900;
   std::vector<double> block_hardenings{0, 0.005, 0.02, 0.1, 0.3};
@@ -66,7 +66,7 @@ struct AtlasCheck
 /// Along ln(E*/Y) and along ln(1 + 2 (H/E)(E*/Y)), in which a law changes evenly from perfectly plastic to
 /// dominated by hardening: cubic through the four nearest; the change with Poisson's ratio by such cubics
 /// along the block's ratios, stiffnesses and hardenings. Beyond AtlasGrid::block_unloading_end the change of
-/// unloading and the effect of speed keeps its value.
+/// unloading and velocity effects keeps its value.
 class Atlas
 {
  public:

@@ -37,7 +37,7 @@ constexpr Field widening{"widening", "1", "ln(a/a_elastic) at the nodes of each 
 constexpr Field residual{"residual", "1", "-ln(1 - delta_r/delta_m) at the nodes of each material"};
 constexpr Field dissipation{"dissipation", "1", "-ln(W_u/W_L) at the nodes of each material"};
 constexpr Field hertz_share{"foot", "1", "A - A_elastic of the unloading at the nodes of each material"};
-constexpr Field reach{"impact_reach", "1", "ln(X/v) at the speeds of each material"};
+constexpr Field impact_overlap{"impact_reach", "1", "ln(X/v) at the speeds of each material"};
 constexpr Field impact_dissipation{"impact_dissipation", "1", "dissipation less the slow press's"};
 constexpr Field impact_residual{"impact_residual", "1", "residual less the slow press's"};
 constexpr Field impact_force{"impact_force", "1",
@@ -62,7 +62,7 @@ struct ImpactNumber
   const Field& field;
   double LawShape::VelocityEffect::*value;
 };
-constexpr ImpactNumber impact_numbers[] = {{reach, &LawShape::VelocityEffect::log_overlap},
+constexpr ImpactNumber impact_numbers[] = {{impact_overlap, &LawShape::VelocityEffect::log_overlap},
                                            {impact_dissipation, &LawShape::VelocityEffect::dissipation},
                                            {impact_residual, &LawShape::VelocityEffect::residual}};
 

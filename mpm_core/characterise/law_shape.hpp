@@ -33,9 +33,9 @@ struct ElasticCorrection
 ///
 /// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero
 /// slope at the onset:
-///     force reduction    -ln(F_L/F_elastic)               residual     -ln(1 - delta_r/delta_m)
-///     widening      ln(a/a_elastic)                 dissipation  -ln(W_u/W_L) = -2 ln e
-///     Hertz share          A - A_elastic of the unloading's shape
+///     force_reduction  -ln(F_L/F_elastic)       residual     -ln(1 - delta_r/delta_m)
+///     widening         ln(a/a_elastic)         dissipation  -ln(W_u/W_L) = -2 ln e
+///     hertz_share      A - A_elastic of the unloading's shape
 /// Differences and means of shapes are shapes again: that is how they are interpolated between materials.
 struct LawShape
 {
@@ -100,9 +100,10 @@ void require_admissible(const ContactCurve& curve);
 
 /// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at
 /// most the shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches
-/// the force goes over to the press's within half of it; residual and dissipation keep their ratio to the
-/// press's at any overlap, the residual where an unloading's shape allows both. The axis ends before
-/// `fastest` where that would go deeper than `slow`'s table.
+/// the force goes over to the press's within half of it; dissipation and residual keep their difference from
+/// the press's. Below, the difference goes as the press's own loss, so that it is 0 at the onset. The
+/// residual is as told where an unloading's shape allows both. The axis ends before `fastest` where that
+/// would go deeper than `slow`'s table.
 VelocityAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow,
                                      double e_star_over_yield, double mass, double fastest);
 

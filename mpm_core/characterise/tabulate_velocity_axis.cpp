@@ -169,7 +169,7 @@ class BetweenNodes
   std::vector<double> nodes_, slopes_;
 };
 
-/// One level: the corrections of a contact that latched X.
+/// One impact level: the corrections of a contact that latched X.
 struct ImpactLevel
 {
   std::vector<double> force, force_slope, residual, exponent;
