@@ -141,8 +141,8 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
     check_material(lmp, setup, types, t, found->second.material);
     lower_limit(found->second.certificate);
     for (int other = 1; other < t; ++other)
-      if (const TwoBodyLaw* own = law.find_pair_law(name, materials[static_cast<std::size_t>(other - 1)]))
-        lower_limit(own->law.certificate);
+      if (const auto* laws = law.find_pair_laws(name, materials[static_cast<std::size_t>(other - 1)]))
+        for (const TwoBodyLaw& own : *laws) lower_limit(own.law.certificate);
   }
 }
 

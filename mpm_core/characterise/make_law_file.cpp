@@ -150,7 +150,7 @@ class Maker
     BuiltLaw built = build_two_body_law(bodies, options_named(pair.name()));
     note_holes(pair.name(), built, file_.law.provenance);
     file_.runs[pair.name()] = {built.runs, built.runs_full, built.sampling_error, {}};
-    file_.law.pair_laws[pair.name()] = {std::move(built.law), own_law_radius_ratio};
+    file_.law.pair_laws[pair.name()].push_back({std::move(built.law), own_law_radius_ratio});
     ++finished_;
   }
 

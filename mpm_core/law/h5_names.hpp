@@ -31,7 +31,7 @@ inline constexpr const char* material = "material";           ///< bodies/<name>
 inline constexpr const char* curve = "curve";                 ///< bodies/<name>/curve, nodes
 inline constexpr const char* certificate = "certificate";     ///< bodies/<name>/certificate, scalars
 inline constexpr const char* support = "support";             ///< string attribute of certificate
-inline constexpr const char* origin = "origin";               ///< the same: "runs" or "atlas"
+inline constexpr const char* origin = "origin";               ///< the same: "runs", "atlas" or "composed"
 inline constexpr const char* body = "body";                   ///< string attribute of bodies/<name>
 inline constexpr const char* velocity_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, if it has one
 inline constexpr const char* kind = "kind";                   ///< string attribute of it
@@ -40,8 +40,9 @@ inline constexpr const char* kind_rate = "logarithmic rate";
 
 // Laws of pairs of their own, if there are any
 inline constexpr const char* pair_laws = "pair_laws";  ///< group; one subgroup "a:b" for each, as in `pairs`
+/// Of a pair with several ratios each stands in a subgroup "1", "2", ...; absent: against a thick wall.
 inline constexpr Field radius_ratio_of_runs{"radius_ratio_of_runs", "1",
-                                            "partner's radius over the yielding body's in the runs"};
+                                            "partner's radius over the yielding body's"};
 
 // Beside `pairs`, in its order.
 inline constexpr Field pair_reduction_error_force{

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "base/error.hpp"
+#include "law/radiation.hpp"
 
 namespace granulaw {
 
@@ -31,7 +33,7 @@ const LawPair* Law::find_pair(const std::string& a, const std::string& b) const
   return nullptr;
 }
 
-const TwoBodyLaw* Law::find_pair_law(const std::string& a, const std::string& b) const
+const std::vector<TwoBodyLaw>* Law::find_pair_laws(const std::string& a, const std::string& b) const
 {
   for (const std::string& name : {a + ":" + b, b + ":" + a})
     if (const auto found = pair_laws.find(name); found != pair_laws.end()) return &found->second;
@@ -106,7 +108,24 @@ PairLaw wall_pair(const BodyLaw& body)
   return {&body.curve, PairMapping::rigid_partner(body.material.e_star()), &body};
 }
 
-PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where)
+namespace {
+
+/// The law at the nearest share of sizes; null: `laws` is, or that of one material is nearer at like sizes.
+const TwoBodyLaw* nearest(const std::vector<TwoBodyLaw>* laws, double size_share, bool one_material)
+{
+  if (!laws) return nullptr;
+  const auto distance = [&](double share) { return std::abs(share - size_share); };
+  const auto best = std::min_element(laws->begin(), laws->end(), [&](const auto& a, const auto& b) {
+    return distance(a.size_share()) < distance(b.size_share());
+  });
+  constexpr double like = 0.5;
+  return one_material && distance(like) <= distance(best->size_share()) ? nullptr : &*best;
+}
+
+}  // namespace
+
+PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where,
+                     double radius_a, double radius_b)
 {
   if (a == wall_name && b != wall_name) return resolve_pair(law, b, a, where);
   const BodyLaw& first = body(law, a, where);
@@ -118,10 +137,15 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
   if (!second) return wall_pair(first);
   const bool swap = !yields_first(first.material, second->material);
   const BodyLaw &yielding = swap ? *second : first, &partner = swap ? first : *second;
-  const TwoBodyLaw* own = law.find_pair_law(a, b);
-  const BodyLaw& followed = own ? own->law : yielding;
-  return {&followed.curve,
-          PairMapping::deformable_partner(yielding.material.e_star(), partner.material.e_star()), &followed};
+  const PairMapping mapping =
+      PairMapping::deformable_partner(yielding.material.e_star(), partner.material.e_star());
+  if (a == b) std::tie(radius_a, radius_b) = std::minmax({radius_a, radius_b});
+  const double ratio = swap ? radius_a / radius_b : radius_b / radius_a;
+  const TwoBodyLaw* own = nearest(law.find_pair_laws(a, b), 1 / (1 + ratio), a == b);
+  if (!own) return {&yielding.curve, mapping, &yielding};
+  const bool composed = own->law.certificate.origin == composed_origin;
+  return {&own->law.curve, mapping, &own->law,
+          composed ? radiation(yielding.material, 1.0, partner.material, ratio) : 0.0};
 }
 
 }  // namespace granulaw

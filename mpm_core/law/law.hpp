@@ -8,22 +8,9 @@
 
 #include "base/scales.hpp"
 #include "law/contact_curve.hpp"
+#include "law/law_material.hpp"
 
 namespace granulaw {
-
-/// A material as the law file keeps it, SI. `yield_stress` infinite: elastic.
-struct LawMaterial
-{
-  std::string name;
-  double density = 0;         ///< kg/m^3
-  double youngs_modulus = 0;  ///< Pa
-  double poisson_ratio = 0;
-  double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
-  double hardening_modulus = 0;  ///< Pa, d(yield stress)/d(equivalent plastic strain); 0: perfectly plastic
-
-  double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
-  bool yields() const { return yield_stress < std::numeric_limits<double>::infinity(); }
-};
 
 /// Errors a law states about itself, relative (0.01 is 1 %), and the range it holds for.
 struct Certificate
@@ -47,8 +34,11 @@ struct Certificate
   double atlas_error_force = 0;        ///< of what the atlas tells, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
   std::string support = "free";        ///< how the characterising press held the body
-  std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas
+  std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas; or ...
 };
+
+/// ... Certificate::origin of a pair's law that was composed of its two bodies' laws.
+inline constexpr const char* composed_origin = "composed";
 
 /// `BodyLaw::body` of a homogeneous sphere.
 inline constexpr const char* sphere_name = "sphere";
@@ -79,12 +69,16 @@ struct LawPair
   bool operator==(const LawPair&) const = default;
 };
 
-/// The law of a pair of spheres of different materials, from runs of the two bodies: used in place of the
-/// yielding body's own where the pair rule is not good enough. Its curve goes with the rule's mapping.
+/// The law of two spheres at one ratio of radii, used in place of the yielding body's own by the pair rule:
+/// composed of the two bodies' laws (certificate.origin "composed"), or from runs of the two bodies ("runs"). Its
+/// curve goes with the rule's mapping.
 struct TwoBodyLaw
 {
   BodyLaw law;              ///< `material` is the yielding one's
-  double radius_ratio = 1;  ///< partner's radius over the yielding body's in the runs
+  double radius_ratio = 1;  ///< partner's radius over the yielding body's; infinity: a thick wall
+
+  /// R_s/(R_s + R_h) of the yielding body and its partner, 0 for a wall: in which laws change evenly.
+  double size_share() const { return 1 / (1 + radius_ratio); }
 };
 
 /// A contact law file in memory: bodies, and the pairs that it may be used for ("a:b", "a:wall").
@@ -92,13 +86,15 @@ struct Law
 {
   std::map<std::string, BodyLaw> bodies;  ///< by material name
   std::vector<LawPair> pairs;
-  std::map<std::string, TwoBodyLaw> pair_laws;  ///< by "a:b" as in `pairs`; other pairs follow the pair rule
+  /// By "a:b" as in `pairs`: each ascending in radius_ratio, which is at least 1 where a is b. Other pairs follow
+  /// the pair rule.
+  std::map<std::string, std::vector<TwoBodyLaw>> pair_laws;
   std::map<std::string, std::string> provenance;  ///< version, git_hash, created, command, material_hash, ...
 
   /// The file's entry for this pair, in either order; null: it was not built for it.
   const LawPair* find_pair(const std::string& a, const std::string& b) const;
-  /// The pair's own law, in either order; null: it follows the pair rule, or is not in the file.
-  const TwoBodyLaw* find_pair_law(const std::string& a, const std::string& b) const;
+  /// The pair's own laws, in either order; null: it follows the pair rule, or is not in the file.
+  const std::vector<TwoBodyLaw>* find_pair_laws(const std::string& a, const std::string& b) const;
   /// "a:b, a:wall, ..." for messages.
   std::string pair_list() const;
 };
@@ -117,6 +113,7 @@ struct PairLaw
   const ContactCurve* curve = nullptr;  ///< of the yielding body, or the pair's own; owned by the Law
   PairMapping mapping;
   const BodyLaw* yielding = nullptr;  ///< whose curve it is: the yielding body, or TwoBodyLaw::law
+  double radiation = 0;  ///< C of radiation.hpp, s^3/kg: of a composed law; 0: the curve has what waves take
 
   /// See ContactCurve::evaluate; X of impact_overlap(), latched at first touch.
   ContactForce evaluate(double r_eff, double delta, double delta_max, double impact_overlap = 0) const
@@ -163,10 +160,12 @@ struct PairLaw
 PairLaw wall_pair(const BodyLaw& body);
 
 /// Resolves materials `a` and `b` (b may be "wall": rigid), in either order: the pair's own law if the file
-/// has one, else the law of the body that yields (`yields_first`). Throws Error naming `where` where the law
-/// has no such material or was not built for the pair, or where a body that is no homogeneous sphere would
-/// meet another body than its like or the rigid wall.
-PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where);
+/// has one, of several that at the nearest size_share(), else the law of the body that yields (`yields_first`).
+/// The radii (m; or both in another unit) choose; infinity: b is a thick deformable wall. Throws Error naming `where` where the
+/// law has no such material or was not built for the pair, or where a body that is no homogeneous sphere would meet
+/// another body than its like or the rigid wall.
+PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where,
+                     double radius_a = 1, double radius_b = 1);
 
 /// By how much, relative, a radius may differ from that of a rate-dependent law. The strain rate goes as V/R:
 /// 5 % of it change the flow stress of any metal by far less than a per cent (Johnson-Cook, C = 0.1: 0.5 %).

@@ -21,7 +21,8 @@ using Table = ContactCurve::Table;
 
 // A file may be hostile: what it can make the reader allocate ends at some tens of megabytes. A node costs
 // some 200 bytes (its values and its interval's coefficients).
-constexpr std::size_t most_nodes = 65536, most_bodies = 256, most_pairs = 65536, most_notes = 1024;
+constexpr std::size_t most_nodes = 65536, most_bodies = 256, most_pairs = 65536, most_notes = 1024,
+                      most_radius_ratios = 64;
 constexpr std::size_t most_nodes_together = 2 * most_nodes, most_note_bytes = 1u << 20;
 
 /// Text of a file within a sentence: its beginning.
@@ -85,7 +86,7 @@ constexpr CertificateField certificate_fields[] = {
     {h5::axis_cost_restitution, &Certificate::axis_cost_restitution, true},
     {h5::atlas_error_force, &Certificate::atlas_error_force},
     {h5::atlas_error_restitution, &Certificate::atlas_error_restitution}};
-constexpr const char* origins[] = {"runs", "atlas"};
+constexpr const char* origins[] = {"runs", "atlas", composed_origin};
 
 struct PairField
 {
@@ -154,7 +155,7 @@ void check_body(const BodyLaw& body, const std::string& where)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
   if (std::find(std::begin(origins), std::end(origins), body.certificate.origin) == std::end(origins))
-    fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin), "runs, atlas");
+    fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin), "runs, atlas, composed");
   if (body.curve.axis() && !m.yields())
     fail(where, "the material is elastic but its curve has a velocity axis");
   if (!usable_name(body.body)) fail(where, "unusable name of a body", shortened(body.body), name_rule);
@@ -166,25 +167,43 @@ void check_body(const BodyLaw& body, const std::string& where)
     fail(where, fmt::format("'pole_radius' of the body {} is missing", shortened(body.body)));
 }
 
-void check_pair_law(const Law& law, const std::string& name, const TwoBodyLaw& own, const std::string& where)
+void check_own_law(const std::string& name, const TwoBodyLaw& own, bool one_material, const std::string& where)
+{
+  const bool composed = own.law.certificate.origin == composed_origin;
+  if (!own.law.material.yields() && !composed)
+    fail(where, "a pair's own law by runs needs a body that yields", shortened(name));
+  if (!own.law.is_sphere()) fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
+  const double least = one_material ? std::nextafter(1.0, 2.0) : 0.01;
+  const bool wall = composed && std::isinf(own.radius_ratio);
+  if (!wall && !(own.radius_ratio >= least && own.radius_ratio <= 100))
+    fail(where,
+         fmt::format("'{}' of the pair {} is out of range", h5::radius_ratio_of_runs.name, shortened(name)),
+         fmt::format("{:.6g}", own.radius_ratio), one_material ? "over 1, up to 100" : "0.01 to 100");
+}
+
+void check_pair_laws(const Law& law, const std::string& name, const std::vector<TwoBodyLaw>& laws,
+                     const std::string& where)
 {
   const auto pair = std::find_if(law.pairs.begin(), law.pairs.end(),
                                  [&](const LawPair& p) { return p.a + ':' + p.b == name; });
   if (pair == law.pairs.end())
     fail(where, fmt::format("holds a law for the pair {}, which is not among its pairs", shortened(name)));
-  if (pair->b == wall_name || pair->a == wall_name || pair->a == pair->b)
-    fail(where, "a pair of one material, or with the rigid wall, has no law of its own", shortened(name));
-  if (law.pair_laws.contains(pair->b + ':' + pair->a))
+  if (pair->b == wall_name || pair->a == wall_name)
+    fail(where, "a pair with the rigid wall has no law of its own", shortened(name));
+  if (pair->a != pair->b && law.pair_laws.contains(pair->b + ':' + pair->a))
     fail(where, "the pair has two laws of its own, one in each order", shortened(name));
   for (const std::string& body : {pair->a, pair->b})
     if (!law.bodies.at(body).is_sphere())
       fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
-  if (!own.law.material.yields()) fail(where, "a pair's own law needs a body that yields", shortened(name));
-  if (!own.law.is_sphere()) fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
-  if (!(own.radius_ratio >= 0.01 && own.radius_ratio <= 100))
-    fail(where,
-         fmt::format("'{}' of the pair {} is out of range", h5::radius_ratio_of_runs.name, shortened(name)),
-         fmt::format("{:.6g}", own.radius_ratio), "0.01 to 100");
+  if (laws.empty() || laws.size() > most_radius_ratios)
+    fail(where, fmt::format("the pair {} has an unusable number of laws of its own", shortened(name)),
+         std::to_string(laws.size()), fmt::format("1 to {}", most_radius_ratios));
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    check_own_law(name, laws[k], pair->a == pair->b, where);
+    if (k > 0 && !(laws[k].radius_ratio > laws[k - 1].radius_ratio))
+      fail(where, fmt::format("the laws of the pair {} do not ascend in '{}'", shortened(name),
+                              h5::radius_ratio_of_runs.name));
+  }
 }
 
 /// The material that yields in the pair "a:b" of the file.
@@ -216,7 +235,7 @@ void check_pairs(const Law& law, const std::string& where)
     if (pair.a != wall_name && pair.b != wall_name)
       check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), where);
   }
-  for (const auto& [name, own] : law.pair_laws) check_pair_law(law, name, own, where);
+  for (const auto& [name, laws] : law.pair_laws) check_pair_laws(law, name, laws, where);
 }
 
 VelocityAxis::Table read_axis(hid_t body, const std::string& where)
@@ -347,6 +366,46 @@ void write_body(hid_t group, const BodyLaw& body, const std::string& path)
   h5::write_scalar(group, h5::mass_ratio, body.mass_ratio, path);
 }
 
+TwoBodyLaw read_two_body_law(hid_t group, const LawMaterial& yielding, const std::string& where)
+{
+  TwoBodyLaw own;
+  own.law.material = yielding;
+  own.law.curve = read_curve(group, where);
+  own.law.certificate = read_certificate(group, where);
+  own.radius_ratio = h5::has_link(group, h5::radius_ratio_of_runs.name)
+                         ? h5::read_scalar(group, h5::radius_ratio_of_runs, where)
+                         : std::numeric_limits<double>::infinity();
+  check_body(own.law, where);
+  return own;
+}
+
+void write_two_body_law(hid_t group, const TwoBodyLaw& own, const std::string& path)
+{
+  write_curve(group, own.law.curve, path);
+  write_certificate(group, own.law.certificate, path);
+  if (std::isfinite(own.radius_ratio))
+    h5::write_scalar(group, h5::radius_ratio_of_runs, own.radius_ratio, path);
+}
+
+/// Subgroups "1", "2", ...
+std::vector<TwoBodyLaw> read_laws_of_ratios(hid_t group, const LawMaterial& yielding, const std::string& where)
+{
+  std::vector<TwoBodyLaw> laws;
+  const std::size_t count = h5::link_names(group, most_radius_ratios, where).size();
+  for (std::size_t k = 1; k <= count; ++k)
+    laws.push_back(
+        read_two_body_law(h5::open_group(group, std::to_string(k).c_str(), where), yielding, where));
+  return laws;
+}
+
+void write_pair_laws(hid_t group, const std::vector<TwoBodyLaw>& laws, const std::string& path)
+{
+  if (laws.size() == 1 && std::isfinite(laws.front().radius_ratio))
+    return write_two_body_law(group, laws.front(), path);
+  for (std::size_t k = 0; k < laws.size(); ++k)
+    write_two_body_law(h5::create_group(group, std::to_string(k + 1).c_str(), path), laws[k], path);
+}
+
 /// Refuses what is not a law file of this major version, each case with its own sentence.
 h5::Handle open_law(const std::string& path)
 {
@@ -407,14 +466,13 @@ Law read_open(const h5::Handle& file, const std::string& path)
     for (const std::string& name : h5::link_names(own_laws, most_bodies, path)) {
       const std::string where = fmt::format("{}, law of the pair {}", path, shortened(name));
       const h5::Handle group = h5::open_group(own_laws, name.c_str(), path);
-      TwoBodyLaw own;
-      own.law.material = yielding_of(law, name, path);
-      own.law.curve = read_curve(group, where);
-      own.law.certificate = read_certificate(group, where);
-      own.radius_ratio = h5::read_scalar(group, h5::radius_ratio_of_runs, where);
-      check_body(own.law, where);
-      count_nodes(own.law.curve);
-      law.pair_laws.emplace(name, std::move(own));
+      std::vector<TwoBodyLaw>& laws = law.pair_laws[name];
+      const LawMaterial& material = yielding_of(law, name, path);
+      if (h5::has_link(group, h5::curve))
+        laws.push_back(read_two_body_law(group, material, where));
+      else
+        laws = read_laws_of_ratios(group, material, where);
+      for (const TwoBodyLaw& own : laws) count_nodes(own.law.curve);
     }
   }
 
@@ -459,8 +517,9 @@ void write_law(const Law& law, const std::string& path)
     check_name(name, path);
     check_body(body, fmt::format("{}, material '{}'", path, name));
   }
-  for (const auto& [name, own] : law.pair_laws)
-    check_body(own.law, fmt::format("{}, law of the pair {}", path, shortened(name)));
+  for (const auto& [name, laws] : law.pair_laws)
+    for (const TwoBodyLaw& own : laws)
+      check_body(own.law, fmt::format("{}, law of the pair {}", path, shortened(name)));
 
   const h5::Silence silence;
   write_atomically(path, [&](const std::string& temporary) {
@@ -488,12 +547,8 @@ void write_law(const Law& law, const std::string& path)
 
     if (!law.pair_laws.empty()) {
       const h5::Handle own_laws = h5::create_group(file, h5::pair_laws, path);
-      for (const auto& [name, own] : law.pair_laws) {
-        const h5::Handle group = h5::create_group(own_laws, name.c_str(), path);
-        write_curve(group, own.law.curve, path);
-        write_certificate(group, own.law.certificate, path);
-        h5::write_scalar(group, h5::radius_ratio_of_runs, own.radius_ratio, path);
-      }
+      for (const auto& [name, laws] : law.pair_laws)
+        write_pair_laws(h5::create_group(own_laws, name.c_str(), path), laws, path);
     }
 
     if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");

@@ -1,37 +1,49 @@
 #include "law/replay.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 
 namespace granulaw {
 
-Replay replay_collision(const NormalForce& law, double effective_mass, double velocity, double duration_guess,
-                        int steps_per_contact)
+namespace {
+
+/// C K^2 v of the dashpot that stands for waves; a contact never pulls.
+double with_waves(const ContactForce& now, double radiation, double speed)
+{
+  return std::max(0.0, now.force + radiation * now.stiffness * now.stiffness * speed);
+}
+
+Replay replay(const NormalForce& law, double radiation, double effective_mass, double velocity,
+              double duration_guess, int steps_per_contact)
 {
   if (!(velocity > 0 && effective_mass > 0 && duration_guess > 0 && steps_per_contact > 0))
     fail("replay", "velocity, mass, duration and steps must be positive");
   Replay result;
   const double dt = duration_guess / steps_per_contact;
   double time = 0, delta = 0, delta_max = 0, v = velocity;
+  double total = 0;
   ContactForce now{};
   const auto longest = static_cast<long>(steps_per_contact) * 100;
   for (long step = 0; step < longest; ++step) {
-    result.samples.push_back({time, delta, now.force, now.contact_radius, v < 0});
-    v -= 0.5 * dt * now.force / effective_mass;
-    const double before = delta, force_before = now.force;
+    result.samples.push_back({time, delta, total, now.contact_radius, v < 0});
+    v -= 0.5 * dt * total / effective_mass;
+    const double before = delta, force_before = total, law_before = now.force;
     delta += dt * v;
     if (delta <= 0)
       now = {};
     else
       now = law(delta, delta_max);
     delta_max = std::max(delta, delta_max);
-    v -= 0.5 * dt * now.force / effective_mass;
+    total = with_waves(now, radiation, v);
+    v -= 0.5 * dt * total / effective_mass;
     time += dt;
-    const double work = 0.5 * (force_before + now.force) * (delta - before);
+    const double work = 0.5 * (force_before + total) * (delta - before);
     (work > 0 ? result.work_load : result.work_unload) += std::abs(work);
-    result.force_max = std::max(result.force_max, now.force);
-    if (v < 0 && now.force <= 0) {
+    result.work_waves += work - 0.5 * (law_before + now.force) * (delta - before);
+    result.force_max = std::max(result.force_max, total);
+    if (v < 0 && total <= 0) {
       result.restitution = -v / velocity;
       result.delta_max = delta_max;
       result.delta_residual = std::max(0.0, delta);
@@ -43,6 +55,14 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
   fail("replay", "the collision did not end within a hundred times the expected contact time");
 }
 
+}  // namespace
+
+Replay replay_collision(const NormalForce& law, double effective_mass, double velocity, double duration_guess,
+                        int steps_per_contact)
+{
+  return replay(law, 0.0, effective_mass, velocity, duration_guess, steps_per_contact);
+}
+
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
                         int steps_per_contact)
 {
@@ -51,9 +71,9 @@ Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass
   const double duration =
       2.87 * std::pow(effective_mass * effective_mass / (e_star * e_star * r_eff * velocity), 0.2);
   const double impact_overlap = pair.impact_overlap(r_eff, effective_mass, velocity);
-  Replay result = replay_collision(
+  Replay result = replay(
       [&](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max, impact_overlap); },
-      effective_mass, velocity, duration, steps_per_contact);
+      pair.radiation, effective_mass, velocity, duration, steps_per_contact);
   result.left_speeds = velocity > pair.max_speed(r_eff, effective_mass);
   result.held_speed = velocity < pair.min_speed(r_eff, effective_mass);
   result.left_range = result.delta_max > pair.max_overlap(r_eff);

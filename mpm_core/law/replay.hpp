@@ -17,6 +17,7 @@ struct Replay
   double contact_time = 0;    ///< s, from first touch until the force ends
   double work_load = 0;       ///< J, done on the contact up to delta_max
   double work_unload = 0;     ///< J, given back after it
+  double work_waves = 0;      ///< J, of both, that waves take (radiation.hpp); only of a pair's replay
   bool left_range = false;    ///< delta_max went past the table
   bool left_speeds = false;   ///< the approach was faster than the velocity axis goes
   bool held_speed = false;    ///< it was slower than a rate axis begins: answered as an impact there
@@ -36,7 +37,8 @@ using NormalForce = std::function<ContactForce(double delta, double delta_max)>;
 Replay replay_collision(const NormalForce& law, double effective_mass, double velocity, double duration_guess,
                         int steps_per_contact = 20000);
 
-/// The same for a pair of a Law: latches the impact overlap X of `velocity` at first touch.
+/// The same for a pair of a Law: latches the impact overlap X of `velocity` at first touch, and lets waves take
+/// their part.
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
                         int steps_per_contact = 20000);
 

@@ -61,7 +61,7 @@ int run(int argc, char** argv)
       law = synthetic.law_with_axis();
       granulaw::testing::SyntheticLaw other;  // told from the powder's by its residuals
       other.depth = 0.8;
-      granulaw::TwoBodyLaw& own = law.pair_laws["powder:glass"];
+      granulaw::TwoBodyLaw& own = law.pair_laws["powder:glass"].emplace_back();
       own.law = law.bodies.at("powder");
       own.law.curve = granulaw::ContactCurve(other.table(), other.axis(), "law_fixture");
       own.radius_ratio = 2;

@@ -149,7 +149,7 @@ struct SyntheticLaw
     Law result = law_with_axis();
     BodyLaw& powder = result.bodies.at("powder");
     powder.curve = ContactCurve(table(count), axis(levels, nodes), "synthetic");
-    TwoBodyLaw& own = result.pair_laws["powder:glass"];
+    TwoBodyLaw& own = result.pair_laws["powder:glass"].emplace_back();
     own.law = powder;
     own.law.curve = ContactCurve(table(count), rate_axis(1e-3, levels, nodes), "synthetic");
     own.radius_ratio = 2;

@@ -27,14 +27,14 @@ Law law_with_pair()
   own.law.curve = ContactCurve(other.table(), other.axis(), "test");
   own.law.certificate.damage_number_max = 0.03;
   own.radius_ratio = 2;
-  law.pair_laws["powder:glass"] = own;
+  law.pair_laws["powder:glass"] = {own};
   return law;
 }
 
 TEST(TwoBodyLaw, AnswersForItsPairInEitherOrderAndForNoOther)
 {
   const Law law = law_with_pair();
-  const ContactCurve* own = &law.pair_laws.at("powder:glass").law.curve;
+  const ContactCurve* own = &law.pair_laws.at("powder:glass").front().law.curve;
   const PairLaw ab = resolve_pair(law, "powder", "glass", "test"),
                 ba = resolve_pair(law, "glass", "powder", "test");
   EXPECT_EQ(ab.curve, own);
@@ -76,7 +76,8 @@ TEST_F(PairLawFile, ComesBackBitExact)
   write_law(law, path_);
   const Law read = read_law(path_);
   ASSERT_EQ(read.pair_laws.size(), 1u);
-  const TwoBodyLaw &a = law.pair_laws.at("powder:glass"), &b = read.pair_laws.at("powder:glass");
+  const TwoBodyLaw &a = law.pair_laws.at("powder:glass").front(),
+                   &b = read.pair_laws.at("powder:glass").front();
   EXPECT_EQ(a.law.curve.table().residual_ratio, b.law.curve.table().residual_ratio);
   EXPECT_EQ(a.law.curve.table().force_ratio_slope, b.law.curve.table().force_ratio_slope);
   ASSERT_NE(b.law.curve.axis(), nullptr);
@@ -103,11 +104,16 @@ TEST_F(PairLawFile, RefusesLawsThatNoPairCanHave)
     law.pair_laws.insert(std::move(node));
   };
   says([&](Law& l) { rename(l, "glass:powder"); }, "not among its pairs");
-  says([&](Law& l) { rename(l, "powder:powder"); }, "one material");
-  says([&](Law& l) { rename(l, "powder:wall"); }, "one material");
+  says(
+      [&](Law& l) {
+        l.pair_laws.begin()->second.front().radius_ratio = 1;
+        rename(l, "powder:powder");
+      },
+      "over 1");
+  says([&](Law& l) { rename(l, "powder:wall"); }, "rigid wall");
   says([&](Law& l) { rename(l, "powder"); }, "not among its pairs");
-  says([](Law& l) { l.pair_laws.begin()->second.radius_ratio = -1; }, "radius_ratio");
-  says([](Law& l) { l.pair_laws.begin()->second.law.certificate.held_out_error = NAN; }, "held_out_error");
+  says([](Law& l) { l.pair_laws.begin()->second.front().radius_ratio = -1; }, "radius_ratio");
+  says([](Law& l) { l.pair_laws.begin()->second.front().law.certificate.held_out_error = NAN; }, "held_out_error");
   says(
       [](Law& l) {
         l.pairs.push_back({"glass", "powder"});

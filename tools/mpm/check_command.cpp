@@ -45,7 +45,8 @@ bool admissible(const Law& law, const std::string& path)
     good = good && margin >= 0;
   };
   for (const auto& [name, body] : law.bodies) examine(name, body.curve);
-  for (const auto& [name, own] : law.pair_laws) examine(name, own.law.curve);
+  for (const auto& [name, laws] : law.pair_laws)
+    for (const TwoBodyLaw& own : laws) examine(name, own.law.curve);
   for (const LawPair& pair : law.pairs) resolve_pair(law, pair.a, pair.b, path);
   return good;
 }
@@ -74,9 +75,8 @@ RunSummary shown(const std::string& name, const std::function<RunSummary(const R
 
 /// A fresh impact of a pair that has its own law: two bodies, at the radii that it was made for, with I of
 /// `velocity`.
-bool pair_impact_agrees(const Law& law, const std::string& name, double velocity)
+bool pair_impact_agrees(const Law& law, const std::string& name, const TwoBodyLaw& own, double velocity)
 {
-  const TwoBodyLaw& own = law.pair_laws.at(name);
   const auto [a, b] = split_pair(name);
   const UnlikePair pair = unlike_pair(law.bodies.at(a).material, law.bodies.at(b).material, own.radius_ratio);
   const double wave_speed = std::sqrt(pair.yielding.e_star() / pair.yielding.density);
@@ -186,10 +186,11 @@ bool bodies_agree(const Law& law, const CheckRequest& r, Throws& throws)
 bool pairs_agree(const Law& law, Throws& throws)
 {
   bool good = true;
-  for (const auto& [name, own] : law.pair_laws)
-    good = throws.agree(slowest_of(own.law), own.law, [&, &name = name](double velocity) {
-      return pair_impact_agrees(law, name, velocity);
-    }) && good;
+  for (const auto& [name, laws] : law.pair_laws)
+    for (const TwoBodyLaw& own : laws)
+      good = throws.agree(slowest_of(own.law), own.law, [&, &name = name](double velocity) {
+        return pair_impact_agrees(law, name, own, velocity);
+      }) && good;
   return good;
 }
 

@@ -1,5 +1,6 @@
 // mpm info: what a law file says about itself.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
@@ -100,11 +101,25 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
                support_ratio(body.curve.x_end()));
 }
 
-void print_pair(const LawPair& pair, const TwoBodyLaw* own)
+std::string radii_text(const TwoBodyLaw& own)
 {
-  if (own)
-    fmt::print("  pair {}:{} by its own law, made at radii 1:{:.4g} (yielding body : partner)\n", pair.a,
-               pair.b, own->radius_ratio);
+  return std::isinf(own.radius_ratio) ? "a thick wall" : fmt::format("1:{:.4g}", own.radius_ratio);
+}
+
+void print_pair(const LawPair& pair, const std::vector<TwoBodyLaw>* own)
+{
+  if (own) {
+    std::vector<std::string> radii;
+    for (const TwoBodyLaw& law : *own) radii.push_back(radii_text(law));
+    const bool composed = own->front().law.certificate.origin == composed_origin;
+    fmt::print("  pair {}:{} by its own law, {} at radii {} (yielding body : partner)\n", pair.a, pair.b,
+               composed ? "composed of the two bodies' laws" : "made", fmt::join(radii, ", "));
+    if (composed) {
+      fmt::print("  pair {}:{} 95 % of collisions: {}\n", pair.a, pair.b,
+                 errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
+      return;
+    }
+  }
   if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
     fmt::print("  pair {}:{} {}: {}\n", pair.a, pair.b, own ? "at other radii" : "by the pair rule",
                errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
@@ -115,12 +130,14 @@ void info(const std::string& path)
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
   for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
-  for (const LawPair& pair : law.pairs) print_pair(pair, law.find_pair_law(pair.a, pair.b));
+  for (const LawPair& pair : law.pairs) print_pair(pair, law.find_pair_laws(pair.a, pair.b));
   for (const auto& entry : law.bodies) print_body(entry.second, law.provenance);
-  for (const auto& [name, own] : law.pair_laws) {
-    fmt::print("pair {}, its own law; yielding ", name);
-    print_body(own.law, law.provenance);
-  }
+  for (const auto& [name, laws] : law.pair_laws)
+    for (const TwoBodyLaw& own : laws) {
+      if (own.law.certificate.origin == composed_origin) continue;  // its errors are the pair's
+      fmt::print("pair {}, its own law; yielding ", name);
+      print_body(own.law, law.provenance);
+    }
 }
 
 void define(CLI::App& command)

@@ -142,7 +142,9 @@ void report(const TableRequest& r, const LawFilePlan& plan, const MadeLawFile& f
   for (const auto& [name, planned] : plan.bodies) print_body(name, planned, file);
   for (const LawFilePlan::Pair& pair : plan.pairs) print_pair(pair, file);
   for (const auto& [name, body] : file.law.bodies) print_certificate(name, body);
-  for (const auto& [name, own] : file.law.pair_laws) print_certificate(name, own.law);
+  for (const auto& [name, laws] : file.law.pair_laws)
+    for (const TwoBodyLaw& own : laws)
+      if (own.law.certificate.origin != composed_origin) print_certificate(name, own.law);
   if (farm) print_count(farm->count());
   print_warnings(plan, file);
 }

@@ -103,7 +103,7 @@ double four(const char* file)
     for (std::size_t j = i; j < names.size(); ++j) {
       law.pairs.push_back({names[i], names[j]});
       if (i == j) continue;
-      granulaw::TwoBodyLaw& own = law.pair_laws[names[i] + ":" + names[j]];
+      granulaw::TwoBodyLaw& own = law.pair_laws[names[i] + ":" + names[j]].emplace_back();
       own.law = body(names[i]);
       own.law.material = law.bodies[names[i]].material;  // of the pair's weaker body
     }
