@@ -67,8 +67,8 @@ double slowest_of(const CharacterisedBody& body, const BuildOptions& o)
   return std::min(std::max(wanted, onset), 0.5 * o.fastest);
 }
 
-/// The law's curve and axis from its shape, which ends at `shape_end`. Returns the largest relative error of
-/// the force that the table's cubics add to the shape; fills what leaving the axis out would cost.
+}  // namespace
+
 double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
                     const BuildOptions& options, double shape_end)
 {
@@ -107,6 +107,8 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody
   if (worst <= options.tolerance) law.curve = slow;
   return error;
 }
+
+namespace {
 
 /// One build: what it shares between its steps.
 class Build

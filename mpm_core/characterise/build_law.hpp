@@ -50,6 +50,12 @@ BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, c
 /// options: depth and fastest. Needs atlas.why_not() empty for a material that yields.
 BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const BuildOptions& options);
 
+/// The curve and axis of `law` from its shape, which ends at `shape_end`, for a body of this onset; options: depth,
+/// fastest, tolerance. Returns the largest relative error of the force that the table's cubics add to the shape; the
+/// certificate says what leaving the axis out would cost.
+double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body, const BuildOptions& options,
+                    double shape_end);
+
 /// Force of a free sphere over that of one whose equator plane is driven, at this overlap/R, at E*/Y = 100:
 /// why there is no single pair law at large overlaps (docs/method.md).
 double support_ratio(double overlap);

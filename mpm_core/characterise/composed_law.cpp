@@ -1,0 +1,369 @@
+#include "characterise/composed_law.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <boost/math/interpolators/makima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <functional>
+
+#include "base/error.hpp"
+#include "characterise/characterised_body.hpp"
+#include "law/pair.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// y(x) = 0 of a rising y; the end where it does not cross 0.
+double rising_root(const std::function<double(double)>& y, double low, double high)
+{
+  const double at_low = y(low), at_high = y(high);
+  if (at_low >= 0) return low;
+  if (at_high <= 0) return high;
+  std::uintmax_t steps = 100;
+  const auto [a, b] = boost::math::tools::toms748_solve(y, low, high, at_low, at_high,
+                                                        boost::math::tools::eps_tolerance<double>(40), steps);
+  return 0.5 * (a + b);
+}
+
+/// One body at one contact radius: what it is at any mean pressure under any common shape.
+class BodyAtContact
+{
+ public:
+  BodyAtContact(const PairBody& body, double radius, double contact_radius, double most_curvature)
+      : body_(body), contact_(contact_radius / radius), first_(std::log(most_curvature) - range_below)
+  {
+    double last = 0;
+    for (int k = 0; k < nodes; ++k) {
+      const PairBody::State state = body.at(std::exp(first_ + spacing * k), contact_);
+      const double match = std::log(state.pressure / PressureShape::strength(state.flatness));
+      last = k ? std::max(match, last + least_rise * spacing) : match;
+      states_[static_cast<std::size_t>(k)] = state;
+      match_[static_cast<std::size_t>(k)] = last;
+    }
+  }
+
+  struct Share
+  {
+    double curvature, residual, recovered;    // kappa; overlaps over a
+    double log_pressure;                      // of the body itself, under the common shape
+    double log_yield_overlap;
+    bool known;
+  };
+
+  Share at(double pressure, double flatness) const
+  {
+    const double wanted = std::log(pressure / PressureShape::strength(flatness));
+    const auto above = std::upper_bound(match_.begin(), match_.end(), wanted) - match_.begin();
+    const int low = std::clamp(static_cast<int>(above) - 1, 0, nodes - 2);
+    const auto k = static_cast<std::size_t>(low);
+    const double place = (wanted - match_[k]) / (match_[k + 1] - match_[k]);
+    if (place < 0) return elastic_below(pressure);
+    const PairBody::State &a = states_[k], &b = states_[k + 1];
+    const auto mixed = [&](double PairBody::State::*of) { return a.*of + place * (b.*of - a.*of); };
+    const double own = std::exp(std::log(a.pressure) + place * std::log(b.pressure / a.pressure));
+    const double own_flatness = mixed(&PairBody::State::flatness), e_star = body_.material().e_star();
+    // where least_rise bends the match: what the body itself transmits, not what was matched
+    const double transmitted = own * PressureShape::strength(flatness) / PressureShape::strength(own_flatness);
+    const auto change = [&](double (*of)(double)) {
+      return M_PI / e_star * (of(flatness) * transmitted - of(own_flatness) * own);
+    };
+    const double curvature = std::exp(first_ + spacing * (low + place));
+    // overlaps go as the curvature: linear between the nodes is what they are over it
+    const auto overlap = [&](double PairBody::State::*of) {
+      const double at_a = a.*of / std::exp(first_ + spacing * low), at_b = b.*of / std::exp(first_ + spacing * (low + 1));
+      return curvature * (at_a + place * (at_b - at_a));
+    };
+    Share share;
+    share.curvature = curvature + 2 * change(PressureShape::sag);
+    share.residual = overlap(&PairBody::State::residual);
+    share.recovered = overlap(&PairBody::State::recovered) + change(PressureShape::displacement) -
+                      body_.finite_body() * M_PI / e_star * contact_ * (transmitted - own);
+    share.log_pressure = std::log(transmitted);
+    share.log_yield_overlap = mixed(&PairBody::State::log_yield_overlap);
+    share.known = place <= 1 && a.known && b.known;
+    return share;
+  }
+
+ private:
+  /// So stiff against its partner that it takes next to nothing of the curvature.
+  Share elastic_below(double pressure) const
+  {
+    const PairBody::State& least = states_.front();
+    const double part = pressure / least.pressure;
+    return {part * std::exp(first_),  0,  part * least.recovered, std::log(pressure), least.log_yield_overlap, least.known};
+  }
+
+  // Curvatures from 1/12000 of the whole on; up to twice, as a twin under its own shape may have more than its share.
+  static constexpr int nodes = 96;
+  static constexpr double range_below = 9.4, range = 10.1, spacing = range / (nodes - 1);
+  /// d ln p/d ln kappa, at least: two bodies in full plasticity, whose hardness no longer depends on kappa, share the
+  /// curvature somehow; this keeps the solution from jumping. What is transmitted is their own pressure.
+  static constexpr double least_rise = 0.1;
+
+  const PairBody& body_;
+  double contact_, first_;
+  std::array<PairBody::State, nodes> states_;
+  std::array<double, nodes> match_;  // ln(p/strength), rising
+};
+
+}  // namespace
+
+ComposedPair::ComposedPair(const PairBody& yielding, double radius, const PairBody& partner, double partner_radius)
+    : first_(yielding),
+      second_(partner),
+      radius_(radius),
+      partner_radius_(partner_radius),
+      r_eff_(1 / (1 / radius + 1 / partner_radius)),
+      yield_radius_(find_yield_radius())
+{
+}
+
+ComposedState ComposedPair::at(double a) const
+{
+  const double curvature = a / r_eff_;
+  const BodyAtContact first(first_, radius_, a, curvature), second(second_, partner_radius_, a, curvature);
+  const double softer = std::min(first_.material().e_star(), second_.material().e_star());
+  const double stiffer = std::max(first_.material().e_star(), second_.material().e_star());
+
+  BodyAtContact::Share s{}, h{};
+  const auto balance = [&](double flatness) {
+    const auto excess = [&](double log_pressure) {
+      s = first.at(std::exp(log_pressure), flatness), h = second.at(std::exp(log_pressure), flatness);
+      return s.curvature + h.curvature - curvature;
+    };
+    // Hertz's pressure for both as the softer would have it, and less; as the stiffer, and more
+    excess(rising_root(excess, std::log(1e-4 * curvature * softer), std::log(3 * curvature * stiffer)));
+    return flatness - PressureShape::flatness_of((s.residual + h.residual) / (s.recovered + h.recovered));
+  };
+  const double flatness = rising_root(balance, 0.0, 1.0);
+  balance(flatness);
+
+  ComposedState state;
+  state.contact_radius = a;
+  state.flatness = flatness;
+  const double pressure = std::exp((s.curvature * s.log_pressure + h.curvature * h.log_pressure) /
+                                   (s.curvature + h.curvature));
+  state.force = M_PI * a * a * pressure;
+  state.overlap = a * (s.residual + s.recovered + h.residual + h.recovered);
+  // A plastic body that its partner indents deeper than a flat would is sloped under the pressure, and recovers less.
+  const auto sloped = [&](const BodyAtContact::Share& share, double radius) {
+    constexpr double measured = 0.26;  // without it e of unlike radii and stiff partners is up to 0.015 high
+    return share.log_yield_overlap > 0 ? share.recovered * (1 - measured * flatness * (share.curvature - a / radius))
+                                       : share.recovered;
+  };
+  state.recovered = a * (sloped(s, radius_) + sloped(h, partner_radius_));
+  // Both unload as the body whose dent it is; elastic ones by what each recovers.
+  const double residual = s.residual + h.residual, recovered = s.recovered + h.recovered;
+  const bool yielded = residual > 1e-6 * recovered;
+  const double share = yielded ? s.residual / residual : s.recovered / recovered;
+  const auto of_s = first_.unloading(s.curvature, a / radius_, residual / recovered),
+             of_h = second_.unloading(h.curvature, a / partner_radius_, residual / recovered);
+  state.unloading_work = share * of_s.work + (1 - share) * of_h.work;
+  state.hertz_share = share * of_s.hertz_share + (1 - share) * of_h.hertz_share;
+  state.log_yield_overlap = std::max(s.log_yield_overlap, h.log_yield_overlap);
+  state.known = s.known && h.known;
+  return state;
+}
+
+double ComposedPair::find_yield_radius() const
+{
+  if (!first_.yields() && !second_.yields()) return std::numeric_limits<double>::infinity();
+  const double low = std::log(1e-5 * r_eff_), high = std::log(r_eff_);
+  return std::exp(rising_root([&](double log_a) { return at(std::exp(log_a)).log_yield_overlap; }, low, high));
+}
+
+namespace {
+
+/// A pair's states in the coordinates of the pair rule.
+struct Sample
+{
+  double x, force, radius, residual, returned, hertz_share;
+};
+
+class RuleCoordinates
+{
+ public:
+  RuleCoordinates(const PairMapping& mapping, double r_eff)
+      : length_(mapping.length(r_eff)), force_(mapping.force(r_eff)), radius_(mapping.radius(r_eff))
+  {
+  }
+  Sample of(const ComposedState& s) const
+  {
+    const double x = s.overlap / length_, force = s.force / force_, recovered = s.recovered / length_;
+    return {x,
+            force,
+            s.contact_radius / radius_,
+            std::max(0.0, x - recovered),
+            force * recovered * s.unloading_work,
+            s.hertz_share};
+  }
+
+ private:
+  double length_, force_, radius_;
+};
+
+/// Least squares of F/Hertz - 1 = c1 sqrt(x) + c2 x + c3 x^1.5 and of a/a_Hertz - 1 = d1 sqrt(x).
+ElasticCorrection fit_correction(const std::vector<Sample>& samples, int terms)
+{
+  const auto rows = static_cast<Eigen::Index>(samples.size());
+  Eigen::MatrixXd m(rows, terms);
+  Eigen::VectorXd force(rows), root(rows), radius(rows);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const Sample& s = samples[static_cast<std::size_t>(row)];
+    for (int term = 0; term < terms; ++term) m(row, term) = std::pow(s.x, 0.5 * (term + 1));
+    force(row) = s.force / std::pow(s.x, 1.5) - 1;
+    root(row) = std::sqrt(s.x);
+    radius(row) = s.radius / std::sqrt(s.x) - 1;
+  }
+  const Eigen::VectorXd c = m.colPivHouseholderQr().solve(force);
+  return {c(0), c(1), root.dot(radius) / root.dot(root), terms > 2 ? c(2) : 0.0};
+}
+
+/// Of the pair without yield.
+ElasticCorrection elastic_correction(const PairBody& s, const PairBody& h, double radius_ratio,
+                                     const RuleCoordinates& rule, double deepest, int terms)
+{
+  const PairBody elastic_s = s.elastic(), elastic_h = h.elastic();
+  const ComposedPair pair(elastic_s, 1.0, elastic_h, radius_ratio);
+  std::vector<Sample> samples;
+  constexpr int count = 24;
+  for (int k = 1; k <= count; ++k) {
+    const double a = pair.r_eff() * std::sqrt(deepest) * k / count;
+    const ComposedState state = pair.at(a);
+    if (state.known) samples.push_back(rule.of(state));
+  }
+  return fit_correction(samples, terms);
+}
+
+/// From the onset on, to `depth`, or where the atlas ends or the contact is nearly as wide as the smaller body.
+std::vector<Sample> plastic_samples(const ComposedPair& pair, const RuleCoordinates& rule, double depth)
+{
+  constexpr double step = 1.04;   // of the contact radius: 0.08 in ln x
+  constexpr double widest = 0.9;  // the atlas's laws end at 0.9 to 1.1 R
+  std::vector<Sample> samples;
+  for (double a = pair.yield_radius(); a <= widest * pair.smaller_radius(); a *= step) {
+    const ComposedState state = pair.at(a);
+    if (!state.known) break;
+    samples.push_back(rule.of(state));
+    if (samples.back().x > depth) break;
+  }
+  return samples;
+}
+
+using Curve = boost::math::interpolators::makima<std::vector<double>>;
+
+/// Of the work: an admissible law loses more than interpolation between samples may take back.
+constexpr double least_lost = 1e-3;
+
+/// The shape's functions through the samples, the first of which is the onset.
+LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& elastic, double end)
+{
+  std::vector<double> log_x, reduction, widening, residual, dissipation, hertz_share;
+  const double x0 = samples.front().x;
+  double work = std::pow(x0, 2.5) * (0.4 + elastic.c1 * std::sqrt(x0) / 3 + elastic.c2 * x0 / 3.5);  // of loading
+  const double told_at_onset = samples.front().returned / work;  // 1, but for the fit of the elastic part
+  double lost = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const Sample& now = samples[k];
+    if (k > 0) {  // F goes as a power of x between two samples
+      const Sample& last = samples[k - 1];
+      const double power = std::log(now.force / last.force) / std::log(now.x / last.x);
+      const double more = (now.force * now.x - last.force * last.x) / (power + 1);
+      work += more;
+      // What is lost cannot be given back later.
+      lost = std::max(work - now.returned / told_at_onset, lost + least_lost * more);
+    }
+    const double s = std::pow(now.x, 0.25);
+    log_x.push_back(std::log(now.x));
+    reduction.push_back(-std::log(now.force / (std::pow(now.x, 1.5) * elastic.force_ratio(s))));
+    widening.push_back(std::log(now.radius / (std::sqrt(now.x) * elastic.radius_ratio(s))));
+    residual.push_back(-std::log1p(-now.residual / now.x));
+    dissipation.push_back(-std::log1p(-lost / work));
+    hertz_share.push_back(now.hertz_share - elastic.unloading(s).hertz_share);
+  }
+  LawShape shape = LawShape::zero();
+  shape.elastic = elastic;
+  const auto fill = [&](std::vector<double> LawShape::*member, std::vector<double> values) {
+    const double at_onset = values.front();  // rounding of the fitted elastic part
+    for (double& value : values) value -= at_onset;
+    const Curve curve(std::vector<double>(log_x), std::move(values));
+    for (int k = 1; k < LawShape::nodes; ++k)
+      (shape.*member)[static_cast<std::size_t>(k)] =
+          curve(std::min(log_x.front() + (std::log(end) - log_x.front()) * k / (LawShape::nodes - 1), log_x.back()));
+  };
+  fill(&LawShape::force_reduction, std::move(reduction));
+  fill(&LawShape::widening, std::move(widening));
+  fill(&LawShape::residual, std::move(residual));
+  fill(&LawShape::dissipation, std::move(dissipation));
+  fill(&LawShape::hertz_share, std::move(hertz_share));
+  return shape;
+}
+
+/// Overlap at which the law's loading work is that of an impact at sqrt(I) = v.
+double slow_impact_overlap(const ContactCurve& curve, const CharacterisedBody& body, double v)
+{
+  const double energy = 0.375 * body.mass * body.yield * v * v;
+  return std::exp(rising_root([&](double log_x) { return curve.work_loading(std::exp(log_x)) - energy; },
+                              std::log(1e-12), std::log(4.0)));
+}
+
+/// Those of the yielding body: an impact reaches so much less than by the slow law as that body's own does.
+std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const ContactCurve& own_slow,
+                                                       const ContactCurve& pair_slow, const CharacterisedBody& body)
+{
+  std::vector<LawShape::VelocityEffect> effects = own.velocity_effects;
+  for (LawShape::VelocityEffect& effect : effects)
+    effect.log_overlap += std::log(slow_impact_overlap(pair_slow, body, effect.speed) /
+                                   slow_impact_overlap(own_slow, body, effect.speed));
+  return effects;
+}
+
+}  // namespace
+
+TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner, double radius_ratio,
+                       const BuildOptions& options)
+{
+  const PairMapping mapping =
+      PairMapping::deformable_partner(yielding.material().e_star(), partner.material().e_star());
+  const ComposedPair pair(yielding, 1.0, partner, radius_ratio);
+  const RuleCoordinates rule(mapping, pair.r_eff());
+  TwoBodyLaw result;
+  result.radius_ratio = radius_ratio;
+  BodyLaw& law = result.law;
+  law.material = yielding.material();
+  law.certificate.origin = composed_origin;
+  if (!std::isfinite(pair.yield_radius())) {
+    const double depth = std::min(options.depth, ElasticSphere::depth);
+    law.curve = ContactCurve(
+        tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, depth, 3), depth),
+        law.material.name);
+    law.certificate.damage_number_max = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  const std::vector<Sample> samples = plastic_samples(pair, rule, options.depth);
+  const double onset = samples.front().x, end = std::min(options.depth, samples.back().x);
+  if (samples.size() < 8 || end < 2 * onset)
+    fail(fmt::format("the pair {}:{}", yielding.material().name, partner.material().name),
+         "begins to yield where the atlas ends", fmt::format("overlap {:.3g} R*", onset));
+  const double elastic_depth = std::clamp(1.5 * onset, 0.005, 0.04);
+  LawShape shape =
+      shape_of(samples, elastic_correction(yielding, partner, radius_ratio, rule, elastic_depth, 2), end);
+
+  const MaterialRatios ratios = MaterialRatios::of(law.material);
+  CharacterisedBody body = characterised_body_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening);
+  const LawShape own = atlas.shape(ratios);
+  shape.velocity_effects = velocity_effects(own, tabulate(own, body.onset, Atlas::depth, Atlas::depth),
+                                            tabulate(shape, onset, end, end), body);
+  body.onset = onset;
+  BuildOptions of_pair = options;
+  of_pair.depth = end;
+  law.certificate.interpolation_error = finish_curve(law, shape, body, of_pair, end);
+  return result;
+}
+
+}  // namespace granulaw

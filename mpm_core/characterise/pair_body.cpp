@@ -1,0 +1,213 @@
+#include "characterise/pair_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "characterise/characterised_body.hpp"
+#include "characterise/interpolation.hpp"
+
+namespace granulaw {
+
+namespace {
+
+// Twins: the atlas's spacing in ln(E*/Y), over curvatures 14 times the flat's either way (radii 1:10 and a partner
+// that takes a tenth of the curvature).
+constexpr double farthest_twin = 14;
+constexpr int twins_made = 9;
+
+// Nodes of a twin in ln(overlap/overlap at first yield): up to that, and from there to where the atlas ends, in which
+// laws of different stiffness resemble each other (LawShape).
+constexpr double first_log_overlap = -8;
+constexpr int elastic_intervals = 80, plastic_intervals = 240;
+constexpr int overlap_nodes = elastic_intervals + plastic_intervals + 1;
+
+/// `end`: that of the atlas.
+double log_overlap_of(double node, double end)
+{
+  return node < elastic_intervals ? first_log_overlap * (1 - node / elastic_intervals)
+                                  : end * (node - elastic_intervals) / plastic_intervals;
+}
+
+/// Between the values at 0 and 1.
+double between(double first, double last, double share)
+{
+  return first + (last - first) * share;
+}
+
+}  // namespace
+
+double PressureShape::flatness_of(double residual_over_recovered)
+{
+  constexpr double measured = 0.4;
+  return -std::expm1(-std::max(0.0, residual_over_recovered) / measured);
+}
+
+double PressureShape::displacement(double flatness)
+{
+  return between(0.75, 2 / M_PI, flatness);
+}
+
+double PressureShape::sag(double flatness)
+{
+  return between(0.375, 2 / M_PI - 4 / (M_PI * M_PI), flatness);
+}
+
+double PressureShape::strength(double flatness)
+{
+  constexpr double weaker = 0.2;
+  return 1 / (1 - weaker * flatness);
+}
+
+PairBody::PairBody(const Atlas& atlas, const LawMaterial& material)
+    : material_(material), elastic_(atlas.elastic(material.poisson_ratio).fit.correction)
+{
+  finite_body_ = 0.5 * elastic_.c1;
+  if (!material.yields()) return;
+  const MaterialRatios own = MaterialRatios::of(material);
+  const AtlasGrid& grid = atlas.grid();
+  // of a twin H/E is as much larger as its E is smaller
+  const double stiffest = std::min(grid.stiffnesses.back(), own.stiffness * farthest_twin);
+  const double softest = std::max({grid.stiffnesses.front(), stiffest / (farthest_twin * farthest_twin),
+                                   own.stiffness * own.hardening / grid.hardenings.back()});
+  if (!(softest < stiffest) || !atlas.why_not({stiffest, own.poisson_ratio, 0}).empty())
+    fail(fmt::format("material '{}'", material.name), "has no twins in the atlas");
+  elastic_ = atlas.shape({std::clamp(own.stiffness, softest, stiffest), own.poisson_ratio, 0}).elastic;
+  finite_body_ = 0.5 * elastic_.c1;
+  for (int k = 0; k < twins_made; ++k)
+    twins_.push_back(
+        twin(atlas, softest * std::pow(stiffest / softest, static_cast<double>(k) / (twins_made - 1))));
+  for (const Twin& t : twins_) log_stiffnesses_.push_back(t.log_stiffness);
+}
+
+PairBody PairBody::elastic() const
+{
+  PairBody body = *this;
+  body.twins_.clear();
+  body.material_.yield_stress = std::numeric_limits<double>::infinity();
+  body.material_.hardening_modulus = 0;
+  return body;
+}
+
+PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
+{
+  const MaterialRatios own = MaterialRatios::of(material_);
+  const MaterialRatios ratios{stiffness, own.poisson_ratio, own.hardening * own.stiffness / stiffness};
+  const LawShape shape = atlas.shape(ratios);
+  const double onset = characterised_body_of(stiffness, ratios.poisson_ratio, ratios.hardening).onset;
+  const ContactCurve curve = tabulate(shape, onset, Atlas::depth, Atlas::depth);
+  Twin t;
+  t.log_stiffness = std::log(stiffness);
+  t.log_end = std::log(Atlas::depth / onset);
+  for (int node = 0; node < overlap_nodes; ++node) {
+    const double x = onset * std::exp(log_overlap_of(node, t.log_end));
+    const ContactCurve::Reversal top = curve.reversal(x);
+    const double force = 4.0 / 3.0 * top.force;
+    const bool elastic = node <= elastic_intervals;
+    const UnloadingShape unloading = elastic ? shape.elastic.unloading(std::pow(x, 0.25)) : top.shape;
+    t.log_contact.push_back(std::log(top.radius));
+    t.log_pressure.push_back(std::log(force * stiffness / (M_PI * top.radius * top.radius)));
+    t.log_overlap.push_back(std::log(x));
+    // -ln of the share that is recovered; a fit may scatter by rounding, place() needs it rising
+    const double lost = elastic ? 0.0 : -std::log1p(-top.residual / x);
+    t.log_lost.push_back(node ? std::max(lost, t.log_lost.back()) : lost);
+    t.unloading_work.push_back(unloading.work());
+    t.hertz_share.push_back(unloading.hertz_share);
+  }
+  return t;
+}
+
+/// Overlap/R of the elastic sphere at this a/R.
+double PairBody::elastic_overlap(double contact) const
+{
+  double x = contact * contact;
+  for (int round = 0; round < 30; ++round) x = std::pow(contact / elastic_.radius_ratio(std::pow(x, 0.25)), 2);
+  return x;
+}
+
+/// Of a thick wall, which has no finite body, in place of alpha = 0.
+constexpr double flat = 1e-6;
+
+PairBody::State PairBody::elastic_at(double curvature, double contact) const
+{
+  const double alpha = std::max(contact, flat), x = elastic_overlap(alpha), share = curvature / alpha;
+  const double force = 4.0 / 3.0 * std::pow(x, 1.5) * elastic_.force_ratio(std::pow(x, 0.25));
+  State state;
+  state.pressure = material_.e_star() * share * force / (M_PI * alpha * alpha);
+  state.recovered = share * x / alpha;
+  state.log_yield_overlap = first_log_overlap;
+  state.known = x <= Atlas::depth;
+  return state;
+}
+
+PairBody::Mixed PairBody::twin_at(double curvature, double contact) const
+{
+  const double own = std::log(material_.e_star() / material_.yield_stress);
+  const double wanted = contact > 0 ? own + std::log(curvature / contact) : std::numeric_limits<double>::infinity();
+  const double told = std::clamp(wanted, log_stiffnesses_.front(), log_stiffnesses_.back());
+  return {std::exp(told - own), interpolation_weights(log_stiffnesses_, told), told != wanted};
+}
+
+double PairBody::value(const Mixed& twin, const std::vector<double> Twin::*member, int node) const
+{
+  double sum = 0;
+  for (std::size_t k = 0; k < twins_.size(); ++k)
+    if (twin.weights[k] != 0) sum += twin.weights[k] * (twins_[k].*member)[static_cast<std::size_t>(node)];
+  return sum;
+}
+
+double PairBody::value(const Mixed& twin, const std::vector<double> Twin::*member, double place) const
+{
+  const int low = std::clamp(static_cast<int>(place), 0, overlap_nodes - 2);
+  return between(value(twin, member, low), value(twin, member, low + 1), place - low);
+}
+
+double PairBody::place(const Mixed& twin, const std::vector<double> Twin::*member, double wanted) const
+{
+  int low = 0, high = overlap_nodes - 1;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (value(twin, member, middle) <= wanted ? low : high) = middle;
+  }
+  const double first = value(twin, member, low), last = value(twin, member, high);
+  return low + (last > first ? (wanted - first) / (last - first) : 0.0);
+}
+
+PairBody::State PairBody::at(double curvature, double contact) const
+{
+  if (!yields()) return elastic_at(curvature, contact);
+  const Mixed twin = twin_at(curvature, contact);
+  // Of a twin that the atlas does not know: the nearest one that it knows, at the same kappa; what the finite sphere
+  // takes off the overlap is put right.
+  const double alpha = twin.is_clipped ? curvature / twin.share : contact;
+  const double node = place(twin, &Twin::log_contact, std::log(alpha));
+  double log_end = 0;
+  for (std::size_t k = 0; k < twins_.size(); ++k) log_end += twin.weights[k] * twins_[k].log_end;
+
+  State state;
+  state.log_yield_overlap = log_overlap_of(node, log_end);
+  state.known = node < overlap_nodes;
+  state.pressure = material_.yield_stress * std::exp(value(twin, &Twin::log_pressure, node));
+  const double overlap = twin.share * std::exp(value(twin, &Twin::log_overlap, node)) / alpha;
+  const double kept = std::exp(-std::max(0.0, value(twin, &Twin::log_lost, node)));
+  state.residual = overlap * (1 - kept);
+  state.recovered =
+      overlap * kept - finite_body_ * M_PI * state.pressure / material_.e_star() * (contact - alpha);
+  state.flatness = PressureShape::flatness_of(state.residual / state.recovered);
+  return state;
+}
+
+PairBody::Unloading PairBody::unloading(double curvature, double contact, double residual_over_recovered) const
+{
+  if (!yields()) {
+    const UnloadingShape shape = elastic_.unloading(std::pow(elastic_overlap(std::max(contact, flat)), 0.25));
+    return {shape.work(), shape.hertz_share};
+  }
+  const Mixed twin = twin_at(curvature, contact);
+  const double node = place(twin, &Twin::log_lost, std::log1p(residual_over_recovered));
+  return {value(twin, &Twin::unloading_work, node), value(twin, &Twin::hertz_share, node)};
+}
+
+}  // namespace granulaw

@@ -1,0 +1,142 @@
+#include "characterise/composed_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "base/error.hpp"
+#include "law/radiation.hpp"
+#include "law/replay.hpp"
+#include "own_atlas.hpp"
+
+namespace granulaw {
+namespace {
+
+/// E* = rho = 1 for the first.
+LawMaterial material(const char* name, double e_star, double yield, double nu = 0.3, double density = 1)
+{
+  LawMaterial m;
+  m.name = name, m.density = density, m.poisson_ratio = nu, m.youngs_modulus = e_star * (1 - nu * nu);
+  m.yield_stress = yield;
+  return m;
+}
+constexpr double never = std::numeric_limits<double>::infinity(), wall = never;
+
+const Atlas& atlas()
+{
+  static const Atlas one = testing::own_atlas();
+  return one;
+}
+
+TwoBodyLaw composed(const LawMaterial& s, const LawMaterial& h, double radius_ratio, double fastest = 0)
+{
+  BuildOptions options;
+  options.fastest = fastest;
+  return compose_law(atlas(), PairBody(atlas(), s), PairBody(atlas(), h), radius_ratio, options);
+}
+
+BodyLaw alone(const LawMaterial& s)
+{
+  BuildOptions options;
+  options.fastest = 0;
+  return law_from(atlas(), s, options);
+}
+
+/// Largest relative difference of the loading force, and of e by works, over the range of both from x = 1e-4 on.
+struct Difference
+{
+  double force = 0, restitution = 0;
+};
+Difference difference(const ContactCurve& a, const ContactCurve& b)
+{
+  Difference most;
+  for (double x = 1e-4; x < 0.99 * std::min(a.x_end(), b.x_end()); x *= 1.1) {
+    const auto e = [&](const ContactCurve& c) { return std::sqrt(c.work_unloading(x) / c.work_loading(x)); };
+    most.force = std::max(most.force, std::abs(a.loading(x).force / b.loading(x).force - 1));
+    most.restitution = std::max(most.restitution, std::abs(e(a) - e(b)));
+  }
+  return most;
+}
+
+TEST(ComposedLaw, IsTheBodysOwnAgainstItsLikeAndTheRigidWall)
+{
+  // The atlas interpolates between its stiffnesses, the twins between theirs: up to 0.5 % between two nodes.
+  constexpr double force = 0.006, restitution = 0.002;
+  for (const double yield : {1 / 50.0, 1 / 150.0, 1 / 700.0}) {
+    const LawMaterial m = material("m", 1, yield);
+    LawMaterial like = m;
+    like.name = "n";
+    const Difference of_like = difference(composed(m, like, 1).law.curve, alone(m).curve);
+    EXPECT_LT(of_like.force, force) << yield;
+    EXPECT_LT(of_like.restitution, restitution) << yield;
+    const TwoBodyLaw rigid = composed(m, material("r", 1e6, never), wall);
+    const Difference of_wall = difference(rigid.law.curve, alone(m).curve);
+    EXPECT_LT(of_wall.force, force) << yield;
+    EXPECT_LT(of_wall.restitution, restitution) << yield;
+  }
+}
+
+TEST(ComposedLaw, OfElasticBodiesIsHertzWithEachFiniteSphere)
+{
+  const LawMaterial a = material("a", 1, never), b = material("b", 3, never);
+  const TwoBodyLaw law = composed(a, b, 2);
+  EXPECT_FALSE(std::isfinite(law.law.curve.onset()));
+  EXPECT_NEAR(law.law.curve.loading(1e-6).force / 1e-9, 1, 2e-3);
+  // The overlap falls short of Hertz's by k F/(E* R) of each (k = c1/2).
+  const double k = 0.5 * atlas().elastic(0.3).fit.correction.c1, x = 0.01;
+  const PairMapping mapping = PairMapping::deformable_partner(1, 3);
+  const double r_eff = effective_radius(1, 2), force = law.law.curve.loading(x).force * mapping.force(r_eff);
+  const double hertz = std::pow(force * 0.75 / mapping.e_star_pair() / std::sqrt(r_eff), 2.0 / 3.0);
+  // the finite sphere's next term goes as x: 0.2 to 0.3 of it
+  EXPECT_NEAR(x * mapping.length(r_eff), hertz - k * force * (1 + 1 / (3 * 2.0)), 0.3 * x * hertz);
+}
+
+TEST(ComposedLaw, IsContinuousInThePartner)
+{
+  const LawMaterial s = material("s", 1, 0.01);
+  const ContactCurve of_elastic = composed(s, material("h", 2, never), 1.5).law.curve,
+                     of_strong = composed(s, material("h", 2, 0.09), 1.5).law.curve;
+  EXPECT_LT(difference(of_elastic, of_strong).force, 0.005);  // it stays elastic up to 9 times the pressure
+  const ContactCurve like = composed(s, material("h", 1, 0.01), 1.001).law.curve,
+                     nearly = composed(s, material("h", 1, 0.0101), 1).law.curve;
+  EXPECT_LT(difference(like, nearly).force, 0.01);  // of a hardness 0.5 % higher on average
+  const ContactCurve large = composed(s, s, 1e4).law.curve, thick = composed(s, s, wall).law.curve;
+  EXPECT_LT(difference(large, thick).force, 0.001);
+}
+
+TEST(ComposedLaw, IsAdmissibleForAnyPair)
+{
+  std::mt19937_64 random(20);
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, static_cast<double>(random() >> 11) * 0x1p-53);
+  };
+  int composed_of = 0;
+  for (int k = 0; k < 40; ++k) {
+    LawMaterial s = material("s", 1, 1 / between(30, 1000), between(0.1, 0.45)),
+                h = material("h", between(0.1, 1000), never, between(0.1, 0.45));
+    if (k % 3) h.yield_stress = s.yield_stress * between(1, 10);
+    if (h.yields() && h.e_star() / h.yield_stress < 20) continue;  // outside the atlas
+    if (k % 4 == 0) s.hardening_modulus = between(0.001, 0.1) * s.youngs_modulus;
+    const double ratio = k % 5 ? between(0.1, 10) : wall;
+    const TwoBodyLaw law = composed(s, h, ratio, k % 2 ? 0.1 : 0.0);
+    EXPECT_GE(law.law.curve.admissibility_margin(), 0) << k;
+    ++composed_of;
+  }
+  EXPECT_GT(composed_of, 25);
+}
+
+TEST(Radiation, OfAThickWallIsTheHalfSpacesAndOfLikeSpheresNearlyNothing)
+{
+  const LawMaterial m = material("m", 1, 0.01);
+  const double half_space = radiation_number;  // rho = c = 1
+  EXPECT_NEAR(radiation(m, 1, m, wall), half_space, 0.03 * half_space);
+  EXPECT_LT(radiation(m, 1, m, 1), 0.05 * half_space);
+  EXPECT_DOUBLE_EQ(radiation(m, 1, m, 5), radiation(m, 2, m, 10));
+  const LawMaterial stiff = material("stiff", 100, never);
+  EXPECT_LT(radiation(m, 1, stiff, wall), 0.03 * half_space);
+}
+
+}  // namespace
+}  // namespace granulaw

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "characterise/atlas.hpp"
+
+namespace granulaw::testing {
+
+/// The atlas of the source tree.
+inline Atlas own_atlas()
+{
+  return read_atlas(GRANULAW_ATLAS_FILE);
+}
+
+}  // namespace granulaw::testing
