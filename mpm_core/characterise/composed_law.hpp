@@ -50,6 +50,14 @@ class ComposedPair
   double radius_, partner_radius_, r_eff_, yield_radius_;
 };
 
+/// Errors that 95 % of collisions by a composed law lie within: of F_max, relative, and of e, absolute.
+struct ComposedError
+{
+  double force = 0, restitution = 0;
+};
+/// Fitted to the 95th percentiles of two-body impacts against stiffer, like and softer partners (docs/pairs.md).
+ComposedError composed_error(const LawMaterial& yielding, const LawMaterial& partner);
+
 /// The law of a pair at this ratio of the partner's radius to the yielding body's; infinity: a thick wall. Coordinates
 /// of the pair rule (law/pair.hpp). Velocity effects are those of the yielding body. options: depth, fastest,
 /// tolerance. Throws Error where it would not be admissible.

@@ -24,9 +24,10 @@ struct LawFileRequest
   double slowest = 0;  ///< m/s on a wall, of the slowest impact that the law of a rate-dependent particle
                        ///< must know; 0: a fiftieth of the fastest, or the onset of yield
   double tolerance = 0.01;  ///< relative, of F and e (BuildOptions::tolerance): 1e-4 to 0.5
-  double radius_ratio = 1;  ///< largest ratio of two radii in the scene, 1 or more: the error of the pair
-                            ///< rule is stated for it
-  bool own_laws = false;  ///< make the own law of each pair that the pair rule serves worse than `tolerance`
+  double radius_ratio = 1;  ///< largest ratio of two spheres' radii in the scene, 1 or more: pairs are composed up to it,
+                            ///< and the error of the pair rule is stated for it
+  bool thick_walls = true;  ///< a partner may also be a thick deformable wall
+  bool own_laws = false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
   const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan
 
   /// What the caller calls these things, for messages.
@@ -51,9 +52,14 @@ struct LawFilePlan
     std::string a, b;  ///< names; b may be wall_name, a is not
     /// What the pair rule costs, whichever of the two bodies is the larger; 0 where the rule is exact.
     ReductionError by_rule;
-    ReductionError stated;  ///< what the file states: by_rule, or what other radii cost the pair's own law
-    bool worth_own_law = false;  ///< two plain spheres that the rule serves worse than the tolerance
-    bool own_law = false;        ///< its own law will be made
+    /// What the file states of the pair beside its laws' certificates: by_rule, or what other radii cost its own law; 0
+    /// of composed laws.
+    ReductionError stated;
+    /// Partner's radius over the yielding body's of each law that will be composed, ascending (composed_law.hpp);
+    /// infinity: a thick wall. None: the pair follows the rule, or has its own law by runs.
+    std::vector<double> composed_at;
+    bool worth_own_law = false;  ///< two plain spheres whose stated error is above the tolerance
+    bool own_law = false;        ///< its own law will be made by runs
 
     std::string name() const { return a + ":" + b; }
     bool is_extrapolated() const { return !by_rule.within_measured || !stated.within_measured; }

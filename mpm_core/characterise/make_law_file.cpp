@@ -8,6 +8,7 @@
 
 #include "base/version.hpp"
 #include "characterise/build_law.hpp"
+#include "characterise/composed_law.hpp"
 #include "characterise/law_material.hpp"
 #include "characterise/two_body_law.hpp"
 
@@ -95,7 +96,7 @@ class Maker
     options_.atlas = plan.request.atlas;
     options_.farm = &farm;
     laws_ = plan.bodies.size();
-    for (const LawFilePlan::Pair& pair : plan.pairs) laws_ += pair.own_law ? 1 : 0;
+    for (const LawFilePlan::Pair& pair : plan.pairs) laws_ += pair.own_law ? 1 : 0;  // composing takes no time
   }
 
   MadeLawFile make()
@@ -141,7 +142,23 @@ class Maker
   void add_pair(const LawFilePlan::Pair& pair)
   {
     if (pair.own_law) add_own_law(pair);
+    if (!pair.composed_at.empty()) add_composed_laws(pair);
     file_.law.pairs.push_back({pair.a, pair.b, pair.stated.force, pair.stated.restitution});
+  }
+
+  void add_composed_laws(const LawFilePlan::Pair& pair)
+  {
+    const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b));
+    const Atlas& atlas = *plan_.request.atlas;
+    for (const double ratio : pair.composed_at)
+      file_.law.pair_laws[pair.name()].push_back(compose_law(
+          atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
+  }
+
+  /// Made once for all pairs.
+  const PairBody& pair_body(const LawMaterial& m)
+  {
+    return pair_bodies_.try_emplace(m.name, *plan_.request.atlas, m).first->second;
   }
 
   void add_own_law(const LawFilePlan::Pair& pair)
@@ -182,6 +199,7 @@ class Maker
   const Progress& progress_;
   BuildOptions options_;
   MadeLawFile file_;
+  std::map<std::string, PairBody> pair_bodies_;
   std::size_t laws_ = 0, finished_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "characterise/law_material.hpp"
 #include "scratch_folder.hpp"
+#include "own_atlas.hpp"
 #include "some_materials.hpp"
 
 namespace granulaw {
@@ -58,9 +59,38 @@ TEST(LawFilePlan, SaysWhyABodyNeedsRuns)
   EXPECT_NE(plan_law_file(r).bodies.at("powder").why_runs.find("E*/Y = 12 lies outside"), std::string::npos);
 }
 
+TEST(LawFilePlan, UnlikePairsOfTheAtlasAreComposed)
+{
+  LawFileRequest r = request({{"powder", "glass"}, {"powder", "powder"}, {"powder", "wall"}});
+  constexpr double wall = std::numeric_limits<double>::infinity();
+  LawFilePlan plan = plan_law_file(r);
+  EXPECT_EQ(plan.pairs[0].composed_at, (std::vector<double>{1, wall}));
+  EXPECT_EQ(plan.pairs[1].composed_at, (std::vector<double>{wall}));  // like spheres: its own law
+  EXPECT_TRUE(plan.pairs[2].composed_at.empty());
+  EXPECT_EQ(plan.pairs[0].stated.force, 0);  // by its laws' certificates
+  EXPECT_FALSE(plan.needs_runs());
+
+  r.thick_walls = false;
+  r.radius_ratio = 2;
+  plan = plan_law_file(r);
+  const std::vector<double>& ratios = plan.pairs[0].composed_at;
+  ASSERT_EQ(ratios.size(), 9u);
+  EXPECT_DOUBLE_EQ(ratios.front(), 0.5);
+  EXPECT_DOUBLE_EQ(ratios[4], 1);
+  EXPECT_DOUBLE_EQ(ratios.back(), 2);
+  for (std::size_t k = 1; k < ratios.size(); ++k)  // half a step of 0.05 at most in R_s/(R_s + R_h)
+    EXPECT_LT(1 / (1 + ratios[k - 1]) - 1 / (1 + ratios[k]), 0.0501);
+  EXPECT_EQ(plan.pairs[1].composed_at.size(), 4u);  // over 1 only
+  EXPECT_GT(plan.pairs[1].composed_at.front(), 1);
+
+  r.atlas = nullptr;
+  for (const LawFilePlan::Pair& pair : plan_law_file(r).pairs) EXPECT_TRUE(pair.composed_at.empty());
+}
+
 TEST(LawFilePlan, APairThatTheRuleServesBadlyMayHaveItsOwnLaw)
 {
   LawFileRequest r = request({{"powder", "glass"}, {"powder", "powder"}, {"powder", "wall"}});
+  r.atlas = nullptr;
   LawFilePlan plan = plan_law_file(r);
   EXPECT_GT(plan.pairs[0].by_rule.restitution, 0.01);
   EXPECT_TRUE(plan.pairs[0].worth_own_law);
@@ -70,16 +100,22 @@ TEST(LawFilePlan, APairThatTheRuleServesBadlyMayHaveItsOwnLaw)
     EXPECT_EQ(plan.pairs[k].by_rule.force, 0);
     EXPECT_FALSE(plan.pairs[k].worth_own_law);
   }
-  r.own_laws = true;
-  plan = plan_law_file(r);
-  EXPECT_TRUE(plan.pairs[0].own_law);
-  EXPECT_TRUE(plan.needs_runs());
-  EXPECT_EQ(plan.pairs[0].stated.restitution, 0);  // made at the radius ratio asked for
-  r.radius_ratio = 3;
-  plan = plan_law_file(r);
-  EXPECT_GT(plan.pairs[0].stated.restitution, 0);
-  EXPECT_LT(plan.pairs[0].stated.restitution, plan.pairs[0].by_rule.restitution);
-  EXPECT_GT(plan.pairs[1].by_rule.restitution, 0);  // like bodies of unlike radii
+  const Atlas atlas = testing::own_atlas();
+  for (const Atlas* known : {static_cast<const Atlas*>(nullptr), &atlas}) {
+    r.atlas = known;
+    r.own_laws = true;
+    r.radius_ratio = 1;
+    plan = plan_law_file(r);
+    EXPECT_TRUE(plan.pairs[0].own_law);
+    EXPECT_TRUE(plan.pairs[0].composed_at.empty());
+    EXPECT_TRUE(plan.needs_runs());
+    EXPECT_EQ(plan.pairs[0].stated.restitution, 0);  // made at the radius ratio asked for
+    r.radius_ratio = 3;
+    plan = plan_law_file(r);
+    EXPECT_GT(plan.pairs[0].stated.restitution, 0);
+    EXPECT_LT(plan.pairs[0].stated.restitution, plan.pairs[0].by_rule.restitution);
+    EXPECT_GT(plan.pairs[1].by_rule.restitution, 0);  // like bodies of unlike radii
+  }
 }
 
 TEST(LawFilePlan, TheWeakerOfTwoYields)

@@ -73,6 +73,15 @@ RunSummary shown(const std::string& name, const std::function<RunSummary(const R
   return run(options);
 }
 
+/// That law of the pair.
+PairLaw pair_law(const Law& law, const std::string& name, const TwoBodyLaw& own)
+{
+  const auto [a, b] = split_pair(name);
+  const bool a_yields = yields_first(law.bodies.at(a).material, law.bodies.at(b).material);
+  return a_yields ? resolve_pair(law, a, b, name, 1.0, own.radius_ratio)
+                  : resolve_pair(law, b, a, name, 1.0, own.radius_ratio);
+}
+
 /// A fresh impact of a pair that has its own law: two bodies, at the radii that it was made for, with I of
 /// `velocity`.
 bool pair_impact_agrees(const Law& law, const std::string& name, const TwoBodyLaw& own, double velocity)
@@ -84,7 +93,7 @@ bool pair_impact_agrees(const Law& law, const std::string& name, const TwoBodyLa
   const RunSummary run =
       shown(name, [&](const RunOptions& options) { return run_two_bodies(pair, relative, options); });
   // radii in units of the yielding body's: 1 m
-  const Replay replay = replay_collision(resolve_pair(law, a, b, name), pair.r_eff(),
+  const Replay replay = replay_collision(pair_law(law, name, own), pair.r_eff(),
                                          pair.m_eff() * pair.yielding.density, relative);
   return within_claim(name, own.law.certificate, relative,
                       std::abs(replay.force_max / pair.yielding.e_star() / run.force_max - 1),
@@ -183,14 +192,24 @@ bool bodies_agree(const Law& law, const CheckRequest& r, Throws& throws)
   return good;
 }
 
+/// Of a pair's laws that of the least unlike sizes.
+const TwoBodyLaw& least_unlike(const std::vector<TwoBodyLaw>& laws)
+{
+  return *std::min_element(laws.begin(), laws.end(), [](const TwoBodyLaw& a, const TwoBodyLaw& b) {
+    return std::abs(a.size_share() - 0.5) < std::abs(b.size_share() - 0.5);
+  });
+}
+
 bool pairs_agree(const Law& law, Throws& throws)
 {
   bool good = true;
-  for (const auto& [name, laws] : law.pair_laws)
-    for (const TwoBodyLaw& own : laws)
-      good = throws.agree(slowest_of(own.law), own.law, [&, &name = name](double velocity) {
-        return pair_impact_agrees(law, name, own, velocity);
-      }) && good;
+  for (const auto& [name, laws] : law.pair_laws) {
+    const TwoBodyLaw& own = least_unlike(laws);
+    if (!own.law.material.yields()) continue;
+    good = throws.agree(slowest_of(own.law), own.law, [&, &name = name](double velocity) {
+      return pair_impact_agrees(law, name, own, velocity);
+    }) && good;
+  }
   return good;
 }
 

@@ -115,8 +115,8 @@ void print_pair(const LawPair& pair, const std::vector<TwoBodyLaw>* own)
     fmt::print("  pair {}:{} by its own law, {} at radii {} (yielding body : partner)\n", pair.a, pair.b,
                composed ? "composed of the two bodies' laws" : "made", fmt::join(radii, ", "));
     if (composed) {
-      fmt::print("  pair {}:{} 95 % of collisions: {}\n", pair.a, pair.b,
-                 errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
+      fmt::print("  pair {}:{} stated error: {} in 95 % of collisions\n", pair.a, pair.b,
+                 atlas_errors_text(own->front().law.certificate));
       return;
     }
   }

@@ -45,12 +45,15 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   const PlannedDeck d = plan_deck(r.deck, r.scene);
   require_answers(d.plan, r.deck);
   double ratio = 1;
+  bool thick_walls = false;
   std::set<std::string> pairs;
   for (const deck::PairPlan& p : d.plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     pairs.insert(p.meeting.name_a + ":" + p.meeting.name_b);
-    ratio = std::max(ratio, deck::radius_ratio(d.plan, p.meeting));
+    thick_walls = thick_walls || p.meeting.deformable;
+    if (!p.meeting.wall) ratio = std::max(ratio, deck::radius_ratio(d.plan, p.meeting));
   }
+  r.file.thick_walls = thick_walls;
   if (pairs.empty()) return false;
   if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
   if (command.count("--depth") == 0) r.file.depth = d.plan.depth;
@@ -92,12 +95,14 @@ void print_body(const std::string& name, const LawFilePlan::Body& planned, const
 
 void print_pair(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
-  if (!pair.worth_own_law) return;
   const std::string by_rule = errors_text(pair.by_rule.force, pair.by_rule.restitution);
   if (pair.own_law)
     fmt::print("{}: its own law by {} runs of two bodies of equal radii (pair rule: {})\n", pair.name(),
                file.runs.at(pair.name()).made, by_rule);
-  else
+  else if (!pair.composed_at.empty() && pair.a != pair.b)
+    fmt::print("{}: composed of both bodies' laws: {}\n", pair.name(),
+               atlas_errors_text(file.law.pair_laws.at(pair.name()).front().law.certificate));
+  else if (pair.worth_own_law)
     fmt::print("{}: by the pair rule, {}; --own-law computes the pair's own law\n", pair.name(), by_rule);
 }
 
@@ -122,7 +127,7 @@ void print_certificate(const std::string& name, const BodyLaw& body)
 void print_warnings(const LawFilePlan& plan, const MadeLawFile& file)
 {
   for (const LawFilePlan::Pair& pair : plan.pairs)
-    if (pair.is_extrapolated())
+    if (pair.composed_at.empty() && pair.is_extrapolated())
       fmt::print(stderr,
                  "mpm: what the pair rule costs {} is extrapolated: the partner is softer than was measured "
                  "(docs/pairs.md)\n",
@@ -200,12 +205,12 @@ void add_range_options(CLI::App& command, LawFileRequest& file)
       ->check(above_zero());
   command
       .add_option("--radius-ratio", file.radius_ratio,
-                  "largest ratio of two radii in the scene: the pair rule's error is stated for it")
+                  "largest ratio of two spheres' radii in the scene: pairs get a law for each ratio up to it")
       ->check(from_to(1, 10))
       ->capture_default_str();
   command.add_flag("--own-law", file.own_laws,
                    "compute a law of its own, by runs of the two bodies at equal radii, for each pair of\n"
-                   "different spheres whose law by the pair rule is off by more than --tolerance");
+                   "different spheres that the pair rule serves worse than --tolerance");
 }
 
 void define(CLI::App& command)
