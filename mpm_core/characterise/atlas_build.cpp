@@ -125,33 +125,27 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
   };
 
   const auto onset_similarity = [&](const MaterialRatios& m) -> LawShape {
-    LawShape guide = LawShape::zero();
-    const auto add_main = [&](double weight, double stiffness) {
+    const auto main_at_range = [&](double stiffness) {
       const MaterialRatios from{stiffness, grid.main_poisson_ratio, m.hardening};
-      guide.add(weight, at_range_of(m, from, main_shape(stiffness, m.hardening)));
+      return at_range_of(m, from, main_shape(stiffness, m.hardening));
     };
     if (m.poisson_ratio == grid.main_poisson_ratio) {
-      // linear in Y/E* through the two next less stiff
       const auto at = std::find(grid.stiffnesses.begin(), grid.stiffnesses.end(), m.stiffness);
       if (at - grid.stiffnesses.begin() < 2)
         fail("atlas", "its two least stiff materials must yield above the shallowest runs");
-      const double k1 = at[-1], k2 = at[-2];
-      const double slope = (1 / m.stiffness - 1 / k1) / (1 / k1 - 1 / k2);
-      add_main(1 + slope, k1);
-      add_main(-slope, k2);
-    } else {
-      // the same stiffness in the main plane, and what Poisson's ratio changes at the block's next less stiff
-      const auto at = std::find(grid.block_stiffnesses.begin(), grid.block_stiffnesses.end(), m.stiffness);
-      if (at == grid.block_stiffnesses.begin())
-        fail("atlas", "its block's least stiff material must yield above the shallowest runs");
-      const double below = at[-1];
-      add_main(1, m.stiffness);
-      add_main(-1, below);
-      for (const Atlas::Node& node : nodes)
-        if (node.material.stiffness == below && node.material.poisson_ratio == m.poisson_ratio &&
-            node.material.hardening == m.hardening)
-          guide.add(1, at_range_of(m, node.material, node.shape));
+      return linear_in_yield_ratio(m.stiffness, at[-1], main_at_range(at[-1]), at[-2], main_at_range(at[-2]));
     }
+    // the same stiffness in the main plane, and what Poisson's ratio changes at the block's next less stiff
+    const auto at = std::find(grid.block_stiffnesses.begin(), grid.block_stiffnesses.end(), m.stiffness);
+    if (at == grid.block_stiffnesses.begin())
+      fail("atlas", "its block's least stiff material must yield above the shallowest runs");
+    const double below = at[-1];
+    LawShape guide = main_at_range(m.stiffness);
+    guide.add(-1, main_at_range(below));
+    for (const Atlas::Node& node : nodes)
+      if (node.material.stiffness == below && node.material.poisson_ratio == m.poisson_ratio &&
+          node.material.hardening == m.hardening)
+        guide.add(1, at_range_of(m, node.material, node.shape));
     return guide;
   };
 

@@ -12,6 +12,8 @@
 #include "characterise/grid_convergence.hpp"
 #include "characterise/interpolation.hpp"
 #include "characterise/onset_similarity.hpp"
+#include "characterise/tabulate_curve.hpp"
+#include "characterise/tabulate_velocity_axis.hpp"
 #include "law/replay.hpp"
 #include "solver/run/accuracy.hpp"
 

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "characterise/characterised_body.hpp"
+#include "characterise/tabulate_curve.hpp"
 #include "law/pair.hpp"
 
 namespace granulaw {
@@ -257,15 +258,6 @@ std::vector<Sample> plastic_samples(const ComposedPair& pair, const RuleCoordina
 
 using Curve = boost::math::interpolators::makima<std::vector<double>>;
 
-/// Of the work, least that is lost at overlap x after an onset at x0. In the atlas it is 0.3 q^2, q = ln(x/x0). About
-/// that the twins scatter by more than is lost first, and what is lost must rise by more than cubics swing: 0.1 q^2
-/// + 0.02 q, less than the atlas's from q = 0.1 on, takes 0.001 of e at most.
-double least_lost(double x, double x0)
-{
-  const double q = std::min(1.0, std::log(x / x0));
-  return 0.0 * q * q + 0.006 * q;
-}
-
 /// The shape's functions through the samples, the first of which is the onset.
 LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& elastic, double end)
 {
@@ -282,7 +274,7 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
       const double more = (now.force * now.x - last.force * last.x) / (power + 1);
       work += more;
       // What is lost cannot be given back later.
-      lost = std::max({work - now.returned / told_at_onset, lost, least_lost(now.x, x0) * work});
+      lost = std::max(work - now.returned / told_at_onset, lost);
     }
     const double s = std::pow(now.x, 0.25);
     log_x.push_back(std::log(now.x));
@@ -327,6 +319,21 @@ std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, cons
     effect.log_overlap += std::log(slow_impact_overlap(pair_slow, body, effect.speed) /
                                    slow_impact_overlap(own_slow, body, effect.speed));
   return effects;
+}
+
+/// finish_curve() with an axis to options.fastest, or to where what the yielding body's impacts show still makes an
+/// admissible law: against a soft partner they reach further than it was ever thrown.
+double finish_where_admissible(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body, BuildOptions options,
+                               double end)
+{
+  constexpr double slowest = 0.02;  // sqrt(I): below, speed changes nothing
+  for (; options.fastest > slowest; options.fastest /= 2) try {
+      return finish_curve(law, shape, body, options, end);
+    } catch (const Error&) {
+    }
+  options.fastest = 0;
+  law.certificate.damage_number_max = slowest * slowest;
+  return finish_curve(law, shape, body, options, end);
 }
 
 }  // namespace
@@ -377,7 +384,7 @@ TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairB
   body.onset = onset;
   BuildOptions of_pair = options;
   of_pair.depth = end;
-  law.certificate.interpolation_error = finish_curve(law, shape, body, of_pair, end);
+  law.certificate.interpolation_error = finish_where_admissible(law, shape, body, of_pair, end);
   return result;
 }
 

@@ -224,16 +224,49 @@ std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const Conta
   return all;
 }
 
-FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
-                      double x_end, const LawShape* shallow, double shallow_end)
-{
-  if (records.slow.size() < 3)
-    fail("fit", "too few reversal points", std::to_string(records.slow.size()), "3 or more");
-  const double q_end = q_of(x_end, onset), q_shallow = std::min(q_end, q_of(shallow_end, onset));
-  FittedShape fitted{LawShape::zero(), {}};
-  LawShape& shape = fitted.shape;
-  shape.elastic = elastic;
+namespace {
 
+/// One fit: what its steps share.
+struct ShapeFit
+{
+  const ContactRecords& records;
+  const ElasticCorrection& elastic;
+  double onset, x_end, q_end;
+  const LawShape* shallow;
+  double q_shallow;  ///< as far as `shallow` tells
+  SmoothSpline force_reduction, widening;
+  std::vector<ContactRecord> reversals;  ///< those beyond the onset
+
+  ShapeFit(const ContactRecords& found, const ElasticCorrection& correction, double begin, double end,
+           const LawShape* guide, double guide_end)
+      : records(found),
+        elastic(correction),
+        onset(begin),
+        x_end(end),
+        q_end(q_of(end, begin)),
+        shallow(guide),
+        q_shallow(std::min(q_end, q_of(guide_end, begin)))
+  {
+  }
+  double press_force(double x) const { return press_force_at(x, elastic, force_reduction, onset); }
+  const std::vector<double>* shallow_of(std::vector<double> LawShape::*function) const
+  {
+    return shallow ? &(shallow->*function) : nullptr;
+  }
+  void fit_loading();
+  void correct_reversals();
+  SmoothSpline dissipation(std::span<const ContactRecord> points) const
+  {
+    return reversal_spline(points, onset, q_end, dissipation_measure, shallow_of(&LawShape::dissipation),
+                           q_shallow);
+  }
+  LawShape shape() const;
+  double scatter() const;
+  FitQuality quality() const;
+};
+
+void ShapeFit::fit_loading()
+{
   Samples force, radius;
   double q_first = q_end;
   for (const ContactRecord& press : records.slow)
@@ -254,44 +287,47 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
     add_shallow(radius, &shallow->widening, std::min(q_first, q_shallow), q_end, weight);
   }
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
-  const SmoothSpline force_reduction(q_end, intervals, force, 0.02), widening(q_end, intervals, radius, 0.05);
-  const auto press_force = [&](double x) { return press_force_at(x, elastic, force_reduction, onset); };
+  force_reduction = {q_end, intervals, force, 0.02}, widening = {q_end, intervals, radius, 0.05};
+}
 
-  // What is given back follows the force at the reversal, and that swings with the contact edge about the
-  // law: only the share that is lost depends on it.
-  std::vector<ContactRecord> reversals;
+/// What is given back follows the force at the reversal, and that swings with the contact edge about the law:
+/// only the share that is lost depends on it.
+void ShapeFit::correct_reversals()
+{
   for (const ContactRecord& p : records.slow)
-    if (p.depth > onset)
-      reversals.push_back(p);
-    else
-      fitted.quality.held_out_each.push_back(0);  // elastic, as the law is there
+    if (p.depth > onset) reversals.push_back(p);
   if (reversals.size() < 3)
     fail("fit", "too few reversal points beyond the onset of yield", std::to_string(reversals.size()),
          "3 or more");
   for (ContactRecord& p : reversals)
     if (p.reversal_force > 0)
       p.work_ratio *= 1 + (press_force(p.depth) / p.reversal_force - 1) * (1 - p.work_ratio);
-  const auto* shallow_residual = shallow ? &shallow->residual : nullptr;
-  const auto* shallow_dissipation = shallow ? &shallow->dissipation : nullptr;
-  const SmoothSpline residual = reversal_spline(
-      reversals, onset, q_end, [](const ContactRecord& p) { return residual_measure(p.residual / p.depth); },
-      shallow_residual, q_shallow);
-  const SmoothSpline dissipation =
-      reversal_spline(reversals, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow);
-  // The contact edge's grid noise of a per cent of F moves a Hertz share by 0.3.
-  const SmoothSpline hertz_share = reversal_spline(
-      reversals, onset, q_end,
-      [&](const ContactRecord& p) { return p.hertz_share - elastic_hertz_share(elastic, p.depth); },
-      shallow ? &shallow->hertz_share : nullptr, q_shallow, 0.1);
+}
 
+LawShape ShapeFit::shape() const
+{
+  LawShape shape = LawShape::zero();
+  shape.elastic = elastic;
   shape.force_reduction = sampled(force_reduction, q_end);
   shape.widening = sampled(widening, q_end);
-  shape.residual = sampled(residual, q_end);
-  shape.dissipation = sampled(dissipation, q_end);
-  shape.hertz_share = sampled(hertz_share, q_end);
+  const auto residual = [](const ContactRecord& p) { return residual_measure(p.residual / p.depth); };
+  const auto hertz_share = [&](const ContactRecord& p) {
+    return p.hertz_share - elastic_hertz_share(elastic, p.depth);
+  };
+  shape.residual = sampled(
+      reversal_spline(reversals, onset, q_end, residual, shallow_of(&LawShape::residual), q_shallow), q_end);
+  shape.dissipation = sampled(dissipation(reversals), q_end);
+  // The contact edge's grid noise of a per cent of F moves a Hertz share by 0.3.
+  shape.hertz_share = sampled(reversal_spline(reversals, onset, q_end, hertz_share,
+                                              shallow_of(&LawShape::hertz_share), q_shallow, 0.1),
+                              q_end);
   shape.velocity_effects = fit_velocity_effects(records.fast, shape, onset, x_end);
+  return shape;
+}
 
-  FitQuality& quality = fitted.quality;
+/// Rms of the presses' loading samples about the fit, over the upper half of each.
+double ShapeFit::scatter() const
+{
   double sum = 0;
   int count = 0;
   for (const ContactRecord& press : records.slow)
@@ -300,29 +336,50 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
         sum += std::pow(f / press_force(x) - 1, 2);
         ++count;
       }
-  quality.scatter = count ? std::sqrt(sum / count) : 0;
+  return count ? std::sqrt(sum / count) : 0;
+}
+
+FitQuality ShapeFit::quality() const
+{
+  FitQuality quality;
+  quality.scatter = scatter();
+  // elastic, as the law is there
+  quality.held_out_each.assign(records.slow.size() - reversals.size(), 0.0);
+  const SmoothSpline fitted = dissipation(reversals);
   for (std::size_t k = 0; k < reversals.size(); ++k) {
     const auto error_of_e = [&](const SmoothSpline& d) {
-      return std::abs(
-          std::exp(-0.5 * (d.value(q_of(reversals[k].depth, onset)) - dissipation_measure(reversals[k]))) -
-          1);
+      const double missed = d.value(q_of(reversals[k].depth, onset)) - dissipation_measure(reversals[k]);
+      return std::abs(std::expm1(-0.5 * missed));
     };
-    quality.reversal_error = std::max(quality.reversal_error, error_of_e(dissipation));
+    quality.reversal_error = std::max(quality.reversal_error, error_of_e(fitted));
     double held_out = 0;
     if (k + 1 < reversals.size() && reversals.size() > 3) {
       std::vector<ContactRecord> others = reversals;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      held_out = error_of_e(
-          reversal_spline(others, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow));
+      held_out = error_of_e(dissipation(others));
     }
     quality.held_out_each.push_back(held_out);
     quality.held_out = std::max(quality.held_out, held_out);
   }
+  return quality;
+}
+
+}  // namespace
+
+FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
+                      double x_end, const LawShape* shallow, double shallow_end)
+{
+  if (records.slow.size() < 3)
+    fail("fit", "too few reversal points", std::to_string(records.slow.size()), "3 or more");
+  ShapeFit fit(records, elastic, onset, x_end, shallow, shallow_end);
+  fit.fit_loading();
+  fit.correct_reversals();
+  const FittedShape fitted{fit.shape(), fit.quality()};
   // Smoothing differs from a run by a per cent at most; what differs by more contradicts its neighbours.
   constexpr double contradiction = 0.05;
-  if (quality.reversal_error > contradiction)
+  if (fitted.quality.reversal_error > contradiction)
     fail("fit", "the runs contradict each other: e of one differs from the smooth law of all",
-         fmt::format("by {:.2g} %", 100 * quality.reversal_error),
+         fmt::format("by {:.2g} %", 100 * fitted.quality.reversal_error),
          fmt::format("up to {:.0f} %", 100 * contradiction));
   return fitted;
 }

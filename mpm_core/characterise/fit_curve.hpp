@@ -4,6 +4,7 @@
 
 #include "characterise/law_shape.hpp"
 #include "characterise/sampling_plan.hpp"
+#include "characterise/tabulate_curve.hpp"
 
 namespace granulaw {
 

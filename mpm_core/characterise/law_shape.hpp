@@ -3,8 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "law/contact_curve.hpp"
-#include "law/velocity_axis.hpp"
+#include "law/unloading.hpp"
 
 namespace granulaw {
 
@@ -77,44 +76,13 @@ struct LawShape
   static LawShape zero();
 };
 
+/// The shape at E*/Y = `stiffness`, linear in Y/E* through those at two others, all over the same range of
+/// delta/delta_onset: the term that similarity in delta/delta_onset leaves out.
+LawShape linear_in_yield_ratio(double stiffness, double stiffness_a, const LawShape& a, double stiffness_b,
+                               const LawShape& b);
+
 /// Speeds sqrt(I) at which the atlas knows the effect of inertia.
 inline constexpr double impact_speeds[] = {0.005, 0.015, 0.03,  0.045, 0.06,  0.08, 0.1,
                                            0.125, 0.15,  0.175, 0.2,   0.225, 0.25, 0.3};
-
-/// The rate-free law with this shape: onset of yield and end of the shape in overlap/R; the table ends at
-/// `x_end`, at most there. What is lost, and what overlap remains, is made to rise with the overlap of the
-/// turn: the smallest change of a fit that scatters about 0. Throws Error where the loading force would not
-/// rise or a closed cycle would gain energy.
-ContactCurve tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
-
-/// Largest relative difference between e of `curve` and of the shape it was tabulated from: what making it
-/// admissible took.
-double change_of_restitution(const LawShape& shape, double onset, double shape_end,
-                             const ContactCurve& curve);
-
-/// Largest relative error of the loading force of `curve` against the shape it was tabulated from.
-double table_error(const LawShape& shape, double onset, double shape_end, const ContactCurve& curve);
-
-/// Throws Error where a loading force, with or without inertia, does not rise or a closed cycle gains energy.
-void require_admissible(const ContactCurve& curve);
-
-/// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at
-/// most the shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches
-/// the force goes over to the press's within half of it; dissipation and residual keep their difference from
-/// the press's. Below, the difference goes as the press's own loss, so that it is 0 at the onset. The
-/// residual is as told where an unloading's shape allows both. The axis ends before `fastest` where that
-/// would go deeper than `slow`'s table.
-VelocityAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow,
-                                     double e_star_over_yield, double mass, double fastest);
-
-/// The same of a rate-dependent body whose `slow` law is that of no rate: an axis from the slowest impact of
-/// the shape on, by the logarithm of the speed; at a body of this radius (m). The force, which falls before
-/// such an impact reverses, rises to its last share's and stays there until `slow`'s is as large. Throws
-/// Error where that is beyond 12 times the overlap reached.
-VelocityAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
-                                  double mass, double fastest, double reference_radius);
-
-/// The law of a body that never yields.
-ContactCurve::Table tabulate_elastic(const ElasticCorrection& elastic, double x_end);
 
 }  // namespace granulaw

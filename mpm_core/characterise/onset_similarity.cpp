@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/error.hpp"
 #include "characterise/fit_curve.hpp"
@@ -63,17 +62,6 @@ NearlyLinear linear_hardening(const Material& m, double strain)
   }
   line.missed /= m.yield_stress;
   return line;
-}
-
-/// A law's shape as linear in Y/E*, by those of two less stiff spheres, each after its E*/Y.
-using OfStiffness = std::pair<double, LawShape>;
-LawShape beyond(double stiffness, const OfStiffness& a, const OfStiffness& b)
-{
-  const double slope = (1 / stiffness - 1 / a.first) / (1 / a.first - 1 / b.first);
-  LawShape shape = LawShape::zero();
-  shape.add(1 + slope, a.second);
-  shape.add(-slope, b.second);
-  return shape;
 }
 
 void require_thick_skin(const CharacterisedBody& body, double first)
@@ -169,7 +157,7 @@ LawShape OnsetSimilarity::of_atlas(double stiffness) const
   };
   const double stiffest = atlas_->grid().stiffnesses.back();
   if (stiffness <= stiffest) return at(stiffness);
-  return beyond(stiffness, {stiffest, at(stiffest)}, {0.5 * stiffest, at(0.5 * stiffest)});
+  return linear_in_yield_ratio(stiffness, stiffest, at(stiffest), 0.5 * stiffest, at(0.5 * stiffest));
 }
 
 LawShape OnsetSimilarity::of_runs(const Sphere& sphere, const ElasticCorrection& elastic) const
@@ -198,7 +186,8 @@ LawShape OnsetSimilarity::shape(const ElasticCorrection& elastic) const
       guide.add(1, of_atlas(stiffness));
       guide.add(-1, of_atlas(less_stiff));
     } else {
-      guide = beyond(stiffness, {less_stiff, softer}, {least_stiff, of_runs(spheres_[1], of_sphere)});
+      guide =
+          linear_in_yield_ratio(stiffness, less_stiff, softer, least_stiff, of_runs(spheres_[1], of_sphere));
     }
   }
   if (!is_sphere_) guide = guide.as_skin_of(elastic, body_.onset, needs_.depth, 2 * needs_.first);

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "characterise/characterised_body.hpp"
 #include "characterise/interpolation.hpp"
+#include "characterise/tabulate_curve.hpp"
 
 namespace granulaw {
 
@@ -188,7 +189,9 @@ PairBody::State PairBody::at(double curvature, double contact) const
 
   State state;
   state.log_yield_overlap = log_overlap_of(node, log_end);
-  state.known = node < overlap_nodes;
+  // A twin put in the place of one that is too stiff for the atlas is soft for lack of a body, not of pressure.
+  constexpr double widest_stand_in = 0.35;
+  state.known = node < overlap_nodes && !(twin.is_clipped && alpha > std::max(contact, widest_stand_in));
   state.pressure = material_.yield_stress * std::exp(value(twin, &Twin::log_pressure, node));
   const double overlap = twin.share * std::exp(value(twin, &Twin::log_overlap, node)) / alpha;
   const double kept = std::exp(-std::max(0.0, value(twin, &Twin::log_lost, node)));

@@ -65,15 +65,10 @@ void check_speeds(const VelocityAxis::Table& table, const std::string& where)
   }
 }
 
-}  // namespace
-
-VelocityAxis::VelocityAxis(const Table& table, const std::string& where) : table_(table)
+void check_size(const VelocityAxis::Table& table, const std::string& where)
 {
-  check_speeds(table, where);
-  overlap_end_ = table.impact_overlap.back();
-
   const std::size_t levels = table.levels, nodes = table.ratio_nodes();
-  const std::size_t least = table.kind == Kind::rate ? 2 : 1;
+  const std::size_t least = table.kind == VelocityAxis::Kind::rate ? 2 : 1;
   if (levels < least || levels > 256)
     fail(where, "a velocity axis has an unusable number of impact levels ('slices')", std::to_string(levels),
          fmt::format("{} to 256", least));
@@ -84,21 +79,49 @@ VelocityAxis::VelocityAxis(const Table& table, const std::string& where) : table
     fail(where, "a velocity axis has an unusable number of nodes an impact level", std::to_string(nodes),
          fmt::format("2 to {}", 65536 / levels));
   check_number(table.ratio_end, 1e-3, 1e3, where, "ratio_end");
+}
 
-  const double h = table.ratio_end / static_cast<double>(nodes - 1);
-  per_spacing_ = 1.0 / h;
-  columns_ = static_cast<double>(nodes - 1);
-  cells_a_level_ = static_cast<int>(nodes);
-  scale_ = ImpactLevels::from_standstill(levels, table.first_levels, overlap_end_);
-  if (table.kind == Kind::rate) {
-    const double first = overlap_at(table, table.speed_begin);
+void check_ends(const VelocityAxis::Table& table, const std::string& where)
+{
+  for (std::size_t k = 1; k <= table.levels; ++k)
+    if (const std::size_t last = k * table.ratio_nodes() - 1;
+        table.force_correction[last] != 0 || table.force_correction_slope[last] != 0)
+      fail(where, fmt::format("'force_correction' of level {} does not end at 0 with slope 0", k),
+           fmt::format("{:.6g}, slope {:.6g}", table.force_correction[last],
+                       table.force_correction_slope[last]));
+}
+
+}  // namespace
+
+VelocityAxis::VelocityAxis(const Table& table, const std::string& where) : table_(table)
+{
+  check_speeds(table, where);
+  check_size(table, where);
+  overlap_end_ = table.impact_overlap.back();
+  place_levels(where);
+  lay_out_cells(where);
+  check_ends(table, where);
+}
+
+/// Where the levels lie, and what finds a place among them.
+void VelocityAxis::place_levels(const std::string& where)
+{
+  scale_ = ImpactLevels::from_standstill(table_.levels, table_.first_levels, overlap_end_);
+  if (table_.kind == Kind::rate) {
+    const double first = overlap_at(table_, table_.speed_begin);
     check_number(first, 1e-24, 0.999 * overlap_end_, where, "impact_overlap at speed_begin");
-    scale_ = ImpactLevels::by_octaves(levels, first, overlap_end_);
+    scale_ = ImpactLevels::by_octaves(table_.levels, first, overlap_end_);
   }
-  last_row_ = static_cast<int>(levels) - 1;
-  cells_.assign((levels + 1) * nodes, Cell{});
+  const std::size_t nodes = table_.ratio_nodes();
+  columns_ = static_cast<double>(nodes - 1);
+  per_spacing_ = columns_ / table_.ratio_end;
+  cells_a_level_ = static_cast<int>(nodes);
+  last_row_ = static_cast<int>(table_.levels) - 1;
+}
 
-  // Bounds between nodes hold for every X as well: a mean of two levels lies between them.
+/// The cubics of all intervals. Their bounds hold for every X: a mean of two levels lies between them.
+void VelocityAxis::lay_out_cells(const std::string& where)
+{
   struct Function
   {
     const char* name;
@@ -106,12 +129,15 @@ VelocityAxis::VelocityAxis(const Table& table, const std::string& where) : table
     double low, high, low_between, high_between;
     double (Cell::*cubic)[4];
   };
-  const Function functions[] = {{"force_correction", table.force_correction, table.force_correction_slope,
+  const Function functions[] = {{"force_correction", table_.force_correction, table_.force_correction_slope,
                                  -0.9, 10, -0.95, 20, &Cell::force},
-                                {"residual_correction", table.residual_correction,
-                                 table.residual_correction_slope, -1, 1, -2, 2, &Cell::residual},
-                                {"exponent_correction", table.exponent_correction,
-                                 table.exponent_correction_slope, -10, 10, -20, 20, &Cell::exponent}};
+                                {"residual_correction", table_.residual_correction,
+                                 table_.residual_correction_slope, -1, 1, -2, 2, &Cell::residual},
+                                {"exponent_correction", table_.exponent_correction,
+                                 table_.exponent_correction_slope, -10, 10, -20, 20, &Cell::exponent}};
+  const std::size_t levels = table_.levels, nodes = table_.ratio_nodes();
+  const double h = 1.0 / per_spacing_;
+  cells_.assign((levels + 1) * nodes, Cell{});
   for (const Function& f : functions) {
     check_values(f.value, levels * nodes, f.low, f.high, where, f.name);
     check_values(f.slope, levels * nodes, -big, big, where, fmt::format("{}_slope", f.name));
@@ -125,12 +151,6 @@ VelocityAxis::VelocityAxis(const Table& table, const std::string& where) : table
       (cells_[(k + 1) * nodes + nodes - 1].*f.cubic)[0] = f.value[k * nodes + nodes - 1];
     }
   }
-  for (std::size_t k = 1; k <= levels; ++k)
-    if (const std::size_t last = k * nodes - 1;
-        table.force_correction[last] != 0 || table.force_correction_slope[last] != 0)
-      fail(where, fmt::format("'force_correction' of level {} does not end at 0 with slope 0", k),
-           fmt::format("{:.6g}, slope {:.6g}", table.force_correction[last],
-                       table.force_correction_slope[last]));
 }
 
 double VelocityAxis::impact_overlap(double v) const

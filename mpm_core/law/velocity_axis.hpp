@@ -145,7 +145,10 @@ class VelocityAxis
     double weight, t;
   };
 
-  // Without a branch: in a flow x lies within and beyond ratio_end at random. A slice's last cell stands for
+  void place_levels(const std::string& where);
+  void lay_out_cells(const std::string& where);
+
+  // Without a branch: in a flow x lies within and beyond ratio_end at random. A level's last cell stands for
   // all that lies beyond.
   Place locate(double x, double impact_overlap) const
   {

@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "characterise/atlas.hpp"
-#include "characterise/characterised_body.hpp"
 #include "characterise/smooth_spline.hpp"
 #include "synthetic_law.hpp"
 
@@ -126,6 +124,19 @@ TEST(LawShape, ASkinOnTheSameBodyIsTheSphere)
   }
 }
 
+/// The term that similarity leaves: the builder's and the atlas's rule. Exact for what is linear in Y/E*.
+TEST(LawShape, IsLinearInYOverEStar)
+{
+  const auto at = [](double stiffness) {
+    LawShape shape = LawShape::zero();
+    shape.dissipation.back() = 2 + 3 / stiffness, shape.elastic.c1 = 1;
+    return shape;
+  };
+  const LawShape shape = linear_in_yield_ratio(500, 170, at(170), 85, at(85));
+  EXPECT_NEAR(shape.dissipation.back(), 2 + 3. / 500, 1e-12);  // rounding
+  EXPECT_NEAR(shape.elastic.c1, 1, 1e-12);
+}
+
 /// On a softer body the same force needs more overlap, and loses the same energy.
 TEST(LawShape, ASkinOnASofterBodyLosesTheSameAtTheSameForce)
 {
@@ -165,46 +176,6 @@ TEST(LawShape, AnUnloadingMayMeetTheBoundsOfOneThatRisesBetweenNodes)
         EXPECT_NO_THROW(tabulate(shape, 2.6e-7, 0.2, 0.2))
             << residual << ' ' << dissipation << ' ' << hertz_share;
       }
-}
-
-/// Before it reverses an impact loses its rate, and the force falls, by half where the yield stress rises
-/// much with the rate. A law's loading force rises: to the peak, and on until it is the press's again.
-TEST(TabulateRate, RisesToThePeakOfImpactsWhoseForceFallsBeforeTheyReverse)
-{
-  const double stiffness = 300, mass = 4. / 3 * M_PI, fastest = 0.25;
-  LawShape sphere = read_atlas(GRANULAW_ATLAS_FILE).shape({stiffness, 0.3, 0});
-  sphere.velocity_effects.clear();
-  const ContactCurve slow =
-      tabulate(sphere, characterised_body_of(stiffness, 0.3, 0).onset, Atlas::depth, 0.3);
-  for (const double raised : {0.1, 0.6, 1.6}) {  // at the fastest, over the force at no rate
-    LawShape shape = sphere;
-    for (double v = 0.005; v < 1.01 * fastest; v *= std::pow(50.0, 0.2)) {
-      const double more = raised * (0.2 + 0.8 * std::log(v / 0.005) / std::log(50.0));
-      double x = 0;  // X: where the work of loading, so much more, is the kinetic energy
-      while ((1 + 0.9 * more) * slow.work_loading(x) < 0.375 * mass / stiffness * v * v) x += 1e-6;
-      LawShape::VelocityEffect impact{v, std::log(x / v), 0, 0, {}};
-      double peak = 0;
-      for (int n = 0; n < LawShape::VelocityEffect::shares; ++n) {
-        const double share = n / (LawShape::VelocityEffect::shares - 1.0);
-        const double fall = std::max(0.0, (share - 0.8) / 0.2), factor = 1 + more * (1 - 0.7 * fall * fall);
-        impact.force.push_back(std::log(factor));
-        peak = std::max(peak, factor * slow.loading(share * x).force);
-      }
-      impact.force.back() = std::log(peak / slow.loading(x).force);  // as impact_force_ratios() has it
-      shape.velocity_effects.push_back(impact);
-    }
-    const VelocityAxis::Table table = tabulate_rate(shape, slow, stiffness, mass, fastest, 1e-3);
-    const ContactCurve curve(slow.table(), table, "test");  // throws where the force falls
-    for (const LawShape::VelocityEffect& impact : shape.velocity_effects) {
-      const double x = curve.axis()->impact_overlap(impact.speed);
-      // 0.5 %: between levels a third of an octave apart
-      EXPECT_NEAR(curve.loading(x, x).force / slow.loading(x).force, std::exp(impact.force.back()),
-                  5e-3 * std::exp(impact.force.back()))
-          << raised << ' ' << impact.speed;
-      const double far = 1.001 * table.ratio_end * x;
-      EXPECT_EQ(curve.loading(far, x).force, slow.loading(far).force);
-    }
-  }
 }
 
 TEST(FitCurve, ElasticFitRecoversItsCoefficients)
