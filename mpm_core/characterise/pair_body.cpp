@@ -148,14 +148,18 @@ PairBody::Mixed PairBody::twin_at(double curvature, double contact) const
   const double own = std::log(material_.e_star() / material_.yield_stress);
   const double wanted = contact > 0 ? own + std::log(curvature / contact) : std::numeric_limits<double>::infinity();
   const double told = std::clamp(wanted, log_stiffnesses_.front(), log_stiffnesses_.back());
-  return {std::exp(told - own), interpolation_weights(log_stiffnesses_, told), told != wanted};
+  const std::vector<double> weights = interpolation_weights(log_stiffnesses_, told);
+  Mixed twin{std::exp(told - own), 0, {}, told != wanted};
+  while (twin.first + twin.weights.size() < weights.size() && weights[twin.first] == 0) ++twin.first;
+  std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(twin.first), twin.weights.size(), twin.weights.begin());
+  return twin;
 }
 
 double PairBody::value(const Mixed& twin, const std::vector<double> Twin::*member, int node) const
 {
   double sum = 0;
-  for (std::size_t k = 0; k < twins_.size(); ++k)
-    if (twin.weights[k] != 0) sum += twin.weights[k] * (twins_[k].*member)[static_cast<std::size_t>(node)];
+  for (std::size_t k = 0; k < twin.weights.size(); ++k)
+    sum += twin.weights[k] * (twins_[twin.first + k].*member)[static_cast<std::size_t>(node)];
   return sum;
 }
 
@@ -185,7 +189,7 @@ PairBody::State PairBody::at(double curvature, double contact) const
   const double alpha = twin.is_clipped ? curvature / twin.share : contact;
   const double node = place(twin, &Twin::log_contact, std::log(alpha));
   double log_end = 0;
-  for (std::size_t k = 0; k < twins_.size(); ++k) log_end += twin.weights[k] * twins_[k].log_end;
+  for (std::size_t k = 0; k < twin.weights.size(); ++k) log_end += twin.weights[k] * twins_[twin.first + k].log_end;
 
   State state;
   state.log_yield_overlap = log_overlap_of(node, log_end);

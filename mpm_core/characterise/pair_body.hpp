@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "characterise/atlas.hpp"
@@ -77,9 +78,10 @@ class PairBody
   /// The twin of a stiffness between those kept.
   struct Mixed
   {
-    double share;                 // of its stiffness in the body's own
-    std::vector<double> weights;  // of twins_
-    bool is_clipped;              // nearest to one that the atlas does not know
+    double share;  // of its stiffness in the body's own
+    std::size_t first;  // of the kept ones between which it lies
+    std::array<double, 4> weights;
+    bool is_clipped;  // nearest to one that the atlas does not know
   };
   Twin twin(const Atlas& atlas, double stiffness) const;
   Mixed twin_at(double curvature, double contact) const;
