@@ -341,7 +341,7 @@ double finish_where_admissible(BodyLaw& law, const LawShape& shape, const Charac
 ComposedError composed_error(const LawMaterial& yielding, const LawMaterial& partner)
 {
   const double softness = yielding.e_star() / (yielding.e_star() + partner.e_star());
-  return {0.006 + 0.012 * softness * softness, 0.005 + 0.018 * softness * softness};
+  return {0.008 + 0.014 * softness * softness, 0.006 + 0.02 * softness * softness};
 }
 
 TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner, double radius_ratio,
