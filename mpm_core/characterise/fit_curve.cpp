@@ -261,10 +261,7 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
   // law: only the share that is lost depends on it.
   std::vector<ContactRecord> reversals;
   for (const ContactRecord& p : records.slow)
-    if (p.depth > onset)
-      reversals.push_back(p);
-    else
-      fitted.quality.held_out_each.push_back(0);  // elastic, as the law is there
+    if (p.depth > onset && p.reversal_counts) reversals.push_back(p);
   if (reversals.size() < 3)
     fail("fit", "too few reversal points beyond the onset of yield", std::to_string(reversals.size()),
          "3 or more");
@@ -301,22 +298,9 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
         ++count;
       }
   quality.scatter = count ? std::sqrt(sum / count) : 0;
-  for (std::size_t k = 0; k < reversals.size(); ++k) {
-    const auto error_of_e = [&](const SmoothSpline& d) {
-      return std::abs(
-          std::exp(-0.5 * (d.value(q_of(reversals[k].depth, onset)) - dissipation_measure(reversals[k]))) -
-          1);
-    };
-    quality.reversal_error = std::max(quality.reversal_error, error_of_e(dissipation));
-    double held_out = 0;
-    if (k + 1 < reversals.size() && reversals.size() > 3) {
-      std::vector<ContactRecord> others = reversals;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      held_out = error_of_e(
-          reversal_spline(others, onset, q_end, dissipation_measure, shallow_dissipation, q_shallow));
-    }
-    quality.held_out_each.push_back(held_out);
-    quality.held_out = std::max(quality.held_out, held_out);
+  for (const ContactRecord& p : reversals) {
+    const double excess = dissipation.value(q_of(p.depth, onset)) - dissipation_measure(p);
+    quality.reversal_error = std::max(quality.reversal_error, std::abs(std::exp(-0.5 * excess) - 1));
   }
   // Smoothing differs from a run by a per cent at most; what differs by more contradicts its neighbours.
   constexpr double contradiction = 0.05;
