@@ -8,8 +8,10 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "characterise/adaptive_sampling.hpp"
 #include "characterise/finish_curve.hpp"
 #include "characterise/fit_curve.hpp"
+#include "characterise/onset_of_yield.hpp"
 #include "characterise/onset_similarity.hpp"
 #include "characterise/refinement.hpp"
 #include "characterise/resolution_choice.hpp"
@@ -18,6 +20,9 @@
 namespace granulaw {
 
 namespace {
+
+/// Onset of yield over the law's depth: later, too little of the law is left to be fitted.
+constexpr double latest_onset = 0.2;
 
 /// sqrt(I) of the slowest impact on a rate axis.
 double slowest_of(const CharacterisedBody& body, const BuildOptions& o)
@@ -40,23 +45,6 @@ double scatter_about(const ContactCurve& curve, const ContactRecord& press)
   return count ? std::sqrt(sum / count) : 0;
 }
 
-/// Coordinates of runs that were asked for, whatever became of them.
-class Asked
-{
- public:
-  /// Those that are new; from now on they are not.
-  std::vector<double> of(std::vector<double> coordinates)
-  {
-    std::erase_if(coordinates,
-                  [&](double c) { return std::find(asked_.begin(), asked_.end(), c) != asked_.end(); });
-    asked_.insert(asked_.end(), coordinates.begin(), coordinates.end());
-    return coordinates;
-  }
-
- private:
-  std::vector<double> asked_;
-};
-
 /// One build: what it shares between its steps.
 class Build
 {
@@ -68,28 +56,6 @@ class Build
   BuiltLaw take();
 
  private:
-  /// What was run, the law's shape by it, and how that shape does without each run.
-  struct Sampled
-  {
-    ContactRecords records;
-    FittedShape fitted;
-    std::vector<LeftOutRun> slow, fast;
-  };
-  /// A plan of a body, and the records that its runs go to.
-  struct SamplingPart
-  {
-    const CharacterisedBody& body;
-    const SamplingPlan& plan;
-    ContactRecords& records;
-  };
-
-  /// Where the shape's functions of u end.
-  double shape_end() const { return known_ ? Atlas::depth : options_.depth; }
-  VelocityAxis::Kind axis_kind() const
-  {
-    return body_.rate_dependent() ? VelocityAxis::Kind::rate : VelocityAxis::Kind::inertia;
-  }
-
   void require_lawful() const;
   SamplingRange widest_range() const;
   SamplingPlan first_plan() const;
@@ -97,25 +63,16 @@ class Build
 
   void resolve(const SamplingPlan& plan);
   std::vector<Probe> probes(const SamplingPlan& plan);
-  RunJob elastic_press() const;
+  void find_onset();
   void note_solver_error(const ResolutionChoice& choice);
 
   std::optional<OnsetSimilarity> onset_similarity(double first) const;
-  Sampled sample(SamplingPlan plan, std::optional<OnsetSimilarity>& guide);
-  void run_round(const SamplingPlan& plan, ContactRecords& records,
-                 std::vector<OnsetSimilarity::Sphere>* spheres);
-  void run(const std::vector<SamplingPart>& parts, double until);
-  void heed_early_yield(const ContactRecords& records);
-  FittedShape fit(const ContactRecords& records, const LawShape* guide, double guide_end) const;
-  void fit_and_leave_out(Sampled& sampled, const std::optional<OnsetSimilarity>& guide) const;
-  SamplingPlan refinement(const Sampled& sampled, Asked& overlaps, Asked& speeds) const;
-
   void certify(const Sampled& sampled);
   void verify_impacts(const ContactRecords& records);
 
   BuiltLaw built_;
   BodyLaw& law_ = built_.law;
-  CharacterisedBody body_;  ///< its onset is what the runs show, where that is earlier than foreseen
+  CharacterisedBody body_;  ///< its onset is that of the elastic press
   CharacterisedBody
       slow_;  ///< the body at no rate: its law is the rate-free one, the speed axis brings the rate in
   const BuildOptions& options_;
@@ -152,10 +109,10 @@ BuiltLaw Build::take()
 void Build::require_lawful() const
 {
   const std::string where = fmt::format("material '{}'", law_.material.name);
-  if (body_.onset > 0.2 * options_.depth)
+  if (body_.onset > latest_onset * options_.depth)
     fail(where, "yields too late in the overlaps that a law covers",
          fmt::format("onset at delta/R = {:.3g}", body_.onset),
-         fmt::format("up to {:.3g}", 0.2 * options_.depth));
+         fmt::format("up to {:.3g}", latest_onset * options_.depth));
   if (body_.rate_dependent() && options_.fastest == 0)
     fail(where, "depends on the rate: its law needs impacts, not the rate-free law alone", "I = 0", "over 0");
 }
@@ -225,32 +182,43 @@ std::vector<Probe> Build::probes(const SamplingPlan& plan)
   return probes;
 }
 
-RunJob Build::elastic_press() const
-{
-  return press_job(body_.elastic(), elastic_press_of(body_, press_cells_), source_);
-}
-
 void Build::note_solver_error(const ResolutionChoice& choice)
 {
   law_.certificate.solver_error_force = choice.error.force;
   law_.certificate.solver_error_restitution = choice.error.restitution;
 }
 
+/// Of a body of several materials, or with pores, the elastic press comes first: it tells the onset of yield.
+/// If it was not deep enough, a second one goes as deep as a law's onset may be.
+void Build::find_onset()
+{
+  if (body_.is_uniform()) return;
+  const auto press = [&](double depth) {
+    const RunJob job = elastic_press_job(body_, first_resolution, source_, depth);
+    return runs_.make_needed({job}, runs_.done(), "the elastic press").front().result;
+  };
+  const RunResult first = press(0);
+  elastic_ = fit_elastic(contact_record_of(first));
+  body_.onset = onset_of_yield(body_, first);
+  const double latest = latest_onset * options_.depth;
+  if (std::isinf(body_.onset) && first.summary.delta_max < latest)
+    body_.onset = onset_of_yield(body_, press(latest));
+  slow_.onset = body_.onset;
+}
+
 /// The resolution of each kind of run, and the elastic correction at that of the presses.
 void Build::resolve(const SamplingPlan& plan)
 {
   std::vector<RunJob> beside;
-  if (!known_) beside.push_back(elastic_press());
+  if (!known_ && body_.is_uniform()) beside.push_back(elastic_press_job(body_, first_resolution, source_));
   const ResolutionChoice choice = choose_resolutions(probes(plan), beside, options_.tolerance, runs_);
   note_solver_error(choice);
-  if (known_) return;
-  RunOutcome press = choice.beside.front();
-  if (press_cells_ > first_resolution)
-    press = runs_.make_needed({elastic_press()}, runs_.done() + 0.05, "the elastic press").front();
+  if (!beside.empty()) elastic_ = fit_elastic(contact_record_of(choice.beside.front().result));
+  if (known_ || press_cells_ == first_resolution) return;
+  const RunJob finer = elastic_press_job(body_, press_cells_, source_);
+  const RunOutcome press = runs_.make_needed({finer}, runs_.done() + 0.05, "the elastic press").front();
   elastic_ = fit_elastic(contact_record_of(press.result));
 }
-
-// -- sample --
 
 /// What tells the law below `first`, the overlap of the shallowest run planned, if that is far from the
 /// onset.
@@ -261,98 +229,6 @@ std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
   needs.first = first, needs.depth = options_.depth;
   needs.tolerance = options_.tolerance, needs.press_cells = press_cells_;
   return OnsetSimilarity(body_, needs, options_.atlas);
-}
-
-/// The onset foreseen for a body of several materials is an estimate: a run that reversed before it and lost
-/// energy has yielded.
-void Build::heed_early_yield(const ContactRecords& records)
-{
-  constexpr double lost = 0.01;  // of the work: the waves that a slow elastic run leaves in the body are less
-  for (const ContactRecord& p : records.slow)
-    if (p.work_ratio < 1 - lost) body_.onset = std::min(body_.onset, 0.7 * p.depth);
-}
-
-/// Runs several plans as one batch.
-void Build::run(const std::vector<SamplingPart>& parts, double until)
-{
-  std::vector<RunJob> jobs;
-  for (const SamplingPart& part : parts)
-    for (RunJob& job : sampling_jobs(part.body, part.plan, source_)) jobs.push_back(std::move(job));
-  const std::vector<RunOutcome> outcomes = runs_.make(jobs, until);
-  auto next = outcomes.begin();
-  for (const SamplingPart& part : parts) {
-    const auto end = next + static_cast<std::ptrdiff_t>(part.plan.runs());
-    add_to(part.records, part.plan, {next, end});
-    next = end;
-  }
-}
-
-/// One round: presses of the body at no rate, its impacts, and with the first round the guide's spheres.
-void Build::run_round(const SamplingPlan& plan, ContactRecords& records,
-                      std::vector<OnsetSimilarity::Sphere>* spheres)
-{
-  SamplingPlan slow = plan, fast = plan;
-  slow.fast_speeds.clear();
-  slow.resolution = press_cells_;
-  fast.presses.clear();
-  fast.slow_impacts.clear();
-  fast.resolution = impact_cells_;
-  std::vector<SamplingPart> parts{{slow_, slow, records}, {body_, fast, records}};
-  if (spheres)
-    for (OnsetSimilarity::Sphere& sphere : *spheres)
-      parts.push_back({sphere.body, sphere.plan, sphere.found});
-  run(parts, runs_.done() + 0.7 * (0.9 - runs_.done()));
-}
-
-FittedShape Build::fit(const ContactRecords& records, const LawShape* guide, double guide_end) const
-{
-  if (known_) {
-    FittedShape fitted{*known_, {}};
-    fitted.shape.velocity_effects = fit_velocity_effects(records.fast, *known_, body_.onset, shape_end());
-    return fitted;
-  }
-  return fit_shape(records, elastic_, body_.onset, options_.depth, guide, guide_end);
-}
-
-void Build::fit_and_leave_out(Sampled& sampled, const std::optional<OnsetSimilarity>& guide) const
-{
-  std::optional<LawShape> shallow;
-  if (guide) shallow = guide->shape(elastic_);
-  const LawShape* told = shallow ? &*shallow : nullptr;
-  const double told_end = guide ? guide->end() : 1.0;
-  sampled.fitted = fit(sampled.records, told, told_end);
-  const auto shape_of = [&](const ContactRecords& others) { return fit(others, told, told_end).shape; };
-  sampled.slow = leave_out_slow(sampled.records, shape_of, body_.onset, options_.depth);
-  sampled.fast = leave_out_fast(sampled.records.fast, sampled.fitted.shape.velocity_effects, axis_kind());
-}
-
-/// The runs that the law is still missing; none that was asked for before.
-SamplingPlan Build::refinement(const Sampled& sampled, Asked& overlaps, Asked& speeds) const
-{
-  const bool rate = axis_kind() == VelocityAxis::Kind::rate;
-  std::optional<double> least_speed;
-  if (!rate) least_speed = std::sqrt(negligible_damage_number(options_.tolerance));
-  std::vector<double> slow = overlaps.of(bisections(sampled.slow, options_.tolerance));
-  for (double& x : slow) x = std::exp(x);
-  SamplingPlan more = slow_runs_to(slow, slow_, options_.tolerance, press_cells_);
-  more.fast_speeds = speeds.of(bisections(sampled.fast, options_.tolerance, least_speed));
-  if (rate)
-    for (double& v : more.fast_speeds) v = std::exp(v);
-  return more;
-}
-
-/// Runs, fits and refines until no interval is left to bisect.
-Build::Sampled Build::sample(SamplingPlan plan, std::optional<OnsetSimilarity>& guide)
-{
-  Sampled sampled;
-  Asked overlaps, speeds;
-  for (bool first = true; plan.runs() > 0; first = false) {
-    run_round(plan, sampled.records, guide && first ? &guide->spheres() : nullptr);
-    if (!body_.particle.is_homogeneous_sphere()) heed_early_yield(sampled.records);
-    fit_and_leave_out(sampled, guide);
-    plan = refinement(sampled, overlaps, speeds);
-  }
-  return sampled;
 }
 
 // -- certify, tabulate, verify --
@@ -376,14 +252,15 @@ void Build::verify_impacts(const ContactRecords& records)
 {
   constexpr std::size_t of_inertia = 3, of_rate = 4;  // impacts; a rate's axis is the longer one
   const double fastest = std::sqrt(law_.certificate.damage_number_max);
-  const std::vector<double> speeds = verification_speeds(
-      records.fast, fastest, axis_kind(), axis_kind() == VelocityAxis::Kind::rate ? of_rate : of_inertia);
+  const std::vector<double> speeds = verification_speeds(records.fast, fastest, axis_kind_of(body_),
+                                                         body_.rate_dependent() ? of_rate : of_inertia);
   const double error = verify(law_, body_, speeds, impact_cells_, source_, runs_);
   built_.sampling_error = std::max(built_.sampling_error, error);
 }
 
 void Build::plastic()
 {
+  find_onset();
   require_lawful();
   SamplingPlan plan = first_plan();
   const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
@@ -397,14 +274,16 @@ void Build::plastic()
     plan.slow_impacts.erase(plan.slow_impacts.begin());
 
   const std::size_t before = runs_.count();
-  const Sampled sampled = sample(plan, guide);
+  const SamplingSetting setting{body_,    slow_,        options_,     source_, known_ ? &*known_ : nullptr,
+                                elastic_, press_cells_, impact_cells_};
+  const Sampled sampled = sample(plan, setting, guide ? &*guide : nullptr, runs_);
   built_.runs_full = most_runs(guide);
   if (guide) built_.shallow = guide->how();
 
   certify(sampled);
   const LawShape& shape = sampled.fitted.shape;
-  law_.certificate.interpolation_error = finish_curve(law_, shape, body_, options_, shape_end());
-  built_.change_of_restitution = change_of_restitution(shape, body_.onset, shape_end(), law_.curve);
+  law_.certificate.interpolation_error = finish_curve(law_, shape, body_, options_, setting.shape_end());
+  built_.change_of_restitution = change_of_restitution(shape, body_.onset, setting.shape_end(), law_.curve);
   if (options_.fastest > 0) verify_impacts(sampled.records);
   built_.runs = runs_.count() - before;
 }
