@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/build_law.hpp"
+#include "characterise/law_from_atlas.hpp"
 #include "characterise/fit_curve.hpp"
 #include "characterise/interpolation.hpp"
 #include "law/replay.hpp"

@@ -63,66 +63,29 @@ double mass_of(const Particle& p)
   return mass * p.volume() / volume;  // what the raster misses at the surface
 }
 
-/// Least distances from the contact pole, over the length.
-struct PoleDistances
+/// Least distance from the contact pole, over the length, of a pore or of a material other than the pole's,
+/// by a raster of the meridian; infinity: there is none.
+double skin_of(const Particle& p, double length, int pole_material)
 {
-  std::vector<double> material;  ///< 0: the pole's own, or too small to be found
-  double pore = never;
-};
-
-/// By a raster of the meridian.
-PoleDistances distances_from_pole(const Particle& p, double length, int pole_material)
-{
+  if (p.layers.empty() && p.inclusions.empty()) return never;
   constexpr int cells = 400;
   const double dz = p.height() / cells, dr = p.radius / cells, diagonal = std::hypot(dr, dz);
-  PoleDistances nearest{std::vector<double>(p.materials.size(), never)};
+  double nearest = never;
   for (int i = 0; i < cells; ++i)
     for (int k = 0; k < cells; ++k) {
       const double r = (i + 0.5) * dr, z = (k + 0.5) * dz;
-      if (p.depth(r, z) < 0) continue;
-      const int at = p.material_at(r, z);
-      double& d = at < 0 ? nearest.pore : nearest.material[static_cast<std::size_t>(at)];
-      d = std::min(d, std::max(0.0, std::hypot(r, z) - 0.5 * diagonal) / length);
+      if (p.depth(r, z) < 0 || p.material_at(r, z) == pole_material) continue;
+      nearest = std::min(nearest, std::max(0.0, std::hypot(r, z) - 0.5 * diagonal) / length);
     }
-  for (double& d : nearest.material)
-    if (d == never) d = 0;
-  nearest.material[static_cast<std::size_t>(pole_material)] = 0;
   return nearest;
-}
-
-/// Overlap at which a material at this distance from the pole begins to yield, all over the length and E* at
-/// the pole: where the von Mises stress on the axis of Hertz's contact reaches Y there (Johnson 1985,
-/// eq. 3.45).
-double buried_onset(double yield, double poisson_ratio, double distance)
-{
-  const double at_pole = onset_overlap(1.0, yield, poisson_ratio);
-  const double largest = 1 / onset_pressure_ratio(poisson_ratio);  // over p0, at a depth of about a half of a
-  const auto mises = [&](double a) {
-    const double z = distance / a;
-    return z > 0.48 ? 1.5 / (1 + z * z) - (1 + poisson_ratio) * (1 - z * std::atan(1 / z)) : largest;
-  };
-  double a = std::sqrt(at_pole);
-  while (a < 1 && 2 * a / M_PI * mises(a) < yield * (1 - 1e-9)) a *= 1.02;  // p0 = 2 a/pi
-  // A half for what the bodies' different stiffnesses do: too early an onset costs a few runs, too late a one
-  // calls elastic what is not.
-  return a * a > at_pole ? std::max(at_pole, 0.5 * a * a) : at_pole;
 }
 
 void fill_yield(CharacterisedBody& s)
 {
-  s.yield = s.onset = never;
-  PoleDistances distance{std::vector<double>(s.particle.materials.size(), 0.0)};
-  if (!s.particle.layers.empty() || !s.particle.inclusions.empty())
-    distance = distances_from_pole(s.particle, s.scale.length, s.pole_material);
-  s.skin = distance.pore;
-  for (std::size_t k = 0; k < s.particle.materials.size(); ++k) {
-    if (static_cast<int>(k) != s.pole_material) s.skin = std::min(s.skin, distance.material[k]);
-    const Material& m = s.particle.materials[k];
-    if (!m.yields()) continue;
-    const double yield = m.yield_stress / s.scale.stress;
-    s.yield = std::min(s.yield, yield);
-    s.onset = std::min(s.onset, buried_onset(yield, m.poisson_ratio, distance.material[k]));
-  }
+  s.yield = never;
+  for (const Material& m : s.particle.materials) s.yield = std::min(s.yield, m.yield_stress / s.scale.stress);
+  s.skin = skin_of(s.particle, s.scale.length, s.pole_material);
+  s.onset = s.yields() ? onset_overlap(1.0, s.yield, s.poisson_ratio) : never;
 }
 
 void fill_plain(CharacterisedBody& s)

@@ -14,20 +14,24 @@ struct CharacterisedBody
   Scales scale;      ///< radius of curvature at the contact pole; E* and density of the material there
   double yield = 0;  ///< smallest yield stress in it over E*; infinity: elastic
   double poisson_ratio = 0;  ///< of the material at the pole
-  double onset = 0;          ///< overlap/length at which it begins to yield; of several materials: about
-  int pole_material = 0;     ///< index into particle.materials of the one at the pole
+  /// Overlap/length at which it begins to yield: Hertz's at the pole, as if all of it had the smallest yield
+  /// stress. Where that is not so an elastic press tells (onset_of_yield.hpp).
+  double onset = 0;
+  int pole_material = 0;  ///< index into particle.materials of the one at the pole
   /// Distance from the pole, over the length, up to which there is that material only; infinity: everywhere.
   double skin = std::numeric_limits<double>::infinity();
   double mass = 0;          ///< over density length^3; 4/3 pi: a sphere
   std::string description;  ///< everything about it that determines a run, on one line
 
-  bool yields() const { return onset < std::numeric_limits<double>::infinity(); }
+  bool yields() const { return yield < std::numeric_limits<double>::infinity(); }
   /// The sphere of a material that hardens linearly and knows no rate is its own unit: R = rho = E* = 1.
   bool is_plain() const
   {
     return particle.is_homogeneous_sphere() && particle.materials[0].hardening.name.empty() &&
            particle.materials[0].rate.name.empty();
   }
+  /// One material throughout, of any shape: Hertz's onset at the pole is the body's.
+  bool is_uniform() const { return particle.layers.empty() && particle.inclusions.empty(); }
   /// Some material of it depends on the rate: its law holds for this size.
   bool rate_dependent() const;
   /// The same body, none of whose materials yields, or whose yield stresses are those at no rate.

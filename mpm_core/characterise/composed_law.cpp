@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "characterise/characterised_body.hpp"
+#include "characterise/finish_curve.hpp"
 #include "characterise/tabulate_curve.hpp"
 #include "law/pair.hpp"
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "characterise/build_law.hpp"
+#include "characterise/build_options.hpp"
 #include "characterise/pair_body.hpp"
+#include "law/law.hpp"
 
 namespace granulaw {
 

@@ -41,6 +41,8 @@ struct ContactRecord
   double reversal_force = 0;    ///< as computed just before the reversal, F/(4/3 E* R^2); 0: not known
   double peak = 0;              ///< the summary's force_max, F/(4/3 E* R^2); 0: not known
   UnloadingPath unloading;      ///< from the reversal on, F/(4/3 E* R^2)
+  bool of_press = false;        ///< its loading belongs to a press's other reversal points too
+  bool reversal_counts = true;  ///< false: a fit takes its loading only
 };
 
 /// Takes a run of a sphere of unit radius, density and E* apart: its loading and its last unloading.

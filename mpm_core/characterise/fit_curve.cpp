@@ -295,7 +295,7 @@ void ShapeFit::fit_loading()
 void ShapeFit::correct_reversals()
 {
   for (const ContactRecord& p : records.slow)
-    if (p.depth > onset) reversals.push_back(p);
+    if (p.depth > onset && p.reversal_counts) reversals.push_back(p);
   if (reversals.size() < 3)
     fail("fit", "too few reversal points beyond the onset of yield", std::to_string(reversals.size()),
          "3 or more");
@@ -343,23 +343,10 @@ FitQuality ShapeFit::quality() const
 {
   FitQuality quality;
   quality.scatter = scatter();
-  // elastic, as the law is there
-  quality.held_out_each.assign(records.slow.size() - reversals.size(), 0.0);
   const SmoothSpline fitted = dissipation(reversals);
-  for (std::size_t k = 0; k < reversals.size(); ++k) {
-    const auto error_of_e = [&](const SmoothSpline& d) {
-      const double missed = d.value(q_of(reversals[k].depth, onset)) - dissipation_measure(reversals[k]);
-      return std::abs(std::expm1(-0.5 * missed));
-    };
-    quality.reversal_error = std::max(quality.reversal_error, error_of_e(fitted));
-    double held_out = 0;
-    if (k + 1 < reversals.size() && reversals.size() > 3) {
-      std::vector<ContactRecord> others = reversals;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      held_out = error_of_e(dissipation(others));
-    }
-    quality.held_out_each.push_back(held_out);
-    quality.held_out = std::max(quality.held_out, held_out);
+  for (const ContactRecord& p : reversals) {
+    const double missed = fitted.value(q_of(p.depth, onset)) - dissipation_measure(p);
+    quality.reversal_error = std::max(quality.reversal_error, std::abs(std::expm1(-0.5 * missed)));
   }
   return quality;
 }

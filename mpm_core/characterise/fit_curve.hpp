@@ -24,10 +24,8 @@ ElasticFit fit_elastic(std::span<const ContactRecord> presses);
 /// How well a shape represents the runs it was fitted to; relative numbers.
 struct FitQuality
 {
-  double scatter = 0;                 ///< rms of loading samples of the presses, over the upper half of each
-  double held_out = 0;                ///< largest error of e at a reversal depth left out of the fit
-  std::vector<double> held_out_each;  ///< the same at each; 0 at the last, where it would be extrapolation
-  double reversal_error = 0;          ///< largest residual of e at the reversal depths of the fit
+  double scatter = 0;         ///< rms of loading samples of the presses, over the upper half of each
+  double reversal_error = 0;  ///< largest residual of e at the reversal depths of the fit
 };
 
 struct FittedShape

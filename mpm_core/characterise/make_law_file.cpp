@@ -9,6 +9,7 @@
 #include "base/version.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/composed_law.hpp"
+#include "characterise/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "characterise/two_body_law.hpp"
 

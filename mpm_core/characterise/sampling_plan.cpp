@@ -13,8 +13,9 @@ namespace {
 
 constexpr double slowest_press = 1e-3;  // overlap: below, slow impacts are cheaper than presses
 
-/// Ends of the presses: each a quarter of the next, so that the contact of its shallowest partial unloading
-/// still spans about half the cells.
+/// Depth of a press over its shallowest partial unloading, whose contact then spans half the cells.
+constexpr double press_span = 4;
+/// Ends of the presses, about press_span apart.
 constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
 
 /// Overlap beyond which no pair law is exact, so that fewer cells and one grid will do.
@@ -77,11 +78,16 @@ double velocity_to(double x, const CharacterisedBody& s)
                   x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
 }
 
+double negligible_damage_number(double tolerance)
+{
+  return 0.16 * std::min(tolerance, 0.01);
+}
+
 double loading_ramp(const CharacterisedBody& s, double depth, double tolerance)
 {
   if (!s.yields() || tolerance <= 0) return 0;
   const double allowed = std::min(tolerance, 0.01);
-  const double inertial = top_speed_ramp(depth, 0.16 * allowed * s.yield);
+  const double inertial = top_speed_ramp(depth, negligible_damage_number(tolerance) * s.yield);
   const double vibrational = 42.0 * std::pow(0.01 / s.yield, 0.25) * std::pow(0.01 / allowed, 0.2);
   return std::max({60.0, vibrational, inertial});
 }
@@ -161,6 +167,43 @@ SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& r
   return plan;
 }
 
+SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedBody& body, double tolerance,
+                          int press_cells)
+{
+  SamplingPlan plan;
+  for (std::size_t k = overlaps.size(); k-- > 0;) {
+    const double x = overlaps[k];
+    if (x < slowest_press) {
+      plan.slow_impacts.push_back(velocity_to(x, body));
+    } else if (plan.presses.empty() || press_span * x < plan.presses.back().depth) {
+      plan.presses.push_back({x, {}, press_cells, 2, loading_ramp(body, x, tolerance)});
+    } else {
+      auto& stops = plan.presses.back().stops;
+      stops.insert(stops.begin(), x);
+    }
+  }
+  return plan;
+}
+
+std::vector<double> first_inertia_speeds(double fastest, double tolerance)
+{
+  constexpr std::size_t most = 3;
+  const double least = std::sqrt(negligible_damage_number(tolerance));
+  std::vector<double> speeds{fastest};
+  while (speeds.size() < most && 0.5 * speeds.front() >= least)
+    speeds.insert(speeds.begin(), 0.5 * speeds.front());
+  return speeds;
+}
+
+std::vector<double> first_rate_speeds(double slowest, double fastest)
+{
+  constexpr int intervals = 4;
+  std::vector<double> speeds;
+  for (int k = 0; k <= intervals; ++k)
+    speeds.push_back(slowest * std::pow(fastest / slowest, static_cast<double>(k) / intervals));
+  return speeds;
+}
+
 std::vector<RunJob> sampling_jobs(const CharacterisedBody& body, const SamplingPlan& plan,
                                   const RunSource& source)
 {
@@ -182,6 +225,7 @@ void add_to(ContactRecords& records, const SamplingPlan& plan, const std::vector
     for (ContactRecord& reversal : partial_unloadings(run.result, records.reload_loop))
       records.slow.push_back(std::move(reversal));
     records.slow.push_back(contact_record_of(run.result));
+    records.slow.back().of_press = true;
   }
   for (std::size_t k = 0; k < plan.slow_impacts.size(); ++k)
     if (const RunOutcome& run = outcomes[next++]; !run.failed())

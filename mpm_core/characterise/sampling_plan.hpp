@@ -72,11 +72,26 @@ struct SamplingRange
 
 SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& range);
 
+/// Slow runs to these ascending overlaps: presses, of which one serves every overlap from a quarter of its
+/// depth on, and impacts where these cost less.
+SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedBody& body, double tolerance,
+                          int press_cells);
+
+/// sqrt(I) of the first fast impacts, ascending. Leaving one out must leave what interpolates there
+/// (refinement.hpp).
+/// - Inertia, which is even in the speed: the fastest, half and a quarter of it, as far as inertia counts
+///   (negligible_damage_number). Two of them and the standstill tell a polynomial of fourth degree.
+/// - A rate, which goes by the logarithm of the speed: five at equal factors, as the interpolation is cubic.
+std::vector<double> first_inertia_speeds(double fastest, double tolerance);
+std::vector<double> first_rate_speeds(double slowest, double fastest);
+
+/// Damage number whose inertia adds less than the tolerance to F and e (docs/decisions.md): a press may load,
+/// and an impact count as slow, at up to 0.16 of the tolerance. One over 1 % counts as 1 %.
+double negligible_damage_number(double tolerance);
+
 /// Loading time of a slow press, in R/c*, that a tolerance of F and e allows; 0, the solver's own: of a body
 /// that never yields, or where no tolerance is asked for. A ramp adds to F and e
-/// - its inertia: its damage number rho v^2/Y at the highest speed of loading, of which 0.16 of the tolerance
-/// is
-///   allowed;
+/// - its inertia, negligible up to a damage number at the highest speed of loading;
 /// - the body's vibration at the reversal, which falls as the fifth power of the ramp (docs/decisions.md).
 /// A tolerance over 1 % counts as 1 %.
 double loading_ramp(const CharacterisedBody& body, double depth, double tolerance);

@@ -23,7 +23,7 @@ double thread_cpu_s()
 
 void visit_state(StateArchive& a, RunOutcome& o)
 {
-  a.growing(o.result.trace), a.value(o.result.summary);
+  a.growing(o.result.trace), a.value(o.result.summary), a.growing(o.result.yield_overlaps);
   a.value(o.first_error), a.value(o.error), a.value(o.cpu_s);
 }
 

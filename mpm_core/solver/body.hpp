@@ -46,6 +46,7 @@ struct Region
 {
   int begin, end;
   Moduli moduli;
+  int material = 0;  ///< index in the particle's list
 };
 
 /// Points of the true surface that can come into contact, from the contact pole outwards, and the grid nodes

@@ -16,8 +16,11 @@ namespace granulaw {
 
 namespace {
 
-void check(const RunOptions& options)
+void check(const RunOptions& options, const Particle& particle)
 {
+  if (!options.yield_stresses.empty() && options.yield_stresses.size() != particle.materials.size())
+    fail("yield stresses", "one for each material of the particle",
+         std::to_string(options.yield_stresses.size()), std::to_string(particle.materials.size()));
   if (options.resolution != 0 && (options.resolution < 6 || options.resolution > 200))
     fail("--resolution", "cannot be used", std::to_string(options.resolution),
          "6 to 200 cells across the contact block");
@@ -64,6 +67,18 @@ RunSummary combined(const std::vector<RunResult>& members)
   s.point_updates_per_s = updates / s.cpu_s;
   s.restitution = s.restitution_raw;
   return s;
+}
+
+/// By material; infinity where one of the members does not reach it.
+std::vector<double> mean_yield_overlaps(const std::vector<RunResult>& members)
+{
+  std::vector<double> mean = members.front().yield_overlaps;
+  for (std::size_t m = 0; m < mean.size(); ++m) {
+    double sum = 0;
+    for (const RunResult& member : members) sum += member.yield_overlaps[m];
+    mean[m] = sum / static_cast<double>(members.size());
+  }
+  return mean;
 }
 
 /// A single grid reverses at some phase of the grid noise, and the work given back follows the force at the
@@ -148,6 +163,7 @@ RunResult mean_of_shifted_grids(const RunOptions& options, double deepest, const
   RunResult result;
   result.trace = mean_trace(members);
   result.summary = summary_of(result.trace, members, rings);
+  result.yield_overlaps = mean_yield_overlaps(members);
   result.summary.resolution = cells;
   result.summary.grids = options.shifted_grids;
   return in_si(std::move(result), scale);
@@ -158,7 +174,7 @@ RunResult mean_of_shifted_grids(const RunOptions& options, double deepest, const
 RunResult run_impact(const Particle& particle, double velocity, const RunOptions& options,
                      const Partner& partner)
 {
-  check(options);
+  check(options, particle);
   if (options.estimate_error)
     return run_with_estimate(options,
                              [&](const RunOptions& o) { return run_impact(particle, velocity, o, partner); });
@@ -176,7 +192,7 @@ RunResult run_impact(const Particle& particle, double velocity, const RunOptions
   return mean_of_shifted_grids(
       options, deepest, scale, true,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation run(collision.build(deepest, cells, shift), options, duration);
+        Simulation run(collision.build(deepest, cells, shift), options, duration, scale.stress);
         const double reduced = run.scene.reduced_mass();
         for (Body& body : run.scene.bodies) body.throw_along(-v * reduced / body.mass);
         ImpactProgramme programme(duration);
@@ -209,7 +225,7 @@ double default_press_ramp(double depth, double yield_over_e_star)
 RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options,
                     const Partner& partner)
 {
-  check(options);
+  check(options, particle);
   if (options.estimate_error)
     return run_with_estimate(options,
                              [&](const RunOptions& o) { return run_press(particle, plan, o, partner); });
@@ -236,7 +252,7 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
   return mean_of_shifted_grids(
       options, depth, scale, false,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation run(collision.build(depth, cells, shift), options, duration);
+        Simulation run(collision.build(depth, cells, shift), options, duration, scale.stress);
         PressProgramme programme(stops, collision.e_star());
         const auto observe = [&](const TraceSample& t) { programme.observe(t.force, t.contact_radius); };
         run.run(programme, {fields, scale, duration}, progress, observe, checkpoint);

@@ -55,6 +55,9 @@ struct RunOptions
   int samples = 800;      ///< trace length aimed at
   bool estimate_error =
       false;  ///< run a second, coarser resolution and fill error_estimate (accuracy.hpp; costs 1/3 more)
+  /// Pa, by the particle's materials; given for an elastic body: its run tells where each would begin to
+  /// yield (RunResult::yield_overlaps). Infinity: not asked for. Empty: none.
+  std::vector<double> yield_stresses{};
   FieldObserver fields;  ///< who wants to see the body while the run goes on (fields.hpp)
   std::function<void(double fraction)>
       progress;                   ///< called now and then with 0..1; may throw to stop the run

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "characterise/atlas_build.hpp"
-#include "characterise/build_law.hpp"
+#include "characterise/law_from_atlas.hpp"
 #include "characterise/interpolation.hpp"
 
 namespace granulaw {

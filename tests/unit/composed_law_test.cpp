@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "characterise/law_from_atlas.hpp"
 #include "law/radiation.hpp"
 #include "law/replay.hpp"
 #include "own_atlas.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <random>
 
-#include "characterise/build_law.hpp"
+#include "characterise/law_from_atlas.hpp"
 #include "law/fast_curve.hpp"
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"

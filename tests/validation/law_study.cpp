@@ -20,7 +20,7 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/atlas.hpp"
-#include "characterise/build_law.hpp"
+#include "characterise/law_from_atlas.hpp"
 #include "law/replay.hpp"
 
 namespace {

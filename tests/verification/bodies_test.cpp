@@ -252,7 +252,7 @@ TEST(Wall, IsThickEnough)
     const Moduli& m = scene.bodies.back().regions.front().moduli;
     const double block = scene.bodies.back().surface.r[12];
     scene.bodies.back() = mapped_body(MappedGrid::wall(12, block, extent), {m}, 0.05 * m.shear);
-    Simulation run(std::move(scene), o, duration);
+    Simulation run(std::move(scene), o, duration, 1.0);
     const double reduced = run.scene.reduced_mass();
     for (Body& body : run.scene.bodies) body.throw_along(-v * reduced / body.mass);
     ImpactProgramme programme(duration);

@@ -7,7 +7,7 @@
 
 #include "atlas_path.hpp"
 #include "base/error.hpp"
-#include "characterise/build_law.hpp"
+#include "characterise/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "characterise/build_law.hpp"
+#include "characterise/support_ratio.hpp"
 #include "characterise/law_material.hpp"
 #include "claim.hpp"
 #include "command.hpp"

@@ -162,7 +162,7 @@ std::vector<Region> regions_of(const std::vector<Phase>& phases, const std::vect
   std::vector<Region> regions;
   for (int p = 0; p < static_cast<int>(pieces.size()); ++p) {
     if (p == 0 || pieces[p].phase != pieces[p - 1].phase)
-      regions.push_back({p, p, phases[pieces[p].phase].moduli});
+      regions.push_back({p, p, phases[pieces[p].phase].moduli, pieces[p].phase});
     regions.back().end = p + 1;
   }
   return regions;

@@ -31,6 +31,7 @@ std::optional<RunResult> CheckpointSlot::finished() const
   RunResult result;
   archive->growing(result.trace);
   archive->value(result.summary);
+  archive->growing(result.yield_overlaps);
   archive->finish();
   return result;
 }
@@ -38,7 +39,9 @@ std::optional<RunResult> CheckpointSlot::finished() const
 void CheckpointSlot::keep_finished(RunResult& result) const
 {
   if (!store_) return;
-  store(Kind::finished, [&](StateArchive& a) { a.growing(result.trace), a.value(result.summary); });
+  store(Kind::finished, [&](StateArchive& a) {
+    a.growing(result.trace), a.value(result.summary), a.growing(result.yield_overlaps);
+  });
 }
 
 bool CheckpointSlot::resume(const Visit& visit) const

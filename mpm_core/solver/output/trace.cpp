@@ -14,6 +14,7 @@ void change_units(RunResult& run, const Scales& unit, Change change)
     change(t.force, unit.force());
     change(t.contact_radius, unit.length);
   }
+  for (double& overlap : run.yield_overlaps) change(overlap, unit.length);
   RunSummary& s = run.summary;
   change(s.force_max, unit.force());
   change(s.delta_max, unit.length);

@@ -54,6 +54,9 @@ struct RunResult
 {
   std::vector<TraceSample> trace;
   RunSummary summary;
+  /// m, by the particle's materials, where RunOptions::yield_stresses asks for it: overlap at which the von
+  /// Mises stress first reaches the yield stress during the loading; infinity: it does not.
+  std::vector<double> yield_overlaps;
 };
 
 /// A run whose numbers are over these scales, in SI.

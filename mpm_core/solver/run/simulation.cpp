@@ -30,10 +30,17 @@ double total(const Scene& scene, double (Body::*energy)() const)
   return sum;
 }
 
+std::vector<double> in_units_of(double unit, std::vector<double> values)
+{
+  for (double& value : values) value /= unit;
+  return values;
+}
+
 }  // namespace
 
-Simulation::Simulation(Scene s, const RunOptions& options, double expected)
+Simulation::Simulation(Scene s, const RunOptions& options, double expected, double stress)
     : scene(std::move(s)),
+      yield_watch_(in_units_of(stress, options.yield_stresses)),
       courant_(options.courant),
       window_(expected / options.samples),
       longest_(60 * expected)
@@ -67,6 +74,7 @@ void Simulation::run(LoadingProgramme& programme, FieldRecorder fields,
     const bool sampled = step(programme);
     if (sampled) {
       observe(result.trace.back());
+      if (result.trace.back().branch == Branch::load) yield_watch_.sample(scene.bodies.front(), overlap_);
       fields.sample(scene, time_, overlap_, result.trace.back().force, programme.finished());
     }
     if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();
@@ -133,6 +141,7 @@ void Simulation::visit_state(LoadingProgramme& programme, StateArchive& a)
   for (Body& body : scene.bodies) body.visit_state(a);
   scene.contact->visit_state(a);
   programme.visit_state(a);
+  yield_watch_.visit_state(a);
 }
 
 double Simulation::work(bool load) const
@@ -156,6 +165,7 @@ void Simulation::summarise(const LoadingProgramme& programme)
     body.fetch_state();
     s.plastic_strain_max = std::max(s.plastic_strain_max, body.largest_plastic_strain());
   }
+  result.yield_overlaps = yield_watch_.overlaps();
   s.steps = steps_;
   s.point_updates_per_s = static_cast<double>(s.points) * static_cast<double>(steps_) / s.cpu_s;
   for (const TraceSample& t : result.trace) s.delta_max = std::max(s.delta_max, t.delta);

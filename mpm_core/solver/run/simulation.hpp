@@ -5,6 +5,7 @@
 
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/field_recorder.hpp"
+#include "solver/output/yield_watch.hpp"
 #include "solver/run/loading_programme.hpp"
 #include "solver/runs.hpp"
 #include "solver/scene.hpp"
@@ -16,8 +17,8 @@ namespace granulaw {
 class Simulation
 {
  public:
-  /// `expected`: duration of the run, about, R/c*.
-  Simulation(Scene scene, const RunOptions& options, double expected);
+  /// `expected`: duration of the run, about, R/c*. `stress`: the solver's unit, Pa.
+  Simulation(Scene scene, const RunOptions& options, double expected, double stress);
 
   /// Steps until the loading programme has finished, on from where `checkpoint` stands if that holds a state.
   /// `observe` sees every sample of the trace. Bodies and drive must be as at the start of the run.
@@ -41,6 +42,7 @@ class Simulation
   void summarise(const LoadingProgramme& programme);
   void visit_state(LoadingProgramme& programme, StateArchive& archive);
 
+  YieldWatch yield_watch_;
   std::vector<StableStep> stable_;
   double courant_;
   double window_;  // sample interval

@@ -1,0 +1,61 @@
+#include "characterise/finish_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "characterise/tabulate_curve.hpp"
+#include "characterise/tabulate_velocity_axis.hpp"
+#include "law/replay.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// The certificate's errors of F and e without the axis, at its ends. Returns the largest.
+double note_axis_cost(BodyLaw& law, const ContactCurve& slow, const VelocityAxis::Table& axis,
+                      const CharacterisedBody& body)
+{
+  const Scales unit{body.scale.length, law.material.e_star(), law.material.density};
+  const auto replay = [&](const ContactCurve& curve, double v) {
+    BodyLaw other = law;
+    other.curve = curve;
+    return replay_on_wall(other, unit.length, body.mass * unit.mass(),
+                          v * std::sqrt(body.yield) * unit.velocity());
+  };
+  double worst = 0;
+  // what a rate raises at the fast end inertia may take away again
+  for (const double v : {axis.speed_begin, axis.speed_end}) {
+    if (v == 0) continue;
+    const Replay with = replay(law.curve, v), without = replay(slow, v);
+    law.certificate.axis_cost_force = without.force_max / with.force_max - 1;
+    law.certificate.axis_cost_restitution = without.restitution / with.restitution - 1;
+    worst = std::max(
+        {worst, std::abs(law.certificate.axis_cost_force), std::abs(law.certificate.axis_cost_restitution)});
+  }
+  return worst;
+}
+
+}  // namespace
+
+double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
+                    const BuildOptions& options, double shape_end)
+{
+  const ContactCurve slow = tabulate(shape, body.onset, shape_end, options.depth);
+  const double error = table_error(shape, body.onset, shape_end, slow);
+  if (options.fastest == 0) {
+    law.curve = slow;
+    return error;
+  }
+  const bool rate = body.rate_dependent();
+  const VelocityAxis::Table axis =
+      rate ? tabulate_rate(shape, slow, 1 / body.yield, body.mass, options.fastest, body.scale.length)
+           : tabulate_inertia(shape, slow, 1 / body.yield, body.mass, options.fastest);
+  law.certificate.damage_number_max = axis.speed_end * axis.speed_end;
+  law.curve = ContactCurve(slow.table(), axis, law.material.name);
+  require_admissible(law.curve);
+  // Model only what the scene needs.
+  if (note_axis_cost(law, slow, axis, body) <= options.tolerance) law.curve = slow;
+  return error;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "characterise/build_options.hpp"
+#include "characterise/characterised_body.hpp"
+#include "characterise/law_shape.hpp"
+#include "law/law.hpp"
+
+namespace granulaw {
+
+/// The curve and axis of `law` from its shape, which ends at `shape_end`, for a body of this onset. Options:
+/// depth, fastest, tolerance. An axis that changes F and e by no more than the tolerance is left out; the
+/// certificate says what that costs. Returns the largest relative error of the force that the table's cubics
+/// add to the shape.
+double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
+                    const BuildOptions& options, double shape_end);
+
+}  // namespace granulaw
