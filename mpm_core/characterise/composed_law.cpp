@@ -21,14 +21,14 @@ namespace granulaw {
 namespace {
 
 /// y(x) = 0 of a rising y; the end where it does not cross 0.
-double rising_root(const std::function<double(double)>& y, double low, double high)
+double rising_root(const std::function<double(double)>& y, double low, double high, int bits = 40)
 {
   const double at_low = y(low), at_high = y(high);
   if (at_low >= 0) return low;
   if (at_high <= 0) return high;
   std::uintmax_t steps = 100;
   const auto [a, b] = boost::math::tools::toms748_solve(y, low, high, at_low, at_high,
-                                                        boost::math::tools::eps_tolerance<double>(40), steps);
+                                                        boost::math::tools::eps_tolerance<double>(bits), steps);
   return 0.5 * (a + b);
 }
 
@@ -176,7 +176,8 @@ double ComposedPair::find_yield_radius() const
 {
   if (!first_.yields() && !second_.yields()) return std::numeric_limits<double>::infinity();
   const double low = std::log(1e-5 * r_eff_), high = std::log(r_eff_);
-  return std::exp(rising_root([&](double log_a) { return at(std::exp(log_a)).log_yield_overlap; }, low, high));
+  constexpr int bits = 26;
+  return std::exp(rising_root([&](double log_a) { return at(std::exp(log_a)).log_yield_overlap; }, low, high, bits));
 }
 
 namespace {
@@ -226,12 +227,20 @@ ElasticCorrection fit_correction(const std::vector<Sample>& samples, int terms)
   return {c(0), c(1), root.dot(radius) / root.dot(root), terms > 2 ? c(2) : 0.0};
 }
 
+/// Of the yielding body and its partner: only their ratio counts.
+std::pair<double, double> radii_of(double radius_ratio)
+{
+  if (radius_ratio == 0) return {std::numeric_limits<double>::infinity(), 1.0};
+  return {1.0, radius_ratio};
+}
+
 /// Of the pair without yield.
 ElasticCorrection elastic_correction(const PairBody& s, const PairBody& h, double radius_ratio,
                                      const RuleCoordinates& rule, double deepest, int terms)
 {
   const PairBody elastic_s = s.elastic(), elastic_h = h.elastic();
-  const ComposedPair pair(elastic_s, 1.0, elastic_h, radius_ratio);
+  const auto [radius, partner_radius] = radii_of(radius_ratio);
+  const ComposedPair pair(elastic_s, radius, elastic_h, partner_radius);
   std::vector<Sample> samples;
   constexpr int count = 24;
   for (int k = 1; k <= count; ++k) {
@@ -245,7 +254,7 @@ ElasticCorrection elastic_correction(const PairBody& s, const PairBody& h, doubl
 /// From the onset on, to `depth`, or where the atlas ends or the contact is nearly as wide as the smaller body.
 std::vector<Sample> plastic_samples(const ComposedPair& pair, const RuleCoordinates& rule, double depth)
 {
-  constexpr double step = 1.04;   // of the contact radius: 0.08 in ln x
+  constexpr double step = 1.05;   // of the contact radius: 0.1 in ln x
   constexpr double widest = 0.9;  // the atlas's laws end at 0.9 to 1.1 R
   std::vector<Sample> samples;
   for (double a = pair.yield_radius(); a <= widest * pair.smaller_radius(); a *= step) {
@@ -350,7 +359,8 @@ TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairB
 {
   const PairMapping mapping =
       PairMapping::deformable_partner(yielding.material().e_star(), partner.material().e_star());
-  const ComposedPair pair(yielding, 1.0, partner, radius_ratio);
+  const auto [radius, partner_radius] = radii_of(radius_ratio);
+  const ComposedPair pair(yielding, radius, partner, partner_radius);
   const RuleCoordinates rule(mapping, pair.r_eff());
   TwoBodyLaw result;
   result.radius_ratio = radius_ratio;

@@ -35,7 +35,7 @@ struct ComposedState
 class ComposedPair
 {
  public:
-  /// Radii in one unit; infinity for the partner: a thick wall. The bodies outlive this.
+  /// Radii in one unit; infinity: a thick wall. The bodies outlive this.
   ComposedPair(const PairBody& yielding, double radius, const PairBody& partner, double partner_radius);
 
   ComposedState at(double contact_radius) const;
@@ -59,7 +59,8 @@ struct ComposedError
 /// Fitted to the 95th percentiles of two-body impacts against stiffer, like and softer partners (docs/pairs.md).
 ComposedError composed_error(const LawMaterial& yielding, const LawMaterial& partner);
 
-/// The law of a pair at this ratio of the partner's radius to the yielding body's; infinity: a thick wall. Coordinates
+/// The law of a pair at this ratio of the partner's radius to the yielding body's; infinity: the partner is a thick
+/// wall; 0: the yielding body is. Coordinates
 /// of the pair rule (law/pair.hpp). Velocity effects are those of the yielding body. options: depth, fastest,
 /// tolerance. Throws Error where it would not be admissible.
 TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner, double radius_ratio,

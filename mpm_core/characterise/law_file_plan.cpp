@@ -137,6 +137,7 @@ std::vector<double> composed_ratios(const LawFileRequest& r, bool one_material)
   const double range = like - 1 / (1 + r.radius_ratio);
   const int steps = static_cast<int>(std::ceil(range / step - 1e-9));
   std::vector<double> ratios;
+  if (r.thick_walls && !one_material) ratios.push_back(0);
   for (int k = one_material ? 1 : -steps; k <= steps; ++k) {
     const double share = steps > 0 ? like - range * k / steps : like;
     ratios.push_back(1 / share - 1);

@@ -26,7 +26,7 @@ struct LawFileRequest
   double tolerance = 0.01;  ///< relative, of F and e (BuildOptions::tolerance): 1e-4 to 0.5
   double radius_ratio = 1;  ///< largest ratio of two spheres' radii in the scene, 1 or more: pairs are composed up to it,
                             ///< and the error of the pair rule is stated for it
-  bool thick_walls = true;  ///< a partner may also be a thick deformable wall
+  bool thick_walls = true;  ///< either of two bodies may also be a thick deformable wall
   bool own_laws = false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
   const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan
 
@@ -56,7 +56,7 @@ struct LawFilePlan
     /// of composed laws.
     ReductionError stated;
     /// Partner's radius over the yielding body's of each law that will be composed, ascending (composed_law.hpp);
-    /// infinity: a thick wall. None: the pair follows the rule, or has its own law by runs.
+    /// infinity: a thick wall; 0: the yielding body is one. None: the pair follows the rule, or has its own law by runs.
     std::vector<double> composed_at;
     bool worth_own_law = false;  ///< two plain spheres whose stated error is above the tolerance
     bool own_law = false;        ///< its own law will be made by runs

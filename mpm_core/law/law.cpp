@@ -145,7 +145,9 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
   if (!own) return {&yielding.curve, mapping, &yielding};
   const bool composed = own->law.certificate.origin == composed_origin;
   return {&own->law.curve, mapping, &own->law,
-          composed ? radiation(yielding.material, 1.0, partner.material, ratio) : 0.0};
+          composed ? radiation(yielding.material, swap ? radius_b : radius_a, partner.material,
+                               swap ? radius_a : radius_b)
+                   : 0.0};
 }
 
 }  // namespace granulaw

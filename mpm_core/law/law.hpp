@@ -75,9 +75,10 @@ struct LawPair
 struct TwoBodyLaw
 {
   BodyLaw law;              ///< `material` is the yielding one's
-  double radius_ratio = 1;  ///< partner's radius over the yielding body's; infinity: a thick wall
+  double radius_ratio = 1;  ///< partner's radius over the yielding body's; infinity: the partner is a thick
+                            ///< wall; 0: the yielding body is
 
-  /// R_s/(R_s + R_h) of the yielding body and its partner, 0 for a wall: in which laws change evenly.
+  /// R_s/(R_s + R_h) of the yielding body and its partner: in which laws change evenly.
   double size_share() const { return 1 / (1 + radius_ratio); }
 };
 
@@ -161,7 +162,7 @@ PairLaw wall_pair(const BodyLaw& body);
 
 /// Resolves materials `a` and `b` (b may be "wall": rigid), in either order: the pair's own law if the file
 /// has one, of several that at the nearest size_share(), else the law of the body that yields (`yields_first`).
-/// The radii (m; or both in another unit) choose; infinity: b is a thick deformable wall. Throws Error naming `where` where the
+/// The radii (m; or both in another unit) choose; infinity: a thick deformable wall. Throws Error naming `where` where the
 /// law has no such material or was not built for the pair, or where a body that is no homogeneous sphere would meet
 /// another body than its like or the rigid wall.
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where,

@@ -174,7 +174,8 @@ void check_own_law(const std::string& name, const TwoBodyLaw& own, bool one_mate
     fail(where, "a pair's own law by runs needs a body that yields", shortened(name));
   if (!own.law.is_sphere()) fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
   const double least = one_material ? std::nextafter(1.0, 2.0) : 0.01;
-  const bool wall = composed && std::isinf(own.radius_ratio);
+  const bool wall =
+      composed && (std::isinf(own.radius_ratio) || (own.radius_ratio == 0 && !one_material));
   if (!wall && !(own.radius_ratio >= least && own.radius_ratio <= 100))
     fail(where,
          fmt::format("'{}' of the pair {} is out of range", h5::radius_ratio_of_runs.name, shortened(name)),

@@ -107,6 +107,16 @@ TEST(ComposedLaw, IsContinuousInThePartner)
   EXPECT_LT(difference(large, thick).force, 0.001);
 }
 
+/// A sphere dents a wall as it dents a sphere of 10,000 times its size.
+TEST(ComposedLaw, OfAThickWallThatYields)
+{
+  const LawMaterial soft = material("soft", 1, 0.01), glass = material("glass", 2, never);
+  const TwoBodyLaw of_wall = composed(soft, glass, 0), of_sphere = composed(soft, glass, 1e-4);
+  EXPECT_EQ(of_wall.size_share(), 1);
+  EXPECT_LT(difference(of_wall.law.curve, of_sphere.law.curve).force, 0.001);
+  EXPECT_GE(of_wall.law.curve.admissibility_margin(), 0);
+}
+
 TEST(ComposedLaw, IsAdmissibleForAnyPair)
 {
   std::mt19937_64 random(20);

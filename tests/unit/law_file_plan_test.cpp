@@ -64,7 +64,7 @@ TEST(LawFilePlan, UnlikePairsOfTheAtlasAreComposed)
   LawFileRequest r = request({{"powder", "glass"}, {"powder", "powder"}, {"powder", "wall"}});
   constexpr double wall = std::numeric_limits<double>::infinity();
   LawFilePlan plan = plan_law_file(r);
-  EXPECT_EQ(plan.pairs[0].composed_at, (std::vector<double>{1, wall}));
+  EXPECT_EQ(plan.pairs[0].composed_at, (std::vector<double>{0, 1, wall}));
   EXPECT_EQ(plan.pairs[1].composed_at, (std::vector<double>{wall}));  // like spheres: its own law
   EXPECT_TRUE(plan.pairs[2].composed_at.empty());
   EXPECT_EQ(plan.pairs[0].stated.force, 0);  // by its laws' certificates

@@ -51,6 +51,53 @@ TEST(TwoBodyLaw, AnswersForItsPairInEitherOrderAndForNoOther)
   EXPECT_EQ(resolve_pair(law, "glass", "glass", "test").curve, &law.bodies.at("glass").curve);
 }
 
+/// Of several laws that at the nearest sizes, whoever comes first, to the bit; a wall has size infinity.
+TEST(TwoBodyLaw, IsChosenByTheRadii)
+{
+  Law law = law_with_pair();
+  std::vector<TwoBodyLaw>& laws = law.pair_laws.at("powder:glass");
+  constexpr double wall = std::numeric_limits<double>::infinity();
+  laws.resize(4, laws.front());
+  const double ratios[] = {0, 0.5, 2, wall};
+  for (std::size_t k = 0; k < 4; ++k) {
+    laws[k].radius_ratio = ratios[k];
+    laws[k].law.certificate.origin = composed_origin;
+  }
+  const auto chosen = [&](double powder, double glass) {
+    const PairLaw ab = resolve_pair(law, "powder", "glass", "test", powder, glass),
+                  ba = resolve_pair(law, "glass", "powder", "test", glass, powder);
+    EXPECT_EQ(ab.curve, ba.curve);
+    EXPECT_EQ(ab.radiation, ba.radiation);
+    EXPECT_GT(ab.radiation, 0);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (ab.curve == &laws[k].law.curve) return ratios[k];
+    return -1.0;
+  };
+  EXPECT_EQ(chosen(1e-3, 2.1e-3), 2);
+  EXPECT_EQ(chosen(3e-3, 1.1e-3), 0.5);
+  EXPECT_EQ(chosen(1e-3, wall), wall);
+  EXPECT_EQ(chosen(wall, 1e-3), 0);
+  EXPECT_EQ(chosen(1e-3, 20e-3), wall);  // nearer to a wall than to twice the size
+}
+
+/// Bodies of one material: the smaller first; like sizes have the body's own law.
+TEST(TwoBodyLaw, OfOneMaterialIsForUnlikeSizes)
+{
+  Law law = law_with_pair();
+  TwoBodyLaw large = law.pair_laws.at("powder:glass").front();
+  large.radius_ratio = 3;
+  large.law.certificate.origin = composed_origin;
+  law.pair_laws["powder:powder"] = {large};
+  const ContactCurve* const unlike = &law.pair_laws.at("powder:powder").front().law.curve;
+  const auto curve = [&](double a, double b) {
+    return resolve_pair(law, "powder", "powder", "test", a, b).curve;
+  };
+  EXPECT_EQ(curve(1, 3), unlike);
+  EXPECT_EQ(curve(3, 1), unlike);
+  EXPECT_EQ(curve(1, 1), &law.bodies.at("powder").curve);
+  EXPECT_EQ(curve(1, 1.2), &law.bodies.at("powder").curve);
+}
+
 class PairLawFile : public ::testing::Test
 {
  protected:
