@@ -1,7 +1,5 @@
 #!/usr/bin/python3
-"""docs/pairs.md and docs/pairs.png from the CSV of granulaw_pairs_study: pairs_page.py PAIRS.csv DOCS_FOLDER [LAW.h5 ...]
-
-Law files of single materials (nu = 0.3, mpm table ... --pair NAME:wall) add what a composed rule would give."""
+"""docs/pairs.md and docs/pairs.png from the CSV of granulaw_pairs_study: pairs_page.py PAIRS.csv DOCS_FOLDER"""
 import csv
 import sys
 from pathlib import Path
@@ -10,7 +8,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from pairs_compose import rule_over_composed
 
 GROUPS = {
     "radius": "One material, unlike radii",
@@ -31,12 +28,10 @@ def percent(value, uncertainty):
 
 
 def main():
-    if len(sys.argv) < 3:
-        sys.exit("pairs_page.py PAIRS.csv DOCS_FOLDER [LAW.h5 ...]")
+    if len(sys.argv) != 3:
+        sys.exit("pairs_page.py PAIRS.csv DOCS_FOLDER")
     rows = [{k: v if k == "group" else float(v) for k, v in row.items()} for row in csv.DictReader(open(sys.argv[1]))]
-    docs, laws = Path(sys.argv[2]), sys.argv[3:]
-    for row in rows:
-        row["composed"] = rule_over_composed(row, laws)
+    docs = Path(sys.argv[2])
 
     figure, axes = plt.subplots(1, 3, figsize=(13, 4.2))
     colours = {5: "tab:blue", 20: "tab:orange", 100: "tab:red"}
@@ -50,9 +45,6 @@ def main():
                           marker="o", label=f"e, V/V_y = {speed}")
             axis.errorbar(x, [100 * r["error_force"] for r in own], [100 * r["unc_force"] for r in own],
                           color=colour, marker="s", mfc="w", ls="--", label=f"F_max, V/V_y = {speed}")
-            known = [r for r in own if r["composed"]]
-            axis.plot([r[column] for r in known], [100 * (r["error_e"] - r["composed"][1]) for r in known],
-                      "x", color=colour, label=f"e left by composing, {speed}")
         axis.set_xscale("log")
         axis.axhline(0, color="k", lw=0.6)
         axis.grid(True, which="both", alpha=0.2)
@@ -73,18 +65,16 @@ def main():
 
     text = [text_file("pairs_intro.md")]
     for group, title in GROUPS.items():
-        text += [f"## {title}", "",
-                 "| E*/Y | radius ratio | E* ratio | Y ratio | V/V_y | d/(lambda R*) | I | e | F_max % | e % | time % | composed leaves: F, e % |",
-                 "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+        text += [f"### {title}", "",
+                 "| E*/Y | radius ratio | E* ratio | Y ratio | V/V_y | d/(lambda R*) | I | e | F_max % | e % | time % |",
+                 "|---|---|---|---|---|---|---|---|---|---|---|"]
         for r in (r for r in rows if r["group"] == group):
-            left = "" if r["composed"] is None else (f"{100 * (r['error_force'] - r['composed'][0]):+.1f}, "
-                                                     f"{100 * (r['error_e'] - r['composed'][1]):+.1f}")
             time = "" if group == "press" else percent(r["error_time"], r["unc_time"])
             text.append("| " + " | ".join([
                 f"{r['E_over_Y']:.0f}", f"{r['radius_ratio']:.3g}", f"{r['stiffness_ratio']:.3g}",
                 f"{r['strength']:.2f}" if r["partner_E_over_Y"] else "elastic", f"{r['V_over_Vy']:.3g}",
                 f"{r['depth']:.2g}", f"{r['inertia']:.1e}", f"{r['e']:.3f}",
-                percent(r["error_force"], r["unc_force"]), percent(r["error_e"], r["unc_e"]), time, left]) + " |")
+                percent(r["error_force"], r["unc_force"]), percent(r["error_e"], r["unc_e"]), time]) + " |")
         text.append("")
     (docs / "pairs.md").write_text("\n".join(text))
 
