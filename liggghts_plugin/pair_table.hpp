@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -35,9 +38,12 @@ class PairTable
  public:
   using Contact = typename Physics::Contact;
 
-  // What every step reads lies in the first cache line.
+  struct LawsBySize;
+
+  // What every step reads comes first.
   struct alignas(64) Entry
   {
+    LawsBySize* by_size = nullptr;    // null: one law for particles of all sizes
     double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
     double tangential = 0.0;          // k_t over the contact radius: 8 G* (Mindlin), stretched
     double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
@@ -49,6 +55,26 @@ class PairTable
         0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
   };
 
+  /// The laws of a pair of types that has several, an entry for each.
+  struct LawsBySize
+  {
+    SizeChoice choice;
+    std::vector<Entry> entries;
+
+    const Entry& of(double radius_i, double radius_j) const
+    {
+      return entries[choice.nearest(radius_i, radius_j)];
+    }
+  };
+
+  /// The law of a contact: one for as long as it lasts, as radii do not change. At a wall radius_j is not
+  /// looked at.
+  const Entry& of(int itype, int jtype, double radius_i, double radius_j) const
+  {
+    const Entry& entry = at(itype, jtype);
+    return entry.by_size ? entry.by_size->of(radius_i, radius_j) : entry;
+  }
+
   Entry& at(int itype, int jtype) { return entries_[static_cast<std::size_t>(itype * stride_ + jtype)]; }
   const Entry& at(int itype, int jtype) const
   {
@@ -56,56 +82,119 @@ class PairTable
   }
 
   /// `damping_ratio`: of each pair of types, at [i * (count + 1) + j].
-  void resolve(const Physics& physics, const Setup& setup, const Types& types,
+  void resolve(const Physics& physics, const Setup& setup, const Types& types, const ParticleSizes& sizes,
                const TangentialChoice& tangential, const std::vector<double>& damping_ratio)
   {
-    const bool is_wall = setup.wall != nullptr, rigid = is_wall && !setup.options.deformable_wall;
+    const bool is_wall = setup.wall != nullptr;
     stride_ = types.count + 1;
     entries_.assign(static_cast<std::size_t>(stride_ * stride_), Entry{});
+    by_size_.clear();
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
         if (std::isnan(types.youngs_modulus[i]) || std::isnan(types.youngs_modulus[j])) continue;
         try {
-          at(i, j).contact = physics.resolve(i, j, rigid, setup.where);
+          resolve_types(physics, setup, sizes, i, j);
         } catch (const granulaw::Error&) {
           if (types.can_meet(i, j, is_wall)) throw;
           continue;  // PlasticModel::beyond_table says so if such particles meet after all
         }
-        complete(at(i, j), setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
-                 damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+        each_entry(i, j, [&](Entry& entry) {
+          complete(entry, setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
+                   damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+        });
       }
   }
 
   /// True if the law of any pair asks for the mass of the bodies.
   bool needs_mass() const
   {
-    return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
+    const auto asks = [](const Entry& entry) {
       return entry.largest_overlap >= 0.0 && entry.contact.needs_mass();
-    });
+    };
+    return std::any_of(entries_.begin(), entries_.end(), asks) ||
+           std::any_of(by_size_.begin(), by_size_.end(), [&](const auto& laws) {
+             return std::any_of(laws->entries.begin(), laws->entries.end(), asks);
+           });
   }
 
   /// Finds each pair of types its line in the statistics, and writes there what the law says about it.
-  void enter(LAMMPS_NS::LAMMPS* lmp, const Physics& physics, const Setup& setup, const Types& types)
+  void enter(LAMMPS_NS::LAMMPS* lmp, const Physics& physics, const Setup& setup, const Types& types,
+             const ParticleSizes& sizes)
   {
-    const ParticleSizes sizes = particle_sizes(lmp);
     const bool is_wall = setup.wall != nullptr;
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
-        Entry& entry = at(i, j);
-        if (entry.largest_overlap < 0) continue;
+        const Entry& usual = at(i, j);
+        if (usual.largest_overlap < 0) continue;
         const PairKey key = pair_key(setup, i, j);
-        entry.counts = &setup.session->statistics.pairs[key];
+        ContactStatistics::Pair& counts = setup.session->statistics.pairs[key];
+        each_entry(i, j, [&](Entry& entry) { entry.counts = &counts; });
         if (!is_wall && j < i) continue;  // described as i, j
-        PairInfo info = physics.describe(entry.contact, key);
-        add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j));
+        PairInfo info = physics.describe(usual.contact, key);
         info.needed = types.can_meet(i, j, is_wall);
-        if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
-        if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
-        entry.counts->info = info;
+        info.onset_speed = std::numeric_limits<double>::infinity();
+        each_entry_in_use(i, j, sizes, [&](const Entry& entry) {
+          info.overlap_limit =
+              std::min(info.overlap_limit, physics.describe(entry.contact, key).overlap_limit);
+          add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j));
+          if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
+          if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
+        });
+        counts.info = info;
       }
   }
 
  private:
+  /// Finds the law or laws of types i and j.
+  void resolve_types(const Physics& physics, const Setup& setup, const ParticleSizes& sizes, int i, int j)
+  {
+    const bool rigid = setup.wall && !setup.options.deformable_wall;
+    if constexpr (!HasLawsBySize<Physics>)
+      at(i, j).contact = physics.resolve(i, j, rigid, setup.where);
+    else if (setup.wall)
+      at(i, j).contact =
+          physics.resolve(i, j, rigid, setup.where, 1.0, std::numeric_limits<double>::infinity());
+    else
+      resolve_by_size(physics, setup, sizes.of_type(i), sizes.of_type(j), i, j);
+  }
+
+  /// at(i, j) becomes one that particles of these sizes follow.
+  void resolve_by_size(const Physics& physics, const Setup& setup, const Radii& radii_i, const Radii& radii_j,
+                       int i, int j)
+  {
+    const SizeChoice choice = physics.laws_by_size(i, j);
+    std::vector<Entry> entries(choice.count());
+    std::size_t usual = choice.nearest(1.0, 1.0);
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      const auto [radius_i, radius_j] = choice.radii_of(k, radii_i, radii_j);
+      entries[k].contact = physics.resolve(i, j, false, setup.where, radius_i, radius_j);
+      if (choice.serves(k, radii_i, radii_j)) usual = k;
+    }
+    at(i, j) = entries[usual];
+    if (entries.size() == 1) return;
+    by_size_.push_back(std::make_unique<LawsBySize>(choice, std::move(entries)));
+    at(i, j).by_size = by_size_.back().get();
+  }
+
+  /// Each entry of the pair of types, at(i, j) among them.
+  template <class Visit>
+  void each_entry(int i, int j, Visit&& visit)
+  {
+    visit(at(i, j));
+    if (at(i, j).by_size)
+      for (Entry& entry : at(i, j).by_size->entries) visit(entry);
+  }
+  /// at(i, j), and each other that particles of the known sizes follow.
+  template <class Visit>
+  void each_entry_in_use(int i, int j, const ParticleSizes& sizes, Visit&& visit) const
+  {
+    visit(at(i, j));
+    const LawsBySize* laws = at(i, j).by_size;
+    if (!laws) return;
+    for (std::size_t k = 0; k < laws->entries.size(); ++k)
+      if (laws->choice.serves(k, sizes.of_type(i), sizes.of_type(j))) visit(laws->entries[k]);
+  }
+
   /// R* and m* of the smallest particles that can meet; 0: none is known.
   struct Smallest
   {
@@ -122,21 +211,22 @@ class PairTable
     return std::isfinite(found.r_eff) && std::isfinite(found.m_eff) ? found : Smallest{};
   }
 
-  /// Speed of first yield, and the time step that the stiffest contact allows.
+  /// Lowers the speed of first yield and the largest time step to what this law allows.
   static void add_limits(PairInfo& info, const Contact& contact, const Smallest& spheres)
   {
     const auto [r_eff, m_eff] = spheres;
-    info.onset_speed = std::numeric_limits<double>::infinity();
     if (!(r_eff > 0)) return;
     const double onset = contact.yield_overlap() * r_eff;
     if (contact.yield_overlap() < contact.largest_overlap())
-      info.onset_speed = std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff);
+      info.onset_speed = std::min(info.onset_speed,
+                                  std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff));
     double hardest = 0;
     constexpr int samples = 64;  // the stiffness varies slowly: it need not be largest at the end
     for (int k = 1; k <= samples; ++k)
       hardest =
           std::max(hardest, contact.stiffness(r_eff, contact.stiffness_range() * r_eff * k / samples, 0.0));
-    info.dt_limit = dt_fraction * 2.0 * M_PI * std::sqrt(m_eff / hardest);
+    const double dt_limit = dt_fraction * 2.0 * M_PI * std::sqrt(m_eff / hardest);
+    if (info.dt_limit == 0 || dt_limit < info.dt_limit) info.dt_limit = dt_limit;
   }
 
   /// Pa, 8 G* of Mindlin's tangential stiffness.
@@ -167,6 +257,7 @@ class PairTable
   }
 
   std::vector<Entry> entries_;
+  std::vector<std::unique_ptr<LawsBySize>> by_size_;
   int stride_ = 0;
 };
 

@@ -82,9 +82,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     refuse_unstated_restitution(lmp, *setup_);
     first_step_ = update->ntimestep;
     units_ = types.units;
-    pairs_.resolve(physics_, *setup_, types, tangential_, damping_ratios(registry, *setup_, types));
+    const ParticleSizes sizes = particle_sizes(lmp);
+    pairs_.resolve(physics_, *setup_, types, sizes, tangential_, damping_ratios(registry, *setup_, types));
     Bodies::provide(lmp, pairs_.needs_mass());
-    pairs_.enter(lmp, physics_, *setup_, types);
+    pairs_.enter(lmp, physics_, *setup_, types, sizes);
     counts_.connect(lmp, *setup_->session);
     energy_ = setup_->session->energy;
   }
@@ -95,7 +96,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = effective_radius(sidata);
-    const Entry& entry = pairs_.at(sidata.itype, sidata.jtype);
+    const Entry& entry = pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
     const double delta = sidata.deltan;
     double& delta_max = sidata.contact_history[history_offset_];
     if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
@@ -116,6 +117,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       if (update->ntimestep == first_step_) [[unlikely]]
         reversal[0] = 0.0;  // what a restart brings may be of another law
     const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap, reversal);
+    const double waves_force =
+        waves_of(entry, r_eff, delta, delta_max, impact_overlap, reversal, law_force, sidata.vn);
     const double root = std::sqrt(r_eff * delta);
     const double radius =
         tangential_.computed ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
@@ -123,7 +126,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     // of an undamped contact the law's force itself, to the bit: it is never negative
     sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
     // below the residual overlap of a dent nothing touches, and nothing is damped
-    const double normal_force = law_force > 0.0 ? std::max(0.0, law_force - sidata.gamman * sidata.vn) : 0.0;
+    const double normal_force =
+        law_force > 0.0 ? std::max(0.0, (law_force + waves_force) - sidata.gamman * sidata.vn) : 0.0;
+    if (waves_force != 0.0) counts_.radiate(sidata, entry, waves_force, normal_force);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
       counts_.deepen(sidata, entry, r_eff, impact_overlap, delta_max);
@@ -161,12 +166,12 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
 
   ContactState state(const ContactPlace& contact) const override
   {
-    const Entry& pair = pairs_.at(contact.itype, contact.jtype);
-    const double delta_max = contact.history[history_offset_];
+    const Entry& pair = pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j);
+    const double delta_max = contact.history[history_offset_], r_eff = contact.r_eff();
     double impact_overlap = 0.0;
     if constexpr (Physics::latches_impact) impact_overlap = contact.history[impact_offset_];
-    return {pair.contact.contact_radius(contact.r_eff, contact.overlap, delta_max, impact_overlap), delta_max,
-            pair.contact.dissipated(contact.r_eff, 0.0, delta_max, impact_overlap)};
+    return {pair.contact.contact_radius(r_eff, contact.overlap, delta_max, impact_overlap), delta_max,
+            pair.contact.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
   }
 
   void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const override
@@ -174,7 +179,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double delta_max = contact.history[history_offset_];
     if (delta_max > 0.0)
       counts_.take_out(statistics.pairs[pair_key(*setup_, contact.itype, contact.jtype)], contact.history,
-                       delta_max, contact.r_eff, weight);
+                       delta_max, contact.r_eff(), weight);
   }
 
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
@@ -184,6 +189,18 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   static constexpr bool keeps_reversals = Physics::Contact::reversal_values > 0;
 
   using Entry = typename PairTable<Physics>::Entry;
+
+  /// Force of waves, N. It only brakes, and never makes a contact pull.
+  static double waves_of(const Entry& entry, double r_eff, double delta, double delta_max,
+                         double impact_overlap, const double* reversal, double law_force, double vn)
+  {
+    if constexpr (Radiates<typename Physics::Contact>)
+      if (entry.contact.radiation > 0.0) {
+        const double k = entry.contact.branch_stiffness(r_eff, delta, delta_max, impact_overlap, reversal);
+        return std::max(-law_force, -entry.contact.radiation * k * k * vn);
+      }
+    return 0.0;
+  }
 
   // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
   // yielded one on its way back to delta_max, but not when it parts, so that the rebound of a plastic impact

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -58,6 +59,11 @@ class FastCurve
       const double u = part(x);
       return u <= 0.0 ? 0.0 : force_at(u, std::sqrt(u));
     }
+    double stiffness_at(double x) const
+    {
+      const double u = part(x);
+      return u <= 0.0 ? 0.0 : per_range * slope_at(u, std::sqrt(u));
+    }
     /// Given back on complete unloading.
     double work() const { return (0.4 * force[0] + 1.0 / 3.0 * force[1] + 2.0 / 7.0 * force[2]) / per_range; }
 
@@ -80,6 +86,16 @@ class FastCurve
       return far_loading(x, impact_overlap).force;
     const double slow = at(x).force();
     return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
+  }
+  double loading_stiffness(double x, double impact_overlap = 0) const
+  {
+    if (!in_table(x)) [[unlikely]]
+      return far_loading(x, impact_overlap).stiffness;
+    const Place p = at(x);
+    const double slow = p.i.loading.first_slope(p.t);
+    if (!corrected(impact_overlap)) return slow;
+    const VelocityAxis::ForceCorrection a = axis_.force(x, impact_overlap);
+    return slow * (1.0 + a.value) + p.force() * a.slope;
   }
   Reversal reversal(double x_max, double impact_overlap = 0) const
   {
