@@ -67,21 +67,18 @@ struct MpmContact
     const double x = delta * per_length, x_max = delta_max * per_length;
     const double scale = force_scale * r_eff * r_eff;
     if (!curve->unloads(x, x_max)) return scale * curve->loading_force(x, impact_overlap);
-    if (kept[0] != x_max) [[unlikely]] {
-      const Reversal reversal = curve->reversal(x_max, impact_overlap);
-      std::memcpy(kept, &reversal, sizeof reversal);
-    }
-    return scale * reversal_in(kept).force_at(x);
+    return scale * reversal(x_max, impact_overlap, kept).force_at(x);
   }
-  /// K of the waves, at the state that force() was asked for last.
-  double branch_stiffness(double r_eff, double delta, double delta_max, double impact_overlap,
-                          const double* kept) const
+  /// force(), to the bit, and dF/d(delta) of the branch.
+  Response response(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
   {
     const double per_length = per_lambda / r_eff;
     const double x = delta * per_length, x_max = delta_max * per_length;
-    const double scale = force_scale * r_eff * r_eff * per_length;
-    if (!curve->unloads(x, x_max)) return scale * curve->loading_stiffness(x, impact_overlap);
-    return scale * reversal_in(kept).stiffness_at(x);
+    const double scale = force_scale * r_eff * r_eff;
+    const FastCurve::Response now = curve->unloads(x, x_max)
+                                        ? reversal(x_max, impact_overlap, kept).response_at(x)
+                                        : curve->loading_response(x, impact_overlap);
+    return {scale * now.force, scale * per_length * now.stiffness};
   }
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
@@ -109,8 +106,13 @@ struct MpmContact
   }
 
  private:
-  static Reversal reversal_in(const double* kept)
+  /// The reversal at x_max, out of `kept` where that holds it, and kept there else.
+  Reversal reversal(double x_max, double impact_overlap, double* kept) const
   {
+    if (kept[0] != x_max) [[unlikely]] {
+      const Reversal reversal = curve->reversal(x_max, impact_overlap);
+      std::memcpy(kept, &reversal, sizeof reversal);
+    }
     std::array<double, reversal_values> values;
     std::copy_n(kept, reversal_values, values.begin());
     return std::bit_cast<Reversal>(values);

@@ -75,15 +75,21 @@ concept LatchesImpact = requires(const Law law, double r_eff, double m_eff, doub
   { law.impact_overlap(r_eff, m_eff, speed) } -> std::same_as<double>;
 };
 
+/// What a contact answers with.
+struct Response
+{
+  double force = 0, stiffness = 0;  ///< N, N/m
+};
+
 /// A law that lets waves take a part: they act as a dashpot F_waves = C K^2 v, v the approach speed, K the law's own
 /// stiffness (law/radiation.hpp).
 template <class Law>
 concept Radiates = requires(const Law law, double r_eff, double delta, double delta_max, double impact_overlap,
-                            const double* kept) {
+                            double* kept) {
   /// C, s^3/kg, stretched; 0: none, and K is not asked for.
   { law.radiation } -> std::convertible_to<double>;
-  /// K, N/m: dF/d(delta) of the branch that force() just followed with the same arguments.
-  { law.branch_stiffness(r_eff, delta, delta_max, impact_overlap, kept) } -> std::same_as<double>;
+  /// force() and K, N/m: dF/d(delta) of the branch that it follows.
+  { law.response(r_eff, delta, delta_max, impact_overlap, kept) } -> std::same_as<Response>;
 };
 
 /// A model with several laws for one pair of types, by the ratio of the particles' radii.

@@ -43,7 +43,7 @@ class PairTable
   // What every step reads comes first.
   struct alignas(64) Entry
   {
-    LawsBySize* by_size = nullptr;    // null: one law for particles of all sizes
+    LawsBySize* by_size = nullptr;    // null: no pair of types has several laws
     double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
     double tangential = 0.0;          // k_t over the contact radius: 8 G* (Mindlin), stretched
     double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
@@ -55,7 +55,7 @@ class PairTable
         0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
   };
 
-  /// The laws of a pair of types that has several, an entry for each.
+  /// The laws of a pair of types by size, an entry for each.
   struct LawsBySize
   {
     SizeChoice choice;
@@ -72,8 +72,13 @@ class PairTable
   const Entry& of(int itype, int jtype, double radius_i, double radius_j) const
   {
     const Entry& entry = at(itype, jtype);
-    return entry.by_size ? entry.by_size->of(radius_i, radius_j) : entry;
+    return chooses_ ? entry.by_size->of(radius_i, radius_j) : entry;
   }
+
+  /// True if waves take a part of the contacts of any pair. One answer for all, as a contact loop cannot
+  /// foresee which types meet next: asked of each pair, it would be wrong once in three contacts of two mixed
+  /// types.
+  bool radiates() const { return radiates_; }
 
   Entry& at(int itype, int jtype) { return entries_[static_cast<std::size_t>(itype * stride_ + jtype)]; }
   const Entry& at(int itype, int jtype) const
@@ -103,18 +108,17 @@ class PairTable
                    damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
         });
       }
+    level_choices();
+    radiates_ = any_contact([](const Contact& contact) {
+      if constexpr (Radiates<Contact>) return contact.radiation > 0.0;
+      return false;
+    });
   }
 
   /// True if the law of any pair asks for the mass of the bodies.
   bool needs_mass() const
   {
-    const auto asks = [](const Entry& entry) {
-      return entry.largest_overlap >= 0.0 && entry.contact.needs_mass();
-    };
-    return std::any_of(entries_.begin(), entries_.end(), asks) ||
-           std::any_of(by_size_.begin(), by_size_.end(), [&](const auto& laws) {
-             return std::any_of(laws->entries.begin(), laws->entries.end(), asks);
-           });
+    return any_contact([](const Contact& contact) { return contact.needs_mass(); });
   }
 
   /// Finds each pair of types its line in the statistics, and writes there what the law says about it.
@@ -174,6 +178,34 @@ class PairTable
     if (entries.size() == 1) return;
     by_size_.push_back(std::make_unique<LawsBySize>(choice, std::move(entries)));
     at(i, j).by_size = by_size_.back().get();
+  }
+
+  /// If one pair of types has several laws, the others choose among their one in the same way.
+  void level_choices()
+  {
+    chooses_ = !by_size_.empty();
+    if (!chooses_) return;
+    std::size_t laws = 1;
+    for (const auto& pair : by_size_) laws = std::max(laws, pair->entries.size());
+    for (Entry& entry : entries_)
+      if (!entry.by_size) {
+        by_size_.push_back(
+            std::make_unique<LawsBySize>(SizeChoice(ShareOf::smaller, {0.5}), std::vector{entry}));
+        entry.by_size = by_size_.back().get();
+      }
+    for (const auto& pair : by_size_) pair->choice.compare_as_many(laws);
+  }
+
+  /// Whether `holds` of the law of any pair.
+  bool any_contact(const auto& holds) const
+  {
+    const auto of_entry = [&](const Entry& entry) {
+      return entry.largest_overlap >= 0.0 && holds(entry.contact);
+    };
+    return std::any_of(entries_.begin(), entries_.end(), of_entry) ||
+           std::any_of(by_size_.begin(), by_size_.end(), [&](const auto& laws) {
+             return std::any_of(laws->entries.begin(), laws->entries.end(), of_entry);
+           });
   }
 
   /// Each entry of the pair of types, at(i, j) among them.
@@ -258,6 +290,7 @@ class PairTable
 
   std::vector<Entry> entries_;
   std::vector<std::unique_ptr<LawsBySize>> by_size_;
+  bool chooses_ = false, radiates_ = false;
   int stride_ = 0;
 };
 

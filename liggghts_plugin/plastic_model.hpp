@@ -116,9 +116,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if constexpr (keeps_reversals)
       if (update->ntimestep == first_step_) [[unlikely]]
         reversal[0] = 0.0;  // what a restart brings may be of another law
-    const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap, reversal);
-    const double waves_force =
-        waves_of(entry, r_eff, delta, delta_max, impact_overlap, reversal, law_force, sidata.vn);
+    const auto [law_force, waves_force] =
+        normal_forces(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
     const double root = std::sqrt(r_eff * delta);
     const double radius =
         tangential_.computed ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
@@ -128,7 +127,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     // below the residual overlap of a dent nothing touches, and nothing is damped
     const double normal_force =
         law_force > 0.0 ? std::max(0.0, (law_force + waves_force) - sidata.gamman * sidata.vn) : 0.0;
-    if (waves_force != 0.0) counts_.radiate(sidata, entry, waves_force, normal_force);
+    if (pairs_.radiates()) counts_.radiate(sidata, entry, waves_force, normal_force);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
       counts_.deepen(sidata, entry, r_eff, impact_overlap, delta_max);
@@ -190,16 +189,20 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
 
   using Entry = typename PairTable<Physics>::Entry;
 
-  /// Force of waves, N. It only brakes, and never makes a contact pull.
-  static double waves_of(const Entry& entry, double r_eff, double delta, double delta_max,
-                         double impact_overlap, const double* reversal, double law_force, double vn)
+  struct NormalForces
+  {
+    double law, waves = 0.0;  ///< N
+  };
+  /// The law's force, and that of waves: it only brakes, and never makes a contact pull.
+  NormalForces normal_forces(const typename Physics::Contact& contact, double r_eff, double delta,
+                             double delta_max, double impact_overlap, double* reversal, double vn) const
   {
     if constexpr (Radiates<typename Physics::Contact>)
-      if (entry.contact.radiation > 0.0) {
-        const double k = entry.contact.branch_stiffness(r_eff, delta, delta_max, impact_overlap, reversal);
-        return std::max(-law_force, -entry.contact.radiation * k * k * vn);
+      if (pairs_.radiates()) {
+        const auto [force, k] = contact.response(r_eff, delta, delta_max, impact_overlap, reversal);
+        return {force, std::max(-force, -contact.radiation * k * k * vn)};
       }
-    return 0.0;
+    return {contact.force(r_eff, delta, delta_max, impact_overlap, reversal)};
   }
 
   // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -24,20 +25,25 @@ class SizeChoice
 {
  public:
   /// `shares`: of the laws, ascending, at least one.
-  SizeChoice(ShareOf whose, std::vector<double> shares) : whose_(whose), shares_(std::move(shares))
+  SizeChoice(ShareOf whose, std::vector<double> shares)
+      : whose_(whose),
+        shares_(std::move(shares)),
+        weight_i_(whose == ShareOf::j ? infinity : 1.0),
+        weight_j_(whose == ShareOf::i ? infinity : 1.0)
   {
-    for (std::size_t k = 1; k < shares_.size(); ++k) bounds_.push_back(0.5 * (shares_[k - 1] + shares_[k]));
+    for (std::size_t k = 1; k < count(); ++k) bounds_.push_back(0.5 * (shares_[k - 1] + shares_[k]));
   }
 
   std::size_t count() const { return shares_.size(); }
+  /// Bounds that no share passes, so that all pairs of a deck compare equally often: else a contact loop
+  /// would stumble over the one pair with another count.
+  void compare_as_many(std::size_t laws) { bounds_.resize(laws - 1, infinity); }
 
-  /// Index of the law of particles with these radii. Called for each contact: no branch on the sizes.
+  /// Index of the law of particles with these radii. Called for each contact: without a branch on sizes or
+  /// types.
   std::size_t nearest(double radius_i, double radius_j) const
   {
-    const double sum = radius_i + radius_j;
-    const double own = whose_ == ShareOf::i   ? radius_i
-                       : whose_ == ShareOf::j ? radius_j
-                                              : std::min(radius_i, radius_j);
+    const double sum = radius_i + radius_j, own = std::min(weight_i_ * radius_i, weight_j_ * radius_j);
     std::size_t k = 0;
     for (const double bound : bounds_) k += static_cast<std::size_t>(own > bound * sum);
     return k;
@@ -86,11 +92,14 @@ class SizeChoice
   }
   double upper(std::size_t k, const Range& range) const
   {
-    return k == bounds_.size() ? range.largest : std::min(range.largest, bounds_[k]);
+    return k + 1 == count() ? range.largest : std::min(range.largest, bounds_[k]);
   }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   ShareOf whose_;
   std::vector<double> shares_, bounds_;  // a bound lies half-way between two laws
+  double weight_i_, weight_j_;           // 1, or infinity where that radius is not the one that counts
 };
 
 }  // namespace granulaw::plugin

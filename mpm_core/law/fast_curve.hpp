@@ -46,6 +46,12 @@ class FastCurve
     return unloads(x, x_max) ? reversal(x_max, impact_overlap).force_at(x) : loading_force(x, impact_overlap);
   }
 
+  /// Force and its derivative by x.
+  struct Response
+  {
+    double force = 0, stiffness = 0;
+  };
+
   /// A reversal at x_max: all that un- and reloading below it takes, worked out once. A contact that keeps it
   /// needs no table for its force until it loads further. In the curve's units.
   struct Reversal
@@ -59,10 +65,12 @@ class FastCurve
       const double u = part(x);
       return u <= 0.0 ? 0.0 : force_at(u, std::sqrt(u));
     }
-    double stiffness_at(double x) const
+    Response response_at(double x) const
     {
       const double u = part(x);
-      return u <= 0.0 ? 0.0 : per_range * slope_at(u, std::sqrt(u));
+      if (u <= 0.0) return {};
+      const double root = std::sqrt(u);
+      return {force_at(u, root), per_range * slope_at(u, root)};
     }
     /// Given back on complete unloading.
     double work() const { return (0.4 * force[0] + 1.0 / 3.0 * force[1] + 2.0 / 7.0 * force[2]) / per_range; }
@@ -87,15 +95,17 @@ class FastCurve
     const double slow = at(x).force();
     return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
   }
-  double loading_stiffness(double x, double impact_overlap = 0) const
+  Response loading_response(double x, double impact_overlap = 0) const
   {
-    if (!in_table(x)) [[unlikely]]
-      return far_loading(x, impact_overlap).stiffness;
+    if (!in_table(x)) [[unlikely]] {
+      const ContactCurve::Loading far = far_loading(x, impact_overlap);
+      return {far.force, far.stiffness};
+    }
     const Place p = at(x);
-    const double slow = p.i.loading.first_slope(p.t);
-    if (!corrected(impact_overlap)) return slow;
+    const double slow = p.force(), slope = p.i.loading.first_slope(p.t);
+    if (!corrected(impact_overlap)) return {slow, slope};
     const VelocityAxis::ForceCorrection a = axis_.force(x, impact_overlap);
-    return slow * (1.0 + a.value) + p.force() * a.slope;
+    return {slow * (1.0 + a.value), slope * (1.0 + a.value) + slow * a.slope};
   }
   Reversal reversal(double x_max, double impact_overlap = 0) const
   {

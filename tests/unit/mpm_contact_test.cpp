@@ -38,22 +38,21 @@ class Waves : public ::testing::Test
     double kept[MpmContact::reversal_values] = {};
     const double r = r_eff / units.length, delta = stretch * s.delta / units.length,
                  delta_max = stretch * s.delta_max / units.length;
-    c.force(r, delta, delta_max, s.impact_overlap, kept);
-    const double k = c.branch_stiffness(r, delta, delta_max, s.impact_overlap, kept);
+    const double k = c.response(r, delta, delta_max, s.impact_overlap, kept).stiffness;
     return c.radiation * k * k * (speed / units.length) * units.mass * units.length;
   }
 };
 
-TEST_F(Waves, StiffnessIsThatOfTheBranch)
+TEST_F(Waves, ForceAndStiffnessAreThoseOfTheBranch)
 {
   const MpmContact c = contact(1, {});
   for (const State& s : states) {
     double kept[MpmContact::reversal_values] = {};
-    c.force(r_eff, s.delta, s.delta_max, s.impact_overlap, kept);
+    const Response found = c.response(r_eff, s.delta, s.delta_max, s.impact_overlap, kept);
     const double expected =
         curve.evaluate(pair.mapping, r_eff, s.delta, s.delta_max, s.impact_overlap).stiffness;
-    EXPECT_NEAR(c.branch_stiffness(r_eff, s.delta, s.delta_max, s.impact_overlap, kept), expected,
-                1e-12 * expected);
+    EXPECT_NEAR(found.stiffness, expected, 1e-12 * expected);
+    EXPECT_EQ(found.force, c.force(r_eff, s.delta, s.delta_max, s.impact_overlap, kept));
   }
 }
 
