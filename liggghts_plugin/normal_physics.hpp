@@ -86,7 +86,7 @@ struct Response
 template <class Law>
 concept Radiates = requires(const Law law, double r_eff, double delta, double delta_max, double impact_overlap,
                             double* kept) {
-  /// C, s^3/kg, stretched; 0: none, and K is not asked for.
+  /// C, s^3/kg, stretched; 0: none. Where no pair of types has one, K is not asked for.
   { law.radiation } -> std::convertible_to<double>;
   /// force() and K, N/m: dF/d(delta) of the branch that it follows.
   { law.response(r_eff, delta, delta_max, impact_overlap, kept) } -> std::same_as<Response>;

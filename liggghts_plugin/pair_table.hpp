@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -38,53 +36,32 @@ class PairTable
  public:
   using Contact = typename Physics::Contact;
 
-  struct LawsBySize;
-
   // What every step reads comes first.
   struct alignas(64) Entry
   {
-    LawsBySize* by_size = nullptr;    // null: no pair of types has several laws
     double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
     double tangential = 0.0;          // k_t over the contact radius: 8 G* (Mindlin), stretched
     double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
     double tangential_damping = 0.0;  // Mindlin's, over the same
     double yield_overlap = 0.0;       // over R*
-    Contact contact;
     ContactStatistics::Pair* counts = nullptr;  // this pair of types in the contact statistics
+    Contact contact;
     double damage_number_per_speed2 =
         0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
-  };
-
-  /// The laws of a pair of types by size, an entry for each.
-  struct LawsBySize
-  {
-    SizeChoice choice;
-    std::vector<Entry> entries;
-
-    const Entry& of(double radius_i, double radius_j) const
-    {
-      return entries[choice.nearest(radius_i, radius_j)];
-    }
   };
 
   /// The law of a contact: one for as long as it lasts, as radii do not change. At a wall radius_j is not
   /// looked at.
   const Entry& of(int itype, int jtype, double radius_i, double radius_j) const
   {
-    const Entry& entry = at(itype, jtype);
-    return chooses_ ? entry.by_size->of(radius_i, radius_j) : entry;
+    const std::size_t pair = pair_of(itype, jtype);
+    if (laws_ == 1) return entries_[pair];
+    return entries_[pair * laws_ + finders_[pair].nearest(radius_i, radius_j)];
   }
 
   /// True if waves take a part of the contacts of any pair. One answer for all, as a contact loop cannot
-  /// foresee which types meet next: asked of each pair, it would be wrong once in three contacts of two mixed
-  /// types.
+  /// foresee which types meet next.
   bool radiates() const { return radiates_; }
-
-  Entry& at(int itype, int jtype) { return entries_[static_cast<std::size_t>(itype * stride_ + jtype)]; }
-  const Entry& at(int itype, int jtype) const
-  {
-    return entries_[static_cast<std::size_t>(itype * stride_ + jtype)];
-  }
 
   /// `damping_ratio`: of each pair of types, at [i * (count + 1) + j].
   void resolve(const Physics& physics, const Setup& setup, const Types& types, const ParticleSizes& sizes,
@@ -92,8 +69,8 @@ class PairTable
   {
     const bool is_wall = setup.wall != nullptr;
     stride_ = types.count + 1;
-    entries_.assign(static_cast<std::size_t>(stride_ * stride_), Entry{});
-    by_size_.clear();
+    find_choices(physics, setup, types.count, sizes);
+    entries_.assign(choices_.size() * laws_, Entry{});
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
         if (std::isnan(types.youngs_modulus[i]) || std::isnan(types.youngs_modulus[j])) continue;
@@ -108,7 +85,6 @@ class PairTable
                    damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
         });
       }
-    level_choices();
     radiates_ = any_contact([](const Contact& contact) {
       if constexpr (Radiates<Contact>) return contact.radiation > 0.0;
       return false;
@@ -128,7 +104,7 @@ class PairTable
     const bool is_wall = setup.wall != nullptr;
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
-        const Entry& usual = at(i, j);
+        const Entry& usual = usual_entry(i, j);
         if (usual.largest_overlap < 0) continue;
         const PairKey key = pair_key(setup, i, j);
         ContactStatistics::Pair& counts = setup.session->statistics.pairs[key];
@@ -149,82 +125,78 @@ class PairTable
   }
 
  private:
+  /// How contacts of each pair of types choose among its laws.
+  void find_choices(const Physics& physics, const Setup& setup, int count, const ParticleSizes& sizes)
+  {
+    const SizeChoice one_law(ShareOf::smaller, {0.5});
+    choices_.assign(static_cast<std::size_t>(stride_ * stride_), one_law);
+    if constexpr (HasLawsBySize<Physics>)
+      if (!setup.wall)
+        for (int i = 1; i <= count; ++i)
+          for (int j = 1; j <= count; ++j) choices_[pair_of(i, j)] = physics.laws_by_size(i, j);
+    finders_.assign(choices_.size(), LawFinder{});
+    laws_ = 1;
+    for (int i = 1; i <= count; ++i)
+      for (int j = 1; j <= count; ++j) {
+        const SizeChoice& choice = choices_[pair_of(i, j)];
+        laws_ = std::max(laws_, choice.count());
+        finders_[pair_of(i, j)] = choice.finder(choice.usual(sizes.of_type(i), sizes.of_type(j)));
+      }
+  }
+
   /// Finds the law or laws of types i and j.
   void resolve_types(const Physics& physics, const Setup& setup, const ParticleSizes& sizes, int i, int j)
   {
     const bool rigid = setup.wall && !setup.options.deformable_wall;
+    Entry* entries = first_entry(i, j);
     if constexpr (!HasLawsBySize<Physics>)
-      at(i, j).contact = physics.resolve(i, j, rigid, setup.where);
+      entries[0].contact = physics.resolve(i, j, rigid, setup.where);
     else if (setup.wall)
-      at(i, j).contact =
+      entries[0].contact =
           physics.resolve(i, j, rigid, setup.where, 1.0, std::numeric_limits<double>::infinity());
-    else
-      resolve_by_size(physics, setup, sizes.of_type(i), sizes.of_type(j), i, j);
-  }
-
-  /// at(i, j) becomes one that particles of these sizes follow.
-  void resolve_by_size(const Physics& physics, const Setup& setup, const Radii& radii_i, const Radii& radii_j,
-                       int i, int j)
-  {
-    const SizeChoice choice = physics.laws_by_size(i, j);
-    std::vector<Entry> entries(choice.count());
-    std::size_t usual = choice.nearest(1.0, 1.0);
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      const auto [radius_i, radius_j] = choice.radii_of(k, radii_i, radii_j);
-      entries[k].contact = physics.resolve(i, j, false, setup.where, radius_i, radius_j);
-      if (choice.serves(k, radii_i, radii_j)) usual = k;
-    }
-    at(i, j) = entries[usual];
-    if (entries.size() == 1) return;
-    by_size_.push_back(std::make_unique<LawsBySize>(choice, std::move(entries)));
-    at(i, j).by_size = by_size_.back().get();
-  }
-
-  /// If one pair of types has several laws, the others choose among their one in the same way.
-  void level_choices()
-  {
-    chooses_ = !by_size_.empty();
-    if (!chooses_) return;
-    std::size_t laws = 1;
-    for (const auto& pair : by_size_) laws = std::max(laws, pair->entries.size());
-    for (Entry& entry : entries_)
-      if (!entry.by_size) {
-        by_size_.push_back(
-            std::make_unique<LawsBySize>(SizeChoice(ShareOf::smaller, {0.5}), std::vector{entry}));
-        entry.by_size = by_size_.back().get();
+    else {
+      const SizeChoice& choice = choices_[pair_of(i, j)];
+      for (std::size_t k = 0; k < choice.count(); ++k) {
+        const auto [radius_i, radius_j] = choice.radii_of(k, sizes.of_type(i), sizes.of_type(j));
+        entries[k].contact = physics.resolve(i, j, rigid, setup.where, radius_i, radius_j);
       }
-    for (const auto& pair : by_size_) pair->choice.compare_as_many(laws);
+    }
   }
+
+  std::size_t pair_of(int itype, int jtype) const
+  {
+    return static_cast<std::size_t>(itype * stride_ + jtype);
+  }
+  Entry* first_entry(int i, int j) { return &entries_[pair_of(i, j) * laws_]; }
+  const Entry* first_entry(int i, int j) const { return &entries_[pair_of(i, j) * laws_]; }
+
+  /// An entry that particles of the known sizes follow.
+  const Entry& usual_entry(int i, int j) const { return first_entry(i, j)[finders_[pair_of(i, j)].usual]; }
 
   /// Whether `holds` of the law of any pair.
   bool any_contact(const auto& holds) const
   {
-    const auto of_entry = [&](const Entry& entry) {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
       return entry.largest_overlap >= 0.0 && holds(entry.contact);
-    };
-    return std::any_of(entries_.begin(), entries_.end(), of_entry) ||
-           std::any_of(by_size_.begin(), by_size_.end(), [&](const auto& laws) {
-             return std::any_of(laws->entries.begin(), laws->entries.end(), of_entry);
-           });
+    });
   }
 
-  /// Each entry of the pair of types, at(i, j) among them.
+  /// Each entry of the pair of types.
   template <class Visit>
   void each_entry(int i, int j, Visit&& visit)
   {
-    visit(at(i, j));
-    if (at(i, j).by_size)
-      for (Entry& entry : at(i, j).by_size->entries) visit(entry);
+    for (std::size_t k = 0; k < choices_[pair_of(i, j)].count(); ++k) visit(first_entry(i, j)[k]);
   }
-  /// at(i, j), and each other that particles of the known sizes follow.
+  /// The usual one, and each other that particles of the known sizes follow.
   template <class Visit>
   void each_entry_in_use(int i, int j, const ParticleSizes& sizes, Visit&& visit) const
   {
-    visit(at(i, j));
-    const LawsBySize* laws = at(i, j).by_size;
-    if (!laws) return;
-    for (std::size_t k = 0; k < laws->entries.size(); ++k)
-      if (laws->choice.serves(k, sizes.of_type(i), sizes.of_type(j))) visit(laws->entries[k]);
+    const Entry& usual = usual_entry(i, j);
+    const SizeChoice& choice = choices_[pair_of(i, j)];
+    for (std::size_t k = 0; k < choice.count(); ++k) {
+      const Entry& entry = first_entry(i, j)[k];
+      if (&entry == &usual || choice.serves(k, sizes.of_type(i), sizes.of_type(j))) visit(entry);
+    }
   }
 
   /// R* and m* of the smallest particles that can meet; 0: none is known.
@@ -288,9 +260,11 @@ class PairTable
                     std::pow(stretch, -1.25);
   }
 
-  std::vector<Entry> entries_;
-  std::vector<std::unique_ptr<LawsBySize>> by_size_;
-  bool chooses_ = false, radiates_ = false;
+  std::vector<Entry> entries_;  // laws_ for each pair of types; a pair with fewer leaves the last ones empty
+  std::vector<SizeChoice> choices_;  // of each pair
+  std::vector<LawFinder> finders_;   // of each pair
+  std::size_t laws_ = 1;
+  bool radiates_ = false;
   int stride_ = 0;
 };
 

@@ -19,34 +19,60 @@ struct Radii
 /// Body of a pair of types i, j whose share R/(R_i + R_j) of the radii tells the pair's laws apart.
 enum class ShareOf { i, j, smaller };
 
+/// How a contact finds its law by the two radii, as a contact loop reads it.
+///
+/// Where each type has one size, the answer is the usual law each time: a processor foresees that, and need
+/// not wait for the comparison.
+struct LawFinder
+{
+  double weight_i = 1.0, weight_j = 1.0;  ///< infinity: that radius does not count
+  double least = -1.0, largest = std::numeric_limits<double>::infinity();  ///< shares of the usual law
+  std::size_t usual = 0;
+  const std::vector<double>* bounds = nullptr;  ///< between the laws' shares
+
+  std::size_t nearest(double radius_i, double radius_j) const
+  {
+    const double sum = radius_i + radius_j, own = std::min(weight_i * radius_i, weight_j * radius_j);
+    if ((own > least * sum) & !(own > largest * sum)) [[likely]]
+      return usual;
+    std::size_t k = 0;
+    for (const double bound : *bounds) k += static_cast<std::size_t>(own > bound * sum);
+    return k;
+  }
+};
+
 /// The laws of a pair of types by size, and which of them a contact follows: the one whose share is nearest
 /// to the share of the two particles. i and j may change places: the same law is found, to the bit.
 class SizeChoice
 {
  public:
   /// `shares`: of the laws, ascending, at least one.
-  SizeChoice(ShareOf whose, std::vector<double> shares)
-      : whose_(whose),
-        shares_(std::move(shares)),
-        weight_i_(whose == ShareOf::j ? infinity : 1.0),
-        weight_j_(whose == ShareOf::i ? infinity : 1.0)
+  SizeChoice(ShareOf whose, std::vector<double> shares) : whose_(whose), shares_(std::move(shares))
   {
     for (std::size_t k = 1; k < count(); ++k) bounds_.push_back(0.5 * (shares_[k - 1] + shares_[k]));
   }
 
   std::size_t count() const { return shares_.size(); }
-  /// Bounds that no share passes, so that all pairs of a deck compare equally often: else a contact loop
-  /// would stumble over the one pair with another count.
-  void compare_as_many(std::size_t laws) { bounds_.resize(laws - 1, infinity); }
 
-  /// Index of the law of particles with these radii. Called for each contact: without a branch on sizes or
-  /// types.
-  std::size_t nearest(double radius_i, double radius_j) const
+  /// The finder, which keeps a pointer to this; `usual`: the law that most contacts follow.
+  LawFinder finder(std::size_t usual) const
   {
-    const double sum = radius_i + radius_j, own = std::min(weight_i_ * radius_i, weight_j_ * radius_j);
-    std::size_t k = 0;
-    for (const double bound : bounds_) k += static_cast<std::size_t>(own > bound * sum);
-    return k;
+    LawFinder finder;
+    if (whose_ == ShareOf::j) finder.weight_i = std::numeric_limits<double>::infinity();
+    if (whose_ == ShareOf::i) finder.weight_j = std::numeric_limits<double>::infinity();
+    if (usual > 0) finder.least = bounds_[usual - 1];
+    if (usual + 1 < count()) finder.largest = bounds_[usual];
+    finder.usual = usual;
+    finder.bounds = &bounds_;
+    return finder;
+  }
+  /// A law that serves particles of these types; where there is none known, that for like sizes.
+  std::size_t usual(const Radii& i, const Radii& j) const
+  {
+    std::size_t usual = finder(0).nearest(1.0, 1.0);
+    for (std::size_t k = 0; k < count(); ++k)
+      if (serves(k, i, j)) usual = k;
+    return usual;
   }
 
   /// Shares that particles of these types have.
@@ -95,11 +121,8 @@ class SizeChoice
     return k + 1 == count() ? range.largest : std::min(range.largest, bounds_[k]);
   }
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   ShareOf whose_;
   std::vector<double> shares_, bounds_;  // a bound lies half-way between two laws
-  double weight_i_, weight_j_;           // 1, or infinity where that radius is not the one that counts
 };
 
 }  // namespace granulaw::plugin

@@ -25,8 +25,9 @@ TEST(SizeChoice, IsTheNearestShare)
   std::uniform_real_distribution<double> log_ratio(-4.0, 6.0);
   for (int n = 0; n < 10000; ++n) {
     const double ratio = std::exp(log_ratio(random)), share = 1 / (1 + ratio);
-    EXPECT_EQ(of_i.nearest(1e-3, 1e-3 * ratio), nearest_by_search(share)) << ratio;
-    EXPECT_EQ(of_smaller.nearest(1e-3, 1e-3 * ratio), nearest_by_search(std::min(share, 1 - share))) << ratio;
+    EXPECT_EQ(of_i.finder(1).nearest(1e-3, 1e-3 * ratio), nearest_by_search(share)) << ratio;
+    EXPECT_EQ(of_smaller.finder(1).nearest(1e-3, 1e-3 * ratio), nearest_by_search(std::min(share, 1 - share)))
+        << ratio;
   }
 }
 
@@ -38,8 +39,8 @@ TEST(SizeChoice, ParticlesMayChangePlaces)
   for (int n = 0; n < 10000; ++n) {
     // half of them within rounding of a bound: radii 7:1 have the share half-way between 0 and 0.25
     const double a = radius(random), b = n % 2 ? radius(random) : a * (0.825 / 0.175);
-    EXPECT_EQ(of_i.nearest(a, b), of_j.nearest(b, a));
-    EXPECT_EQ(of_smaller.nearest(a, b), of_smaller.nearest(b, a));
+    EXPECT_EQ(of_i.finder(1).nearest(a, b), of_j.finder(1).nearest(b, a));
+    EXPECT_EQ(of_smaller.finder(1).nearest(a, b), of_smaller.finder(1).nearest(b, a));
   }
   for (const Radii& other : {Radii{1e-3, 1e-3}, Radii{2e-3, 7e-3}})
     for (std::size_t k = 0; k < shares.size(); ++k) {
@@ -56,7 +57,7 @@ TEST(SizeChoice, OneSizeOfEachTypeIsResolvedAtItsOwnRadii)
 {
   const SizeChoice choice(ShareOf::j, shares);
   const Radii i{4e-3, 4e-3}, j{1e-3, 1e-3};
-  const std::size_t k = choice.nearest(4e-3, 1e-3);
+  const std::size_t k = choice.finder(1).nearest(4e-3, 1e-3);
   EXPECT_EQ(k, 2u);  // share 0.2
   for (std::size_t other = 0; other < choice.count(); ++other)
     EXPECT_EQ(choice.serves(other, i, j), other == k);
