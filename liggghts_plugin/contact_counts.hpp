@@ -72,6 +72,22 @@ class ContactCounts
     }
   }
 
+  /// Books what waves take in a step: their force times the approach in the middle of it. Of that the
+  /// velocities are half a step behind; `normal_force`, all that acts along the normal, takes them there,
+  /// exactly where nothing else touches the two bodies. Work that this misses stands with the other forces,
+  /// which are measured, waves among them.
+  void radiate(const SurfacesIntersectData& contact, const Entry& entry, double waves_force,
+               double normal_force) const
+  {
+    if (!contact.computeflag || !contact.shearupdate) return;
+    const double dt = lmp_->update->dt;
+    const double taken =
+        weight(contact) * waves_force * dt * (-contact.vn - 0.5 * dt * normal_force / contact.meff);
+    entry.counts->waves += taken;
+    if (energy_) [[unlikely]]
+      entry.counts->other_work -= taken;
+  }
+
   /// A contact that ended stays in the histogram, at its largest overlap.
   void forget_speed(double* history) const
   {

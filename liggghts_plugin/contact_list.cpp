@@ -6,7 +6,6 @@
 #include <cstring>
 #include <vector>
 
-#include "law/pair.hpp"
 #include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/session.hpp"
 
@@ -86,8 +85,7 @@ void ContactList::add_pair(int i, int j, double fx, double fy, double fz, double
     rsq += d * d;
   }
   const double r_i = atom->radius[i], r_j = atom->radius[j];
-  fill(
-      {atom->type[i], atom->type[j], granulaw::effective_radius(r_i, r_j), r_i + r_j - std::sqrt(rsq), hist});
+  fill({atom->type[i], atom->type[j], r_i, r_j, r_i + r_j - std::sqrt(rsq), hist});
 }
 
 void ContactList::add_wall_2(int i, double fx, double fy, double fz, double tor1, double tor2, double tor3,
@@ -96,7 +94,8 @@ void ContactList::add_wall_2(int i, double fx, double fy, double fz, double tor1
   const int before = ipair;
   ComputePairGranLocal::add_wall_2(i, fx, fy, fz, tor1, tor2, tor3, hist, rsq, normal);
   if (ipair == before) return;
-  fill({atom->type[i], fixwall->atom_type_wall(), atom->radius[i], atom->radius[i] - std::sqrt(rsq), hist});
+  fill({atom->type[i], fixwall->atom_type_wall(), atom->radius[i], flat, atom->radius[i] - std::sqrt(rsq),
+        hist});
 }
 
 void ContactList::fill(const ContactPlace& contact)

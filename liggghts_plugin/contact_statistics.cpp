@@ -36,7 +36,7 @@ void ContactStatistics::Pair::count_ended()
 ContactStatistics::Pair ContactStatistics::Pair::in_si(const DeckUnits& units) const
 {
   Pair si = *this;
-  for (double* energy : {&si.dissipated, &si.other_work, &si.brought}) *energy *= units.energy();
+  for (double* energy : {&si.dissipated, &si.other_work, &si.waves, &si.brought}) *energy *= units.energy();
   for (double* one : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
     *one *= units.length;
   return si;

@@ -66,7 +66,8 @@ struct ContactStatistics
   struct Pair
   {
     double dissipated = 0;   ///< J: loading work minus recoverable work, from the law's own work functions
-    double other_work = 0;   ///< J, taken by all but the normal law (friction, rolling, ...); energy on only
+    double other_work = 0;   ///< J, taken by all but the normal law and waves; energy on only
+    double waves = 0;        ///< J, taken by waves (law/radiation.hpp)
     double touches = 0;      ///< contacts that began
     double ended = 0;        ///< contacts that ended; known once the open ones are out (count_ended)
     double near = 0;         ///< contacts that came deeper than near_edge of the table
@@ -93,14 +94,15 @@ struct ContactStatistics
     double hardest = 0;  ///< R* delta/m*^2 of the contact that frequency2 is of (this rank's; not reduced)
     PairInfo info;
 
-    static constexpr int sums = 11, maxima = 4, minima = 2;
+    static constexpr int sums = 12, maxima = 4, minima = 2;
     /// The numbers above, first those that add up over ranks, then those of which the largest, the least
     /// counts.
     std::array<double*, sums + maxima + minima> numbers()
     {
-      return {&dissipated,  &other_work,        &touches,    &ended,     &near,       &past,
-              &beyond,      &too_fast,          &too_slow,   &sudden,    &brought,    &speed_max,
-              &overlap_max, &damage_number_max, &frequency2, &speed_min, &overlap_min};
+      return {&dissipated, &other_work, &waves,      &touches,     &ended,
+              &near,       &past,       &beyond,     &too_fast,    &too_slow,
+              &sudden,     &brought,    &speed_max,  &overlap_max, &damage_number_max,
+              &frequency2, &speed_min,  &overlap_min};
     }
     /// Counts a contact in its bin of overlap, with `contactMap on` (touch_speed >= 0) in the map; a negative
     /// weight takes it out. A pair that two ranks see counts half on each, and may have begun on one of them

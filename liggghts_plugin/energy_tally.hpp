@@ -15,7 +15,7 @@ class EnergyTally
 
  public:
   /// Columns of the per-atom property, J: `stored` is the present step's, the others add up since the
-  /// particle was made.
+  /// particle was made. `other_work` holds that of waves, too.
   enum Column : int { stored, dissipated, other_work, columns };
   /// Values of contact history that account() keeps: force and couple of the last step, newton flag "1".
   static constexpr int history_values = 6;
@@ -34,7 +34,7 @@ class EnergyTally
   }
 
   /// Books the work that the contact took from the particles over the last step, but for the normal law's:
-  /// tangential, rolling and cohesive forces, damping. `i_forces`: all that the contact does to i.
+  /// tangential, rolling and cohesive forces, damping, waves. `i_forces`: all that the contact does to i.
   ///
   /// The mean of this step's and the last one's force times the displacement between is the change of the
   /// kinetic energy by it, exactly, where velocity Verlet moves the particles: at this point of a step

@@ -223,7 +223,8 @@ double FixStats::compute_vector(int n)
                                      p.other_work + w.other_work,
                                      p.too_slow + w.too_slow,
                                      p.sudden + w.sudden,
-                                     p.brought + w.brought};
+                                     p.brought + w.brought,
+                                     p.waves + w.waves};
   const bool is_sum = !((n >= 4 && n <= 7) || n == 9 || n == 12);
   double result = 0;
   MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
@@ -242,7 +243,7 @@ double FixStats::compute_array(int row, int column)
     if (row_of_types(key, atom->ntypes) == row) counts.merge(counted);
   const double values[array_columns] = {counts.touches,    counts.ended,     counts.dissipated,
                                         counts.other_work, counts.speed_max, counts.overlap_max,
-                                        counts.sudden};
+                                        counts.sudden,     counts.waves};
   return values[column];
 }
 

@@ -25,18 +25,21 @@ namespace granulaw::plugin {
 ///   12     contacts that came deeper than 90 % of the table
 ///   13     time step allowed by the stiffest contact so far, s (0: no contact yet)
 ///   14     elastic energy that contacts hold now, J (energy on; else 0)
-///   15     work taken by all forces but the normal law's (friction, ...), J (energy on; else 0)
+///   15     work taken by all forces but the normal law's and waves (friction, ...), J (energy on; else 0)
 ///   16     contacts that began slower than the slowest impact of a rate law
 ///   17     contacts that began deeper than one step's motion can bring them (inserted into each other, mesh
-///   edges) 18     elastic energy that those held when they began, J
+///          edges)
+///   18     elastic energy that those held when they began, J
+///   19     energy that waves took, J
 /// Global array: a row for each pair of atom types, then one for each atom type with each wall's
 /// (row_of_types); columns: contacts begun, ended, energy dissipated by them (J), work of the other forces
-/// (J, energy on), largest approach speed (m/s), largest overlap/R*, contacts of f[17]. Per atom with `energy
-/// on`, J: elastic energy now, dissipated by normal contacts, work of the other forces.
+/// (J, energy on), largest approach speed (m/s), largest overlap/R*, contacts of f[17], energy that waves
+/// took (J). Per atom with `energy on`, J: elastic energy now, dissipated by normal contacts, work of the
+/// other forces and waves.
 class FixStats : public LAMMPS_NS::Fix
 {
  public:
-  static constexpr int vector_length = 18, array_columns = 7;
+  static constexpr int vector_length = 19, array_columns = 8;
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 

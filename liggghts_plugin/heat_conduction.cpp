@@ -118,8 +118,7 @@ void FixHeatConduction::conduct(LAMMPS_NS::ComputePairGranLocal* list)
       const double sum = atom->radius[i] + atom->radius[j];
       if (rsq >= sum * sum) continue;
       const double a = contacts
-                           .state({atom->type[i], atom->type[j],
-                                   granulaw::effective_radius(atom->radius[i], atom->radius[j]),
+                           .state({atom->type[i], atom->type[j], atom->radius[i], atom->radius[j],
                                    sum - std::sqrt(rsq), &history.firstdouble[i][dnum * jj]})
                            .contact_radius;
       const double area = M_PI * a * a, k_i = conductivity_[atom->type[i] - 1],

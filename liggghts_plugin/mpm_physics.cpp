@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "liggghts_plugin/liggghts.hpp"
@@ -170,7 +172,25 @@ void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
   }
 }
 
-MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& where) const
+SizeChoice MpmPhysics::laws_by_size(int i, int j) const
+{
+  const std::string &a = material(i), &b = material(j);
+  const bool one_material = a == b;
+  std::vector<double> shares;
+  if (one_material) shares.push_back(0.5);  // the body's own law is exact for like sizes
+  if (const auto* laws = setup_->law->law.find_pair_laws(a, b))
+    for (const TwoBodyLaw& own : *laws) shares.push_back(own.size_share());
+  if (shares.empty()) shares.push_back(0.5);
+  std::sort(shares.begin(), shares.end());
+  shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
+  if (one_material) return {ShareOf::smaller, shares};
+  const BodyLaw *first = body(i), *second = body(j);
+  const bool i_yields = !first || !second || yields_first(first->material, second->material);
+  return {i_yields ? ShareOf::i : ShareOf::j, shares};
+}
+
+MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& where, double radius_i,
+                               double radius_j) const
 {
   const std::string &a = material(i), &b = material(j);
   const double stretch = setup_->options.stretch.value_or(1.0);
@@ -193,7 +213,9 @@ MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& wher
            PairMapping::deformable_partner(yielding->material.e_star(), i_elastic ? e_star_i : e_star_j),
            yielding};
   } else
-    law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here);
+    law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here, radius_i, radius_j);
+  const auto& waves = setup_->options.own_words("waves");
+  if (!waves.empty() && waves[0] == "off") law.radiation = 0.0;
   return {law, setup_->law->curves.at(law.curve), stretch, units_};
 }
 

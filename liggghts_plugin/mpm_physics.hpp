@@ -20,15 +20,20 @@ struct MpmContact
   const FastCurve* curve = nullptr;
   double per_lambda = 0;   // 1/(lambda S), lambda of PairMapping
   double force_scale = 0;  // Hertz force at x = 1 over R*^2 S
+  double radiation = 0;    // C S^3 of the dashpot that stands for waves (law/radiation.hpp), s^3/kg; 0: none
   PairLaw law;             // SI, unstretched: for first touches
   double per_stretch = 1;  // 1/S
   DeckUnits units;
 
   MpmContact() = default;
+  /// A stretched contact moves as the real one, S times as far in S times the time, so its forces are 1/S of
+  /// the real ones. The waves' C K^2 v must be, too: v is the real one and K is 1/S^2 of it, which leaves C
+  /// S^3.
   MpmContact(const PairLaw& pair, const FastCurve& fast_curve, double stretch, const DeckUnits& deck_units)
       : curve(&fast_curve),
         per_lambda(1.0 / (pair.mapping.length(1.0) * stretch)),
         force_scale(pair.mapping.force(1.0) / (deck_units.pressure() * stretch)),
+        radiation(pair.radiation * deck_units.mass * stretch * stretch * stretch),
         law(pair),
         per_stretch(1.0 / stretch),
         units(deck_units)
@@ -62,13 +67,18 @@ struct MpmContact
     const double x = delta * per_length, x_max = delta_max * per_length;
     const double scale = force_scale * r_eff * r_eff;
     if (!curve->unloads(x, x_max)) return scale * curve->loading_force(x, impact_overlap);
-    if (kept[0] != x_max) [[unlikely]] {
-      const Reversal reversal = curve->reversal(x_max, impact_overlap);
-      std::memcpy(kept, &reversal, sizeof reversal);
-    }
-    std::array<double, reversal_values> values;
-    std::copy_n(kept, reversal_values, values.begin());
-    return scale * std::bit_cast<Reversal>(values).force_at(x);
+    return scale * reversal(x_max, impact_overlap, kept).force_at(x);
+  }
+  /// force(), to the bit, and dF/d(delta) of the branch.
+  Response response(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
+  {
+    const double per_length = per_lambda / r_eff;
+    const double x = delta * per_length, x_max = delta_max * per_length;
+    const double scale = force_scale * r_eff * r_eff;
+    const FastCurve::Response now = curve->unloads(x, x_max)
+                                        ? reversal(x_max, impact_overlap, kept).response_at(x)
+                                        : curve->loading_response(x, impact_overlap);
+    return {scale * now.force, scale * per_length * now.stiffness};
   }
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
@@ -94,6 +104,19 @@ struct MpmContact
     return law.yielding->material.density / law.yielding->material.yield_stress / law.mapping.length(1.0) *
            units.length * units.length;
   }
+
+ private:
+  /// The reversal at x_max, out of `kept` where that holds it, and kept there else.
+  Reversal reversal(double x_max, double impact_overlap, double* kept) const
+  {
+    if (kept[0] != x_max) [[unlikely]] {
+      const Reversal reversal = curve->reversal(x_max, impact_overlap);
+      std::memcpy(kept, &reversal, sizeof reversal);
+    }
+    std::array<double, reversal_values> values;
+    std::copy_n(kept, reversal_values, values.begin());
+    return std::bit_cast<Reversal>(values);
+  }
 };
 
 /// Material name of types that follow plain Hertz with the deck's moduli and need no law.
@@ -109,6 +132,7 @@ class MpmPhysics
       Keyword{.name = "law"},  // FILE; a wall that does not say it takes the pair style's
       Keyword{.name = "materials", .list = "one name for each atom type"},  // type 1 first
       beyond_range,
+      Keyword{.name = "waves", .words = {"on", "off"}},  // whether composed laws radiate (PairLaw::radiation)
   };
   static constexpr bool latches_impact = true;
   using Contact = MpmContact;
@@ -116,7 +140,10 @@ class MpmPhysics
   static void read_keywords(LAMMPS_NS::LAMMPS* lmp, Setup& setup);
   void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
 
-  Contact resolve(int i, int j, bool rigid, const std::string& where) const;
+  /// The law for particles of these radii, over any length; infinity: a wall. Without them: of like size.
+  Contact resolve(int i, int j, bool rigid, const std::string& where, double radius_i = 1.0,
+                  double radius_j = 1.0) const;
+  SizeChoice laws_by_size(int i, int j) const;
   /// A rate-dependent body has one radius: the rate is the speed over it.
   void check_sizes(int i, int j, bool is_wall, const Contact& contact, const ParticleSizes& sizes) const;
   PairInfo describe(const Contact& contact, const PairKey& key) const;

@@ -7,6 +7,7 @@
 #include "liggghts_plugin/contact_statistics.hpp"
 #include "liggghts_plugin/model_info.hpp"
 #include "liggghts_plugin/particle_sizes.hpp"
+#include "liggghts_plugin/size_choice.hpp"
 #include "liggghts_plugin/types.hpp"
 
 // What a normal model is: NAME_physics.hpp, NAME_physics.cpp and a line in models.list.
@@ -72,6 +73,33 @@ template <class Law>
 concept LatchesImpact = requires(const Law law, double r_eff, double m_eff, double speed) {
   /// X, >= 0, in a unit of the law's own.
   { law.impact_overlap(r_eff, m_eff, speed) } -> std::same_as<double>;
+};
+
+/// What a contact answers with.
+struct Response
+{
+  double force = 0, stiffness = 0;  ///< N, N/m
+};
+
+/// A law that lets waves take a part: they act as a dashpot F_waves = C K^2 v, v the approach speed, K the law's own
+/// stiffness (law/radiation.hpp).
+template <class Law>
+concept Radiates = requires(const Law law, double r_eff, double delta, double delta_max, double impact_overlap,
+                            double* kept) {
+  /// C, s^3/kg, stretched; 0: none. Where no pair of types has one, K is not asked for.
+  { law.radiation } -> std::convertible_to<double>;
+  /// force() and K, N/m: dF/d(delta) of the branch that it follows.
+  { law.response(r_eff, delta, delta_max, impact_overlap, kept) } -> std::same_as<Response>;
+};
+
+/// A model with several laws for one pair of types, by the ratio of the particles' radii.
+template <class Physics>
+concept HasLawsBySize = requires(const Physics& prepared, const std::string& where, int i, int j, bool rigid,
+                                 double radius_i, double radius_j) {
+  /// Where the laws stand.
+  { prepared.laws_by_size(i, j) } -> std::same_as<SizeChoice>;
+  /// resolve() for particles of these radii, over any length; infinity: a wall.
+  { prepared.resolve(i, j, rigid, where, radius_i, radius_j) } -> std::same_as<typename Physics::Contact>;
 };
 
 /// A normal model: how the deck's materials give the law of each pair of types. The pair style has an object of

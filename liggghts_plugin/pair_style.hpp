@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "law/pair.hpp"
 #include "liggghts_plugin/command_models.hpp"
 #include "liggghts_plugin/pair_loop.hpp"
 #include "liggghts_plugin/superquadric.hpp"
@@ -32,8 +31,8 @@ class PairStyle final : public PairLoop<TalliedModel<Style>>, public CountedStyl
   {
     this->each_open_contact(*parent_, [&](int i, int j, double weight, const double* history) {
       const LAMMPS_NS::Atom& atom = *lmp_->atom;
-      const double r_eff = granulaw::effective_radius(atom.radius[i], atom.radius[j]);
-      setup_.contacts->take_out(statistics, {atom.type[i], atom.type[j], r_eff, 0.0, history}, weight);
+      setup_.contacts->take_out(
+          statistics, {atom.type[i], atom.type[j], atom.radius[i], atom.radius[j], 0.0, history}, weight);
     });
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ class PairTable
  public:
   using Contact = typename Physics::Contact;
 
-  // What every step reads lies in the first cache line.
+  // What every step reads comes first.
   struct alignas(64) Entry
   {
     double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
@@ -43,69 +44,161 @@ class PairTable
     double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
     double tangential_damping = 0.0;  // Mindlin's, over the same
     double yield_overlap = 0.0;       // over R*
-    Contact contact;
     ContactStatistics::Pair* counts = nullptr;  // this pair of types in the contact statistics
+    Contact contact;
     double damage_number_per_speed2 =
         0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
   };
 
-  Entry& at(int itype, int jtype) { return entries_[static_cast<std::size_t>(itype * stride_ + jtype)]; }
-  const Entry& at(int itype, int jtype) const
+  /// The law of a contact: one for as long as it lasts, as radii do not change. At a wall radius_j is not
+  /// looked at.
+  const Entry& of(int itype, int jtype, double radius_i, double radius_j) const
   {
-    return entries_[static_cast<std::size_t>(itype * stride_ + jtype)];
+    const std::size_t pair = pair_of(itype, jtype);
+    if (laws_ == 1) return entries_[pair];
+    return entries_[pair * laws_ + finders_[pair].nearest(radius_i, radius_j)];
   }
 
+  /// True if waves take a part of the contacts of any pair. One answer for all, as a contact loop cannot
+  /// foresee which types meet next.
+  bool radiates() const { return radiates_; }
+
   /// `damping_ratio`: of each pair of types, at [i * (count + 1) + j].
-  void resolve(const Physics& physics, const Setup& setup, const Types& types,
+  void resolve(const Physics& physics, const Setup& setup, const Types& types, const ParticleSizes& sizes,
                const TangentialChoice& tangential, const std::vector<double>& damping_ratio)
   {
-    const bool is_wall = setup.wall != nullptr, rigid = is_wall && !setup.options.deformable_wall;
+    const bool is_wall = setup.wall != nullptr;
     stride_ = types.count + 1;
-    entries_.assign(static_cast<std::size_t>(stride_ * stride_), Entry{});
+    find_choices(physics, setup, types.count, sizes);
+    entries_.assign(choices_.size() * laws_, Entry{});
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
         if (std::isnan(types.youngs_modulus[i]) || std::isnan(types.youngs_modulus[j])) continue;
         try {
-          at(i, j).contact = physics.resolve(i, j, rigid, setup.where);
+          resolve_types(physics, setup, sizes, i, j);
         } catch (const granulaw::Error&) {
           if (types.can_meet(i, j, is_wall)) throw;
           continue;  // PlasticModel::beyond_table says so if such particles meet after all
         }
-        complete(at(i, j), setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
-                 damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+        each_entry(i, j, [&](Entry& entry) {
+          complete(entry, setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
+                   damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+        });
       }
+    radiates_ = any_contact([](const Contact& contact) {
+      if constexpr (Radiates<Contact>) return contact.radiation > 0.0;
+      return false;
+    });
   }
 
   /// True if the law of any pair asks for the mass of the bodies.
   bool needs_mass() const
   {
-    return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
-      return entry.largest_overlap >= 0.0 && entry.contact.needs_mass();
-    });
+    return any_contact([](const Contact& contact) { return contact.needs_mass(); });
   }
 
   /// Finds each pair of types its line in the statistics, and writes there what the law says about it.
-  void enter(LAMMPS_NS::LAMMPS* lmp, const Physics& physics, const Setup& setup, const Types& types)
+  void enter(LAMMPS_NS::LAMMPS* lmp, const Physics& physics, const Setup& setup, const Types& types,
+             const ParticleSizes& sizes)
   {
-    const ParticleSizes sizes = particle_sizes(lmp);
     const bool is_wall = setup.wall != nullptr;
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
-        Entry& entry = at(i, j);
-        if (entry.largest_overlap < 0) continue;
+        const Entry& usual = usual_entry(i, j);
+        if (usual.largest_overlap < 0) continue;
         const PairKey key = pair_key(setup, i, j);
-        entry.counts = &setup.session->statistics.pairs[key];
+        ContactStatistics::Pair& counts = setup.session->statistics.pairs[key];
+        each_entry(i, j, [&](Entry& entry) { entry.counts = &counts; });
         if (!is_wall && j < i) continue;  // described as i, j
-        PairInfo info = physics.describe(entry.contact, key);
-        add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j));
+        PairInfo info = physics.describe(usual.contact, key);
         info.needed = types.can_meet(i, j, is_wall);
-        if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
-        if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
-        entry.counts->info = info;
+        info.onset_speed = std::numeric_limits<double>::infinity();
+        each_entry_in_use(i, j, sizes, [&](const Entry& entry) {
+          info.overlap_limit =
+              std::min(info.overlap_limit, physics.describe(entry.contact, key).overlap_limit);
+          add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j));
+          if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
+          if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
+        });
+        counts.info = info;
       }
   }
 
  private:
+  /// How contacts of each pair of types choose among its laws.
+  void find_choices(const Physics& physics, const Setup& setup, int count, const ParticleSizes& sizes)
+  {
+    const SizeChoice one_law(ShareOf::smaller, {0.5});
+    choices_.assign(static_cast<std::size_t>(stride_ * stride_), one_law);
+    if constexpr (HasLawsBySize<Physics>)
+      if (!setup.wall)
+        for (int i = 1; i <= count; ++i)
+          for (int j = 1; j <= count; ++j) choices_[pair_of(i, j)] = physics.laws_by_size(i, j);
+    finders_.assign(choices_.size(), LawFinder{});
+    laws_ = 1;
+    for (int i = 1; i <= count; ++i)
+      for (int j = 1; j <= count; ++j) {
+        const SizeChoice& choice = choices_[pair_of(i, j)];
+        laws_ = std::max(laws_, choice.count());
+        finders_[pair_of(i, j)] = choice.finder(choice.usual(sizes.of_type(i), sizes.of_type(j)));
+      }
+  }
+
+  /// Finds the law or laws of types i and j.
+  void resolve_types(const Physics& physics, const Setup& setup, const ParticleSizes& sizes, int i, int j)
+  {
+    const bool rigid = setup.wall && !setup.options.deformable_wall;
+    Entry* entries = first_entry(i, j);
+    if constexpr (!HasLawsBySize<Physics>)
+      entries[0].contact = physics.resolve(i, j, rigid, setup.where);
+    else if (setup.wall)
+      entries[0].contact =
+          physics.resolve(i, j, rigid, setup.where, 1.0, std::numeric_limits<double>::infinity());
+    else {
+      const SizeChoice& choice = choices_[pair_of(i, j)];
+      for (std::size_t k = 0; k < choice.count(); ++k) {
+        const auto [radius_i, radius_j] = choice.radii_of(k, sizes.of_type(i), sizes.of_type(j));
+        entries[k].contact = physics.resolve(i, j, rigid, setup.where, radius_i, radius_j);
+      }
+    }
+  }
+
+  std::size_t pair_of(int itype, int jtype) const
+  {
+    return static_cast<std::size_t>(itype * stride_ + jtype);
+  }
+  Entry* first_entry(int i, int j) { return &entries_[pair_of(i, j) * laws_]; }
+  const Entry* first_entry(int i, int j) const { return &entries_[pair_of(i, j) * laws_]; }
+
+  /// An entry that particles of the known sizes follow.
+  const Entry& usual_entry(int i, int j) const { return first_entry(i, j)[finders_[pair_of(i, j)].usual]; }
+
+  /// Whether `holds` of the law of any pair.
+  bool any_contact(const auto& holds) const
+  {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+      return entry.largest_overlap >= 0.0 && holds(entry.contact);
+    });
+  }
+
+  /// Each entry of the pair of types.
+  template <class Visit>
+  void each_entry(int i, int j, Visit&& visit)
+  {
+    for (std::size_t k = 0; k < choices_[pair_of(i, j)].count(); ++k) visit(first_entry(i, j)[k]);
+  }
+  /// The usual one, and each other that particles of the known sizes follow.
+  template <class Visit>
+  void each_entry_in_use(int i, int j, const ParticleSizes& sizes, Visit&& visit) const
+  {
+    const Entry& usual = usual_entry(i, j);
+    const SizeChoice& choice = choices_[pair_of(i, j)];
+    for (std::size_t k = 0; k < choice.count(); ++k) {
+      const Entry& entry = first_entry(i, j)[k];
+      if (&entry == &usual || choice.serves(k, sizes.of_type(i), sizes.of_type(j))) visit(entry);
+    }
+  }
+
   /// R* and m* of the smallest particles that can meet; 0: none is known.
   struct Smallest
   {
@@ -122,21 +215,22 @@ class PairTable
     return std::isfinite(found.r_eff) && std::isfinite(found.m_eff) ? found : Smallest{};
   }
 
-  /// Speed of first yield, and the time step that the stiffest contact allows.
+  /// Lowers the speed of first yield and the largest time step to what this law allows.
   static void add_limits(PairInfo& info, const Contact& contact, const Smallest& spheres)
   {
     const auto [r_eff, m_eff] = spheres;
-    info.onset_speed = std::numeric_limits<double>::infinity();
     if (!(r_eff > 0)) return;
     const double onset = contact.yield_overlap() * r_eff;
     if (contact.yield_overlap() < contact.largest_overlap())
-      info.onset_speed = std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff);
+      info.onset_speed = std::min(info.onset_speed,
+                                  std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff));
     double hardest = 0;
     constexpr int samples = 64;  // the stiffness varies slowly: it need not be largest at the end
     for (int k = 1; k <= samples; ++k)
       hardest =
           std::max(hardest, contact.stiffness(r_eff, contact.stiffness_range() * r_eff * k / samples, 0.0));
-    info.dt_limit = dt_fraction * 2.0 * M_PI * std::sqrt(m_eff / hardest);
+    const double dt_limit = dt_fraction * 2.0 * M_PI * std::sqrt(m_eff / hardest);
+    if (info.dt_limit == 0 || dt_limit < info.dt_limit) info.dt_limit = dt_limit;
   }
 
   /// Pa, 8 G* of Mindlin's tangential stiffness.
@@ -166,7 +260,11 @@ class PairTable
                     std::pow(stretch, -1.25);
   }
 
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  // laws_ for each pair of types; a pair with fewer leaves the last ones empty
+  std::vector<SizeChoice> choices_;  // of each pair
+  std::vector<LawFinder> finders_;   // of each pair
+  std::size_t laws_ = 1;
+  bool radiates_ = false;
   int stride_ = 0;
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
+
+#include "liggghts_plugin/size_choice.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -13,6 +16,12 @@ namespace granulaw::plugin {
 struct ParticleSizes
 {
   std::vector<double> radius, mass, largest_radius;
+
+  Radii of_type(int t) const
+  {
+    const auto at = static_cast<std::size_t>(t);
+    return {radius[at], largest_radius[at]};
+  }
 };
 
 /// Collective. A template's density is its mean one.

@@ -82,9 +82,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     refuse_unstated_restitution(lmp, *setup_);
     first_step_ = update->ntimestep;
     units_ = types.units;
-    pairs_.resolve(physics_, *setup_, types, tangential_, damping_ratios(registry, *setup_, types));
+    const ParticleSizes sizes = particle_sizes(lmp);
+    pairs_.resolve(physics_, *setup_, types, sizes, tangential_, damping_ratios(registry, *setup_, types));
     Bodies::provide(lmp, pairs_.needs_mass());
-    pairs_.enter(lmp, physics_, *setup_, types);
+    pairs_.enter(lmp, physics_, *setup_, types, sizes);
     counts_.connect(lmp, *setup_->session);
     energy_ = setup_->session->energy;
   }
@@ -95,7 +96,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = effective_radius(sidata);
-    const Entry& entry = pairs_.at(sidata.itype, sidata.jtype);
+    const Entry& entry = pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
     const double delta = sidata.deltan;
     double& delta_max = sidata.contact_history[history_offset_];
     if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
@@ -115,7 +116,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if constexpr (keeps_reversals)
       if (update->ntimestep == first_step_) [[unlikely]]
         reversal[0] = 0.0;  // what a restart brings may be of another law
-    const double law_force = entry.contact.force(r_eff, delta, delta_max, impact_overlap, reversal);
+    const auto [law_force, waves_force] =
+        normal_forces(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
     const double root = std::sqrt(r_eff * delta);
     const double radius =
         tangential_.computed ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
@@ -123,7 +125,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     // of an undamped contact the law's force itself, to the bit: it is never negative
     sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
     // below the residual overlap of a dent nothing touches, and nothing is damped
-    const double normal_force = law_force > 0.0 ? std::max(0.0, law_force - sidata.gamman * sidata.vn) : 0.0;
+    const double normal_force =
+        law_force > 0.0 ? std::max(0.0, (law_force + waves_force) - sidata.gamman * sidata.vn) : 0.0;
+    if (pairs_.radiates()) counts_.radiate(sidata, entry, waves_force, normal_force);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
       counts_.deepen(sidata, entry, r_eff, impact_overlap, delta_max);
@@ -161,12 +165,12 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
 
   ContactState state(const ContactPlace& contact) const override
   {
-    const Entry& pair = pairs_.at(contact.itype, contact.jtype);
-    const double delta_max = contact.history[history_offset_];
+    const Entry& pair = pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j);
+    const double delta_max = contact.history[history_offset_], r_eff = contact.r_eff();
     double impact_overlap = 0.0;
     if constexpr (Physics::latches_impact) impact_overlap = contact.history[impact_offset_];
-    return {pair.contact.contact_radius(contact.r_eff, contact.overlap, delta_max, impact_overlap), delta_max,
-            pair.contact.dissipated(contact.r_eff, 0.0, delta_max, impact_overlap)};
+    return {pair.contact.contact_radius(r_eff, contact.overlap, delta_max, impact_overlap), delta_max,
+            pair.contact.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
   }
 
   void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const override
@@ -174,7 +178,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double delta_max = contact.history[history_offset_];
     if (delta_max > 0.0)
       counts_.take_out(statistics.pairs[pair_key(*setup_, contact.itype, contact.jtype)], contact.history,
-                       delta_max, contact.r_eff, weight);
+                       delta_max, contact.r_eff(), weight);
   }
 
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
@@ -184,6 +188,22 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   static constexpr bool keeps_reversals = Physics::Contact::reversal_values > 0;
 
   using Entry = typename PairTable<Physics>::Entry;
+
+  struct NormalForces
+  {
+    double law, waves = 0.0;  ///< N
+  };
+  /// The law's force, and that of waves: it only brakes, and never makes a contact pull.
+  NormalForces normal_forces(const typename Physics::Contact& contact, double r_eff, double delta,
+                             double delta_max, double impact_overlap, double* reversal, double vn) const
+  {
+    if constexpr (Radiates<typename Physics::Contact>)
+      if (pairs_.radiates()) {
+        const auto [force, k] = contact.response(r_eff, delta, delta_max, impact_overlap, reversal);
+        return {force, std::max(-force, -contact.radiation * k * k * vn)};
+      }
+    return {contact.force(r_eff, delta, delta_max, impact_overlap, reversal)};
+  }
 
   // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
   // yielded one on its way back to delta_max, but not when it parts, so that the rebound of a plastic impact

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "law/pair.hpp"
 #include "liggghts_plugin/bodies.hpp"
 #include "liggghts_plugin/contact_statistics.hpp"
 #include "liggghts_plugin/energy_tally.hpp"
@@ -27,12 +30,21 @@ struct ContactState
   double dissipated = 0;       ///< by the normal law since first touch
 };
 
+/// Radius of a wall.
+inline constexpr double flat = std::numeric_limits<double>::infinity();
+
 /// A contact as LIGGGHTS's lists name it.
 struct ContactPlace
 {
-  int itype = 0, jtype = 0;  ///< atom types; at a wall j is the wall's
-  double r_eff = 0, overlap = 0;
+  int itype = 0, jtype = 0;           ///< atom types; at a wall j is the wall's
+  double radius_i = 0, radius_j = 0;  ///< radius_j infinity: a wall
+  double overlap = 0;
   const double* history = nullptr;
+
+  double r_eff() const
+  {
+    return std::isfinite(radius_j) ? granulaw::effective_radius(radius_i, radius_j) : radius_i;
+  }
 };
 
 /// A contact model, asked about single contacts.

@@ -73,6 +73,7 @@ std::string counts_json(const ContactStatistics::Pair& s, const std::string& ind
 {
   const std::pair<const char*, std::string> entries[] = {
       {"normal_dissipation_J", number(s.dissipated)},
+      {"wave_dissipation_J", number(s.waves)},
       {"other_work_J", number(s.other_work)},
       {"contacts_begun", number(s.touches)},
       {"contacts_ended", number(s.ended)},

@@ -42,6 +42,7 @@ std::string end_line(const ContactStatistics& sum, const DeckUnits& units, doubl
       "overlap/R* up to {:.4g} and {:.4g}; normal contacts dissipated {:.6g} J",
       pair.touches, wall.touches, pair.speed_max, wall.speed_max, pair.overlap_max, wall.overlap_max,
       all.dissipated);
+  if (all.waves > 0) line += fmt::format(", waves took {:.6g} J", all.waves);
   if (all.near > 0)
     line += fmt::format("; {:.0f} contacts came deeper than {:.0f} % of the law's table, {:.0f} beyond it",
                         all.near, 100 * near_edge, all.past);

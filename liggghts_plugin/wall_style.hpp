@@ -34,8 +34,8 @@ class WallStyle final : public WallLoop<TalliedModel<Style>>, public CountedStyl
   void take_out_open(ContactStatistics& statistics) const override
   {
     this->each_open_contact([&](int i, int wall_type, const double* history) {
-      setup_.contacts->take_out(statistics,
-                                {lmp_->atom->type[i], wall_type, lmp_->atom->radius[i], 0.0, history}, 1.0);
+      setup_.contacts->take_out(
+          statistics, {lmp_->atom->type[i], wall_type, lmp_->atom->radius[i], flat, 0.0, history}, 1.0);
     });
   }
 
@@ -45,7 +45,8 @@ class WallStyle final : public WallLoop<TalliedModel<Style>>, public CountedStyl
     // area pi a^2 of the law's own contact radius, which is less than R
     const double r = contact.radi;
     const double a =
-        setup_.contacts->state({contact.itype, contact.jtype, r, contact.deltan, contact.contact_history})
+        setup_.contacts
+            ->state({contact.itype, contact.jtype, r, flat, contact.deltan, contact.contact_history})
             .contact_radius;
     return r - std::sqrt(std::max(0.0, r * r - a * a));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -45,6 +46,12 @@ class FastCurve
     return unloads(x, x_max) ? reversal(x_max, impact_overlap).force_at(x) : loading_force(x, impact_overlap);
   }
 
+  /// Force and its derivative by x.
+  struct Response
+  {
+    double force = 0, stiffness = 0;
+  };
+
   /// A reversal at x_max: all that un- and reloading below it takes, worked out once. A contact that keeps it
   /// needs no table for its force until it loads further. In the curve's units.
   struct Reversal
@@ -57,6 +64,13 @@ class FastCurve
     {
       const double u = part(x);
       return u <= 0.0 ? 0.0 : force_at(u, std::sqrt(u));
+    }
+    Response response_at(double x) const
+    {
+      const double u = part(x);
+      if (u <= 0.0) return {};
+      const double root = std::sqrt(u);
+      return {force_at(u, root), per_range * slope_at(u, root)};
     }
     /// Given back on complete unloading.
     double work() const { return (0.4 * force[0] + 1.0 / 3.0 * force[1] + 2.0 / 7.0 * force[2]) / per_range; }
@@ -80,6 +94,18 @@ class FastCurve
       return far_loading(x, impact_overlap).force;
     const double slow = at(x).force();
     return corrected(impact_overlap) ? slow * (1.0 + axis_.force(x, impact_overlap).value) : slow;
+  }
+  Response loading_response(double x, double impact_overlap = 0) const
+  {
+    if (!in_table(x)) [[unlikely]] {
+      const ContactCurve::Loading far = far_loading(x, impact_overlap);
+      return {far.force, far.stiffness};
+    }
+    const Place p = at(x);
+    const double slow = p.force(), slope = p.i.loading.first_slope(p.t);
+    if (!corrected(impact_overlap)) return {slow, slope};
+    const VelocityAxis::ForceCorrection a = axis_.force(x, impact_overlap);
+    return {slow * (1.0 + a.value), slope * (1.0 + a.value) + slow * a.slope};
   }
   Reversal reversal(double x_max, double impact_overlap = 0) const
   {

@@ -38,6 +38,7 @@ double radiation(const LawMaterial& a, double radius_a, const LawMaterial& b, do
   const double duration = contact_duration(a, radius_a, b, radius_b);
   const auto of_body = [&](const LawMaterial& m, double radius) {
     const double c = wave_speed(m), remains = 1 / (1 + std::pow(duration * c / (return_times * radius), 4));
+    if (remains < negligible_radiation) return 0.0;
     return radiation_number * remains / (m.density * c * c * c);
   };
   return of_body(a, radius_a) + of_body(b, radius_b);

@@ -9,19 +9,26 @@
 //   law_fixture write FILE certificate ORIGIN N              the powder states errors, of N fresh impacts
 //   law_fixture write FILE depth D                           other residuals of the powder
 //   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
+//   law_fixture write FILE by_size ORIGIN                    laws of this origin by radius ratio:
+//                       powder:gum at 1, 3 and, if `composed`, infinity; powder:powder at 3 and infinity
 //   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
 //   law_fixture radius FILE A B R_EFF DELTA DELTA_MAX X      prints contact radius (m)
-//   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X that a contact
-//   latches law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law law_fixture
-//   elastic FILE A E_STAR R_EFF M_EFF V         A against an elastic body of plane strain modulus E_STAR
+//   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X of a contact
+//   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
+//   law_fixture collision FILE A B R_A R_B R_EFF M_EFF V     the same under the law for these radii
+//   law_fixture still FILE A B R_A R_B R_EFF M_EFF V         the same without waves
+//   law_fixture elastic FILE A E_STAR R_EFF M_EFF V          A against an elastic body of modulus E_STAR
 //   law_fixture thornton E_STAR P_Y R_EFF M_EFF V            one collision under Thornton's law
-// The last three print "restitution duration(s) delta_max(m)".
+// The last five print "restitution duration(s) delta_max(m)", `collision` and `still` also the largest force
+// (N) and the work of waves (J).
 #include <hdf5.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <string>
 
 #include "law/law_file.hpp"
@@ -38,6 +45,42 @@ void set_major(const char* path, int major)
   H5Awrite(attribute, H5T_NATIVE_INT, &major);
   H5Aclose(attribute);
   H5Fclose(file);
+}
+
+/// The powder's law with other residuals, by which it is told from others, for a pair of this size.
+granulaw::TwoBodyLaw law_of_size(const granulaw::BodyLaw& powder, double radius_ratio, double depth,
+                                 const std::string& origin)
+{
+  granulaw::testing::SyntheticLaw other;
+  other.depth = depth;
+  granulaw::TwoBodyLaw own;
+  own.law = powder;
+  own.law.curve = granulaw::ContactCurve(other.table(), other.axis(), "law_fixture");
+  own.law.certificate.origin = origin;
+  own.radius_ratio = radius_ratio;
+  return own;
+}
+
+granulaw::Law laws_by_size(const std::string& origin)
+{
+  granulaw::Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
+  const granulaw::BodyLaw& powder = law.bodies.at("powder");
+  granulaw::BodyLaw& gum = law.bodies["gum"] = law.bodies.at("glass");  // elastic
+  gum.material = powder.material;
+  gum.material.name = "gum";
+  gum.material.yield_stress = std::numeric_limits<double>::infinity();
+  law.pairs.insert(law.pairs.end(), {{"powder", "gum"}, {"gum", "gum"}, {"gum", "wall"}});
+  constexpr double thick_wall = std::numeric_limits<double>::infinity();
+  const auto add = [&](const char* pair, double ratio, double depth) {
+    if (std::isfinite(ratio) || origin == granulaw::composed_origin)
+      law.pair_laws[pair].push_back(law_of_size(powder, ratio, depth, origin));
+  };
+  add("powder:gum", 1, 0.8);
+  add("powder:gum", 3, 0.5);
+  add("powder:gum", thick_wall, 0.3);
+  add("powder:powder", 3, 0.7);
+  add("powder:powder", thick_wall, 0.4);
+  return law;
 }
 
 void print(const granulaw::Replay& replay)
@@ -59,13 +102,9 @@ int run(int argc, char** argv)
     }
     if (word(3) == "pair_law") {
       law = synthetic.law_with_axis();
-      granulaw::testing::SyntheticLaw other;  // told from the powder's by its residuals
-      other.depth = 0.8;
-      granulaw::TwoBodyLaw& own = law.pair_laws["powder:glass"].emplace_back();
-      own.law = law.bodies.at("powder");
-      own.law.curve = granulaw::ContactCurve(other.table(), other.axis(), "law_fixture");
-      own.radius_ratio = 2;
+      law.pair_laws["powder:glass"].push_back(law_of_size(law.bodies.at("powder"), 2, 0.8, "runs"));
     }
+    if (word(3) == "by_size") law = laws_by_size(word(4));
     if (word(3) == "certificate") {
       granulaw::Certificate& c = law.bodies.at("powder").certificate;
       c.origin = word(4);
@@ -88,6 +127,15 @@ int run(int argc, char** argv)
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
     print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
+    return 0;
+  }
+  if (word(1) == "collision" || word(1) == "still") {
+    const granulaw::Law law = granulaw::read_law(word(2));
+    granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2), number(5), number(6));
+    if (word(1) == "still") pair.radiation = 0;
+    const granulaw::Replay replay = granulaw::replay_collision(pair, number(7), number(8), number(9));
+    print(replay);
+    std::printf("%.10g %.10g\n", replay.force_max, replay.work_waves);
     return 0;
   }
   if (word(1) == "force") {

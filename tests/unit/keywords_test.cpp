@@ -29,7 +29,8 @@ const std::map<std::string_view, std::string> values{{"tangentialDampingRatio", 
                                                      {"computeDissipatedEnergy", "on"},
                                                      {"law", "x.h5"},
                                                      {"materials", "wax"},
-                                                     {"beyondRange", "stop"}};
+                                                     {"beyondRange", "stop"},
+                                                     {"waves", "on"}};
 
 TEST(Keywords, AreListedOnce)
 {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -64,12 +65,18 @@ struct Collision
   double limit() const { return pair.max_overlap(r_eff); }  ///< m, where the law's table ends
 };
 
+/// Whether a body of this radius is a thick deformable wall.
+bool is_thick_wall(double radius)
+{
+  return radius == std::numeric_limits<double>::infinity();
+}
+
 /// Wider than any particle or collision; within, no number of the replay leaves the range of a double.
 void check_numbers(const LawRequest& r, const PairNames& names, double radius, double radius2)
 {
-  if (names.second == wall_name && r.radius2) fail("--radius2", "a wall has no radius");
+  if (names.second == wall_name && r.radius2) fail("--radius2", "a rigid wall has no radius");
   require_within("--radius", radius, "m", 1e-9, 1e3);
-  if (!std::isinf(radius2)) require_within("--radius2", radius2, "m", 1e-9, 1e3);  // inf: a thick wall
+  if (!is_thick_wall(radius2)) require_within("--radius2", radius2, "m", 1e-9, 1e3);
   require_within("--velocity", r.velocity, "m/s", 1e-12, 1e6);
 }
 
@@ -88,7 +95,7 @@ Collision collision_of(const Law& law, const LawRequest& r)
   if (b == yielding) check_size(pair, radius2, "--radius2");
 
   const double mass = body_mass(law.bodies.at(a), radius);
-  if (b == wall_name || std::isinf(radius2)) return {names, pair, radius, mass, r.velocity};
+  if (b == wall_name || is_thick_wall(radius2)) return {names, pair, radius, mass, r.velocity};
   return {names, pair, effective_radius(radius, radius2),
           effective_mass(mass, body_mass(law.bodies.at(b), radius2)), r.velocity};
 }
@@ -190,7 +197,8 @@ void define(CLI::App& command)
       "--radius", r->radius,
       "radius of the first body, m (default 1e-3, e depends on no radius; of a rate-dependent\n"
       "law the one it was made for, and no other is allowed)");
-  command.add_option("--radius2", r->radius2, "radius of the second body, m; inf: a thick deformable wall of that material\n(default: the first's)");
+  command.add_option("--radius2", r->radius2,
+                     "radius of the second body, m (default: the first's); inf: a thick deformable wall");
   command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command.add_flag(
       "--json", r->json,

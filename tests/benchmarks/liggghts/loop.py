@@ -1,7 +1,8 @@
 """Loop time of LIGGGHTS under each normal model, as a ratio to stock Hertz in the same scene.
 
     dense   a chute flow (periodic in x and y, rough floor), prepared once with stock Hertz
-    types   the same flow with four types of particles: ten pairs, each with a law of its own under mpm
+    types   the same flow with four types of particles: ten pairs, each with a law of its own under mpm; mpm_waves: those of
+            unlike types radiate (three contacts of four); mpm_sizes: and each has laws at four ratios of radii
     sparse  spheres on their way down, as in an insertion phase: near neighbours, hardly a contact
 
 Every model runs the same steps from the same positions and velocities, several times, interleaved. Prints for each
@@ -132,7 +133,7 @@ def contacts(text):
 
 MODELS = {"dense": ("hertz", "hertz_granulaw", "hertz_loop", "mpm", "mpm_soft", "mpm_axis", "thornton", "thornton_soft",
                     "thornton_ning", "hooke_hysteresis"),
-          "types": ("hertz", "mpm", "thornton"),
+          "types": ("hertz", "mpm", "mpm_waves", "mpm_sizes", "thornton"),
           "sparse": ("hertz", "mpm", "thornton")}
 
 
@@ -143,7 +144,7 @@ def loop(folder, scene, name, steps):
     model, words, preload, y = name.replace("_hysteresis", "/hysteresis"), "", None, yield_stress["mpm"]
     types = 4 if scene == "types" else 1
     if name.startswith("mpm"):
-        law = "law four.h5 materials a b c d" if types == 4 else f"law {name}.h5 materials powder"
+        law = f"law four_{name}.h5 materials a b c d" if types == 4 else f"law {name}.h5 materials powder"
         model, words = "mpm", f"{law} beyondRange continue elasticDamping 0.001"
     elif name.startswith("thornton") and name != "thornton_ning":
         model, words, y = "thornton", "elasticDamping 0.001", yield_stress[name.replace("thornton", "mpm")]
@@ -197,7 +198,8 @@ def main():
         error = {("dense", name): law("one", folder / f"{name}.h5", onset) for name, onset in ONSETS.items()}
         error["sparse", "mpm"] = error["dense", "mpm"]
         error["dense", "mpm_axis"] = law("axis", folder / "mpm_axis.h5")
-        error["types", "mpm"] = law("four", folder / "four.h5")
+        for name, ratios in (("mpm", ()), ("mpm_waves", (1,)), ("mpm_sizes", (0.25, 1, 4, 16))):
+            error["types", name] = law("four", folder / f"four_{name}.h5", *ratios)
         prepare(folder, options.spheres)
         for scene in options.scenes:
             compare(folder, scene, options, error)

@@ -3,6 +3,9 @@
 // sampled from, over 200,000 random states (loading and unloading), relative to the force at the turning
 // point. bench_loop_law axis FILE: with a velocity axis; against the law's curve. bench_loop_law four FILE:
 // four materials and a law of its own for each of their ten pairs; prints the largest of their ten errors.
+// bench_loop_law four FILE RATIO...: those of unlike materials composed, so that they radiate, at these
+// ratios.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -79,7 +82,8 @@ double with_axis(const char* file)
   });
 }
 
-double four(const char* file)
+/// `ratios`: none: one law for each pair, as from runs.
+double four(const char* file, const std::vector<double>& ratios)
 {
   const std::vector<std::string> names{"a", "b", "c", "d"};
   granulaw::Law law;
@@ -103,9 +107,14 @@ double four(const char* file)
     for (std::size_t j = i; j < names.size(); ++j) {
       law.pairs.push_back({names[i], names[j]});
       if (i == j) continue;
-      granulaw::TwoBodyLaw& own = law.pair_laws[names[i] + ":" + names[j]].emplace_back();
-      own.law = body(names[i]);
+      granulaw::TwoBodyLaw own{body(names[i])};
       own.law.material = law.bodies[names[i]].material;  // of the pair's weaker body
+      std::vector<granulaw::TwoBodyLaw>& laws = law.pair_laws[names[i] + ":" + names[j]];
+      laws.assign(std::max<std::size_t>(1, ratios.size()), own);
+      for (std::size_t k = 0; k < ratios.size(); ++k) {
+        laws[k].radius_ratio = ratios[k];
+        laws[k].law.certificate.origin = granulaw::composed_origin;
+      }
     }
   granulaw::write_law(law, file);
   return worst;
@@ -120,8 +129,10 @@ int main(int argc, char** argv)
     std::printf("%.3g\n", one(argv[2], std::strtod(argv[3], nullptr)));
   else if (kind == "axis" && argc == 3)
     std::printf("%.3g\n", with_axis(argv[2]));
-  else if (kind == "four" && argc == 3)
-    std::printf("%.3g\n", four(argv[2]));
-  else
+  else if (kind == "four") {
+    std::vector<double> ratios;
+    for (int k = 3; k < argc; ++k) ratios.push_back(std::strtod(argv[k], nullptr));
+    std::printf("%.3g\n", four(argv[2], ratios));
+  } else
     return 2;
 }

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace granulaw::plugin {
+
+/// Least and largest radius of the particles of one atom type; least > largest: none is known.
+struct Radii
+{
+  double least = 1.0, largest = 0.0;
+
+  bool known() const { return least <= largest; }
+};
+
+/// Body of a pair of types i, j whose share R/(R_i + R_j) of the radii tells the pair's laws apart.
+enum class ShareOf { i, j, smaller };
+
+/// How a contact finds its law by the two radii, as a contact loop reads it.
+///
+/// Where each type has one size, the answer is the usual law each time: a processor foresees that, and need
+/// not wait for the comparison.
+struct LawFinder
+{
+  double weight_i = 1.0, weight_j = 1.0;  ///< infinity: that radius does not count
+  double least = -1.0, largest = std::numeric_limits<double>::infinity();  ///< shares of the usual law
+  std::size_t usual = 0;
+  const std::vector<double>* bounds = nullptr;  ///< between the laws' shares
+
+  std::size_t nearest(double radius_i, double radius_j) const
+  {
+    const double sum = radius_i + radius_j, own = std::min(weight_i * radius_i, weight_j * radius_j);
+    if ((own > least * sum) & !(own > largest * sum)) [[likely]]
+      return usual;
+    std::size_t k = 0;
+    for (const double bound : *bounds) k += static_cast<std::size_t>(own > bound * sum);
+    return k;
+  }
+};
+
+/// The laws of a pair of types by size, and which of them a contact follows: the one whose share is nearest
+/// to the share of the two particles. i and j may change places: the same law is found, to the bit.
+class SizeChoice
+{
+ public:
+  /// `shares`: of the laws, ascending, at least one.
+  SizeChoice(ShareOf whose, std::vector<double> shares) : whose_(whose), shares_(std::move(shares))
+  {
+    for (std::size_t k = 1; k < count(); ++k) bounds_.push_back(0.5 * (shares_[k - 1] + shares_[k]));
+  }
+
+  std::size_t count() const { return shares_.size(); }
+
+  /// The finder, which keeps a pointer to this; `usual`: the law that most contacts follow.
+  LawFinder finder(std::size_t usual) const
+  {
+    LawFinder finder;
+    if (whose_ == ShareOf::j) finder.weight_i = std::numeric_limits<double>::infinity();
+    if (whose_ == ShareOf::i) finder.weight_j = std::numeric_limits<double>::infinity();
+    if (usual > 0) finder.least = bounds_[usual - 1];
+    if (usual + 1 < count()) finder.largest = bounds_[usual];
+    finder.usual = usual;
+    finder.bounds = &bounds_;
+    return finder;
+  }
+  /// A law that serves particles of these types; where there is none known, that for like sizes.
+  std::size_t usual(const Radii& i, const Radii& j) const
+  {
+    std::size_t usual = finder(0).nearest(1.0, 1.0);
+    for (std::size_t k = 0; k < count(); ++k)
+      if (serves(k, i, j)) usual = k;
+    return usual;
+  }
+
+  /// Shares that particles of these types have.
+  struct Range
+  {
+    double least, largest;
+  };
+  Range shares_of(const Radii& i, const Radii& j) const
+  {
+    const auto share = [](double own, double other) { return own / (own + other); };
+    if (whose_ == ShareOf::i) return {share(i.least, j.largest), share(i.largest, j.least)};
+    if (whose_ == ShareOf::j) return {share(j.least, i.largest), share(j.largest, i.least)};
+    const double least = std::min(share(i.least, j.largest), share(j.least, i.largest));
+    const bool may_be_alike = i.least <= j.largest && j.least <= i.largest;
+    return {least, may_be_alike ? 0.5 : std::min(share(i.largest, j.least), share(j.largest, i.least))};
+  }
+
+  /// Whether particles of these types follow law k.
+  bool serves(std::size_t k, const Radii& i, const Radii& j) const
+  {
+    if (!i.known() || !j.known()) return false;
+    const Range range = shares_of(i, j);
+    return lower(k, range) <= upper(k, range);
+  }
+  /// The two radii, over their sum, for which law k is resolved: in the middle of the shares for which it
+  /// serves particles of these types, which are their own radii where each type has one size. Where it serves
+  /// none: at the law's own share.
+  std::pair<double, double> radii_of(std::size_t k, const Radii& i, const Radii& j) const
+  {
+    double share = shares_[k];
+    if (serves(k, i, j)) {
+      const Range range = shares_of(i, j);
+      share = 0.5 * (lower(k, range) + upper(k, range));
+    }
+    return whose_ == ShareOf::j ? std::pair(1 - share, share) : std::pair(share, 1 - share);
+  }
+
+ private:
+  // The shares between which law k is the nearest one, as far as they are in `range`.
+  double lower(std::size_t k, const Range& range) const
+  {
+    return k == 0 ? range.least : std::max(range.least, bounds_[k - 1]);
+  }
+  double upper(std::size_t k, const Range& range) const
+  {
+    return k + 1 == count() ? range.largest : std::min(range.largest, bounds_[k]);
+  }
+
+  ShareOf whose_;
+  std::vector<double> shares_, bounds_;  // a bound lies half-way between two laws
+};
+
+}  // namespace granulaw::plugin
