@@ -155,8 +155,9 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   if (pair.b == wall_name) return pair;
   const LawBody &a = plan.bodies.at(pair.a).body, &b = plan.bodies.at(pair.b).body;
   const bool one_material = pair.a == pair.b;
-  if (!one_material || r.radius_ratio > 1)
-    pair.by_rule = pair.stated = pair_rule_error(a.material, b.material, r.radius_ratio);
+  const double rule_ratio = r.rule_radius_ratio > 0 ? r.rule_radius_ratio : r.radius_ratio;
+  if (!one_material || rule_ratio > 1)
+    pair.by_rule = pair.stated = pair_rule_error(a.material, b.material, rule_ratio);
   if (can_be_composed(plan.bodies.at(pair.a)) && can_be_composed(plan.bodies.at(pair.b))) {
     pair.composed_at = composed_ratios(r, one_material);
     pair.stated = {};  // each composed law states its own
@@ -169,7 +170,7 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   pair.worth_own_law = bodies.yielding.yields() && stated > r.tolerance;
   pair.own_law = r.own_laws && bodies.yielding.yields() && by_rule > r.tolerance;
   if (pair.own_law) {
-    pair.stated = own_law_error(a.material, b.material, r.radius_ratio, own_law_radius_ratio);
+    pair.stated = own_law_error(a.material, b.material, rule_ratio, own_law_radius_ratio);
     pair.composed_at.clear();
   }
   return pair;

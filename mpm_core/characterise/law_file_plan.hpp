@@ -24,8 +24,8 @@ struct LawFileRequest
   double slowest = 0;  ///< m/s on a wall, of the slowest impact that the law of a rate-dependent particle
                        ///< must know; 0: a fiftieth of the fastest, or the onset of yield
   double tolerance = 0.01;  ///< relative, of F and e (BuildOptions::tolerance): 1e-4 to 0.5
-  double radius_ratio = 1;  ///< largest ratio of two spheres' radii in the scene, 1 or more: pairs are composed up to it,
-                            ///< and the error of the pair rule is stated for it
+  double radius_ratio = 1;  ///< largest ratio of two spheres' radii in the scene, 1 or more: pairs are composed up to it
+  double rule_radius_ratio = 0;  ///< that for which the pair rule's error is stated; 0: radius_ratio
   bool thick_walls = true;  ///< either of two bodies may also be a thick deformable wall
   bool own_laws = false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
   const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan

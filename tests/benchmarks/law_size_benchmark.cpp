@@ -53,6 +53,27 @@ void resample(std::vector<double>& value, std::vector<double>& slope, std::size_
   value = std::move(v), slope = std::move(s);
 }
 
+/// Slopes with which cubics over nodes `h` apart stay above 0: up to 3/h of the value.
+void keep_positive(const std::vector<double>& value, std::vector<double>& slope, double h)
+{
+  for (std::size_t k = 0; k < value.size(); ++k)
+    slope[k] = std::clamp(slope[k], -3 / h * value[k], 3 / h * value[k]);
+}
+
+/// So that the unloading rises between the nodes, too: A >= 0 and 10 - A - 4 n >= 0.
+void keep_unloading_rising(ContactCurve::Table& t, double h)
+{
+  keep_positive(t.hertz_share, t.hertz_share_slope, h);
+  std::vector<double> room, slope;
+  for (std::size_t k = 0; k < t.exponent.size(); ++k) {
+    room.push_back(std::max(0.0, 10 - t.hertz_share[k] - 4 * t.exponent[k]));
+    slope.push_back(-t.hertz_share_slope[k] - 4 * t.exponent_slope[k]);
+  }
+  keep_positive(room, slope, h);
+  for (std::size_t k = 0; k < slope.size(); ++k)
+    t.exponent_slope[k] = -0.25 * (slope[k] + t.hertz_share_slope[k]);
+}
+
 ContactCurve::Table thinned(ContactCurve::Table t, std::size_t nodes)
 {
   const double h = t.s_end / static_cast<double>(t.force_ratio.size() - 1);
@@ -61,6 +82,7 @@ ContactCurve::Table thinned(ContactCurve::Table t, std::size_t nodes)
   resample(t.exponent, t.exponent_slope, nodes, h);
   resample(t.hertz_share, t.hertz_share_slope, nodes, h);
   resample(t.radius_ratio, t.radius_ratio_slope, nodes, h);
+  keep_unloading_rising(t, t.s_end / static_cast<double>(nodes - 1));
   return t;
 }
 

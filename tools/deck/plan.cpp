@@ -168,28 +168,34 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   return plan;
 }
 
-double radius_ratio(const Plan& plan, const Meeting& meeting)
+PairSizes pair_sizes(const Plan& plan)
 {
-  if (meeting.wall && !meeting.deformable) return 1;  // exact by the pair rule
-  return meeting.wall ? largest_radius_ratio
-                      : std::min(largest_radius_ratio, plan.radius_max / plan.radius_min);
+  PairSizes sizes;
+  for (const PairPlan& p : plan.pairs) {
+    if (!p.needs_table || !p.visited) continue;
+    sizes.thick_walls = sizes.thick_walls || p.meeting.deformable;
+    if (!p.meeting.wall)
+      sizes.radius_ratio = std::min(largest_radius_ratio, plan.radius_max / plan.radius_min);
+  }
+  return sizes;
 }
 
 std::string table_command(const Plan& plan, const std::string& materials_file)
 {
   std::string pairs;
   std::set<std::string> done;
-  double ratio = 1;
   for (const PairPlan& p : plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     const std::string name = p.meeting.name_a + ":" + p.meeting.name_b;
     if (done.insert(name).second) pairs += " --pair " + name;
-    ratio = std::max(ratio, radius_ratio(plan, p.meeting));
   }
   if (pairs.empty() || plan.depth <= 0) return {};
-  return fmt::format("mpm table {}{} --depth {:.3g} --damage-number {:.3g}{} -o law.h5",
-                     materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
-                     plan.damage_number, ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", ratio) : "");
+  const PairSizes sizes = pair_sizes(plan);
+  return fmt::format(
+      "mpm table {}{} --depth {:.3g} --damage-number {:.3g}{}{} -o law.h5",
+      materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth, plan.damage_number,
+      sizes.radius_ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", sizes.radius_ratio) : "",
+      sizes.thick_walls ? "" : " --no-thick-walls");
 }
 
 }  // namespace granulaw::deck

@@ -35,9 +35,14 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
 
 /// `mpm table` states a pair's error up to this ratio of radii.
 inline constexpr double largest_radius_ratio = 10;
-/// The largest ratio of radii at which such bodies meet, as far as a law is asked about it: a deformable
-/// plane counts as the largest.
-double radius_ratio(const Plan& plan, const Meeting& meeting);
+/// The sizes that a law of the deck's pairs must know: the largest ratio of two spheres' radii, as far as laws are made
+/// for it, and whether a body meets a deformable wall.
+struct PairSizes
+{
+  double radius_ratio = 1;
+  bool thick_walls = false;
+};
+PairSizes pair_sizes(const Plan& plan);
 
 /// The words behind `mpm table` that build what the plan needs; empty: no table is needed, or it cannot be
 /// said yet.

@@ -44,21 +44,19 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   r.scene.materials_file = r.materials;
   const PlannedDeck d = plan_deck(r.deck, r.scene);
   require_answers(d.plan, r.deck);
-  double ratio = 1;
-  bool thick_walls = false;
   std::set<std::string> pairs;
   for (const deck::PairPlan& p : d.plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     pairs.insert(p.meeting.name_a + ":" + p.meeting.name_b);
-    thick_walls = thick_walls || p.meeting.deformable;
-    if (!p.meeting.wall) ratio = std::max(ratio, deck::radius_ratio(d.plan, p.meeting));
   }
-  r.file.thick_walls = thick_walls;
   if (pairs.empty()) return false;
   if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
   if (command.count("--depth") == 0) r.file.depth = d.plan.depth;
   if (command.count("--damage-number") == 0) r.file.damage_number = d.plan.damage_number;
-  if (command.count("--radius-ratio") == 0) r.file.radius_ratio = ratio;
+  const deck::PairSizes sizes = deck::pair_sizes(d.plan);
+  if (command.count("--radius-ratio") == 0) r.file.radius_ratio = sizes.radius_ratio;
+  if (command.count("--thick-walls") == 0) r.file.thick_walls = sizes.thick_walls;
+  if (sizes.thick_walls) r.file.rule_radius_ratio = deck::largest_radius_ratio;
   return true;
 }
 
@@ -208,6 +206,9 @@ void add_range_options(CLI::App& command, LawFileRequest& file)
                   "largest ratio of two spheres' radii in the scene: pairs get a law for each ratio up to it")
       ->check(from_to(1, 10))
       ->capture_default_str();
+  command.add_flag("--thick-walls,!--no-thick-walls", file.thick_walls,
+                   "of each pair also a law for a thick deformable wall of either material, and of each\n"
+                   "material for a wall of its own (default: yes; --deck: if it has such walls)");
   command.add_flag("--own-law", file.own_laws,
                    "compute a law of its own, by runs of the two bodies at equal radii, for each pair of\n"
                    "different spheres that the pair rule serves worse than --tolerance");
