@@ -27,8 +27,8 @@ double rising_root(const std::function<double(double)>& y, double low, double hi
   if (at_low >= 0) return low;
   if (at_high <= 0) return high;
   std::uintmax_t steps = 100;
-  const auto [a, b] = boost::math::tools::toms748_solve(y, low, high, at_low, at_high,
-                                                        boost::math::tools::eps_tolerance<double>(bits), steps);
+  const auto [a, b] = boost::math::tools::toms748_solve(
+      y, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(bits), steps);
   return 0.5 * (a + b);
 }
 
@@ -51,8 +51,8 @@ class BodyAtContact
 
   struct Share
   {
-    double curvature, residual, recovered;    // kappa; overlaps over a
-    double log_pressure;                      // of the body itself, under the common shape
+    double curvature, residual, recovered;  // kappa; overlaps over a
+    double log_pressure;                    // of the body itself, under the common shape
     double log_yield_overlap;
     bool known;
   };
@@ -70,14 +70,16 @@ class BodyAtContact
     const double own = std::exp(std::log(a.pressure) + place * std::log(b.pressure / a.pressure));
     const double own_flatness = mixed(&PairBody::State::flatness), e_star = body_.material().e_star();
     // where least_rise bends the match: what the body itself transmits, not what was matched
-    const double transmitted = own * PressureShape::strength(flatness) / PressureShape::strength(own_flatness);
+    const double transmitted =
+        own * PressureShape::strength(flatness) / PressureShape::strength(own_flatness);
     const auto change = [&](double (*of)(double)) {
       return M_PI / e_star * (of(flatness) * transmitted - of(own_flatness) * own);
     };
     const double curvature = std::exp(first_ + spacing * (low + place));
     // overlaps go as the curvature: linear between the nodes is what they are over it
     const auto overlap = [&](double PairBody::State::*of) {
-      const double at_a = a.*of / std::exp(first_ + spacing * low), at_b = b.*of / std::exp(first_ + spacing * (low + 1));
+      const double at_a = a.*of / std::exp(first_ + spacing * low),
+                   at_b = b.*of / std::exp(first_ + spacing * (low + 1));
       return curvature * (at_a + place * (at_b - at_a));
     };
     Share share;
@@ -97,14 +99,17 @@ class BodyAtContact
   {
     const PairBody::State& least = states_.front();
     const double part = pressure / least.pressure;
-    return {part * std::exp(first_),  0,  part * least.recovered, std::log(pressure), least.log_yield_overlap, least.known};
+    return {part * std::exp(first_), 0,          part * least.recovered, std::log(pressure),
+            least.log_yield_overlap, least.known};
   }
 
-  // Curvatures from 1/12000 of the whole on; up to twice, as a twin under its own shape may have more than its share.
+  // Curvatures from 1/12000 of the whole on; up to twice, as a twin under its own shape may have more than
+  // its share.
   static constexpr int nodes = 96;
   static constexpr double range_below = 9.4, range = 10.1, spacing = range / (nodes - 1);
-  /// d ln p/d ln kappa, at least: two bodies in full plasticity, whose hardness no longer depends on kappa, share the
-  /// curvature somehow; this keeps the solution from jumping. What is transmitted is their own pressure.
+  /// d ln p/d ln kappa, at least: two bodies in full plasticity, whose hardness no longer depends on kappa,
+  /// share the curvature somehow; this keeps the solution from jumping. What is transmitted is their own
+  /// pressure.
   static constexpr double least_rise = 0.1;
 
   const PairBody& body_;
@@ -115,7 +120,8 @@ class BodyAtContact
 
 }  // namespace
 
-ComposedPair::ComposedPair(const PairBody& yielding, double radius, const PairBody& partner, double partner_radius)
+ComposedPair::ComposedPair(const PairBody& yielding, double radius, const PairBody& partner,
+                           double partner_radius)
     : first_(yielding),
       second_(partner),
       radius_(radius),
@@ -148,15 +154,17 @@ ComposedState ComposedPair::at(double a) const
   ComposedState state;
   state.contact_radius = a;
   state.flatness = flatness;
-  const double pressure = std::exp((s.curvature * s.log_pressure + h.curvature * h.log_pressure) /
-                                   (s.curvature + h.curvature));
+  const double pressure =
+      std::exp((s.curvature * s.log_pressure + h.curvature * h.log_pressure) / (s.curvature + h.curvature));
   state.force = M_PI * a * a * pressure;
   state.overlap = a * (s.residual + s.recovered + h.residual + h.recovered);
-  // A plastic body that its partner indents deeper than a flat would is sloped under the pressure, and recovers less.
+  // A plastic body that its partner indents deeper than a flat would is sloped under the pressure, and
+  // recovers less.
   const auto sloped = [&](const BodyAtContact::Share& share, double radius) {
     constexpr double measured = 0.26;  // without it e of unlike radii and stiff partners is up to 0.015 high
-    return share.log_yield_overlap > 0 ? share.recovered * (1 - measured * flatness * (share.curvature - a / radius))
-                                       : share.recovered;
+    return share.log_yield_overlap > 0
+               ? share.recovered * (1 - measured * flatness * (share.curvature - a / radius))
+               : share.recovered;
   };
   state.recovered = a * (sloped(s, radius_) + sloped(h, partner_radius_));
   // Both unload as the body whose dent it is; elastic ones by what each recovers.
@@ -177,7 +185,8 @@ double ComposedPair::find_yield_radius() const
   if (!first_.yields() && !second_.yields()) return std::numeric_limits<double>::infinity();
   const double low = std::log(1e-5 * r_eff_), high = std::log(r_eff_);
   constexpr int bits = 26;
-  return std::exp(rising_root([&](double log_a) { return at(std::exp(log_a)).log_yield_overlap; }, low, high, bits));
+  return std::exp(
+      rising_root([&](double log_a) { return at(std::exp(log_a)).log_yield_overlap; }, low, high, bits));
 }
 
 namespace {
@@ -251,7 +260,8 @@ ElasticCorrection elastic_correction(const PairBody& s, const PairBody& h, doubl
   return fit_correction(samples, terms);
 }
 
-/// From the onset on, to `depth`, or where the atlas ends or the contact is nearly as wide as the smaller body.
+/// From the onset on, to `depth`, or where the atlas ends or the contact is nearly as wide as the smaller
+/// body.
 std::vector<Sample> plastic_samples(const ComposedPair& pair, const RuleCoordinates& rule, double depth)
 {
   constexpr double step = 1.05;   // of the contact radius: 0.1 in ln x
@@ -273,7 +283,8 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
 {
   std::vector<double> log_x, reduction, widening, residual, dissipation, hertz_share;
   const double x0 = samples.front().x;
-  double work = std::pow(x0, 2.5) * (0.4 + elastic.c1 * std::sqrt(x0) / 3 + elastic.c2 * x0 / 3.5);  // of loading
+  double work =
+      std::pow(x0, 2.5) * (0.4 + elastic.c1 * std::sqrt(x0) / 3 + elastic.c2 * x0 / 3.5);  // of loading
   const double told_at_onset = samples.front().returned / work;  // 1, but for the fit of the elastic part
   double lost = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -301,8 +312,8 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
     for (double& value : values) value -= at_onset;
     const Curve curve(std::vector<double>(log_x), std::move(values));
     for (int k = 1; k < LawShape::nodes; ++k)
-      (shape.*member)[static_cast<std::size_t>(k)] =
-          curve(std::min(log_x.front() + (std::log(end) - log_x.front()) * k / (LawShape::nodes - 1), log_x.back()));
+      (shape.*member)[static_cast<std::size_t>(k)] = curve(std::min(
+          log_x.front() + (std::log(end) - log_x.front()) * k / (LawShape::nodes - 1), log_x.back()));
   };
   fill(&LawShape::force_reduction, std::move(reduction));
   fill(&LawShape::widening, std::move(widening));
@@ -322,7 +333,8 @@ double slow_impact_overlap(const ContactCurve& curve, const CharacterisedBody& b
 
 /// Those of the yielding body: an impact reaches so much less than by the slow law as that body's own does.
 std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const ContactCurve& own_slow,
-                                                       const ContactCurve& pair_slow, const CharacterisedBody& body)
+                                                       const ContactCurve& pair_slow,
+                                                       const CharacterisedBody& body)
 {
   std::vector<LawShape::VelocityEffect> effects = own.velocity_effects;
   for (LawShape::VelocityEffect& effect : effects)
@@ -331,10 +343,10 @@ std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, cons
   return effects;
 }
 
-/// finish_curve() with an axis to options.fastest, or to where what the yielding body's impacts show still makes an
-/// admissible law: against a soft partner they reach further than it was ever thrown.
-double finish_where_admissible(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body, BuildOptions options,
-                               double end)
+/// finish_curve() with an axis to options.fastest, or to where what the yielding body's impacts show still
+/// makes an admissible law: against a soft partner they reach further than it was ever thrown.
+double finish_where_admissible(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
+                               BuildOptions options, double end)
 {
   constexpr double slowest = 0.02;  // sqrt(I): below, speed changes nothing
   for (; options.fastest > slowest; options.fastest /= 2) try {
@@ -348,14 +360,14 @@ double finish_where_admissible(BodyLaw& law, const LawShape& shape, const Charac
 
 }  // namespace
 
-ComposedError composed_error(const LawMaterial& yielding, const LawMaterial& partner)
+ComposedError composed_error(double e_star_ratio)
 {
-  const double softness = yielding.e_star() / (yielding.e_star() + partner.e_star());
+  const double softness = 1 / (1 + e_star_ratio);
   return {0.008 + 0.014 * softness * softness, 0.006 + 0.02 * softness * softness};
 }
 
-TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner, double radius_ratio,
-                       const BuildOptions& options)
+TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
+                       double radius_ratio, const BuildOptions& options)
 {
   const PairMapping mapping =
       PairMapping::deformable_partner(yielding.material().e_star(), partner.material().e_star());
@@ -367,7 +379,7 @@ TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairB
   BodyLaw& law = result.law;
   law.material = yielding.material();
   law.certificate.origin = composed_origin;
-  const ComposedError stated = composed_error(yielding.material(), partner.material());
+  const ComposedError stated = composed_error(partner.material().e_star() / yielding.material().e_star());
   law.certificate.atlas_error_force = stated.force;
   if (!std::isfinite(pair.yield_radius())) {
     const double depth = std::min(options.depth, ElasticSphere::depth);

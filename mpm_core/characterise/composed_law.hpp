@@ -22,16 +22,19 @@ struct ComposedState
   bool known = true;
 };
 
-/// The law of two unlike spheres, or of a sphere and a thick wall, from what the atlas knows of each alone: no run.
+/// The law of two unlike spheres, or of a sphere and a thick wall, from what the atlas knows of each alone:
+/// no run.
 ///
-/// At a contact radius a the two bodies share the interface's curvature, kappa_s + kappa_h = a/R*, the mean pressure
-/// and the pressure's shape. Each is a twin (PairBody) whose own pressure has another shape: under the common one
+/// At a contact radius a the two bodies share the interface's curvature, kappa_s + kappa_h = a/R*, the mean
+/// pressure and the pressure's shape. Each is a twin (PairBody) whose own pressure has another shape: under
+/// the common one
 ///     p       = p_twin strength(common)/strength(own)                       it yields as much as the twin
-///     kappa   = kappa_twin + 2 pi/E* [sag(common) p - sag(own) p_twin]       its elastic surface curves otherwise
-///     overlap = that of the twin + pi a/E* [displacement(common) p - displacement(own) p_twin]
+///     kappa   = kappa_twin + 2 pi/E* [sag(common) p - sag(own) p_twin]       its elastic surface curves
+///     otherwise overlap = that of the twin + pi a/E* [displacement(common) p - displacement(own) p_twin]
 ///               - k pi a^2 (p - p_twin)/(E* R)                               the finite sphere's
-/// The common shape follows from the residual over the recovered overlaps of both. An elastic body yields nothing: the
-/// second line then says what curvature a flatter pressure gives it. Measured against two-body impacts: docs/pairs.md.
+/// The common shape follows from the residual over the recovered overlaps of both. An elastic body yields
+/// nothing: the second line then says what curvature a flatter pressure gives it. Measured against two-body
+/// impacts: docs/pairs.md.
 class ComposedPair
 {
  public:
@@ -56,14 +59,15 @@ struct ComposedError
 {
   double force = 0, restitution = 0;
 };
-/// Fitted to the 95th percentiles of two-body impacts against stiffer, like and softer partners (docs/pairs.md).
-ComposedError composed_error(const LawMaterial& yielding, const LawMaterial& partner);
+/// Fitted to the 95th percentiles of two-body impacts against stiffer, like and softer partners
+/// (docs/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.
+ComposedError composed_error(double e_star_ratio);
 
-/// The law of a pair at this ratio of the partner's radius to the yielding body's; infinity: the partner is a thick
-/// wall; 0: the yielding body is. Coordinates
-/// of the pair rule (law/pair.hpp). Velocity effects are those of the yielding body. options: depth, fastest,
-/// tolerance. Throws Error where it would not be admissible.
-TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner, double radius_ratio,
-                       const BuildOptions& options);
+/// The law of a pair at this ratio of the partner's radius to the yielding body's; infinity: the partner is a
+/// thick wall; 0: the yielding body is. Coordinates of the pair rule (law/pair.hpp). Velocity effects are
+/// those of the yielding body. options: depth, fastest, tolerance. Throws Error where it would not be
+/// admissible.
+TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
+                       double radius_ratio, const BuildOptions& options);
 
 }  // namespace granulaw

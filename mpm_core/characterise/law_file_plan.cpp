@@ -129,8 +129,8 @@ bool can_be_composed(const LawFilePlan::Body& body)
   return body.from_atlas() && body.body.is_plain_sphere();
 }
 
-/// Partner's radius over the yielding body's, so close that half a step changes F by 0.4 % and e by 0.002 at most: even
-/// steps in R_s/(R_s + R_h).
+/// Partner's radius over the yielding body's, so close that half a step changes F by 0.4 % and e by 0.002 at
+/// most: even steps in R_s/(R_s + R_h).
 std::vector<double> composed_ratios(const LawFileRequest& r, bool one_material)
 {
   constexpr double step = 0.05, like = 0.5;
@@ -164,7 +164,7 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   }
   if (one_material || !a.is_plain_sphere() || !b.is_plain_sphere()) return pair;
   const UnlikePair bodies = unlike_pair(a.material, b.material);
-  const ComposedError composed = composed_error(bodies.yielding, bodies.partner);
+  const ComposedError composed = composed_error(bodies.partner.e_star() / bodies.yielding.e_star());
   const double by_rule = std::max(pair.by_rule.force, pair.by_rule.restitution);
   const double stated = pair.composed_at.empty() ? by_rule : std::max(composed.force, composed.restitution);
   pair.worth_own_law = bodies.yielding.yields() && stated > r.tolerance;

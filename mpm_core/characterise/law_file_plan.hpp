@@ -24,10 +24,12 @@ struct LawFileRequest
   double slowest = 0;  ///< m/s on a wall, of the slowest impact that the law of a rate-dependent particle
                        ///< must know; 0: a fiftieth of the fastest, or the onset of yield
   double tolerance = 0.01;  ///< relative, of F and e (BuildOptions::tolerance): 1e-4 to 0.5
-  double radius_ratio = 1;  ///< largest ratio of two spheres' radii in the scene, 1 or more: pairs are composed up to it
+  double radius_ratio =
+      1;  ///< largest ratio of two spheres' radii in the scene, 1 or more: pairs are composed up to it
   double rule_radius_ratio = 0;  ///< that for which the pair rule's error is stated; 0: radius_ratio
-  bool thick_walls = true;  ///< either of two bodies may also be a thick deformable wall
-  bool own_laws = false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
+  bool thick_walls = true;       ///< either of two bodies may also be a thick deformable wall
+  bool own_laws =
+      false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
   const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan
 
   /// What the caller calls these things, for messages.
@@ -52,11 +54,12 @@ struct LawFilePlan
     std::string a, b;  ///< names; b may be wall_name, a is not
     /// What the pair rule costs, whichever of the two bodies is the larger; 0 where the rule is exact.
     ReductionError by_rule;
-    /// What the file states of the pair beside its laws' certificates: by_rule, or what other radii cost its own law; 0
-    /// of composed laws.
+    /// What the file states of the pair beside its laws' certificates: by_rule, or what other radii cost its
+    /// own law; 0 of composed laws.
     ReductionError stated;
-    /// Partner's radius over the yielding body's of each law that will be composed, ascending (composed_law.hpp);
-    /// infinity: a thick wall; 0: the yielding body is one. None: the pair follows the rule, or has its own law by runs.
+    /// Partner's radius over the yielding body's of each law that will be composed, ascending
+    /// (composed_law.hpp); infinity: a thick wall; 0: the yielding body is one. None: the pair follows the
+    /// rule, or has its own law by runs.
     std::vector<double> composed_at;
     bool worth_own_law = false;  ///< two plain spheres whose stated error is above the tolerance
     bool own_law = false;        ///< its own law will be made by runs

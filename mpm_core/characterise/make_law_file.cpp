@@ -97,7 +97,8 @@ class Maker
     options_.atlas = plan.request.atlas;
     options_.farm = &farm;
     laws_ = plan.bodies.size();
-    for (const LawFilePlan::Pair& pair : plan.pairs) laws_ += pair.own_law ? 1 : 0;  // composing takes no time
+    for (const LawFilePlan::Pair& pair : plan.pairs)
+      laws_ += pair.own_law ? 1 : 0;  // composing takes no time
   }
 
   MadeLawFile make()
@@ -152,8 +153,8 @@ class Maker
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b));
     const Atlas& atlas = *plan_.request.atlas;
     for (const double ratio : pair.composed_at)
-      file_.law.pair_laws[pair.name()].push_back(compose_law(
-          atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
+      file_.law.pair_laws[pair.name()].push_back(
+          compose_law(atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
   }
 
   /// Made once for all pairs.

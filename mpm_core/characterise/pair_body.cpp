@@ -14,13 +14,13 @@ namespace granulaw {
 
 namespace {
 
-// Twins: the atlas's spacing in ln(E*/Y), over curvatures 14 times the flat's either way (radii 1:10 and a partner
-// that takes a tenth of the curvature).
+// Twins: the atlas's spacing in ln(E*/Y), over curvatures 14 times the flat's either way (radii 1:10 and a
+// partner that takes a tenth of the curvature).
 constexpr double farthest_twin = 14;
 constexpr int twins_made = 9;
 
-// Nodes of a twin in ln(overlap/overlap at first yield): up to that, and from there to where the atlas ends, in which
-// laws of different stiffness resemble each other (LawShape).
+// Nodes of a twin in ln(overlap/overlap at first yield): up to that, and from there to where the atlas ends,
+// in which laws of different stiffness resemble each other (LawShape).
 constexpr double first_log_overlap = -8;
 constexpr int elastic_intervals = 80, plastic_intervals = 240;
 constexpr int overlap_nodes = elastic_intervals + plastic_intervals + 1;
@@ -124,7 +124,8 @@ PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
 double PairBody::elastic_overlap(double contact) const
 {
   double x = contact * contact;
-  for (int round = 0; round < 30; ++round) x = std::pow(contact / elastic_.radius_ratio(std::pow(x, 0.25)), 2);
+  for (int round = 0; round < 30; ++round)
+    x = std::pow(contact / elastic_.radius_ratio(std::pow(x, 0.25)), 2);
   return x;
 }
 
@@ -146,12 +147,14 @@ PairBody::State PairBody::elastic_at(double curvature, double contact) const
 PairBody::Mixed PairBody::twin_at(double curvature, double contact) const
 {
   const double own = std::log(material_.e_star() / material_.yield_stress);
-  const double wanted = contact > 0 ? own + std::log(curvature / contact) : std::numeric_limits<double>::infinity();
+  const double wanted =
+      contact > 0 ? own + std::log(curvature / contact) : std::numeric_limits<double>::infinity();
   const double told = std::clamp(wanted, log_stiffnesses_.front(), log_stiffnesses_.back());
   const std::vector<double> weights = interpolation_weights(log_stiffnesses_, told);
   Mixed twin{std::exp(told - own), 0, {}, told != wanted};
   while (twin.first + twin.weights.size() < weights.size() && weights[twin.first] == 0) ++twin.first;
-  std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(twin.first), twin.weights.size(), twin.weights.begin());
+  std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(twin.first), twin.weights.size(),
+              twin.weights.begin());
   return twin;
 }
 
@@ -184,16 +187,18 @@ PairBody::State PairBody::at(double curvature, double contact) const
 {
   if (!yields()) return elastic_at(curvature, contact);
   const Mixed twin = twin_at(curvature, contact);
-  // Of a twin that the atlas does not know: the nearest one that it knows, at the same kappa; what the finite sphere
-  // takes off the overlap is put right.
+  // Of a twin that the atlas does not know: the nearest one that it knows, at the same kappa; what the finite
+  // sphere takes off the overlap is put right.
   const double alpha = twin.is_clipped ? curvature / twin.share : contact;
   const double node = place(twin, &Twin::log_contact, std::log(alpha));
   double log_end = 0;
-  for (std::size_t k = 0; k < twin.weights.size(); ++k) log_end += twin.weights[k] * twins_[twin.first + k].log_end;
+  for (std::size_t k = 0; k < twin.weights.size(); ++k)
+    log_end += twin.weights[k] * twins_[twin.first + k].log_end;
 
   State state;
   state.log_yield_overlap = log_overlap_of(node, log_end);
-  // A twin put in the place of one that is too stiff for the atlas is soft for lack of a body, not of pressure.
+  // A twin put in the place of one that is too stiff for the atlas is soft for lack of a body, not of
+  // pressure.
   constexpr double widest_stand_in = 0.35;
   state.known = node < overlap_nodes && !(twin.is_clipped && alpha > std::max(contact, widest_stand_in));
   state.pressure = material_.yield_stress * std::exp(value(twin, &Twin::log_pressure, node));
@@ -206,7 +211,8 @@ PairBody::State PairBody::at(double curvature, double contact) const
   return state;
 }
 
-PairBody::Unloading PairBody::unloading(double curvature, double contact, double residual_over_recovered) const
+PairBody::Unloading PairBody::unloading(double curvature, double contact,
+                                        double residual_over_recovered) const
 {
   if (!yields()) {
     const UnloadingShape shape = elastic_.unloading(std::pow(elastic_overlap(std::max(contact, flat)), 0.25));

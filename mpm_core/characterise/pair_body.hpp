@@ -8,30 +8,33 @@
 
 namespace granulaw {
 
-/// How far a contact's pressure has gone from Hertz's (0) to uniform (1), and what follows for an elastic half-space
-/// under a mean pressure p over a circle of radius a (Johnson, Contact Mechanics, sect. 3.2 and 3.4).
+/// How far a contact's pressure has gone from Hertz's (0) to uniform (1), and what follows for an elastic
+/// half-space under a mean pressure p over a circle of radius a (Johnson, Contact Mechanics, sect. 3.2
+/// and 3.4).
 struct PressureShape
 {
-  /// By the residual overlap over the recovered one. Measured: the recovered overlaps of the atlas's laws follow
-  /// 1 - exp(-ratio/0.4) within 0.02 up to a ratio of 1.1, whatever E*/Y, nu and H.
+  /// By the residual overlap over the recovered one. Measured: the recovered overlaps of the atlas's laws
+  /// follow 1 - exp(-ratio/0.4) within 0.02 up to a ratio of 1.1, whatever E*/Y, nu and H.
   static double flatness_of(double residual_over_recovered);
 
   /// Displacement of the middle, over pi p a/E*: 3/4 to 2/pi.
   static double displacement(double flatness);
   /// What the edge lies above the middle, over pi p a/E*: 3/8 to 2/pi - 4/pi^2.
   static double sag(double flatness);
-  /// Mean pressure at which material under this shape yields as much as under Hertz's: 1 to 1.25. At first yield
-  /// a uniform pressure's is 1.5 Y, Hertz's 1.07 Y; in full plasticity both are hardness. The mean of the two ends.
+  /// Mean pressure at which material under this shape yields as much as under Hertz's: 1 to 1.25. At first
+  /// yield a uniform pressure's is 1.5 Y, Hertz's 1.07 Y; in full plasticity both are hardness. The mean of
+  /// the two ends.
   static double strength(double flatness);
 };
 
 /// One sphere of a pair, pressed by a partner of any curvature.
 ///
-/// A partner shows a sphere of radius R a surface that is not flat. Only the curvature 1/r between the two counts for
-/// what happens near the contact, of radius a: kappa = a/r; and alpha = a/R for the sphere as a whole. A sphere on a
-/// rigid flat has kappa = alpha. Strains go as kappa, the solution depends on kappa E*/Y and alpha: so the sphere is
-/// as its twin on a rigid flat, of the same Y, nu, H and alpha and of the stiffness E* kappa/alpha: with the same
-/// pressure, and overlaps kappa/alpha times the twin's. The atlas knows the twins.
+/// A partner shows a sphere of radius R a surface that is not flat. Only the curvature 1/r between the two
+/// counts for what happens near the contact, of radius a: kappa = a/r; and alpha = a/R for the sphere as a
+/// whole. A sphere on a rigid flat has kappa = alpha. Strains go as kappa, the solution depends on kappa E*/Y
+/// and alpha: so the sphere is as its twin on a rigid flat, of the same Y, nu, H and alpha and of the
+/// stiffness E* kappa/alpha: with the same pressure, and overlaps kappa/alpha times the twin's. The atlas
+/// knows the twins.
 class PairBody
 {
  public:
@@ -51,8 +54,8 @@ class PairBody
   /// `curvature`: kappa > 0; `contact`: alpha, 0 for a thick wall.
   State at(double curvature, double contact) const;
 
-  /// How the twin unloads where its residual overlap is this over the recovered one: dents of one shape are reloaded
-  /// with one shape of the pressure.
+  /// How the twin unloads where its residual overlap is this over the recovered one: dents of one shape are
+  /// reloaded with one shape of the pressure.
   struct Unloading
   {
     double work = 0.4;       ///< given back, over F times the recovered overlap
@@ -78,7 +81,7 @@ class PairBody
   /// The twin of a stiffness between those kept.
   struct Mixed
   {
-    double share;  // of its stiffness in the body's own
+    double share;       // of its stiffness in the body's own
     std::size_t first;  // of the kept ones between which it lies
     std::array<double, 4> weights;
     bool is_clipped;  // nearest to one that the atlas does not know

@@ -70,8 +70,8 @@ struct LawPair
 };
 
 /// The law of two spheres at one ratio of radii, used in place of the yielding body's own by the pair rule:
-/// composed of the two bodies' laws (certificate.origin "composed"), or from runs of the two bodies ("runs"). Its
-/// curve goes with the rule's mapping.
+/// composed of the two bodies' laws (certificate.origin "composed"), or from runs of the two bodies ("runs").
+/// Its curve goes with the rule's mapping.
 struct TwoBodyLaw
 {
   BodyLaw law;              ///< `material` is the yielding one's
@@ -87,8 +87,8 @@ struct Law
 {
   std::map<std::string, BodyLaw> bodies;  ///< by material name
   std::vector<LawPair> pairs;
-  /// By "a:b" as in `pairs`: each ascending in radius_ratio, which is at least 1 where a is b. Other pairs follow
-  /// the pair rule.
+  /// By "a:b" as in `pairs`: each ascending in radius_ratio, which is at least 1 where a is b. Other pairs
+  /// follow the pair rule.
   std::map<std::string, std::vector<TwoBodyLaw>> pair_laws;
   std::map<std::string, std::string> provenance;  ///< version, git_hash, created, command, material_hash, ...
 
@@ -161,10 +161,10 @@ struct PairLaw
 PairLaw wall_pair(const BodyLaw& body);
 
 /// Resolves materials `a` and `b` (b may be "wall": rigid), in either order: the pair's own law if the file
-/// has one, of several that at the nearest size_share(), else the law of the body that yields (`yields_first`).
-/// The radii (m; or both in another unit) choose; infinity: a thick deformable wall. Throws Error naming `where` where the
-/// law has no such material or was not built for the pair, or where a body that is no homogeneous sphere would meet
-/// another body than its like or the rigid wall.
+/// has one, of several that at the nearest size_share(), else the law of the body that yields
+/// (`yields_first`). The radii (m; or both in another unit) choose; infinity: a thick deformable wall. Throws
+/// Error naming `where` where the law has no such material or was not built for the pair, or where a body
+/// that is no homogeneous sphere would meet another body than its like or the rigid wall.
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where,
                      double radius_a = 1, double radius_b = 1);
 

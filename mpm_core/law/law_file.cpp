@@ -155,7 +155,8 @@ void check_body(const BodyLaw& body, const std::string& where)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
   if (std::find(std::begin(origins), std::end(origins), body.certificate.origin) == std::end(origins))
-    fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin), "runs, atlas, composed");
+    fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin),
+         "runs, atlas, composed");
   if (body.curve.axis() && !m.yields())
     fail(where, "the material is elastic but its curve has a velocity axis");
   if (!usable_name(body.body)) fail(where, "unusable name of a body", shortened(body.body), name_rule);
@@ -167,15 +168,15 @@ void check_body(const BodyLaw& body, const std::string& where)
     fail(where, fmt::format("'pole_radius' of the body {} is missing", shortened(body.body)));
 }
 
-void check_own_law(const std::string& name, const TwoBodyLaw& own, bool one_material, const std::string& where)
+void check_own_law(const std::string& name, const TwoBodyLaw& own, bool one_material,
+                   const std::string& where)
 {
   const bool composed = own.law.certificate.origin == composed_origin;
   if (!own.law.material.yields() && !composed)
     fail(where, "a pair's own law by runs needs a body that yields", shortened(name));
   if (!own.law.is_sphere()) fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
   const double least = one_material ? std::nextafter(1.0, 2.0) : 0.01;
-  const bool wall =
-      composed && (std::isinf(own.radius_ratio) || (own.radius_ratio == 0 && !one_material));
+  const bool wall = composed && (std::isinf(own.radius_ratio) || (own.radius_ratio == 0 && !one_material));
   if (!wall && !(own.radius_ratio >= least && own.radius_ratio <= 100))
     fail(where,
          fmt::format("'{}' of the pair {} is out of range", h5::radius_ratio_of_runs.name, shortened(name)),
@@ -389,7 +390,8 @@ void write_two_body_law(hid_t group, const TwoBodyLaw& own, const std::string& p
 }
 
 /// Subgroups "1", "2", ...
-std::vector<TwoBodyLaw> read_laws_of_ratios(hid_t group, const LawMaterial& yielding, const std::string& where)
+std::vector<TwoBodyLaw> read_laws_of_ratios(hid_t group, const LawMaterial& yielding,
+                                            const std::string& where)
 {
   std::vector<TwoBodyLaw> laws;
   const std::size_t count = h5::link_names(group, most_radius_ratios, where).size();

@@ -6,22 +6,23 @@ namespace granulaw {
 
 /// What waves take with them that leave a contact into its two bodies and do not come back in time.
 ///
-/// A half-space radiates 0.665/(rho c^3) (dF/dt)^2, W, of a force F(t) on its surface, c = sqrt(E*/rho) (the form:
-/// Miller and Pursey, Proc. R. Soc. A 223, 1954; Hunter, J. Mech. Phys. Solids 5, 1957; the number: six elastic
-/// impacts on thick walls by the solver, 0.658 to 0.706). A sphere of radius R gives back what returns while the
-/// contact lasts: there remains G = 1/(1 + (c t/(4 R))^4) of it.
+/// A half-space radiates 0.665/(rho c^3) (dF/dt)^2, W, of a force F(t) on its surface, c = sqrt(E*/rho) (the
+/// form: Miller and Pursey, Proc. R. Soc. A 223, 1954; Hunter, J. Mech. Phys. Solids 5, 1957; the number: six
+/// elastic impacts on thick walls by the solver, 0.658 to 0.706). A sphere of radius R gives back what
+/// returns while the contact lasts: there remains G = 1/(1 + (c t/(4 R))^4) of it.
 ///
-/// With dF/dt = K d(delta)/dt, K the contact's stiffness, it is a dashpot: F_waves = C K^2 d(delta)/dt, which only
-/// dissipates. C is the sum of 0.665 G/(rho c^3) over both bodies.
+/// With dF/dt = K d(delta)/dt, K the contact's stiffness, it is a dashpot: F_waves = C K^2 d(delta)/dt, which
+/// only dissipates. C is the sum of 0.665 G/(rho c^3) over both bodies.
 inline constexpr double radiation_number = 0.665, return_times = 4.0;
-/// G below which a body counts as giving everything back, so that like spheres cost nothing: 0.05 of what a half-space
-/// takes is less than 0.002 of e at the fastest impact that a composed law was measured at (I = 0.003).
+/// G below which a body counts as giving everything back, so that like spheres cost nothing: 0.05 of what a
+/// half-space takes is less than 0.002 of e at the fastest impact that a composed law was measured at (I =
+/// 0.003).
 inline constexpr double negligible_radiation = 0.05;
 
 /// C of two solid spheres, s^3/kg; radius (m): infinity for a thick wall. Only ratios of radii count.
 ///
-/// The contact's duration t: that of a plastic contact, sqrt(m*/(R* Y)), which does not depend on the speed; of two
-/// elastic bodies Hertz's at a hundredth of the softer one's wave speed.
+/// The contact's duration t: that of a plastic contact, sqrt(m*/(R* Y)), which does not depend on the speed;
+/// of two elastic bodies Hertz's at a hundredth of the softer one's wave speed.
 double radiation(const LawMaterial& a, double radius_a, const LawMaterial& b, double radius_b);
 
 }  // namespace granulaw

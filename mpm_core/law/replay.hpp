@@ -37,8 +37,8 @@ using NormalForce = std::function<ContactForce(double delta, double delta_max)>;
 Replay replay_collision(const NormalForce& law, double effective_mass, double velocity, double duration_guess,
                         int steps_per_contact = 20000);
 
-/// The same for a pair of a Law: latches the impact overlap X of `velocity` at first touch, and lets waves take
-/// their part.
+/// The same for a pair of a Law: latches the impact overlap X of `velocity` at first touch, and lets waves
+/// take their part.
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
                         int steps_per_contact = 20000);
 

@@ -45,7 +45,8 @@ BodyLaw alone(const LawMaterial& s)
   return law_from(atlas(), s, options);
 }
 
-/// Largest relative difference of the loading force, and of e by works, over the range of both from x = 1e-4 on.
+/// Largest relative difference of the loading force, and of e by works, over the range of both from x = 1e-4
+/// on.
 struct Difference
 {
   double force = 0, restitution = 0;

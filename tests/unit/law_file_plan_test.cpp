@@ -1,8 +1,8 @@
 #include "characterise/law_file_plan.hpp"
 
 #include "characterise/law_material.hpp"
-#include "scratch_folder.hpp"
 #include "own_atlas.hpp"
+#include "scratch_folder.hpp"
 #include "some_materials.hpp"
 
 namespace granulaw {

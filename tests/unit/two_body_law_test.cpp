@@ -160,7 +160,8 @@ TEST_F(PairLawFile, RefusesLawsThatNoPairCanHave)
   says([&](Law& l) { rename(l, "powder:wall"); }, "rigid wall");
   says([&](Law& l) { rename(l, "powder"); }, "not among its pairs");
   says([](Law& l) { l.pair_laws.begin()->second.front().radius_ratio = -1; }, "radius_ratio");
-  says([](Law& l) { l.pair_laws.begin()->second.front().law.certificate.held_out_error = NAN; }, "held_out_error");
+  says([](Law& l) { l.pair_laws.begin()->second.front().law.certificate.held_out_error = NAN; },
+       "held_out_error");
   says(
       [](Law& l) {
         l.pairs.push_back({"glass", "powder"});

@@ -1,11 +1,12 @@
 // What composed laws of unlike pairs are worth: random mixtures against two-body impacts.
 //
-//   granulaw_mixtures_study ATLAS FOLDER SEED COUNT    runs are kept in FOLDER and not made again; prints each case and
+//   granulaw_mixtures_study ATLAS FOLDER SEED COUNT    runs are kept in FOLDER and not made again; prints
+//   each case and
 //                                                      the summary, writes FOLDER/mixtures_SEED.csv
 //
-// Of a mixture at random, evenly in the logarithm: E* ratio 0.1 to 1000, Y ratio 1 to 10 or elastic (3 of 10), density
-// ratio 0.3 to 10, radius ratio 0.1 to 10, E*/Y of the yielding body 30 to 1000, nu 0.1 to 0.45, hardening 0.001 to 0.1
-// of E in 3 of 10, V/V_y 2 to 100; up to I = 0.003 and Hertz's overlap of 0.13 R*.
+// Of a mixture at random, evenly in the logarithm: E* ratio 0.1 to 1000, Y ratio 1 to 10 or elastic (3 of
+// 10), density ratio 0.3 to 10, radius ratio 0.1 to 10, E*/Y of the yielding body 30 to 1000, nu 0.1 to 0.45,
+// hardening 0.001 to 0.1 of E in 3 of 10, V/V_y 2 to 100; up to I = 0.003 and Hertz's overlap of 0.13 R*.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -100,10 +101,11 @@ RunSummary run(const Mixture& m, RunCache& cache)
   options.resolution = 14, options.shifted_grids = 2, options.precision = Precision::single;
   const LawMaterial &s = m.pair.yielding, &h = m.pair.partner;
   const std::string key = fmt::format(
-      "mixture {:.9g} {:.9g} {:.9g} | {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} | {:.9g} {:.9g} cells={} grids={} solver={}",
+      "mixture {:.9g} {:.9g} {:.9g} | {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} | {:.9g} {:.9g} cells={} grids={} "
+      "solver={}",
       s.poisson_ratio, s.yield_stress, s.hardening_modulus, h.youngs_modulus, h.poisson_ratio, h.yield_stress,
-      h.hardening_modulus, h.density, m.pair.radius_ratio, m.velocity(), options.resolution, options.shifted_grids,
-      solver_id());
+      h.hardening_modulus, h.density, m.pair.radius_ratio, m.velocity(), options.resolution,
+      options.shifted_grids, solver_id());
   RunOutcome outcome;
   if (cache.load(key, outcome)) return outcome.result.summary;
   outcome.result.summary = run_two_bodies(m.pair, m.velocity(), options);
@@ -132,7 +134,8 @@ double quantile(std::vector<double> values, double share)
 {
   for (double& v : values) v = std::abs(v);
   std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+  return values[std::min(values.size() - 1,
+                         static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
 void print_summary(const std::vector<Deviation>& all)
@@ -149,14 +152,18 @@ void print_summary(const std::vector<Deviation>& all)
   }
   const auto n = static_cast<double>(all.size());
   fmt::print("{} mixtures: {:.1f} % within 1.5 % of F and 0.012 of e\n", all.size(), 100 * within / n);
-  fmt::print("F: median {:.2f} %, 95 % {:.2f} %, largest {:.2f} %; stated error true in {:.1f} %, median of stated over "
-             "real {:.2g}\n",
-             100 * quantile(force, 0.5), 100 * quantile(force, 0.95), 100 * quantile(force, 1), 100 * force_true / n,
-             quantile(claim_force, 0.5));
-  fmt::print("e: median {:.4f}, 95 % {:.4f}, largest {:.4f}; stated error true in {:.1f} %, median of stated over real "
-             "{:.2g}\n",
-             quantile(restitution, 0.5), quantile(restitution, 0.95), quantile(restitution, 1),
-             100 * restitution_true / n, quantile(claim_restitution, 0.5));
+  fmt::print(
+      "F: median {:.2f} %, 95 % {:.2f} %, largest {:.2f} %; stated error true in {:.1f} %, median of stated "
+      "over "
+      "real {:.2g}\n",
+      100 * quantile(force, 0.5), 100 * quantile(force, 0.95), 100 * quantile(force, 1), 100 * force_true / n,
+      quantile(claim_force, 0.5));
+  fmt::print(
+      "e: median {:.4f}, 95 % {:.4f}, largest {:.4f}; stated error true in {:.1f} %, median of stated over "
+      "real "
+      "{:.2g}\n",
+      quantile(restitution, 0.5), quantile(restitution, 0.95), quantile(restitution, 1),
+      100 * restitution_true / n, quantile(claim_restitution, 0.5));
 }
 
 void study(const std::string& atlas_file, const std::string& folder, unsigned seed, int count)
@@ -178,12 +185,13 @@ void study(const std::string& atlas_file, const std::string& folder, unsigned se
       all.push_back(d);
       const LawMaterial &s = m.pair.yielding, &h = m.pair.partner;
       const std::string line = fmt::format(
-          "{:.5g},{:.3g},{:.3g},{:.5g},{:.3g},{:.5g},{:.4g},{:.4g},{:.4g},{:.3g},{:.4f},{:+.5f},{:+.5f},{:.4f},{:.4f},"
+          "{:.5g},{:.3g},{:.3g},{:.5g},{:.3g},{:.5g},{:.4g},{:.4g},{:.4g},{:.3g},{:.4f},{:+.5f},{:+.5f},{:."
+          "4f},{:.4f},"
           "{:.3g}\n",
-          1 / s.yield_stress, s.poisson_ratio, s.hardening_modulus / s.youngs_modulus, h.e_star(), h.poisson_ratio,
-          h.yields() ? h.e_star() / h.yield_stress : 0.0, h.density, m.pair.radius_ratio, m.v_over_vy,
-          m.damage_number(), truth.restitution, d.force, d.restitution, d.stated_force, d.stated_restitution,
-          truth.cpu_s);
+          1 / s.yield_stress, s.poisson_ratio, s.hardening_modulus / s.youngs_modulus, h.e_star(),
+          h.poisson_ratio, h.yields() ? h.e_star() / h.yield_stress : 0.0, h.density, m.pair.radius_ratio,
+          m.v_over_vy, m.damage_number(), truth.restitution, d.force, d.restitution, d.stated_force,
+          d.stated_restitution, truth.cpu_s);
       table << line << std::flush;
       fmt::print("{}", line);
       std::fflush(stdout);

@@ -191,11 +191,11 @@ std::string table_command(const Plan& plan, const std::string& materials_file)
   }
   if (pairs.empty() || plan.depth <= 0) return {};
   const PairSizes sizes = pair_sizes(plan);
-  return fmt::format(
-      "mpm table {}{} --depth {:.3g} --damage-number {:.3g}{}{} -o law.h5",
-      materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth, plan.damage_number,
-      sizes.radius_ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", sizes.radius_ratio) : "",
-      sizes.thick_walls ? "" : " --no-thick-walls");
+  return fmt::format("mpm table {}{} --depth {:.3g} --damage-number {:.3g}{}{} -o law.h5",
+                     materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
+                     plan.damage_number,
+                     sizes.radius_ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", sizes.radius_ratio) : "",
+                     sizes.thick_walls ? "" : " --no-thick-walls");
 }
 
 }  // namespace granulaw::deck

@@ -35,8 +35,8 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
 
 /// `mpm table` states a pair's error up to this ratio of radii.
 inline constexpr double largest_radius_ratio = 10;
-/// The sizes that a law of the deck's pairs must know: the largest ratio of two spheres' radii, as far as laws are made
-/// for it, and whether a body meets a deformable wall.
+/// The sizes that a law of the deck's pairs must know: the largest ratio of two spheres' radii, as far as
+/// laws are made for it, and whether a body meets a deformable wall.
 struct PairSizes
 {
   double radius_ratio = 1;

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "characterise/support_ratio.hpp"
 #include "characterise/law_material.hpp"
+#include "characterise/support_ratio.hpp"
 #include "claim.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "characterise/composed_law.hpp"
+#include "claim.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "json_output.hpp"
@@ -58,11 +60,34 @@ ordered_json types_json(const PlannedDeck& d)
   return types;
 }
 
+/// Whether the pair's law is composed of two bodies' laws, if the atlas knows both.
+bool is_unlike(const deck::PairPlan& p)
+{
+  const deck::Meeting& m = p.meeting;
+  return p.needs_table && p.visited && (m.wall ? m.deformable : m.name_a != m.name_b);
+}
+
+/// What such a law would state.
+ComposedError law_error(const deck::PairPlan& p)
+{
+  return composed_error(1 / (p.meeting.mapping.sqrt_lambda - 1));
+}
+
+/// Error of e beyond which runs of the two bodies are worth their time.
+constexpr double worth_runs = 0.01;
+
 ordered_json pair_json(const deck::PairPlan& p)
 {
   const auto known = [&](double value) {
     return p.meeting.known_yield ? json_number(value) : ordered_json();
   };
+  ordered_json error;  // null: the law is the body's own
+  if (is_unlike(p)) {
+    const ComposedError stated = law_error(p);
+    error = {{"force", stated.force},
+             {"restitution", stated.restitution},
+             {"worth_own_law", stated.restitution > worth_runs && !p.meeting.wall}};
+  }
   return {{"types", {p.meeting.a, p.meeting.b}},
           {"wall", p.meeting.wall},
           {"deformable_wall", p.meeting.deformable},
@@ -77,6 +102,7 @@ ordered_json pair_json(const deck::PairPlan& p)
           {"overlap_by", p.overlap_basis},
           {"contact_time_min_s", json_number(p.contact_time)},
           {"needs_table", p.needs_table},
+          {"law_error", error},
           {"verdict", verdict(p)}};
 }
 
@@ -153,6 +179,20 @@ void print_pair(const deck::PairPlan& p)
              p.overlap_basis.empty() ? "-" : p.overlap_basis, verdict(p));
 }
 
+/// What the laws of unlike pairs would be off by.
+void print_law_errors(const std::vector<deck::PairPlan>& pairs)
+{
+  for (const deck::PairPlan& p : pairs) {
+    if (!is_unlike(p)) continue;
+    const ComposedError stated = law_error(p);
+    fmt::print(
+        "  {}:{}{}: composed of both bodies' laws, F within {}, e within {:.2g} in 95 % of collisions{}\n",
+        printable(p.meeting.name_a), printable(p.meeting.name_b), p.meeting.wall ? " (deformable wall)" : "",
+        percent(stated.force), stated.restitution,
+        stated.restitution > worth_runs && !p.meeting.wall ? "; mpm table --own-law makes one by runs" : "");
+  }
+}
+
 void print_pairs(const PlannedDeck& d)
 {
   if (!d.plan.pairs.empty()) {
@@ -162,6 +202,7 @@ void print_pairs(const PlannedDeck& d)
                "d/R*", "by", "verdict");
   }
   for (const deck::PairPlan& p : d.plan.pairs) print_pair(p);
+  print_law_errors(d.plan.pairs);
   for (const deck::PairPlan& p : d.plan.pairs)
     if (p.speed_basis == "shielded fall")
       fmt::print("  {}:wall {}: the lowest particles shield the floor from a fall of {:.3g} m/s\n",
