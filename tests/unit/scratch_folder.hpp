@@ -14,7 +14,7 @@
 namespace granulaw {
 
 /// Each test works in an empty folder of its own: several may run at the same time.
-class ScratchFolder : public testing::Test
+class ScratchFolder : public ::testing::Test
 {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_); }
@@ -39,7 +39,7 @@ class ScratchFolder : public testing::Test
  private:
   const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
                                         ("granulaw_" + std::to_string(getpid()) + "_" +
-                                         testing::UnitTest::GetInstance()->current_test_info()->name());
+                                         ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 /// The sentence of the Error that `what` throws; empty: it throws none.
