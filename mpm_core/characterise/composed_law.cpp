@@ -363,7 +363,7 @@ double finish_where_admissible(BodyLaw& law, const LawShape& shape, const Charac
 ComposedError composed_error(double e_star_ratio)
 {
   const double softness = 1 / (1 + e_star_ratio);
-  return {0.008 + 0.014 * softness * softness, 0.006 + 0.02 * softness * softness};
+  return {0.01 + 0.018 * softness * softness, 0.007 + 0.024 * softness * softness};
 }
 
 TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
