@@ -103,8 +103,8 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
 
 std::string radii_text(const TwoBodyLaw& own)
 {
-  if (own.radius_ratio == 0) return "of a thick wall that yields";
-  return std::isinf(own.radius_ratio) ? "against a thick wall" : fmt::format("1:{:.4g}", own.radius_ratio);
+  if (own.radius_ratio == 0) return "a thick wall : 1";
+  return std::isinf(own.radius_ratio) ? "1 : a thick wall" : fmt::format("1 : {:.4g}", own.radius_ratio);
 }
 
 void print_pair(const LawPair& pair, const std::vector<TwoBodyLaw>* own)
