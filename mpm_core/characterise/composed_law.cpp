@@ -391,19 +391,23 @@ TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairB
   }
   law.certificate.atlas_error_restitution = stated.restitution;
   const std::vector<Sample> samples = plastic_samples(pair, rule, options.depth);
-  const double onset = samples.front().x, end = std::min(options.depth, samples.back().x);
-  if (samples.size() < 8 || end < 2 * onset)
+  constexpr std::size_t fewest = 8;
+  if (samples.size() < fewest || std::min(options.depth, samples.back().x) < 2 * samples.front().x)
     fail(fmt::format("the pair {}:{}", yielding.material().name, partner.material().name),
-         "begins to yield where the atlas ends", fmt::format("overlap {:.3g} R*", onset));
+         "begins to yield where the atlas ends, or the law",
+         fmt::format("a = {:.3g} R*", pair.yield_radius() / pair.r_eff()));
+  const double onset = samples.front().x, end = std::min(options.depth, samples.back().x);
   const double elastic_depth = std::clamp(1.5 * onset, 0.005, 0.04);
   LawShape shape =
       shape_of(samples, elastic_correction(yielding, partner, radius_ratio, rule, elastic_depth, 2), end);
 
   const MaterialRatios ratios = MaterialRatios::of(law.material);
   CharacterisedBody body = characterised_body_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening);
-  const LawShape own = atlas.shape(ratios);
-  shape.velocity_effects = velocity_effects(own, tabulate(own, body.onset, Atlas::depth, Atlas::depth),
-                                            tabulate(shape, onset, end, end), body);
+  if (options.fastest > 0) {
+    const LawShape own = atlas.shape(ratios);
+    shape.velocity_effects = velocity_effects(own, tabulate(own, body.onset, Atlas::depth, Atlas::depth),
+                                              tabulate(shape, onset, end, end), body);
+  }
   body.onset = onset;
   BuildOptions of_pair = options;
   of_pair.depth = end;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "base/error.hpp"
 #include "base/version.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/composed_law.hpp"
@@ -144,17 +145,25 @@ class Maker
   void add_pair(const LawFilePlan::Pair& pair)
   {
     if (pair.own_law) add_own_law(pair);
-    if (!pair.composed_at.empty()) add_composed_laws(pair);
-    file_.law.pairs.push_back({pair.a, pair.b, pair.stated.force, pair.stated.restitution});
+    ReductionError stated = pair.stated;
+    if (!pair.composed_at.empty()) try {
+        file_.law.pair_laws[pair.name()] = composed_laws(pair);
+      } catch (const Error& error) {  // the pair rule serves any pair
+        stated = pair.by_rule;
+        file_.law.provenance["not_composed." + pair.name()] = error.what();
+      }
+    file_.law.pairs.push_back({pair.a, pair.b, stated.force, stated.restitution});
   }
 
-  void add_composed_laws(const LawFilePlan::Pair& pair)
+  std::vector<TwoBodyLaw> composed_laws(const LawFilePlan::Pair& pair)
   {
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b));
     const Atlas& atlas = *plan_.request.atlas;
+    std::vector<TwoBodyLaw> laws;
     for (const double ratio : pair.composed_at)
-      file_.law.pair_laws[pair.name()].push_back(
+      laws.push_back(
           compose_law(atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
+    return laws;
   }
 
   /// Made once for all pairs.

@@ -32,6 +32,9 @@ double log_overlap_of(double node, double end)
                                   : end * (node - elastic_intervals) / plastic_intervals;
 }
 
+/// Of a thick wall, which has no finite body, in place of alpha = 0.
+constexpr double flat = 1e-6;
+
 /// Between the values at 0 and 1.
 double between(double first, double last, double share)
 {
@@ -128,9 +131,6 @@ double PairBody::elastic_overlap(double contact) const
     x = std::pow(contact / elastic_.radius_ratio(std::pow(x, 0.25)), 2);
   return x;
 }
-
-/// Of a thick wall, which has no finite body, in place of alpha = 0.
-constexpr double flat = 1e-6;
 
 PairBody::State PairBody::elastic_at(double curvature, double contact) const
 {

@@ -91,13 +91,19 @@ void print_body(const std::string& name, const LawFilePlan::Body& planned, const
   if (!runs.size.empty()) fmt::print("{}: {}\n", name, runs.size);
 }
 
+/// As planned; a pair that could not be composed follows the pair rule.
+bool is_composed(const LawFilePlan::Pair& pair, const Law& law)
+{
+  return !pair.composed_at.empty() && law.pair_laws.contains(pair.name());
+}
+
 void print_pair(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
   const std::string by_rule = errors_text(pair.by_rule.force, pair.by_rule.restitution);
   if (pair.own_law)
     fmt::print("{}: its own law by {} runs of two bodies of equal radii (pair rule: {})\n", pair.name(),
                file.runs.at(pair.name()).made, by_rule);
-  else if (!pair.composed_at.empty() && pair.a != pair.b)
+  else if (is_composed(pair, file.law) && pair.a != pair.b)
     fmt::print("{}: composed of both bodies' laws: {}\n", pair.name(),
                atlas_errors_text(file.law.pair_laws.at(pair.name()).front().law.certificate));
   else if (pair.worth_own_law)
@@ -125,7 +131,7 @@ void print_certificate(const std::string& name, const BodyLaw& body)
 void print_warnings(const LawFilePlan& plan, const MadeLawFile& file)
 {
   for (const LawFilePlan::Pair& pair : plan.pairs)
-    if (pair.composed_at.empty() && pair.is_extrapolated())
+    if (!is_composed(pair, file.law) && pair.is_extrapolated())
       fmt::print(stderr,
                  "mpm: what the pair rule costs {} is extrapolated: the partner is softer than was measured "
                  "(docs/pairs.md)\n",
