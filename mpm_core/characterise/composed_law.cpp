@@ -236,6 +236,16 @@ ElasticCorrection fit_correction(const std::vector<Sample>& samples, int terms)
   return {c(0), c(1), root.dot(radius) / root.dot(root), terms > 2 ? c(2) : 0.0};
 }
 
+PairMapping mapping_of(const PairBody& yielding, const PairBody& partner)
+{
+  return PairMapping::deformable_partner(yielding.material().e_star(), partner.material().e_star());
+}
+
+ComposedError error_of(const PairBody& yielding, const PairBody& partner)
+{
+  return composed_error(partner.material().e_star() / yielding.material().e_star());
+}
+
 /// Of the yielding body and its partner: only their ratio counts.
 std::pair<double, double> radii_of(double radius_ratio)
 {
@@ -363,33 +373,39 @@ double finish_where_admissible(BodyLaw& law, const LawShape& shape, const Charac
 ComposedError composed_error(double e_star_ratio)
 {
   const double softness = 1 / (1 + e_star_ratio);
-  return {0.01 + 0.018 * softness * softness, 0.007 + 0.024 * softness * softness};
+  return {0.006 + 0.036 * softness * softness, 0.0058 + 0.023 * softness * softness};
 }
 
-TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
-                       double radius_ratio, const BuildOptions& options)
+namespace {
+
+/// The law of a pair neither of which yields: e is 1, but for waves.
+TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double radius_ratio,
+                       const BuildOptions& options)
 {
-  const PairMapping mapping =
-      PairMapping::deformable_partner(yielding.material().e_star(), partner.material().e_star());
   const auto [radius, partner_radius] = radii_of(radius_ratio);
-  const ComposedPair pair(yielding, radius, partner, partner_radius);
-  const RuleCoordinates rule(mapping, pair.r_eff());
+  const RuleCoordinates rule(mapping_of(yielding, partner), 1 / (1 / radius + 1 / partner_radius));
+  const double depth = std::min(options.depth, ElasticSphere::depth);
   TwoBodyLaw result;
   result.radius_ratio = radius_ratio;
   BodyLaw& law = result.law;
   law.material = yielding.material();
+  law.curve = ContactCurve(
+      tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, depth, 3), depth),
+      law.material.name);
   law.certificate.origin = composed_origin;
-  const ComposedError stated = composed_error(partner.material().e_star() / yielding.material().e_star());
-  law.certificate.atlas_error_force = stated.force;
-  if (!std::isfinite(pair.yield_radius())) {
-    const double depth = std::min(options.depth, ElasticSphere::depth);
-    law.curve = ContactCurve(
-        tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, depth, 3), depth),
-        law.material.name);
-    law.certificate.damage_number_max = std::numeric_limits<double>::infinity();
-    return result;  // e is 1, but for waves
-  }
-  law.certificate.atlas_error_restitution = stated.restitution;
+  law.certificate.damage_number_max = std::numeric_limits<double>::infinity();
+  law.certificate.atlas_error_force = error_of(yielding, partner).force;
+  return result;
+}
+
+}  // namespace
+
+ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
+                            double radius_ratio, const BuildOptions& options)
+{
+  const auto [radius, partner_radius] = radii_of(radius_ratio);
+  const ComposedPair pair(yielding, radius, partner, partner_radius);
+  const RuleCoordinates rule(mapping_of(yielding, partner), pair.r_eff());
   const std::vector<Sample> samples = plastic_samples(pair, rule, options.depth);
   constexpr std::size_t fewest = 8;
   if (samples.size() < fewest || std::min(options.depth, samples.back().x) < 2 * samples.front().x)
@@ -398,21 +414,47 @@ TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairB
          fmt::format("a = {:.3g} R*", pair.yield_radius() / pair.r_eff()));
   const double onset = samples.front().x, end = std::min(options.depth, samples.back().x);
   const double elastic_depth = std::clamp(1.5 * onset, 0.005, 0.04);
-  LawShape shape =
-      shape_of(samples, elastic_correction(yielding, partner, radius_ratio, rule, elastic_depth, 2), end);
-
-  const MaterialRatios ratios = MaterialRatios::of(law.material);
-  CharacterisedBody body = characterised_body_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening);
+  const ElasticCorrection elastic =
+      elastic_correction(yielding, partner, radius_ratio, rule, elastic_depth, 2);
+  const MaterialRatios ratios = yielding.ratios();
+  ComposedShape composed{yielding.material(),
+                         radius_ratio,
+                         shape_of(samples, elastic, end),
+                         characterised_body_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening),
+                         end,
+                         error_of(yielding, partner)};
   if (options.fastest > 0) {
     const LawShape own = atlas.shape(ratios);
-    shape.velocity_effects = velocity_effects(own, tabulate(own, body.onset, Atlas::depth, Atlas::depth),
-                                              tabulate(shape, onset, end, end), body);
+    composed.shape.velocity_effects =
+        velocity_effects(own, tabulate(own, composed.body.onset, Atlas::depth, Atlas::depth),
+                         tabulate(composed.shape, onset, end, end), composed.body);
   }
-  body.onset = onset;
+  composed.body.onset = onset;
+  return composed;
+}
+
+TwoBodyLaw law_of(const ComposedShape& composed, const BuildOptions& options)
+{
+  TwoBodyLaw result;
+  result.radius_ratio = composed.radius_ratio;
+  BodyLaw& law = result.law;
+  law.material = composed.material;
+  law.certificate.origin = composed_origin;
+  law.certificate.atlas_error_force = composed.stated.force;
+  law.certificate.atlas_error_restitution = composed.stated.restitution;
   BuildOptions of_pair = options;
-  of_pair.depth = end;
-  law.certificate.interpolation_error = finish_where_admissible(law, shape, body, of_pair, end);
+  of_pair.depth = composed.end;
+  law.certificate.interpolation_error =
+      finish_where_admissible(law, composed.shape, composed.body, of_pair, composed.end);
   return result;
+}
+
+TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
+                       double radius_ratio, const BuildOptions& options)
+{
+  if (yielding.yields() || partner.yields())
+    return law_of(compose_shape(atlas, yielding, partner, radius_ratio, options), options);
+  return elastic_law(yielding, partner, radius_ratio, options);
 }
 
 }  // namespace granulaw

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "characterise/build_options.hpp"
+#include "characterise/characterised_body.hpp"
+#include "characterise/law_shape.hpp"
 #include "characterise/pair_body.hpp"
 #include "law/law.hpp"
 
@@ -63,10 +65,27 @@ struct ComposedError
 /// (docs/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.
 ComposedError composed_error(double e_star_ratio);
 
-/// The law of a pair at this ratio of the partner's radius to the yielding body's; infinity: the partner is a
-/// thick wall; 0: the yielding body is. Coordinates of the pair rule (law/pair.hpp). Velocity effects are
-/// those of the yielding body. options: depth, fastest, tolerance. Throws Error where it would not be
-/// admissible.
+/// What the law of a yielding pair is tabulated from.
+struct ComposedShape
+{
+  LawMaterial material;    ///< the yielding body's
+  double radius_ratio;     ///< as in TwoBodyLaw
+  LawShape shape;          ///< in the pair rule's coordinates (law/pair.hpp)
+  CharacterisedBody body;  ///< the yielding one, with the pair's onset
+  double end;              ///< overlap where the shape ends
+  ComposedError stated;
+};
+
+/// The shape of a pair that yields at this ratio of the partner's radius to the yielding body's; infinity:
+/// the partner is a thick wall; 0: the yielding body is. Velocity effects are those of the yielding body.
+/// options: depth, fastest. Throws Error where it begins to yield too near to where the atlas ends.
+ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
+                            double radius_ratio, const BuildOptions& options);
+
+/// Its law. options: fastest, tolerance. Throws Error where it would not be admissible.
+TwoBodyLaw law_of(const ComposedShape& composed, const BuildOptions& options);
+
+/// The law of any pair. As the two above.
 TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
                        double radius_ratio, const BuildOptions& options);
 

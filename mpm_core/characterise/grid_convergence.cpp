@@ -27,13 +27,17 @@ double change_of_loading(const RunResult& fine, const RunResult& coarse)
 
 }  // namespace
 
+double convergence_index(double change, double cell_ratio)
+{
+  return safety * change / (std::pow(cell_ratio, observed_order) - 1);
+}
+
 DiscretisationError grid_convergence(const RunResult& fine, const RunResult& coarse)
 {
   const double ratio = static_cast<double>(fine.summary.resolution) / coarse.summary.resolution;
-  const double index = safety / (std::pow(ratio, observed_order) - 1);
   const double force = change_of_loading(fine, coarse);
   const double e = std::abs(coarse.summary.restitution / fine.summary.restitution - 1);
-  return {index * force, index * std::max(force, e)};
+  return {convergence_index(force, ratio), convergence_index(std::max(force, e), ratio)};
 }
 
 }  // namespace granulaw

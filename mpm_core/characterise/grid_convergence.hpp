@@ -21,4 +21,7 @@ struct DiscretisationError
 /// Throws Error where the loading of a run has too few samples.
 DiscretisationError grid_convergence(const RunResult& fine, const RunResult& coarse);
 
+/// The index of any quantity: `change` is |f_coarse/f_fine - 1|, `cell_ratio` that of the cells, over 1.
+double convergence_index(double change, double cell_ratio);
+
 }  // namespace granulaw

@@ -123,10 +123,13 @@ void check_slowest(const LawFileRequest& r, const std::map<std::string, LawFileP
   if (!used) fail(r.words.slowest, "no body of the pairs depends on the rate: leave it out");
 }
 
-/// Of a composed law: what the rule has left to be asked.
-bool can_be_composed(const LawFilePlan::Body& body)
+/// Whether the atlas tells the body's twins (PairBody): a homogeneous sphere without rate dependence.
+bool can_be_composed(const LawFilePlan::Body& body, const LawFileRequest& r)
 {
-  return body.from_atlas() && body.body.is_plain_sphere();
+  if (!r.atlas || body.body.body != sphere_name || body.body.characterised.rate_dependent()) return false;
+  if (body.from_atlas()) return true;
+  const LawMaterial& m = body.body.material;
+  return m.yields() && r.atlas->why_not({m.e_star() / m.yield_stress, m.poisson_ratio, 0}).empty();
 }
 
 /// Partner's radius over the yielding body's, so close that half a step changes F by 0.4 % and e by 0.002 at
@@ -158,7 +161,7 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   const double rule_ratio = r.rule_radius_ratio > 0 ? r.rule_radius_ratio : r.radius_ratio;
   if (!one_material || rule_ratio > 1)
     pair.by_rule = pair.stated = pair_rule_error(a.material, b.material, rule_ratio);
-  if (can_be_composed(plan.bodies.at(pair.a)) && can_be_composed(plan.bodies.at(pair.b))) {
+  if (can_be_composed(plan.bodies.at(pair.a), r) && can_be_composed(plan.bodies.at(pair.b), r)) {
     pair.composed_at = composed_ratios(r, one_material);
     pair.stated = {};  // each composed law states its own
   }
@@ -169,10 +172,8 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   const double stated = pair.composed_at.empty() ? by_rule : std::max(composed.force, composed.restitution);
   pair.worth_own_law = bodies.yielding.yields() && stated > r.tolerance;
   pair.own_law = r.own_laws && bodies.yielding.yields() && by_rule > r.tolerance;
-  if (pair.own_law) {
+  if (pair.own_law && pair.composed_at.empty())
     pair.stated = own_law_error(a.material, b.material, rule_ratio, own_law_radius_ratio);
-    pair.composed_at.clear();
-  }
   return pair;
 }
 

@@ -62,7 +62,7 @@ struct LawFilePlan
     /// rule, or has its own law by runs.
     std::vector<double> composed_at;
     bool worth_own_law = false;  ///< two plain spheres whose stated error is above the tolerance
-    bool own_law = false;        ///< its own law will be made by runs
+    bool own_law = false;  ///< runs of the two bodies will correct what is composed, or make its own law
 
     std::string name() const { return a + ":" + b; }
     bool is_extrapolated() const { return !by_rule.within_measured || !stated.within_measured; }

@@ -10,6 +10,7 @@
 #include "base/version.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/composed_law.hpp"
+#include "characterise/corrected_law.hpp"
 #include "characterise/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "characterise/two_body_law.hpp"
@@ -50,16 +51,16 @@ std::string size_of(const LawBody& body, const BodyLaw& law)
                      radius);
 }
 
-void note_holes(const std::string& name, const BuiltLaw& built, Provenance& provenance)
+void note_holes(const std::string& name, const std::vector<std::string>& holes, Provenance& provenance)
 {
-  for (std::size_t k = 0; k < built.holes.size(); ++k)
-    provenance[fmt::format("hole.{}.{}", name, k + 1)] = built.holes[k];
+  for (std::size_t k = 0; k < holes.size(); ++k)
+    provenance[fmt::format("hole.{}.{}", name, k + 1)] = holes[k];
 }
 
 /// How a body's law was made from runs.
 void note_runs(const std::string& name, const BuiltLaw& built, Provenance& provenance)
 {
-  note_holes(name, built, provenance);
+  note_holes(name, built.holes, provenance);
   provenance["sampling_plan." + name] = provenance["survey." + name] =
       fmt::format("{} runs, {} of the densest sampling plan", built.runs, built.runs_full);
   if (!built.shallow.empty()) provenance["shallow." + name] = built.shallow;
@@ -144,10 +145,12 @@ class Maker
 
   void add_pair(const LawFilePlan::Pair& pair)
   {
-    if (pair.own_law) add_own_law(pair);
     ReductionError stated = pair.stated;
-    if (!pair.composed_at.empty()) try {
-        file_.law.pair_laws[pair.name()] = composed_laws(pair);
+    if (pair.composed_at.empty()) {
+      if (pair.own_law) add_law_by_runs(pair);
+    } else
+      try {
+        file_.law.pair_laws[pair.name()] = pair.own_law ? corrected(pair) : composed(pair);
       } catch (const Error& error) {  // the pair rule serves any pair
         stated = pair.by_rule;
         file_.law.provenance["not_composed." + pair.name()] = error.what();
@@ -155,7 +158,7 @@ class Maker
     file_.law.pairs.push_back({pair.a, pair.b, stated.force, stated.restitution});
   }
 
-  std::vector<TwoBodyLaw> composed_laws(const LawFilePlan::Pair& pair)
+  std::vector<TwoBodyLaw> composed(const LawFilePlan::Pair& pair)
   {
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b));
     const Atlas& atlas = *plan_.request.atlas;
@@ -166,17 +169,30 @@ class Maker
     return laws;
   }
 
+  std::vector<TwoBodyLaw> corrected(const LawFilePlan::Pair& pair)
+  {
+    const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b));
+    CorrectedLaws made = corrected_laws(bodies, pair_body(bodies.yielding), pair_body(bodies.partner),
+                                        pair.composed_at, options_named(pair.name()));
+    note_holes(pair.name(), made.holes, file_.law.provenance);
+    file_.runs[pair.name()] = {made.runs, made.runs, made.sampling_error, {}};
+    ++finished_;
+    return std::move(made.laws);
+  }
+
   /// Made once for all pairs.
   const PairBody& pair_body(const LawMaterial& m)
   {
-    return pair_bodies_.try_emplace(m.name, *plan_.request.atlas, m).first->second;
+    const Atlas& atlas = *plan_.request.atlas;
+    if (plan_.bodies.at(m.name).from_atlas()) return pair_bodies_.try_emplace(m.name, atlas, m).first->second;
+    return pair_bodies_.try_emplace(m.name, atlas, m, file_.law.bodies.at(m.name).curve).first->second;
   }
 
-  void add_own_law(const LawFilePlan::Pair& pair)
+  void add_law_by_runs(const LawFilePlan::Pair& pair)
   {
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b), own_law_radius_ratio);
     BuiltLaw built = build_two_body_law(bodies, options_named(pair.name()));
-    note_holes(pair.name(), built, file_.law.provenance);
+    note_holes(pair.name(), built.holes, file_.law.provenance);
     file_.runs[pair.name()] = {built.runs, built.runs_full, built.sampling_error, {}};
     file_.law.pair_laws[pair.name()].push_back({std::move(built.law), own_law_radius_ratio});
     ++finished_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -66,18 +67,40 @@ double PressureShape::strength(double flatness)
 }
 
 PairBody::PairBody(const Atlas& atlas, const LawMaterial& material)
-    : material_(material), elastic_(atlas.elastic(material.poisson_ratio).fit.correction)
+    : material_(material),
+      ratios_(MaterialRatios::of(material)),
+      elastic_(atlas.elastic(material.poisson_ratio).fit.correction)
 {
   finite_body_ = 0.5 * elastic_.c1;
-  if (!material.yields()) return;
-  const MaterialRatios own = MaterialRatios::of(material);
+  if (material.yields()) make_twins(atlas);
+}
+
+PairBody::PairBody(const Atlas& atlas, const LawMaterial& material, const ContactCurve& own)
+    : material_(material), ratios_(MaterialRatios::of(material))
+{
+  const double onset = characterised_body_of(ratios_.stiffness, ratios_.poisson_ratio, 0).onset;
+  const Twin own_twin = tabulated(own, atlas.elastic(ratios_.poisson_ratio).fit.correction, ratios_.stiffness,
+                                  onset, own.x_end());
+  const auto misfit = [&](double log_hardening) {
+    return departure(own_twin, stand_in(atlas, std::exp(log_hardening))).rms();
+  };
+  const std::vector<double>& known = atlas.grid().hardenings;  // the first is 0
+  constexpr int bits = 8;                                      // of ln(H/E): the departure takes the rest
+  const auto [nearest, least] =
+      boost::math::tools::brent_find_minima(misfit, std::log(known[1]), std::log(known.back()), bits);
+  ratios_.hardening = least < departure(own_twin, stand_in(atlas, 0)).rms() ? std::exp(nearest) : 0;
+  departure_ = departure(own_twin, stand_in(atlas, ratios_.hardening));
+  make_twins(atlas);
+}
+
+void PairBody::make_twins(const Atlas& atlas)
+{
+  const MaterialRatios& own = ratios_;
   const AtlasGrid& grid = atlas.grid();
-  // of a twin H/E is as much larger as its E is smaller
   const double stiffest = std::min(grid.stiffnesses.back(), own.stiffness * farthest_twin);
-  const double softest = std::max({grid.stiffnesses.front(), stiffest / (farthest_twin * farthest_twin),
-                                   own.stiffness * own.hardening / grid.hardenings.back()});
+  const double softest = std::max(grid.stiffnesses.front(), stiffest / (farthest_twin * farthest_twin));
   if (!(softest < stiffest) || !atlas.why_not({stiffest, own.poisson_ratio, 0}).empty())
-    fail(fmt::format("material '{}'", material.name), "has no twins in the atlas");
+    fail(fmt::format("material '{}'", material_.name), "has no twins in the atlas");
   elastic_ = atlas.shape({std::clamp(own.stiffness, softest, stiffest), own.poisson_ratio, 0}).elastic;
   finite_body_ = 0.5 * elastic_.c1;
   for (int k = 0; k < twins_made; ++k)
@@ -95,32 +118,102 @@ PairBody PairBody::elastic() const
   return body;
 }
 
-PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
+/// A twin from its slow law on a rigid flat, up to the overlap `depth`.
+PairBody::Twin PairBody::tabulated(const ContactCurve& curve, const ElasticCorrection& elastic,
+                                   double stiffness, double onset, double depth)
 {
-  const MaterialRatios own = MaterialRatios::of(material_);
-  const MaterialRatios ratios{stiffness, own.poisson_ratio, own.hardening * own.stiffness / stiffness};
-  const LawShape shape = atlas.shape(ratios);
-  const double onset = characterised_body_of(stiffness, ratios.poisson_ratio, ratios.hardening).onset;
-  const ContactCurve curve = tabulate(shape, onset, Atlas::depth, Atlas::depth);
   Twin t;
   t.log_stiffness = std::log(stiffness);
-  t.log_end = std::log(Atlas::depth / onset);
+  t.log_end = std::log(depth / onset);
   for (int node = 0; node < overlap_nodes; ++node) {
     const double x = onset * std::exp(log_overlap_of(node, t.log_end));
     const ContactCurve::Reversal top = curve.reversal(x);
     const double force = 4.0 / 3.0 * top.force;
-    const bool elastic = node <= elastic_intervals;
-    const UnloadingShape unloading = elastic ? shape.elastic.unloading(std::pow(x, 0.25)) : top.shape;
+    const bool is_elastic = node <= elastic_intervals;
+    const UnloadingShape unloading = is_elastic ? elastic.unloading(std::pow(x, 0.25)) : top.shape;
     t.log_contact.push_back(std::log(top.radius));
     t.log_pressure.push_back(std::log(force * stiffness / (M_PI * top.radius * top.radius)));
     t.log_overlap.push_back(std::log(x));
-    // -ln of the share that is recovered; a fit may scatter by rounding, place() needs it rising
-    const double lost = elastic ? 0.0 : -std::log1p(-top.residual / x);
-    t.log_lost.push_back(node ? std::max(lost, t.log_lost.back()) : lost);
+    // -ln of the share that is recovered
+    t.log_lost.push_back(is_elastic ? 0.0 : -std::log1p(-top.residual / x));
     t.unloading_work.push_back(unloading.work());
     t.hertz_share.push_back(unloading.hertz_share);
   }
   return t;
+}
+
+PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
+{
+  const MaterialRatios ratios{stiffness, ratios_.poisson_ratio, ratios_.hardening};
+  const LawShape shape = atlas.shape(ratios);
+  const double onset = characterised_body_of(stiffness, ratios.poisson_ratio, ratios.hardening).onset;
+  Twin t = tabulated(tabulate(shape, onset, Atlas::depth, Atlas::depth), shape.elastic, stiffness, onset,
+                     Atlas::depth);
+  for (std::size_t node = 0; node < t.log_contact.size(); ++node) {
+    const double log_strain = t.log_contact[node] + t.log_stiffness;
+    const auto more = [&](const std::vector<double> Departure::*member) {
+      return departure_.at(log_strain, member);
+    };
+    t.log_pressure[node] += more(&Departure::log_pressure);
+    t.log_overlap[node] += more(&Departure::log_overlap);
+    t.unloading_work[node] += more(&Departure::unloading_work);
+    t.hertz_share[node] += more(&Departure::hertz_share);
+    // a fit may scatter by rounding, place() needs it rising
+    const double lost = t.log_lost[node] + more(&Departure::log_lost);
+    t.log_lost[node] = node ? std::max(lost, t.log_lost[node - 1]) : lost;
+  }
+  return t;
+}
+
+/// Of the body's own stiffness, with this H/E.
+PairBody::Twin PairBody::stand_in(const Atlas& atlas, double hardening) const
+{
+  const LawShape shape = atlas.shape({ratios_.stiffness, ratios_.poisson_ratio, hardening});
+  const double onset = characterised_body_of(ratios_.stiffness, ratios_.poisson_ratio, hardening).onset;
+  return tabulated(tabulate(shape, onset, Atlas::depth, Atlas::depth), shape.elastic, ratios_.stiffness,
+                   onset, Atlas::depth);
+}
+
+PairBody::Departure PairBody::departure(const Twin& own, const Twin& stand_in)
+{
+  Departure departure;
+  for (std::size_t node = elastic_intervals; node < own.log_contact.size(); ++node) {
+    const double log_contact = own.log_contact[node];
+    const auto above =
+        std::upper_bound(stand_in.log_contact.begin(), stand_in.log_contact.end(), log_contact);
+    if (above == stand_in.log_contact.begin() || above == stand_in.log_contact.end()) continue;
+    const auto low = static_cast<std::size_t>(above - stand_in.log_contact.begin()) - 1;
+    const double share = (log_contact - stand_in.log_contact[low]) /
+                         (stand_in.log_contact[low + 1] - stand_in.log_contact[low]);
+    const auto difference = [&](const std::vector<double> Twin::*member) {
+      return (own.*member)[node] - between((stand_in.*member)[low], (stand_in.*member)[low + 1], share);
+    };
+    departure.log_strain.push_back(log_contact + own.log_stiffness);
+    departure.log_pressure.push_back(difference(&Twin::log_pressure));
+    departure.log_overlap.push_back(difference(&Twin::log_overlap));
+    departure.log_lost.push_back(difference(&Twin::log_lost));
+    departure.unloading_work.push_back(difference(&Twin::unloading_work));
+    departure.hertz_share.push_back(difference(&Twin::hertz_share));
+  }
+  return departure;
+}
+
+double PairBody::Departure::at(double wanted, const std::vector<double> Departure::*member) const
+{
+  if (log_strain.empty() || wanted <= log_strain.front()) return 0;
+  if (wanted >= log_strain.back()) return (this->*member).back();
+  const auto low = static_cast<std::size_t>(std::upper_bound(log_strain.begin(), log_strain.end(), wanted) -
+                                            log_strain.begin()) -
+                   1;
+  return between((this->*member)[low], (this->*member)[low + 1],
+                 (wanted - log_strain[low]) / (log_strain[low + 1] - log_strain[low]));
+}
+
+double PairBody::Departure::rms() const
+{
+  double sum = 0;
+  for (const double difference : log_pressure) sum += difference * difference;
+  return std::sqrt(sum / static_cast<double>(log_pressure.size()));
 }
 
 /// Overlap/R of the elastic sphere at this a/R.
@@ -200,7 +293,9 @@ PairBody::State PairBody::at(double curvature, double contact) const
   // A twin put in the place of one that is too stiff for the atlas is soft for lack of a body, not of
   // pressure.
   constexpr double widest_stand_in = 0.35;
-  state.known = node < overlap_nodes && !(twin.is_clipped && alpha > std::max(contact, widest_stand_in));
+  const double log_strain = std::log(curvature * ratios_.stiffness);
+  state.known = node < overlap_nodes && !(twin.is_clipped && alpha > std::max(contact, widest_stand_in)) &&
+                (departure_.log_strain.empty() || log_strain <= departure_.log_strain.back());
   state.pressure = material_.yield_stress * std::exp(value(twin, &Twin::log_pressure, node));
   const double overlap = twin.share * std::exp(value(twin, &Twin::log_overlap, node)) / alpha;
   const double kept = std::exp(-std::max(0.0, value(twin, &Twin::log_lost, node)));

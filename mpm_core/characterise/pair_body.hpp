@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "characterise/atlas.hpp"
+#include "law/contact_curve.hpp"
 #include "law/law_material.hpp"
 
 namespace granulaw {
@@ -40,6 +41,11 @@ class PairBody
  public:
   /// Throws Error if the atlas does not know the material.
   PairBody(const Atlas& atlas, const LawMaterial& material);
+  /// Of a body whose flow law the atlas does not know, homogeneous and rate-independent, with its `own` slow
+  /// law on a rigid flat. Twins are those of the linearly hardening material that comes nearest; by what the
+  /// body's own contact departs from this one's at the strain kappa E*/Y, each twin does at the same strain.
+  /// Known up to the strain where the own law ends.
+  PairBody(const Atlas& atlas, const LawMaterial& material, const ContactCurve& own);
 
   /// At contact radius a.
   struct State
@@ -67,6 +73,8 @@ class PairBody
   PairBody elastic() const;
 
   const LawMaterial& material() const { return material_; }
+  /// Of the material in the atlas that stands for it: its own, but for the hardening.
+  const MaterialRatios& ratios() const { return ratios_; }
   bool yields() const { return !twins_.empty(); }
   /// k of the finite sphere: its centre comes nearer by k F/(E* R) less than its half-space's.
   double finite_body() const { return finite_body_; }
@@ -86,7 +94,21 @@ class PairBody
     std::array<double, 4> weights;
     bool is_clipped;  // nearest to one that the atlas does not know
   };
+  /// What a body's contact departs from its stand-in's by, at ascending ln(kappa E*/Y). Empty: by nothing.
+  struct Departure
+  {
+    std::vector<double> log_strain, log_pressure, log_overlap, log_lost, unloading_work, hertz_share;
+
+    double at(double log_strain, const std::vector<double> Departure::*member) const;
+    double rms() const;  // of ln(pressure)
+  };
+
+  void make_twins(const Atlas& atlas);
+  static Twin tabulated(const ContactCurve& curve, const ElasticCorrection& elastic, double stiffness,
+                        double onset, double depth);
   Twin twin(const Atlas& atlas, double stiffness) const;
+  Twin stand_in(const Atlas& atlas, double hardening) const;
+  static Departure departure(const Twin& own, const Twin& stand_in);
   Mixed twin_at(double curvature, double contact) const;
   double value(const Mixed& twin, const std::vector<double> Twin::*member, int node) const;
   /// Node below which a rising function of the twin is `wanted`, with its fraction.
@@ -96,6 +118,8 @@ class PairBody
   State elastic_at(double curvature, double contact) const;
 
   LawMaterial material_;
+  MaterialRatios ratios_;
+  Departure departure_;
   ElasticCorrection elastic_;
   double finite_body_ = 0;
   std::vector<Twin> twins_;

@@ -3,96 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.hpp"
+#include "characterise/two_body_runs.hpp"
 
 namespace granulaw {
-
-namespace {
-
-/// The two bodies that stand behind a dimensionless sphere of unit radius. Lengths over lambda R*, stresses
-/// and densities over those of the yielding body.
-struct Scene
-{
-  Particle first;  ///< the smaller: impulses act at its surface points, the finer ones
-  Partner partner;
-  double lambda, slowness;  ///< slowness: the press's ramp counts in R/c* of the larger or slower body
-
-  /// `sphere`: the yielding body's material as the sampling plan asks for it: its own, without yield, or
-  /// softer at the same E_h/E_s and Y_h/Y_s.
-  Scene(const UnlikePair& pair, const Material& sphere) : lambda(pair.mapping().length(1.0))
-  {
-    const LawMaterial &s = pair.yielding, &h = pair.partner;
-    Material other;
-    other.density = h.density / s.density * sphere.density;
-    other.poisson_ratio = h.poisson_ratio;
-    other.youngs_modulus = h.youngs_modulus / s.youngs_modulus * sphere.youngs_modulus;
-    if (sphere.yields() && h.yields()) {
-      other.yield_stress = h.yield_stress / s.yield_stress * sphere.yield_stress;
-      other.hardening_modulus = h.hardening_modulus / h.youngs_modulus * other.youngs_modulus;
-    }
-    const double radius = 1 / pair.mapping().length(pair.r_eff());
-    first = Particle::from({radius, sphere});
-    partner.particle = Particle::from({radius * pair.radius_ratio, other});
-    if (pair.radius_ratio < 1) std::swap(first, *partner.particle);
-    const auto period = [](const Particle& p) {
-      return p.radius * std::sqrt(p.materials[0].density / p.materials[0].e_star());
-    };
-    slowness = std::max(1.0, period(*partner.particle) / period(first));
-  }
-
-  /// The pair's run as that of the one sphere; its times by `time_scale`.
-  RunResult as_one_body(RunResult run, double time_scale) const
-  {
-    for (TraceSample& t : run.trace)
-      t.time *= time_scale, t.force *= lambda, t.contact_radius *= std::sqrt(lambda);
-    RunSummary& s = run.summary;
-    s.force_max *= lambda, s.work_load *= lambda, s.work_unload *= lambda, s.contact_time *= time_scale;
-    return run;
-  }
-};
-
-RunSource two_body_runs(const UnlikePair& pair)
-{
-  RunSource source;
-  source.press = [pair](const Particle& sphere, const PressPlan& plan, RunOptions options) {
-    const Scene scene(pair, sphere.materials[0]);
-    options.slowness *= scene.slowness;
-    return scene.as_one_body(run_press(scene.first, plan, options, scene.partner), 1.0);
-  };
-  source.impact = [pair](const Particle& sphere, double velocity, const RunOptions& options) {
-    const Scene scene(pair, sphere.materials[0]);
-    const double faster = 1 / std::sqrt(pair.one_body_density());
-    return scene.as_one_body(run_impact(scene.first, velocity * faster, options, scene.partner), faster);
-  };
-  return source;
-}
-
-/// Tells the runs of this pair from those of its yielding body alone.
-class PairFarm : public Farm
-{
- public:
-  PairFarm(Farm& farm, const UnlikePair& pair) : farm_(farm)
-  {
-    const LawMaterial &s = pair.yielding, &h = pair.partner;
-    text_ = fmt::format(" pair {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} radii {:.17g}", h.density / s.density,
-                        h.youngs_modulus / s.youngs_modulus, h.poisson_ratio, h.yield_stress / s.yield_stress,
-                        h.hardening_modulus / h.youngs_modulus, pair.radius_ratio);
-  }
-
- private:
-  std::vector<RunOutcome> make(const std::vector<RunJob>& jobs, const Progress& progress) override
-  {
-    std::vector<RunJob> own = jobs;
-    for (RunJob& job : own) job.key += text_;
-    return farm_.run(own, progress);
-  }
-  Farm& farm_;
-  std::string text_;
-};
-
-}  // namespace
 
 BuiltLaw build_two_body_law(const UnlikePair& pair, const BuildOptions& options)
 {
@@ -107,11 +22,7 @@ BuiltLaw build_two_body_law(const UnlikePair& pair, const BuildOptions& options)
   own.farm = &farm;
   const double smaller = std::min(1.0, pair.radius_ratio) / pair.mapping().length(pair.r_eff());
   own.depth = std::min(options.depth, 0.4 * smaller);
-  Material material;
-  material.density = s.density, material.youngs_modulus = s.youngs_modulus;
-  material.poisson_ratio = s.poisson_ratio;
-  material.yield_stress = s.yield_stress, material.hardening_modulus = s.hardening_modulus;
-  return build_law(s, characterised_body_of(material), own, two_body_runs(pair));
+  return build_law(s, yielding_body(pair), own, two_body_runs(pair));
 }
 
 }  // namespace granulaw

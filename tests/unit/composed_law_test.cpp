@@ -150,5 +150,46 @@ TEST(Radiation, OfAThickWallIsTheHalfSpacesAndOfLikeSpheresNearlyNothing)
   EXPECT_LT(radiation(m, 1, stiff, wall), 0.03 * half_space);
 }
 
+/// A body that is only known by its own law on a flat, here one of the atlas: its twins are those of the
+/// material that comes nearest, and the rest goes with the strain.
+TEST(ComposedLaw, OfABodyThatTheAtlasDoesNotKnow)
+{
+  LawMaterial hardening = material("m", 1, 1 / 100.0);
+  hardening.hardening_modulus = 0.03 * hardening.youngs_modulus;
+  const LawMaterial glass = material("glass", 2, never);
+  LawMaterial unknown = hardening;
+  unknown.hardening_modulus = 0;
+  const PairBody known(atlas(), hardening), told(atlas(), unknown, alone(hardening).curve),
+      perfect(atlas(), unknown), partner(atlas(), glass);
+  BuildOptions options;
+  options.fastest = 0;
+  for (const double ratio : {0.5, 1.0, 3.0}) {
+    const auto law = [&](const PairBody& body) {
+      return compose_law(atlas(), body, partner, ratio, options).law.curve;
+    };
+    // as the atlas interpolates in H/E, which the fit does not hit
+    EXPECT_LT(difference(law(told), law(known)).force, 0.005) << ratio;
+    EXPECT_LT(difference(law(told), law(known)).restitution, 0.003) << ratio;
+    EXPECT_GT(difference(law(perfect), law(known)).force, 0.1) << ratio;  // what the test can see
+  }
+}
+
+/// Strains go as the curvature, so stresses that grow with the strain do so in a twin as E does: a body
+/// between a flat and its like is pressed by what a twin of the same H/E is.
+TEST(ComposedLaw, TwinsHaveTheBodysHardeningOverItsModulus)
+{
+  LawMaterial m = material("m", 1, 1 / 100.0);
+  m.hardening_modulus = 0.03 * m.youngs_modulus;
+  LawMaterial stiffer = material("n", 2, 1 / 100.0);
+  stiffer.hardening_modulus = 0.03 * stiffer.youngs_modulus;
+  // twice the curvature on a sphere of E* as the flat's on one of 2 E*: same pressure, twice the overlap
+  const PairBody body(atlas(), m), twin(atlas(), stiffer);
+  for (const double contact : {0.05, 0.1, 0.2}) {
+    const PairBody::State a = body.at(2 * contact, contact), b = twin.at(contact, contact);
+    EXPECT_NEAR(a.pressure / b.pressure, 1, 0.004);  // the atlas between its stiffnesses
+    EXPECT_NEAR((a.residual + a.recovered) / (b.residual + b.recovered), 2, 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace granulaw

@@ -100,22 +100,42 @@ TEST(LawFilePlan, APairThatTheRuleServesBadlyMayHaveItsOwnLaw)
     EXPECT_EQ(plan.pairs[k].by_rule.force, 0);
     EXPECT_FALSE(plan.pairs[k].worth_own_law);
   }
-  const Atlas atlas = testing::own_atlas();
-  for (const Atlas* known : {static_cast<const Atlas*>(nullptr), &atlas}) {
-    r.atlas = known;
-    r.own_laws = true;
-    r.radius_ratio = 1;
-    plan = plan_law_file(r);
-    EXPECT_TRUE(plan.pairs[0].own_law);
-    EXPECT_TRUE(plan.pairs[0].composed_at.empty());
-    EXPECT_TRUE(plan.needs_runs());
-    EXPECT_EQ(plan.pairs[0].stated.restitution, 0);  // made at the radius ratio asked for
-    r.radius_ratio = 3;
-    plan = plan_law_file(r);
-    EXPECT_GT(plan.pairs[0].stated.restitution, 0);
-    EXPECT_LT(plan.pairs[0].stated.restitution, plan.pairs[0].by_rule.restitution);
-    EXPECT_GT(plan.pairs[1].by_rule.restitution, 0);  // like bodies of unlike radii
-  }
+  r.own_laws = true;
+  r.radius_ratio = 1;
+  plan = plan_law_file(r);
+  EXPECT_TRUE(plan.pairs[0].own_law);
+  EXPECT_TRUE(plan.pairs[0].composed_at.empty());
+  EXPECT_TRUE(plan.needs_runs());
+  EXPECT_EQ(plan.pairs[0].stated.restitution, 0);  // made at the radius ratio asked for
+  r.radius_ratio = 3;
+  plan = plan_law_file(r);
+  EXPECT_GT(plan.pairs[0].stated.restitution, 0);
+  EXPECT_LT(plan.pairs[0].stated.restitution, plan.pairs[0].by_rule.restitution);
+  EXPECT_GT(plan.pairs[1].by_rule.restitution, 0);  // like bodies of unlike radii
+}
+
+/// Impacts correct what is composed, at each of its ratios of radii; each law states its own error.
+TEST(LawFilePlan, AnOwnLawBesideTheAtlasIsComposedFirst)
+{
+  LawFileRequest r = request({{"powder", "glass"}});
+  r.own_laws = true;
+  r.radius_ratio = 3;
+  const LawFilePlan plan = plan_law_file(r);
+  EXPECT_TRUE(plan.pairs[0].own_law);
+  EXPECT_TRUE(plan.needs_runs());
+  EXPECT_GT(plan.pairs[0].composed_at.size(), 2u);
+  EXPECT_EQ(plan.pairs[0].stated.force, 0);
+}
+
+/// The atlas's twins serve a homogeneous sphere of any rate-independent flow law.
+TEST(LawFilePlan, AFlowLawOfAnyKindIsComposedOnceItsOwnLawIsMade)
+{
+  LawFileRequest r = request({{"powder", "glass"}});
+  r.materials.materials["powder"].hardening = {"voce", {{"saturation_stress", {150e6}}, {"strain", {0.1}}}};
+  const LawFilePlan plan = plan_law_file(r);
+  EXPECT_FALSE(plan.bodies.at("powder").from_atlas());
+  EXPECT_FALSE(plan.pairs[0].composed_at.empty());
+  EXPECT_FALSE(plan.pairs[0].own_law);
 }
 
 TEST(LawFilePlan, TheWeakerOfTwoYields)

@@ -37,6 +37,26 @@ TEST_F(MakeLawFile, FromTheAtlasWithoutARun)
   EXPECT_EQ(read.provenance, made.law.provenance);
 }
 
+/// Against glass ten times the body's size the pair yields beyond half the depth that is asked for: too late
+/// for a law of its own.
+TEST_F(MakeLawFile, APairThatCannotBeComposedFollowsTheRule)
+{
+  LawFileRequest request;
+  request.materials = some_materials();
+  request.materials.materials["powder"].yield_stress = 140e6;  // E*/Y = 21
+  request.pairs = {{"powder", "glass"}};
+  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
+  request.atlas = &atlas;
+  const double onset = make_law_file(plan_law_file(request)).law.bodies.at("powder").curve.onset();
+  request.depth = 1.5 * onset;
+  const LawFilePlan plan = plan_law_file(request);
+  const MadeLawFile made = make_law_file(plan);
+  EXPECT_FALSE(made.law.pair_laws.contains("powder:glass"));
+  EXPECT_NE(made.law.provenance.at("not_composed.powder:glass").find("begins to yield"), std::string::npos);
+  EXPECT_GT(made.law.pairs.at(0).reduction_error_force, 0);
+  EXPECT_EQ(made.law.pairs.at(0).reduction_error_force, plan.pairs.at(0).by_rule.force);
+}
+
 /// A rough, shallow, rate-free law: two presses, some seconds.
 TEST_F(MakeLawFile, ByRunsThatTheFarmCounts)
 {

@@ -25,14 +25,16 @@ struct Claim
 /// What a certificate states for a collision whose coefficient of restitution is `e`.
 /// - A yielding body of the atlas: the bound of its checks (docs/atlas.md). These are fresh impacts, so it
 ///   holds whatever the solver's runs, the fit, the interpolation and the table leave.
-/// - A pair's law composed of its bodies': the bound of two-body impacts that took no part (docs/pairs.md).
+/// - A pair's law composed of its bodies': the bound of two-body impacts that took no part (docs/pairs.md);
+///   corrected by impacts of the two bodies: as by runs, each impact left out in turn.
 /// - A body by runs: what its verification found, impacts that took no part in the fit at the cells of those
 ///   that did; and what these cells cost (grid_convergence.hpp). Without impacts, what fit and table leave.
 inline Claim claim_of(const Certificate& c, double e)
 {
   const bool elastic = std::isinf(c.damage_number_max);
   const Claim atlas{c.atlas_error_force, c.atlas_error_restitution / e};
-  if ((c.origin == "atlas" && !elastic) || c.origin == composed_origin) return atlas;
+  const bool composed = c.origin == composed_origin && c.verification_impacts == 0;
+  if ((c.origin == "atlas" && !elastic) || composed) return atlas;
   const Claim fitted = c.verification_impacts > 0
                            ? Claim{c.verification_error_force, c.verification_error_restitution}
                            : atlas.with(c.interpolation_error, c.held_out_error);
@@ -56,6 +58,14 @@ inline std::string atlas_errors_text(const Certificate& c)
 {
   return fmt::format("force within {}, e within {:.2g}", percent(c.atlas_error_force),
                      c.atlas_error_restitution);
+}
+
+/// What a composed law claims, corrected by impacts or not.
+inline std::string composed_errors_text(const Certificate& c)
+{
+  if (c.verification_impacts == 0) return atlas_errors_text(c);
+  const Claim claim = claim_of(c, 1.0);
+  return errors_text(claim.force, claim.restitution);
 }
 
 }  // namespace granulaw

@@ -107,6 +107,13 @@ std::string radii_text(const TwoBodyLaw& own)
   return std::isinf(own.radius_ratio) ? "1 : a thick wall" : fmt::format("1 : {:.4g}", own.radius_ratio);
 }
 
+const char* origin_text(const Certificate& c)
+{
+  if (c.origin != composed_origin) return "made";
+  return c.verification_impacts > 0 ? "composed of the two bodies' laws and corrected by their impacts,"
+                                    : "composed of the two bodies' laws";
+}
+
 void print_pair(const LawPair& pair, const std::vector<TwoBodyLaw>* own)
 {
   if (own) {
@@ -114,10 +121,10 @@ void print_pair(const LawPair& pair, const std::vector<TwoBodyLaw>* own)
     for (const TwoBodyLaw& law : *own) radii.push_back(radii_text(law));
     const bool composed = own->front().law.certificate.origin == composed_origin;
     fmt::print("  pair {}:{} by its own law, {} at radii {} (yielding body : partner)\n", pair.a, pair.b,
-               composed ? "composed of the two bodies' laws" : "made", fmt::join(radii, ", "));
+               origin_text(own->front().law.certificate), fmt::join(radii, ", "));
     if (composed) {
       fmt::print("  pair {}:{} stated error: {} in 95 % of collisions\n", pair.a, pair.b,
-                 atlas_errors_text(own->front().law.certificate));
+                 composed_errors_text(own->front().law.certificate));
       return;
     }
   }

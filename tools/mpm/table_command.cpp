@@ -92,22 +92,29 @@ void print_body(const std::string& name, const LawFilePlan::Body& planned, const
 }
 
 /// As planned; a pair that could not be composed follows the pair rule.
-bool is_composed(const LawFilePlan::Pair& pair, const Law& law)
+bool has_own_laws(const LawFilePlan::Pair& pair, const Law& law)
 {
-  return !pair.composed_at.empty() && law.pair_laws.contains(pair.name());
+  return law.pair_laws.contains(pair.name());
 }
 
 void print_pair(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
   const std::string by_rule = errors_text(pair.by_rule.force, pair.by_rule.restitution);
-  if (pair.own_law)
+  if (!has_own_laws(pair, file.law)) {
+    if (pair.worth_own_law)
+      fmt::print("{}: by the pair rule, {}; --own-law computes the pair's own law\n", pair.name(), by_rule);
+    return;
+  }
+  if (pair.a == pair.b) return;
+  const Certificate& c = file.law.pair_laws.at(pair.name()).front().law.certificate;
+  if (!pair.own_law)
+    fmt::print("{}: composed of both bodies' laws: {}\n", pair.name(), atlas_errors_text(c));
+  else if (c.origin == composed_origin)
+    fmt::print("{}: composed of both bodies' laws, corrected by {} impacts of the two: {}\n", pair.name(),
+               file.runs.at(pair.name()).made, composed_errors_text(c));
+  else
     fmt::print("{}: its own law by {} runs of two bodies of equal radii (pair rule: {})\n", pair.name(),
                file.runs.at(pair.name()).made, by_rule);
-  else if (is_composed(pair, file.law) && pair.a != pair.b)
-    fmt::print("{}: composed of both bodies' laws: {}\n", pair.name(),
-               atlas_errors_text(file.law.pair_laws.at(pair.name()).front().law.certificate));
-  else if (pair.worth_own_law)
-    fmt::print("{}: by the pair rule, {}; --own-law computes the pair's own law\n", pair.name(), by_rule);
 }
 
 void print_certificate(const std::string& name, const BodyLaw& body)
@@ -131,7 +138,7 @@ void print_certificate(const std::string& name, const BodyLaw& body)
 void print_warnings(const LawFilePlan& plan, const MadeLawFile& file)
 {
   for (const LawFilePlan::Pair& pair : plan.pairs)
-    if (!is_composed(pair, file.law) && pair.is_extrapolated())
+    if (!has_own_laws(pair, file.law) && pair.is_extrapolated())
       fmt::print(stderr,
                  "mpm: what the pair rule costs {} is extrapolated: the partner is softer than was measured "
                  "(docs/pairs.md)\n",
@@ -216,8 +223,9 @@ void add_range_options(CLI::App& command, LawFileRequest& file)
                    "of each pair also a law for a thick deformable wall of either material, and of each\n"
                    "material for a wall of its own (default: yes; --deck: if it has such walls)");
   command.add_flag("--own-law", file.own_laws,
-                   "compute a law of its own, by runs of the two bodies at equal radii, for each pair of\n"
-                   "different spheres that the pair rule serves worse than --tolerance");
+                   "correct the composed law of each pair of different spheres by a few impacts of the two\n"
+                   "bodies, where the pair rule is worse than --tolerance (without the atlas: make it\n"
+                   "by runs, at equal radii)");
 }
 
 void define(CLI::App& command)

@@ -1,0 +1,78 @@
+// Composed laws that a few impacts of the two bodies correct; `slow`: against a fresh impact.
+#include "characterise/corrected_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "law/radiation.hpp"
+#include "law/replay.hpp"
+#include "own_atlas.hpp"
+
+namespace granulaw {
+namespace {
+
+LawMaterial material(const char* name, double e_star, double yield, double density)
+{
+  LawMaterial m;
+  m.name = name, m.density = density, m.poisson_ratio = 0.3, m.youngs_modulus = e_star * 0.91;
+  m.yield_stress = yield;
+  return m;
+}
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A soft partner, whom composing serves worst.
+class CorrectedLaw : public ::testing::Test
+{
+ protected:
+  UnlikePair pair_{material("powder", 1, 0.02, 1), material("rubber", 0.2, never, 1), 1};
+  const Atlas atlas_ = testing::own_atlas();
+  const PairBody powder_{atlas_, pair_.yielding}, rubber_{atlas_, pair_.partner};
+  BuildOptions options_;
+
+  void SetUp() override { options_.atlas = &atlas_; }
+};
+
+using CorrectedLawSlow = CorrectedLaw;
+TEST_F(CorrectedLawSlow, AgreesWithAFreshImpactAtAnyRatioOfRadii)
+{
+  const double ratios[] = {0.5, 0.7, 1, 1.4, 2};
+  const CorrectedLaws made = corrected_laws(pair_, powder_, rubber_, ratios, options_);
+  ASSERT_EQ(made.laws.size(), 5u);
+  EXPECT_TRUE(made.holes.empty());
+  for (std::size_t k = 0; k < 5; ++k) {
+    UnlikePair at_ratio = pair_;
+    at_ratio.radius_ratio = ratios[k];
+    const BodyLaw& law = made.laws[k].law;
+    EXPECT_GE(law.curve.admissibility_margin(), 0);
+    EXPECT_GT(law.certificate.verification_impacts, 0);
+    const double v = fastest_of_law(at_ratio, 1e-3);
+    RunOptions run;
+    run.resolution = 24, run.shifted_grids = 2;
+    const RunSummary truth = run_two_bodies(at_ratio, v, run);
+    const Replay replay = replay_collision(
+        {&law.curve, at_ratio.mapping(), &law, radiation(pair_.yielding, 1.0, pair_.partner, ratios[k])},
+        at_ratio.r_eff(), at_ratio.m_eff(), v);
+    // what the tolerance asks for, of sampling and of the cells
+    EXPECT_NEAR(replay.force_max / truth.force_max, 1, 2 * options_.tolerance) << ratios[k];
+    EXPECT_NEAR(replay.restitution, truth.restitution, 2 * options_.tolerance) << ratios[k];
+  }
+}
+
+/// A law of its own of one ratio of radii states what an impact left out shows.
+TEST_F(CorrectedLaw, StatesWhatLeavingOneOutShows)
+{
+  options_.tolerance = 0.1;  // three impacts are enough
+  options_.fastest = 0.05;
+  const double one[] = {1};
+  const CorrectedLaws made = corrected_laws(pair_, powder_, rubber_, one, options_);
+  const Certificate& c = made.laws.front().law.certificate;
+  EXPECT_EQ(made.runs, 4u);              // the deepest with fewer cells, too
+  EXPECT_EQ(c.verification_impacts, 2);  // all but the deepest
+  EXPECT_GT(c.verification_error_force, 0);
+  EXPECT_LT(c.verification_error_force, options_.tolerance);
+  EXPECT_LE(made.sampling_error, options_.tolerance);
+}
+
+}  // namespace
+}  // namespace granulaw
