@@ -189,7 +189,7 @@ void print_law_errors(const std::vector<deck::PairPlan>& pairs)
         "  {}:{}{}: composed of both bodies' laws, F within {}, e within {:.2g} in 95 % of collisions{}\n",
         printable(p.meeting.name_a), printable(p.meeting.name_b), p.meeting.wall ? " (deformable wall)" : "",
         percent(stated.force), stated.restitution,
-        stated.restitution > worth_runs && !p.meeting.wall ? "; mpm table --own-law makes one by runs" : "");
+        stated.restitution > worth_runs && !p.meeting.wall ? "; mpm table --own-law corrects it by impacts" : "");
   }
 }
 
