@@ -50,12 +50,24 @@ def planned(folder):
     return speeds, plan
 
 
-def visited(folders):
+def quantile(contacts, share):
+    """Speed that this share of a side's contacts does not exceed, of its statistics: evenly in ln(speed) within a bin; 0 of none."""
+    largest, seen = contacts["impact_speed_max_m_per_s"] or 0.0, contacts["impact_speed"]
+    left = share * sum(seen["count"])
+    for low, count in zip(seen["lower_edge"], seen["count"]):
+        if count and left <= count:
+            return min(largest, low * 10 ** (left / count / seen["bins_per_decade"]))
+        left -= count
+    return largest
+
+
+def visited(folders, share=1.0):
+    """{"pair": m/s, "wall": m/s} that this share of the contacts of each run did not exceed."""
     speeds = {"pair": 0.0, "wall": 0.0}
     for folder in folders:
         stats = json.loads((folder / "stats.json").read_text())
         for side in speeds:
-            speeds[side] = max(speeds[side], stats[side]["impact_speed_max_m_per_s"] or 0.0)
+            speeds[side] = max(speeds[side], quantile(stats[side], share))
     return speeds
 
 
@@ -64,14 +76,14 @@ def body(speeds):
     return max(speeds["pair"] / 2, speeds["wall"])
 
 
-def compare(deck):
+def compare(deck, share=1.0):
     """(model, number of runs, planned, visited, the plan) of each model's finished runs in the folder `deck`."""
     runs = [f for f in sorted(deck.glob("*-[0-9]*")) if (f / "done").exists() and (f / "stats.json").exists()]
     for model in sweep.MODELS:
         mine = [f for f in runs if f.name.startswith(f"{model}-") and f.name[len(model) + 1].isdigit()]
         if mine:
             bounds = [planned(f) for f in mine]
-            yield model, len(mine), {side: max(b[side] for b, _ in bounds) for side in ("pair", "wall")}, visited(mine), bounds[0][1]
+            yield model, len(mine), {side: max(b[side] for b, _ in bounds) for side in ("pair", "wall")}, visited(mine, share), bounds[0][1]
 
 
 def table(out):

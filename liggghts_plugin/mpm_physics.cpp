@@ -175,15 +175,8 @@ void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
 SizeChoice MpmPhysics::laws_by_size(int i, int j) const
 {
   const std::string &a = material(i), &b = material(j);
-  const bool one_material = a == b;
-  std::vector<double> shares;
-  if (one_material) shares.push_back(0.5);  // the body's own law is exact for like sizes
-  if (const auto* laws = setup_->law->law.find_pair_laws(a, b))
-    for (const TwoBodyLaw& own : *laws) shares.push_back(own.size_share());
-  if (shares.empty()) shares.push_back(0.5);
-  std::sort(shares.begin(), shares.end());
-  shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
-  if (one_material) return {ShareOf::smaller, shares};
+  const std::vector<double> shares = setup_->law->law.size_shares(a, b);
+  if (a == b) return {ShareOf::smaller, shares};
   const BodyLaw *first = body(i), *second = body(j);
   const bool i_yields = !first || !second || yields_first(first->material, second->material);
   return {i_yields ? ShareOf::i : ShareOf::j, shares};

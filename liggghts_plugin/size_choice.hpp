@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "law/nearest_size.hpp"
+
 namespace granulaw::plugin {
 
 /// Least and largest radius of the particles of one atom type; least > largest: none is known.
@@ -35,9 +37,7 @@ struct LawFinder
     const double sum = radius_i + radius_j, own = std::min(weight_i * radius_i, weight_j * radius_j);
     if ((own > least * sum) & !(own > largest * sum)) [[likely]]
       return usual;
-    std::size_t k = 0;
-    for (const double bound : *bounds) k += static_cast<std::size_t>(own > bound * sum);
-    return k;
+    return nearest_share(*bounds, own, sum);
   }
 };
 
@@ -47,9 +47,9 @@ class SizeChoice
 {
  public:
   /// `shares`: of the laws, ascending, at least one.
-  SizeChoice(ShareOf whose, std::vector<double> shares) : whose_(whose), shares_(std::move(shares))
+  SizeChoice(ShareOf whose, std::vector<double> shares)
+      : whose_(whose), shares_(std::move(shares)), bounds_(half_ways(shares_))
   {
-    for (std::size_t k = 1; k < count(); ++k) bounds_.push_back(0.5 * (shares_[k - 1] + shares_[k]));
   }
 
   std::size_t count() const { return shares_.size(); }
@@ -122,7 +122,7 @@ class SizeChoice
   }
 
   ShareOf whose_;
-  std::vector<double> shares_, bounds_;  // a bound lies half-way between two laws
+  std::vector<double> shares_, bounds_;
 };
 
 }  // namespace granulaw::plugin

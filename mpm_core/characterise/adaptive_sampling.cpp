@@ -66,30 +66,23 @@ void run_round(const SamplingPlan& plan, const SamplingSetting& setting, Contact
   run(parts, setting.source, runs, runs.done() + 0.7 * (0.9 - runs.done()));
 }
 
-/// What tells the law below the first run.
-struct Shallow
-{
-  std::optional<LawShape> shape;
-  double end = 1;  ///< overlap up to which it is asked
-};
-
-FittedShape fit(const ContactRecords& records, const SamplingSetting& s, const Shallow& shallow)
+FittedShape fit(const ContactRecords& records, const SamplingSetting& s, const ShapePrior* prior)
 {
   if (s.known) {
     FittedShape fitted{*s.known, {}};
     fitted.shape.velocity_effects = fit_velocity_effects(records.fast, *s.known, s.body.onset, s.shape_end());
     return fitted;
   }
-  return fit_shape(records, s.elastic, s.body.onset, s.options.depth,
-                   shallow.shape ? &*shallow.shape : nullptr, shallow.end);
+  return fit_shape(records, s.elastic, s.body.onset, s.options.depth, prior);
 }
 
-void fit_and_leave_out(Sampled& sampled, const SamplingSetting& s, const OnsetSimilarity* guide)
+void fit_and_leave_out(Sampled& sampled, const SamplingSetting& s, const OnsetSimilarity* similarity)
 {
-  Shallow shallow;
-  if (guide) shallow = {guide->shape(s.elastic), guide->end()};
-  sampled.fitted = fit(sampled.records, s, shallow);
-  const auto shape_of = [&](const ContactRecords& others) { return fit(others, s, shallow).shape; };
+  std::optional<ShapePrior> known;
+  if (similarity) known = similarity->prior(s.elastic);
+  const ShapePrior* prior = known ? &*known : nullptr;
+  sampled.fitted = fit(sampled.records, s, prior);
+  const auto shape_of = [&](const ContactRecords& others) { return fit(others, s, prior).shape; };
   sampled.slow = leave_out_slow(sampled.records, shape_of, s.body.onset, s.options.depth);
   sampled.fast =
       leave_out_fast(sampled.records.fast, sampled.fitted.shape.velocity_effects, axis_kind_of(s.body));

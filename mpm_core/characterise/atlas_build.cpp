@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/law_from_atlas.hpp"
 #include "characterise/fit_curve.hpp"
 #include "characterise/interpolation.hpp"
+#include "characterise/law_from_atlas.hpp"
+#include "characterise/shape_prior.hpp"
 #include "law/replay.hpp"
 
 namespace granulaw {
@@ -64,13 +66,6 @@ SamplingPlan plan_for(const MaterialRatios& m, const KnownAtlas& known)
   return plan;
 }
 
-/// Functions of u are brought to the same delta/delta_onset in another material's range.
-LawShape at_range_of(const MaterialRatios& to, const MaterialRatios& from, const LawShape& shape)
-{
-  const double share = std::log(Atlas::depth / onset_of(to)) / std::log(Atlas::depth / onset_of(from));
-  return shape.rescaled(share);
-}
-
 }  // namespace
 
 std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, const KnownAtlas& known)
@@ -90,85 +85,136 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
   return jobs;
 }
 
-Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes, const KnownAtlas& known)
+namespace {
+
+/// An atlas that is being made: its elastic spheres, then its materials in the order of all_materials().
+class Assembly
 {
-  std::size_t next = 0;
-  std::vector<ElasticCorrection> elastic;  // where yield comes first
-  std::vector<ElasticSphere> spheres;
-  const std::vector<double> ratios = grid.poisson_ratios();
-  for (const double nu : ratios) {
-    const ContactRecord shallow = contact_record_of(outcomes[next++].result);
-    const RunResult& deep = outcomes[next++].result;
-    elastic.push_back(fit_elastic(shallow));
-    spheres.push_back(
+ public:
+  Assembly(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes, const KnownAtlas& known)
+      : grid_(grid), outcomes_(outcomes), known_(known), ratios_(grid.poisson_ratios())
+  {
+  }
+  void add_elastic_spheres();
+  void add(const MaterialRatios& m);
+  Atlas take() { return Atlas(grid_, std::move(nodes_), std::move(spheres_)); }
+
+ private:
+  ContactRecords records_of(const SamplingPlan& plan);
+  LawShape fitted(const MaterialRatios& m, const ContactRecords& records) const;
+  LawShape main_shape(double stiffness, double hardening) const;
+  ShapePrior main_prior(double stiffness, double hardening) const;
+  ShapePrior prior_in_main_plane(const MaterialRatios& m) const;
+  ShapePrior prior_in_block(const MaterialRatios& m) const;
+
+  const AtlasGrid& grid_;
+  const std::vector<RunOutcome>& outcomes_;
+  const KnownAtlas& known_;
+  const std::vector<double> ratios_;        // Poisson's
+  std::size_t next_ = 0;                    // outcome
+  std::vector<ElasticCorrection> elastic_;  // by ratios_, where yield comes first
+  std::vector<ElasticSphere> spheres_;
+  std::vector<Atlas::Node> nodes_;
+};
+
+void Assembly::add_elastic_spheres()
+{
+  for (const double nu : ratios_) {
+    const ContactRecord shallow = contact_record_of(outcomes_[next_++].result);
+    const RunResult& deep = outcomes_[next_++].result;
+    elastic_.push_back(fit_elastic(shallow));
+    spheres_.push_back(
         {nu, fit_elastic(std::vector{shallow, contact_record_of(deep)}), deep.summary.error_estimate});
   }
-  const auto elastic_at = [&](double nu) {
-    return elastic[static_cast<std::size_t>(std::find(ratios.begin(), ratios.end(), nu) - ratios.begin())];
-  };
+}
 
-  std::vector<Atlas::Node> nodes;
-  /// Shape of a material from the nodes made so far at one stiffness of the main plane.
-  const auto main_shape = [&](double stiffness, double hardening) {
-    std::vector<double> z;
-    std::vector<const LawShape*> shapes;
-    for (const Atlas::Node& node : nodes)
-      if (node.material.stiffness == stiffness && node.material.poisson_ratio == grid.main_poisson_ratio) {
-        z.push_back(hardening_coordinate(stiffness, node.material.hardening));
-        shapes.push_back(&node.shape);
-      }
-    const auto weights = interpolation_weights(z, hardening_coordinate(stiffness, hardening));
-    LawShape sum = LawShape::zero();
-    for (std::size_t k = 0; k < shapes.size(); ++k)
-      if (weights[k] != 0) sum.add(weights[k], *shapes[k]);
-    return sum;
-  };
+ContactRecords Assembly::records_of(const SamplingPlan& plan)
+{
+  const auto first = outcomes_.begin() + static_cast<std::ptrdiff_t>(next_);
+  ContactRecords records;
+  add_to(records, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
+  next_ += plan.runs();
+  return records;
+}
 
-  const auto onset_similarity = [&](const MaterialRatios& m) -> LawShape {
-    const auto main_at_range = [&](double stiffness) {
-      const MaterialRatios from{stiffness, grid.main_poisson_ratio, m.hardening};
-      return at_range_of(m, from, main_shape(stiffness, m.hardening));
-    };
-    if (m.poisson_ratio == grid.main_poisson_ratio) {
-      const auto at = std::find(grid.stiffnesses.begin(), grid.stiffnesses.end(), m.stiffness);
-      if (at - grid.stiffnesses.begin() < 2)
-        fail("atlas", "its two least stiff materials must yield above the shallowest runs");
-      return linear_in_yield_ratio(m.stiffness, at[-1], main_at_range(at[-1]), at[-2], main_at_range(at[-2]));
+void Assembly::add(const MaterialRatios& m)
+{
+  const ContactRecords records = records_of(plan_for(m, known_));
+  const LawShape* shape = shape_in(known_, m);
+  nodes_.push_back({m, shape ? *shape : fitted(m, records)});
+  if (shape && known_.impacts_anew)
+    nodes_.back().shape.velocity_effects =
+        fit_velocity_effects(records.fast, *shape, onset_of(m), Atlas::depth);
+}
+
+LawShape Assembly::fitted(const MaterialRatios& m, const ContactRecords& records) const
+{
+  const auto ratio = std::find(ratios_.begin(), ratios_.end(), m.poisson_ratio) - ratios_.begin();
+  const ElasticCorrection& elastic = elastic_[static_cast<std::size_t>(ratio)];
+  const double onset = onset_of(m);
+  std::optional<ShapePrior> prior;
+  if (needs_prior(records.slow.front().depth, onset))
+    prior = m.poisson_ratio == grid_.main_poisson_ratio ? prior_in_main_plane(m) : prior_in_block(m);
+  return fit_shape(records, elastic, onset, Atlas::depth, prior ? &*prior : nullptr).shape;
+}
+
+/// From the nodes made so far at one stiffness of the main plane.
+LawShape Assembly::main_shape(double stiffness, double hardening) const
+{
+  std::vector<double> z;
+  std::vector<const LawShape*> shapes;
+  for (const Atlas::Node& node : nodes_)
+    if (node.material.stiffness == stiffness && node.material.poisson_ratio == grid_.main_poisson_ratio) {
+      z.push_back(hardening_coordinate(stiffness, node.material.hardening));
+      shapes.push_back(&node.shape);
     }
-    // the same stiffness in the main plane, and what Poisson's ratio changes at the block's next less stiff
-    const auto at = std::find(grid.block_stiffnesses.begin(), grid.block_stiffnesses.end(), m.stiffness);
-    if (at == grid.block_stiffnesses.begin())
-      fail("atlas", "its block's least stiff material must yield above the shallowest runs");
-    const double below = at[-1];
-    LawShape guide = main_at_range(m.stiffness);
-    guide.add(-1, main_at_range(below));
-    for (const Atlas::Node& node : nodes)
-      if (node.material.stiffness == below && node.material.poisson_ratio == m.poisson_ratio &&
-          node.material.hardening == m.hardening)
-        guide.add(1, at_range_of(m, node.material, node.shape));
-    return guide;
-  };
+  const auto weights = interpolation_weights(z, hardening_coordinate(stiffness, hardening));
+  LawShape sum = LawShape::zero();
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (weights[k] != 0) sum.add(weights[k], *shapes[k]);
+  return sum;
+}
 
-  for (const MaterialRatios& m : all_materials(grid)) {
-    const SamplingPlan plan = plan_for(m, known);
-    const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
-    ContactRecords records;
-    add_to(records, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
-    next += plan.runs();
-    if (const LawShape* shape = shape_in(known, m)) {
-      nodes.push_back({m, *shape});
-      if (known.impacts_anew)
-        nodes.back().shape.velocity_effects =
-            fit_velocity_effects(records.fast, *shape, onset_of(m), Atlas::depth);
-      continue;
-    }
-    const bool begins_late = records.slow.front().depth > 2 * onset_of(m);
-    const LawShape guide = begins_late ? onset_similarity(m) : LawShape::zero();
-    nodes.push_back({m, fit_shape(records, elastic_at(m.poisson_ratio), onset_of(m), Atlas::depth,
-                                  begins_late ? &guide : nullptr)
-                            .shape});
-  }
-  return Atlas(grid, std::move(nodes), std::move(spheres));
+ShapePrior as_prior(const MaterialRatios& m, const LawShape& shape)
+{
+  return ShapePrior::of(shape, onset_of(m), Atlas::depth, Atlas::depth);
+}
+
+ShapePrior Assembly::main_prior(double stiffness, double hardening) const
+{
+  return as_prior({stiffness, grid_.main_poisson_ratio, hardening}, main_shape(stiffness, hardening));
+}
+
+ShapePrior Assembly::prior_in_main_plane(const MaterialRatios& m) const
+{
+  const auto at = std::find(grid_.stiffnesses.begin(), grid_.stiffnesses.end(), m.stiffness);
+  if (at - grid_.stiffnesses.begin() < 2)
+    fail("atlas", "its two least stiff materials must yield above the shallowest runs");
+  return similar_by_two(onset_of(m), Atlas::depth, main_prior(at[-1], m.hardening),
+                        main_prior(at[-2], m.hardening));
+}
+
+/// From the block's next less stiff material, and what stiffness changes in the main plane.
+ShapePrior Assembly::prior_in_block(const MaterialRatios& m) const
+{
+  const auto at = std::find(grid_.block_stiffnesses.begin(), grid_.block_stiffnesses.end(), m.stiffness);
+  if (at == grid_.block_stiffnesses.begin())
+    fail("atlas", "its block's least stiff material must yield above the shallowest runs");
+  const MaterialRatios softer{at[-1], m.poisson_ratio, m.hardening};
+  const auto made = std::find_if(nodes_.begin(), nodes_.end(),
+                                 [&](const Atlas::Node& node) { return node.material == softer; });
+  return similar_by_change(onset_of(m), Atlas::depth, as_prior(softer, made->shape),
+                           main_prior(softer.stiffness, m.hardening), main_prior(m.stiffness, m.hardening));
+}
+
+}  // namespace
+
+Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes, const KnownAtlas& known)
+{
+  Assembly assembly(grid, outcomes, known);
+  assembly.add_elastic_spheres();
+  for (const MaterialRatios& m : all_materials(grid)) assembly.add(m);
+  return assembly.take();
 }
 
 std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, unsigned seed,

@@ -225,7 +225,7 @@ void Build::resolve(const SamplingPlan& plan)
 /// onset.
 std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
 {
-  if (known_ || first <= 2 * body_.onset) return {};
+  if (known_ || !needs_prior(first, body_.onset)) return {};
   OnsetSimilarity::Needs needs;
   needs.first = first, needs.depth = options_.depth;
   needs.tolerance = options_.tolerance, needs.press_cells = press_cells_;

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/interpolators/makima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <functional>
 
 #include "base/error.hpp"
 #include "characterise/characterised_body.hpp"
 #include "characterise/finish_curve.hpp"
+#include "characterise/overlap_at_work.hpp"
 #include "characterise/tabulate_curve.hpp"
 #include "law/pair.hpp"
 
@@ -20,17 +19,7 @@ namespace granulaw {
 
 namespace {
 
-/// y(x) = 0 of a rising y; the end where it does not cross 0.
-double rising_root(const std::function<double(double)>& y, double low, double high, int bits = 40)
-{
-  const double at_low = y(low), at_high = y(high);
-  if (at_low >= 0) return low;
-  if (at_high <= 0) return high;
-  std::uintmax_t steps = 100;
-  const auto [a, b] = boost::math::tools::toms748_solve(
-      y, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(bits), steps);
-  return 0.5 * (a + b);
-}
+constexpr int root_bits = 40;
 
 /// One body at one contact radius: what it is at any mean pressure under any common shape.
 class BodyAtContact
@@ -145,10 +134,11 @@ ComposedState ComposedPair::at(double a) const
       return s.curvature + h.curvature - curvature;
     };
     // Hertz's pressure for both as the softer would have it, and less; as the stiffer, and more
-    excess(rising_root(excess, std::log(1e-4 * curvature * softer), std::log(3 * curvature * stiffer)));
+    excess(rising_root(excess, std::log(1e-4 * curvature * softer), std::log(3 * curvature * stiffer),
+                       root_bits));
     return flatness - PressureShape::flatness_of((s.residual + h.residual) / (s.recovered + h.recovered));
   };
-  const double flatness = rising_root(balance, 0.0, 1.0);
+  const double flatness = rising_root(balance, 0.0, 1.0, root_bits);
   balance(flatness);
 
   ComposedState state;
@@ -333,23 +323,16 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
   return shape;
 }
 
-/// Overlap at which the law's loading work is that of an impact at sqrt(I) = v.
-double slow_impact_overlap(const ContactCurve& curve, const CharacterisedBody& body, double v)
-{
-  const double energy = 0.375 * body.mass * body.yield * v * v;
-  return std::exp(rising_root([&](double log_x) { return curve.work_loading(std::exp(log_x)) - energy; },
-                              std::log(1e-12), std::log(4.0)));
-}
-
 /// Those of the yielding body: an impact reaches so much less than by the slow law as that body's own does.
 std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const ContactCurve& own_slow,
                                                        const ContactCurve& pair_slow,
                                                        const CharacterisedBody& body)
 {
   std::vector<LawShape::VelocityEffect> effects = own.velocity_effects;
-  for (LawShape::VelocityEffect& effect : effects)
-    effect.log_overlap += std::log(slow_impact_overlap(pair_slow, body, effect.speed) /
-                                   slow_impact_overlap(own_slow, body, effect.speed));
+  for (LawShape::VelocityEffect& effect : effects) {
+    const double energy = 0.375 * body.mass * body.yield * effect.speed * effect.speed;  // over 4/3 E* R^3
+    effect.log_overlap += std::log(overlap_at_work(pair_slow, energy) / overlap_at_work(own_slow, energy));
+  }
   return effects;
 }
 

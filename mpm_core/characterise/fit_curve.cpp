@@ -67,30 +67,31 @@ double elastic_hertz_share(const ElasticCorrection& elastic, double x)
 
 using Samples = std::vector<SmoothSpline::Sample>;
 
-/// What a shape over the same range says at shares of q below the first run.
-void add_shallow(Samples& samples, const std::vector<double>* values, double q_first, double q_end,
-                 double weight)
+/// Adds what a prior knows of one function below the first run.
+void add_prior(Samples& samples, const ShapePrior* prior, std::vector<double> LawShape::*function,
+               double q_first, double q_end, double weight)
 {
-  if (!values) return;
-  const auto last = static_cast<double>(values->size() - 1);
-  for (std::size_t k = 1; k < values->size(); ++k)
+  if (!prior) return;
+  const std::vector<double>& values = prior->shape.*function;
+  const auto last = static_cast<double>(values.size() - 1);
+  for (std::size_t k = 1; k < values.size() && std::isfinite(prior->error[k]); ++k)
     if (const double q = q_end * static_cast<double>(k) / last; q < q_first)
-      samples.push_back({q, (*values)[k], weight});
+      samples.push_back({q, values[k], weight});
 }
 
 /// A reversal point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
-/// is only enough to bridge gaps. `q_shallow`: as far as `shallow` tells.
+/// is only enough to bridge gaps.
 SmoothSpline reversal_spline(std::span<const ContactRecord> presses, double onset, double q_end,
-                             const auto& of, const std::vector<double>* shallow, double q_shallow,
+                             const auto& of, const ShapePrior* prior, std::vector<double> LawShape::*function,
                              double smoothing = 0.03)
 {
   Samples samples;
-  double q_first = q_shallow;
+  double q_first = q_end;
   for (const ContactRecord& p : presses) {
     samples.push_back({q_of(p.depth, onset), of(p), 1.0});
     q_first = std::min(q_first, samples.back().q);
   }
-  add_shallow(samples, shallow, q_first, q_end, 1.0);
+  add_prior(samples, prior, function, q_first, q_end, 1.0);
   const int intervals = std::max(4, static_cast<int>(samples.size()) - 2);
   return {q_end, std::min(intervals, 24), samples, smoothing};
 }
@@ -232,33 +233,21 @@ struct ShapeFit
   const ContactRecords& records;
   const ElasticCorrection& elastic;
   double onset, x_end, q_end;
-  const LawShape* shallow;
-  double q_shallow;  ///< as far as `shallow` tells
+  const ShapePrior* prior;
   SmoothSpline force_reduction, widening;
   std::vector<ContactRecord> reversals;  ///< those beyond the onset
 
   ShapeFit(const ContactRecords& found, const ElasticCorrection& correction, double begin, double end,
-           const LawShape* guide, double guide_end)
-      : records(found),
-        elastic(correction),
-        onset(begin),
-        x_end(end),
-        q_end(q_of(end, begin)),
-        shallow(guide),
-        q_shallow(std::min(q_end, q_of(guide_end, begin)))
+           const ShapePrior* known)
+      : records(found), elastic(correction), onset(begin), x_end(end), q_end(q_of(end, begin)), prior(known)
   {
   }
   double press_force(double x) const { return press_force_at(x, elastic, force_reduction, onset); }
-  const std::vector<double>* shallow_of(std::vector<double> LawShape::*function) const
-  {
-    return shallow ? &(shallow->*function) : nullptr;
-  }
   void fit_loading();
   void correct_reversals();
   SmoothSpline dissipation(std::span<const ContactRecord> points) const
   {
-    return reversal_spline(points, onset, q_end, dissipation_measure, shallow_of(&LawShape::dissipation),
-                           q_shallow);
+    return reversal_spline(points, onset, q_end, dissipation_measure, prior, &LawShape::dissipation);
   }
   LawShape shape() const;
   double scatter() const;
@@ -278,13 +267,13 @@ void ShapeFit::fit_loading()
       radius.push_back({q, std::log(a / (std::sqrt(x) * elastic.radius_ratio(s))), weight});
       q_first = std::min(q_first, q);
     }
-  if (shallow) {
+  if (prior) {
     // as much as a press's samples would weigh there, all in all
     double weights = 0;
     for (const auto& s : force) weights += s.weight * s.weight;
     const double weight = std::sqrt(weights / (LawShape::nodes * std::max(0.1, 1 - q_first / q_end)));
-    add_shallow(force, &shallow->force_reduction, std::min(q_first, q_shallow), q_end, weight);
-    add_shallow(radius, &shallow->widening, std::min(q_first, q_shallow), q_end, weight);
+    add_prior(force, prior, &LawShape::force_reduction, q_first, q_end, weight);
+    add_prior(radius, prior, &LawShape::widening, q_first, q_end, weight);
   }
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
   force_reduction = {q_end, intervals, force, 0.02}, widening = {q_end, intervals, radius, 0.05};
@@ -314,13 +303,13 @@ LawShape ShapeFit::shape() const
   const auto hertz_share = [&](const ContactRecord& p) {
     return p.hertz_share - elastic_hertz_share(elastic, p.depth);
   };
-  shape.residual = sampled(
-      reversal_spline(reversals, onset, q_end, residual, shallow_of(&LawShape::residual), q_shallow), q_end);
+  shape.residual =
+      sampled(reversal_spline(reversals, onset, q_end, residual, prior, &LawShape::residual), q_end);
   shape.dissipation = sampled(dissipation(reversals), q_end);
   // The contact edge's grid noise of a per cent of F moves a Hertz share by 0.3.
-  shape.hertz_share = sampled(reversal_spline(reversals, onset, q_end, hertz_share,
-                                              shallow_of(&LawShape::hertz_share), q_shallow, 0.1),
-                              q_end);
+  constexpr double smoothing = 0.1;
+  shape.hertz_share = sampled(
+      reversal_spline(reversals, onset, q_end, hertz_share, prior, &LawShape::hertz_share, smoothing), q_end);
   shape.velocity_effects = fit_velocity_effects(records.fast, shape, onset, x_end);
   return shape;
 }
@@ -354,11 +343,11 @@ FitQuality ShapeFit::quality() const
 }  // namespace
 
 FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
-                      double x_end, const LawShape* shallow, double shallow_end)
+                      double x_end, const ShapePrior* prior)
 {
   if (records.slow.size() < 3)
     fail("fit", "too few reversal points", std::to_string(records.slow.size()), "3 or more");
-  ShapeFit fit(records, elastic, onset, x_end, shallow, shallow_end);
+  ShapeFit fit(records, elastic, onset, x_end, prior);
   fit.fit_loading();
   fit.correct_reversals();
   const FittedShape fitted{fit.shape(), fit.quality()};

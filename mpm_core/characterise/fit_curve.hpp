@@ -4,6 +4,7 @@
 
 #include "characterise/law_shape.hpp"
 #include "characterise/sampling_plan.hpp"
+#include "characterise/shape_prior.hpp"
 #include "characterise/tabulate_curve.hpp"
 
 namespace granulaw {
@@ -35,11 +36,10 @@ struct FittedShape
 };
 
 /// The law of a yielding sphere from its records, by smooth splines that start with zero value and slope at
-/// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `shallow`: a
-/// shape over the same range that tells what the runs are too shallow for (similarity), up to the first of
-/// them or `shallow_end`; may be null where the sampling plan begins near the onset.
+/// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `prior`: what
+/// is known over the same range without the runs; may be null where they begin near the onset.
 FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
-                      double x_end, const LawShape* shallow = nullptr, double shallow_end = 1.0);
+                      double x_end, const ShapePrior* prior = nullptr);
 
 /// The same from presses alone, tabulated: a rate-free curve to x_end.
 struct FittedCurve

@@ -101,14 +101,4 @@ LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, doubl
   return result;
 }
 
-LawShape linear_in_yield_ratio(double stiffness, double stiffness_a, const LawShape& a, double stiffness_b,
-                               const LawShape& b)
-{
-  const double slope = (1 / stiffness - 1 / stiffness_a) / (1 / stiffness_a - 1 / stiffness_b);
-  LawShape shape = LawShape::zero();
-  shape.add(1 + slope, a);
-  shape.add(-slope, b);
-  return shape;
-}
-
 }  // namespace granulaw

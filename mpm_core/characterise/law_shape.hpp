@@ -76,11 +76,6 @@ struct LawShape
   static LawShape zero();
 };
 
-/// The shape at E*/Y = `stiffness`, linear in Y/E* through those at two others, all over the same range of
-/// delta/delta_onset: the term that similarity in delta/delta_onset leaves out.
-LawShape linear_in_yield_ratio(double stiffness, double stiffness_a, const LawShape& a, double stiffness_b,
-                               const LawShape& b);
-
 /// Speeds sqrt(I) at which the atlas knows the effect of inertia.
 inline constexpr double impact_speeds[] = {0.005, 0.015, 0.03,  0.045, 0.06,  0.08, 0.1,
                                            0.125, 0.15,  0.175, 0.2,   0.225, 0.25, 0.3};

@@ -22,8 +22,9 @@ constexpr double less_stiff = 170, least_stiff = 85;
 constexpr double from_onset = 2.5;
 constexpr int slow_cells = 17;
 
-/// Overlap/R beyond which a sphere's finite size, not its onset, tells its law.
-constexpr double similar = 0.2;
+/// A tenth of finite_body for the atlas's materials that harden as much on the mean: with them F of laws of a
+/// steeply hardening material is within 0.24 % at overlaps of 0.02 R of the less stiff sphere.
+constexpr double hardens_nearly_alike = 0.1 * finite_body;
 
 const Material& pole_material(const CharacterisedBody& s)
 {
@@ -86,11 +87,7 @@ SamplingPlan::Press elastic_press_of(const CharacterisedBody& body, int cells)
 }
 
 OnsetSimilarity::OnsetSimilarity(const CharacterisedBody& body, const Needs& needs, const Atlas* atlas)
-    : body_(body),
-      needs_(needs),
-      atlas_(atlas),
-      is_sphere_(body.particle.is_homogeneous_sphere()),
-      spares_first_(std::isinf(body.skin))
+    : body_(body), needs_(needs), atlas_(atlas), is_sphere_(body.particle.is_homogeneous_sphere())
 {
   require_thick_skin(body, needs.first);
   const Material& m = pole_material(body);
@@ -121,7 +118,6 @@ OnsetSimilarity::OnsetSimilarity(const CharacterisedBody& body, const Needs& nee
     // delta/delta_onset that it must reach: the rest of a body that is no sphere changes the overlap
     const double reach = (is_sphere_ ? 1.2 : 2.0) * needs.first / body.onset;
     sphere.depth = std::clamp(reach * sphere.body.onset, 0.0075, 0.5);
-    if (reach * sphere.body.onset > similar) spares_first_ = false;
     SamplingRange range;
     range.depth = sphere.depth, range.fastest = 0, range.stops = 2, range.tolerance = needs.tolerance;
     range.from_onset = from_onset;
@@ -141,57 +137,59 @@ OnsetSimilarity::OnsetSimilarity(const CharacterisedBody& body, const Needs& nee
   runs_elastic_ = true;
 }
 
-/// ln of the body's range of overlaps from the onset on.
-double OnsetSimilarity::range() const
+/// Beyond the stiffest material of the atlas it goes on, linear in Y/E*.
+ShapePrior OnsetSimilarity::of_atlas(double stiffness) const
 {
-  return std::log(needs_.depth / body_.onset);
-}
-
-LawShape OnsetSimilarity::of_atlas(double stiffness) const
-{
-  const auto at = [&](double k) {
+  const auto onset_of = [&](double k) { return characterised_body_of(k, ratios_.poisson_ratio, 0).onset; };
+  const auto known = [&](double k) {
     MaterialRatios ratios = ratios_;
     ratios.stiffness = k;
-    const double onset = characterised_body_of(k, ratios.poisson_ratio, 0).onset;
-    return atlas_->shape(ratios).rescaled(range() / std::log(Atlas::depth / onset));
+    return ShapePrior::of(atlas_->shape(ratios), onset_of(k), Atlas::depth, Atlas::depth);
   };
   const double stiffest = atlas_->grid().stiffnesses.back();
-  if (stiffness <= stiffest) return at(stiffness);
-  return linear_in_yield_ratio(stiffness, stiffest, at(stiffest), 0.5 * stiffest, at(0.5 * stiffest));
+  if (stiffness <= stiffest) return known(stiffness);
+  return similar_by_two(onset_of(stiffness), Atlas::depth, known(stiffest), known(0.5 * stiffest));
 }
 
-LawShape OnsetSimilarity::of_runs(const Sphere& sphere, const ElasticCorrection& elastic) const
+ShapePrior OnsetSimilarity::of_runs(const Sphere& sphere, const ElasticCorrection* elastic) const
 {
   const double onset = sphere.body.onset;
-  return fit_shape(sphere.found, elastic, onset, sphere.depth)
-      .shape.rescaled(range() / std::log(sphere.depth / onset));
+  const LawShape shape =
+      elastic ? fit_shape(sphere.found, *elastic, onset, sphere.depth).shape : LawShape::zero();
+  return ShapePrior::of(shape, onset, sphere.depth, sphere.depth);
 }
 
-LawShape OnsetSimilarity::shape(const ElasticCorrection& elastic) const
+/// The prior of a sphere of the pole's material.
+ShapePrior OnsetSimilarity::of_sphere(const ElasticCorrection* elastic) const
 {
-  const double stiffness = ratios_.stiffness;
-  LawShape guide = LawShape::zero();
-  if (spheres_.empty()) {
-    guide = of_atlas(stiffness);
-  } else {
-    ElasticCorrection of_sphere = elastic;
-    if (runs_elastic_) {
-      const std::vector<ContactRecord>& press = spheres_.back().found.slow;
-      if (press.empty()) fail("contact law", "the elastic press of a sphere of its skin failed");
-      of_sphere = fit_elastic(press.front());
-    }
-    const LawShape softer = of_runs(spheres_[0], of_sphere);
-    if (knows_term_) {
-      guide.add(1, softer);
-      guide.add(1, of_atlas(stiffness));
-      guide.add(-1, of_atlas(less_stiff));
-    } else {
-      guide =
-          linear_in_yield_ratio(stiffness, less_stiff, softer, least_stiff, of_runs(spheres_[1], of_sphere));
-    }
+  const double onset = body_.onset, depth = needs_.depth;
+  if (spheres_.empty()) return at_range(onset, depth, of_atlas(ratios_.stiffness));
+  const ShapePrior softer = of_runs(spheres_[0], elastic);
+  if (knows_term_)
+    return similar_by_change(onset, depth, softer, of_atlas(less_stiff), of_atlas(ratios_.stiffness),
+                             hardens_nearly_alike);
+  return similar_by_two(onset, depth, softer, of_runs(spheres_[1], elastic));
+}
+
+bool OnsetSimilarity::spares_first() const
+{
+  const double error = std::isinf(body_.skin) ? of_sphere(nullptr).error_at(needs_.first)
+                                              : std::numeric_limits<double>::infinity();
+  return ShapePrior::run_error * error <= needs_.tolerance;
+}
+
+ShapePrior OnsetSimilarity::prior(const ElasticCorrection& elastic) const
+{
+  ElasticCorrection of_sphere_alone = elastic;
+  if (runs_elastic_) {
+    const std::vector<ContactRecord>& press = spheres_.back().found.slow;
+    if (press.empty()) fail("contact law", "the elastic press of a sphere of its skin failed");
+    of_sphere_alone = fit_elastic(press.front());
   }
-  if (!is_sphere_) guide = guide.as_skin_of(elastic, body_.onset, needs_.depth, 2 * needs_.first);
-  return guide;
+  ShapePrior prior = of_sphere(&of_sphere_alone);
+  if (!is_sphere_) prior.shape = prior.shape.as_skin_of(elastic, prior.onset, prior.end, 2 * needs_.first);
+  prior.end_at(needs_.first);
+  return prior;
 }
 
 }  // namespace granulaw

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "characterise/interpolation.hpp"
 #include "characterise/shape_function.hpp"
+#include "characterise/speed_interpolation.hpp"
 
 namespace granulaw {
 
@@ -46,32 +46,25 @@ ContactRecords without(const ContactRecords& records, std::size_t left_out)
   return others;
 }
 
-/// What the effects but one say at the speed of that one.
-LawShape::VelocityEffect interpolated(std::span<const LawShape::VelocityEffect> effects, std::size_t left_out,
-                                      VelocityAxis::Kind kind)
+/// Dissipation and force at the reversal that the effects but one say at the speed of that one.
+struct Interpolated
 {
-  const bool rate = kind == VelocityAxis::Kind::rate;
-  const LawShape::VelocityEffect standstill;
-  std::vector<double> nodes;
-  std::vector<const LawShape::VelocityEffect*> known;
-  const auto add = [&](double node, const LawShape::VelocityEffect& effect) {
-    nodes.push_back(node), known.push_back(&effect);
-  };
+  double dissipation, log_force;
+};
+Interpolated interpolated(std::span<const LawShape::VelocityEffect> effects, std::size_t left_out,
+                          VelocityAxis::Kind kind)
+{
+  std::vector<double> speeds;
+  std::vector<const LawShape::VelocityEffect*> others;
   for (std::size_t j = 0; j < effects.size(); ++j)
-    if (j != left_out) add(rate ? std::log(effects[j].speed) : effects[j].speed, effects[j]);
-  if (!rate) {
-    // Inertia is even in the speed: the slowest one stands on the other side of the standstill, too.
-    nodes.insert(nodes.begin(), {-nodes.front(), 0.0});
-    known.insert(known.begin(), {known.front(), &standstill});
-  }
-  const double speed = effects[left_out].speed;
-  const std::vector<double> weights = interpolation_weights(nodes, rate ? std::log(speed) : speed);
-  LawShape::VelocityEffect at{speed, 0, 0, 0, {0.0}};
-  for (std::size_t j = 0; j < weights.size(); ++j) {
-    at.dissipation += weights[j] * known[j]->dissipation;
-    if (!known[j]->force.empty()) at.force[0] += weights[j] * known[j]->force.back();
-  }
-  return at;
+    if (j != left_out) {
+      speeds.push_back(effects[j].speed);
+      others.push_back(&effects[j]);
+    }
+  const SpeedInterpolation between(speeds, kind);
+  const double v = effects[left_out].speed;
+  return {between.at(v, [&](std::size_t j) { return others[j]->dissipation; }),
+          between.at(v, [&](std::size_t j) { return others[j]->force.back(); })};
 }
 
 }  // namespace
@@ -151,8 +144,8 @@ std::vector<LeftOutRun> leave_out_fast(std::span<const ContactRecords::Impact> i
     LeftOutRun run{rate ? std::log(speed) : speed, impacts[k].path.depth, measured, {}};
     const bool end = k + 1 == impacts.size() || (rate && k == 0);
     if (!end) {
-      const LawShape::VelocityEffect told = interpolated(effects, k, kind);
-      run.predicted = {std::exp(told.force[0]),
+      const Interpolated told = interpolated(effects, k, kind);
+      run.predicted = {std::exp(told.log_force),
                        e * std::exp(-0.5 * (told.dissipation - effects[k].dissipation))};
     }
     runs.push_back(run);

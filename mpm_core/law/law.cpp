@@ -8,11 +8,14 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "law/nearest_size.hpp"
 #include "law/radiation.hpp"
 
 namespace granulaw {
 
 namespace {
+
+constexpr double like_sizes = 0.5;  // share of either body
 
 const BodyLaw& body(const Law& law, const std::string& name, const std::string& where)
 {
@@ -38,6 +41,18 @@ const std::vector<TwoBodyLaw>* Law::find_pair_laws(const std::string& a, const s
   for (const std::string& name : {a + ":" + b, b + ":" + a})
     if (const auto found = pair_laws.find(name); found != pair_laws.end()) return &found->second;
   return nullptr;
+}
+
+std::vector<double> Law::size_shares(const std::string& a, const std::string& b) const
+{
+  std::vector<double> shares;
+  const std::vector<TwoBodyLaw>* laws = find_pair_laws(a, b);
+  if (laws)
+    for (const TwoBodyLaw& own : *laws) shares.push_back(own.size_share());
+  if (a == b || shares.empty()) shares.push_back(like_sizes);
+  std::sort(shares.begin(), shares.end());
+  shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
+  return shares;
 }
 
 std::string Law::pair_list() const
@@ -110,16 +125,16 @@ PairLaw wall_pair(const BodyLaw& body)
 
 namespace {
 
-/// The law at the nearest share of sizes; null: `laws` is, or that of one material is nearer at like sizes.
-const TwoBodyLaw* nearest(const std::vector<TwoBodyLaw>* laws, double size_share, bool one_material)
+/// The pair's own law at the nearest share of sizes; null: the body's law by the pair rule is nearest.
+const TwoBodyLaw* nearest(const Law& law, const std::string& a, const std::string& b, double size_share)
 {
-  if (!laws) return nullptr;
-  const auto distance = [&](double share) { return std::abs(share - size_share); };
-  const auto best = std::min_element(laws->begin(), laws->end(), [&](const auto& a, const auto& b) {
-    return distance(a.size_share()) < distance(b.size_share());
-  });
-  constexpr double like = 0.5;
-  return one_material && distance(like) <= distance(best->size_share()) ? nullptr : &*best;
+  const std::vector<double> shares = law.size_shares(a, b);
+  const double share = shares[nearest_share(half_ways(shares), size_share, 1.0)];
+  if (a == b && share == like_sizes) return nullptr;
+  if (const std::vector<TwoBodyLaw>* laws = law.find_pair_laws(a, b))
+    for (const TwoBodyLaw& own : *laws)
+      if (own.size_share() == share) return &own;
+  return nullptr;
 }
 
 }  // namespace
@@ -141,7 +156,7 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
       PairMapping::deformable_partner(yielding.material.e_star(), partner.material.e_star());
   if (a == b) std::tie(radius_a, radius_b) = std::minmax({radius_a, radius_b});
   const double ratio = swap ? radius_a / radius_b : radius_b / radius_a;
-  const TwoBodyLaw* own = nearest(law.find_pair_laws(a, b), 1 / (1 + ratio), a == b);
+  const TwoBodyLaw* own = nearest(law, a, b, 1 / (1 + ratio));
   if (!own) return {&yielding.curve, mapping, &yielding};
   const bool composed = own->law.certificate.origin == composed_origin;
   return {&own->law.curve, mapping, &own->law,

@@ -96,6 +96,9 @@ struct Law
   const LawPair* find_pair(const std::string& a, const std::string& b) const;
   /// The pair's own laws, in either order; null: it follows the pair rule, or is not in the file.
   const std::vector<TwoBodyLaw>* find_pair_laws(const std::string& a, const std::string& b) const;
+  /// Shares of sizes (TwoBodyLaw::size_share) that the pair's laws are for, ascending. Like sizes count where
+  /// the pair rule is all there is, and between bodies of one material, whose own law is exact there.
+  std::vector<double> size_shares(const std::string& a, const std::string& b) const;
   /// "a:b, a:wall, ..." for messages.
   std::string pair_list() const;
 };

@@ -124,19 +124,6 @@ TEST(LawShape, ASkinOnTheSameBodyIsTheSphere)
   }
 }
 
-/// The term that similarity leaves: the builder's and the atlas's rule. Exact for what is linear in Y/E*.
-TEST(LawShape, IsLinearInYOverEStar)
-{
-  const auto at = [](double stiffness) {
-    LawShape shape = LawShape::zero();
-    shape.dissipation.back() = 2 + 3 / stiffness, shape.elastic.c1 = 1;
-    return shape;
-  };
-  const LawShape shape = linear_in_yield_ratio(500, 170, at(170), 85, at(85));
-  EXPECT_NEAR(shape.dissipation.back(), 2 + 3. / 500, 1e-12);  // rounding
-  EXPECT_NEAR(shape.elastic.c1, 1, 1e-12);
-}
-
 /// On a softer body the same force needs more overlap, and loses the same energy.
 TEST(LawShape, ASkinOnASofterBodyLosesTheSameAtTheSameForce)
 {

@@ -33,13 +33,17 @@ TEST(OnsetSimilarity, RunsWhatTheAtlasDoesNotTell)
   }
 }
 
-/// Of a body of E*/Y = 5000 the two less stiff spheres would have to be pressed to 0.2 and 0.8 R.
+/// Two spheres of E*/Y = 170 and 85 leave 0.5 % of F of one of 500 at 2e-4 R, and 6 % of one of 1500, as the
+/// atlas's laws of the four show.
 TEST(OnsetSimilarity, SparesNoRunThatItsSpheresCannotTell)
 {
   OnsetSimilarity::Needs needs;
-  needs.first = 2e-4, needs.depth = 0.2;
-  EXPECT_TRUE(OnsetSimilarity(characterised_body_of(1500, 0.3, 0.01), needs, nullptr).spares_first());
+  needs.first = 2e-4, needs.depth = 0.2, needs.tolerance = 0.01;
+  EXPECT_TRUE(OnsetSimilarity(characterised_body_of(500, 0.3, 0.01), needs, nullptr).spares_first());
+  EXPECT_FALSE(OnsetSimilarity(characterised_body_of(1500, 0.3, 0.01), needs, nullptr).spares_first());
   EXPECT_FALSE(OnsetSimilarity(characterised_body_of(5000, 0.3, 0.01), needs, nullptr).spares_first());
+  needs.tolerance = 0.005;
+  EXPECT_FALSE(OnsetSimilarity(characterised_body_of(500, 0.3, 0.01), needs, nullptr).spares_first());
 }
 
 }  // namespace
