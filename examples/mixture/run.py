@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A blend of two materials and two sizes on a vibrating steel floor: under the pair rule, and under composed pair laws.
 
-    run.py [-o out/mixture] [--seeds 20] [--quick]
+    run.py [-o out/mixture] [--seeds 12] [--quick]
 
 A seed is a random cloud, the same for both laws. Writes report.md, mixture.csv and mixture.png."""
 import argparse
@@ -31,7 +31,7 @@ pictures.COLOURS.update(rule="tab:orange", composed="tab:blue")
 def options(argv):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--out", default="out/mixture", metavar="DIR", help="default: out/mixture")
-    parser.add_argument("--seeds", type=int, default=20, help="runs of each law, default 20")
+    parser.add_argument("--seeds", type=int, default=12, help="runs of each law, default 12")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks")
     parser.add_argument("--stretch", type=float, default=STRETCH, help=f"contacts this much longer, default {STRETCH}")
     parser.add_argument("--quick", action="store_true", help="the small version that the tests run")
