@@ -203,7 +203,7 @@ class Mixture(Run):
     name = "mixture"
 
     def test_plan_contains_what_was_visited(self):
-        """As of the other decks; the plan knows the law file's materials, not its laws. A vibrating floor hands on more than its own speed."""
+        """The bounds of the other decks. Full size: 1.3 to 1.4."""
         for law in ("rule", "composed"):
             folder = self.folder / f"{law}-1"
             planned = example("planned.py")
@@ -221,8 +221,7 @@ class Mixture(Run):
         self.assertGreater(self.mean("composed", "taken by waves, mW"), 0)
 
     def test_what_contacts_take_the_floor_gives(self):
-        """The same scene in small: 50 spheres, one seed, 10 periods. The laws differ by some per cent of the loss, seeds here by 10 %: a factor of
-        two is another scene."""
+        """50 spheres, one seed, 5 periods: the laws differ by a per cent, seeds by 10 %. A factor of two would be another scene."""
         power = [self.mean(law, "dissipated in normal contacts, mW") for law in ("rule", "composed")]
         self.assertGreater(min(power), 0.1)
         self.assertTrue(0.5 < power[0] / power[1] < 2, power)
