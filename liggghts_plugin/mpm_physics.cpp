@@ -84,8 +84,9 @@ std::string error_text(const Certificate& c)
     return fmt::format("F {:.2g} %, e {:.2g} %{}", 100 * c.verification_error_force,
                        100 * c.verification_error_restitution,
                        c.origin == "atlas" ? " (atlas)" : " against fresh impacts");
-  if (c.origin == "atlas")
-    return fmt::format("F {:.2g} %, e {:.2g} (atlas)", 100 * c.atlas_error_force, c.atlas_error_restitution);
+  if (c.origin == "atlas" || c.origin == composed_origin)
+    return fmt::format("F {:.2g} %, e {:.2g} ({})", 100 * c.atlas_error_force, c.atlas_error_restitution,
+                       c.origin);
   return "not stated";
 }
 

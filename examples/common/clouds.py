@@ -30,15 +30,17 @@ def random_cloud(count, radius, low, high, rng, periodic=(False, False, False), 
     return centres
 
 
-def write_data(path, centres, radius, density, low, high, velocities=None):
-    """Spheres of type 1 (type 2: walls) in the box low..high; velocities in m/s, at rest without."""
+def write_data(path, centres, radius, density, low, high, velocities=None, types=1):
+    """Spheres in the box low..high; velocities in m/s, at rest without. radius, density, types: of each sphere, or one for all.
+    The type behind the largest is the walls'."""
+    radius, density, types = (np.broadcast_to(of, len(centres)) for of in (radius, density, types))
     with open(path, "w") as out:
-        out.write(f"LIGGGHTS data file\n\n{len(centres)} atoms\n2 atom types\n\n")
+        out.write(f"LIGGGHTS data file\n\n{len(centres)} atoms\n{max(types) + 1} atom types\n\n")
         for a, b, axis in zip(low, high, "xyz"):
             out.write(f"{a:.12g} {b:.12g} {axis}lo {axis}hi\n")
         out.write("\nAtoms\n\n")  # id, type, diameter, density, x, y, z
         for i, p in enumerate(centres, 1):
-            out.write(f"{i} 1 {2 * radius:.12g} {density:.12g} {p[0]:.15g} {p[1]:.15g} {p[2]:.15g}\n")
+            out.write(f"{i} {types[i - 1]} {2 * radius[i - 1]:.12g} {density[i - 1]:.12g} {p[0]:.15g} {p[1]:.15g} {p[2]:.15g}\n")
         if velocities is not None:
             out.write("\nVelocities\n\n")  # id, vx, vy, vz, angular velocity
             for i, v in enumerate(velocities, 1):

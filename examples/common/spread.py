@@ -93,10 +93,10 @@ def markdown(samples, base="hertz"):
     return "\n".join(lines) + "\n"
 
 
-def write_tables(out, title, lead, tables):
+def write_tables(out, title, lead, tables, base="hertz"):
     """NAME.csv and report.md of a deck in the folder `out`, NAME being the title in small letters; NAME.png is the caller's.
-    Returns the samples of `tabulate`."""
+    Verdicts are against `base`. Returns the samples of `tabulate`."""
     name = title.lower()
     samples = tabulate(tables, out / f"{name}.csv")
-    (out / "report.md").write_text(f"# {title}\n\n{lead} ±: standard error.\n\n{markdown(samples)}\n![{name}]({name}.png)\n")
+    (out / "report.md").write_text(f"# {title}\n\n{lead} ±: standard error.\n\n{markdown(samples, base)}\n![{name}]({name}.png)\n")
     return samples

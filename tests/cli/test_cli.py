@@ -433,6 +433,14 @@ def case_law():
             file.attrs.modify("version_major", np.int32(4))
         refused([command[0], "cut.h5", *command[1:]], "major version", "found 4", "allowed is 3")
     assert Run("plot", LAW, "-o", "law.png").code == 0 and Path("law.png").stat().st_size > 10000
+    for name, words in (("like", ["powder:powder", "--radius", "1e-3", "--radius2", "inf"]), ("wall", ["wall:powder", "--velocity", "3"])):
+        done = Run("plot", LAW, "--pair", *words, "-o", f"{name}.png")
+        assert done.out == f"wrote {name}.png\n" and Path(f"{name}.png").stat().st_size > 10000, done.err
+    refused(["plot", LAW, "--pair", "powdr:glass", "-o", "x.png"], "did you mean 'powder'")
+    refused(["plot", LAW, "--pair", "powder:wall", "--radius2", "1e-3", "-o", "x.png"], "--radius2", "no radius")
+    refused(["plot", LAW, "--radius", "1e-3", "-o", "x.png"], "--radius", "--pair", code=2)
+    refused(["plot", LAW, "--pair", "powder:wall", "--velocity", "0", "-o", "x.png"], "--velocity", "a number over 0", code=2)
+    refused(["plot", LAW, "--pair", "powder:wall", "-o", "/proc/x.png"], "/proc/x.png", "cannot be drawn")
 
 
 def case_claims():

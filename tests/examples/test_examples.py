@@ -204,6 +204,38 @@ class Silo(Run):
             self.assertAlmostEqual(a, b, delta=1e-9 * max(a, 1e-12))
 
 
+class Mixture(Run):
+    name = "mixture"
+
+    def test_plan_contains_what_was_visited(self):
+        """The bounds of the other decks. Full size: 1.3 to 1.4."""
+        for law in ("rule", "composed"):
+            folder = self.folder / f"{law}-1"
+            planned = example("planned.py")
+            bound, _ = planned.planned(folder)
+            seen = planned.visited([folder])
+            self.assertTrue(0.85 < planned.body(bound) / planned.body(seen) < 3.5, (law, bound, seen))
+
+    def test_the_rule_has_no_pair_laws(self):
+        rules = {law: {p["rule"] for p in readings.stats(self.folder / f"{law}-1")["pairs"]} for law in ("rule", "composed")}
+        self.assertIn("reduced", rules["rule"])
+        self.assertEqual(rules["composed"], {"own"})
+
+    def test_only_composed_laws_radiate(self):
+        self.assertEqual(self.mean("rule", "taken by waves, mW"), 0)
+        self.assertGreater(self.mean("composed", "taken by waves, mW"), 0)
+
+    def test_what_contacts_take_the_floor_gives(self):
+        """50 spheres, one seed, 5 periods: the laws differ by a per cent, seeds by 10 %. A factor of two would be another scene."""
+        power = [self.mean(law, "dissipated in normal contacts, mW") for law in ("rule", "composed")]
+        self.assertGreater(min(power), 0.1)
+        self.assertTrue(0.5 < power[0] / power[1] < 2, power)
+
+    def test_the_small_ones_are_on_top(self):
+        for law in ("rule", "composed"):
+            self.assertLess(self.mean(law, "height of mcc over that of lactose"), 1)
+
+
 if __name__ == "__main__":
     os.environ["PATH"] = os.pathsep.join(sys.argv[2:4] + [os.environ["PATH"]])
     unittest.main(argv=[sys.argv[0], sys.argv[1]], verbosity=2)

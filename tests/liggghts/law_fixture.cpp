@@ -11,6 +11,8 @@
 //   law_fixture write FILE pair_law                          powder:glass has a law of its own, all with axis
 //   law_fixture write FILE by_size ORIGIN                    laws of this origin by radius ratio:
 //                       powder:gum at 1, 3 and, if `composed`, infinity; powder:powder at 3 and infinity
+//   law_fixture write FILE composed                          composed laws that radiate at like sizes:
+//                       powder:glass where either is a thick wall and at 1, powder:powder at infinity
 //   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
 //   law_fixture radius FILE A B R_EFF DELTA DELTA_MAX X      prints contact radius (m)
 //   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X of a contact
@@ -83,6 +85,20 @@ granulaw::Law laws_by_size(const std::string& origin)
   return law;
 }
 
+/// The glass is so heavy that waves return from a sphere of it after the contact: only C knows of it, masses
+/// are the deck's.
+granulaw::Law composed_laws()
+{
+  granulaw::Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
+  const granulaw::BodyLaw& powder = law.bodies.at("powder");
+  law.bodies.at("glass").material.density *= 60;
+  constexpr double thick_wall = std::numeric_limits<double>::infinity();
+  for (const double ratio : {0.0, 1.0, thick_wall})
+    law.pair_laws["powder:glass"].push_back(law_of_size(powder, ratio, 0.8, granulaw::composed_origin));
+  law.pair_laws["powder:powder"].push_back(law_of_size(powder, thick_wall, 0.4, granulaw::composed_origin));
+  return law;
+}
+
 void print(const granulaw::Replay& replay)
 {
   std::printf("%.10g %.10g %.10g\n", replay.restitution, replay.contact_time, replay.delta_max);
@@ -104,6 +120,7 @@ int run(int argc, char** argv)
       law = synthetic.law_with_axis();
       law.pair_laws["powder:glass"].push_back(law_of_size(law.bodies.at("powder"), 2, 0.8, "runs"));
     }
+    if (word(3) == "composed") law = composed_laws();
     if (word(3) == "by_size") law = laws_by_size(word(4));
     if (word(3) == "certificate") {
       granulaw::Certificate& c = law.bodies.at("powder").certificate;

@@ -1,4 +1,5 @@
 """Runs one deck of the matrix and reads all that it wrote; compares two runs number by number."""
+import functools
 import os
 import pathlib
 import re
@@ -15,17 +16,16 @@ NOTHING = 1e-9  # the largest value of a column that counts as zero: torques of 
 BINARY = (".restart", ".h5", ".own", ".log", ".deck", ".png", ".jpg", ".ppm", ".bin", ".cite")
 NOT_A_NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?(nan|inf)(?![A-Za-z_])", re.I)
 
-_law = None
+LAWS = {"powder.h5": (), "composed.h5": ("composed",)}  # file, words of law_fixture
 
 
-def law_file():
-    """The synthetic law, written once."""
-    global _law
-    if _law is None:
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="granulaw-matrix-law-"))
-        _law = folder / "powder.h5"
-        subprocess.run([FIXTURE, "write", str(_law)], check=True)
-    return _law
+@functools.cache
+def law_folder():
+    """Where the synthetic laws lie, written once."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="granulaw-matrix-law-"))
+    for name, words in LAWS.items():
+        subprocess.run([FIXTURE, "write", str(folder / name), *words], check=True)
+    return folder
 
 
 class Run:
@@ -65,7 +65,8 @@ def run_all(feature, variants):
             folder.mkdir()
             for file, text in given.items():
                 (folder / file).write_text(text)
-            (folder / "powder.h5").symlink_to(law_file())
+            for law in LAWS:
+                (folder / law).symlink_to(law_folder() / law)
             (folder / "in.deck").write_text("log liggghts.log\n" + matrix_scene.deck(feature, variant))
         while left:
             numbers = [variants.index(v) for v in left][:1 if feature.alone else None]

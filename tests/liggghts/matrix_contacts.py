@@ -200,7 +200,7 @@ def other_walls(variant):
     if variant.model == "hertz":
         return FLOOR.format("")
     other = "thornton" if variant.model == "mpm" else "mpm"
-    words = "law powder.h5 materials " + ("elastic elastic" if variant.law == "elastic" else "powder glass") if other == "mpm" else ""
+    words = matrix_scene.law_words(variant) if other == "mpm" else ""
     return f"fix floor all wall/gran model {other} tangential history primitive type 1 zplane 0.0 {words} wall deformable"
 
 

@@ -9,12 +9,13 @@ import random
 from harness import GLASS, POWDER, plane_stl
 
 RADIUS = 1.7e-3
+LAW_FILES = {"elastic": "powder.h5", "plastic": "powder.h5", "composed": "composed.h5"}
 STEP = 2e-7     # s; 40 steps in the shortest contact
 SPEED = 2.0     # m/s
 STRETCH = 3.0
 RESTITUTION = 0.5  # of the damped twin
 
-# model: hertz, mpm, thornton. law: elastic (the twin of Hertz) or plastic. stretch, energy: whether the deck says so.
+# model: hertz, mpm, thornton. law: elastic (the twin of Hertz), plastic, or composed (plastic with composed pair laws, waves on). stretch, energy: whether the deck says so.
 Variant = collections.namedtuple("Variant", "model law stretch energy ranks")
 
 PARTS = ("units", "hard", "atom_style", "atom_modify", "boundary", "newton", "communicate", "processors", "first", "box", "neighbor",
@@ -85,6 +86,10 @@ def property_lines(variant, damped, pressure=1.0):
         f"fix p6 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}"))
 
 
+def law_words(variant):
+    return f"law {LAW_FILES[variant.law]} materials " + ("elastic elastic" if variant.law == "elastic" else "powder glass")
+
+
 def words(variant, damped):
     """The model's own words: of a pair style, of a wall beside one, of a wall alone."""
     if variant.model == "hertz":
@@ -93,7 +98,7 @@ def words(variant, damped):
     loss = -math.log(RESTITUTION) / math.hypot(math.log(RESTITUTION), math.pi)
     law = ""
     if variant.model == "mpm":
-        law = "law powder.h5 materials " + ("elastic elastic " if variant.law == "elastic" else "powder glass ")
+        law = law_words(variant) + " "
     damping = f"elasticDamping restitution tangentialDampingRatio {math.sqrt(5 / 6) * loss!r}" if damped else \
         "elasticDamping off tangentialDampingRatio 0"
     stretched = f" stretch {STRETCH:g}" if variant.stretch else ""
@@ -110,8 +115,8 @@ def output_lines(feature, variant):
              "thermo_modify norm no lost error format float %.12g",
              f"dump state all custom 100 state.txt {columns}", f'dump_modify state sort id format "{form}"']
     if variant.model != "hertz" and variant.energy:
-        lines += ["variable held equal ke+c_rot+c_height+f_granulaw[14]", "variable lost equal f_granulaw+f_granulaw[15]-f_granulaw[18]",
-                  'fix own all print 50 "${held} ${lost}" file energy.own screen no']
+        lines += ["variable held equal ke+c_rot+c_height+f_granulaw[14]", "variable lost equal f_granulaw+f_granulaw[15]-f_granulaw[18]+f_granulaw[19]",
+                  "variable waves equal f_granulaw[19]", 'fix own all print 50 "${held} ${lost} ${waves}" file energy.own screen no']
     return "\n".join(lines)
 
 

@@ -69,7 +69,8 @@ class Stats(Deck):
         """What the log says of the powder on a wall before the run: its law's errors and limits, number for number."""
         m = sphere_mass(RADIUS, POWDER.density)
         for words, error in ((("runs", 3), "F 1.2 %, e 3.4 % against fresh impacts"), (("atlas", 3), "F 1.2 %, e 3.4 % (atlas)"),
-                             (("atlas", 0), "F 5.6 %, e 0.078 (atlas)"), (("runs", 0), "not stated")):
+                             (("atlas", 0), "F 5.6 %, e 0.078 (atlas)"), (("composed", 0), "F 5.6 %, e 0.078 (composed)"),
+                             (("runs", 0), "not stated")):
             self.fixture("write", self.law, "certificate", *words)
             deck = wall_deck("mpm", f"law {self.law} materials powder stats s.json", POWDER, RADIUS, 1.0, 2e-8)
             text = self.run_deck(deck)

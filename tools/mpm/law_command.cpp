@@ -2,11 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
-#include <limits>
 #include <memory>
-#include <optional>
 
 #include "base/error.hpp"
 #include "claim.hpp"
@@ -16,36 +13,20 @@
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
 #include "option_checks.hpp"
-#include "pair_names.hpp"
+#include "pair_choice.hpp"
 
 namespace granulaw {
 
 namespace {
 
-struct LawRequest
+struct LawRequest : PairOptions
 {
-  std::string law, pair;
-  std::optional<double> radius, radius2;
   double velocity = 0;
   bool json = false;
 };
 
 /// Past the table's last overlap the force goes on with its last stiffness: good enough for this share of it.
 constexpr double overlap_margin = 0.05;
-
-PairNames choose_pair(const Law& law, const LawRequest& r)
-{
-  const std::vector<PairNames> asked = pairs_asked(r.pair, law);
-  if (asked.size() != 1) fail("--pair", "the law holds several pairs: name one", {}, law.pair_list());
-  const auto& [a, b] = asked.front();
-  return a == wall_name ? PairNames(b, a) : asked.front();
-}
-
-/// kg, of a body whose radius (of curvature at the pole) is `radius`.
-double body_mass(const BodyLaw& body, double radius)
-{
-  return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
-}
 
 /// What the file states for this collision: the certificate's claim and what the pair rule costs. 0: nothing.
 Claim stated_error(const Law& law, const PairLaw& pair, const PairNames& names, double e)
@@ -56,48 +37,16 @@ Claim stated_error(const Law& law, const PairLaw& pair, const PairNames& names, 
 }
 
 /// Two bodies about to collide: SI.
-struct Collision
+struct Collision : ChosenPair
 {
-  PairNames names;
-  PairLaw pair;
-  double r_eff, m_eff, velocity;
-
-  double limit() const { return pair.max_overlap(r_eff); }  ///< m, where the law's table ends
+  double velocity;
 };
-
-/// Whether a body of this radius is a thick deformable wall.
-bool is_thick_wall(double radius)
-{
-  return radius == std::numeric_limits<double>::infinity();
-}
-
-/// Wider than any particle or collision; within, no number of the replay leaves the range of a double.
-void check_numbers(const LawRequest& r, const PairNames& names, double radius, double radius2)
-{
-  if (names.second == wall_name && r.radius2) fail("--radius2", "a rigid wall has no radius");
-  require_within("--radius", radius, "m", 1e-9, 1e3);
-  if (!is_thick_wall(radius2)) require_within("--radius2", radius2, "m", 1e-9, 1e3);
-  require_within("--velocity", r.velocity, "m/s", 1e-12, 1e6);
-}
 
 Collision collision_of(const Law& law, const LawRequest& r)
 {
-  const PairNames names = choose_pair(law, r);
-  const auto& [a, b] = names;
-  const double only_radius = resolve_pair(law, a, b, r.law).only_radius();
-  const double radius = r.radius.value_or(only_radius > 0 ? only_radius : 1e-3);
-  const double radius2 = r.radius2.value_or(radius);
-  check_numbers(r, names, radius, radius2);
-  const PairLaw pair = resolve_pair(law, a, b, r.law, radius, radius2);
-
-  const std::string& yielding = pair.yielding->material.name;
-  if (a == yielding) check_size(pair, radius, "--radius");
-  if (b == yielding) check_size(pair, radius2, "--radius2");
-
-  const double mass = body_mass(law.bodies.at(a), radius);
-  if (b == wall_name || is_thick_wall(radius2)) return {names, pair, radius, mass, r.velocity};
-  return {names, pair, effective_radius(radius, radius2),
-          effective_mass(mass, body_mass(law.bodies.at(b), radius2)), r.velocity};
+  const ChosenPair pair = choose_pair(law, r);
+  require_within("--velocity", r.velocity, "m/s", 1e-12, 1e6);  // as of the radii (pair_choice.cpp)
+  return {pair, r.velocity};
 }
 
 /// Throws where the collision goes deeper than the law is good for.
@@ -119,10 +68,10 @@ struct Speed
 
 Speed speed_of(const Collision& c)
 {
-  const bool yields = c.pair.yielding->material.yields();
-  const double speed = yields ? c.pair.axis_speed(c.r_eff, c.m_eff, c.velocity) : 0.0;
-  const double damage_number = speed * speed, allowed = c.pair.yielding->certificate.damage_number_max;
-  return {damage_number, allowed, damage_number > allowed && !c.pair.curve->axis()};
+  const bool yields = c.law.yielding->material.yields();
+  const double speed = yields ? c.law.axis_speed(c.r_eff, c.m_eff, c.velocity) : 0.0;
+  const double damage_number = speed * speed, allowed = c.law.yielding->certificate.damage_number_max;
+  return {damage_number, allowed, damage_number > allowed && !c.law.curve->axis()};
 }
 
 void print_warnings(const Collision& c, const Speed& speed, const Replay& result)
@@ -137,13 +86,13 @@ void print_warnings(const Collision& c, const Speed& speed, const Replay& result
         stderr,
         "mpm: {:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: it answers with the "
         "corrections of that speed\n",
-        c.velocity, c.pair.max_speed(c.r_eff, c.m_eff));
+        c.velocity, c.law.max_speed(c.r_eff, c.m_eff));
   if (result.held_speed)
     fmt::print(
         stderr,
         "mpm: {:.4g} m/s is below {:.4g} m/s, the slowest impact that this rate-dependent law knows: it "
         "answers as at that rate\n",
-        c.velocity, c.pair.min_speed(c.r_eff, c.m_eff));
+        c.velocity, c.law.min_speed(c.r_eff, c.m_eff));
 }
 
 void print_as_json(const Speed& speed, const Replay& result, double cpu_s, const Claim& error)
@@ -175,12 +124,12 @@ void replay(const LawRequest& r)
   const Law law = read_law(r.law);
   const Collision c = collision_of(law, r);
   const std::clock_t start = std::clock();
-  const Replay result = replay_collision(c.pair, c.r_eff, c.m_eff, c.velocity);
+  const Replay result = replay_collision(c.law, c.r_eff, c.m_eff, c.velocity);
   const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   check_depth(r, c, result);
 
   const Speed speed = speed_of(c);
-  const Claim error = stated_error(law, c.pair, c.names, result.restitution);
+  const Claim error = stated_error(law, c.law, c.names, result.restitution);
   print_warnings(c, speed, result);
   if (r.json)
     print_as_json(speed, result, cpu_s, error);
@@ -192,13 +141,7 @@ void define(CLI::App& command)
 {
   const auto r = std::make_shared<LawRequest>();
   command.add_option("LAW", r->law, "law file of mpm table")->required();
-  command.add_option("--pair", r->pair, "a:b or a:wall; may be left out if the file holds one");
-  command.add_option(
-      "--radius", r->radius,
-      "radius of the first body, m (default 1e-3, e depends on no radius; of a rate-dependent\n"
-      "law the one it was made for, and no other is allowed)");
-  command.add_option("--radius2", r->radius2,
-                     "radius of the second body, m (default: the first's); inf: a thick deformable wall");
+  define_pair_options(command, *r);
   command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command.add_flag(
       "--json", r->json,

@@ -1,22 +1,24 @@
 """Loop time of LIGGGHTS under each normal model, as a ratio to stock Hertz in the same scene.
 
     dense   a chute flow (periodic in x and y, rough floor), prepared once with stock Hertz
-    types   the same flow with four types of particles: ten pairs, each with a law of its own under mpm; mpm_waves: those of
-            unlike types radiate (three contacts of four); mpm_sizes: and each has laws at four ratios of radii
+    types   the same flow with four types of particles: ten pairs, each with a law of its own under mpm, none under mpm_rule
+            (the pair rule); mpm_waves: those of unlike types are composed and radiate (three contacts of four);
+            mpm_sizes: and each has laws at four ratios of radii; mpm_waves_off, mpm_sizes_off: with `waves off`
     sparse  spheres on their way down, as in an insertion phase: near neighbours, hardly a contact
 
 Every model runs the same steps from the same positions and velocities, several times, interleaved. Prints for each
-the median ratio of loop times with its spread, pair-force time, also over the contacts (flows under different laws
+the median ratio to --base of loop times and of CPU times of the whole process with its spread, pair-force time, also over the contacts (flows under different laws
 drift apart), particle-steps per second, and the error of the force that the loop computes. hertz_granulaw is stock Hertz compiled with the plug-in's flags, hertz_loop the same in the
 plug-in's loop over pairs. Standard library only.
 
-    ninja benchmark_liggghts          (or: loop.py [--repeats 5] [--steps 1500] [--spheres 3000])
+    ninja benchmark_liggghts          (or: loop.py [--repeats 5] [--steps 1500] [--spheres 3000] [--base hertz])
 """
 import argparse
 import os
 import pathlib
 import random
 import re
+import resource
 import statistics
 import subprocess
 import tempfile
@@ -75,11 +77,12 @@ def run(folder, deck, preload=None):
     path = folder / "in.deck"
     path.write_text(deck)
     environment = dict(os.environ, **({"LD_PRELOAD": preload} if preload else {}))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     done = subprocess.run([LAUNCHER, "-in", str(path), "-log", "none"], capture_output=True, text=True,
                           errors="replace", cwd=folder, env=environment)
     if done.returncode:
         raise SystemExit(f"loop.py: LIGGGHTS stopped:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
-    return done.stdout
+    return done.stdout, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def read_dump(path):
@@ -133,8 +136,9 @@ def contacts(text):
 
 MODELS = {"dense": ("hertz", "hertz_granulaw", "hertz_loop", "mpm", "mpm_soft", "mpm_axis", "thornton", "thornton_soft",
                     "thornton_ning", "hooke_hysteresis"),
-          "types": ("hertz", "mpm", "mpm_waves", "mpm_sizes", "thornton"),
+          "types": ("hertz", "mpm_rule", "mpm", "mpm_waves", "mpm_waves_off", "mpm_sizes", "mpm_sizes_off", "thornton"),
           "sparse": ("hertz", "mpm", "thornton")}
+RADIATING = ("mpm_waves", "mpm_sizes")
 
 
 def loop(folder, scene, name, steps):
@@ -144,17 +148,20 @@ def loop(folder, scene, name, steps):
     model, words, preload, y = name.replace("_hysteresis", "/hysteresis"), "", None, yield_stress["mpm"]
     types = 4 if scene == "types" else 1
     if name.startswith("mpm"):
-        law = f"law four_{name}.h5 materials a b c d" if types == 4 else f"law {name}.h5 materials powder"
+        law = f"law four_{name.removesuffix('_off')}.h5 materials a b c d" if types == 4 else f"law {name}.h5 materials powder"
+        law += " waves off" if name.endswith("_off") else ""
         model, words = "mpm", f"{law} beyondRange continue elasticDamping 0.001"
     elif name.startswith("thornton") and name != "thornton_ning":
         model, words, y = "thornton", "elasticDamping 0.001", yield_stress[name.replace("thornton", "mpm")]
     elif name in ("hertz_granulaw", "hertz_loop"):
         preload = HERTZ
-    text = run(folder, head(data=f"{scene}.data") + properties(E, y, types) + flow(model, words) +
+    text, cpu = run(folder, head(data=f"{scene}.data") + properties(E, y, types) + flow(model, words) +
                f"run {WARM_UP}\nrun {steps}\n", preload)
     seconds = float(re.findall(r"^Loop time of (\S+)", text, re.M)[-1])
     pair = float(re.findall(r"^Pair  time \(%\) = (\S+)", text, re.M)[-1])
-    return seconds, pair, contacts(text)
+    if name in RADIATING and "waves took" not in text:
+        raise SystemExit(f"loop.py: no waves under {name}")
+    return seconds, pair, contacts(text), cpu
 
 
 def compare(folder, scene, options, error):
@@ -163,20 +170,24 @@ def compare(folder, scene, options, error):
     for _ in range(options.repeats):
         for m in models:
             times[m].append(loop(folder, scene, m, options.steps))
-    print(f"{scene}: {options.spheres} spheres, {options.steps} steps, {options.repeats} interleaved runs; "
-          "ratio of loop times to stock hertz, round by round: median [lowest, highest]; of the fastest runs")
+    print(f"{scene}: {options.spheres} spheres, {options.steps} steps, {options.repeats} interleaved runs; ratios to {options.base}, "
+          "round by round: median [lowest, highest]; of the fastest runs")
+    base = times[options.base]
+
+    def ratio(of, k):
+        ratios = [t[k] / h[k] for t, h in zip(of, base)]
+        return f"{statistics.median(ratios):.3f} [{min(ratios):.3f}, {max(ratios):.3f}]"
+
     for m in models:
-        ratios = [t[0] / h[0] for t, h in zip(times[m], times["hertz"])]
         seconds = statistics.median(t[0] for t in times[m])
-        pair = statistics.median(t[1] for t in times[m]) / statistics.median(t[1] for t in times["hertz"])
+        pair = statistics.median(t[1] for t in times[m]) / statistics.median(t[1] for t in base)
         # half the coordination number: a contact has two spheres; includes the search among near neighbours
         per_contact = min(t[1] / (0.5 * t[2]) for t in times[m]) / (options.steps * options.spheres) * 1e9
-        best = min(t[0] for t in times[m]) / min(t[0] for t in times["hertz"])  # what a busy machine disturbs least
-        print(f"{m:16s} loop ratio {statistics.median(ratios):.3f} [{min(ratios):.3f}, {max(ratios):.3f}]  "
-              f"fastest {best:.3f}  "
+        best = min(t[0] for t in times[m]) / min(t[0] for t in base)  # what a busy machine disturbs least
+        print(f"{m:16s} loop ratio {ratio(times[m], 0)}  fastest {best:.3f}  CPU ratio {ratio(times[m], 3)}  "
               f"pair-time ratio {pair:.3f}  {per_contact:.1f} ns a contact  {options.spheres * options.steps / seconds / 1e6:.2f} M particle-steps/s  "
               f"{statistics.median(t[2] for t in times[m]):.2f} contacts a sphere  "
-              f"force error {error.get((scene, m), 'none (closed form)')}", flush=True)
+              f"force error {error.get((scene, m.removesuffix('_off')), 'none (closed form)')}", flush=True)
 
 
 def main():
@@ -185,10 +196,11 @@ def main():
     parser.add_argument("--steps", type=int, default=1500)
     parser.add_argument("--spheres", type=int, default=3000)
     parser.add_argument("--scenes", nargs="+", choices=MODELS, default=list(MODELS))
-    parser.add_argument("--models", nargs="+", help="hertz and these only")
+    parser.add_argument("--models", nargs="+", help="the base and these only")
+    parser.add_argument("--base", default="hertz", help="model that the others' times are divided by")
     options = parser.parse_args()
     if options.models:
-        options.models.append("hertz")
+        options.models.append(options.base)
     with tempfile.TemporaryDirectory(prefix="granulaw-loop-") as name:
         folder = pathlib.Path(name)
 
@@ -198,6 +210,7 @@ def main():
         error = {("dense", name): law("one", folder / f"{name}.h5", onset) for name, onset in ONSETS.items()}
         error["sparse", "mpm"] = error["dense", "mpm"]
         error["dense", "mpm_axis"] = law("axis", folder / "mpm_axis.h5")
+        error["types", "mpm_rule"] = law("rule", folder / "four_mpm_rule.h5")
         for name, ratios in (("mpm", ()), ("mpm_waves", (1,)), ("mpm_sizes", (0.25, 1, 4, 16))):
             error["types", name] = law("four", folder / f"four_{name}.h5", *ratios)
         prepare(folder, options.spheres)

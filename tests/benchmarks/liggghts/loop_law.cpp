@@ -4,7 +4,7 @@
 // point. bench_loop_law axis FILE: with a velocity axis; against the law's curve. bench_loop_law four FILE:
 // four materials and a law of its own for each of their ten pairs; prints the largest of their ten errors.
 // bench_loop_law four FILE RATIO...: those of unlike materials composed, so that they radiate, at these
-// ratios.
+// ratios. bench_loop_law rule FILE: the four materials without laws of their pairs.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -55,7 +55,9 @@ double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curv
 }
 
 constexpr double youngs_modulus = 9.1e7;  // as loop.py
-constexpr int nodes = 1025;               // so many that the error is the loop's, not the sampling's
+constexpr double modulus_over_yield =
+    4;  // E*/Y that the law states: so strong a sphere ends its contact before waves return (radiation.hpp)
+constexpr int nodes = 1025;  // so many that the error is the loop's, not the sampling's
 
 double one(const char* file, double onset)
 {
@@ -82,8 +84,8 @@ double with_axis(const char* file)
   });
 }
 
-/// `ratios`: none: one law for each pair, as from runs.
-double four(const char* file, const std::vector<double>& ratios)
+/// `ratios`: none: one law for each pair, as from runs. `pair_laws` false: every pair follows the pair rule.
+double four(const char* file, const std::vector<double>& ratios, bool pair_laws = true)
 {
   const std::vector<std::string> names{"a", "b", "c", "d"};
   granulaw::Law law;
@@ -95,7 +97,8 @@ double four(const char* file, const std::vector<double>& ratios)
     result.curve = shape.curve(nodes);
     result.material.name = name;
     result.material.youngs_modulus = youngs_modulus;
-    result.material.yield_stress *= std::sqrt(onset);
+    // of four materials the first yields against the others
+    result.material.yield_stress = result.material.e_star() / modulus_over_yield * std::sqrt(onset / 3e-4);
     worst = std::max(worst, worst_error(shape, result.curve));
     return result;
   };
@@ -106,7 +109,7 @@ double four(const char* file, const std::vector<double>& ratios)
   for (std::size_t i = 0; i < names.size(); ++i)
     for (std::size_t j = i; j < names.size(); ++j) {
       law.pairs.push_back({names[i], names[j]});
-      if (i == j) continue;
+      if (i == j || !pair_laws) continue;
       granulaw::TwoBodyLaw own{body(names[i])};
       own.law.material = law.bodies[names[i]].material;  // of the pair's weaker body
       std::vector<granulaw::TwoBodyLaw>& laws = law.pair_laws[names[i] + ":" + names[j]];
@@ -129,6 +132,8 @@ int main(int argc, char** argv)
     std::printf("%.3g\n", one(argv[2], std::strtod(argv[3], nullptr)));
   else if (kind == "axis" && argc == 3)
     std::printf("%.3g\n", with_axis(argv[2]));
+  else if (kind == "rule" && argc == 3)
+    std::printf("%.3g\n", four(argv[2], {}, false));
   else if (kind == "four") {
     std::vector<double> ratios;
     for (int k = 3; k < argc; ++k) ratios.push_back(std::strtod(argv[k], nullptr));

@@ -1,0 +1,121 @@
+#include "pair_curves.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "law/replay.hpp"
+#include "law/thornton.hpp"
+#include "synthetic_law.hpp"
+
+namespace granulaw {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// powder:glass has composed laws for like radii and for a thick wall.
+Law some_law()
+{
+  Law law = testing::SyntheticLaw{}.law_with_axis();
+  testing::SyntheticLaw other;
+  other.depth = 0.8;
+  for (const double ratio : {1.0, std::numeric_limits<double>::infinity()}) {
+    TwoBodyLaw& own = law.pair_laws["powder:glass"].emplace_back();
+    own.law = law.bodies.at("powder");
+    own.law.curve = ContactCurve(other.table(), other.axis(), "other");
+    own.law.certificate.origin = composed_origin;
+    own.radius_ratio = ratio;
+  }
+  return law;
+}
+
+Json curves_of(const Law& law, const std::string& pair, std::optional<double> radius2,
+               std::optional<double> speed = {})
+{
+  return pair_curves(law, choose_pair(law, {"law.h5", pair, 1e-3, radius2}), speed);
+}
+
+std::multiset<std::string> roles(const Json& lines)
+{
+  std::multiset<std::string> found;
+  for (const Json& line : lines) found.insert(line["role"].get<std::string>());
+  return found;
+}
+
+Json line_of(const Json& lines, const std::string& role)
+{
+  for (const Json& line : lines)
+    if (line["role"] == role) return line;
+  ADD_FAILURE() << "no line " << role;
+  return {};
+}
+
+TEST(PairCurves, ThickWallShowsTheLawWithAndWithoutWavesTheRuleAndTheFormulas)
+{
+  const Json curves = curves_of(some_law(), "powder:glass", std::numeric_limits<double>::infinity());
+  EXPECT_EQ(roles(curves["force"]), (std::multiset<std::string>{"formula", "law", "other", "rule"}));
+  EXPECT_EQ(roles(curves["restitution"]),
+            (std::multiset<std::string>{"formula", "law", "other", "rule", "still"}));
+  EXPECT_EQ(line_of(curves["restitution"], "law")["name"], "composed law");
+  EXPECT_EQ(curves["title"], "powder (R = 1 mm) against a thick wall of glass");
+  const Json with = line_of(curves["restitution"], "law"), still = line_of(curves["restitution"], "still");
+  EXPECT_LT(with["e"].back().get<double>(), still["e"].back().get<double>());
+}
+
+TEST(PairCurves, PairsWithoutALawOfTheirOwnShowNoRuleBesideIt)
+{
+  const Law law = some_law();
+  for (const auto& [pair, name] :
+       {std::pair("powder:wall", "law of the body"), std::pair("powder:powder", "law of the body")}) {
+    const Json curves = curves_of(law, pair, {});
+    EXPECT_EQ(roles(curves["force"]), (std::multiset<std::string>{"formula", "law"})) << pair;
+    EXPECT_EQ(line_of(curves["force"], "law")["name"], name);
+  }
+  Law by_rule = law;
+  by_rule.pair_laws.clear();
+  EXPECT_EQ(line_of(curves_of(by_rule, "powder:glass", 1e-3)["force"], "law")["name"], "pair rule");
+}
+
+TEST(PairCurves, AreThoseOfTheLawsThatTheyName)
+{
+  const Law law = some_law();
+  const ChosenPair pair = choose_pair(law, {"law.h5", "powder:glass", 1e-3, 1e-3});
+  Law by_rule = law;
+  by_rule.pair_laws.clear();
+  const ChosenPair rule = choose_pair(by_rule, {"law.h5", "powder:glass", 1e-3, 1e-3});
+  const Json curves = pair_curves(law, pair, 3.0);
+  for (const auto& [role, chosen] : {std::pair("law", &pair), std::pair("rule", &rule)}) {
+    const Json e = line_of(curves["restitution"], role), force = line_of(curves["force"], role);
+    EXPECT_DOUBLE_EQ(e["velocity_m_per_s"].back().get<double>(), 3.0);
+    // 2000 steps a contact against 20,000
+    EXPECT_NEAR(e["e"].back().get<double>(),
+                replay_collision(chosen->law, chosen->r_eff, chosen->m_eff, 3.0).restitution, 1e-5);
+    const double deepest = force["overlap_m"].back().get<double>();
+    EXPECT_DOUBLE_EQ(force["force_N"].back().get<double>(),
+                     chosen->law.evaluate(chosen->r_eff, deepest, deepest).force);
+    const Json half = force["unloading"][1];
+    const double top = half["overlap_m"].back().get<double>(), foot = half["overlap_m"][0].get<double>();
+    EXPECT_NEAR(top / deepest, 0.5, 1e-12);
+    EXPECT_GT(foot, 0);
+    EXPECT_DOUBLE_EQ(half["force_N"][0].get<double>(), chosen->law.evaluate(chosen->r_eff, foot, top).force);
+  }
+}
+
+TEST(PairCurves, ThorntonYieldsWhereHisWorkIsTheKineticEnergy)
+{
+  const Law law = some_law();
+  const ChosenPair pair = choose_pair(law, {"law.h5", "powder:glass", 1e-3, 2e-3});
+  const Json line = line_of(pair_curves(law, pair, {})["restitution"], "formula");
+  const ThorntonPair thornton{pair.law.mapping.e_star_pair(), 1.6 * 1e8};
+  const double v = line["velocity_m_per_s"].back().get<double>();
+  const double duration =
+      2.87 * std::pow(pair.m_eff * pair.m_eff / (thornton.e_star * thornton.e_star * pair.r_eff * v), 0.2);
+  const Replay replay =
+      replay_collision([&](double d, double d_max) { return thornton.evaluate(pair.r_eff, d, d_max); },
+                       pair.m_eff, v, duration);
+  // eq. 41 is this law's e; velocity Verlet at 20,000 steps a contact: 1e-6
+  EXPECT_NEAR(line["e"].back().get<double>(), replay.restitution, 1e-6);
+}
+
+}  // namespace
+}  // namespace granulaw

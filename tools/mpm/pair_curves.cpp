@@ -1,0 +1,223 @@
+#include "pair_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "law/replay.hpp"
+#include "law/thornton.hpp"
+
+namespace granulaw {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int points = 200, speeds = 40;
+constexpr int steps_per_contact = 2000;  // e within 1e-5 of that at ten times as many: no line is as thin
+
+/// A law that is drawn, and how.
+struct Drawn
+{
+  std::string name, role;
+  PairLaw law;
+};
+
+const BodyLaw& yielding_body(const Law& law, const ChosenPair& pair)
+{
+  return law.bodies.at(pair.law.yielding->material.name);
+}
+
+bool has_own_law(const Law& law, const ChosenPair& pair)
+{
+  return pair.law.yielding != &yielding_body(law, pair);
+}
+
+std::string law_name(const Law& law, const ChosenPair& pair)
+{
+  if (has_own_law(law, pair))
+    return pair.law.yielding->certificate.origin == composed_origin ? "composed law" : "law by runs";
+  return pair.has_rigid_wall() || pair.names.first == pair.names.second ? "law of the body" : "pair rule";
+}
+
+PairLaw without_waves(PairLaw law)
+{
+  law.radiation = 0;
+  return law;
+}
+
+/// The pair's laws for other ratios of radii.
+std::vector<Drawn> other_laws(const Law& law, const ChosenPair& pair)
+{
+  std::vector<Drawn> drawn;
+  const std::vector<TwoBodyLaw>* laws =
+      pair.has_rigid_wall() ? nullptr : law.find_pair_laws(pair.names.first, pair.names.second);
+  if (!laws) return drawn;
+  for (const TwoBodyLaw& own : *laws)
+    if (&own.law != pair.law.yielding)
+      drawn.push_back(
+          {"laws for other ratios of radii", "other", {&own.law.curve, pair.law.mapping, &own.law}});
+  return drawn;
+}
+
+/// In the order in which they are drawn, one over the other.
+std::vector<Drawn> drawn_laws(const Law& law, const ChosenPair& pair)
+{
+  std::vector<Drawn> drawn = other_laws(law, pair);
+  const BodyLaw& body = yielding_body(law, pair);
+  if (has_own_law(law, pair)) drawn.push_back({"pair rule", "rule", {&body.curve, pair.law.mapping, &body}});
+  drawn.push_back({law_name(law, pair), "law", pair.law});
+  return drawn;
+}
+
+ThorntonPair thornton_pair(const ChosenPair& pair)
+{
+  return {pair.law.mapping.e_star_pair(), 1.6 * pair.law.yielding->material.yield_stress};
+}
+
+/// m/s, at which Thornton's pair begins to yield: m* V_y^2/2 = 2/5 F_y d_y.
+double yield_velocity(const ChosenPair& pair)
+{
+  const ThorntonPair thornton = thornton_pair(pair);
+  const double overlap = thornton.yield_overlap(pair.r_eff);
+  return std::sqrt(0.8 * thornton.evaluate(pair.r_eff, overlap, overlap).force * overlap / pair.m_eff);
+}
+
+/// m/s, at which a contact that the law's loading curve stops comes to the end of its table, or where its
+/// velocity axis ends.
+double speed_at_the_end(const ChosenPair& pair)
+{
+  double work = 0;
+  const double step = pair.limit() / points;
+  for (int k = 0; k < points; ++k) {
+    const double overlap = (k + 0.5) * step;
+    work += pair.law.evaluate(pair.r_eff, overlap, overlap).force * step;
+  }
+  return std::min(std::sqrt(2 * work / pair.m_eff), pair.law.max_speed(pair.r_eff, pair.m_eff));
+}
+
+/// m/s, slowest and fastest impact of the picture.
+struct Speeds
+{
+  double least, largest;
+
+  /// k from 0 to `speeds`, in equal ratios.
+  double at(int k) const { return least * std::pow(largest / least, static_cast<double>(k) / speeds); }
+};
+
+Speeds speeds_of(const ChosenPair& pair, std::optional<double> asked)
+{
+  const double end = speed_at_the_end(pair);
+  if (!pair.law.yielding->material.yields()) {
+    const double largest = std::min(asked.value_or(end), end);
+    return {1e-3 * largest, largest};
+  }
+  const double v_y = yield_velocity(pair), largest = std::min(asked.value_or(100 * v_y), end);
+  return {std::min(0.5 * v_y, 0.1 * largest), largest};
+}
+
+Replay collision(const PairLaw& law, const ChosenPair& pair, double velocity)
+{
+  return replay_collision(law, pair.r_eff, pair.m_eff, velocity, steps_per_contact);
+}
+
+/// Force over overlaps from 0 to `end`, of what has been pressed to `reached`; no part without force but the
+/// first point.
+Json branch(const auto& force, double end, double reached)
+{
+  std::vector<double> overlaps, forces;
+  for (int k = 0; k <= points; ++k) {
+    const double overlap = end * k / points, f = overlap > 0 ? force(overlap, reached) : 0.0;
+    if (f <= 0 && k < points && !(reached == 0 && k == 0)) continue;
+    overlaps.push_back(overlap);
+    forces.push_back(f);
+  }
+  return {{"overlap_m", overlaps}, {"force_N", forces}};
+}
+
+Json force_line(const Drawn& drawn, double r_eff, double end)
+{
+  const auto force = [&](double overlap, double reached) {
+    return drawn.law.evaluate(r_eff, overlap, reached).force;
+  };
+  Json line{{"name", drawn.name}, {"role", drawn.role}};
+  line.update(branch(force, end, 0));
+  line["unloading"] = Json::array();
+  if (drawn.role != "other")
+    for (const double part : {0.25, 0.5, 0.75, 1.0})
+      line["unloading"].push_back(branch(force, part * end, part * end));
+  return line;
+}
+
+Json hertz_line(const ChosenPair& pair, double end)
+{
+  const double stiffness = 4.0 / 3.0 * pair.law.mapping.e_star_pair() * std::sqrt(pair.r_eff);
+  Json line{{"name", "Hertz"}, {"role", "formula"}};
+  line.update(
+      branch([&](double overlap, double) { return stiffness * overlap * std::sqrt(overlap); }, end, 0));
+  line["unloading"] = Json::array();
+  return line;
+}
+
+/// `restitution`: of a speed, m/s.
+Json restitution_line(const std::string& name, const std::string& role, const Speeds& range,
+                      const auto& restitution)
+{
+  std::vector<double> v(speeds + 1), e(speeds + 1);
+  for (int k = 0; k <= speeds; ++k) {
+    v[k] = range.at(k);
+    e[k] = restitution(v[k]);
+  }
+  return {{"name", name}, {"role", role}, {"velocity_m_per_s", v}, {"e", e}};
+}
+
+Json forces(const std::vector<Drawn>& laws, const ChosenPair& pair, double end)
+{
+  Json lines = Json::array();
+  for (const Drawn& drawn : laws) lines.push_back(force_line(drawn, pair.r_eff, end));
+  lines.push_back(hertz_line(pair, end));
+  return lines;
+}
+
+Json restitutions(const std::vector<Drawn>& laws, const ChosenPair& pair, const Speeds& range)
+{
+  Json lines = Json::array();
+  const auto add = [&](const std::string& name, const std::string& role, const PairLaw& law) {
+    lines.push_back(restitution_line(
+        name, role, range, [&](double velocity) { return collision(law, pair, velocity).restitution; }));
+  };
+  for (const Drawn& drawn : laws) add(drawn.name, drawn.role, drawn.law);
+  if (pair.law.radiation > 0) add(laws.back().name + " without waves", "still", without_waves(pair.law));
+  if (pair.law.yielding->material.yields())
+    lines.push_back(restitution_line("Thornton 1997", "formula", range, [&](double velocity) {
+      return thornton_restitution(velocity / yield_velocity(pair));
+    }));
+  return lines;
+}
+
+std::string title(const ChosenPair& pair)
+{
+  const auto body = [](const std::string& name, double radius) {
+    return std::isinf(radius) ? fmt::format("a thick wall of {}", name)
+                              : fmt::format("{} (R = {:.3g} mm)", name, 1e3 * radius);
+  };
+  return fmt::format(
+      "{} against {}", body(pair.names.first, pair.radius),
+      pair.has_rigid_wall() ? std::string("the rigid wall") : body(pair.names.second, pair.radius2));
+}
+
+}  // namespace
+
+Json pair_curves(const Law& law, const ChosenPair& pair, std::optional<double> largest_speed)
+{
+  const std::vector<Drawn> laws = drawn_laws(law, pair);
+  const Speeds range = speeds_of(pair, largest_speed);
+  const double deepest = collision(pair.law, pair, range.largest).delta_max;
+  return {{"title", title(pair)},
+          {"force", forces(laws, pair, deepest)},
+          {"restitution", restitutions(laws, pair, range)}};
+}
+
+}  // namespace granulaw
