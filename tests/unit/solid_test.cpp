@@ -321,9 +321,9 @@ TEST(BodyFrame, LayersAndInclusionsLieWhereTheParticleHasThem)
             "p: inclusion 1 reaches the surface: its radius: found 0.8 m, allowed is below 0.5 m at (0.5, "
             "-0.2, 0.3) m");
   EXPECT_EQ(sentence_of([&] { check_revolution(p, "p"); }),
-            "p: takes spheres and bodies of revolution only so far, and this particle is neither: found "
-            "shape = {kind = "
-            "\"box\", ...}, allowed is no shape, or a profile");
+            "p: has a shape in three dimensions, which cannot be taken here yet: found kind = \"box\", "
+            "allowed is a sphere "
+            "or a profile");
 }
 
 }  // namespace
