@@ -234,6 +234,8 @@ class Mixture(Run):
     def test_the_small_ones_are_on_top(self):
         for law in ("rule", "composed"):
             self.assertLess(self.mean(law, "height of mcc over that of lactose"), 1)
+
+
 class Irregular(unittest.TestCase):
     def test_grains_fall_through_and_none_is_lost(self):
         with tempfile.TemporaryDirectory(prefix="granulaw-example-") as folder:
