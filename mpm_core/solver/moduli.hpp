@@ -16,4 +16,11 @@ struct Moduli
   flow::Flow flow{};
 };
 
+/// A material of a body that is built, in solver units.
+struct Phase
+{
+  Moduli moduli;
+  double density = 1;
+};
+
 }  // namespace granulaw

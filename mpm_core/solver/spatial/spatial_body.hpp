@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <vector>
 
@@ -11,7 +10,6 @@
 namespace granulaw {
 
 class StateArchive;
-using Vector3 = Eigen::Vector3d;
 
 /// Octants of a cell: the lanes of the kernels. Octant 4 x + 2 y + z, each 0 in the lower half of the cell and
 /// 1 in the upper one.
@@ -24,6 +22,9 @@ inline constexpr int cell_nodes = 27;
 struct alignas(64) AxisWeights
 {
   double n[3][octants], dn[3][octants];
+  double per_edge;     ///< 1/h, h the edge of the cell
+  double left, right;  ///< h over itself and the cell before, or behind: with xi = x/h from the middle of the
+                       ///< cell the outer splines are left (xi - 1/2)^2 and right (xi + 1/2)^2
 };
 
 /// A cell with the one material that its points are made of: a cell across an interface occurs once for each
@@ -32,7 +33,7 @@ struct SpatialCell
 {
   int node;                   ///< the lowest of its nodes; the others follow by the strides of the grid
   std::array<int, 3> column;  ///< its index along x, y, z
-  int cut;                    ///< place in cut_weights; -1: the whole cell is of this material
+  int cut;                    ///< place in cut_moments; -1: the whole cell is of this material
 };
 
 /// Cells [begin, end) of one material.
@@ -47,15 +48,18 @@ struct SpatialRegion
 struct SpatialSurface
 {
   int count = 0;
-  std::vector<Vector3> place;  ///< on the reference surface
+  std::vector<std::array<double, 3>> place;  ///< on the reference surface
   std::vector<int> node;       ///< lowest node of the cell that each lies in
   std::vector<double> weight;  ///< [count][cell_nodes]
   std::vector<double> fine;    ///< shortest edge of that cell
 };
 
-/// Three components of a field at the nodes. Eight entries more than nodes, always zero or ignored, so that
-/// rows can be read and written by whole vectors.
-using NodeField = std::array<AlignedVector, 3>;
+/// A vector at each node: x, y, z and a zero, so that a node is one access. Entry 4 node + component.
+using NodeField = AlignedVector;
+
+/// Moments of a piece that the kernels read: means over the piece of l(xi) m(eta) n(zeta), l, m, n each one of
+/// 1, xi, xi^2/2 of the cell's own coordinates (-1/2 to 1/2); number 9 l + 3 m + n, all but the last of 27.
+inline constexpr int cut_moments_each = 26;
 
 /// A three-dimensional body on its graded rectilinear grid, structure of arrays, solver units (E* = rho = 1).
 /// Total Lagrangian: weights are computed once on the reference grid, nodal displacements are kept.
@@ -64,7 +68,8 @@ using NodeField = std::array<AlignedVector, 3>;
 /// of the body reaches have no mass. Each octant of a cell is a material point (lane p = 8 cell + octant).
 /// Its weights are the means of the splines' gradients over the piece of the body in the octant: linear
 /// displacement fields, uniform stress, momentum and angular momentum are exact (Flanagan and Belytschko
-/// 1981). In a cell that is filled they are products of the axes' own means; a cut cell stores them.
+/// 1981). In a cell that is filled they are products of the axes' own means. Within a cell every spline is a
+/// polynomial, so a cut piece needs its moments only: a third of the memory of its 81 weights.
 struct SpatialBody
 {
   // grid
@@ -73,19 +78,19 @@ struct SpatialBody
   int nodes = 0;
   std::array<std::vector<AxisWeights>, 3> axis_weights;
   std::vector<double> mass_i;
-  NodeField inverse_mass_i;  ///< zero in the direction in which a symmetry plane holds the node
+  NodeField inverse_mass_i;  ///< zero in a direction in which a symmetry plane holds the node
   NodeField u_i, v_i, f_i;   ///< displacement, velocity, internal force
   /// the body is one half, quarter or eighth: it is mirrored at the lower end of these axes
   std::array<bool, 3> mirrored{};
   double mass = 0;  ///< of the part that is computed
-  Vector3 travel = Vector3::Zero();  ///< displacement of its centre of mass, integrated from the momentum
+  std::array<double, 3> travel{};  ///< displacement of its centre of mass, integrated from the momentum
   SpatialSurface surface;
 
   // material points
   std::vector<SpatialCell> cells;
   std::vector<SpatialRegion> regions;
   int points = 0;             ///< octants that hold material; a cell has eight lanes whatever it holds
-  AlignedVector cut_weights;  ///< [cut cell][direction][cell node][octant]
+  AlignedVector cut_moments;  ///< [cut cell][cut_moments_each][octant]
   AlignedVector volume_p;     ///< reference volume, 0: nothing there
   /// plastic state: inverse plastic right Cauchy-Green tensor minus identity, xx yy zz xy xz yz
   std::array<AlignedVector, 6> c_p;
@@ -93,23 +98,16 @@ struct SpatialBody
   double elapsed = 0;  ///< time since the plastic state was last updated
 
   std::array<int, 3> strides() const { return {1, count[0], count[0] * count[1]}; }
-  Vector3 place(int node) const;  ///< of a node in the undeformed body
   /// How many of these parts make the whole body.
   int copies() const;
 
   void allocate_nodes();
   void allocate_points();
 
-  void throw_with(const Vector3& velocity);
-
   double kinetic_energy() const;
   double strain_energy() const;
   double plastic_work() const;
   double largest_plastic_strain() const;
-  Vector3 momentum() const;
-  Vector3 mean_velocity() const { return momentum() / mass; }
-  /// About `centre`, of the part that is computed, with the nodes where they are now.
-  Vector3 angular_momentum(const Vector3& centre) const;
 
   void visit_state(StateArchive& archive);
 };

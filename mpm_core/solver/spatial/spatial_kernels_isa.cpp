@@ -18,7 +18,6 @@ using namespace kernel;
 /// One double for each octant of a cell, and for the four octants of one half.
 typedef double Lanes __attribute__((vector_size(64), may_alias));
 typedef double HalfLanes __attribute__((vector_size(32), may_alias));
-typedef double LooseHalfLanes __attribute__((vector_size(32), aligned(8), may_alias));
 
 constexpr int block_cells = block_points / octants;
 
@@ -36,6 +35,14 @@ GRANULAW_INLINE const Lanes& lanes(const double* values)
 GRANULAW_INLINE Lanes& lanes(double* values)
 {
   return *reinterpret_cast<Lanes*>(values);
+}
+GRANULAW_INLINE const HalfLanes& half_lanes(const double* values)
+{
+  return *reinterpret_cast<const HalfLanes*>(values);
+}
+GRANULAW_INLINE HalfLanes& half_lanes(double* values)
+{
+  return *reinterpret_cast<HalfLanes*>(values);
 }
 GRANULAW_INLINE Lanes both_halves(HalfLanes v)
 {
@@ -58,26 +65,26 @@ GRANULAW_INLINE HalfLanes row_sums(const HalfLanes (&v)[4])
 /// Raw pointers to the grid of a body.
 struct Grid
 {
-  const double* u[3];
-  double* f[3];
+  const double* u;
+  double* f;
   const AxisWeights* axis[3];
   const SpatialCell* cells;
-  const double* cut_weights;
-  long across, up;  ///< strides along y and z; along x it is 1
+  const double* cut_moments;
+  long across, up;  ///< strides along y and z, in nodes; along x it is 1
 
   GRANULAW_MEMBER explicit Grid(SpatialBody& body)
-      : u{body.u_i[0].data(), body.u_i[1].data(), body.u_i[2].data()},
-        f{body.f_i[0].data(), body.f_i[1].data(), body.f_i[2].data()},
+      : u(body.u_i.data()),
+        f(body.f_i.data()),
         axis{body.axis_weights[0].data(), body.axis_weights[1].data(), body.axis_weights[2].data()},
         cells(body.cells.data()),
-        cut_weights(body.cut_weights.data()),
+        cut_moments(body.cut_moments.data()),
         across(body.count[0]),
         up(long(body.count[0]) * body.count[1])
   {
   }
-  GRANULAW_MEMBER const double* weights_of(const SpatialCell& cell) const
+  GRANULAW_MEMBER const double* moments_of(const SpatialCell& cell) const
   {
-    return cut_weights + long(cell.cut) * (3 * cell_nodes * octants);
+    return cut_moments + long(cell.cut) * (cut_moments_each * octants);
   }
 };
 
@@ -97,22 +104,18 @@ struct RowWeights
 
   GRANULAW_MEMBER RowWeights(const AxisWeights& y, const AxisWeights& z)
   {
-    const auto half = [](const double* values) __attribute__((always_inline))
-    {
-      return *reinterpret_cast<const HalfLanes*>(values);
-    };
 #pragma GCC unroll 3
     for (int b = 0; b < 3; ++b)
 #pragma GCC unroll 3
       for (int c = 0; c < 3; ++c) {
-        w[0][3 * b + c] = half(y.n[b]) * half(z.n[c]);
-        w[1][3 * b + c] = half(y.dn[b]) * half(z.n[c]);
-        w[2][3 * b + c] = half(y.n[b]) * half(z.dn[c]);
+        w[0][3 * b + c] = half_lanes(y.n[b]) * half_lanes(z.n[c]);
+        w[1][3 * b + c] = half_lanes(y.dn[b]) * half_lanes(z.n[c]);
+        w[2][3 * b + c] = half_lanes(y.n[b]) * half_lanes(z.dn[c]);
       }
   }
 };
 
-constexpr int row_nodes = block_cells + 4;  // along x about a row of eight cells, and up to whole vectors
+constexpr int row_nodes = block_cells + 2;  // along x about a row of eight cells
 
 /// Displacement gradients of a row of filled cells: first along y and z at each node of x, then along x.
 __attribute__((noinline)) void gather_row(const Grid& grid, int first, int n, double* __restrict h)
@@ -123,13 +126,13 @@ __attribute__((noinline)) void gather_row(const Grid& grid, int first, int n, do
   for (int j = 0; j < n + 2; ++j)
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
-      const double* __restrict u = grid.u[i] + cell.node + j;
+      const double* __restrict u = grid.u + 4 * (cell.node + j) + i;
       HalfLanes nn{}, dn{}, nd{};
 #pragma GCC unroll 3
       for (int b = 0; b < 3; ++b)
 #pragma GCC unroll 3
         for (int c = 0; c < 3; ++c) {
-          const double value = u[b * grid.across + c * grid.up];
+          const double value = u[4 * (b * grid.across + c * grid.up)];
           nn += weights.w[0][3 * b + c] * value;
           dn += weights.w[1][3 * b + c] * value;
           nd += weights.w[2][3 * b + c] * value;
@@ -178,82 +181,111 @@ __attribute__((noinline)) void scatter_row(const Grid& grid, int first, int n, c
       }
     }
   }
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i)
-    for (int from = 0; from < n + 2; from += 4) {
-      const HalfLanes(*__restrict node)[9] = at_node + from;
+  for (int j = 0; j < n + 2; ++j) {
+    const HalfLanes(&node)[9] = at_node[j];
 #pragma GCC unroll 9
-      for (int bc = 0; bc < 9; ++bc) {
-        HalfLanes sums[4];
-#pragma GCC unroll 4
-        for (int j = 0; j < 4; ++j)
-          sums[j] = weights.w[0][bc] * node[j][i] + weights.w[1][bc] * node[j][3 + i] +
-                    weights.w[2][bc] * node[j][6 + i];
-        double* f = grid.f[i] + cell.node + from + (bc / 3) * grid.across + (bc % 3) * grid.up;
-        *reinterpret_cast<LooseHalfLanes*>(f) -= row_sums(sums);
-      }
+    for (int bc = 0; bc < 9; ++bc) {
+      HalfLanes sums[4]{};
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i)
+        sums[i] = weights.w[0][bc] * node[i] + weights.w[1][bc] * node[3 + i] + weights.w[2][bc] * node[6 + i];
+      half_lanes(grid.f + 4 * (cell.node + j + bc / 3 * grid.across + bc % 3 * grid.up)) -= row_sums(sums);
     }
+  }
 }
 
-/// Displacement gradients of a cell that the surface or an interface cuts.
+/// Node values of a cell along one axis become coefficients of 1, xi, xi^2/2.
+template <int stride>
+GRANULAW_INLINE void to_polynomials(HalfLanes (&c)[cell_nodes], const AxisWeights& axis)
+{
+#pragma GCC unroll 9
+  for (int k = 0; k < 9; ++k) {
+    const int at = k / stride * 3 * stride + k % stride;
+    const HalfLanes middle = c[at + stride];
+    const HalfLanes p = axis.left * (c[at] - middle), q = axis.right * (c[at + 2 * stride] - middle);
+    const HalfLanes sum = p + q;
+    c[at] = middle + 0.25 * sum, c[at + stride] = q - p, c[at + 2 * stride] = 2.0 * sum;
+  }
+}
+
+/// The transposed of to_polynomials.
+template <int stride>
+GRANULAW_INLINE void to_nodes(HalfLanes (&c)[cell_nodes], const AxisWeights& axis)
+{
+#pragma GCC unroll 9
+  for (int k = 0; k < 9; ++k) {
+    const int at = k / stride * 3 * stride + k % stride;
+    const HalfLanes all = c[at], sum = 0.25 * all + 2.0 * c[at + 2 * stride];
+    c[at] = axis.left * (sum - c[at + stride]), c[at + 2 * stride] = axis.right * (sum + c[at + stride]);
+    c[at + stride] = all - c[at] - c[at + 2 * stride];
+  }
+}
+
+/// Displacement gradients of a cell that the surface or an interface cuts: the polynomial of the displacement,
+/// and the mean of its derivatives over each piece by the piece's moments.
 __attribute__((noinline)) void gather_cut(const Grid& grid, const SpatialCell& cell, double* __restrict h)
 {
-  const double* __restrict weights = grid.weights_of(cell);
+  const double* __restrict moments = grid.moments_of(cell);
+  const AxisWeights* axis[3];
+#pragma GCC unroll 3
+  for (int d = 0; d < 3; ++d) axis[d] = grid.axis[d] + cell.column[d];
+  HalfLanes c[cell_nodes];
+#pragma GCC unroll 27
+  for (int k = 0; k < cell_nodes; ++k)
+    c[k] = half_lanes(grid.u + 4 * (cell.node + k / 9 + k / 3 % 3 * grid.across + k % 3 * grid.up));
+  to_polynomials<9>(c, *axis[0]);
+  to_polynomials<3>(c, *axis[1]);
+  to_polynomials<1>(c, *axis[2]);
+  const double* __restrict coefficient = reinterpret_cast<const double*>(c);
   Lanes sums[9]{};
+#pragma GCC unroll 26
+  for (int k = 0; k < cut_moments_each; ++k) {
+    const Lanes moment = lanes(moments + k * octants);
+    const int power[3] = {k / 9, k / 3 % 3, k % 3}, step[3] = {9, 3, 1};
 #pragma GCC unroll 3
-  for (int a = 0; a < 3; ++a)
+    for (int d = 0; d < 3; ++d)
+      if (power[d] < 2)
 #pragma GCC unroll 3
-    for (int b = 0; b < 3; ++b)
-#pragma GCC unroll 3
-      for (int c = 0; c < 3; ++c) {
-        const int k = 9 * a + 3 * b + c;
-        const long at = cell.node + a + b * grid.across + c * grid.up;
-        const Lanes wx = lanes(weights + (0 * cell_nodes + k) * octants);
-        const Lanes wy = lanes(weights + (1 * cell_nodes + k) * octants);
-        const Lanes wz = lanes(weights + (2 * cell_nodes + k) * octants);
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          const double value = grid.u[i][at];
-          sums[3 * i] += wx * value, sums[3 * i + 1] += wy * value, sums[3 * i + 2] += wz * value;
-        }
-      }
+        for (int i = 0; i < 3; ++i) sums[3 * i + d] += moment * coefficient[4 * (k + step[d]) + i];
+  }
 #pragma GCC unroll 9
-  for (int m = 0; m < 9; ++m) lanes(h + m * block_points) = sums[m];
+  for (int m = 0; m < 9; ++m) lanes(h + m * block_points) = sums[m] * axis[m % 3]->per_edge;
 }
 
 /// Forces of a cut cell, the transposed of gather_cut.
 __attribute__((noinline)) void scatter_cut(const Grid& grid, const SpatialCell& cell,
                                            const double* __restrict p)
 {
-  const double* __restrict weights = grid.weights_of(cell);
-  alignas(64) HalfLanes sums[3][cell_nodes + 1];
+  const double* __restrict moments = grid.moments_of(cell);
+  const AxisWeights* axis[3];
+#pragma GCC unroll 3
+  for (int d = 0; d < 3; ++d) axis[d] = grid.axis[d] + cell.column[d];
   Lanes stress[9];
 #pragma GCC unroll 9
-  for (int m = 0; m < 9; ++m) stress[m] = lanes(p + m * block_points);
-  for (int k = 0; k < cell_nodes; ++k) {
-    const Lanes wx = lanes(weights + (0 * cell_nodes + k) * octants);
-    const Lanes wy = lanes(weights + (1 * cell_nodes + k) * octants);
-    const Lanes wz = lanes(weights + (2 * cell_nodes + k) * octants);
+  for (int m = 0; m < 9; ++m) stress[m] = lanes(p + m * block_points) * axis[m % 3]->per_edge;
+  HalfLanes c[cell_nodes];
+  c[0] = HalfLanes{};
+#pragma GCC unroll 26
+  for (int k = 1; k < cell_nodes; ++k) {
+    const int power[3] = {k / 9, k / 3 % 3, k % 3}, step[3] = {9, 3, 1};
+    Lanes sums[3]{};
 #pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i)
-      sums[i][k] = sum_of_halves(wx * stress[3 * i] + wy * stress[3 * i + 1] + wz * stress[3 * i + 2]);
+    for (int d = 0; d < 3; ++d)
+      if (power[d] > 0) {
+        const Lanes moment = lanes(moments + (k - step[d]) * octants);
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) sums[i] += stress[3 * i + d] * moment;
+      }
+    const HalfLanes halves[4] = {sum_of_halves(sums[0]), sum_of_halves(sums[1]), sum_of_halves(sums[2]),
+                                 HalfLanes{}};
+    c[k] = row_sums(halves);
   }
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) {
-    sums[i][cell_nodes] = HalfLanes{};
-    alignas(64) double force[cell_nodes + 1];
-#pragma GCC unroll 7
-    for (int k = 0; k < cell_nodes + 1; k += 4)
-      *reinterpret_cast<HalfLanes*>(force + k) =
-          row_sums(reinterpret_cast<const HalfLanes(&)[4]>(sums[i][k]));
-    double* f = grid.f[i] + cell.node;
-#pragma GCC unroll 3
-    for (int a = 0; a < 3; ++a)
-#pragma GCC unroll 3
-      for (int b = 0; b < 3; ++b)
-#pragma GCC unroll 3
-        for (int c = 0; c < 3; ++c) f[a + b * grid.across + c * grid.up] -= force[9 * a + 3 * b + c];
-  }
+  to_nodes<1>(c, *axis[2]);
+  to_nodes<3>(c, *axis[1]);
+  to_nodes<9>(c, *axis[0]);
+#pragma GCC unroll 27
+  for (int k = 0; k < cell_nodes; ++k)
+    half_lanes(grid.f + 4 * (cell.node + k / 9 + k / 3 % 3 * grid.across + k % 3 * grid.up)) -= c[k];
 }
 
 /// Calls row(first, length) for each row of filled cells and cut(cell) for each cut one in [first, end).
@@ -586,11 +618,8 @@ __attribute__((noinline)) void update_region(SpatialBody& body, const SpatialReg
 
 void internal_force(SpatialBody& body, bool frozen)
 {
-  for (int d = 0; d < 3; ++d) {
-    double* __restrict f = body.f_i[d].data();
-    const int n = static_cast<int>(body.f_i[d].size());
-    for (int i = 0; i < n; ++i) f[i] = 0.0;
-  }
+  double* __restrict f = body.f_i.data();
+  for (int i = 0; i < 4 * body.nodes; ++i) f[i] = 0.0;
   for (const SpatialRegion& region : body.regions) {
     if (frozen && region.moduli.yields)
       update_region(body, region, ElasticWithState{}, no_rate);
@@ -605,21 +634,19 @@ void internal_force(SpatialBody& body, bool frozen)
 
 void accelerate(SpatialBody& body, double dt)
 {
-  for (int d = 0; d < 3; ++d) {
-    const double* __restrict w = body.inverse_mass_i[d].data();
-    const double* __restrict f = body.f_i[d].data();
-    double* __restrict v = body.v_i[d].data();
-    for (int i = 0; i < body.nodes; ++i) v[i] += dt * w[i] * f[i];
-  }
+  const double* __restrict w = body.inverse_mass_i.data();
+  const double* __restrict f = body.f_i.data();
+  double* __restrict v = body.v_i.data();
+#pragma omp simd
+  for (int i = 0; i < 4 * body.nodes; ++i) v[i] += dt * w[i] * f[i];
 }
 
 void move(SpatialBody& body, double dt)
 {
-  for (int d = 0; d < 3; ++d) {
-    const double* __restrict v = body.v_i[d].data();
-    double* __restrict u = body.u_i[d].data();
-    for (int i = 0; i < body.nodes; ++i) u[i] += dt * v[i];
-  }
+  const double* __restrict v = body.v_i.data();
+  double* __restrict u = body.u_i.data();
+#pragma omp simd
+  for (int i = 0; i < 4 * body.nodes; ++i) u[i] += dt * v[i];
   body.elapsed += dt;
 }
 
@@ -628,15 +655,16 @@ CellGrowth growth(const SpatialBody& body)
   const Grid grid(const_cast<SpatialBody&>(body));  // reads only
   CellGrowth found{0.0, 1.0};
   Block block;
-  const int count = static_cast<int>(body.cells.size());
+  int count = 0;
+  for (const SpatialRegion& region : body.regions) count = region.end;
   for (int first = 0; first < count; first += block_cells) {
     const int end = first + block_cells < count ? first + block_cells : count;
     gather(grid, first, end, block);
     for (int cell = first; cell < end; ++cell) {
       double per_edge2[3];
       for (int d = 0; d < 3; ++d) {
-        const double* slope = body.axis_weights[d][body.cells[cell].column[d]].dn[0];
-        per_edge2[d] = slope[0] * slope[0];
+        const double per_edge = grid.axis[d][grid.cells[cell].column[d]].per_edge;
+        per_edge2[d] = per_edge * per_edge;
       }
       double bound = 0.0, least = 1.0;
 #pragma omp simd reduction(max : bound) reduction(min : least)
