@@ -128,6 +128,7 @@ CharacterisedBody CharacterisedBody::rate_free() const
 
 CharacterisedBody characterised_body_of(const Particle& particle)
 {
+  check_revolution(particle, "contact law");
   if (particle.is_homogeneous_sphere() && !particle.materials[0].rate_dependent() &&
       particle.materials[0].hardening.name.empty())
     return characterised_body_of(particle.materials[0]);

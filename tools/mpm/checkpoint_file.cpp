@@ -11,6 +11,7 @@
 #include "base/version.hpp"
 #include "solver/kernels.hpp"
 #include "solver/output/state_archive.hpp"
+#include "solver/solid/solid.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {
@@ -49,13 +50,16 @@ void add(RunIdentity& identity, const std::string& whose, const Particle& p)
   json materials = json::array(), layers = json::array(), inclusions = json::array(), profile = json::array();
   for (const Material& m : p.materials) materials.push_back(describe(m));
   for (const Particle::Layer& l : p.layers) layers.push_back({l.thickness, l.material});
-  for (const Particle::Inclusion& i : p.inclusions) inclusions.push_back({i.r, i.z, i.radius, i.material});
+  for (const Particle::Inclusion& i : p.inclusions)
+    p.solid ? inclusions.push_back({i.x, i.y, i.z, i.radius, i.material})
+            : inclusions.push_back({i.r, i.z, i.radius, i.material});
   for (const ProfilePoint& point : p.profile) profile.push_back({point.r, point.z});
   identity.emplace_back(whose + " radius", fmt::format("{} m", p.radius));
   identity.emplace_back(whose + " materials", materials.dump());
   identity.emplace_back(whose + " profile", profile.dump());
   identity.emplace_back(whose + " layers", layers.dump());
   identity.emplace_back(whose + " inclusions", inclusions.dump());
+  if (p.solid) identity.emplace_back(whose + " shape", p.solid->definition());
 }
 
 /// Throws Error naming the first thing that differs.

@@ -1,9 +1,12 @@
 #include "solver/particle/particle.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <queue>
+
+#include "solver/solid/solid.hpp"
 
 namespace granulaw {
 
@@ -37,6 +40,12 @@ int Particle::material_at(double r, double z) const
     const double dr = r - i->r, dz = z - i->z;
     if (dr * dr + dz * dz <= i->radius * i->radius) return i->material;
   }
+  return material_at_depth(below);
+}
+
+int Particle::material_at_depth(double below) const
+{
+  if (!(below >= 0)) return -1;
   double inner = 0;
   for (const Layer& layer : layers) {
     inner += layer.thickness;
@@ -77,6 +86,7 @@ double Particle::largest_depth() const
 
 double Particle::volume() const
 {
+  if (solid) return solid->mass_properties().volume;
   return is_sphere() ? 4.0 / 3.0 * std::numbers::pi * radius * radius * radius : profile.volume();
 }
 
@@ -90,6 +100,7 @@ double Particle::surface_z(double r) const
 
 Particle Particle::scaled(double factor) const
 {
+  assert(!solid);
   Particle p = *this;
   p.radius *= factor;
   p.profile = p.profile.scaled(factor);

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "solver/particle/particle.hpp"
+#include "solver/solid/body_frame.hpp"
 
 namespace granulaw {
 
@@ -133,6 +134,12 @@ void check_layers(const Particle& p, const std::string& where)
     thickness += layer.thickness;
   }
   if (p.layers.empty()) return;
+  if (p.solid) {
+    if (!is_deeper_than(*p.solid, thickness))
+      fail(where, "the layers leave no core: they are thicker than the body is deep",
+           fmt::format("{:g} m", thickness));
+    return;
+  }
   const double room = p.largest_depth();
   if (!(thickness < room))
     fail(where, "the layers leave no core: they are thicker than the body is deep",
@@ -158,17 +165,39 @@ void check_inclusion(const Particle& p, const Particle::Inclusion& i, const std:
          fmt::format("below {:g} m at {}", room, text({i.r, i.z})));
 }
 
+void check_ball(const Particle& p, const Particle::Inclusion& i, const std::string& name,
+                const std::string& where)
+{
+  if (!(i.radius > 0 && std::isfinite(i.radius)))
+    fail(where, fmt::format("'radius' of {} is out of range", name), fmt::format("{:g} m", i.radius),
+         "over 0");
+  check_material(p, i.material, true, name, where);
+  const std::string centre = fmt::format("({:g}, {:g}, {:g}) m", i.x, i.y, i.z);
+  const double room = p.solid->depth({i.x, i.y, i.z});
+  if (!(room > 0)) fail(where, fmt::format("{} has its centre outside the body", name), centre);
+  if (!(i.radius < room))
+    fail(where, fmt::format("{} reaches the surface: its radius", name), fmt::format("{:g} m", i.radius),
+         fmt::format("below {:g} m at {}", room, centre));
+}
+
 }  // namespace
+
+void check_revolution(const Particle& p, const std::string& where)
+{
+  if (p.solid)
+    fail(where, "takes spheres and bodies of revolution only so far, and this particle is neither",
+         fmt::format("shape = {{kind = \"{}\", ...}}", p.solid->kind()), "no shape, or a profile");
+}
 
 void validate(const Particle& p, const std::string& where)
 {
   if (!(p.radius > 0 && std::isfinite(p.radius)))
     fail(where, "'radius' is out of range", fmt::format("{:g} m", p.radius), "over 0");
   if (p.materials.empty()) fail(where, "the particle has no material");
-  if (!p.is_sphere()) check_profile(p, where);
+  if (!p.is_sphere() && !p.solid) check_profile(p, where);
   check_layers(p, where);
   for (std::size_t k = 0; k < p.inclusions.size(); ++k)
-    check_inclusion(p, p.inclusions[k], fmt::format("inclusion {}", k + 1), where);
+    (p.solid ? check_ball : check_inclusion)(p, p.inclusions[k], fmt::format("inclusion {}", k + 1), where);
 }
 
 }  // namespace granulaw

@@ -101,6 +101,7 @@ std::vector<std::pair<double, double>> pore_walls(const Particle& p, double leng
 
 void check_particle(const Particle& p, const char* where)
 {
+  check_revolution(p, where);
   for (const Material& m : p.materials) validate(m, where);
   validate(p, where);
 }

@@ -17,6 +17,7 @@ class EllipsoidSolid : public Solid
   double finest_radius() const override;
   std::array<bool, 3> symmetric() const override { return {true, true, true}; }
   MassProperties mass_properties() const override;
+  const char* kind() const override { return "ellipsoid"; }
   std::string definition() const override;
 
  private:

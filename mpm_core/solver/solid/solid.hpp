@@ -54,6 +54,7 @@ class Solid
   virtual std::array<bool, 3> symmetric() const { return {false, false, false}; }
   virtual MassProperties mass_properties() const = 0;
 
+  virtual const char* kind() const = 0;  ///< as the materials file names it
   /// The kind and all numbers that define the body: bodies are equal if their texts are.
   virtual std::string definition() const = 0;
 };

@@ -17,6 +17,7 @@ class SphereSolid : public Solid
   double finest_radius() const override { return radius_; }
   std::array<bool, 3> symmetric() const override { return {true, true, true}; }
   MassProperties mass_properties() const override;
+  const char* kind() const override { return "sphere"; }
   std::string definition() const override;
 
  private:
