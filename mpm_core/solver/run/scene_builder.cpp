@@ -28,15 +28,6 @@ double hourglass_modulus(const Moduli& m)
   return m.yields ? std::min(0.05 * m.shear, m.yield) : 0.05 * m.shear;
 }
 
-Phase phase_of(const Material& m, const Scales& scale)
-{
-  const flow::Flow laws = flow_of(m, scale.stress, scale.time());
-  const double e = m.youngs_modulus / scale.stress, nu = m.poisson_ratio;
-  return {{e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu)), m.yields() ? m.yield_stress / scale.stress : 0,
-           laws.hardening == 0 ? laws.hardening_values[0] : 0, m.yields(), laws},
-          m.density / scale.density};
-}
-
 /// Volume of each material, m^3, by midpoint samples of the section: exact for homogeneous bodies.
 double mass_of(const Particle& p)
 {
@@ -107,6 +98,15 @@ void check_particle(const Particle& p, const char* where)
 }
 
 }  // namespace
+
+Phase phase_of(const Material& m, const Scales& scale)
+{
+  const flow::Flow laws = flow_of(m, scale.stress, scale.time());
+  const double e = m.youngs_modulus / scale.stress, nu = m.poisson_ratio;
+  return {{e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu)), m.yields() ? m.yield_stress / scale.stress : 0,
+           laws.hardening == 0 ? laws.hardening_values[0] : 0, m.yields(), laws},
+          m.density / scale.density};
+}
 
 const char* name_of(GridKind grid)
 {

@@ -51,7 +51,8 @@ struct SpatialSurface
   std::vector<std::array<double, 3>> place;  ///< on the reference surface
   std::vector<int> node;       ///< lowest node of the cell that each lies in
   std::vector<double> weight;  ///< [count][cell_nodes]
-  std::vector<double> fine;    ///< shortest edge of that cell
+  std::vector<double> area;    ///< of the patch of the surface that each stands for
+  double finest = 0;           ///< shortest edge of a cell with a marker
 };
 
 /// A vector at each node: x, y, z and a zero, so that a node is one access. Entry 4 node + component.
@@ -107,6 +108,8 @@ struct SpatialBody
   double kinetic_energy() const;
   double strain_energy() const;
   double plastic_work() const;
+  double hourglass_energy() const { return 0; }  ///< eight points a cell need no hourglass control
+  void fetch_state() {}                          ///< always double
   double largest_plastic_strain() const;
 
   void visit_state(StateArchive& archive);

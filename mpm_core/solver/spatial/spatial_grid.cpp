@@ -87,7 +87,7 @@ struct OctantContent
 {
   std::vector<Moments> phases;
   Vector3 patch = Vector3::Zero();
-  double patch_weight = 0;
+  double patch_weight = 0, patch_area = 0;
 };
 
 /// Cuts the octants of one cell.
@@ -152,6 +152,7 @@ class CellCutter
     const double weight = share * (1 - share);
     content_.patch += weight * (x + depth * normal);
     content_.patch_weight += weight;
+    content_.patch_area += edges.prod() / width;  // the share falls from 1 to 0 over the width
   }
 
   void add(int phase, const Vector3& x, const Vector3& edges, double share)
@@ -201,6 +202,11 @@ class Builder
     std::array<Moments, octants> moments;
   };
   using Column = std::array<int, 3>;
+  struct Patch
+  {
+    Vector3 middle;
+    double area;
+  };
 
   std::array<const CellSplines*, 3> splines(const Column& c) const
   {
@@ -230,7 +236,7 @@ class Builder
         held[p] += content.phases[p].volume();
         any = true;
       }
-      if (any && content.patch_weight > 0) patches_.push_back(content.patch);
+      if (any && content.patch_weight > 0) patches_.push_back({content.patch, content.patch_area});
     }
     for (std::size_t p = 0; p < found.size(); ++p) {
       if (held[p] >= 1 - 1e-12)
@@ -325,11 +331,13 @@ class Builder
   void set_surface()
   {
     SpatialSurface& s = body_.surface;
-    for (Vector3 x : patches_) {
+    s.finest = 1e300;
+    for (auto& [x, area] : patches_) {
       for (int n = 0; n < 3; ++n) x += section_.depth(x) * section_.normal(x);
       for (int d = 0; d < 3; ++d)
         x[d] = std::clamp(x[d], section_.lines[d].front(), section_.lines[d].back());
       add_marker(s, x);
+      s.area.push_back(area);
     }
     s.count = static_cast<int>(s.place.size());
   }
@@ -337,16 +345,14 @@ class Builder
   void add_marker(SpatialSurface& s, const Vector3& x)
   {
     SplineAxis::Values v[3];
-    double fine = 1e300;
     for (int d = 0; d < 3; ++d) {
       v[d] = body_.axes[d].at(x[d]);
-      fine = std::min(fine, splines_[d][v[d].first].edge);
+      s.finest = std::min(s.finest, splines_[d][v[d].first].edge);
     }
     const std::array<int, 3> stride = body_.strides();
     const int lowest = v[0].first + v[1].first * stride[1] + v[2].first * stride[2];
     s.place.push_back({x[0], x[1], x[2]});
     s.node.push_back(lowest);
-    s.fine.push_back(fine);
     for (int k = 0; k < cell_nodes; ++k) {
       const bool held = body_.mass_i[lowest + k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]] > 0;
       s.weight.push_back(held ? v[0].n[k / 9] * v[1].n[k / 3 % 3] * v[2].n[k % 3] : 0.0);
@@ -358,7 +364,7 @@ class Builder
   std::array<std::vector<CellSplines>, 3> splines_;
   std::vector<std::vector<SpatialCell>> filled_;  ///< by phase
   std::vector<std::vector<CutCell>> cut_;
-  std::vector<Vector3> patches_;
+  std::vector<Patch> patches_;
 };
 
 }  // namespace

@@ -42,7 +42,10 @@ Vector3 momentum(const SpatialBody& b)
 
 Vector3 mean_velocity(const SpatialBody& b)
 {
-  return momentum(b) / b.mass;
+  Vector3 mean = momentum(b) / b.mass;
+  for (int d = 0; d < 3; ++d)
+    if (b.mirrored[d]) mean[d] = 0;
+  return mean;
 }
 
 Vector3 angular_momentum(const SpatialBody& b, const Vector3& centre)

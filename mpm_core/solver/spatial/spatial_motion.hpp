@@ -18,6 +18,7 @@ Vector3 place_now(const SpatialBody& body, int node);
 void throw_body(SpatialBody& body, const Vector3& velocity, const Vector3& spin, const Vector3& centre);
 
 Vector3 momentum(const SpatialBody& body);
+/// Of the centre of mass of the whole body.
 Vector3 mean_velocity(const SpatialBody& body);
 Vector3 angular_momentum(const SpatialBody& body, const Vector3& centre);
 
