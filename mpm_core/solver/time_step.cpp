@@ -233,7 +233,7 @@ StableStep<SpatialBody>::StableStep(SpatialBody& body)
     for (std::size_t k = 0; k < x.x.size(); ++k)
       if (body.inverse_mass_i[k] == 0) x.x[k] = 0;
   };
-  omega_ = 1.01 * std::sqrt(largest_eigenvalue(x, body.mass_i, 1e-7 * body.surface.finest, 40, respond, hold));
+  omega_ = 1.01 * std::sqrt(largest_eigenvalue(x, body.mass_i, 1e-7 * body.surface.finest, 20, respond, hold));
   std::fill(body.u_i.begin(), body.u_i.end(), 0.0);
   bound_ = kernel.growth(body).bound;
 }
