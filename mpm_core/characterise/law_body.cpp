@@ -10,8 +10,9 @@ namespace granulaw {
 
 namespace {
 
-LawBody body_of_particle(const std::string& name, const Particle& particle)
+LawBody body_of_particle(const std::string& name, const Particle& particle, const std::string& source)
 {
+  check_revolution(particle, fmt::format("{}: [particle.{}]", source, name));
   const CharacterisedBody characterised = characterised_body_of(particle);
   const Material& at_pole = particle.materials[static_cast<std::size_t>(characterised.pole_material)];
   LawBody body{law_material(name, at_pole), characterised, sphere_name,
@@ -32,7 +33,8 @@ LawBody body_of_material(const std::string& name, const Material& material)
 
 LawBody law_body(const std::string& name, const Materials& materials, const std::string& hint)
 {
-  if (materials.means_particle(name)) return body_of_particle(name, materials.particle(name));
+  if (materials.means_particle(name))
+    return body_of_particle(name, materials.particle(name), materials.source);
   const Material& material = materials.material(name);
   if (material.rate_dependent())
     fail(

@@ -199,6 +199,24 @@ class Silo(Run):
             self.assertAlmostEqual(a, b, delta=1e-9 * max(a, 1e-12))
 
 
+class Irregular(unittest.TestCase):
+    def test_grains_fall_through_and_none_is_lost(self):
+        with tempfile.TemporaryDirectory(prefix="granulaw-example-") as folder:
+            rows = example("irregular/run.py").main(["-o", folder, "--quick"])
+            self.assertEqual(len(rows), 6)  # three models, grains and spheres; a lost sphere ends the run
+            for (model, shape), (spheres, passed, _, _) in rows.items():
+                self.assertGreater(passed, 0.3 * spheres, (model, shape))  # in free fall all would be below the orifice
+
+    def test_the_kept_grain_is_the_scripts(self):
+        script, run = example("irregular/make_grain.py"), example("irregular/run.py")
+        vertices, faces = script.grain(3, 0.12)
+        kept = run.corners_of_stl(ROOT / "examples/irregular/grain.stl")
+        self.assertLess(abs(kept - vertices[faces]).max(), 1e-6)  # single precision
+        mass, inertia = run.mass_and_inertia(kept)
+        self.assertAlmostEqual(mass / run.DENSITY, 4 / 3 * math.pi, delta=1e-5)  # the sphere of radius 1
+        self.assertGreater(np.linalg.eigvalsh(inertia).min(), 0)
+
+
 if __name__ == "__main__":
     os.environ["PATH"] = os.pathsep.join(sys.argv[2:4] + [os.environ["PATH"]])
     unittest.main(argv=[sys.argv[0], sys.argv[1]], verbosity=2)

@@ -1,144 +1,25 @@
 #include "materials_file.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <optional>
+#include <numbers>
 #include <vector>
 
 #include "base/error.hpp"
 #include "law/law.hpp"
+#include "shape_reader.hpp"
 #include "solver/flow/flow_laws.hpp"
 #include "solver/particle/shapes.hpp"
+#include "toml_section.hpp"
 
 namespace granulaw {
 
 namespace {
-
-using Words = std::vector<std::string>;
-
-/// One table of the file, with the words that lead its messages.
-class Section
-{
- public:
-  Section(const std::string& path, const toml::table& table, std::string name)
-      : path_(path), table_(table), name_(cut(name))
-  {
-  }
-
-  std::string where(const toml::node& node) const
-  {
-    return fmt::format("{}:{}: [{}]", path_, node.source().begin.line, name_);
-  }
-  std::string where() const { return where(table_); }
-
-  void check_keys(const Words& known) const
-  {
-    for (const auto& [key, node] : table_) {
-      const std::string word(key.str());
-      if (std::find(known.begin(), known.end(), word) == known.end())
-        fail_unknown(where(node), "unknown key", word, known);
-    }
-  }
-  bool has(const char* key) const { return table_.contains(key); }
-  const toml::node& node(const char* key) const
-  {
-    const toml::node* found = table_.get(key);
-    if (!found) fail(where(), fmt::format("the key '{}' is missing", key));
-    return *found;
-  }
-  double number(const char* key, const char* unit) const
-  {
-    const toml::node& n = node(key);
-    if (n.is_floating_point()) return n.as_floating_point()->get();
-    if (n.is_integer()) return static_cast<double>(n.as_integer()->get());
-    fail(where(n), fmt::format("'{}' must be a number{}", key, *unit ? fmt::format(" in {}", unit) : ""));
-  }
-  double positive(const char* key, const char* unit) const
-  {
-    const double value = number(key, unit);
-    if (!(value > 0 && std::isfinite(value)))
-      fail(where(node(key)), fmt::format("'{}' is out of range", key), fmt::format("{:g} {}", value, unit),
-           fmt::format("over 0 {}", unit));
-    return value;
-  }
-  std::string text(const char* key) const
-  {
-    const toml::node& n = node(key);
-    if (!n.is_string()) fail(where(n), fmt::format("'{}' must be a text in quotes", key));
-    return n.as_string()->get();
-  }
-  std::vector<double> numbers(const char* key, const char* unit) const
-  {
-    const toml::node& n = node(key);
-    std::vector<double> values;
-    if (const toml::array* list = n.as_array())
-      for (const toml::node& entry : *list) {
-        const std::optional<double> value = entry.value<double>();
-        if (!value || !entry.is_number()) fail(where(entry), fmt::format("'{}' must hold numbers only", key));
-        values.push_back(*value);
-      }
-    if (values.empty())
-      fail(where(n),
-           fmt::format("'{}' must be a list of numbers{}", key, *unit ? fmt::format(" in {}", unit) : ""));
-    return values;
-  }
-  /// Refuses all but `true`.
-  void check_true(const char* key) const
-  {
-    const toml::node& n = node(key);
-    if (!n.is_boolean() || !n.as_boolean()->get())
-      fail(where(n), fmt::format("'{}' cannot be used", key), {},
-           fmt::format("{} = true, or no such key", key));
-  }
-  /// A list of pairs of numbers.
-  std::vector<std::pair<double, double>> pairs(const char* key, const char* example) const
-  {
-    const toml::node& n = node(key);
-    std::vector<std::pair<double, double>> found;
-    if (const toml::array* list = n.as_array())
-      for (const toml::node& entry : *list) {
-        const toml::array* pair = entry.as_array();
-        if (!pair || pair->size() != 2 || !(*pair)[0].is_number() || !(*pair)[1].is_number())
-          fail(where(entry), fmt::format("entry {} of '{}' is not a pair of numbers", found.size() + 1, key),
-               {}, example);
-        found.emplace_back(*(*pair)[0].value<double>(), *(*pair)[1].value<double>());
-      }
-    if (found.empty()) fail(where(n), fmt::format("'{}' must be a list of pairs, such as {}", key, example));
-    return found;
-  }
-  /// A list of tables; each is named "NAME.KEY 2".
-  std::vector<Section> tables(const char* key, const char* example) const
-  {
-    const toml::node& n = node(key);
-    const auto complain = [&](const toml::node& at) {
-      fail(where(at), fmt::format("'{}' must be a list of tables, such as {}", key, example));
-    };
-    if (!n.is_array()) complain(n);
-    std::vector<Section> found;
-    for (const toml::node& entry : *n.as_array()) {
-      if (!entry.is_table()) complain(entry);
-      found.push_back({path_, *entry.as_table(), fmt::format("{}.{} {}", name_, key, found.size() + 1)});
-    }
-    return found;
-  }
-  Section table(const char* key, const char* example) const
-  {
-    const toml::node& n = node(key);
-    if (!n.is_table()) fail(where(n), fmt::format("'{}' must be a table, such as {}", key, example));
-    return {path_, *n.as_table(), fmt::format("{}.{}", name_, key)};
-  }
-
- private:
-  const std::string& path_;
-  const toml::table& table_;
-  std::string name_;
-};
 
 const char* unit_of(flow::Quantity quantity)
 {
@@ -285,9 +166,22 @@ class Places
   std::map<std::string, int> places_;
 };
 
-/// Radius and profile.
-void read_outside(const Section& s, Particle& particle)
+/// {kind = "NAME", ...}: the solid, and the radius of the sphere of its volume.
+void read_solid_of(const Section& s, Particle& particle, const std::string& folder)
 {
+  if (s.has("profile")) fail(s.where(s.node("shape")), "a particle has a 'shape' or a 'profile', not both");
+  const Section shape = s.table("shape", "{kind = \"ellipsoid\", axes = [1e-3, 1e-3, 1.5e-3]}");
+  const double radius = s.has("radius") ? s.positive("radius", "m") : 0;
+  particle.solid = read_solid(shape, folder, radius);
+  if (radius > 0 && std::string(particle.solid->kind()) != "sphere")
+    fail(s.where(s.node("radius")), "'radius' cannot go with this shape, which says its own size");
+  particle.radius = std::cbrt(particle.volume() * 3 / (4 * std::numbers::pi));
+}
+
+/// Radius and profile, or shape.
+void read_outside(const Section& s, Particle& particle, const std::string& folder)
+{
+  if (s.has("shape")) return read_solid_of(s, particle, folder);
   if (!s.has("profile")) {
     particle.radius = s.positive("radius", "m");
     return;
@@ -298,24 +192,33 @@ void read_outside(const Section& s, Particle& particle)
   read_shape(p, particle);
 }
 
-Particle::Inclusion read_inclusion(const Section& i, Places& places)
+Particle::Inclusion read_inclusion(const Section& i, const Particle& particle, Places& places)
 {
-  i.check_keys({"material", "pore", "radius", "z", "r"});
+  if (particle.solid)
+    i.check_keys({"material", "pore", "radius", "x", "y", "z"});
+  else
+    i.check_keys({"material", "pore", "radius", "z", "r"});
   if (i.has("pore") == i.has("material"))
     fail(i.where(), "an inclusion needs one of 'material' and 'pore = true'",
          i.has("pore") ? "both" : "none");
   if (i.has("pore")) i.check_true("pore");
-  return {i.has("r") ? i.number("r", "m") : 0.0, i.number("z", "m"), i.positive("radius", "m"),
-          i.has("pore") ? -1 : places.of(i)};
+  const auto optional = [&](const char* key) { return i.has(key) ? i.number(key, "m") : 0.0; };
+  return {optional("r"),
+          particle.solid ? optional("z") : i.number("z", "m"),
+          i.positive("radius", "m"),
+          i.has("pore") ? -1 : places.of(i),
+          optional("x"),
+          optional("y")};
 }
 
-Particle read_particle(const Section& s, const std::map<std::string, Material>& materials)
+Particle read_particle(const Section& s, const std::map<std::string, Material>& materials,
+                       const std::string& folder)
 {
-  s.check_keys({"radius", "material", "layers", "inclusions", "profile"});
+  s.check_keys({"radius", "material", "layers", "inclusions", "profile", "shape"});
   Particle particle;
   Places places(materials, particle);
   places.of(s);
-  read_outside(s, particle);
+  read_outside(s, particle, folder);
   if (s.has("layers"))
     for (const Section& layer : s.tables("layers", "[{material = \"shell\", thickness = 20e-6}]")) {
       layer.check_keys({"material", "thickness"});
@@ -323,7 +226,7 @@ Particle read_particle(const Section& s, const std::map<std::string, Material>& 
     }
   if (s.has("inclusions"))
     for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]"))
-      particle.inclusions.push_back(read_inclusion(i, places));
+      particle.inclusions.push_back(read_inclusion(i, particle, places));
   validate(particle, s.where());
   return particle;
 }
@@ -364,7 +267,8 @@ Sphere MaterialsFile::sphere(const std::string& name) const
   const Particle& p = particle(name);
   if (!p.is_homogeneous_sphere())
     fail(source, fmt::format("[particle.{}] {}: only homogeneous spheres can be used here so far", name,
-                             !p.is_sphere()      ? "has a profile"
+                             p.solid             ? "has a shape"
+                             : !p.is_sphere()    ? "has a profile"
                              : !p.layers.empty() ? "is layered"
                                                  : "has inclusions"));
   return {p.radius, p.materials.front()};
@@ -384,11 +288,12 @@ MaterialsFile read_materials(const std::string& path)
   }
   MaterialsFile file;
   file.source = path;
+  const std::string folder = std::filesystem::path(path).parent_path().string();
   Section(path, root, "file").check_keys({"material", "particle"});
   each_section(path, root, "material",
                [&](const std::string& name, const Section& s) { file.materials[name] = read_material(s); });
   each_section(path, root, "particle", [&](const std::string& name, const Section& s) {
-    file.particles[name] = read_particle(s, file.materials);
+    file.particles[name] = read_particle(s, file.materials, folder);
   });
   if (file.materials.empty()) fail(path, "the file defines no material, as [material.NAME]");
   return file;

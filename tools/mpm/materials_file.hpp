@@ -43,6 +43,17 @@ namespace granulaw {
 ///     profile = {shape = "ellipsoid", aspect = 1.5}; or
 ///         # [r, z] from the contact pole to the far pole; m
 ///         {points = [[0, 0], [1e-3, 0.2e-3], [0, 2e-3]]}
+///
+///     [particle.pebble]            # a body of any shape, instead of radius and profile; m
+///     material = "powder"
+///     shape = {kind = "ellipsoid", axes = [1e-3, 1.2e-3, 1.5e-3]}    # half axes; or
+///         {kind = "sphere", radius = 1e-3}
+///         {kind = "superquadric", axes = [1e-3, 1e-3, 2e-3], exponents = [4, 2]}    # LIGGGHTS's n1, n2
+///         {kind = "box", sides = [2e-3, 2e-3, 3e-3], edge_radius = 0.2e-3}
+///         {kind = "polyhedron", corners = [[0, 0, 0], [2e-3, 0, 0], ...], edge_radius = 0.2e-3}
+///         {kind = "clump", file = "stone.multisphere", scale = 1e-3}  # lines of x y z r; scale may be left
+///         out {kind = "mesh", file = "stone.stl", scale = 1e-3}           # closed triangle mesh
+///     inclusions = [{pore = true, radius = 0.1e-3, x = 0.3e-3, y = 0, z = 0}]    # balls
 struct MaterialsFile : Materials
 {
   /// A particle that is a homogeneous sphere; of any other it says so, as Error.

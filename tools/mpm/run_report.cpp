@@ -6,6 +6,7 @@
 #include "collision_report.hpp"
 #include "json_output.hpp"
 #include "solver/run/scene_builder.hpp"
+#include "solver/solid/solid.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -37,14 +38,19 @@ void print_as_json(const RunRequest& r, const Particle& particle, const RunSumma
   print_json(out, 2);
 }
 
+const char* body_name(const Particle& particle)
+{
+  if (particle.solid) return particle.solid->kind();
+  return particle.is_sphere() ? "sphere" : "body of revolution";
+}
+
 }  // namespace
 
 void print_setting(const RunRequest& r, const Particle& particle, double velocity)
 {
   if (r.json) return;
   const Material& m = particle.materials.front();
-  fmt::print("{} of {:.4g} m radius, E* = {:.4g} Pa", particle.is_sphere() ? "sphere" : "body of revolution",
-             particle.radius, m.e_star());
+  fmt::print("{} of {:.4g} m radius, E* = {:.4g} Pa", body_name(particle), particle.radius, m.e_star());
   if (m.yields())
     print_yield(m, velocity);
   else

@@ -185,8 +185,8 @@ void check_ball(const Particle& p, const Particle::Inclusion& i, const std::stri
 void check_revolution(const Particle& p, const std::string& where)
 {
   if (p.solid)
-    fail(where, "takes spheres and bodies of revolution only so far, and this particle is neither",
-         fmt::format("shape = {{kind = \"{}\", ...}}", p.solid->kind()), "no shape, or a profile");
+    fail(where, "has a shape in three dimensions, which cannot be taken here yet",
+         fmt::format("kind = \"{}\"", p.solid->kind()), "a sphere or a profile");
 }
 
 void validate(const Particle& p, const std::string& where)

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
+#include <set>
 
 #include "base/error.hpp"
 #include "solver/solid/implicit_curvature.hpp"
@@ -17,49 +17,14 @@ namespace granulaw {
 
 namespace {
 
-using std::numbers::pi;
-
-/// Least radius of curvature over the vertices: the larger principal curvature H + sqrt(H^2 - K), where H and
-/// K are the means over a third of the triangles about a vertex. The integral of H is a quarter of the edges'
-/// lengths times their angles (convex: positive), that of K what the angles lack to 2 pi.
-double finest_radius_of(const TriangleMesh& mesh)
-{
-  const std::size_t n = mesh.vertices.size();
-  std::vector<double> area(n), mean(n), gauss(n, 2 * pi);
-  std::map<std::pair<int, int>, Vector3> normal_beside;
-  for (const auto& t : mesh.triangles) {
-    const Vector3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const Vector3 twice = (b - a).cross(c - a);
-    for (int k = 0; k < 3; ++k) {
-      const int v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
-      const Vector3 p = mesh.vertices[next] - mesh.vertices[v], q = mesh.vertices[last] - mesh.vertices[v];
-      area[v] += twice.norm() / 6;
-      gauss[v] -= std::atan2(p.cross(q).norm(), p.dot(q));
-      normal_beside[{v, next}] = twice.normalized();
-    }
-  }
-  for (const auto& [edge, normal] : normal_beside) {
-    const Vector3 along = mesh.vertices[edge.second] - mesh.vertices[edge.first];
-    const Vector3& other = normal_beside.at({edge.second, edge.first});
-    const double angle = std::atan2(normal.cross(other).dot(along.normalized()), normal.dot(other));
-    mean[edge.first] += 0.25 * along.norm() * angle;
-  }
-  double finest = std::numeric_limits<double>::infinity();
-  for (std::size_t v = 0; v < n; ++v) {
-    if (!(area[v] > 0)) continue;
-    const double h = mean[v] / area[v], k = gauss[v] / area[v];
-    const double sharpest = h + std::sqrt(std::max(0.0, h * h - k));
-    if (sharpest > 0) finest = std::min(finest, 1 / sharpest);
-  }
-  return finest;
-}
+constexpr std::size_t terms_of_paraboloid = 6;
 
 /// Height below the tangent plane, by least squares: c + g.s + s.C s/2 in the tangential coordinates s.
 PrincipalRadii fit_paraboloid(const std::vector<Vector3>& points, const Vector3& origin,
                               const Vector3& normal)
 {
   const Eigen::Matrix<double, 3, 2> frame = tangents(normal);
-  Eigen::MatrixXd terms(points.size(), 6);
+  Eigen::MatrixXd terms(points.size(), terms_of_paraboloid);
   Eigen::VectorXd height(points.size());
   double size = 0;
   for (const Vector3& p : points) size = std::max(size, (p - origin).norm());
@@ -75,6 +40,31 @@ PrincipalRadii fit_paraboloid(const std::vector<Vector3>& points, const Vector3&
   return radii_of_curvatures(curvature / size, frame);
 }
 
+/// The vertices that share a triangle with a vertex, and itself.
+std::vector<std::set<int>> rings_of(const TriangleMesh& mesh)
+{
+  std::vector<std::set<int>> rings(mesh.vertices.size());
+  for (const auto& t : mesh.triangles)
+    for (const int v : t) rings[v].insert(t.begin(), t.end());
+  return rings;
+}
+
+double finest_radius_of(const TriangleMesh& mesh, const std::vector<Vector3>& normals)
+{
+  const std::vector<std::set<int>> rings = rings_of(mesh);
+  double finest = std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    std::set<int> both;
+    for (const int neighbour : rings[v]) both.insert(rings[neighbour].begin(), rings[neighbour].end());
+    if (both.size() < terms_of_paraboloid) continue;
+    std::vector<Vector3> points;
+    for (const int w : both) points.push_back(mesh.vertices[w]);
+    const double radius = fit_paraboloid(points, mesh.vertices[v], normals[v]).sharper;
+    if (radius > 0) finest = std::min(finest, radius);
+  }
+  return finest;
+}
+
 }  // namespace
 
 MeshSolid::MeshSolid(TriangleMesh mesh, const std::string& where) : mesh_(std::move(mesh))
@@ -82,8 +72,8 @@ MeshSolid::MeshSolid(TriangleMesh mesh, const std::string& where) : mesh_(std::m
   check_closed(mesh_, where);
   tree_ = std::make_shared<const TriangleTree>(mesh_);
   mass_ = mass_properties_of(mesh_);
-  patch_ = 0.2 * std::cbrt(mass_.volume * 3 / (4 * pi));
-  finest_ = finest_radius_of(mesh_);
+  patch_ = 0.1 * std::cbrt(mass_.volume * 3 / (4 * std::numbers::pi));
+  finest_ = finest_radius_of(mesh_, tree_->vertex_normals());
 }
 
 double MeshSolid::depth(const Vector3& x) const
@@ -114,14 +104,14 @@ double MeshSolid::support(const Vector3& direction, Vector3* where) const
 
 PrincipalRadii MeshSolid::principal_radii(const Vector3& direction) const
 {
-  constexpr std::size_t needed = 12, least = 6;
+  constexpr std::size_t needed = 2 * terms_of_paraboloid;
   Vector3 where;
   support(direction, &where);
   std::vector<std::pair<double, std::size_t>> around;
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
     if (tree_->vertex_normals()[v].dot(direction) > 0)  // not the far side of a thin body
       around.emplace_back((mesh_.vertices[v] - where).norm(), v);
-  if (around.size() < least) return {0, 0, direction.unitOrthogonal()};
+  if (around.size() < terms_of_paraboloid) return {0, 0, direction.unitOrthogonal()};
   std::sort(around.begin(), around.end());
   const double reach = std::max(patch_, around[std::min(needed, around.size()) - 1].first);
   std::vector<Vector3> points;

@@ -23,8 +23,9 @@ class MeshSolid : public Solid
   double patch_size() const
   {
     return patch_;
-  }  ///< m: a fifth of the radius of the sphere of the body's volume
-  /// By the mesh's own curvature at its vertices: of a sharp edge about the size of its triangles.
+  }  ///< m: a tenth of the radius of the sphere of the body's volume
+  /// Of paraboloids fitted to two rings of neighbours about each vertex: of a sharp edge about the size of
+  /// its triangles.
   double finest_radius() const override { return finest_; }
   MassProperties mass_properties() const override { return mass_; }
   const char* kind() const override { return "mesh"; }

@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost 1.74's own headers include some
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -100,7 +102,7 @@ std::vector<Facet> facets_of(const TriangleMesh& mesh, const std::vector<Vector3
                              const std::vector<Vector3>& vertices)
 {
   std::map<std::pair<int, int>, Vector3> of_edge;
-  const auto edge = [](int a, int b) { return std::minmax(a, b); };
+  const auto edge = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
   for (std::size_t n = 0; n < faces.size(); ++n)
     for (int k = 0; k < 3; ++k) {
       const auto& t = mesh.triangles[n];
@@ -146,18 +148,21 @@ const std::vector<Vector3>& TriangleTree::vertex_normals() const
 
 TriangleTree::Nearest TriangleTree::nearest(const Vector3& x) const
 {
-  // Boxes by their distance, until a box is farther than the nearest triangle so far.
+  // The triangle of the nearest box bounds the distance; then all whose boxes reach into the cube of that
+  // size.
   const std::vector<Facet>& facets = parts_->facets;
   FacetPoint best{};
   double least = std::numeric_limits<double>::infinity();
-  const auto all = static_cast<unsigned>(facets.size());
-  for (auto entry = parts_->tree.qbegin(bg::index::nearest(place(x), all)); entry != parts_->tree.qend();
-       ++entry) {
-    if (distance2(entry->first, x) > least) break;
-    const FacetPoint candidate = nearest_point(facets[entry->second], x);
+  const auto improve = [&](const Entry& entry) {
+    if (distance2(entry.first, x) > least) return;
+    const FacetPoint candidate = nearest_point(facets[entry.second], x);
     const double d2 = (candidate.point - x).squaredNorm();
     if (d2 < least) least = d2, best = candidate;
-  }
+  };
+  const auto visit = boost::make_function_output_iterator(improve);
+  parts_->tree.query(bg::index::nearest(place(x), 1), visit);
+  const Vector3 reach = Vector3::Constant(std::sqrt(least));
+  parts_->tree.query(bg::index::intersects(Box(place(x - reach), place(x + reach))), visit);
   const double side = (x - best.point).dot(*best.normal);
   return {side <= 0 ? std::sqrt(least) : -std::sqrt(least), best.point, *best.normal};
 }
