@@ -110,12 +110,13 @@ Phase phase_of(const Material& m, const Scales& scale)
 
 const char* name_of(GridKind grid)
 {
-  constexpr const char* names[] = {"auto", "mapped", "rectilinear", "updated"};
+  constexpr const char* names[] = {"auto", "mapped", "rectilinear", "updated", "rectilinear-3d"};
   return names[static_cast<int>(grid)];
 }
 
 GridChoice choose_grid(const Particle& p)
 {
+  if (p.solid) return {GridKind::spatial, "a body of any shape: three dimensions"};
   if (p.is_homogeneous_sphere())
     return {GridKind::mapped, "a homogeneous sphere: the grid fitted to it is fastest and most exact"};
   if (!p.layers.empty() || !p.inclusions.empty())
@@ -166,6 +167,9 @@ void Collision::check_bodies() const
 void Collision::check_grid() const
 {
   const bool two = partner_.particle || partner_.wall;
+  if (options_.grid == GridKind::spatial)
+    fail("--grid", "three dimensions know rigid planes only, and have their own runs (spatial_runs.hpp)",
+         name_of(options_.grid), "mapped, rectilinear, updated");
   if (options_.grid == GridKind::mapped)
     for (const Particle* p : {&particle_, partner_.particle ? &*partner_.particle : nullptr})
       if (p && !p->is_homogeneous_sphere())

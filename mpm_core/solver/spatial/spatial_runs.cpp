@@ -51,14 +51,16 @@ Vector3 unit(const std::array<double, 3>& v, const char* where)
   return x.normalized();
 }
 
-/// Turns `direction` of the body to -z. Directions along the body's axes stay along axes.
+/// Turns `direction` of the body to -z. The axis of the body nearest to it leans towards +x; where it lies along
+/// an axis, the next axis of the body becomes x.
 Eigen::Matrix3d rotation_to_plane(const Vector3& direction, double turn)
 {
-  int across = 0;  // the body's axis farthest from the direction becomes x, as far as it can
+  int nearest = 0;
   for (int d = 1; d < 3; ++d)
-    if (std::abs(direction[d]) < std::abs(direction[across]) - 1e-12) across = d;
-  const Vector3 z = -direction;
-  const Vector3 x = (Vector3::Unit(across) - z[across] * z).normalized();
+    if (std::abs(direction[d]) > std::abs(direction[nearest]) + 1e-12) nearest = d;
+  const bool along = std::abs(direction[nearest]) > 1 - 1e-12;
+  const Vector3 z = -direction, lean = Vector3::Unit(along ? (nearest + 1) % 3 : nearest);
+  const Vector3 x = (lean - lean.dot(z) * z).normalized();
   Eigen::Matrix3d rotation;
   rotation.row(0) = x, rotation.row(1) = z.cross(x), rotation.row(2) = z;
   return Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix() * rotation;

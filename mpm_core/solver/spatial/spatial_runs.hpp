@@ -16,7 +16,9 @@ struct BodyThrow
   double tangential_velocity = 0;  ///< m/s, along the plane
   double spin = 0;                 ///< rad/s: forward, as of a body that rolls in the direction it slides in
   double friction = 0;             ///< Coulomb's coefficient of the plane
-  std::array<double, 3> orientation{0, 0, -1};  ///< direction in the body's frame that points at the plane
+  /// Direction in the body's frame that points at the plane. The body's axis nearest to it leans towards +x,
+  /// along which the tangential velocity is.
+  std::array<double, 3> orientation{0, 0, -1};
   double turn = 0;                 ///< rad, by which the body is turned about the plane's normal
 };
 
