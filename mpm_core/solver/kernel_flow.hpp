@@ -120,16 +120,15 @@ GRANULAW_INLINE bool find_flow(Trials& block, int count, const Real* __restrict 
   return true;
 }
 
-
 constexpr flow::RateIndependent no_rate{};
 
 template <class Rate, class Use, class... Hardening>
 GRANULAW_INLINE void with_hardening(const Moduli& moduli, Use use, flow::LawList<Hardening...>)
 {
   int k = 0;
-  ((k++ == moduli.flow.hardening
-        ? use(Hardening::from(moduli.yield, moduli.flow.hardening_values), Rate::from(moduli.flow.rate_values))
-        : void()),
+  ((k++ == moduli.flow.hardening ? use(Hardening::from(moduli.yield, moduli.flow.hardening_values),
+                                       Rate::from(moduli.flow.rate_values))
+                                 : void()),
    ...);
 }
 

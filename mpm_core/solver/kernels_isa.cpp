@@ -104,7 +104,6 @@ __attribute__((noinline)) void corner_forces(Body& body, int first, int count, c
   }
 }
 
-
 /// State of the points of one block, from its first.
 template <class Real>
 struct PointState

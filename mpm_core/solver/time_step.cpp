@@ -233,7 +233,8 @@ StableStep<SpatialBody>::StableStep(SpatialBody& body)
     for (std::size_t k = 0; k < x.x.size(); ++k)
       if (body.inverse_mass_i[k] == 0) x.x[k] = 0;
   };
-  omega_ = 1.01 * std::sqrt(largest_eigenvalue(x, body.mass_i, 1e-7 * body.surface.finest, 20, respond, hold));
+  omega_ =
+      1.01 * std::sqrt(largest_eigenvalue(x, body.mass_i, 1e-7 * body.surface.finest, 20, respond, hold));
   std::fill(body.u_i.begin(), body.u_i.end(), 0.0);
   bound_ = kernel.growth(body).bound;
 }
@@ -243,9 +244,10 @@ double StableStep<SpatialBody>::limit(const SpatialBody& body) const
 {
   const CellGrowth now = spatial_kernels().growth(body);
   if (!(now.least_volume > 0))
-    fail("solver",
-         "a cell was turned inside out: the body is squeezed further than a reference grid can follow (planes "
-         "from all sides: beyond a nominal density of about 1.1); stay below this depth or take a finer grid");
+    fail(
+        "solver",
+        "a cell was turned inside out: the body is squeezed further than a reference grid can follow (planes "
+        "from all sides: beyond a nominal density of about 1.1); stay below this depth or take a finer grid");
   if (now.bound > squeezed * squeezed * bound_) fail_squeezed();
   return 2 / (omega_ * std::sqrt(std::max(1.0, now.bound / bound_)));
 }

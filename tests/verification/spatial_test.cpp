@@ -83,7 +83,7 @@ TEST(SpatialPatch, UniformStressIsInEquilibrium)
   displace(b, 0.05 * stretch);
   spatial_kernels().internal_force(b, false);
   for (int i = 0; i < b.nodes; ++i)
-    if (reference_place(b, i).norm() < 0.5) {  // three cells from the surface
+    if (reference_place(b, i).norm() < 0.5) {   // three cells from the surface
       EXPECT_LT(force_at(b, i).norm(), 1e-15);  // of stress 1e-2 on faces of 1e-2
     }
 }
@@ -116,7 +116,7 @@ TEST(SpatialEnergy, ForceIsItsDerivative)
   for (int i = 0; i < b.nodes; ++i) {
     const Vector3 x = reference_place(b, i);
     b.u_i[4 * i] = 0.02 * std::sin(3 * x[1]), b.u_i[4 * i + 1] = 0.03 * std::cos(2 * x[2]),
-               b.u_i[4 * i + 2] = 0.02 * x[0] * x[1];
+              b.u_i[4 * i + 2] = 0.02 * x[0] * x[1];
   }
   const auto energy = [&] {
     spatial_kernels().internal_force(b, false);
@@ -192,8 +192,8 @@ RunOptions coarse(int cells, int grids = 1)
   return options;
 }
 
-/// Against the axisymmetric solver. 0.5 % in e: scatter of a single grid with five cells to the contact radius;
-/// force 1 % low at this edge (it converges like h, from below).
+/// Against the axisymmetric solver. 0.5 % in e: scatter of a single grid with five cells to the contact
+/// radius; force 1 % low at this edge (it converges like h, from below).
 TEST(SpatialImpact, SphereAgreesWithTheAxisymmetricSolver)
 {
   const double v = 100 * customary_velocity(100);
@@ -283,7 +283,8 @@ TEST(SpatialPress, PlanesTurnedAgainstTheGrid)
     for (const double b : {s, -s}) plan.planes.push_back({{a, b, 0}, {}, 1, 0});
   const RunResult turned = run_planes_press(sphere(100), plan, coarse(7)), straight = press("cube", 0.11, 7);
   for (const std::size_t k : {std::size_t{0}, std::size_t{2}})
-    EXPECT_NEAR(force_at_depth(turned, k) / force_at_depth(straight, k), 1, 0.015);  // grid noise of each: 1 %
+    EXPECT_NEAR(force_at_depth(turned, k) / force_at_depth(straight, k), 1,
+                0.015);  // grid noise of each: 1 %
 }
 
 /// A run that turns a cell inside out ends with a sentence.

@@ -97,16 +97,19 @@ void define(CLI::App& command)
   r->run.add_to(command);
   command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command
-      .add_option("--orientation", r->orientation,
-                  "three dimensions: X,Y,Z, the direction in the body's own frame that points at the wall; the "
-                  "body's axis nearest to it leans towards +x of the wall")
+      .add_option(
+          "--orientation", r->orientation,
+          "three dimensions: X,Y,Z, the direction in the body's own frame that points at the wall; the "
+          "body's axis nearest to it leans towards +x of the wall")
       ->delimiter(',')
       ->expected(3);
-  command.add_option("--friction", r->friction, "three dimensions: Coulomb's coefficient of the wall, 0 to 10");
+  command.add_option("--friction", r->friction,
+                     "three dimensions: Coulomb's coefficient of the wall, 0 to 10");
   command.add_option("--tangential-velocity", r->tangential_velocity,
                      "three dimensions: velocity along +x of the wall, m/s");
-  command.add_option("--spin", r->spin,
-                     "three dimensions: rad/s about +y of the wall, forward as of a body that rolls along +x");
+  command.add_option(
+      "--spin", r->spin,
+      "three dimensions: rad/s about +y of the wall, forward as of a body that rolls along +x");
   command.callback([r] { impact(*r); });
 }
 

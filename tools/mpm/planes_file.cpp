@@ -26,7 +26,8 @@ double number(const std::string& word, const std::string& where, const char* wha
 PressPlane plane_of(const std::vector<std::string>& words, const std::string& where)
 {
   if (words.size() < 3 || words.size() > 6)
-    fail(where, "a plane is nx ny nz [distance speed friction]", fmt::format("{} words", words.size()), "3 to 6");
+    fail(where, "a plane is nx ny nz [distance speed friction]", fmt::format("{} words", words.size()),
+         "3 to 6");
   PressPlane plane;
   double length = 0;
   for (int d = 0; d < 3; ++d) {
@@ -37,8 +38,10 @@ PressPlane plane_of(const std::vector<std::string>& words, const std::string& wh
   if (words.size() > 3 && words[3] != "touch") plane.distance = number(words[3], where, "distance");
   if (words.size() > 4) plane.speed = number(words[4], where, "speed");
   if (words.size() > 5) plane.friction = number(words[5], where, "friction");
-  if (!(std::abs(plane.speed) <= 10)) fail(where, "the speed is out of range", words[4], "-10 to 10, over --depth");
-  if (!(plane.friction >= 0 && plane.friction <= 10)) fail(where, "the friction is out of range", words[5], "0 to 10");
+  if (!(std::abs(plane.speed) <= 10))
+    fail(where, "the speed is out of range", words[4], "-10 to 10, over --depth");
+  if (!(plane.friction >= 0 && plane.friction <= 10))
+    fail(where, "the friction is out of range", words[5], "0 to 10");
   return plane;
 }
 
@@ -49,7 +52,8 @@ std::vector<PressPlane> read_planes(const std::string& name)
   std::vector<PressPlane> planes = named_planes(name);
   if (!planes.empty()) return planes;
   std::ifstream in(name);
-  if (!in) fail("--planes", "no such arrangement, and no such file", name, "pair, cube, die, bcc, fcc, or a file");
+  if (!in)
+    fail("--planes", "no such arrangement, and no such file", name, "pair, cube, die, bcc, fcc, or a file");
   std::string line;
   for (int n = 1; std::getline(in, line); ++n) {
     std::istringstream text(line.substr(0, line.find('#')));

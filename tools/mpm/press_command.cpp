@@ -58,7 +58,8 @@ PressPlan plan_of(const PressRequest& r, const Particle& particle)
 void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentity asked,
                      const std::function<void(const RunIdentity&, const Run&)>& run)
 {
-  if (r.support != "free") fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
+  if (r.support != "free")
+    fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
   PlanesPlan plan;
   plan.planes = read_planes(r.planes.empty() ? "pair" : r.planes);
   plan.depth = r.depth * particle.radius;
@@ -99,11 +100,12 @@ void define(CLI::App& command)
   command.add_option("--ramp", r->ramp,
                      "loading time in R/c*, c* = sqrt(E*/rho), 1 to 1e6 (default: long enough for the "
                      "rate-free law, 60 or more where the material yields)");
-  command.add_option("--planes", r->planes,
-                     "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE "
-                     "with a line for each: nx ny nz [distance speed friction], the direction from the body to the "
-                     "plane in the body's frame, its distance from the origin there (m; touch: where it touches), "
-                     "its way over --depth (1), Coulomb's coefficient (0). Three dimensions without it: pair");
+  command.add_option(
+      "--planes", r->planes,
+      "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE "
+      "with a line for each: nx ny nz [distance speed friction], the direction from the body to the "
+      "plane in the body's frame, its distance from the origin there (m; touch: where it touches), "
+      "its way over --depth (1), Coulomb's coefficient (0). Three dimensions without it: pair");
   command.callback([r] { press(*r); });
 }
 

@@ -9,8 +9,8 @@
 #include "collision_report.hpp"
 #include "json_output.hpp"
 #include "solver/run/scene_builder.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 #include "solver/solid/solid.hpp"
+#include "solver/spatial/spatial_runs.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -30,7 +30,8 @@ nlohmann::ordered_json plane_json(const RunResult& result, std::size_t k)
 {
   const PlaneTrace& plane = result.planes[k];
   double delta = 0, force = 0;
-  for (const PlaneSample& p : plane.samples) delta = std::max(delta, p.delta), force = std::max(force, p.force);
+  for (const PlaneSample& p : plane.samples)
+    delta = std::max(delta, p.delta), force = std::max(force, p.force);
   nlohmann::ordered_json out;
   out["normal"] = {-plane.normal[0], -plane.normal[1], -plane.normal[2]};  // from the body to the plane
   out["delta_max_m"] = delta;

@@ -197,7 +197,8 @@ bool in_three_dimensions(const RunRequest& r, const Particle& particle)
   }
   if (!r.against.empty() || !r.wall.empty())
     fail(r.against.empty() ? "--wall" : "--against",
-         "three dimensions know rigid planes only; leave it out, or take a body of revolution that hits along its "
+         "three dimensions know rigid planes only; leave it out, or take a body of revolution that hits "
+         "along its "
          "axis");
   return true;
 }

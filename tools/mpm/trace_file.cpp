@@ -45,7 +45,8 @@ struct PlaneColumn
 std::vector<PlaneColumn> plane_columns(const RunResult& result)
 {
   std::vector<PlaneColumn> found;
-  const auto add = [&](std::string name, std::string unit, std::string legend, const PlaneTrace& plane, auto value) {
+  const auto add = [&](std::string name, std::string unit, std::string legend, const PlaneTrace& plane,
+                       auto value) {
     found.push_back({std::move(name), std::move(unit), std::move(legend), {}});
     for (const PlaneSample& p : plane.samples) found.back().values.push_back(value(p));
   };
@@ -59,8 +60,10 @@ std::vector<PlaneColumn> plane_columns(const RunResult& result)
     vector("force", "N", "force on the body, z away from the wall", &PlaneSample::vector);
     vector("torque", "Nm", "torque of it about the body's centre of mass", &PlaneSample::torque);
     vector("contact", "m", "place of the normal force from that centre", &PlaneSample::centre);
-    add("major_axis_m", "m", "larger half axis of the contact", wall, [](const PlaneSample& p) { return p.axes[0]; });
-    add("minor_axis_m", "m", "smaller half axis of the contact", wall, [](const PlaneSample& p) { return p.axes[1]; });
+    add("major_axis_m", "m", "larger half axis of the contact", wall,
+        [](const PlaneSample& p) { return p.axes[0]; });
+    add("minor_axis_m", "m", "smaller half axis of the contact", wall,
+        [](const PlaneSample& p) { return p.axes[1]; });
   } else {
     for (std::size_t k = 0; k < result.planes.size(); ++k)
       add(fmt::format("force_{}_N", k + 1), "N", "normal force of this plane", result.planes[k],

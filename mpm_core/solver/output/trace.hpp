@@ -55,8 +55,8 @@ struct RunSummary
 /// What one plane did over a sample of the trace; three-dimensional runs, SI.
 struct PlaneSample
 {
-  double delta;                  ///< m, way of the plane into the body's first place; of an impact its overlap
-  double force;                  ///< N, normal
+  double delta;  ///< m, way of the plane into the body's first place; of an impact its overlap
+  double force;  ///< N, normal
   std::array<double, 3> vector;  ///< N, force on the body
   std::array<double, 3> torque;  ///< N m, of it about the body's centre of mass
   std::array<double, 3> centre;  ///< m, where the normal force acts, from that centre

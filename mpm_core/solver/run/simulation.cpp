@@ -64,8 +64,9 @@ double Simulation<Scene>::step_limit() const
 
 template <class Scene>
 void Simulation<Scene>::run(Programme& programme, Recorder fields,
-                     const std::function<void(double)>& progress,
-                     const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint)
+                            const std::function<void(double)>& progress,
+                            const std::function<void(const TraceSample&)>& observe,
+                            const CheckpointSlot& checkpoint)
 {
   energy_start = total(scene, &Scene::BodyType::kinetic_energy);
   fields.begin(scene);
@@ -185,7 +186,8 @@ void Simulation<Scene>::summarise(const Programme& programme)
   s.contact_time = last_touch_time_;
   const double put_in = energy_start + programme.work();
   const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
-  const double found = total(scene, &Scene::BodyType::kinetic_energy) + total(scene, &Scene::BodyType::strain_energy) +
+  const double found = total(scene, &Scene::BodyType::kinetic_energy) +
+                       total(scene, &Scene::BodyType::strain_energy) +
                        total(scene, &Scene::BodyType::plastic_work) + scene.contact->dissipated();
   s.energy_error = std::abs(found - put_in) / peak;
   s.contact_loss = scene.contact->dissipated() / peak;

@@ -43,8 +43,7 @@ void PlanesProgramme::damp(SpatialScene& scene, double share)
   const double before = body.kinetic_energy();
   for (int i = 0; i < body.nodes; ++i)
     for (int d = 0; d < 3; ++d)
-      if (body.inverse_mass_i[4 * i + d] > 0)
-        body.v_i[4 * i + d] -= share * (body.v_i[4 * i + d] - mean[d]);
+      if (body.inverse_mass_i[4 * i + d] > 0) body.v_i[4 * i + d] -= share * (body.v_i[4 * i + d] - mean[d]);
   damping_ += body.kinetic_energy() - before;
 }
 
@@ -86,7 +85,9 @@ void PlanesProgramme::apply(SpatialScene& scene, double time, double dt, bool)
 double PlanesProgramme::progress() const
 {
   const double whole = plan_.ramp + hold_time + plan_.unload_ramp;
-  const double before = phase_ == Phase::load ? 0 : phase_ == Phase::hold ? plan_.ramp : plan_.ramp + hold_time;
+  const double before = phase_ == Phase::load   ? 0
+                        : phase_ == Phase::hold ? plan_.ramp
+                                                : plan_.ramp + hold_time;
   return std::min(1.0, (before + now_ - start_) / whole);
 }
 

@@ -11,8 +11,8 @@ namespace granulaw {
 
 class StateArchive;
 
-/// Octants of a cell: the lanes of the kernels. Octant 4 x + 2 y + z, each 0 in the lower half of the cell and
-/// 1 in the upper one.
+/// Octants of a cell: the lanes of the kernels. Octant 4 x + 2 y + z, each 0 in the lower half of the cell
+/// and 1 in the upper one.
 inline constexpr int octants = 8;
 /// Nodes whose quadratic splines reach into a cell: 3 x 3 x 3, node 9 x + 3 y + z of a cell.
 inline constexpr int cell_nodes = 27;
@@ -49,17 +49,18 @@ struct SpatialSurface
 {
   int count = 0;
   std::vector<std::array<double, 3>> place;  ///< on the reference surface
-  std::vector<int> node;       ///< lowest node of the cell that each lies in
-  std::vector<double> weight;  ///< [count][cell_nodes]
-  std::vector<double> area;    ///< of the patch of the surface that each stands for
-  double finest = 0;           ///< shortest edge of a cell with a marker
+  std::vector<int> node;                     ///< lowest node of the cell that each lies in
+  std::vector<double> weight;                ///< [count][cell_nodes]
+  std::vector<double> area;                  ///< of the patch of the surface that each stands for
+  double finest = 0;                         ///< shortest edge of a cell with a marker
 };
 
 /// A vector at each node: x, y, z and a zero, so that a node is one access. Entry 4 node + component.
 using NodeField = AlignedVector;
 
-/// Moments of a piece that the kernels read: means over the piece of l(xi) m(eta) n(zeta), l, m, n each one of
-/// 1, xi, xi^2/2 of the cell's own coordinates (-1/2 to 1/2); number 9 l + 3 m + n, all but the last of 27.
+/// Moments of a piece that the kernels read: means over the piece of l(xi) m(eta) n(zeta), l, m, n each one
+/// of 1, xi, xi^2/2 of the cell's own coordinates (-1/2 to 1/2); number 9 l + 3 m + n, all but the last
+/// of 27.
 inline constexpr int cut_moments_each = 26;
 
 /// A three-dimensional body on its graded rectilinear grid, structure of arrays, solver units (E* = rho = 1).
@@ -83,7 +84,7 @@ struct SpatialBody
   NodeField u_i, v_i, f_i;   ///< displacement, velocity, internal force
   /// the body is one half, quarter or eighth: it is mirrored at the lower end of these axes
   std::array<bool, 3> mirrored{};
-  double mass = 0;  ///< of the part that is computed
+  double mass = 0;                 ///< of the part that is computed
   std::array<double, 3> travel{};  ///< displacement of its centre of mass, integrated from the momentum
   SpatialSurface surface;
 

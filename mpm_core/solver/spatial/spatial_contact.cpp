@@ -38,8 +38,7 @@ SpatialContact::SpatialContact(const SpatialBody& body, std::vector<Plane> plane
       tallies_(planes_.size())
 {
   const std::array<int, 3> stride = body.strides();
-  for (int k = 0; k < cell_nodes; ++k)
-    offsets_[k] = 4 * (k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]);
+  for (int k = 0; k < cell_nodes; ++k) offsets_[k] = 4 * (k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]);
   for (std::vector<int>& list : candidates_) list.reserve(static_cast<std::size_t>(markers_));
   rows_.reserve(impulse_.size());  // all that there can be, so that no step allocates
 }
@@ -72,8 +71,7 @@ void SpatialContact::push(SpatialBody& body, int marker, const Vector3& p) const
   const double* weight = body.surface.weight.data() + std::size_t(cell_nodes) * marker;
   const double impulse[4] = {p[0], p[1], p[2], 0};
   for (int k = 0; k < cell_nodes; ++k)
-    for (int c = 0; c < 4; ++c)
-      at[offsets_[k] + c] += weight[k] * inverse_mass[offsets_[k] + c] * impulse[c];
+    for (int c = 0; c < 4; ++c) at[offsets_[k] + c] += weight[k] * inverse_mass[offsets_[k] + c] * impulse[c];
 }
 
 void SpatialContact::choose_candidates(const SpatialBody& body)
@@ -98,7 +96,8 @@ void SpatialContact::make_rows(const SpatialBody& body, double kick, double dt)
       // a row for each marker that would pass, or might once its neighbours are pushed back
       const bool pushed = impulse_[std::size_t(k) * markers_ + m] != Vector3::Zero();
       if (gap + dt * approach > 0 && !pushed && gap > 4 * dt * std::abs(approach)) continue;
-      Row row{m, k, plane.velocity - (gap < 0 ? recovery : 1) * gap / dt, 0, 0, plane.velocity, Vector3::Zero()};
+      Row row{
+          m, k, plane.velocity - (gap < 0 ? recovery : 1) * gap / dt, 0, 0, plane.velocity, Vector3::Zero()};
       Vector3 response = Vector3::Zero();
       const int lowest = 4 * body.surface.node[m];
       for (int n = 0; n < cell_nodes; ++n) {

@@ -13,8 +13,8 @@ struct Plane
   Vector3 normal;  ///< unit vector away from the plane, into the body
   double position;
   double start = position;  ///< where it stood at first
-  double velocity = 0;  ///< of the plane along its normal
-  double friction = 0;  ///< Coulomb's coefficient
+  double velocity = 0;      ///< of the plane along its normal
+  double friction = 0;      ///< Coulomb's coefficient
   /// Planes that the mirrored parts of the body meet where this part meets this one, itself included.
   int copies = 1;
 };
@@ -28,8 +28,8 @@ struct PlaneTally
 };
 
 /// The surface of one body against rigid planes with Coulomb friction: impulses at the surface's markers,
-/// found by Gauss-Seidel sweeps that start from those of the last step. After a step no marker may have passed
-/// a plane (normal impulse p_n >= 0), and it slides only where the friction is spent:
+/// found by Gauss-Seidel sweeps that start from those of the last step. After a step no marker may have
+/// passed a plane (normal impulse p_n >= 0), and it slides only where the friction is spent:
 ///
 ///     n.v >= V - gap/dt,  p_n >= 0;    |p_t| <= mu p_n,  p_t opposite to the sliding where equal.
 class SpatialContact : public BasicContact<SpatialBody>
@@ -77,10 +77,10 @@ class SpatialContact : public BasicContact<SpatialBody>
 
   std::vector<Plane> planes_;
   int markers_;
-  std::array<int, cell_nodes> offsets_;         // entries from a cell's lowest node to each of its nodes
-  std::vector<std::vector<int>> candidates_;    // by plane: markers that might reach it soon
-  double room_ = 0;                             // way that markers may go before candidates are chosen anew
-  std::vector<Vector3> impulse_;                // [plane][marker], of the last step
+  std::array<int, cell_nodes> offsets_;       // entries from a cell's lowest node to each of its nodes
+  std::vector<std::vector<int>> candidates_;  // by plane: markers that might reach it soon
+  double room_ = 0;                           // way that markers may go before candidates are chosen anew
+  std::vector<Vector3> impulse_;              // [plane][marker], of the last step
   std::vector<Row> rows_;
   std::vector<char> pushing_;
   std::vector<PlaneTally> tallies_;

@@ -70,8 +70,7 @@ struct Moments
       power[d][0] = 1, power[d][1] = centre[d];
       power[d][2] = centre[d] * centre[d] + edges[d] * edges[d] / 12;
     }
-    for (int k = 0; k < 27; ++k)
-      value[k] += volume * power[0][k / 9] * power[1][k / 3 % 3] * power[2][k % 3];
+    for (int k = 0; k < 27; ++k) value[k] += volume * power[0][k / 9] * power[1][k / 3 % 3] * power[2][k % 3];
   }
   /// Integral of the product of three polynomials, one in each coordinate.
   double of(const double (&x)[3], const double (&y)[3], const double (&z)[3]) const
@@ -290,8 +289,8 @@ class Builder
   {
     const auto s = splines(cell.column);
     for (int k = 0; k < cell_nodes; ++k)
-      body_.mass_i[node(cell, k)] += density * volume(cell.column) *
-                                     moments.of(s[0]->n[k / 9], s[1]->n[k / 3 % 3], s[2]->n[k % 3]);
+      body_.mass_i[node(cell, k)] +=
+          density * volume(cell.column) * moments.of(s[0]->n[k / 9], s[1]->n[k / 3 % 3], s[2]->n[k % 3]);
   }
 
   void cut_cell(int at, const CutCell& c, double density)

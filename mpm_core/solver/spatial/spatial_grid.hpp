@@ -27,11 +27,12 @@ struct SpatialSection
 };
 
 /// The body at rest. Cells are cut by the surface and by interfaces as Section's are (rectilinear_body.hpp):
-/// whole octants exactly, cut ones by sub-boxes of a quarter of their edge, each with the share of it that the
-/// tangent plane leaves inside.
+/// whole octants exactly, cut ones by sub-boxes of a quarter of their edge, each with the share of it that
+/// the tangent plane leaves inside.
 SpatialBody spatial_body(const SpatialSection& section);
 
-/// Finest edge wanted about a place where planes push, and how far the fine cells reach from it along an axis.
+/// Finest edge wanted about a place where planes push, and how far the fine cells reach from it along an
+/// axis.
 struct FineZone
 {
   double low, high;  ///< fine between these

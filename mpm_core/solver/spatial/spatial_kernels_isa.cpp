@@ -55,10 +55,10 @@ GRANULAW_INLINE HalfLanes sum_of_halves(Lanes v)
 /// Entry k: the sum of all entries of v[k].
 GRANULAW_INLINE HalfLanes row_sums(const HalfLanes (&v)[4])
 {
-  const HalfLanes a = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6) +
-                      __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
-  const HalfLanes b = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6) +
-                      __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
+  const HalfLanes a =
+      __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6) + __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
+  const HalfLanes b =
+      __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6) + __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
   return __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
 }
 
@@ -188,7 +188,8 @@ __attribute__((noinline)) void scatter_row(const Grid& grid, int first, int n, c
       HalfLanes sums[4]{};
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i)
-        sums[i] = weights.w[0][bc] * node[i] + weights.w[1][bc] * node[3 + i] + weights.w[2][bc] * node[6 + i];
+        sums[i] =
+            weights.w[0][bc] * node[i] + weights.w[1][bc] * node[3 + i] + weights.w[2][bc] * node[6 + i];
       half_lanes(grid.f + 4 * (cell.node + j + bc / 3 * grid.across + bc % 3 * grid.up)) -= row_sums(sums);
     }
   }
@@ -221,8 +222,8 @@ GRANULAW_INLINE void to_nodes(HalfLanes (&c)[cell_nodes], const AxisWeights& axi
   }
 }
 
-/// Displacement gradients of a cell that the surface or an interface cuts: the polynomial of the displacement,
-/// and the mean of its derivatives over each piece by the piece's moments.
+/// Displacement gradients of a cell that the surface or an interface cuts: the polynomial of the
+/// displacement, and the mean of its derivatives over each piece by the piece's moments.
 __attribute__((noinline)) void gather_cut(const Grid& grid, const SpatialCell& cell, double* __restrict h)
 {
   const double* __restrict moments = grid.moments_of(cell);
@@ -369,11 +370,12 @@ struct LogarithmicStrain
 
 /// Of b = 1 + x. With m = 1 + tr(x)/3 and d the deviator of x, b = m + d:
 ///
-///     ln(b)/2 = ln(m)/2 + artanh(s),    s = d (d + 2 m)^-1 = (I3 + w^2 d - w d^2)/(w^3 + w I2 + I3),  w = 2 m,
+///     ln(b)/2 = ln(m)/2 + artanh(s),    s = d (d + 2 m)^-1 = (I3 + w^2 d - w d^2)/(w^3 + w I2 + I3),  w = 2
+///     m,
 ///
-/// I2, I3 the invariants of d (Cayley-Hamilton: d^3 + I2 d - I3 = 0). The series of artanh(s)/s in s^2 is summed
-/// in the basis 1, s^2, s^4 by the characteristic polynomial of s^2. Its eight terms leave 1e-18
-/// of it at deviatoric strains of 0.1, 1e-11 at 0.27, 1e-8 at 0.4; no principal axes are needed, and small strains
+/// I2, I3 the invariants of d (Cayley-Hamilton: d^3 + I2 d - I3 = 0). The series of artanh(s)/s in s^2 is
+/// summed in the basis 1, s^2, s^4 by the characteristic polynomial of s^2. Its eight terms leave 1e-18 of it
+/// at deviatoric strains of 0.1, 1e-11 at 0.27, 1e-8 at 0.4; no principal axes are needed, and small strains
 /// are exact to rounding.
 GRANULAW_INLINE LogarithmicStrain logarithmic_strain(const Symmetric& x)
 {
@@ -475,8 +477,7 @@ GRANULAW_INLINE Deformation deformation(const Block& block, int p)
       const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, e = (j + 2) % 3;
       d.adjugate[j][i] = d.f[a][c] * d.f[b][e] - d.f[a][e] * d.f[b][c];
     }
-  d.determinant =
-      d.f[0][0] * d.adjugate[0][0] + d.f[0][1] * d.adjugate[1][0] + d.f[0][2] * d.adjugate[2][0];
+  d.determinant = d.f[0][0] * d.adjugate[0][0] + d.f[0][1] * d.adjugate[1][0] + d.f[0][2] * d.adjugate[2][0];
   return d;
 }
 
@@ -503,7 +504,10 @@ GRANULAW_INLINE void trial_point(const Block& block, const PointState& state, in
                                  Trials& out)
 {
   const Deformation d = deformation(block, p);
-  const auto h = [&](int i, int j) __attribute__((always_inline)) { return block.h[3 * i + j][p]; };
+  const auto h = [&](int i, int j) __attribute__((always_inline))
+  {
+    return block.h[3 * i + j][p];
+  };
   const auto entry = [&](int i, int j) __attribute__((always_inline))
   {
     return h(i, j) + h(j, i) + h(i, 0) * h(j, 0) + h(i, 1) * h(j, 1) + h(i, 2) * h(j, 2);

@@ -34,25 +34,27 @@ void check(const RunOptions& options)
          "0.05 to 1");
   if (options.precision == Precision::single)
     fail("--precision", "three-dimensional grids do double precision only", "single", "double");
-  if (options.checkpoints && options.fields)
-    fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
+  if (options.fields)
+    fail("--fields", "three-dimensional runs write none yet; the trace, -o, has forces and contact");
 }
 
 int cells_of(const RunOptions& options)
 {
-  return static_cast<int>(std::lround(options.refine * (options.resolution ? options.resolution : default_cells)));
+  return static_cast<int>(
+      std::lround(options.refine * (options.resolution ? options.resolution : default_cells)));
 }
 
 Vector3 unit(const std::array<double, 3>& v, const char* where)
 {
   const Vector3 x(v[0], v[1], v[2]);
   if (!(x.norm() > 0) || !x.allFinite())
-    fail(where, "is no direction", fmt::format("{:g}, {:g}, {:g}", v[0], v[1], v[2]), "three numbers, not all 0");
+    fail(where, "is no direction", fmt::format("{:g}, {:g}, {:g}", v[0], v[1], v[2]),
+         "three numbers, not all 0");
   return x.normalized();
 }
 
-/// Turns `direction` of the body to -z. The axis of the body nearest to it leans towards +x; where it lies along
-/// an axis, the next axis of the body becomes x.
+/// Turns `direction` of the body to -z. The axis of the body nearest to it leans towards +x; where it lies
+/// along an axis, the next axis of the body becomes x.
 Eigen::Matrix3d rotation_to_plane(const Vector3& direction, double turn)
 {
   int nearest = 0;
@@ -103,10 +105,7 @@ class ReboundMeter
   {
   }
   /// Angular velocity and energy of the rigid motion.
-  Vector3 spin(const SpatialScene& scene) const
-  {
-    return inertia(scene).ldlt().solve(angular(scene));
-  }
+  Vector3 spin(const SpatialScene& scene) const { return inertia(scene).ldlt().solve(angular(scene)); }
   double energy(const SpatialScene& scene) const
   {
     const SpatialBody& body = scene.bodies.front();
@@ -165,7 +164,8 @@ RunResult run_body_impact(const Particle& particle, const BodyThrow& thrown, con
         const ReboundMeter meter(run.scene, homogeneous ? &exact : nullptr);
         throw_body(body, velocity, spin, run.scene.centre);
         FreeFlight<SpatialScene> programme(duration);
-        run.run(programme, {fields, scale, duration}, progress, [](const TraceSample&) {}, checkpoint);
+        run.run(
+            programme, {fields, scale, duration}, progress, [](const TraceSample&) {}, checkpoint);
         RunSummary& s = run.result.summary;
         Rebound rebound;
         const Vector3 after = mean_velocity(body), w = meter.spin(run.scene);
@@ -201,7 +201,8 @@ RunResult run_planes_press(const Particle& particle, const PlanesPlan& plan, con
   if (options.estimate_error)
     return run_with_estimate(options,
                              [&](const RunOptions& o) { return run_planes_press(particle, plan, o); });
-  const Scales units{particle.radius, particle.materials.front().e_star(), particle.materials.front().density};
+  const Scales units{particle.radius, particle.materials.front().e_star(),
+                     particle.materials.front().density};
   std::vector<Plane> planes;
   for (const PressPlane& p : plan.planes) planes.push_back(plane_of(p, units));
   if (planes.empty()) fail("--planes", "no plane is given");

@@ -95,7 +95,8 @@ void SpatialSetup::drop_mirrored_planes()
         if (std::abs(met[d]) < same) copies *= 2;
         met[d] = -std::abs(met[d]);
       }
-    const auto found = std::find_if(normals.begin(), normals.end(), [&](const Vector3& n) { return equal(n, met); });
+    const auto found =
+        std::find_if(normals.begin(), normals.end(), [&](const Vector3& n) { return equal(n, met); });
     computed_.push_back(static_cast<int>(found - normals.begin()));
     if (found != normals.end()) continue;
     normals.push_back(met);
@@ -178,7 +179,8 @@ std::array<double, 2> SpatialSetup::block_of(const Touch& touch, double deepest)
   }
   const double gap = 0.5 * deepest * (1 + share), widest = 0.85 * (high_ - low_).maxCoeff() / 2;
   const auto half_width = [&](double radius) {
-    return std::clamp(1.3 * std::sqrt(2 * gap * radius), 1e-4, std::min(widest, 0.85 * std::max(1.0, radius)));
+    return std::clamp(1.3 * std::sqrt(2 * gap * radius), 1e-4,
+                      std::min(widest, 0.85 * std::max(1.0, radius)));
   };
   return {half_width(touch.sharper), half_width(touch.flatter)};
 }
@@ -230,8 +232,10 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
       const Touch& t = touches_[k];
       const std::array<double, 2> block = block_of(t, deepest);
       const double depth = 0.8 * block[1] * planes_[k].normal[d];  // into the body
-      const double reach = std::abs(t.sharper_direction[d]) * block[0] + std::abs(t.flatter_direction[d]) * block[1];
-      zones.push_back({t.place[d] - reach + std::min(0.0, depth), t.place[d] + reach + std::max(0.0, depth), edge});
+      const double reach =
+          std::abs(t.sharper_direction[d]) * block[0] + std::abs(t.flatter_direction[d]) * block[1];
+      zones.push_back(
+          {t.place[d] - reach + std::min(0.0, depth), t.place[d] + reach + std::max(0.0, depth), edge});
     }
     const double low = mirrored_[d] ? 0.0 : low_[d];
     const double coarsest = coarsest_share * std::min(1.0, (high_ - low_).minCoeff() / 2);

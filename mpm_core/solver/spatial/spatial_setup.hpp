@@ -27,7 +27,8 @@ class SpatialSetup
   double mass() const { return mass_; }  ///< of the whole body
   /// Largest overlap with the first plane that an impact can be expected to reach, about.
   double expected_overlap(double velocity) const;
-  /// Tensor of inertia of the whole body about its centre of mass, as if all of it were of the first material.
+  /// Tensor of inertia of the whole body about its centre of mass, as if all of it were of the first
+  /// material.
   Eigen::Matrix3d inertia() const;
   /// Speeds of the planes that are computed, as given.
   std::vector<double> speeds() const;
