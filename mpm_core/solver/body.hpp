@@ -3,25 +3,13 @@
 #include <optional>
 #include <vector>
 
-#include "solver/flow/laws.hpp"
 #include "solver/grid/spline_axis.hpp"
 #include "solver/material.hpp"
+#include "solver/moduli.hpp"
 
 namespace granulaw {
 
 class StateArchive;
-
-/// Elastic-plastic constants in solver units (stress / E*).
-struct Moduli
-{
-  double shear;      ///< G
-  double bulk;       ///< K
-  double yield;      ///< Y
-  double hardening;  ///< H
-  bool yields;       ///< false: elastic, Y and H unused
-  /// hardening and rate laws; the default is Y + H ep, which reads `yield` and `hardening`
-  flow::Flow flow{};
-};
 
 /// What the material points carry, structure of arrays; fields end in _p.
 /// Corner fields are flattened as corner * points + p: a point has `corners` grid nodes it exchanges with.

@@ -7,15 +7,15 @@
 
 namespace granulaw {
 
-/// Contact of the first body's surface with the rigid, frictionless plane z = 0 or with the second body,
-/// which is described in its own frame: pole at the origin, mirrored, so that the gap is the sum of both
-/// heights. No stiffness, no gap parameter; the force can only push.
-class Contact
+/// Contact of bodies with each other or with planes: impulses that keep them from passing through. No
+/// stiffness, no gap parameter; the force can only push.
+template <class Body>
+class BasicContact
 {
  public:
-  virtual ~Contact() = default;
+  virtual ~BasicContact() = default;
   /// Corrects velocities for a step `dt`, after the nodes were accelerated over `kick`; returns the impulse
-  /// on the first body (+z), which the second feels too.
+  /// on the first body (+z; of planes: of the first plane).
   virtual double correct(std::span<Body> bodies, double kick, double dt) = 0;
   /// To be called when all velocities of the step are final: adds what this contact took from the bodies.
   virtual void account(std::span<const Body> bodies) = 0;
@@ -24,13 +24,22 @@ class Contact
   /// closes stops, and m v^2/2 of its nodes is lost: the grid's own loss, proportional to the cell size (3e-3
   /// of the impact energy at V/V_y = 500 with 16 cells, 1e-2 at 1500).
   double dissipated() const { return dissipated_; }
-  /// Radius of the contact edge after the last correct(), 0 if open: where the gap, extrapolated from the
-  /// first two open surface points as (r - a)^1.5 beside the last closed one, vanishes.
+  /// Radius of the contact edge after the last correct(), 0 if open.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;
-  virtual void visit_state(StateArchive& archive);
+  virtual void visit_state(StateArchive& archive) = 0;
 
  protected:
   double dissipated_ = 0;
+};
+
+/// Contact of the first body's surface with the rigid, frictionless plane z = 0 or with the second body,
+/// which is described in its own frame: pole at the origin, mirrored, so that the gap is the sum of both
+/// heights. The contact edge is where the gap, extrapolated from the first two open surface points as
+/// (r - a)^1.5 beside the last closed one, vanishes.
+class Contact : public BasicContact<Body>
+{
+ public:
+  void visit_state(StateArchive& archive) override;
 };
 
 /// Edge of a contact from the last closed surface point and the next two, as above.

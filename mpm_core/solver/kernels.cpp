@@ -4,12 +4,15 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "solver/spatial/spatial_kernels.hpp"
 
 namespace granulaw {
 
 namespace {
 
-const Kernels& choose()
+enum class InstructionSet { generic, avx2, avx512 };
+
+InstructionSet choose()
 {
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -17,23 +20,36 @@ const Kernels& choose()
   const char* wish = std::getenv("GRANULAW_ISA");
   if (wish) {
     const std::string_view name(wish);
-    if (name == "generic") return isa_generic::kernels;
-    if (name == "avx2" && avx2) return isa_avx2::kernels;
-    if (name == "avx512" && avx512) return isa_avx512::kernels;
+    if (name == "generic") return InstructionSet::generic;
+    if (name == "avx2" && avx2) return InstructionSet::avx2;
+    if (name == "avx512" && avx512) return InstructionSet::avx512;
     fail("environment GRANULAW_ISA", "this processor cannot run these kernels", name,
          avx512 ? "generic, avx2, avx512" : (avx2 ? "generic, avx2" : "generic"));
   }
-  if (avx512) return isa_avx512::kernels;
-  if (avx2) return isa_avx2::kernels;
-  return isa_generic::kernels;
+  if (avx512) return InstructionSet::avx512;
+  if (avx2) return InstructionSet::avx2;
+  return InstructionSet::generic;
+}
+
+InstructionSet instruction_set()
+{
+  static const InstructionSet chosen = choose();
+  return chosen;
 }
 
 }  // namespace
 
 const Kernels& kernels()
 {
-  static const Kernels& chosen = choose();
-  return chosen;
+  const Kernels* sets[] = {&isa_generic::kernels, &isa_avx2::kernels, &isa_avx512::kernels};
+  return *sets[static_cast<int>(instruction_set())];
+}
+
+const SpatialKernels& spatial_kernels()
+{
+  const SpatialKernels* sets[] = {&isa_generic::spatial_kernels, &isa_avx2::spatial_kernels,
+                                  &isa_avx512::spatial_kernels};
+  return *sets[static_cast<int>(instruction_set())];
 }
 
 }  // namespace granulaw

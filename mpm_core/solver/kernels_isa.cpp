@@ -6,73 +6,15 @@
 // of each other: gather (grid: displacement gradients), stress (material), corner_forces (grid).
 #include <type_traits>
 
-#include "solver/flow/laws.hpp"
-#include "solver/flow/plastic_increment.hpp"
+#include "solver/kernel_flow.hpp"
+#include "solver/kernel_math.hpp"
 #include "solver/kernels.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
 namespace {
 
-template <class Real>
-GRANULAW_INLINE Real root_of(Real x)
-{
-  if constexpr (std::is_same_v<Real, float>)
-    return __builtin_sqrtf(x);
-  else
-    return __builtin_sqrt(x);
-}
-
-/// ln(1 + x) for 1 + x between about 0.2 and 5, relative error below 1e-11 there and 1e-16 for |x| < 0.3
-/// (float: rounding): ln(1+x) = 2 ln sqrt(1+x) = 4 artanh(s), s = x/(2 + 2 sqrt(1+x) + x). Exact to rounding
-/// as x -> 0.
-template <class Real>
-GRANULAW_INLINE Real log_1p(Real x)
-{
-  const Real root = root_of(Real(1) + x);
-  const Real s = x / (Real(2) + Real(2) * root + x), q = s * s;
-  Real sum;
-  if constexpr (std::is_same_v<Real, float>) {
-    sum = Real(1.0 / 9.0);
-  } else {
-    sum = 1.0 / 21.0;
-    sum = sum * q + 1.0 / 19.0;
-    sum = sum * q + 1.0 / 17.0;
-    sum = sum * q + 1.0 / 15.0;
-    sum = sum * q + 1.0 / 13.0;
-    sum = sum * q + 1.0 / 11.0;
-    sum = sum * q + 1.0 / 9.0;
-  }
-  sum = sum * q + Real(1.0 / 7.0);
-  sum = sum * q + Real(1.0 / 5.0);
-  sum = sum * q + Real(1.0 / 3.0);
-  sum = sum * q + Real(1);
-  return Real(4) * s * sum;
-}
-
-/// exp(t) - 1 for small t, such as one time step's plastic flow or a volume strain; relative error 1e-16 at
-/// |t| = 0.05, 5e-11 at 0.3.
-template <class Real>
-GRANULAW_INLINE Real exp_m1(Real t)
-{
-  Real sum;
-  if constexpr (std::is_same_v<Real, float>) {
-    sum = Real(1.0 / 720.0);
-  } else {
-    sum = 1.0 / 362880.0;
-    sum = sum * t + 1.0 / 40320.0;
-    sum = sum * t + 1.0 / 5040.0;
-    sum = sum * t + 1.0 / 720.0;
-  }
-  sum = sum * t + Real(1.0 / 120.0);
-  sum = sum * t + Real(1.0 / 24.0);
-  sum = sum * t + Real(1.0 / 6.0);
-  sum = sum * t + Real(0.5);
-  sum = sum * t + Real(1);
-  return t * sum;
-}
-
-constexpr int block_points = 64;
+using namespace kernel;
 
 /// What the stages hand on for the points of one block.
 template <class Real>
@@ -161,15 +103,6 @@ __attribute__((noinline)) void corner_forces(Body& body, int first, int count, c
     }
   }
 }
-
-/// Hardening "laws" of a body that does not yield: with nothing to remember, and with the elastic strain that
-/// an `updated` grid keeps.
-struct Elastic
-{
-};
-struct ElasticWithState
-{
-};
 
 /// State of the points of one block, from its first.
 template <class Real>
@@ -273,101 +206,6 @@ GRANULAW_INLINE Trial<Real> trial_state(const Block<Real>& block, const PointSta
     t.jacobian = one + exp_m1(t.trace);
   }
   return t;
-}
-
-/// Which points of a block flow and are yet to be searched, closed up: their increments by Newton steps side
-/// by side until none moves any more.
-template <class Real, class Hardening, class Rate>
-GRANULAW_INLINE void search_flow(Trials<Real>& block, int count, const int (&open)[block_points],
-                                 const Real* __restrict plastic_strain, const Hardening hardening,
-                                 const Rate rate, double shear3, double per_dt)
-{
-  int point[block_points + 8], found = 0;
-  for (int p = 0; p < count; ++p) {
-    point[found] = p;
-    found += open[p];
-  }
-  if (found == 0) return;
-  const int lanes = (found + 7) / 8 * 8;  // whole vectors
-  for (int i = found; i < lanes; ++i) point[i] = point[found - 1];
-
-  alignas(64) double trial[block_points], jacobian[block_points], ep[block_points], start[block_points],
-      top[block_points], u[block_points], low[block_points], high[block_points], strain[block_points],
-      factor[block_points];
-  for (int i = 0; i < lanes; ++i) {
-    trial[i] = block.q[point[i]], jacobian[i] = block.jacobian[point[i]];
-    ep[i] = plastic_strain[point[i]];
-  }
-#pragma omp simd
-  for (int i = 0; i < lanes; ++i) {
-    const flow::Search s = flow::begin_search(hardening, rate, trial[i], jacobian[i], shear3, ep[i], per_dt);
-    start[i] = s.start, top[i] = s.top, u[i] = s.u, low[i] = s.low, high[i] = s.high;
-    strain[i] = s.strain, factor[i] = s.factor;
-  }
-  for (int step = 0; step < flow::newton_steps; ++step) {
-    int moving = 0;
-#pragma omp simd reduction(+ : moving)
-    for (int i = 0; i < lanes; ++i) {
-      flow::Search s{trial[i], jacobian[i], ep[i],   start[i],  top[i],
-                     u[i],     low[i],      high[i], strain[i], factor[i]};
-      moving += flow::newton_step(s, hardening, rate, shear3, per_dt) ? 0 : 1;
-      u[i] = s.u, low[i] = s.low, high[i] = s.high, strain[i] = s.strain, factor[i] = s.factor;
-    }
-    if (moving == 0) break;
-  }
-  for (int i = 0; i < found; ++i) {
-    block.strain[point[i]] = Real(strain[i]);
-    block.stress[point[i]] = Real(0.5 * (start[i] * factor[i] + trial[i] - shear3 * strain[i]));
-  }
-}
-
-/// Finds what the points of a block flow; whether any does. Perfect and linear hardening in closed form;
-/// other laws by Newton steps from the tangent, and where these do not suffice, as at the steep start of a
-/// power or with a rate, by a search.
-template <class Real, class Hardening, class Rate>
-GRANULAW_INLINE bool find_flow(Trials<Real>& block, int count, const Real* __restrict plastic_strain,
-                               const Hardening hardening, const Rate rate, const Moduli& moduli,
-                               double per_dt)
-{
-  const Real least = Real(hardening(0.0).value);  // no law softens
-  int beyond = 0;
-#pragma omp simd reduction(+ : beyond)
-  for (int p = 0; p < count; ++p) beyond += block.q[p] > block.jacobian[p] * least ? 1 : 0;
-  if (beyond == 0) return false;
-
-  const double shear3 = 3.0 * moduli.shear;
-  if constexpr (std::is_same_v<Hardening, flow::Linear> && std::is_same_v<Rate, flow::RateIndependent>) {
-    // q - 3 G dg = J (sigma_y + H dg)
-    const Real yield = Real(moduli.yield), modulus = Real(moduli.hardening), stiffness = Real(shear3);
-#pragma omp simd
-    for (int p = 0; p < count; ++p) {
-      const Real jacobian = block.jacobian[p], stress = yield + modulus * plastic_strain[p];
-      const Real over = block.q[p] - jacobian * stress;
-      const Real strain = over > Real(0) ? over / (stiffness + jacobian * modulus) : Real(0);
-      block.strain[p] = strain;
-      block.stress[p] = jacobian * (stress + Real(0.5) * modulus * strain);
-    }
-  } else {
-    int open[block_points];
-    if constexpr (std::is_same_v<Rate, flow::RateIndependent>) {
-#pragma omp simd
-      for (int p = 0; p < count; ++p) {
-        const flow::TangentIncrement found =
-            flow::tangent_increment(hardening, block.q[p], block.jacobian[p], shear3, plastic_strain[p]);
-        block.strain[p] = Real(found.strain), block.stress[p] = Real(found.stress);
-        open[p] = found.converged ? 0 : 1;
-      }
-    } else {
-#pragma omp simd
-      for (int p = 0; p < count; ++p) {
-        const double q = block.q[p];
-        block.strain[p] = Real(0), block.stress[p] = Real(q);
-        open[p] = q > block.jacobian[p] * hardening(plastic_strain[p]).value ? 1 : 0;
-      }
-    }
-    search_flow(block, count, open, plastic_strain, hardening, rate, shear3, per_dt);
-  }
-  return true;
 }
 
 /// The point after its flow: plastic state, stored energy, first Piola-Kirchhoff stress.
@@ -543,30 +381,6 @@ __attribute__((noinline)) void update_region(Body& body, const Region& region, T
   }
 }
 
-template <class Real, class Rate, class... Hardening>
-void with_hardening(Body& body, const Region& region, Then then, flow::LawList<Hardening...>)
-{
-  const flow::Flow& laws = region.moduli.flow;
-  int k = 0;
-  ((k++ == laws.hardening
-        ? update_region<Real>(body, region, then, Hardening::from(region.moduli.yield, laws.hardening_values),
-                              Rate::from(laws.rate_values))
-        : void()),
-   ...);
-}
-
-template <class Real, class... Rate>
-void with_rate(Body& body, const Region& region, Then then, flow::LawList<Rate...>)
-{
-  int k = 0;
-  ((k++ == region.moduli.flow.rate ? with_hardening<Real, Rate>(body, region, then, flow::HardeningLaws{})
-                                   : void()),
-   ...);
-}
-
-constexpr flow::Linear linear{};
-constexpr flow::RateIndependent no_rate{};
-
 /// Every region under its own laws.
 template <class Real>
 void update(Body& body, Then then)
@@ -577,9 +391,11 @@ void update(Body& body, Then then)
     else if (!region.moduli.yields)
       update_region<Real>(body, region, then, ElasticWithState{}, no_rate);
     else if (region.moduli.flow.hardening == 0 && region.moduli.flow.rate == 0)
-      update_region<Real>(body, region, then, linear, no_rate);
+      update_region<Real>(body, region, then, flow::Linear{}, no_rate);
     else
-      with_rate<Real>(body, region, then, flow::RateLaws{});
+      with_flow_laws(region.moduli, [&](auto hardening, auto rate) {
+        update_region<Real>(body, region, then, hardening, rate);
+      });
   }
   body.elapsed = 0.0;
 }

@@ -24,10 +24,11 @@ enum class GridKind {
   automatic,    ///< what the scene needs: `mapped` for homogeneous spheres, else `rectilinear`
   mapped,       ///< fitted to the sphere: fastest and most exact
   rectilinear,  ///< graded Cartesian reference grid: any body of revolution, layers, inclusions
-  updated       ///< the points move through a fixed grid: the independent check
+  updated,      ///< the points move through a fixed grid: the independent check
+  spatial       ///< graded rectilinear in three dimensions: any shape, side, friction (spatial_runs.hpp)
 };
 
-/// "auto", "mapped", "rectilinear" or "updated", as the command line has it.
+/// "auto", "mapped", "rectilinear", "updated" or "rectilinear-3d", as the command line has it.
 const char* name_of(GridKind grid);
 
 /// Precision of the material points; nodes are double always.

@@ -8,12 +8,23 @@
 
 namespace granulaw {
 
-/// What is simulated: one body above the rigid plane z = 0, or two against each other, each in its own frame
-/// (contact pole at the origin, body in z >= 0: the second one is mirrored).
-struct Scene
+/// What is simulated: bodies, and what keeps them from passing through each other or through planes.
+template <class Body>
+struct BasicScene
 {
+  using BodyType = Body;
+
   std::vector<Body> bodies;
-  std::unique_ptr<Contact> contact;
+  std::unique_ptr<BasicContact<Body>> contact;
+};
+
+class FieldRecorder;
+
+/// Axisymmetric: one body above the rigid plane z = 0, or two against each other, each in its own frame
+/// (contact pole at the origin, body in z >= 0: the second one is mirrored).
+struct Scene : BasicScene<Body>
+{
+  using Recorder = FieldRecorder;
 
   /// Overlap: how far the centres of mass have come towards the plane, or towards each other.
   double overlap() const

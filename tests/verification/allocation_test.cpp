@@ -82,7 +82,7 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
   const Collision collision(particle, partner, options, Support::free);
   Scene scene = collision.build(pressed ? depth : collision.expected_overlap(velocity), 8, 0.0);
   const double reduced = scene.reduced_mass();
-  std::vector<StableStep> stable;
+  std::vector<StableStep<Body>> stable;
   for (Body& body : scene.bodies) {
     stable.emplace_back(body);
     if (!pressed) body.throw_along(-velocity * reduced / body.mass);

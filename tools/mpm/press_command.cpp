@@ -1,14 +1,18 @@
 // mpm press: one slow press and unloading by the solver, onto a wall or another particle.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "base/error.hpp"
 #include "command.hpp"
 #include "option_checks.hpp"
+#include "planes_file.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
+#include "solver/spatial/spatial_runs.hpp"
 
 namespace granulaw {
 
@@ -20,6 +24,7 @@ struct PressRequest
   double depth = 0;  // over R
   std::string support = "free";
   std::optional<double> ramp;  // R/c*
+  std::string planes;
 };
 
 /// Shallowest press, over R: a contact of about 1e-4 R. The time step goes with its cells, so smaller ones
@@ -50,8 +55,24 @@ PressPlan plan_of(const PressRequest& r, const Particle& particle)
   return plan;
 }
 
-void press(const PressRequest& r)
+void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentity asked,
+                     const std::function<void(const RunIdentity&, const Run&)>& run)
 {
+  if (r.support != "free")
+    fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
+  PlanesPlan plan;
+  plan.planes = read_planes(r.planes.empty() ? "pair" : r.planes);
+  plan.depth = r.depth * particle.radius;
+  plan.ramp = r.ramp.value_or(0);
+  for (const PressPlane& p : plan.planes)
+    asked.emplace_back("--planes", fmt::format("{} {} {} {}", fmt::join(p.direction, " "),
+                                               p.distance.value_or(-1), p.speed, p.friction));
+  run(asked, [&](const RunOptions& options) { return run_planes_press(particle, plan, options); });
+}
+
+void press(PressRequest r)
+{
+  if (!r.planes.empty()) require_three_dimensions(r.run, "--planes");
   check(r);
   const Meeting m = read_meeting(r.run);
   check_numbers(r);
@@ -61,6 +82,10 @@ void press(const PressRequest& r)
                           {"--depth", fmt::format("{}", r.depth)},
                           {"--support", r.support},
                           {"--ramp", fmt::format("{}", r.ramp.value_or(0))}};
+  if (in_three_dimensions(r.run, m.particle))
+    return press_by_planes(r, m.particle, asked, [&](const RunIdentity& identity, const Run& run) {
+      run_and_report(r.run, m, identity, true, run);
+    });
   run_and_report(r.run, m, asked, true,
                  [&](const RunOptions& options) { return run_press(m.particle, plan, options, m.partner); });
 }
@@ -75,6 +100,12 @@ void define(CLI::App& command)
   command.add_option("--ramp", r->ramp,
                      "loading time in R/c*, c* = sqrt(E*/rho), 1 to 1e6 (default: long enough for the "
                      "rate-free law, 60 or more where the material yields)");
+  command.add_option(
+      "--planes", r->planes,
+      "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE "
+      "with a line for each: nx ny nz [distance speed friction], the direction from the body to the "
+      "plane in the body's frame, its distance from the origin there (m; touch: where it touches), "
+      "its way over --depth (1), Coulomb's coefficient (0). Three dimensions without it: pair");
   command.callback([r] { press(*r); });
 }
 

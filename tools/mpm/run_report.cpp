@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/scales.hpp"
 #include "collision_report.hpp"
 #include "json_output.hpp"
 #include "solver/run/scene_builder.hpp"
 #include "solver/solid/solid.hpp"
+#include "solver/spatial/spatial_runs.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -22,8 +26,55 @@ void print_yield(const Material& m, double velocity)
                m.density * velocity * velocity / m.yield_stress);
 }
 
-void print_as_json(const RunRequest& r, const Particle& particle, const RunSummary& s)
+nlohmann::ordered_json plane_json(const RunResult& result, std::size_t k)
 {
+  const PlaneTrace& plane = result.planes[k];
+  double delta = 0, force = 0;
+  for (const PlaneSample& p : plane.samples)
+    delta = std::max(delta, p.delta), force = std::max(force, p.force);
+  nlohmann::ordered_json out;
+  out["normal"] = {-plane.normal[0], -plane.normal[1], -plane.normal[2]};  // from the body to the plane
+  out["delta_max_m"] = delta;
+  out["force_max_N"] = force;
+  out["force_N_at_depth"] = force_at_depth(result, k);
+  return out;
+}
+
+/// What three-dimensional runs know besides.
+void put_three_dimensions(nlohmann::ordered_json& out, const RunResult& result)
+{
+  if (result.rebound) {
+    const Rebound& rebound = *result.rebound;
+    out["e_tangential"] = json_number(rebound.tangential);
+    out["spin_after_rad_s"] = rebound.spin[1];
+    out["spin_after_xyz_rad_s"] = rebound.spin;
+    out["impulse_normal_Ns"] = rebound.impulse_normal;
+    out["impulse_tangential_Ns"] = rebound.impulse_tangential;
+    return;
+  }
+  for (std::size_t k = 0; k < result.planes.size(); ++k) out["planes"].push_back(plane_json(result, k));
+}
+
+void print_three_dimensions(const RunResult& result)
+{
+  if (result.rebound) {
+    const Rebound& rebound = *result.rebound;
+    if (std::isfinite(rebound.tangential))
+      fmt::print("tangential restitution         {:.4f}\n", rebound.tangential);
+    fmt::print("spin after                     {:.5g} rad/s\n", rebound.spin[1]);
+    fmt::print("impulse, normal, tangential    {:.5g} N s, {:.5g} N s\n", rebound.impulse_normal,
+               rebound.impulse_tangential);
+    return;
+  }
+  for (std::size_t k = 0; k < result.planes.size(); ++k)
+    fmt::print("plane {:2} towards ({:.3g}, {:.3g}, {:.3g})  {:.5g} N at depth\n", k + 1,
+               -result.planes[k].normal[0], -result.planes[k].normal[1], -result.planes[k].normal[2],
+               force_at_depth(result, k));
+}
+
+void print_as_json(const RunRequest& r, const Particle& particle, const RunResult& result)
+{
+  const RunSummary& s = result.summary;
   nlohmann::ordered_json out = collision_json(s);
   put_effort(out, s.points, s.steps, s.cpu_s, s.point_updates_per_s, s.error_estimate);
   out["grid"] = grid_name(r, particle);
@@ -35,6 +86,7 @@ void print_as_json(const RunRequest& r, const Particle& particle, const RunSumma
   out["plastic_strain_max"] = s.plastic_strain_max;
   out["contact_loss"] = s.contact_loss;
   out["hourglass"] = s.hourglass;
+  put_three_dimensions(out, result);
   print_json(out, 2);
 }
 
@@ -66,8 +118,9 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
-  if (r.json) return print_as_json(r, particle, s);
+  if (r.json) return print_as_json(r, particle, result);
   print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
+  print_three_dimensions(result);
   if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
              s.cpu_s, 1e-6 * s.point_updates_per_s);

@@ -20,9 +20,9 @@ GridKind grid_of(const std::string& name)
 {
   if (name == "tartan") return GridKind::rectilinear;  // an alias
   for (const GridKind grid :
-       {GridKind::automatic, GridKind::mapped, GridKind::rectilinear, GridKind::updated})
+       {GridKind::automatic, GridKind::mapped, GridKind::rectilinear, GridKind::updated, GridKind::spatial})
     if (name == name_of(grid)) return grid;
-  fail("--grid", "unknown grid", name, "auto, mapped, rectilinear, updated");
+  fail("--grid", "unknown grid", name, "auto, mapped, rectilinear, updated, rectilinear-3d");
 }
 
 bool same_file(const std::string& a, const std::filesystem::path& b)
@@ -76,8 +76,8 @@ void add_accuracy(CLI::App& command, RunRequest& r)
   command.add_option(
       "--grid", r.grid,
       "mapped (fitted to the sphere), rectilinear or tartan (graded: any shape, layers, inclusions), "
-      "updated (points move through the grid: the independent check); default: what the particle "
-      "needs");
+      "updated (points move through the grid: the independent check), rectilinear-3d (three dimensions: "
+      "any shape, side and friction); default: what the particle and the scene need");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   CLI::Option* with_resolution = command.add_option(
       "--resolution", r.resolution, "cells across the contact block, 6 to 200 (default: the run's own)");
@@ -177,6 +177,30 @@ Meeting read_meeting(const RunRequest& r)
   if (!r.against.empty()) meeting.partner.particle = file.particle(r.against);
   if (!r.wall.empty()) meeting.partner.wall = file.material(r.wall);
   return meeting;
+}
+
+void require_three_dimensions(RunRequest& r, const std::string& option)
+{
+  if (r.grid != "auto" && r.grid != name_of(GridKind::spatial))
+    fail("--grid", fmt::format("{} needs three dimensions", option), r.grid,
+         fmt::format("{}, or no --grid", name_of(GridKind::spatial)));
+  r.grid = name_of(GridKind::spatial);
+}
+
+bool in_three_dimensions(const RunRequest& r, const Particle& particle)
+{
+  if (grid_name(r, particle) != name_of(GridKind::spatial)) {
+    if (particle.solid)
+      fail("--grid", "a body of any shape needs three dimensions", r.grid,
+           fmt::format("{}, or no --grid", name_of(GridKind::spatial)));
+    return false;
+  }
+  if (!r.against.empty() || !r.wall.empty())
+    fail(r.against.empty() ? "--wall" : "--against",
+         "three dimensions know rigid planes only; leave it out, or take a body of revolution that hits "
+         "along its "
+         "axis");
+  return true;
 }
 
 std::string grid_name(const RunRequest& r, const Particle& particle)

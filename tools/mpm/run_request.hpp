@@ -41,4 +41,11 @@ Meeting read_meeting(const RunRequest& request);
 /// The grid of the particle, by name: the one asked for, else what the particle needs.
 std::string grid_name(const RunRequest& request, const Particle& particle);
 
+/// To be called where an option was given that only the three-dimensional grid knows; throws Error where
+/// another grid is asked for.
+void require_three_dimensions(RunRequest& request, const std::string& option);
+
+/// Whether the run is three-dimensional; throws Error where particle, partner and grid do not go together.
+bool in_three_dimensions(const RunRequest& request, const Particle& particle);
+
 }  // namespace granulaw

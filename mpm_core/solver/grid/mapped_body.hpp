@@ -8,13 +8,6 @@
 
 namespace granulaw {
 
-/// A material of a body that is built, in solver units.
-struct Phase
-{
-  Moduli moduli;
-  double density = 1;
-};
-
 /// Body of one material on a grid fitted to it: one point a cell, four corners, hourglass control in total
 /// form with the modulus `hourglass_modulus`. With one point a cell and persistent nodal velocities the
 /// method is, in the limit, an explicit finite element method: said plainly in the docs. Masses are scaled to

@@ -4,6 +4,27 @@
 
 namespace granulaw {
 
+namespace {
+
+void visit_result(StateArchive& a, RunResult& r)
+{
+  a.growing(r.trace), a.value(r.summary), a.growing(r.yield_overlaps);
+  visit_planes(a, r.planes);
+  bool rebounds = r.rebound.has_value();
+  a.value(rebounds);
+  if (!rebounds) return;
+  if (a.loading()) r.rebound.emplace();
+  a.value(*r.rebound);
+}
+
+}  // namespace
+
+void visit_planes(StateArchive& a, std::vector<PlaneTrace>& planes)
+{
+  planes.resize(a.count(planes.size(), sizeof(PlaneTrace::normal)));
+  for (PlaneTrace& plane : planes) a.value(plane.normal), a.growing(plane.samples);
+}
+
 std::optional<StateArchive> CheckpointSlot::open(Kind kind) const
 {
   if (!store_) return {};
@@ -29,9 +50,7 @@ std::optional<RunResult> CheckpointSlot::finished() const
   std::optional<StateArchive> archive = open(Kind::finished);
   if (!archive) return {};
   RunResult result;
-  archive->growing(result.trace);
-  archive->value(result.summary);
-  archive->growing(result.yield_overlaps);
+  visit_result(*archive, result);
   archive->finish();
   return result;
 }
@@ -39,9 +58,7 @@ std::optional<RunResult> CheckpointSlot::finished() const
 void CheckpointSlot::keep_finished(RunResult& result) const
 {
   if (!store_) return;
-  store(Kind::finished, [&](StateArchive& a) {
-    a.growing(result.trace), a.value(result.summary), a.growing(result.yield_overlaps);
-  });
+  store(Kind::finished, [&](StateArchive& a) { visit_result(a, result); });
 }
 
 bool CheckpointSlot::resume(const Visit& visit) const

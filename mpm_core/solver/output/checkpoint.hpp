@@ -28,6 +28,8 @@ struct CheckpointStore
   explicit operator bool() const { return static_cast<bool>(save); }
 };
 
+void visit_planes(StateArchive& archive, std::vector<PlaneTrace>& planes);
+
 /// The place of one run in a store. Without a store every call is a single test.
 class CheckpointSlot
 {

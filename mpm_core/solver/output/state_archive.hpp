@@ -40,8 +40,8 @@ class StateArchive
   void value(std::string& x);
 
   /// A field whose size follows from the request: another size is refused.
-  template <class T>
-  void values(std::vector<T>& x)
+  template <class T, class Allocator>
+  void values(std::vector<T, Allocator>& x)
   {
     expect(x.size(), "size of a field");
     raw(x.data(), x.size() * sizeof(T));

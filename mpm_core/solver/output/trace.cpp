@@ -22,6 +22,19 @@ void change_units(RunResult& run, const Scales& unit, Change change)
   change(s.contact_time, unit.time());
   change(s.work_load, unit.energy());
   change(s.work_unload, unit.energy());
+  for (PlaneTrace& plane : run.planes)
+    for (PlaneSample& p : plane.samples) {
+      change(p.delta, unit.length), change(p.force, unit.force());
+      for (int d = 0; d < 3; ++d) {
+        change(p.vector[d], unit.force()), change(p.torque[d], unit.energy());
+        change(p.centre[d], unit.length);
+      }
+      for (double& axis : p.axes) change(axis, unit.length);
+    }
+  if (!run.rebound) return;
+  for (double& w : run.rebound->spin) change(w, 1 / unit.time());
+  for (double* impulse : {&run.rebound->impulse_normal, &run.rebound->impulse_tangential})
+    change(*impulse, unit.force() * unit.time());
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "base/scales.hpp"
@@ -50,6 +52,34 @@ struct RunSummary
   double grid_noise = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 
+/// What one plane did over a sample of the trace; three-dimensional runs, SI.
+struct PlaneSample
+{
+  double delta;  ///< m, way of the plane into the body's first place; of an impact its overlap
+  double force;  ///< N, normal
+  std::array<double, 3> vector;  ///< N, force on the body
+  std::array<double, 3> torque;  ///< N m, of it about the body's centre of mass
+  std::array<double, 3> centre;  ///< m, where the normal force acts, from that centre
+  std::array<double, 2> axes;    ///< m, half axes of the contact, larger first
+};
+
+/// One plane of a three-dimensional run.
+struct PlaneTrace
+{
+  std::array<double, 3> normal{};    ///< away from the plane
+  std::vector<PlaneSample> samples;  ///< one for each sample of the trace
+};
+
+/// How a body leaves a plane; three-dimensional impacts, SI.
+struct Rebound
+{
+  double normal = 0;              ///< restitution of the centre's normal velocity
+  double tangential = 0;          ///< of its tangential velocity; not a number without one before
+  std::array<double, 3> spin{};   ///< rad/s after, angular momentum over the tensor of inertia
+  double impulse_normal = 0;      ///< N s
+  double impulse_tangential = 0;  ///< N s, on the body, positive against the tangential velocity or spin
+};
+
 struct RunResult
 {
   std::vector<TraceSample> trace;
@@ -57,6 +87,8 @@ struct RunResult
   /// m, by the particle's materials, where RunOptions::yield_stresses asks for it: overlap at which the von
   /// Mises stress first reaches the yield stress during the loading; infinity: it does not.
   std::vector<double> yield_overlaps;
+  std::vector<PlaneTrace> planes;  ///< of three-dimensional runs
+  std::optional<Rebound> rebound;  ///< of three-dimensional impacts
 };
 
 /// A run whose numbers are over these scales, in SI.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/output/state_archive.hpp"
+#include "solver/spatial/spatial_scene.hpp"
 
 namespace granulaw {
 
@@ -14,10 +15,6 @@ double smooth_step(double t)
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
-
-/// Time without contact after which a body counts as having left: a few crossings of the contact zone would
-/// do; a surface vibration can close the contact again within about one crossing of the sphere (2 R/c).
-constexpr double leaving_time = 2.0;
 
 /// At a reversal of the press the body is held and its vibration (slowest mode: period about 2.6 R/c) damped
 /// out at about critical rate. Without it e at 0.02 R would still depend on the ramp: .5845, .5877, .5890 for
@@ -40,7 +37,8 @@ double most_damping(const Scene& scene, double velocity)
 
 }  // namespace
 
-void ImpactProgramme::apply(Scene& scene, double time, double dt, bool touching)
+template <class Scene>
+void FreeFlight<Scene>::apply(Scene& scene, double time, double dt, bool touching)
 {
   time_ = time + dt;
   if (touching) last_touch_ = time_;
@@ -48,15 +46,20 @@ void ImpactProgramme::apply(Scene& scene, double time, double dt, bool touching)
   finished_ = rebounding_ && time_ - last_touch_ > leaving_time;
 }
 
-double ImpactProgramme::progress() const
+template <class Scene>
+double FreeFlight<Scene>::progress() const
 {
   return std::min(1.0, time_ / expected_);
 }
 
-void ImpactProgramme::visit_state(StateArchive& a)
+template <class Scene>
+void FreeFlight<Scene>::visit_state(StateArchive& a)
 {
   a.value(last_touch_), a.value(time_), a.value(rebounding_), a.value(finished_);
 }
+
+template class FreeFlight<Scene>;
+template class FreeFlight<SpatialScene>;
 
 void PressProgramme::start_loading(double time, double overlap)
 {

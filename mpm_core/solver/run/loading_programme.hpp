@@ -9,10 +9,11 @@ namespace granulaw {
 
 /// What moves the bodies: sets velocities after the contact impulse of a step (before it, the reported
 /// overlap would drift by the integral of F dt^2/m) and knows when the run is over. Solver units.
-class LoadingProgramme
+template <class Scene>
+class BasicProgramme
 {
  public:
-  virtual ~LoadingProgramme() = default;
+  virtual ~BasicProgramme() = default;
   /// Velocities for the step from `time` to `time + dt`; `touching`: the contact pushed in this step.
   virtual void apply(Scene& scene, double time, double dt, bool touching) = 0;
   virtual bool finished() const = 0;
@@ -26,12 +27,14 @@ class LoadingProgramme
   virtual double work() const { return 0; }
   virtual void visit_state(StateArchive& archive) = 0;
 };
+using LoadingProgramme = BasicProgramme<Scene>;
 
 /// Free bodies; over when they have parted for good.
-class ImpactProgramme : public LoadingProgramme
+template <class Scene>
+class FreeFlight : public BasicProgramme<Scene>
 {
  public:
-  explicit ImpactProgramme(double expected_duration) : expected_(expected_duration) {}
+  explicit FreeFlight(double expected_duration) : expected_(expected_duration) {}
   void apply(Scene& scene, double time, double dt, bool touching) override;
   bool finished() const override { return finished_; }
   Branch branch() const override { return rebounding_ ? Branch::unload : Branch::load; }
@@ -43,6 +46,11 @@ class ImpactProgramme : public LoadingProgramme
   double expected_, last_touch_ = 0, time_ = 0;
   bool rebounding_ = false, finished_ = false;
 };
+using ImpactProgramme = FreeFlight<Scene>;
+
+/// Time without contact after which a body counts as having left: a few crossings of the contact zone would
+/// do; a surface vibration can close the contact again within about one crossing of the sphere (2 R/c).
+inline constexpr double leaving_time = 2.0;
 
 /// Bodies pressed along smooth ramps by uniform body forces (free) or by the equator plane (midplane, one
 /// body): overlap(t) from stop to stop as sin^2 (velocity zero at both ends, so also at first touch);

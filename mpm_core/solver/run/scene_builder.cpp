@@ -28,15 +28,6 @@ double hourglass_modulus(const Moduli& m)
   return m.yields ? std::min(0.05 * m.shear, m.yield) : 0.05 * m.shear;
 }
 
-Phase phase_of(const Material& m, const Scales& scale)
-{
-  const flow::Flow laws = flow_of(m, scale.stress, scale.time());
-  const double e = m.youngs_modulus / scale.stress, nu = m.poisson_ratio;
-  return {{e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu)), m.yields() ? m.yield_stress / scale.stress : 0,
-           laws.hardening == 0 ? laws.hardening_values[0] : 0, m.yields(), laws},
-          m.density / scale.density};
-}
-
 /// Volume of each material, m^3, by midpoint samples of the section: exact for homogeneous bodies.
 double mass_of(const Particle& p)
 {
@@ -108,14 +99,24 @@ void check_particle(const Particle& p, const char* where)
 
 }  // namespace
 
+Phase phase_of(const Material& m, const Scales& scale)
+{
+  const flow::Flow laws = flow_of(m, scale.stress, scale.time());
+  const double e = m.youngs_modulus / scale.stress, nu = m.poisson_ratio;
+  return {{e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu)), m.yields() ? m.yield_stress / scale.stress : 0,
+           laws.hardening == 0 ? laws.hardening_values[0] : 0, m.yields(), laws},
+          m.density / scale.density};
+}
+
 const char* name_of(GridKind grid)
 {
-  constexpr const char* names[] = {"auto", "mapped", "rectilinear", "updated"};
+  constexpr const char* names[] = {"auto", "mapped", "rectilinear", "updated", "rectilinear-3d"};
   return names[static_cast<int>(grid)];
 }
 
 GridChoice choose_grid(const Particle& p)
 {
+  if (p.solid) return {GridKind::spatial, "a body of any shape: three dimensions"};
   if (p.is_homogeneous_sphere())
     return {GridKind::mapped, "a homogeneous sphere: the grid fitted to it is fastest and most exact"};
   if (!p.layers.empty() || !p.inclusions.empty())
@@ -166,6 +167,9 @@ void Collision::check_bodies() const
 void Collision::check_grid() const
 {
   const bool two = partner_.particle || partner_.wall;
+  if (options_.grid == GridKind::spatial)
+    fail("--grid", "three dimensions know rigid planes only, and have their own runs (spatial_runs.hpp)",
+         name_of(options_.grid), "mapped, rectilinear, updated");
   if (options_.grid == GridKind::mapped)
     for (const Particle* p : {&particle_, partner_.particle ? &*partner_.particle : nullptr})
       if (p && !p->is_homogeneous_sphere())

@@ -10,6 +10,9 @@ namespace granulaw {
 /// Solver units of a run: the first particle's radius, and E* and density of its body material.
 Scales scales_of(const Particle& particle);
 
+/// A material in solver units.
+Phase phase_of(const Material& material, const Scales& scale);
+
 /// A particle and its partner as the estimates below and the grids need them; solver units.
 class Collision
 {

@@ -22,5 +22,7 @@ std::vector<RunResult> run_on_shifted_grids(
 /// Mean of the members' traces, segment by segment of the programme, each at the same share of its way
 /// through the segment: the members reverse a few steps apart, and none of them loses its reversal.
 std::vector<TraceSample> mean_trace(const std::vector<RunResult>& members);
+/// The planes' samples that go with it.
+std::vector<PlaneTrace> mean_planes(const std::vector<RunResult>& members);
 
 }  // namespace granulaw

@@ -9,20 +9,26 @@
 #include "solver/run/loading_programme.hpp"
 #include "solver/runs.hpp"
 #include "solver/scene.hpp"
+#include "solver/spatial/spatial_recorder.hpp"
+#include "solver/spatial/spatial_scene.hpp"
 #include "solver/time_step.hpp"
 
 namespace granulaw {
 
 /// One scene under one programme, from first touch to the end; solver units.
+template <class Scene>
 class Simulation
 {
  public:
+  using Programme = BasicProgramme<Scene>;
+  using Recorder = typename Scene::Recorder;
+
   /// `expected`: duration of the run, about, R/c*. `stress`: the solver's unit, Pa.
   Simulation(Scene scene, const RunOptions& options, double expected, double stress);
 
   /// Steps until the loading programme has finished, on from where `checkpoint` stands if that holds a state.
   /// `observe` sees every sample of the trace. Bodies and drive must be as at the start of the run.
-  void run(LoadingProgramme& programme, FieldRecorder fields, const std::function<void(double)>& progress,
+  void run(Programme& programme, Recorder fields, const std::function<void(double)>& progress,
            const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint = {});
 
   Scene scene;
@@ -37,13 +43,13 @@ class Simulation
  private:
   double step_limit() const;
   double work(bool load) const;
-  bool step(LoadingProgramme& programme);
+  bool step(Programme& programme);
   void end_sample(Branch branch, int segment, double overlap_before);
-  void summarise(const LoadingProgramme& programme);
-  void visit_state(LoadingProgramme& programme, StateArchive& archive);
+  void summarise(const Programme& programme);
+  void visit_state(Programme& programme, StateArchive& archive);
 
   YieldWatch yield_watch_;
-  std::vector<StableStep> stable_;
+  std::vector<StableStep<typename Scene::BodyType>> stable_;
   double courant_;
   double window_;  // sample interval
   double window_end_ = 0;

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/grid/spline_axis.hpp"
+#include "solver/moduli.hpp"
+#include "solver/spatial/aligned_vector.hpp"
+
+namespace granulaw {
+
+class StateArchive;
+
+/// Octants of a cell: the lanes of the kernels. Octant 4 x + 2 y + z, each 0 in the lower half of the cell
+/// and 1 in the upper one.
+inline constexpr int octants = 8;
+/// Nodes whose quadratic splines reach into a cell: 3 x 3 x 3, node 9 x + 3 y + z of a cell.
+inline constexpr int cell_nodes = 27;
+
+/// Means of the three splines of an axis and of their slopes over both halves of one cell, one entry for each
+/// octant.
+struct alignas(64) AxisWeights
+{
+  double n[3][octants], dn[3][octants];
+  double per_edge;     ///< 1/h, h the edge of the cell
+  double left, right;  ///< h over itself and the cell before, or behind: with xi = x/h from the middle of the
+                       ///< cell the outer splines are left (xi - 1/2)^2 and right (xi + 1/2)^2
+};
+
+/// A cell with the one material that its points are made of: a cell across an interface occurs once for each
+/// of its materials.
+struct SpatialCell
+{
+  int node;                   ///< the lowest of its nodes; the others follow by the strides of the grid
+  std::array<int, 3> column;  ///< its index along x, y, z
+  int cut;                    ///< place in cut_moments; -1: the whole cell is of this material
+};
+
+/// Cells [begin, end) of one material.
+struct SpatialRegion
+{
+  int begin, end;
+  Moduli moduli;
+  int material = 0;  ///< index in the particle's list
+};
+
+/// Points of the true surface, where planes push: place, cell nodes and their weights.
+struct SpatialSurface
+{
+  int count = 0;
+  std::vector<std::array<double, 3>> place;  ///< on the reference surface
+  std::vector<int> node;                     ///< lowest node of the cell that each lies in
+  std::vector<double> weight;                ///< [count][cell_nodes]
+  std::vector<double> area;                  ///< of the patch of the surface that each stands for
+  double finest = 0;                         ///< shortest edge of a cell with a marker
+};
+
+/// A vector at each node: x, y, z and a zero, so that a node is one access. Entry 4 node + component.
+using NodeField = AlignedVector;
+
+/// Moments of a piece that the kernels read: means over the piece of l(xi) m(eta) n(zeta), l, m, n each one
+/// of 1, xi, xi^2/2 of the cell's own coordinates (-1/2 to 1/2); number 9 l + 3 m + n, all but the last
+/// of 27.
+inline constexpr int cut_moments_each = 26;
+
+/// A three-dimensional body on its graded rectilinear grid, structure of arrays, solver units (E* = rho = 1).
+/// Total Lagrangian: weights are computed once on the reference grid, nodal displacements are kept.
+///
+/// Quadratic B-splines over three axes; node (i, j, k) is (k count_y + j) count_x + i, and nodes that no part
+/// of the body reaches have no mass. Each octant of a cell is a material point (lane p = 8 cell + octant).
+/// Its weights are the means of the splines' gradients over the piece of the body in the octant: linear
+/// displacement fields, uniform stress, momentum and angular momentum are exact (Flanagan and Belytschko
+/// 1981). In a cell that is filled they are products of the axes' own means. Within a cell every spline is a
+/// polynomial, so a cut piece needs its moments only: a third of the memory of its 81 weights.
+struct SpatialBody
+{
+  // grid
+  std::array<SplineAxis, 3> axes;
+  std::array<int, 3> count{};  ///< functions along each axis
+  int nodes = 0;
+  std::array<std::vector<AxisWeights>, 3> axis_weights;
+  std::vector<double> mass_i;
+  NodeField inverse_mass_i;  ///< zero in a direction in which a symmetry plane holds the node
+  NodeField u_i, v_i, f_i;   ///< displacement, velocity, internal force
+  /// the body is one half, quarter or eighth: it is mirrored at the lower end of these axes
+  std::array<bool, 3> mirrored{};
+  double mass = 0;                 ///< of the part that is computed
+  std::array<double, 3> travel{};  ///< displacement of its centre of mass, integrated from the momentum
+  SpatialSurface surface;
+
+  // material points
+  std::vector<SpatialCell> cells;
+  std::vector<SpatialRegion> regions;
+  int points = 0;             ///< octants that hold material; a cell has eight lanes whatever it holds
+  AlignedVector cut_moments;  ///< [cut cell][cut_moments_each][octant]
+  AlignedVector volume_p;     ///< reference volume, 0: nothing there
+  /// plastic state: inverse plastic right Cauchy-Green tensor minus identity, xx yy zz xy xz yz
+  std::array<AlignedVector, 6> c_p;
+  AlignedVector plastic_strain_p, plastic_work_p, elastic_energy_p;
+  double elapsed = 0;  ///< time since the plastic state was last updated
+
+  std::array<int, 3> strides() const { return {1, count[0], count[0] * count[1]}; }
+  /// How many of these parts make the whole body.
+  int copies() const;
+
+  void allocate_nodes();
+  void allocate_points();
+
+  double kinetic_energy() const;
+  double strain_energy() const;
+  double plastic_work() const;
+  double hourglass_energy() const { return 0; }  ///< eight points a cell need no hourglass control
+  void fetch_state() {}                          ///< always double
+  double largest_plastic_strain() const;
+
+  void visit_state(StateArchive& archive);
+};
+
+}  // namespace granulaw

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/contact.hpp"
+#include "solver/spatial/spatial_scene.hpp"
+
+namespace granulaw {
+
+/// A rigid plane; the body lies where normal.x > position.
+struct Plane
+{
+  Vector3 normal;  ///< unit vector away from the plane, into the body
+  double position;
+  double start = position;  ///< where it stood at first
+  double velocity = 0;      ///< of the plane along its normal
+  double friction = 0;      ///< Coulomb's coefficient
+  /// Planes that the mirrored parts of the body meet where this part meets this one, itself included.
+  int copies = 1;
+};
+
+/// What a plane has done since it was last read; of the part of the body that is computed.
+struct PlaneTally
+{
+  Vector3 impulse = Vector3::Zero();  ///< on the body
+  Vector3 torque = Vector3::Zero();   ///< angular impulse about the origin
+  Vector3 centre = Vector3::Zero();   ///< sum of normal impulse times place
+};
+
+/// The surface of one body against rigid planes with Coulomb friction: impulses at the surface's markers,
+/// found by Gauss-Seidel sweeps that start from those of the last step. After a step no marker may have
+/// passed a plane (normal impulse p_n >= 0), and it slides only where the friction is spent:
+///
+///     n.v >= V - gap/dt,  p_n >= 0;    |p_t| <= mu p_n,  p_t opposite to the sliding where equal.
+class SpatialContact : public BasicContact<SpatialBody>
+{
+ public:
+  SpatialContact(const SpatialBody& body, std::vector<Plane> planes);
+
+  double correct(std::span<SpatialBody> bodies, double kick, double dt) override;
+  void account(std::span<const SpatialBody> bodies) override;
+  /// Of the first plane: root of the product of the axes of the ellipse with the second moments of the
+  /// markers in contact.
+  double edge_radius(std::span<const SpatialBody> bodies) const override;
+  void visit_state(StateArchive& archive) override;
+
+  std::vector<Plane>& planes() { return planes_; }
+  const std::vector<Plane>& planes() const { return planes_; }
+  /// Tallies of all planes, which start anew.
+  std::vector<PlaneTally> take_tallies();
+  /// Whether each plane pushed in the last step.
+  bool pushes(int plane) const { return pushing_[plane]; }
+  bool pushes() const;
+  /// Half axes of the contact with a plane, larger first; 0, 0 without contact.
+  std::array<double, 2> contact_axes(const SpatialBody& body, int plane) const;
+  /// Work that the planes have done on the body.
+  double work() const { return work_; }
+
+ private:
+  /// One marker that may touch one plane.
+  struct Row
+  {
+    int marker, plane;
+    double needed;            // velocity along the normal, at least
+    double response;          // normal velocity gained per unit of impulse
+    double tangent_response;  // the same of a tangential one, at most
+    double speed;             // of the plane along its normal
+    Vector3 before;           // velocity at the start of the step
+  };
+  void choose_candidates(const SpatialBody& body);
+  void make_rows(const SpatialBody& body, double kick, double dt);
+  double sweep(SpatialBody& body);
+  Vector3 velocity(const SpatialBody& body, int marker) const;
+  Vector3 place(const SpatialBody& body, int marker) const;
+  void push(SpatialBody& body, int marker, const Vector3& impulse) const;
+  Vector3& impulse(const Row& row) { return impulse_[std::size_t(row.plane) * markers_ + row.marker]; }
+
+  std::vector<Plane> planes_;
+  int markers_;
+  std::array<int, cell_nodes> offsets_;       // entries from a cell's lowest node to each of its nodes
+  std::vector<std::vector<int>> candidates_;  // by plane: markers that might reach it soon
+  double room_ = 0;                           // way that markers may go before candidates are chosen anew
+  std::vector<Vector3> impulse_;              // [plane][marker], of the last step
+  std::vector<Row> rows_;
+  std::vector<char> pushing_;
+  std::vector<PlaneTally> tallies_;
+  double work_ = 0;
+};
+
+}  // namespace granulaw

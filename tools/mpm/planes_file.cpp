@@ -1,0 +1,71 @@
+#include "planes_file.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+
+namespace {
+
+double number(const std::string& word, const std::string& where, const char* what)
+{
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [at, error] = std::from_chars(word.data() + (word[0] == '+' ? 1 : 0), end, value);
+  if (error != std::errc() || at != end || !std::isfinite(value))
+    fail(where, fmt::format("the {} is no number", what), word);
+  return value;
+}
+
+PressPlane plane_of(const std::vector<std::string>& words, const std::string& where)
+{
+  if (words.size() < 3 || words.size() > 6)
+    fail(where, "a plane is nx ny nz [distance speed friction]", fmt::format("{} words", words.size()),
+         "3 to 6");
+  PressPlane plane;
+  double length = 0;
+  for (int d = 0; d < 3; ++d) {
+    plane.direction[d] = number(words[d], where, "direction");
+    length += plane.direction[d] * plane.direction[d];
+  }
+  if (!(length > 0)) fail(where, "the direction has no length");
+  if (words.size() > 3 && words[3] != "touch") plane.distance = number(words[3], where, "distance");
+  if (words.size() > 4) plane.speed = number(words[4], where, "speed");
+  if (words.size() > 5) plane.friction = number(words[5], where, "friction");
+  if (!(std::abs(plane.speed) <= 10))
+    fail(where, "the speed is out of range", words[4], "-10 to 10, over --depth");
+  if (!(plane.friction >= 0 && plane.friction <= 10))
+    fail(where, "the friction is out of range", words[5], "0 to 10");
+  return plane;
+}
+
+}  // namespace
+
+std::vector<PressPlane> read_planes(const std::string& name)
+{
+  std::vector<PressPlane> planes = named_planes(name);
+  if (!planes.empty()) return planes;
+  std::ifstream in(name);
+  if (!in)
+    fail("--planes", "no such arrangement, and no such file", name, "pair, cube, die, bcc, fcc, or a file");
+  std::string line;
+  for (int n = 1; std::getline(in, line); ++n) {
+    std::istringstream text(line.substr(0, line.find('#')));
+    std::vector<std::string> words;
+    for (std::string word; text >> word;) words.push_back(word);
+    if (!words.empty()) planes.push_back(plane_of(words, fmt::format("{}:{}", name, n)));
+  }
+  if (planes.empty()) fail(name, "the file names no plane", {}, "lines nx ny nz [distance speed friction]");
+  bool moves = false;
+  for (const PressPlane& p : planes) moves = moves || p.speed != 0;
+  if (!moves) fail(name, "no plane moves: every speed is 0");
+  return planes;
+}
+
+}  // namespace granulaw
