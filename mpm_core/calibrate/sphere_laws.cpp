@@ -1,0 +1,74 @@
+#include "calibrate/sphere_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/scales.hpp"
+#include "characterise/tabulate_curve.hpp"
+
+namespace granulaw {
+
+namespace {
+
+MaterialRatios within(const Atlas& atlas, MaterialRatios m)
+{
+  const AtlasGrid& grid = atlas.grid();
+  m.stiffness = std::clamp(m.stiffness, grid.stiffnesses.front(), grid.stiffnesses.back());
+  m.hardening = std::clamp(m.hardening, grid.hardenings.front(), grid.hardenings.back());
+  return m;
+}
+
+constexpr double sphere_mass = 4.0 / 3.0 * M_PI;  // over rho R^3
+
+}  // namespace
+
+SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material)
+    : material_(within(atlas, material)),
+      atlas_(&atlas),
+      onset_(onset_overlap(material_.stiffness, 1.0, material_.poisson_ratio)),
+      energy_unit_(0.375 * sphere_mass / material_.stiffness),
+      shape_(atlas.shape(material_)),
+      free_(tabulate(shape_, onset_, Atlas::depth, Atlas::depth)),
+      impacts_(std::make_unique<ImpactsBySpeed>(shape_, free_, energy_unit_, VelocityAxis::Kind::inertia))
+{
+}
+
+SphereLaws::Impact SphereLaws::impact(double v) const
+{
+  v = std::clamp(v, 1e-9, fastest);
+  const double x = std::min(impacts_->impact_overlap(v), free_.x_end());
+  if (x <= onset_) return {1.0, x, 0.0, free_.loading(x).radius};
+  const LawShape::VelocityEffect effect = impacts_->effect(v);
+  const double slow = free_.work_unloading(x) / free_.work_loading(x);
+  const ContactCurve::Reversal top = free_.reversal(x);
+  const double kept = (1 - top.residual / x) * std::exp(-effect.residual);
+  return {std::min(1.0, std::sqrt(slow * std::exp(-effect.dissipation))), x, x * std::max(0.0, 1 - kept),
+          top.radius};
+}
+
+const ContactCurve& SphereLaws::midplane() const
+{
+  if (!midplane_) {
+    if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew with mpm atlas");
+    midplane_ = std::make_unique<ContactCurve>(tabulate(atlas_->midplane().shape(material_, shape_), onset_,
+                                                        Atlas::depth, Atlas::depth));
+  }
+  return *midplane_;
+}
+
+const SphereLaws& SphereLawsCache::of(const MaterialRatios& material)
+{
+  const MaterialRatios wanted = within(atlas_, material);
+  const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                  [&](const SphereLaws& l) { return l.material() == wanted; });
+  if (found != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, found);
+    return kept_.front();
+  }
+  kept_.emplace_front(atlas_, wanted);
+  if (kept_.size() > most) kept_.pop_back();
+  return kept_.front();
+}
+
+}  // namespace granulaw
