@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/gauss.hpp"
 #include "base/scales.hpp"
 #include "characterise/tabulate_curve.hpp"
 
@@ -38,13 +39,34 @@ SphereLaws::Impact SphereLaws::impact(double v) const
 {
   v = std::clamp(v, 1e-9, fastest);
   const double x = std::min(impacts_->impact_overlap(v), free_.x_end());
-  if (x <= onset_) return {1.0, x, 0.0, free_.loading(x).radius};
+  if (x <= onset_) return {1.0, x, 0.0, free_.loading(x).radius, contact_time(x, 0.0, 1.0)};
   const LawShape::VelocityEffect effect = impacts_->effect(v);
   const double slow = free_.work_unloading(x) / free_.work_loading(x);
   const ContactCurve::Reversal top = free_.reversal(x);
   const double kept = (1 - top.residual / x) * std::exp(-effect.residual);
-  return {std::min(1.0, std::sqrt(slow * std::exp(-effect.dissipation))), x, x * std::max(0.0, 1 - kept),
-          top.radius};
+  const double residual = x * std::clamp(1 - kept, 0.0, 0.9999);
+  const double e = std::min(1.0, std::sqrt(slow * std::exp(-effect.dissipation)));
+  return {e, x, residual, top.radius, contact_time(x, residual, e)};
+}
+
+/// Loading by the slow press's work, brought to the impact's energy; unloading by the shape that gives e^2 of it back.
+double SphereLaws::contact_time(double x, double residual, double restitution) const
+{
+  // x' = x (1 - w^2), u = 1 - w^2: the integrands are smooth at the reversal
+  const double all = free_.work_loading(x);
+  const double loading = gauss<7>(0.0, 1.0, [&](double w) {
+    return 2 * w / std::sqrt(std::max(1e-12, 1 - free_.work_loading(x * (1 - w * w)) / all));
+  });
+  const ContactCurve::Reversal top = free_.reversal(x);
+  UnloadingShape shape = top.shape;
+  const double share = restitution * restitution * all / (top.force * (x - residual));
+  shape.exponent = std::clamp(UnloadingShape::exponent_of(share, shape.hertz_share),
+                              UnloadingShape::least_exponent,
+                              UnloadingShape::largest_exponent(shape.hertz_share));
+  const double unloading = gauss<7>(0.0, 1.0, [&](double w) {
+    return 2 * w / std::sqrt(std::max(1e-12, 1 - shape.work(1 - w * w) / shape.work()));
+  });
+  return x * loading + (x - residual) / restitution * unloading;
 }
 
 const ContactCurve& SphereLaws::midplane() const

@@ -17,14 +17,18 @@ class SphereLaws
  public:
   /// Ratios outside the atlas count as those at its edge.
   SphereLaws(const Atlas& atlas, const MaterialRatios& material);
+  SphereLaws(const SphereLaws&) = delete;  // impacts_ points into it
+  SphereLaws& operator=(const SphereLaws&) = delete;
 
   const MaterialRatios& material() const { return material_; }
+  const Atlas* atlas() const { return atlas_; }
   double onset() const { return onset_; }  ///< overlap where yield begins
 
   /// An impact on the rigid wall at v = sqrt(rho V^2/Y); faster than fastest() counts as that.
   struct Impact
   {
     double restitution, overlap, residual, contact_radius;
+    double contact_time;  ///< over R/V
   };
   Impact impact(double v) const;
   static constexpr double fastest = 0.3;
@@ -33,6 +37,8 @@ class SphereLaws
   const ContactCurve& midplane() const;                       ///< of one held at its equator; made when asked for
 
  private:
+  double contact_time(double x, double residual, double restitution) const;
+
   MaterialRatios material_;
   const Atlas* atlas_;
   double onset_, energy_unit_;

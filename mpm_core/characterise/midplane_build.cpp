@@ -140,7 +140,7 @@ std::vector<MidplaneCheck> check_midplane(const Atlas& atlas, Farm& farm, int co
     const CharacterisedBody body = sphere_of(c.material);
     c.depth = between(std::max(0.01, 3 * body.onset), 0.3);
     checks.push_back(c);
-    SamplingPlan::Press press{c.depth, {}, 24, 4};
+    SamplingPlan::Press press{c.depth, {}, 24, 2};
     press.support = Support::midplane;
     jobs.push_back(press_job(body, press, source));
   }

@@ -16,6 +16,8 @@
   ENTRY(info)               \
   ENTRY(plot)               \
   ENTRY(export)             \
+  ENTRY(calibrate)          \
+  ENTRY(design)             \
   ENTRY(plan)               \
   ENTRY(soften)
 
