@@ -40,7 +40,7 @@ struct Calibration
 /// Fits, profiles, looks for misfits.
 Calibration calibrate(const CalibrationProblem& problem);
 
-/// A parameter is told where its 95 % interval ends on both sides and is narrower than a factor of three (hardening: of
+/// A parameter is told where its 95 % interval ends on both sides and is narrower than a factor of 1.5 (hardening: of
 /// 1 + 2 H/Y); else bounded on the side where it ends.
 Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& profile);
 

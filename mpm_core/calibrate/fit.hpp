@@ -20,6 +20,9 @@ Minimum minimise(const CalibrationProblem& problem, const Coordinates& start, co
 /// The least of the minima from problem.starts().
 Minimum best_fit(const CalibrationProblem& problem);
 
+/// From `start` to the minimum, begun anew until nothing is gained.
+Minimum polished(const CalibrationProblem& problem, const Coordinates& start);
+
 /// Derivatives of the residuals by all unknowns.
 Eigen::MatrixXd jacobian_at(const CalibrationProblem& problem, const Coordinates& q);
 

@@ -125,7 +125,8 @@ void predict_curve(const Measurement& m, const LawMaterial& material, const Sphe
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
   const ContactCurve::Reversal top = curve.reversal(std::max(x_m, 1e-12));
   const AtlasErrors& atlas = errors_of(*laws.atlas());
-  const double factor_error = platens ? atlas.midplane_force : atlas.force,
+  // half of the variance in the smooth error, half from value to value
+  const double factor_error = std::sqrt(0.5) * (platens ? atlas.midplane_force : atlas.force),
                residual_shift = (platens ? atlas.midplane_residual : residual_error) * x_m;
   constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured
   for (std::size_t k = 0; k < m.data.size(); ++k) {
@@ -145,7 +146,7 @@ void predict_curve(const Measurement& m, const LawMaterial& material, const Sphe
     for (int j = 0; j < 3; ++j)
       p.errors[j].push_back(unit * force * factor_error / std::sqrt(3.0) * shape[j]);
     p.errors[3].push_back(unit * shifted);
-    p.scatter.push_back(0);
+    p.scatter.push_back(unit * force * factor_error);
   }
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "law/law_material.hpp"
 
 namespace granulaw {
 
@@ -43,6 +46,7 @@ struct Measurement
   std::vector<Datum> data;
   double radius = 0;    ///< m, of the sphere
   ImpactPartner partner = ImpactPartner::rigid_wall;
+  std::optional<LawMaterial> wall;  ///< restitution: a thick wall of this material in place of the rigid one
   bool fit_offset = false;      ///< curves: the displacement of first touch is unknown
   bool fit_compliance = false;  ///< curves: the machine gives way in proportion to the force
 

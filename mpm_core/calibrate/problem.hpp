@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <optional>
 
 #include "calibrate/forward_model.hpp"
 #include "calibrate/parameters.hpp"
+#include "calibrate/wall_model.hpp"
 
 namespace granulaw {
 
@@ -83,6 +85,7 @@ class CalibrationProblem
 
   CalibrationRequest request_;
   mutable SphereLawsCache laws_;
+  std::vector<std::unique_ptr<WallModel>> walls_;  ///< by measurement; null: rigid
   std::vector<Unknown> unknowns_;
   std::size_t data_ = 0;
 };

@@ -20,6 +20,7 @@ class Side
        double first_step)
       : problem_(problem),
         best_(minimum.cost),
+        least_(minimum.cost),
         unknown_(unknown),
         start_(minimum.q[static_cast<Eigen::Index>(unknown)]),
         end_(end),
@@ -33,6 +34,7 @@ class Side
     double q;
     bool told;
   };
+  const std::optional<Coordinates>& better() const { return better_; }
   /// Where the square root of the rise reaches `wanted`.
   End reach(double wanted)
   {
@@ -86,11 +88,13 @@ class Side
     const Minimum found = minimise(problem_, q, fixed, 12);
     const double root = std::sqrt(std::max(0.0, found.cost - best_));
     places_[distance] = {root, found.q};
+    if (found.cost < least_ - 0.05) least_ = found.cost, better_ = found.q;
     return root;
   }
 
   const CalibrationProblem& problem_;
-  double best_;
+  double best_, least_;
+  std::optional<Coordinates> better_;
   std::size_t unknown_;
   double start_, end_, step_;
   std::map<double, Place> places_;
@@ -114,6 +118,7 @@ ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Min
   };
   fill(profile.within68, rise68);
   fill(profile.within95, rise95);
+  profile.better = below.better() ? below.better() : above.better();
   return profile;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "calibrate/fit.hpp"
 
 namespace granulaw {
@@ -14,6 +16,7 @@ struct ParameterProfile
 {
   double value = 0;
   Interval within68, within95;
+  std::optional<Coordinates> better;  ///< a place with a smaller sum of squares than the minimum's, if one was met
 };
 
 /// The interval in which, with all other unknowns fitted anew at each place, the sum of squares stays within what 68 or 95

@@ -69,12 +69,26 @@ double SphereLaws::contact_time(double x, double residual, double restitution) c
   return x * loading + (x - residual) / restitution * unloading;
 }
 
+/// As deep as the interpolated shape is a law: of a few materials the force falls or the unloading is none before the end;
+/// beyond, it goes on with its last stiffness.
+ContactCurve SphereLaws::make_midplane() const
+{
+  const LawShape shape = atlas_->midplane().shape(material_, shape_);
+  constexpr double shorter = 0.85;
+  for (double depth = MidplaneShapes::depth;; depth *= shorter) {
+    try {
+      return tabulate(shape, onset_, Atlas::depth, depth);
+    } catch (const Error&) {
+      if (depth < 2 * onset_ || depth < 0.05) throw;
+    }
+  }
+}
+
 const ContactCurve& SphereLaws::midplane() const
 {
   if (!midplane_) {
     if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew with mpm atlas");
-    midplane_ = std::make_unique<ContactCurve>(tabulate(atlas_->midplane().shape(material_, shape_), onset_,
-                                                        Atlas::depth, Atlas::depth));
+    midplane_ = std::make_unique<ContactCurve>(make_midplane());
   }
   return *midplane_;
 }

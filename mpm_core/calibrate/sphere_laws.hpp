@@ -38,6 +38,7 @@ class SphereLaws
 
  private:
   double contact_time(double x, double residual, double restitution) const;
+  ContactCurve make_midplane() const;
 
   MaterialRatios material_;
   const Atlas* atlas_;

@@ -10,7 +10,6 @@
 #include "characterise/atlas.hpp"
 #include "characterise/confident_bound.hpp"
 #include "characterise/interpolation.hpp"
-#include "characterise/shape_function.hpp"
 
 namespace granulaw {
 
@@ -124,6 +123,10 @@ MidplaneShapes::MidplaneShapes(MidplaneGrid grid, std::vector<ElasticCorrection>
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (!(nodes_[k].material == expected[k]))
       fail("atlas", fmt::format("midplane material {} is not the grid's", k));
+  for (const Node& node : nodes_)
+    changes_.push_back({ShapeFunction(node.change.force_reduction, 1.0), ShapeFunction(node.change.widening, 1.0),
+                        ShapeFunction(node.change.residual, 1.0), ShapeFunction(node.change.dissipation, 1.0),
+                        ShapeFunction(node.change.hertz_share, 1.0)});
   std::vector<double> force, restitution, residual;
   for (const MidplaneCheck& c : checks_) {
     force.push_back(std::abs(c.error_force));
@@ -152,16 +155,17 @@ LawShape MidplaneShapes::shape(const MaterialRatios& m, const LawShape& free) co
 {
   const double onset = onset_of(m), range = std::log(Atlas::depth / onset);
   LawShape result = free.as_skin_of(elastic(m.poisson_ratio), onset, Atlas::depth, Atlas::depth);
-  for (const Weighted& w : weights_of(grid_, m)) {
-    const Node& node = nodes_[w.node];
-    const double node_range = std::log(Atlas::depth / node.onset);
-    for (const auto member : LawShape::functions) {
-      const ShapeFunction change(node.change.*member, 1.0);
-      for (int k = 1; k < LawShape::nodes; ++k) {
-        // at the same overlap, counted from the end that all share
-        const double u = 1 - (1 - static_cast<double>(k) / (LawShape::nodes - 1)) * range / node_range;
-        if (u > 0) (result.*member)[static_cast<std::size_t>(k)] += w.weight * change.value(u);
-      }
+  std::vector<double> weights(nodes_.size(), 0.0);
+  for (const Weighted& w : weights_of(grid_, m)) weights[w.node] += w.weight;
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    if (weights[node] == 0) continue;
+    const double node_range = std::log(Atlas::depth / nodes_[node].onset);
+    for (std::size_t k = 1; k < LawShape::nodes; ++k) {
+      // at the same overlap, counted from the end that all share
+      const double u = 1 - (1 - static_cast<double>(k) / (LawShape::nodes - 1)) * range / node_range;
+      if (u <= 0) continue;
+      for (std::size_t f = 0; f < LawShape::functions.size(); ++f)
+        (result.*LawShape::functions[f])[k] += weights[node] * changes_[node][f].value(u);
     }
   }
   return result;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "characterise/law_shape.hpp"
 #include "characterise/material_ratios.hpp"
+#include "characterise/shape_function.hpp"
 
 namespace granulaw {
 
@@ -54,6 +56,9 @@ class MidplaneShapes
   MidplaneShapes(MidplaneGrid grid, std::vector<ElasticCorrection> elastic, std::vector<Node> nodes,
                  std::vector<MidplaneCheck> checks = {});
 
+  /// Overlap/R up to which the shapes are laws for any material; beyond, soft ones unload like no sphere.
+  static constexpr double depth = 0.33;
+
   bool empty() const { return nodes_.empty(); }
   const MidplaneGrid& grid() const { return grid_; }
   const std::vector<ElasticCorrection>& elastic_corrections() const { return elastic_; }
@@ -74,6 +79,7 @@ class MidplaneShapes
   MidplaneGrid grid_;
   std::vector<ElasticCorrection> elastic_;
   std::vector<Node> nodes_;
+  std::vector<std::array<ShapeFunction, 5>> changes_;  ///< of each node, over u from 0 to 1
   std::vector<MidplaneCheck> checks_;
   double claimed_force_ = 0, claimed_restitution_ = 0, claimed_residual_ = 0;
 };

@@ -104,7 +104,7 @@ MidplaneCheck compare(MidplaneCheck check, const Atlas& atlas, const RunResult& 
 {
   const CharacterisedBody body = sphere_of(check.material);
   const ContactCurve curve =
-      tabulate(atlas.midplane_shape(check.material), body.onset, Atlas::depth, Atlas::depth);
+      tabulate(atlas.midplane_shape(check.material), body.onset, Atlas::depth, MidplaneShapes::depth);
   const ContactRecord record = contact_record_of(run);
   double sum = 0;
   int count = 0;

@@ -7,6 +7,8 @@
 #include "base/error.hpp"
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
+#include "characterise/law_material.hpp"
+#include "materials_file.hpp"
 #include "option_checks.hpp"
 
 namespace granulaw {
@@ -86,6 +88,10 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
                      "approach")
       ->check(CLI::IsMember({"wall", "like"}))
       ->capture_default_str();
+  CLI::Option* materials_file = command.add_option("--materials", materials, "TOML file that holds the wall's material");
+  command
+      .add_option("--wall", wall, "restitution: name of the material of a thick deformable wall (default: rigid)")
+      ->needs(materials_file);
   command.add_option("--offset", offset,
                      "m, displacement at first touch, where it is known (default: it is fitted, for each curve)");
   command.add_flag("--compliance", compliance, "fit the machine's compliance, m/N, for each curve");
@@ -99,6 +105,21 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
   command.add_option("--bounds", bounds, "'NAME = LOW..HIGH': never outside");
   command.add_flag("--no-robust", plain, "outliers count by their square, as all other values");
   command.add_option("--name", name, "of the material in what is written")->capture_default_str();
+}
+
+/// Puts the wall to all drops.
+void CalibrationOptions::set_wall(CalibrationRequest& r) const
+{
+  const MaterialsFile file = read_materials(materials);
+  const Material& m = file.material(wall);
+  if (!m.hardening.name.empty() || m.rate_dependent())
+    fail("--wall", "a wall hardens linearly or not at all, and knows no rate", wall);
+  for (Measurement& measurement : r.measurements) {
+    if (!is_impact(measurement.kind)) continue;
+    if (measurement.kind != MeasurementKind::restitution || measurement.partner != ImpactPartner::rigid_wall)
+      fail(measurement.source, "only restitution of drops can be against --wall");
+    measurement.wall = law_material(wall, m);
+  }
 }
 
 CalibrationRequest CalibrationOptions::request() const
@@ -138,6 +159,7 @@ CalibrationRequest CalibrationOptions::request() const
     complete_standard_deviations(m, relative_sd);
     r.measurements.push_back(std::move(m));
   }
+  if (!wall.empty()) set_wall(r);
   r.known.density = density.value_or(1000);  // no curve of force depends on it
   return r;
 }
