@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "characterise/confident_bound.hpp"
 #include "characterise/interpolation.hpp"
 
 namespace granulaw {
@@ -44,25 +45,6 @@ double percentile95(std::vector<double> values)
   std::sort(values.begin(), values.end());
   const auto k = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size()))) - 1;
   return values[k];
-}
-
-/// What 95 % of all errors lie within, said with a confidence of 95 %, from those of some: the k-th smallest
-/// of n is too low only if at least k of n lay within, a binomial of n and 0.95 (Wilks 1941): the largest of
-/// 59 to 92, the 99th of 100, the 196th of 200; of fewer than 59 not even the largest is enough. At least
-/// half the largest, since none may exceed twice what is claimed. 0 of none.
-double confident_bound(std::vector<double> values)
-{
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
-  double k = n, exactly = std::pow(0.95, n), at_least = exactly;
-  while (k > 1) {
-    exactly *= k / (n - k + 1) * 0.05 / 0.95;  // from k of n to k - 1
-    if (at_least + exactly > 0.05) break;
-    at_least += exactly;
-    --k;
-  }
-  return std::max(values[static_cast<std::size_t>(k) - 1], 0.5 * values.back());
 }
 
 }  // namespace
@@ -108,11 +90,12 @@ std::vector<double> AtlasGrid::poisson_ratios() const
 }
 
 Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere> elastic,
-             std::vector<AtlasCheck> checks)
+             std::vector<AtlasCheck> checks, MidplaneShapes midplane)
     : grid_(std::move(grid)),
       nodes_(std::move(nodes)),
       elastic_(std::move(elastic)),
-      checks_(std::move(checks))
+      checks_(std::move(checks)),
+      midplane_(std::move(midplane))
 {
   const std::vector<double> ratios = grid_.poisson_ratios();
   if (!std::equal(elastic_.begin(), elastic_.end(), ratios.begin(), ratios.end(),

@@ -4,20 +4,10 @@
 #include <vector>
 
 #include "characterise/fit_curve.hpp"
-#include "law/law.hpp"
+#include "characterise/material_ratios.hpp"
+#include "characterise/midplane.hpp"
 
 namespace granulaw {
-
-/// A homogeneous, rate-independent, linearly hardening material without dimensions.
-struct MaterialRatios
-{
-  double stiffness = 0;      ///< E*/Y
-  double poisson_ratio = 0;  ///< nu
-  double hardening = 0;      ///< H/E
-
-  static MaterialRatios of(const LawMaterial& material);
-  bool operator==(const MaterialRatios&) const = default;
-};
 
 /// The materials that an atlas holds shapes of. A main plane at one Poisson's ratio, every stiffness with its
 /// hardenings; and a coarser block that tells what another Poisson's ratio changes, which is little and
@@ -79,7 +69,7 @@ class Atlas
   /// Nodes of grid.main_plane(), then grid.block(), and elastic spheres of all its Poisson's ratios,
   /// ascending. Throws Error if they are not.
   Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere> elastic,
-        std::vector<AtlasCheck> checks = {});
+        std::vector<AtlasCheck> checks = {}, MidplaneShapes midplane = {});
 
   static constexpr double depth = 0.5;  ///< overlap/R where every law ends
 
@@ -94,6 +84,10 @@ class Atlas
   ElasticSphere elastic(double poisson_ratio) const;
   /// Its shape. Needs why_not() empty.
   LawShape shape(const MaterialRatios& m) const;
+  /// Spheres whose equator plane is driven; empty: the file has none.
+  const MidplaneShapes& midplane() const { return midplane_; }
+  /// The shape of one; no velocity effects. Needs why_not() empty and midplane() not.
+  LawShape midplane_shape(const MaterialRatios& m) const { return midplane_.shape(m, shape(m)); }
 
   /// Errors that the atlas claims for its laws: 95 % of all impacts lie within, as its checks tell with a
   /// confidence of 95 %; none of the checks exceeds twice the claim.
@@ -113,14 +107,12 @@ class Atlas
   std::vector<Node> nodes_;
   std::vector<ElasticSphere> elastic_;
   std::vector<AtlasCheck> checks_;
+  MidplaneShapes midplane_;
   double claimed_force_ = 0, claimed_restitution_ = 0, solver_error_ = 0;
 };
 
 /// Reads and writes the atlas's file (HDF5; layout: docs/atlas.md). Throws Error.
 Atlas read_atlas(const std::string& path);
 void write_atlas(const Atlas& atlas, const std::string& path);
-
-/// ln(1 + 2 (H/E)(E*/Y)): the coordinate along hardening.
-double hardening_coordinate(double stiffness, double hardening);
 
 }  // namespace granulaw

@@ -47,6 +47,24 @@ constexpr Field checks{
     "checks", "1",
     "rows of E*/Y, nu, H/E, sqrt(I), relative error of F_max, error of e, the impact's own estimate"};
 
+// Spheres held at their midplane; a file without them has none of these.
+constexpr Field midplane_stiffnesses{"midplane_stiffnesses", "1", "E*/Y of the midplane presses"};
+constexpr Field midplane_hardenings{"midplane_hardenings", "1", "H/E of the midplane presses"};
+constexpr Field midplane_block_stiffnesses{"midplane_block_stiffnesses", "1",
+                                           "E*/Y of those at other Poisson's ratios"};
+constexpr Field midplane_block_hardenings{"midplane_block_hardenings", "1",
+                                          "H/E of those at other Poisson's ratios"};
+constexpr Field midplane_block_poisson_ratios{"midplane_block_poisson_ratios", "1", "the other Poisson's ratios"};
+constexpr Field midplane_elastic{"midplane_elastic", "1", "rows of c1, c2, d1 by Poisson's ratio"};
+constexpr Field midplane_onset{"midplane_onset", "1", "delta/R of the onset of yield of each material"};
+constexpr Field midplane_change{
+    "midplane_change", "1",
+    "softening, widening, residual, dissipation, foot of each material: the press's less those of the free sphere "
+    "with a series compliance"};
+constexpr Field midplane_checks{"midplane_checks", "1",
+                                "rows of E*/Y, nu, H/E, delta/R, rms relative error of F, error of e, error of "
+                                "delta_r/delta_m"};
+
 struct Curve
 {
   const Field& field;
@@ -76,6 +94,68 @@ std::vector<double> read_numbers(hid_t group, const Field& field, std::size_t co
   for (const double v : values)
     if (!std::isfinite(v)) fail(path, fmt::format("'{}' holds a number that is not finite", field.name));
   return values;
+}
+
+void write_midplane(hid_t file, const MidplaneShapes& midplane, const std::string& path)
+{
+  const MidplaneGrid& grid = midplane.grid();
+  h5::write_vector(file, midplane_stiffnesses, grid.stiffnesses, path);
+  h5::write_vector(file, midplane_hardenings, grid.hardenings, path);
+  h5::write_vector(file, midplane_block_stiffnesses, grid.block_stiffnesses, path);
+  h5::write_vector(file, midplane_block_hardenings, grid.block_hardenings, path);
+  h5::write_vector(file, midplane_block_poisson_ratios, grid.block_poisson_ratios, path);
+  std::vector<double> elastic_terms, onsets, changes, rows;
+  for (const ElasticCorrection& e : midplane.elastic_corrections())
+    elastic_terms.insert(elastic_terms.end(), {e.c1, e.c2, e.d1});
+  for (const MidplaneShapes::Node& node : midplane.nodes()) {
+    onsets.push_back(node.onset);
+    for (const auto member : LawShape::functions)
+      changes.insert(changes.end(), (node.change.*member).begin(), (node.change.*member).end());
+  }
+  for (const MidplaneCheck& c : midplane.checks())
+    rows.insert(rows.end(), {c.material.stiffness, c.material.poisson_ratio, c.material.hardening, c.depth,
+                             c.error_force, c.error_restitution, c.error_residual});
+  h5::write_vector(file, midplane_elastic, elastic_terms, path);
+  h5::write_vector(file, midplane_onset, onsets, path);
+  h5::write_vector(file, midplane_change, changes, path);
+  if (!rows.empty()) h5::write_vector(file, midplane_checks, rows, path);
+}
+
+MidplaneShapes read_midplane(hid_t file, double main_ratio, const std::string& path)
+{
+  if (!h5::has_link(file, midplane_stiffnesses.name)) return {};
+  MidplaneGrid grid;
+  grid.main_poisson_ratio = main_ratio;
+  grid.stiffnesses = h5::read_vector(file, midplane_stiffnesses, most, path);
+  grid.hardenings = h5::read_vector(file, midplane_hardenings, most, path);
+  grid.block_stiffnesses = h5::read_vector(file, midplane_block_stiffnesses, most, path);
+  grid.block_hardenings = h5::read_vector(file, midplane_block_hardenings, most, path);
+  grid.block_poisson_ratios = h5::read_vector(file, midplane_block_poisson_ratios, most, path);
+  const std::vector<MaterialRatios> materials = grid.materials();
+  const std::size_t functions = LawShape::functions.size(), ratios = grid.poisson_ratios().size();
+  const std::vector<double> terms = read_numbers(file, midplane_elastic, 3 * ratios, path),
+                            onsets = read_numbers(file, midplane_onset, materials.size(), path),
+                            changes = read_numbers(file, midplane_change,
+                                                   materials.size() * functions * LawShape::nodes, path);
+  std::vector<ElasticCorrection> elastic_terms;
+  for (std::size_t i = 0; i < terms.size(); i += 3)
+    elastic_terms.push_back({terms[i], terms[i + 1], terms[i + 2]});
+  std::vector<MidplaneShapes::Node> nodes;
+  auto from = changes.begin();
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    nodes.push_back({materials[i], onsets[i], LawShape::zero()});
+    for (const auto member : LawShape::functions) {
+      std::copy_n(from, LawShape::nodes, (nodes.back().change.*member).begin());
+      from += LawShape::nodes;
+    }
+  }
+  std::vector<MidplaneCheck> made;
+  if (h5::has_link(file, midplane_checks.name)) {
+    const std::vector<double> of = h5::read_vector(file, midplane_checks, most, path);
+    for (std::size_t i = 0; i + 7 <= of.size(); i += 7)
+      made.push_back({{of[i], of[i + 1], of[i + 2]}, of[i + 3], of[i + 4], of[i + 5], of[i + 6]});
+  }
+  return {std::move(grid), std::move(elastic_terms), std::move(nodes), std::move(made)};
 }
 
 }  // namespace
@@ -132,6 +212,7 @@ void write_atlas(const Atlas& atlas, const std::string& path)
                              c.error_force, c.error_restitution, c.solver_estimate})
         rows.push_back(v);
     if (!rows.empty()) h5::write_vector(file, checks, rows, path);
+    if (!atlas.midplane().empty()) write_midplane(file, atlas.midplane(), path);
     if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
   });
 }
@@ -195,7 +276,8 @@ Atlas read_atlas(const std::string& path)
     for (std::size_t i = 0; i + 7 <= of.size(); i += 7)
       made.push_back({{of[i], of[i + 1], of[i + 2]}, of[i + 3], of[i + 4], of[i + 5], of[i + 6]});
   }
-  return Atlas(std::move(grid), std::move(nodes), std::move(spheres), std::move(made));
+  MidplaneShapes midplane = read_midplane(file, grid.main_poisson_ratio, path);
+  return Atlas(std::move(grid), std::move(nodes), std::move(spheres), std::move(made), std::move(midplane));
 }
 
 }  // namespace granulaw

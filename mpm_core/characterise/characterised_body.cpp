@@ -25,17 +25,21 @@ std::string text_of(const char* what, const FlowLaw& law)
   return text;
 }
 
-std::string text_of(const Material& m)
+}  // namespace
+
+std::string description_of(const Material& m)
 {
   return fmt::format("[{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}{}{}]", m.density, m.youngs_modulus,
                      m.poisson_ratio, m.yield_stress, m.hardening_modulus, text_of("hardening", m.hardening),
                      text_of("rate", m.rate));
 }
 
+namespace {
+
 std::string text_of(const Particle& p)
 {
   std::string text = fmt::format("radius={:.17g}", p.radius);
-  for (const Material& m : p.materials) text += text_of(m);
+  for (const Material& m : p.materials) text += description_of(m);
   for (const Particle::Layer& l : p.layers) text += fmt::format(" layer {:.17g} {}", l.thickness, l.material);
   for (const Particle::Inclusion& i : p.inclusions)
     text += fmt::format(" inclusion {:.17g} {:.17g} {:.17g} {}", i.r, i.z, i.radius, i.material);

@@ -39,6 +39,9 @@ struct CharacterisedBody
   CharacterisedBody rate_free() const;
 };
 
+/// Every number of a material, on one line.
+std::string description_of(const Material& material);
+
 CharacterisedBody characterised_body_of(const Particle& particle);
 /// A homogeneous sphere; of unit radius where the law knows no size.
 CharacterisedBody characterised_body_of(const Material& material);

@@ -40,6 +40,7 @@ struct SamplingPlan
     std::vector<double> stops;  ///< overlaps of partial unloadings, ascending, below depth
     int resolution = 24, shifted_grids = 2;
     double ramp = 0;  ///< loading time, in R/c*; 0: as the solver chooses it
+    Support support = Support::free;
   };
   std::vector<Press> presses;
   std::vector<double> slow_impacts;        ///< velocities whose inertia does not count

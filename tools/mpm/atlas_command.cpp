@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "characterise/atlas_build.hpp"
+#include "characterise/midplane_build.hpp"
 #include "command.hpp"
 #include "farm_options.hpp"
 #include "option_checks.hpp"
@@ -23,7 +24,8 @@ struct AtlasRequest
   std::string output;
   std::string from;      ///< an atlas whose materials stay; empty: all are run
   bool impacts = false;  ///< but their fast impacts, which are run
-  int checks = 500;
+  bool midplane = false;  ///< all of it stays but the midplane presses, which are run
+  int checks = 500, midplane_checks = 100;
   unsigned seed = 1;
   FarmOptions farm;
 };
@@ -35,18 +37,35 @@ Progress part_of(ProgressBar& bar, double from, double to)
       [&bar, from, to](double done, const std::string& what) { bar.update(from + (to - from) * done, what); };
 }
 
-/// All materials of the grid, then the fresh impacts that tell the error.
+/// Midplane presses, then fresh ones that tell their error.
+Atlas with_midplane(const Atlas& free, const AtlasRequest& r, Farm& farm, ProgressBar& bar, double from)
+{
+  const MidplaneGrid grid;
+  const RunSource source;
+  const double middle = 0.5 * (from + 1);
+  const auto atlas = [&](MidplaneShapes shapes) {
+    return Atlas(free.grid(), free.nodes(), free.elastic_spheres(), free.checks(), std::move(shapes));
+  };
+  const Atlas bare = atlas(
+      midplane_from(free, grid, farm.run(midplane_jobs(grid, source), part_of(bar, from, middle))));
+  return atlas(bare.midplane().with_checks(
+      check_midplane(bare, farm, r.midplane_checks, r.seed, part_of(bar, middle, 1))));
+}
+
+/// All materials of the grid, then the fresh impacts that tell the error, then midplane presses.
 Atlas build(const AtlasRequest& r, Farm& farm)
 {
   ProgressBar bar(rank() == 0);
   std::optional<Atlas> known;
   if (!r.from.empty()) known = read_atlas(r.from);
+  if (r.midplane) return with_midplane(*known, r, farm, bar, 0);
   const KnownAtlas of{known ? &*known : nullptr, r.impacts};
   const AtlasGrid grid;
   const RunSource source;
-  const Atlas bare = atlas_from(grid, farm.run(atlas_jobs(grid, source, of), part_of(bar, 0, 0.8)), of);
-  return {grid, bare.nodes(), bare.elastic_spheres(),
-          check_atlas(bare, farm, r.checks, r.seed, part_of(bar, 0.8, 1))};
+  const Atlas bare = atlas_from(grid, farm.run(atlas_jobs(grid, source, of), part_of(bar, 0, 0.7)), of);
+  const Atlas free(grid, bare.nodes(), bare.elastic_spheres(),
+                   check_atlas(bare, farm, r.checks, r.seed, part_of(bar, 0.7, 0.9)));
+  return with_midplane(free, r, farm, bar, 0.9);
 }
 
 void make_atlas(const AtlasRequest& r)
@@ -59,6 +78,11 @@ void make_atlas(const AtlasRequest& r)
   fmt::print("wrote {}: {} materials; {} fresh impacts: 95 % within {:.2g} % of force and {:.2g} of e\n",
              r.output, atlas.nodes().size(), atlas.checks().size(), 100 * atlas.claimed_force(),
              atlas.claimed_restitution());
+  const MidplaneShapes& midplane = atlas.midplane();
+  fmt::print("midplane: {} materials; {} fresh presses: 95 % within {:.2g} % of force, {:.2g} of e, {:.2g} of the "
+             "residual\n",
+             midplane.nodes().size(), midplane.checks().size(), 100 * midplane.claimed_force(),
+             midplane.claimed_restitution(), midplane.claimed_residual());
   print_count(farm->count());
 }
 
@@ -76,6 +100,14 @@ void define(CLI::App& command)
           "with --from: what inertia changes of its materials does not stay: their fast impacts are run "
           "(an hour of CPU time)")
       ->needs(from);
+  command
+      .add_flag("--midplane", r->midplane,
+                "with --from: all of it stays but the presses between two platens, which are run (half an hour of CPU "
+                "time)")
+      ->needs(from);
+  command.add_option("--midplane-checks", r->midplane_checks, "fresh midplane presses that tell their error")
+      ->check(whole_from_to(20, 100000))
+      ->capture_default_str();
   command.add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
       ->check(whole_from_to(20, 100000))
       ->capture_default_str();

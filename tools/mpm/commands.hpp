@@ -16,6 +16,9 @@
   ENTRY(info)               \
   ENTRY(plot)               \
   ENTRY(export)             \
+  ENTRY(shape)              \
+  ENTRY(calibrate)          \
+  ENTRY(design)             \
   ENTRY(plan)               \
   ENTRY(soften)
 

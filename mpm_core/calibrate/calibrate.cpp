@@ -1,0 +1,103 @@
+#include "calibrate/calibrate.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <cmath>
+
+namespace granulaw {
+
+namespace {
+
+constexpr double widest = 1.5;  // a parameter known to less than this factor, 20 % either way, is told
+
+/// An end at no hardening is one: nothing lies beyond.
+bool ends_below(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
+{
+  const bool hardening =
+      problem.unknowns()[unknown].kind == CalibrationProblem::Unknown::Kind::hardening;
+  return p.within95.low_told || (hardening && p.within95.low <= 0);
+}
+
+Eigen::MatrixXd correlation_of(const Minimum& minimum, std::size_t parameters)
+{
+  const auto n = static_cast<Eigen::Index>(parameters);
+  Eigen::MatrixXd c = covariance(minimum).topLeftCorner(n, n);
+  const Eigen::VectorXd sd = c.diagonal().cwiseSqrt();
+  return sd.cwiseInverse().asDiagonal() * c * sd.cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
+{
+  using Kind = CalibrationProblem::Unknown::Kind;
+  const bool below = ends_below(problem, unknown, p), above = p.within95.high_told;
+  double ratio = p.within95.high / p.within95.low;
+  if (problem.unknowns()[unknown].kind == Kind::hardening) {
+    const double yield = problem.unknowns()[unknown].scale * 2;
+    ratio = (1 + 2 * p.within95.high / yield) / (1 + 2 * p.within95.low / yield);
+  }
+  if (below && above && ratio < widest) return Told::value;
+  if (above) return Told::from_above;
+  return p.within95.low_told ? Told::from_below : Told::nothing;
+}
+
+namespace {
+
+void judge(Calibration& c, const CalibrationProblem& problem)
+{
+  constexpr double unlikely = 0.05;
+  c.chi_squared = problem.chi_squared(c.minimum.q);
+  c.degrees_of_freedom = static_cast<long>(problem.data_count() + problem.request().priors.size()) -
+                         static_cast<long>(problem.fitted_count());
+  c.p_value = c.interval_scale = 1;
+  if (c.degrees_of_freedom <= 0) return;
+  const auto degrees = static_cast<double>(c.degrees_of_freedom);
+  c.p_value = gsl_cdf_chisq_Q(c.chi_squared, degrees);
+  if (c.p_value < unlikely) c.interval_scale = c.chi_squared / degrees;
+}
+
+/// The profiles of all parameters; where one of them meets a better minimum, only that.
+std::optional<Coordinates> profile_all(Calibration& c, const CalibrationProblem& problem)
+{
+  c.parameters.clear();
+  for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
+    FittedParameter f{problem.request().fit[k], profile_likelihood(problem, c.minimum, k, c.interval_scale)};
+    if (f.profile.better) return f.profile.better;
+    f.told = told_by(problem, k, f.profile);
+    c.parameters.push_back(f);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Calibration calibrate(const CalibrationProblem& problem)
+{
+  constexpr int most_rounds = 4;
+  Calibration c;
+  c.minimum = best_fit(problem);
+  for (int round = 0; round < most_rounds; ++round) {
+    judge(c, problem);
+    const std::optional<Coordinates> better = profile_all(c, problem);
+    if (!better) break;
+    c.minimum = polished(problem, *better);
+  }
+  if (c.parameters.size() < problem.request().fit.size()) {
+    judge(c, problem);
+    c.parameters.clear();
+    for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
+      FittedParameter f{problem.request().fit[k], profile_likelihood(problem, c.minimum, k, c.interval_scale)};
+      f.told = told_by(problem, k, f.profile);
+      c.parameters.push_back(f);
+    }
+  }
+  c.material = problem.material(c.minimum.q);
+  for (std::size_t k = 0; k < problem.request().measurements.size(); ++k)
+    c.machines.push_back(problem.machine(c.minimum.q, k));
+  c.correlation = correlation_of(c.minimum, problem.request().fit.size());
+  c.misfits = name_misfits(problem, c.minimum);
+  return c;
+}
+
+}  // namespace granulaw

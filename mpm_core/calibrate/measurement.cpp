@@ -1,0 +1,25 @@
+#include "calibrate/measurement.hpp"
+
+#include <algorithm>
+
+namespace granulaw {
+
+bool is_curve(MeasurementKind kind)
+{
+  return kind == MeasurementKind::platens || kind == MeasurementKind::flat;
+}
+
+bool is_impact(MeasurementKind kind)
+{
+  return kind == MeasurementKind::restitution || kind == MeasurementKind::contact_radius ||
+         kind == MeasurementKind::residual_displacement || kind == MeasurementKind::contact_time;
+}
+
+std::size_t Measurement::reversal() const
+{
+  const auto deepest = std::max_element(data.begin(), data.end(),
+                                        [](const Datum& a, const Datum& b) { return a.x < b.x; });
+  return static_cast<std::size_t>(deepest - data.begin());
+}
+
+}  // namespace granulaw

@@ -1,0 +1,253 @@
+#include "calibrate/misfit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace granulaw {
+
+namespace {
+
+constexpr double clear = 4;  // standard deviations
+/// A pattern counts from so many standard deviations on: of those stated; of the scatter about the pattern, where that is
+/// less: of eight values it is itself known to a third, and Student's t has 0.4 % beyond.
+constexpr double clear_by_stated = 3, clear_by_scatter = 5;
+
+/// Relative differences of some values from the fit, over a coordinate from -1 to 1.
+struct Differences
+{
+  std::vector<double> place, relative, sd;
+};
+
+/// Weighted least squares of the first three Legendre polynomials: factor and its sd.
+struct Factors
+{
+  double value[3], sd[3];
+  double scatter;  ///< of what they leave, over the sd given
+  /// Whether a factor is no chance and no error of the model, whose sd is `model`.
+  bool seen(int k, double model) const
+  {
+    const double limit = scatter < 1 ? clear_by_scatter : clear_by_stated;
+    return std::abs(value[k]) > limit * std::hypot(std::min(1.0, scatter) * sd[k], model) ||
+           std::abs(value[k]) > clear_by_stated * std::hypot(sd[k], model);
+  }
+};
+Factors legendre_factors(const Differences& d)
+{
+  const auto rows = static_cast<Eigen::Index>(d.place.size());
+  Eigen::MatrixXd a(rows, 3);
+  Eigen::VectorXd b(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double t = d.place[i], w = 1 / d.sd[i];
+    a.row(k) << w, w * t, w * 0.5 * (3 * t * t - 1);
+    b(k) = w * d.relative[i];
+  }
+  Eigen::Matrix3d information = a.transpose() * a;
+  information.diagonal().array() += 1e-9;
+  const Eigen::Matrix3d inverse = information.inverse();
+  const Eigen::Vector3d x = inverse * (a.transpose() * b);
+  Factors f{};
+  for (int k = 0; k < 3; ++k) f.value[k] = x(k), f.sd[k] = std::sqrt(inverse(k, k));
+  const auto left = static_cast<double>(rows - 3);
+  f.scatter = left > 2 ? (b - a * x).norm() / std::sqrt(left) : 1.0;
+  return f;
+}
+
+/// Standard deviations by which there are too few runs of one sign.
+double missing_runs(const std::vector<double>& values)
+{
+  double plus = 0, minus = 0, runs = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    (values[k] > 0 ? plus : minus) += 1;
+    if (k == 0 || (values[k] > 0) != (values[k - 1] > 0)) runs += 1;
+  }
+  const double n = plus + minus;
+  if (n < 8 || plus == 0 || minus == 0) return 0;
+  const double mean = 2 * plus * minus / n + 1;
+  const double variance = (mean - 1) * (mean - 2) / (n - 1);
+  return variance > 0 ? (mean - runs) / std::sqrt(variance) : 0;
+}
+
+/// A measurement against the fit.
+class Inspection
+{
+ public:
+  Inspection(const CalibrationProblem& problem, const Minimum& minimum, std::size_t index)
+      : problem_(problem),
+        minimum_(minimum),
+        measurement_(problem.request().measurements[index]),
+        comparison_(problem.compare(minimum.q, index))
+  {
+  }
+  std::vector<Misfit> misfits()
+  {
+    if (measurement_.kind == MeasurementKind::restitution) look_at_restitution();
+    if (is_curve(measurement_.kind)) look_at_curve();
+    look_for_outliers();
+    return std::move(found_);
+  }
+
+ private:
+  void say(const std::string& sentence) { found_.push_back({measurement_.source, sentence}); }
+  double residual(std::size_t k) const
+  {
+    return (measurement_.data[k].y - comparison_.with_errors[k]) / comparison_.sd[k];
+  }
+
+  void look_at_restitution()
+  {
+    Differences d;
+    double slowest = 1e300, fastest = 0;
+    for (const Datum& datum : measurement_.data) {
+      slowest = std::min(slowest, datum.x), fastest = std::max(fastest, datum.x);
+    }
+    const double range = std::log(fastest / slowest);
+    double least = 1;
+    std::string elastic;
+    for (std::size_t k = 0; k < measurement_.data.size(); ++k) {
+      const Datum& datum = measurement_.data[k];
+      const double predicted = comparison_.predicted[k];
+      if (predicted > 0.9995 && datum.y < 1 - clear * comparison_.sd[k])
+        elastic = fmt::format("{:.4g} at {:.4g} m/s", datum.y, datum.x);
+      d.place.push_back(range > 0 ? 2 * std::log(datum.x / slowest) / range - 1 : 0.0);
+      d.relative.push_back(datum.y / predicted - 1);
+      d.sd.push_back(comparison_.sd[k] / predicted);
+      least = std::min(least, predicted);
+    }
+    if (!elastic.empty())
+      say(fmt::format("e is below 1 at speeds that do not yield ({}): adhesion, waves in the wall or roughness "
+                      "take energy, not plasticity",
+                      elastic));
+    if (d.place.size() < 4 || range < 0.3) return;
+    const Factors f = legendre_factors(d);
+    // e of the atlas is 0.0012 (rms) off, in each of three factors
+    const double model = 0.0012 / std::sqrt(3.0) / least;
+    const bool trend = f.seen(1, model);
+    if (trend && f.value[1] < 0)
+      say(fmt::format("e falls faster with the speed than any J2 material's ({:+.1f} % against the fit from the "
+                      "slowest to the fastest): damage, adhesion or waves; or what is held fixed is wrong",
+                      200 * f.value[1]));
+    if (trend && f.value[1] > 0)
+      say(fmt::format("e falls slower with the speed than the fit ({:+.1f} % from the slowest to the fastest): the "
+                      "material is stronger at fast impacts, as one that depends on the rate, or hardens more "
+                      "than the fit may",
+                      200 * f.value[1]));
+    if (!trend && f.seen(2, model))
+      say(fmt::format("e bends {} against the logarithm of the speed than the fit: another flow law, or two "
+                      "mechanisms of loss",
+                      f.value[2] > 0 ? "less" : "more"));
+  }
+
+  void look_at_curve()
+  {
+    look_for_a_drop();
+    const std::size_t reversal = measurement_.reversal();
+    double largest = 0;
+    for (std::size_t k = 0; k <= reversal; ++k) largest = std::max(largest, comparison_.predicted[k]);
+    Differences d;
+    std::vector<double> signs;
+    for (std::size_t k = 0; k <= reversal; ++k) {
+      const double predicted = comparison_.predicted[k];
+      if (predicted < 0.1 * largest) continue;
+      d.place.push_back(1 + 2 * std::log(predicted / largest) / std::log(10.0));
+      d.relative.push_back(measurement_.data[k].y / predicted - 1);
+      d.sd.push_back(comparison_.sd[k] / predicted);
+      signs.push_back(measurement_.data[k].y - comparison_.with_errors[k]);
+    }
+    if (d.place.size() < 8) return;
+    const Factors f = legendre_factors(d);
+    constexpr double model = 0.003;  // the atlas's own error, of each factor
+    if (f.seen(2, model))
+      say(fmt::format("the force bends {} on loading than the fit ({:.1f} %): {}",
+                      f.value[2] > 0 ? "up more" : "down more", 150 * std::abs(f.value[2]),
+                      f.value[2] > 0 ? "hardening that grows with strain, or a solid ground beneath the particle"
+                                     : "hardening that saturates (Voce, Swift) where the fit's is linear, or damage"));
+    else if (f.seen(1, model))
+      say(fmt::format("the force grows {} on loading than the fit's ({:+.1f} % from a tenth to all of it): "
+                      "another flow law, or a particle that is no sphere",
+                      f.value[1] > 0 ? "faster" : "slower", 200 * f.value[1]));
+    else if (missing_runs(signs) > clear && rms_relative(d) > 2 * model)
+      say(fmt::format("the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
+                      "systematic, though of no known pattern",
+                      100 * rms_relative(d)));
+    look_at_unloading();
+  }
+
+  static double rms_relative(const Differences& d)
+  {
+    double sum = 0;
+    for (const double r : d.relative) sum += r * r;
+    return std::sqrt(sum / static_cast<double>(d.relative.size()));
+  }
+
+  void look_at_unloading()
+  {
+    const std::size_t reversal = measurement_.reversal();
+    double difference = 0, weights = 0, largest = measurement_.data[reversal].y;
+    for (std::size_t k = reversal + 1; k < measurement_.data.size(); ++k) {
+      difference += measurement_.data[k].y - comparison_.with_errors[k];
+      weights += 1;
+    }
+    if (weights < 4 || !(largest > 0)) return;
+    const double mean = difference / weights / largest;
+    if (std::abs(mean) > 0.03)
+      say(fmt::format("unloading lies {} the fit by {:.1f} % of the largest force: {}",
+                      mean > 0 ? "above" : "below", 100 * std::abs(mean),
+                      mean > 0 ? "a machine that gives way, or E is lower than the loading says"
+                               : "time-dependent recovery, or E is higher than the loading says"));
+  }
+
+  void look_for_a_drop()
+  {
+    constexpr double least_drop = 0.03;  // of the largest force so far
+    const std::size_t reversal = measurement_.reversal();
+    double peak = 0, peak_at = 0, sd = 0;
+    for (std::size_t k = 0; k <= reversal; ++k) {
+      const Datum& d = measurement_.data[k];
+      if (d.y > peak) peak = d.y, peak_at = d.x, sd = d.sd;
+      const bool stays = k + 1 > reversal || measurement_.data[k + 1].y < peak - clear * sd;
+      if (peak - d.y > least_drop * peak + clear * std::hypot(sd, d.sd) && stays) {
+        say(fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, as by "
+                        "fracture; rows beyond tell nothing of a contact",
+                        100 * (peak - d.y) / peak, peak_at));
+        return;
+      }
+    }
+  }
+
+  void look_for_outliers()
+  {
+    const std::size_t count = measurement_.data.size();
+    std::vector<std::size_t> off;
+    for (std::size_t k = 0; k < count; ++k)
+      if (std::abs(residual(k)) > clear + (count > 100 ? 1 : 0)) off.push_back(k);
+    if (off.empty() || off.size() > std::max<std::size_t>(1, count / 10)) return;
+    std::string lines;
+    for (const std::size_t k : off) {
+      if (!lines.empty()) lines += ", ";
+      lines += fmt::format("{} ({:+.1f} sd)", measurement_.data[k].line, residual(k));
+      if (lines.size() > 100) break;
+    }
+    say(fmt::format("single values lie far off the fit, in line {}: outliers count less", lines));
+  }
+
+  const CalibrationProblem& problem_;
+  const Minimum& minimum_;
+  const Measurement& measurement_;
+  CalibrationProblem::Comparison comparison_;
+  std::vector<Misfit> found_;
+};
+
+}  // namespace
+
+std::vector<Misfit> name_misfits(const CalibrationProblem& problem, const Minimum& minimum)
+{
+  std::vector<Misfit> all;
+  for (std::size_t k = 0; k < problem.request().measurements.size(); ++k)
+    for (Misfit& m : Inspection(problem, minimum, k).misfits()) all.push_back(std::move(m));
+  return all;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,110 @@
+#include "calibrate/sphere_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/gauss.hpp"
+#include "base/scales.hpp"
+#include "characterise/tabulate_curve.hpp"
+
+namespace granulaw {
+
+namespace {
+
+MaterialRatios within(const Atlas& atlas, MaterialRatios m)
+{
+  const AtlasGrid& grid = atlas.grid();
+  m.stiffness = std::clamp(m.stiffness, grid.stiffnesses.front(), grid.stiffnesses.back());
+  m.hardening = std::clamp(m.hardening, grid.hardenings.front(), grid.hardenings.back());
+  return m;
+}
+
+constexpr double sphere_mass = 4.0 / 3.0 * M_PI;  // over rho R^3
+
+}  // namespace
+
+SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material)
+    : material_(within(atlas, material)),
+      atlas_(&atlas),
+      onset_(onset_overlap(material_.stiffness, 1.0, material_.poisson_ratio)),
+      energy_unit_(0.375 * sphere_mass / material_.stiffness),
+      shape_(atlas.shape(material_)),
+      free_(tabulate(shape_, onset_, Atlas::depth, Atlas::depth)),
+      impacts_(std::make_unique<ImpactsBySpeed>(shape_, free_, energy_unit_, VelocityAxis::Kind::inertia))
+{
+}
+
+SphereLaws::Impact SphereLaws::impact(double v) const
+{
+  v = std::clamp(v, 1e-9, fastest);
+  const double x = std::min(impacts_->impact_overlap(v), free_.x_end());
+  if (x <= onset_) return {1.0, x, 0.0, free_.loading(x).radius, contact_time(x, 0.0, 1.0)};
+  const LawShape::VelocityEffect effect = impacts_->effect(v);
+  const double slow = free_.work_unloading(x) / free_.work_loading(x);
+  const ContactCurve::Reversal top = free_.reversal(x);
+  const double kept = (1 - top.residual / x) * std::exp(-effect.residual);
+  const double residual = x * std::clamp(1 - kept, 0.0, 0.9999);
+  const double e = std::min(1.0, std::sqrt(slow * std::exp(-effect.dissipation)));
+  return {e, x, residual, top.radius, contact_time(x, residual, e)};
+}
+
+/// Loading by the slow press's work, brought to the impact's energy; unloading by the shape that gives e^2 of it back.
+double SphereLaws::contact_time(double x, double residual, double restitution) const
+{
+  // x' = x (1 - w^2), u = 1 - w^2: the integrands are smooth at the reversal
+  const double all = free_.work_loading(x);
+  const double loading = gauss<7>(0.0, 1.0, [&](double w) {
+    return 2 * w / std::sqrt(std::max(1e-12, 1 - free_.work_loading(x * (1 - w * w)) / all));
+  });
+  const ContactCurve::Reversal top = free_.reversal(x);
+  UnloadingShape shape = top.shape;
+  const double share = restitution * restitution * all / (top.force * (x - residual));
+  shape.exponent = std::clamp(UnloadingShape::exponent_of(share, shape.hertz_share),
+                              UnloadingShape::least_exponent,
+                              UnloadingShape::largest_exponent(shape.hertz_share));
+  const double unloading = gauss<7>(0.0, 1.0, [&](double w) {
+    return 2 * w / std::sqrt(std::max(1e-12, 1 - shape.work(1 - w * w) / shape.work()));
+  });
+  return x * loading + (x - residual) / restitution * unloading;
+}
+
+/// As deep as the interpolated shape is a law: of a few materials the force falls or the unloading is none before the end;
+/// beyond, it goes on with its last stiffness.
+ContactCurve SphereLaws::make_midplane() const
+{
+  const LawShape shape = atlas_->midplane().shape(material_, shape_);
+  constexpr double shorter = 0.85;
+  for (double depth = MidplaneShapes::depth;; depth *= shorter) {
+    try {
+      return tabulate(shape, onset_, Atlas::depth, depth);
+    } catch (const Error&) {
+      if (depth < 2 * onset_ || depth < 0.05) throw;
+    }
+  }
+}
+
+const ContactCurve& SphereLaws::midplane() const
+{
+  if (!midplane_) {
+    if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew with mpm atlas");
+    midplane_ = std::make_unique<ContactCurve>(make_midplane());
+  }
+  return *midplane_;
+}
+
+const SphereLaws& SphereLawsCache::of(const MaterialRatios& material)
+{
+  const MaterialRatios wanted = within(atlas_, material);
+  const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                  [&](const SphereLaws& l) { return l.material() == wanted; });
+  if (found != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, found);
+    return kept_.front();
+  }
+  kept_.emplace_front(atlas_, wanted);
+  if (kept_.size() > most) kept_.pop_back();
+  return kept_.front();
+}
+
+}  // namespace granulaw

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/scales.hpp"
+#include "calibrate/calibrate.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// "41 MPa", "3.2 GPa".
+std::string pressure(double pa)
+{
+  struct Unit
+  {
+    double size;
+    const char* name;
+  };
+  for (const Unit u : {Unit{1e9, "GPa"}, Unit{1e6, "MPa"}, Unit{1e3, "kPa"}})
+    if (pa >= u.size) return fmt::format("{:.3g} {}", pa / u.size, u.name);
+  return fmt::format("{:.3g} Pa", pa);
+}
+
+/// What the data span, as the beginning of a sentence.
+std::string span_of(const CalibrationProblem& problem, const Calibration& c)
+{
+  double slowest = 1e300, fastest = 0, deepest = 0;
+  const double slow = yield_velocity(c.material.e_star(), c.material.yield_stress, c.material.density);
+  const double onset = onset_overlap(c.material.e_star(), c.material.yield_stress, c.material.poisson_ratio);
+  for (std::size_t k = 0; k < problem.request().measurements.size(); ++k) {
+    const Measurement& m = problem.request().measurements[k];
+    const double share = m.partner == ImpactPartner::like_sphere ? 0.5 : 1.0;
+    for (const Datum& d : m.data) {
+      if (is_impact(m.kind))
+        slowest = std::min(slowest, share * d.x / slow), fastest = std::max(fastest, share * d.x / slow);
+      if (is_curve(m.kind))
+        deepest = std::max(deepest, (d.x - c.machines[k].offset) / m.radius /
+                                        (m.kind == MeasurementKind::platens ? 2 : 1) / onset);
+    }
+  }
+  std::string span;
+  if (fastest > 0)
+    span = fastest < 2 ? fmt::format("These impacts are all below {:.2g} V_y", fastest)
+                       : fmt::format("These impacts are at {:.2g} to {:.2g} V_y", slowest, fastest);
+  if (deepest > 0)
+    span += (span.empty() ? "The curve goes to " : ", the curve to ") +
+            fmt::format("{:.3g} times the overlap at which yield begins", deepest);
+  return span.empty() ? "These data" : span;
+}
+
+std::string clause(const FittedParameter& p)
+{
+  const Interval& i = p.profile.within95;
+  switch (p.told) {
+    case Told::value:
+      return fmt::format("{} is {} (95 %: {} to {})", name_of(p.parameter), pressure(p.profile.value),
+                         pressure(i.low), pressure(i.high));
+    case Told::from_below:
+      return fmt::format("they bound {} from below (95 %: over {})", name_of(p.parameter), pressure(i.low));
+    case Told::from_above:
+      return i.low_told ? fmt::format("{} lies between {} and {} (95 %), which cannot be told closer",
+                                      name_of(p.parameter), pressure(i.low), pressure(i.high))
+                        : fmt::format("they bound {} from above (95 %: below {})", name_of(p.parameter),
+                                      pressure(i.high));
+    default:
+      return fmt::format("they say nothing of {}: it cannot be told", name_of(p.parameter));
+  }
+}
+
+std::string correlation_clause(const Calibration& c)
+{
+  constexpr double strong = 0.95;
+  std::string said;
+  for (Eigen::Index a = 0; a < c.correlation.rows(); ++a)
+    for (Eigen::Index b = 0; b < a; ++b)
+      if (std::abs(c.correlation(a, b)) > strong)
+        said += fmt::format(" {} and {} change together (correlation {:.2f}): one known would tell the other.",
+                            name_of(c.parameters[static_cast<std::size_t>(b)].parameter),
+                            name_of(c.parameters[static_cast<std::size_t>(a)].parameter), c.correlation(a, b));
+  return said;
+}
+
+}  // namespace
+
+std::string verdict(const CalibrationProblem& problem, const Calibration& c)
+{
+  constexpr double unlikely = 0.01;
+  std::string text = span_of(problem, c) + ": ";
+  for (std::size_t k = 0; k < c.parameters.size(); ++k)
+    text += (k > 0 ? "; " : "") + clause(c.parameters[k]);
+  text += "." + correlation_clause(c);
+  for (const Misfit& m : c.misfits) text += fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
+  if (c.misfits.empty())
+    text += c.degrees_of_freedom > 0 && c.p_value < unlikely
+                ? fmt::format(" The data scatter more than stated (p = {:.2g}); the intervals are widened by {:.2g}.",
+                              c.p_value, std::sqrt(c.interval_scale))
+                : std::string(" The fit is as good as the data.");
+  return text;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "law/law_material.hpp"
+
+namespace granulaw {
+
+/// A homogeneous, rate-independent, linearly hardening material without dimensions.
+struct MaterialRatios
+{
+  double stiffness = 0;      ///< E*/Y
+  double poisson_ratio = 0;  ///< nu
+  double hardening = 0;      ///< H/E
+
+  static MaterialRatios of(const LawMaterial& material);
+  bool operator==(const MaterialRatios&) const = default;
+};
+
+/// ln(1 + 2 (H/E)(E*/Y)): the coordinate along hardening.
+double hardening_coordinate(double stiffness, double hardening);
+
+}  // namespace granulaw

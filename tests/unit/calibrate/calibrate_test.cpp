@@ -1,0 +1,178 @@
+#include "calibrate/calibrate.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "calibrate/design.hpp"
+#include "calibrate/noise.hpp"
+
+namespace granulaw {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const Atlas& atlas()
+{
+  static const Atlas read = read_atlas(GRANULAW_ATLAS_FILE);
+  return read;
+}
+
+LawMaterial stone()
+{
+  return {"stone", 2000, 10e9, 0.25, 60e6, 0};
+}
+
+constexpr double radius = 1e-3;
+
+/// Drops without noise that state 1 %.
+Measurement drops(const LawMaterial& m, const std::vector<double>& speeds)
+{
+  Measurement measured;
+  measured.source = "drops.csv";
+  measured.radius = radius;
+  for (const double v : speeds) measured.data.push_back({v, 1, 0, static_cast<int>(measured.data.size()) + 2});
+  const SphereLaws laws(atlas(), MaterialRatios::of(m));
+  const std::vector<double> e = predict(measured, m, laws, {}).values;
+  for (std::size_t k = 0; k < e.size(); ++k) measured.data[k].y = e[k], measured.data[k].sd = 0.01 * e[k];
+  return measured;
+}
+
+Measurement curve(const LawMaterial& m, double depth, double offset)
+{
+  Measurement measured;
+  measured.kind = MeasurementKind::platens;
+  measured.source = "platens.csv";
+  measured.radius = radius;
+  measured.fit_offset = true;
+  for (int k = 1; k <= 40; ++k) measured.data.push_back({2 * depth * radius * k / 40 + offset, 1, 0, k});
+  for (int k = 39; k > 20; --k) measured.data.push_back({2 * depth * radius * k / 40 + offset, 1, 0, 80 - k});
+  const SphereLaws laws(atlas(), MaterialRatios::of(m));
+  const std::vector<double> force = predict(measured, m, laws, {offset, 0}).values;
+  for (std::size_t k = 0; k < force.size(); ++k)
+    measured.data[k].y = force[k], measured.data[k].sd = 0.01 * force[k] + 1e-3 * force[39];
+  return measured;
+}
+
+CalibrationRequest request_for(const Measurement& m, std::vector<Parameter> fit)
+{
+  CalibrationRequest r;
+  r.known = stone();
+  for (const Parameter p : fit) set_value(r.known, p, 0);
+  r.fit = std::move(fit);
+  r.measurements = {m};
+  return r;
+}
+
+TEST(Calibrate, DropsWithoutNoiseGiveBackTheYieldStress)
+{
+  const CalibrationProblem problem(
+      atlas(), request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::yield_stress}));
+  const Calibration c = calibrate(problem);
+  // the same model made the data: what the minimiser's tolerance leaves
+  EXPECT_NEAR(c.material.yield_stress / 60e6, 1, 1e-3);
+  ASSERT_EQ(c.parameters.size(), 1u);
+  EXPECT_TRUE(c.parameters[0].identifiable());
+  const Interval &narrow = c.parameters[0].profile.within68, &wide = c.parameters[0].profile.within95;
+  EXPECT_LT(wide.low, narrow.low);
+  EXPECT_LT(narrow.low, 60e6);
+  EXPECT_LT(60e6, narrow.high);
+  EXPECT_LT(narrow.high, wide.high);
+  EXPECT_GT(c.p_value, 0.99);
+  EXPECT_THAT(c.misfits, IsEmpty());
+}
+
+TEST(Calibrate, DropsThatDoNotYieldBoundTheYieldStressFromBelow)
+{
+  const CalibrationProblem problem(
+      atlas(), request_for(drops(stone(), {0.002, 0.004, 0.008}), {Parameter::yield_stress}));
+  const Calibration c = calibrate(problem);
+  EXPECT_FALSE(c.parameters[0].identifiable());
+  EXPECT_EQ(c.parameters[0].told, Told::from_below);
+  EXPECT_THAT(verdict(problem, c), HasSubstr("from below"));
+}
+
+TEST(Calibrate, ACurveGivesBackModulusYieldStressAndOffset)
+{
+  const double offset = 3e-6;
+  const CalibrationProblem problem(
+      atlas(), request_for(curve(stone(), 0.05, offset), {Parameter::youngs_modulus, Parameter::yield_stress}));
+  const Calibration c = calibrate(problem);
+  // the same model made the data
+  EXPECT_NEAR(c.material.youngs_modulus / 10e9, 1, 5e-3);
+  EXPECT_NEAR(c.material.yield_stress / 60e6, 1, 5e-3);
+  EXPECT_NEAR(c.machines[0].offset / offset, 1, 0.02);
+  EXPECT_THAT(c.misfits, IsEmpty());
+}
+
+TEST(Calibrate, APriorNarrows)
+{
+  CalibrationRequest plain = request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}),
+                                         {Parameter::youngs_modulus, Parameter::yield_stress});
+  CalibrationRequest informed = plain;
+  informed.priors = {{Parameter::youngs_modulus, {9.5e9, 10.5e9}}};
+  const auto width = [](const CalibrationRequest& r) {
+    const CalibrationProblem problem(atlas(), r);
+    const Interval i = calibrate(problem).parameters[1].profile.within95;
+    return std::log(i.high / i.low);
+  };
+  EXPECT_LT(width(informed), 0.5 * width(plain));
+}
+
+TEST(Calibrate, LossesBelowYieldAreNamed)
+{
+  Measurement m = drops(stone(), {0.002, 0.004, 0.5, 1, 2, 4});
+  m.data[0].y = 0.9, m.data[1].y = 0.91;
+  const CalibrationProblem problem(atlas(), request_for(m, {Parameter::yield_stress}));
+  const Calibration c = calibrate(problem);
+  ASSERT_FALSE(c.misfits.empty());
+  EXPECT_THAT(c.misfits[0].sentence, HasSubstr("do not yield"));
+}
+
+TEST(Calibrate, AForceThatFallsIsNamed)
+{
+  Measurement m = curve(stone(), 0.05, 0);
+  for (int k = 25; k < 40; ++k) m.data[static_cast<std::size_t>(k)].y *= 0.7;
+  const CalibrationProblem problem(
+      atlas(), request_for(m, {Parameter::youngs_modulus, Parameter::yield_stress}));
+  std::string all;
+  for (const Misfit& f : calibrate(problem).misfits) all += f.sentence;
+  EXPECT_THAT(all, HasSubstr("fracture"));
+}
+
+TEST(Calibrate, OneValueIsTooFew)
+{
+  EXPECT_THROW(CalibrationProblem(atlas(), request_for(drops(stone(), {1.0}), {Parameter::yield_stress})), Error);
+}
+
+TEST(Calibrate, TheEnsembleScattersAsTheIntervalSays)
+{
+  const CalibrationProblem problem(
+      atlas(), request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::yield_stress}));
+  const Calibration c = calibrate(problem);
+  const std::vector<LawMaterial> drawn = draw_materials(problem, c, 100, 7);
+  ASSERT_EQ(drawn.size(), 100u);
+  int within = 0;
+  for (const LawMaterial& m : drawn)
+    within += m.yield_stress >= c.parameters[0].profile.within95.low &&
+              m.yield_stress <= c.parameters[0].profile.within95.high;
+  EXPECT_GE(within, 85);  // 95 expected, sd 2.2 of independent draws
+  EXPECT_EQ(drawn[3].yield_stress, draw_materials(problem, c, 4, 7)[3].yield_stress);
+}
+
+TEST(Design, PlasticImpactsTellMoreThanElasticOnes)
+{
+  CalibrationRequest r;
+  r.known = stone();
+  r.known.yield_stress = 0;
+  r.fit = {Parameter::yield_stress};
+  const Design design(atlas(), r, stone(),
+                      {{MeasurementKind::restitution, 0.004}, {MeasurementKind::restitution, 2.0}}, radius, 0.01);
+  EXPECT_LT(design.expected({1, 1})[0], 0.1 * design.expected({0, 0})[0]);
+  EXPECT_EQ(design.best(1), (std::vector<std::size_t>{1}));
+}
+
+}  // namespace
+}  // namespace granulaw

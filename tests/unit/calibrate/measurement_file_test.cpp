@@ -1,0 +1,58 @@
+#include "calibrate/measurement_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+
+namespace granulaw {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::string& text)
+{
+  try {
+    parse_measurement(text, "data.csv");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MeasurementFile, TellsTheKindByItsHeader)
+{
+  const Measurement m = parse_measurement("# a comment\nvelocity_m_per_s,restitution,restitution_sd\n1,0.8,0.01\n", "x");
+  EXPECT_EQ(m.kind, MeasurementKind::restitution);
+  ASSERT_EQ(m.data.size(), 1u);
+  EXPECT_EQ(m.data[0].x, 1);
+  EXPECT_EQ(m.data[0].y, 0.8);
+  EXPECT_EQ(m.data[0].sd, 0.01);
+  EXPECT_EQ(m.data[0].line, 3);
+}
+
+TEST(MeasurementFile, ForcesArePlatensUnlessFlat)
+{
+  const std::string text = "displacement_m,force_N\n0,0\n1,1\n2,2\n3,3\n4,4\n3,2\n";
+  EXPECT_EQ(parse_measurement(text, "x").kind, MeasurementKind::platens);
+  EXPECT_EQ(parse_measurement(text, "x", true).kind, MeasurementKind::flat);
+  EXPECT_EQ(parse_measurement(text, "x").reversal(), 4u);
+}
+
+TEST(MeasurementFile, SaysWhatIsWrongInOneSentence)
+{
+  const std::string drops = "velocity_m_per_s,restitution\n";
+  EXPECT_THAT(complaint("velocity,restitution\n1,0.5\n"), HasSubstr("must name its unit"));
+  EXPECT_THAT(complaint("displacement_mm,force_N\n1,0.5\n"), HasSubstr("must name its unit"));
+  EXPECT_THAT(complaint("speed,bounce\n1,2\n"), HasSubstr("names no kind"));
+  EXPECT_THAT(complaint(drops + "1\n"), HasSubstr("another number of columns"));
+  EXPECT_THAT(complaint(drops + "-1,0.5\n"), HasSubstr("data.csv:2: 'velocity_m_per_s' is out of range"));
+  EXPECT_THAT(complaint(drops + "1,1.2\n"), HasSubstr("'restitution' is out of range"));
+  EXPECT_THAT(complaint(drops + "1,nan\n"), HasSubstr("is not finite"));
+  EXPECT_THAT(complaint(drops + "1,fast\n"), HasSubstr("is no number"));
+  EXPECT_THAT(complaint(drops), HasSubstr("no row"));
+  EXPECT_THAT(complaint(""), HasSubstr("empty"));
+  EXPECT_THAT(complaint("displacement_m,force_N\n0,0\n1,1\n"), HasSubstr("more rows"));
+}
+
+}  // namespace
+}  // namespace granulaw

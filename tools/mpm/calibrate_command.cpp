@@ -1,0 +1,126 @@
+// mpm calibrate: from measurements to a material.
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "atlas_path.hpp"
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "calibration_options.hpp"
+#include "calibration_output.hpp"
+#include "command.hpp"
+#include "json_output.hpp"
+#include "option_checks.hpp"
+#include "python_script.hpp"
+#include "trace_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+struct CalibrateRequest
+{
+  CalibrationOptions options;
+  std::string output, plot;
+  int ensemble = 0;
+  unsigned seed = 1;
+  bool json = false;
+};
+
+/// material.toml -> material-07.toml
+std::string numbered(const std::string& path, int number, int count)
+{
+  const std::filesystem::path p(path);
+  const auto digits = std::to_string(count).size();
+  return (p.parent_path() /
+          fmt::format("{}-{:0{}}{}", p.stem().string(), number, digits, p.extension().string()))
+      .string();
+}
+
+void write_ensemble(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& c)
+{
+  const std::vector<LawMaterial> drawn = draw_materials(problem, c, r.ensemble, r.seed);
+  for (int k = 1; k <= r.ensemble; ++k)
+    write_text_atomically(
+        numbered(r.output, k, r.ensemble),
+        material_toml(drawn[static_cast<std::size_t>(k) - 1],
+                      fmt::format("# draw {} of {} from the posterior: mpm calibrate --seed {}\n", k,
+                                  r.ensemble, r.seed)));
+}
+
+void draw(const CalibrateRequest& r, const nlohmann::ordered_json& result)
+{
+  const std::string input =
+      (std::filesystem::temp_directory_path() / fmt::format("mpm-calibrate-{}.json", getpid())).string();
+  write_text_atomically(input, result.dump());
+  try {
+    draw_by_python("mpm calibrate", "plot_fit.py", {input, r.plot}, {}, r.plot);
+  } catch (...) {
+    std::filesystem::remove(input);
+    throw;
+  }
+  std::filesystem::remove(input);
+}
+
+void check_outputs(const CalibrateRequest& r)
+{
+  if (!r.output.empty()) check_output(r.output, ".toml");
+  if (!r.plot.empty()) check_output(r.plot, ".png, .pdf, .svg");
+  if (r.ensemble > 0 && r.output.empty())
+    fail("--ensemble", "needs -o NAME.toml: its files are NAME-1.toml, ...");
+  if (!r.output.empty() && !r.options.density) fail("--density", "is missing: a materials file holds it");
+}
+
+void run(const CalibrateRequest& r)
+{
+  check_outputs(r);
+  const CalibrationRequest request = r.options.request();
+  const std::optional<Atlas> atlas = own_atlas();
+  if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/atlas.md)");
+  const CalibrationProblem problem(*atlas, request);
+  const Calibration result = calibrate(problem);
+  const nlohmann::ordered_json json = calibration_json(problem, result);
+  if (!r.output.empty())
+    write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" +
+                                                                       interval_comments(problem, result)));
+  if (r.ensemble > 0) write_ensemble(r, problem, result);
+  if (!r.plot.empty()) draw(r, json);
+  if (r.json)
+    print_json(json, 2);
+  else
+    print_calibration(problem, result);
+}
+
+void define(CLI::App& command)
+{
+  const auto r = std::make_shared<CalibrateRequest>();
+  r->options.add_to(command, true);
+  command.add_option("-o,--output", r->output, "materials file, NAME.toml, that mpm table takes");
+  command.add_option("--plot", r->plot, "picture of data, fit and its 95 % band: NAME.png, .pdf or .svg");
+  command
+      .add_option(
+          "--ensemble", r->ensemble,
+          "so many materials drawn from what the data leave open: NAME-1.toml, ... beside -o NAME.toml")
+      ->check(whole_from_to(1, 10000));
+  command.add_option("--seed", r->seed, "of the ensemble")->capture_default_str();
+  command.add_flag(
+      "--json", r->json,
+      "print one JSON object instead of the summary: parameters.NAME.value, low68, high68, low95, "
+      "high95 (Pa), identifiable, told; correlation; chi2, degrees_of_freedom, p_value; "
+      "interval_scale: factor on chi^2 in the intervals; verdict; misfits; measurements with their fit");
+  command.callback([r] { run(*r); });
+}
+
+}  // namespace
+
+extern const Command calibrate_command{
+    "calibrate",
+    "From measurements to a material: what data tell of Young's modulus, yield stress and hardening, with\n"
+    "intervals and a verdict on what they cannot tell (docs/calibrate.md).\n"
+    "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus "
+    "3.2e9\n"
+    "         --fit yield_stress -o material.toml --plot fit.png",
+    define};
+
+}  // namespace granulaw

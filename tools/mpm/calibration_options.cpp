@@ -1,0 +1,167 @@
+#include "calibration_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "calibrate/measurement_file.hpp"
+#include "calibrate/noise.hpp"
+#include "characterise/law_material.hpp"
+#include "materials_file.hpp"
+#include "option_checks.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr const char* hardness_ratio = "hardness/yield_stress";
+
+std::string without_blanks(const std::string& word)
+{
+  const auto first = word.find_first_not_of(' ');
+  return first == std::string::npos ? "" : word.substr(first, word.find_last_not_of(' ') - first + 1);
+}
+
+double number_or_nan(const std::string& word)
+{
+  return number_in(without_blanks(word));
+}
+
+/// A range of a parameter; `what` is allowed besides.
+std::vector<ParameterRange> ranges_of(const std::vector<std::string>& words, const char* option,
+                                      std::optional<Range>* hardness)
+{
+  std::vector<ParameterRange> found;
+  for (const std::string& word : words) {
+    const NamedRange r = parse_named_range(word, option);
+    if (hardness && r.name == hardness_ratio)
+      *hardness = r.range;
+    else
+      found.push_back({parameter_named(r.name, option), r.range});
+  }
+  return found;
+}
+
+}  // namespace
+
+NamedRange parse_named_range(const std::string& word, const std::string& option)
+{
+  const auto equals = word.find('='), dots = word.find("..");
+  const auto complain = [&] {
+    fail(option, "cannot be understood", fmt::format("'{}'", cut(word)), "'NAME = LOW..HIGH', SI, both over 0");
+  };
+  if (equals == std::string::npos || dots == std::string::npos || dots < equals) complain();
+  const NamedRange r{without_blanks(word.substr(0, equals)),
+                     {number_or_nan(word.substr(equals + 1, dots - equals - 1)),
+                      number_or_nan(word.substr(dots + 2))}};
+  if (!(r.range.low > 0 && r.range.high > r.range.low && std::isfinite(r.range.high))) complain();
+  return r;
+}
+
+void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
+{
+  CLI::Option* files = command.add_option(
+      "DATA", data,
+      "CSV files, SI, one kind of measurement each: velocity_m_per_s with restitution, contact_radius_m,\n"
+      "residual_displacement_m or contact_time_s; displacement_m,force_N; hardness_Pa; onset_force_N; each with a\n"
+      "further column NAME_sd where the standard deviation is known (docs/calibrate.md)");
+  if (needs_data) files->required();
+  command.add_option("--fit", fit, "what is wanted: youngs_modulus, yield_stress, hardening_modulus")
+      ->required();
+  command.add_option("--radius", radius, "of the sphere, m")->required()->check(above_zero_to(1e3));
+  command.add_option("--density", density, "kg/m^3; force curves do without")->check(above_zero());
+  command.add_option("--poisson-ratio", poisson_ratio)->check(from_to(0, 0.49))->capture_default_str();
+  command.add_option("--youngs-modulus", youngs_modulus, "Pa, where it is known and not fitted")
+      ->check(above_zero());
+  command.add_option("--yield-stress", yield_stress, "Pa, where it is known and not fitted")
+      ->check(above_zero());
+  command.add_option("--hardening-modulus", hardening_modulus,
+                     "Pa, where it is known and not fitted (default 0: perfectly plastic)");
+  command.add_option("--kind", kind,
+                     "of force curves. platens: a sphere between two plates, displacement of one towards the "
+                     "other; flat: one contact, displacement of the sphere's middle")
+      ->check(CLI::IsMember({"platens", "flat"}))
+      ->capture_default_str();
+  command.add_option("--partner", partner,
+                     "of impacts. wall: rigid; like: a sphere of the same material and size, the speed is that of "
+                     "approach")
+      ->check(CLI::IsMember({"wall", "like"}))
+      ->capture_default_str();
+  CLI::Option* materials_file = command.add_option("--materials", materials, "TOML file that holds the wall's material");
+  command
+      .add_option("--wall", wall, "restitution: name of the material of a thick deformable wall (default: rigid)")
+      ->needs(materials_file);
+  command.add_option("--offset", offset,
+                     "m, displacement at first touch, where it is known (default: it is fitted, for each curve)");
+  command.add_flag("--compliance", compliance, "fit the machine's compliance, m/N, for each curve");
+  command.add_option("--relative-sd", relative_sd,
+                     "standard deviation of values whose file states none, as a share of the value; a curve's is "
+                     "taken from its own scatter")
+      ->check(above_zero_to(1))
+      ->capture_default_str();
+  command.add_option("--prior", priors,
+                     "'NAME = LOW..HIGH': known before, 95 % lie between; NAME as in --fit, or hardness/yield_stress");
+  command.add_option("--bounds", bounds, "'NAME = LOW..HIGH': never outside");
+  command.add_flag("--no-robust", plain, "outliers count by their square, as all other values");
+  command.add_option("--name", name, "of the material in what is written")->capture_default_str();
+}
+
+/// Puts the wall to all drops.
+void CalibrationOptions::set_wall(CalibrationRequest& r) const
+{
+  const MaterialsFile file = read_materials(materials);
+  const Material& m = file.material(wall);
+  if (!m.hardening.name.empty() || m.rate_dependent())
+    fail("--wall", "a wall hardens linearly or not at all, and knows no rate", wall);
+  for (Measurement& measurement : r.measurements) {
+    if (!is_impact(measurement.kind)) continue;
+    if (measurement.kind != MeasurementKind::restitution || measurement.partner != ImpactPartner::rigid_wall)
+      fail(measurement.source, "only restitution of drops can be against --wall");
+    measurement.wall = law_material(wall, m);
+  }
+}
+
+CalibrationRequest CalibrationOptions::request() const
+{
+  CalibrationRequest r;
+  r.robust = !plain;
+  for (const std::string& word : fit) r.fit.push_back(parameter_named(word, "--fit"));
+  for (std::size_t a = 0; a < r.fit.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (r.fit[a] == r.fit[b]) fail("--fit", fmt::format("'{}' is named twice", fit[a]));
+  r.known.name = name;
+  r.known.poisson_ratio = poisson_ratio;
+  r.known.youngs_modulus = youngs_modulus.value_or(0);
+  r.known.yield_stress = yield_stress.value_or(0);
+  r.known.hardening_modulus = hardening_modulus.value_or(0);
+  require(r.known.hardening_modulus >= 0, "--hardening-modulus",
+          fmt::format("{:g}", r.known.hardening_modulus), "0 or more");
+  for (const Parameter p : r.fit)
+    if (value_of(r.known, p) > 0)
+      fail("--fit", fmt::format("'{}' is given, too: either it is known or it is fitted", name_of(p)));
+  for (const auto& [parameter, option] :
+       {std::pair{Parameter::youngs_modulus, "--youngs-modulus"}, {Parameter::yield_stress, "--yield-stress"}})
+    if (std::find(r.fit.begin(), r.fit.end(), parameter) == r.fit.end() && !(value_of(r.known, parameter) > 0))
+      fail(option, fmt::format("is missing: give it, or add {} to --fit", name_of(parameter)));
+  r.priors = ranges_of(priors, "--prior", &r.hardness_ratio);
+  r.bounds = ranges_of(bounds, "--bounds", nullptr);
+  for (const std::string& path : data) {
+    Measurement m = read_measurement(path, kind == "flat");
+    if (is_impact(m.kind) && !density) fail("--density", "is missing: impacts depend on it");
+    m.radius = *radius;
+    m.partner = partner == "like" ? ImpactPartner::like_sphere : ImpactPartner::rigid_wall;
+    if (is_curve(m.kind)) {
+      m.fit_offset = !offset, m.fit_compliance = compliance;
+      if (offset)
+        for (Datum& d : m.data) d.x -= *offset;
+    }
+    complete_standard_deviations(m, relative_sd);
+    r.measurements.push_back(std::move(m));
+  }
+  if (!wall.empty()) set_wall(r);
+  r.known.density = density.value_or(1000);  // no curve of force depends on it
+  return r;
+}
+
+}  // namespace granulaw

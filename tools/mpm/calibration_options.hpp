@@ -1,0 +1,38 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/problem.hpp"
+
+namespace granulaw {
+
+/// What `mpm calibrate` and `mpm design` take: data, what is known of the specimen, what is wanted.
+struct CalibrationOptions
+{
+  std::vector<std::string> data, fit, priors, bounds;
+  std::optional<double> radius, density, youngs_modulus, yield_stress, hardening_modulus, offset;
+  double poisson_ratio = 0.3, relative_sd = 0.01;
+  std::string kind = "platens", partner = "wall", name = "material";
+  std::string materials, wall;  ///< a file, and the name of the wall's material there; empty: a rigid wall
+  bool compliance = false, plain = false;
+
+  void add_to(CLI::App& command, bool needs_data);
+  /// The request, its files read and its words understood. Throws Error.
+  CalibrationRequest request() const;
+
+ private:
+  void set_wall(CalibrationRequest& request) const;
+};
+
+/// "NAME = A..B" of a prior or a bound; NAME may hold a '/'. `option` leads the sentence of what cannot be understood.
+struct NamedRange
+{
+  std::string name;
+  Range range;
+};
+NamedRange parse_named_range(const std::string& word, const std::string& option);
+
+}  // namespace granulaw

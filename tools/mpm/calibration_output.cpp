@@ -1,0 +1,156 @@
+#include "calibration_output.hpp"
+
+#include <fmt/format.h>
+
+#include "json_output.hpp"
+
+namespace granulaw {
+
+namespace {
+
+const char* word_of(Told told)
+{
+  switch (told) {
+    case Told::value:
+      return "value";
+    case Told::from_below:
+      return "from below";
+    case Told::from_above:
+      return "from above";
+    default:
+      return "cannot be told";
+  }
+}
+
+const char* name_of_kind(MeasurementKind kind)
+{
+  switch (kind) {
+    case MeasurementKind::restitution:
+      return "restitution";
+    case MeasurementKind::platens:
+      return "platens";
+    case MeasurementKind::flat:
+      return "flat";
+    case MeasurementKind::contact_radius:
+      return "contact radius";
+    case MeasurementKind::residual_displacement:
+      return "residual displacement";
+    case MeasurementKind::contact_time:
+      return "contact time";
+    case MeasurementKind::hardness:
+      return "hardness";
+    default:
+      return "onset force";
+  }
+}
+
+/// Sd of the fit's values of one measurement, from what the fit does not know.
+std::vector<double> band_of(const CalibrationProblem& problem, const Calibration& c, std::size_t index,
+                            const std::vector<double>& sd)
+{
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < index; ++k)
+    row += static_cast<Eigen::Index>(problem.request().measurements[k].data.size());
+  const Eigen::MatrixXd cov = covariance(c.minimum);
+  std::vector<double> band;
+  for (std::size_t k = 0; k < sd.size(); ++k) {
+    const Eigen::RowVectorXd slope = c.minimum.jacobian.row(row + static_cast<Eigen::Index>(k));
+    band.push_back(sd[k] * std::sqrt(std::max(0.0, (slope * cov * slope.transpose())(0, 0))));
+  }
+  return band;
+}
+
+nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const Calibration& c, std::size_t k)
+{
+  const Measurement& m = problem.request().measurements[k];
+  const CalibrationProblem::Comparison compared = problem.compare(c.minimum.q, k);
+  nlohmann::ordered_json out;
+  out["source"] = m.source;
+  out["kind"] = name_of_kind(m.kind);
+  if (m.fit_offset) out["offset_m"] = c.machines[k].offset;
+  if (m.fit_compliance) out["compliance_m_per_N"] = c.machines[k].compliance;
+  std::vector<double> x, y;
+  for (const Datum& d : m.data) x.push_back(d.x), y.push_back(d.y);
+  out["x"] = x, out["measured"] = y, out["sd"] = compared.sd, out["fit"] = compared.with_errors;
+  out["fit_sd"] = band_of(problem, c, k, compared.sd);
+  return out;
+}
+
+}  // namespace
+
+nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const Calibration& c)
+{
+  nlohmann::ordered_json out;
+  for (const FittedParameter& p : c.parameters) {
+    const Interval &a = p.profile.within68, &b = p.profile.within95;
+    out["parameters"][name_of(p.parameter)] = {
+        {"value", json_number(p.profile.value)}, {"low68", json_number(a.low)},  {"high68", json_number(a.high)},
+        {"low95", json_number(b.low)},           {"high95", json_number(b.high)}, {"identifiable", p.identifiable()},
+        {"told", word_of(p.told)}};
+  }
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (Eigen::Index a = 0; a < c.correlation.rows(); ++a) {
+    std::vector<double> row;
+    for (Eigen::Index b = 0; b < c.correlation.cols(); ++b) row.push_back(c.correlation(a, b));
+    rows.push_back(row);
+  }
+  out["correlation"] = rows;
+  out["chi2"] = json_number(c.chi_squared);
+  out["degrees_of_freedom"] = c.degrees_of_freedom;
+  out["p_value"] = json_number(c.p_value);
+  out["interval_scale"] = c.interval_scale;
+  out["verdict"] = verdict(problem, c);
+  out["misfits"] = nlohmann::ordered_json::array();
+  for (const Misfit& m : c.misfits) out["misfits"].push_back({{"source", m.source}, {"sentence", m.sentence}});
+  out["material"] = {{"density", c.material.density},
+                     {"youngs_modulus", c.material.youngs_modulus},
+                     {"poisson_ratio", c.material.poisson_ratio},
+                     {"yield_stress", c.material.yield_stress},
+                     {"hardening_modulus", c.material.hardening_modulus}};
+  out["measurements"] = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < problem.request().measurements.size(); ++k)
+    out["measurements"].push_back(measurement_json(problem, c, k));
+  return out;
+}
+
+std::string interval_comments(const CalibrationProblem& problem, const Calibration& c)
+{
+  std::string text;
+  for (const FittedParameter& p : c.parameters)
+    text += fmt::format("# {}: {:.4g} Pa, 68 %: {:.4g} to {:.4g}, 95 %: {:.4g} to {:.4g}{}\n", name_of(p.parameter),
+                        p.profile.value, p.profile.within68.low, p.profile.within68.high,
+                        p.profile.within95.low, p.profile.within95.high,
+                        p.identifiable() ? "" : fmt::format(" ({})", word_of(p.told)));
+  return text + fmt::format("# {}\n", verdict(problem, c));
+}
+
+std::string material_toml(const LawMaterial& m, const std::string& comments)
+{
+  std::string text = comments + fmt::format("[material.{}]\ndensity = {:.6g}\nyoungs_modulus = {:.6g}\n"
+                                            "poisson_ratio = {:.6g}\nyield_stress = {:.6g}\n",
+                                            m.name, m.density, m.youngs_modulus, m.poisson_ratio,
+                                            m.yield_stress);
+  if (m.hardening_modulus > 0)
+    text += fmt::format("hardening = {{law = \"linear\", modulus = {:.6g}}}\n", m.hardening_modulus);
+  return text;
+}
+
+void print_calibration(const CalibrationProblem& problem, const Calibration& c)
+{
+  fmt::print("{:<20}{:>12}{:>26}{:>26}\n", "", "Pa", "68 %", "95 %");
+  for (const FittedParameter& p : c.parameters) {
+    const Interval &a = p.profile.within68, &b = p.profile.within95;
+    fmt::print("{:<20}{:>12.4g}{:>12.4g} to {:<10.4g}{:>12.4g} to {:<10.4g}{}\n", name_of(p.parameter),
+               p.profile.value, a.low, a.high, b.low, b.high,
+               p.identifiable() ? "" : word_of(p.told));
+  }
+  for (std::size_t k = 0; k < c.machines.size(); ++k) {
+    const Measurement& m = problem.request().measurements[k];
+    if (m.fit_offset) fmt::print("first touch of {}: {:.4g} m\n", m.source, c.machines[k].offset);
+    if (m.fit_compliance) fmt::print("compliance of {}: {:.4g} m/N\n", m.source, c.machines[k].compliance);
+  }
+  fmt::print("chi^2 {:.4g} of {} degrees of freedom, p = {:.2g}\n{}\n", c.chi_squared, c.degrees_of_freedom,
+             c.p_value, verdict(problem, c));
+}
+
+}  // namespace granulaw

@@ -1,0 +1,165 @@
+// mpm design: which measurement would narrow what is wanted most.
+#include <memory>
+
+#include "atlas_path.hpp"
+#include "base/error.hpp"
+#include "calibrate/design.hpp"
+#include "calibration_options.hpp"
+#include "command.hpp"
+#include "json_output.hpp"
+#include "option_checks.hpp"
+
+namespace granulaw {
+
+namespace {
+
+struct DesignRequest
+{
+  CalibrationOptions options;
+  std::string speeds, displacements;
+  std::vector<std::string> guess;
+  int count = 8, places = 13;
+  bool json = false;
+};
+
+/// Evenly in the logarithm.
+void add_candidates(std::vector<DesignCandidate>& all, MeasurementKind kind, const std::string& range,
+                    const char* option, int places)
+{
+  if (range.empty()) return;
+  const Range r = parse_named_range("x = " + range, option).range;
+  for (int k = 0; k < places; ++k)
+    all.push_back({kind, r.low * std::pow(r.high / r.low, static_cast<double>(k) / (places - 1))});
+}
+
+/// The material by which the design goes: the guess, else what the data say.
+LawMaterial assumed_material(const DesignRequest& r, const CalibrationRequest& request, const Atlas& atlas)
+{
+  if (r.guess.empty()) {
+    if (request.measurements.empty())
+      fail("--guess", "is missing: without data the design needs a material to go by, such as yield_stress=50e6");
+    return calibrate(CalibrationProblem(atlas, request)).material;
+  }
+  LawMaterial m = request.known;
+  for (const std::string& word : r.guess) {
+    const auto equals = word.find('=');
+    const double value = equals == std::string::npos ? -1 : number_in(word.substr(equals + 1));
+    require(value >= 0, "--guess", fmt::format("'{}'", cut(word)), "NAME=VALUE, SI");
+    set_value(m, parameter_named(word.substr(0, equals), "--guess"), value);
+  }
+  for (const Parameter p : {Parameter::youngs_modulus, Parameter::yield_stress})
+    if (!(value_of(m, p) > 0)) fail("--guess", fmt::format("{} is neither given nor guessed", name_of(p)));
+  if (const std::string why = atlas.why_not(MaterialRatios::of(m)); !why.empty())
+    fail("--guess", "this material is not in the atlas: " + why);
+  return m;
+}
+
+std::string label(const DesignCandidate& c)
+{
+  constexpr double gravity = 9.81;
+  return is_curve(c.kind) ? fmt::format("platens to {:.3g} m", c.place)
+                          : fmt::format("impact at {:.3g} m/s (from {:.3g} m)", c.place,
+                                        c.place * c.place / (2 * gravity));
+}
+
+std::string cells(const ExpectedIntervals& widths)
+{
+  std::string text;
+  for (const double w : widths)
+    text += w < 1 ? fmt::format("{:>18.2g} %", 100 * w) : fmt::format("{:>20}", "cannot be told");
+  return text;
+}
+
+void print(const DesignRequest& r, const Design& design, const std::vector<std::size_t>& plan, bool has_data)
+{
+  fmt::print("expected 95 % interval, +-{:<23}", "");
+  for (const std::string& name : r.options.fit) fmt::print("{:>20}", name);
+  fmt::print("\n");
+  if (has_data) fmt::print("{:<48}{}\n", "what there is", cells(design.expected({})));
+  for (std::size_t k = 0; k < design.candidates().size(); ++k) {
+    const bool curve = is_curve(design.candidates()[k].kind);
+    const std::vector<std::size_t> copies(curve ? 1 : static_cast<std::size_t>(r.count), k);
+    fmt::print("{:<48}{}\n", fmt::format("{} {}", curve ? "1" : std::to_string(r.count), label(design.candidates()[k])),
+               cells(design.expected(copies)));
+  }
+  fmt::print("best {} measurements:\n", plan.size());
+  for (std::size_t k = 0; k < design.candidates().size(); ++k)
+    if (const auto n = std::count(plan.begin(), plan.end(), k); n > 0)
+      fmt::print("  {} {}\n", n, label(design.candidates()[k]));
+  fmt::print("{:<48}{}\n", "  together", cells(design.expected(plan)));
+}
+
+nlohmann::ordered_json widths_json(const DesignRequest& r, const ExpectedIntervals& widths)
+{
+  nlohmann::ordered_json out;
+  for (std::size_t k = 0; k < widths.size(); ++k) out[r.options.fit[k]] = json_number(widths[k]);
+  return out;
+}
+
+void print_as_json(const DesignRequest& r, const Design& design, const std::vector<std::size_t>& plan)
+{
+  nlohmann::ordered_json out;
+  out["what_there_is"] = widths_json(r, design.expected({}));
+  out["candidates"] = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < design.candidates().size(); ++k) {
+    const DesignCandidate& c = design.candidates()[k];
+    const std::vector<std::size_t> copies(is_curve(c.kind) ? 1 : static_cast<std::size_t>(r.count), k);
+    out["candidates"].push_back({{"kind", is_curve(c.kind) ? "platens" : "restitution"},
+                                 {is_curve(c.kind) ? "displacement_m" : "velocity_m_per_s", c.place},
+                                 {"copies", copies.size()},
+                                 {"in_best", std::count(plan.begin(), plan.end(), k)},
+                                 {"expected95", widths_json(r, design.expected(copies))}});
+  }
+  out["best"] = widths_json(r, design.expected(plan));
+  print_json(out, 2);
+}
+
+void run(const DesignRequest& r)
+{
+  const CalibrationRequest request = r.options.request();
+  std::vector<DesignCandidate> candidates;
+  add_candidates(candidates, MeasurementKind::restitution, r.speeds, "--speeds", r.places);
+  add_candidates(candidates, MeasurementKind::platens, r.displacements, "--displacements", r.places);
+  if (!r.speeds.empty() && !r.options.density) fail("--density", "is missing: impacts depend on it");
+  if (candidates.empty()) fail("mpm design", "nothing to choose from: give --speeds, --displacements or both");
+  const std::optional<Atlas> atlas = own_atlas();
+  if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/atlas.md)");
+  const LawMaterial assumed = assumed_material(r, request, *atlas);
+  const Design design(*atlas, request, assumed, candidates, *r.options.radius, r.options.relative_sd);
+  const std::vector<std::size_t> plan = design.best(static_cast<std::size_t>(r.count));
+  if (r.json)
+    print_as_json(r, design, plan);
+  else
+    print(r, design, plan, !request.measurements.empty());
+}
+
+void define(CLI::App& command)
+{
+  const auto r = std::make_shared<DesignRequest>();
+  r->options.add_to(command, false);
+  command.add_option("--guess", r->guess,
+                     "NAME=VALUE of what is fitted, Pa: the material to go by (default: what DATA say)");
+  command.add_option("--speeds", r->speeds, "LOW..HIGH, m/s: impacts that could be made");
+  command.add_option("--displacements", r->displacements,
+                     "LOW..HIGH, m: largest displacements of curves between platens that could be made");
+  command.add_option("--count", r->count, "measurements to be made")
+      ->check(whole_from_to(1, 100))
+      ->capture_default_str();
+  command.add_option("--places", r->places, "candidates in each range")
+      ->check(whole_from_to(2, 100))
+      ->capture_default_str();
+  command.add_flag("--json", r->json, "print one JSON object instead of the table");
+  command.callback([r] { run(*r); });
+}
+
+}  // namespace
+
+extern const Command design_command{
+    "design",
+    "Which measurement would narrow what is wanted most: expected intervals of impacts at given speeds and of\n"
+    "curves between platens, given what was measured already (docs/calibrate.md).\n"
+    "Example: mpm design --fit yield_stress --youngs-modulus 3e9 --guess yield_stress=40e6 --radius 1e-3\n"
+    "         --density 1500 --speeds 0.1..5",
+    define};
+
+}  // namespace granulaw

@@ -1,0 +1,200 @@
+// mpm shape: what a body's shape does to its contacts, beside the law of spheres of its local radii.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "atlas_path.hpp"
+#include "base/atomic_write.hpp"
+#include "base/error.hpp"
+#include "characterise/law_from_atlas.hpp"
+#include "characterise/law_material.hpp"
+#include "characterise/shape_certificate.hpp"
+#include "command.hpp"
+#include "farm_options.hpp"
+#include "json_output.hpp"
+#include "law/law_file.hpp"
+#include "materials_file.hpp"
+#include "option_checks.hpp"
+#include "terminal.hpp"
+#include "trace_file.hpp"
+
+namespace granulaw {
+
+namespace {
+
+struct ShapeRequest
+{
+  std::string materials, particle, law, output;
+  ShapeQuestion question;
+  FarmOptions farm;
+  bool json = false;
+};
+
+/// Of the sphere of the particle's material: from the law file that is given, else from the atlas.
+BodyLaw sphere_law(const Particle& particle, const ShapeRequest& r)
+{
+  const LawMaterial material = law_material(r.particle, particle.materials.front());
+  if (!r.law.empty()) {
+    Law law = read_law(r.law);
+    for (auto& [name, body] : law.bodies) {
+      const LawMaterial& m = body.material;
+      if (body.is_sphere() && m.youngs_modulus == material.youngs_modulus &&
+          m.yield_stress == material.yield_stress && m.poisson_ratio == material.poisson_ratio)
+        return std::move(body);
+    }
+    fail(r.law, fmt::format("holds no law of a sphere of the material of '{}'", r.particle));
+  }
+  const Material& m = particle.materials.front();
+  if (material.yields() && (!m.hardening.name.empty() || m.rate_dependent()))
+    fail("--law", "is needed: the atlas does not know the flow law of this material", {},
+         "the law file of mpm table for its sphere");
+  const std::optional<Atlas> atlas = own_atlas();
+  if (!atlas) fail("--law", "is needed: there is no atlas beside the program");
+  BuildOptions options;
+  options.depth = 0.5;
+  options.fastest = 0.3;
+  return law_from(*atlas, material, options);
+}
+
+const char* name_of(OrientationCheck::Local local)
+{
+  switch (local) {
+    case OrientationCheck::Local::edge:
+      return "edge";
+    case OrientationCheck::Local::flat:
+      return "flat";
+    case OrientationCheck::Local::beyond_law:
+      return "beyond the law";
+    default:
+      return "curved";
+  }
+}
+
+void write_map(const ShapeCertificate& certificate, const std::string& path)
+{
+  std::string text =
+      "direction_x,direction_y,direction_z,velocity_m_per_s,contact,sharper_radius_m,flatter_radius_m,"
+      "effective_mass_share,force_max_N,restitution,law_force_max_N,law_restitution\n";
+  for (const OrientationCheck& c : certificate.checks) {
+    const Vector3& n = c.orientation.direction;
+    text += fmt::format("{:.6f},{:.6f},{:.6f},{:g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+                        n.x(), n.y(), n.z(), c.velocity, name_of(c.local), c.orientation.radii.sharper,
+                        c.orientation.radii.flatter, c.orientation.effective_mass, c.solver.force_max,
+                        c.solver.restitution, c.law.force_max, c.law.restitution);
+  }
+  write_text_atomically(path, text);
+}
+
+nlohmann::ordered_json as_json(const OrientationCheck& c)
+{
+  const Vector3& n = c.orientation.direction;
+  nlohmann::ordered_json out;
+  out["direction"] = {n.x(), n.y(), n.z()};
+  out["velocity_m_per_s"] = c.velocity;
+  out["contact"] = name_of(c.local);
+  out["sharper_radius_m"] = json_number(c.orientation.radii.sharper);
+  out["flatter_radius_m"] = json_number(c.orientation.radii.flatter);
+  out["effective_mass_share"] = c.orientation.effective_mass;
+  out["force_max_N"] = c.solver.force_max;
+  out["e"] = c.solver.restitution;
+  const bool answered = c.local == OrientationCheck::Local::curved;
+  out["law_force_max_N"] = answered ? json_number(c.law.force_max) : nullptr;
+  out["law_e"] = answered ? json_number(c.law.restitution) : nullptr;
+  return out;
+}
+
+void print_as_json(const ShapeCertificate& certificate, const FarmCount& count)
+{
+  nlohmann::ordered_json out;
+  const ErrorQuantiles force = certificate.force(), e = certificate.restitution();
+  out["covered"] = certificate.covered();
+  out["force_error_median"] = force.median;
+  out["force_error_95"] = force.largest;
+  out["restitution_error_median"] = e.median;
+  out["restitution_error_95"] = e.largest;
+  out["solver_error"] = certificate.solver_error;
+  out["cpu_s"] = count.cpu_s;
+  for (const OrientationCheck& check : certificate.checks) out["directions"].push_back(as_json(check));
+  print_json(out, 2);
+}
+
+void print(const ShapeRequest& r, const ShapeCertificate& certificate)
+{
+  fmt::print("   direction            V m/s   R', R'' mm       m_e/m   F_max N    e      law: F      e\n");
+  for (const OrientationCheck& c : certificate.checks) {
+    const Vector3& n = c.orientation.direction;
+    fmt::print("{:6.2f} {:6.2f} {:6.2f}  {:7.4g}  {:7.4g} {:7.4g}  {:6.3f}  {:9.4g}  {:.3f}", n.x(), n.y(),
+               n.z(), c.velocity, 1e3 * c.orientation.radii.sharper, 1e3 * c.orientation.radii.flatter,
+               c.orientation.effective_mass, c.solver.force_max, c.solver.restitution);
+    if (c.local == OrientationCheck::Local::curved)
+      fmt::print("  {:+6.1f} %  {:+.3f}\n", 100 * c.force_error(), c.restitution_error());
+    else
+      fmt::print("  {}\n", name_of(c.local));
+  }
+  const ErrorQuantiles force = certificate.force(), e = certificate.restitution();
+  fmt::print("{}: the law of spheres with the local radius answers {:.0f} % of the directions\n", r.particle,
+             100 * certificate.covered());
+  fmt::print("F_max: off by {:.2g} % in the median, within {:.2g} % in 95 %; e: {:.2g} and {:.2g}\n",
+             100 * force.median, 100 * force.largest, e.median, e.largest);
+  fmt::print("solver error (two resolutions of one direction) {:.2g} %\n", 100 * certificate.solver_error);
+}
+
+void certify(ShapeRequest& r)
+{
+  r.farm.check();
+  if (!r.output.empty()) check_output(r.output, ".csv");
+  const MaterialsFile materials = read_materials(r.materials);
+  const Particle& particle = materials.particle(r.particle);
+  const BodyLaw law = sphere_law(particle, r);
+  const std::unique_ptr<Farm> farm = r.farm.farm();
+  ShapeCertificate certificate;
+  {
+    ProgressBar bar;
+    certificate = certify_shape(particle, law, r.question, *farm,
+                                [&](double done, const std::string& what) { bar.update(done, what); });
+  }
+  if (!r.output.empty()) write_map(certificate, r.output);
+  if (r.json) return print_as_json(certificate, farm->count());
+  print(r, certificate);
+  print_count(farm->count());
+}
+
+void define(CLI::App& command)
+{
+  const auto r = std::make_shared<ShapeRequest>();
+  command.add_option("MATERIALS", r->materials, "materials file (TOML)")->required();
+  command.add_option("--particle", r->particle, "[particle.NAME] of one material, of any shape")->required();
+  command.add_option("--velocity", r->question.velocities, "speeds of the impacts on a rigid wall, m/s")
+      ->required()
+      ->check(above_zero());
+  command
+      .add_option("--directions", r->question.directions,
+                  "directions over the whole sphere; the body's mirror planes leave a part of them")
+      ->check(whole_from_to(4, 10000))
+      ->capture_default_str();
+  command
+      .add_option("--resolution", r->question.resolution,
+                  "cells across the contact block: the error of F falls as 1/cells")
+      ->check(whole_from_to(6, 100))
+      ->capture_default_str();
+  command.add_option("--law", r->law,
+                     "law file with the law of a sphere of this material (default: from the atlas)");
+  command.add_option("-o,--output", r->output, "NAME.csv: the map, direction by direction");
+  command.add_flag("--json", r->json, "print one JSON object instead of the table");
+  r->farm.add_to(command);
+  command.callback([r] { certify(*r); });
+}
+
+}  // namespace
+
+extern const Command shape_command{
+    "shape",
+    "Throws a body of any shape at a wall in directions from all around, and says what the law of spheres "
+    "is\n"
+    "wrong by that takes the local radius of curvature: whether it serves clumps and superquadrics.\n"
+    "Example: mpm shape grains.toml --particle pebble --velocity 1 -o pebble.csv",
+    define};
+
+}  // namespace granulaw
