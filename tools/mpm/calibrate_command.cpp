@@ -33,7 +33,8 @@ std::string numbered(const std::string& path, int number, int count)
 {
   const std::filesystem::path p(path);
   const auto digits = std::to_string(count).size();
-  return (p.parent_path() / fmt::format("{}-{:0{}}{}", p.stem().string(), number, digits, p.extension().string()))
+  return (p.parent_path() /
+          fmt::format("{}-{:0{}}{}", p.stem().string(), number, digits, p.extension().string()))
       .string();
 }
 
@@ -41,10 +42,11 @@ void write_ensemble(const CalibrateRequest& r, const CalibrationProblem& problem
 {
   const std::vector<LawMaterial> drawn = draw_materials(problem, c, r.ensemble, r.seed);
   for (int k = 1; k <= r.ensemble; ++k)
-    write_text_atomically(numbered(r.output, k, r.ensemble),
-               material_toml(drawn[static_cast<std::size_t>(k) - 1],
-                             fmt::format("# draw {} of {} from the posterior: mpm calibrate --seed {}\n", k,
-                                         r.ensemble, r.seed)));
+    write_text_atomically(
+        numbered(r.output, k, r.ensemble),
+        material_toml(drawn[static_cast<std::size_t>(k) - 1],
+                      fmt::format("# draw {} of {} from the posterior: mpm calibrate --seed {}\n", k,
+                                  r.ensemble, r.seed)));
 }
 
 void draw(const CalibrateRequest& r, const nlohmann::ordered_json& result)
@@ -65,7 +67,8 @@ void check_outputs(const CalibrateRequest& r)
 {
   if (!r.output.empty()) check_output(r.output, ".toml");
   if (!r.plot.empty()) check_output(r.plot, ".png, .pdf, .svg");
-  if (r.ensemble > 0 && r.output.empty()) fail("--ensemble", "needs -o NAME.toml: its files are NAME-1.toml, ...");
+  if (r.ensemble > 0 && r.output.empty())
+    fail("--ensemble", "needs -o NAME.toml: its files are NAME-1.toml, ...");
   if (!r.output.empty() && !r.options.density) fail("--density", "is missing: a materials file holds it");
 }
 
@@ -79,8 +82,8 @@ void run(const CalibrateRequest& r)
   const Calibration result = calibrate(problem);
   const nlohmann::ordered_json json = calibration_json(problem, result);
   if (!r.output.empty())
-    write_text_atomically(r.output,
-               material_toml(result.material, "# " + command_line + "\n" + interval_comments(problem, result)));
+    write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" +
+                                                                       interval_comments(problem, result)));
   if (r.ensemble > 0) write_ensemble(r, problem, result);
   if (!r.plot.empty()) draw(r, json);
   if (r.json)
@@ -96,14 +99,16 @@ void define(CLI::App& command)
   command.add_option("-o,--output", r->output, "materials file, NAME.toml, that mpm table takes");
   command.add_option("--plot", r->plot, "picture of data, fit and its 95 % band: NAME.png, .pdf or .svg");
   command
-      .add_option("--ensemble", r->ensemble,
-                  "so many materials drawn from what the data leave open: NAME-1.toml, ... beside -o NAME.toml")
+      .add_option(
+          "--ensemble", r->ensemble,
+          "so many materials drawn from what the data leave open: NAME-1.toml, ... beside -o NAME.toml")
       ->check(whole_from_to(1, 10000));
   command.add_option("--seed", r->seed, "of the ensemble")->capture_default_str();
-  command.add_flag("--json", r->json,
-                   "print one JSON object instead of the summary: parameters.NAME.value, low68, high68, low95, "
-                   "high95 (Pa), identifiable, told; correlation; chi2, degrees_of_freedom, p_value; "
-                   "interval_scale: factor on chi^2 in the intervals; verdict; misfits; measurements with their fit");
+  command.add_flag(
+      "--json", r->json,
+      "print one JSON object instead of the summary: parameters.NAME.value, low68, high68, low95, "
+      "high95 (Pa), identifiable, told; correlation; chi2, degrees_of_freedom, p_value; "
+      "interval_scale: factor on chi^2 in the intervals; verdict; misfits; measurements with their fit");
   command.callback([r] { run(*r); });
 }
 
@@ -113,7 +118,8 @@ extern const Command calibrate_command{
     "calibrate",
     "From measurements to a material: what data tell of Young's modulus, yield stress and hardening, with\n"
     "intervals and a verdict on what they cannot tell (docs/calibrate.md).\n"
-    "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus 3.2e9\n"
+    "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus "
+    "3.2e9\n"
     "         --fit yield_stress -o material.toml --plot fit.png",
     define};
 
