@@ -13,8 +13,7 @@ constexpr double widest = 1.5;  // a parameter known to less than this factor, 2
 /// An end at no hardening is one: nothing lies beyond.
 bool ends_below(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
 {
-  const bool hardening =
-      problem.unknowns()[unknown].kind == CalibrationProblem::Unknown::Kind::hardening;
+  const bool hardening = problem.unknowns()[unknown].kind == CalibrationProblem::Unknown::Kind::hardening;
   return p.within95.low_told || (hardening && p.within95.low <= 0);
 }
 
@@ -87,7 +86,8 @@ Calibration calibrate(const CalibrationProblem& problem)
     judge(c, problem);
     c.parameters.clear();
     for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
-      FittedParameter f{problem.request().fit[k], profile_likelihood(problem, c.minimum, k, c.interval_scale)};
+      FittedParameter f{problem.request().fit[k],
+                        profile_likelihood(problem, c.minimum, k, c.interval_scale)};
       f.told = told_by(problem, k, f.profile);
       c.parameters.push_back(f);
     }

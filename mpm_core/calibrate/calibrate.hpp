@@ -31,7 +31,8 @@ struct Calibration
   Eigen::MatrixXd correlation;  ///< of the parameters, in their order
   double chi_squared = 0, p_value = 1;
   long degrees_of_freedom = 0;
-  double interval_scale = 1;  ///< of chi^2 in the intervals: over 1 where the data scatter more than was stated
+  double interval_scale =
+      1;  ///< of chi^2 in the intervals: over 1 where the data scatter more than was stated
   std::vector<MachineState> machines;  ///< by measurement
   std::vector<Misfit> misfits;
   Minimum minimum;
@@ -40,15 +41,15 @@ struct Calibration
 /// Fits, profiles, looks for misfits.
 Calibration calibrate(const CalibrationProblem& problem);
 
-/// A parameter is told where its 95 % interval ends on both sides and is narrower than a factor of 1.5 (hardening: of
-/// 1 + 2 H/Y); else bounded on the side where it ends.
+/// A parameter is told where its 95 % interval ends on both sides and is narrower than a factor of 1.5
+/// (hardening: of 1 + 2 H/Y); else bounded on the side where it ends.
 Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& profile);
 
 /// What the data tell and what they do not, as sentences; the last of all says whether the model fits.
 std::string verdict(const CalibrationProblem& problem, const Calibration& calibration);
 
-/// Materials drawn from the posterior: a random walk (Metropolis) over the likelihood from the best fit, every draw
-/// independent of the one before as far as twenty steps make it so. The same seed gives the same.
+/// Materials drawn from the posterior: a random walk (Metropolis) over the likelihood from the best fit,
+/// every draw independent of the one before as far as twenty steps make it so. The same seed gives the same.
 std::vector<LawMaterial> draw_materials(const CalibrationProblem& problem, const Calibration& calibration,
                                         int count, std::uint32_t seed);
 

@@ -4,30 +4,34 @@
 
 namespace granulaw {
 
-/// One further measurement that could be made: an impact at a speed, or a curve between platens to a displacement.
+/// One further measurement that could be made: an impact at a speed, or a curve between platens to a
+/// displacement.
 struct DesignCandidate
 {
   MeasurementKind kind = MeasurementKind::restitution;
   double place = 0;  ///< m/s; m
 };
 
-/// Expected half width of the 95 % interval of each wanted parameter, as a share of it (hardening: of H + Y/2).
+/// Expected half width of the 95 % interval of each wanted parameter, as a share of it (hardening: of H +
+/// Y/2).
 using ExpectedIntervals = std::vector<double>;
 
-/// Which of the candidates would tell most of a material, by the Fisher information at an assumed one: the fit's, or a
-/// guess. What is measured already counts, as do the model's own errors: no number of drops goes below these.
+/// Which of the candidates would tell most of a material, by the Fisher information at an assumed one: the
+/// fit's, or a guess. What is measured already counts, as do the model's own errors: no number of drops goes
+/// below these.
 class Design
 {
  public:
-  /// `request`: what there is, `fit` what is wanted; `assumed`: the material. `relative_sd`: of e, and of the force.
+  /// `request`: what there is, `fit` what is wanted; `assumed`: the material. `relative_sd`: of e, and of the
+  /// force.
   Design(const Atlas& atlas, CalibrationRequest request, const LawMaterial& assumed,
          std::vector<DesignCandidate> candidates, double radius, double relative_sd);
 
   const std::vector<DesignCandidate>& candidates() const { return candidates_; }
   /// With these candidates, by index, besides what there is; none: what there is.
   ExpectedIntervals expected(const std::vector<std::size_t>& chosen) const;
-  /// The `count` candidates that narrow the wanted parameters most, one after the other (the sum of the logarithms of
-  /// their variances falls most), each in as many copies as that takes; in their order.
+  /// The `count` candidates that narrow the wanted parameters most, one after the other (the sum of the
+  /// logarithms of their variances falls most), each in as many copies as that takes; in their order.
   std::vector<std::size_t> best(std::size_t count) const;
 
  private:
@@ -35,8 +39,8 @@ class Design
   double spread(const std::vector<std::size_t>& chosen) const;
 
   std::vector<DesignCandidate> candidates_;
-  std::vector<double> shares_;               ///< of a wanted parameter's value that a unit of its coordinate is
-  Eigen::MatrixXd there_;                    ///< information of what there is
+  std::vector<double> shares_;  ///< of a wanted parameter's value that a unit of its coordinate is
+  Eigen::MatrixXd there_;       ///< information of what there is
   std::vector<Eigen::MatrixXd> information_;  ///< by candidate
 };
 

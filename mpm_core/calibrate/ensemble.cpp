@@ -27,8 +27,7 @@ std::vector<LawMaterial> draw_materials(const CalibrationProblem& problem, const
   std::uniform_real_distribution<double> uniform;
   const auto unknowns = static_cast<double>(problem.count());
   // the share of the covariance at which a random walk gets about fastest (Roberts, Gelman and Gilks 1997)
-  const Eigen::MatrixXd step =
-      2.4 / std::sqrt(unknowns) * std::sqrt(c.interval_scale) * steps_of(c.minimum);
+  const Eigen::MatrixXd step = 2.4 / std::sqrt(unknowns) * std::sqrt(c.interval_scale) * steps_of(c.minimum);
   Coordinates q = c.minimum.q;
   double cost = c.minimum.cost;
   std::vector<LawMaterial> drawn;

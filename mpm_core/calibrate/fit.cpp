@@ -37,7 +37,8 @@ int evaluate(const gsl_vector* x, void* data, gsl_vector* f)
   return GSL_SUCCESS;
 }
 
-/// Forward differences over the unknowns' own steps: wide against what tables leave of the model's smoothness.
+/// Forward differences over the unknowns' own steps: wide against what tables leave of the model's
+/// smoothness.
 Eigen::MatrixXd differences(const FreeProblem& p, const Coordinates& q)
 {
   const Eigen::VectorXd base = p.problem.residuals(q);
@@ -84,7 +85,7 @@ Minimum minimise(const CalibrationProblem& problem, const Coordinates& start, co
   gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
   settings.trs = gsl_multifit_nlinear_trs_lm;
   settings.scale = gsl_multifit_nlinear_scale_more;
-  settings.solver = gsl_multifit_nlinear_solver_svd;      // what the data do not tell leaves the matrix singular
+  settings.solver = gsl_multifit_nlinear_solver_svd;  // what the data do not tell leaves the matrix singular
   gsl_multifit_nlinear_fdf functions{};
   functions.f = evaluate, functions.df = derive;
   functions.n = static_cast<std::size_t>(free.rows), functions.p = free.free.size();
@@ -96,8 +97,8 @@ Minimum minimise(const CalibrationProblem& problem, const Coordinates& start, co
   for (std::size_t k = 0; k < functions.p; ++k) gsl_vector_set(x, k, start[free.free[k]]);
   int why = 0;
   gsl_multifit_nlinear_init(x, &functions, workspace.get());
-  gsl_multifit_nlinear_driver(static_cast<std::size_t>(most_steps), 1e-7, 1e-10, 1e-10, nullptr, nullptr, &why,
-                              workspace.get());
+  gsl_multifit_nlinear_driver(static_cast<std::size_t>(most_steps), 1e-7, 1e-10, 1e-10, nullptr, nullptr,
+                              &why, workspace.get());
   found.q = free.at(gsl_multifit_nlinear_position(workspace.get()));
   gsl_vector_free(x);
   found.cost = problem.residuals(found.q).squaredNorm();

@@ -12,8 +12,8 @@ struct Minimum
   Eigen::MatrixXd jacobian;  ///< of the residuals, at q
 };
 
-/// Least squares by GSL's trust region (gsl_multifit_nlinear, Levenberg-Marquardt steps) from `start`; the unknowns for
-/// which `fixed` is true stay there.
+/// Least squares by GSL's trust region (gsl_multifit_nlinear, Levenberg-Marquardt steps) from `start`; the
+/// unknowns for which `fixed` is true stay there.
 Minimum minimise(const CalibrationProblem& problem, const Coordinates& start, const std::vector<bool>& fixed,
                  int most_steps = 60);
 

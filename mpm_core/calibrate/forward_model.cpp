@@ -9,7 +9,8 @@ namespace granulaw {
 
 namespace {
 
-// One standard deviation of what the model of each kind is off, relative; those without a source here: forward_model.hpp.
+// One standard deviation of what the model of each kind is off, relative; those without a source here:
+// forward_model.hpp.
 constexpr double radius_error = 0.01, residual_error = 0.005, time_error = 0.01, hardness_error = 0.07,
                  onset_error = 0.02;
 
@@ -50,7 +51,8 @@ void legendre(double t, double out[3])
   out[0] = 1, out[1] = std::sqrt(3.0) * t, out[2] = std::sqrt(5.0) * 0.5 * (3 * t * t - 1);
 }
 
-/// Speed on a rigid wall that an impact is as: each of two like spheres sees a wall at half the speed of approach.
+/// Speed on a rigid wall that an impact is as: each of two like spheres sees a wall at half the speed of
+/// approach.
 double wall_speed(const Measurement& m, double velocity)
 {
   return m.partner == ImpactPartner::like_sphere ? 0.5 * velocity : velocity;
@@ -71,13 +73,11 @@ double impact_value(const Measurement& m, const SphereLaws::Impact& impact, doub
   }
 }
 
-void predict_impacts(const Measurement& m, const LawMaterial& material, const SphereLaws& laws,
-                     Prediction& p)
+void predict_impacts(const Measurement& m, const LawMaterial& material, const SphereLaws& laws, Prediction& p)
 {
   const AtlasErrors& atlas = errors_of(*laws.atlas());
   const double per_speed = std::sqrt(material.density / material.yield_stress);
-  const double slow = std::log(
-      yield_velocity(material.e_star(), material.yield_stress, material.density));
+  const double slow = std::log(yield_velocity(material.e_star(), material.yield_stress, material.density));
   constexpr double decades = 6.9;  // ln 1000: of V/V_y, over which the errors were measured
   for (const Datum& d : m.data) {
     const double speed = wall_speed(m, d.x), v = speed * per_speed;
@@ -88,8 +88,8 @@ void predict_impacts(const Measurement& m, const LawMaterial& material, const Sp
       const double share = m.kind == MeasurementKind::contact_radius          ? radius_error
                            : m.kind == MeasurementKind::residual_displacement ? residual_error
                                                                               : time_error;
-      const double base = m.kind == MeasurementKind::residual_displacement ? impact.overlap * m.radius
-                                                                            : p.values.back();
+      const double base =
+          m.kind == MeasurementKind::residual_displacement ? impact.overlap * m.radius : p.values.back();
       p.errors[0].push_back(share * base);
       p.scatter.push_back(0);
       continue;
@@ -158,8 +158,7 @@ double hardness_of(const LawMaterial& m)
   const double tan_beta = std::tan((90 - 70.3) * M_PI / 180), nu = m.poisson_ratio;
   const double flow = m.yield_stress + representative_strain * m.hardening_modulus;
   const double cavity =
-      2.0 / 3.0 *
-      (1 + std::log((m.youngs_modulus / flow * tan_beta + 4 * (1 - 2 * nu)) / (6 * (1 - nu))));
+      2.0 / 3.0 * (1 + std::log((m.youngs_modulus / flow * tan_beta + 4 * (1 - 2 * nu)) / (6 * (1 - nu))));
   return flow * std::clamp(cavity, 1.0, 3.0);
 }
 

@@ -19,11 +19,12 @@ struct MachineState
 struct Prediction
 {
   std::vector<double> values;  ///< of Measurement::data
-  /// What one standard deviation of each of the model's own errors changes of the values. An error of the model is a smooth
-  /// function of speed or overlap, no scatter: Legendre polynomials, whose factors a fit has for unknowns of mean 0.
+  /// What one standard deviation of each of the model's own errors changes of the values. An error of the
+  /// model is a smooth function of speed or overlap, no scatter: Legendre polynomials, whose factors a fit
+  /// has for unknowns of mean 0.
   std::vector<std::vector<double>> errors;
   std::vector<double> scatter;  ///< sd of what is left of it, which differs from value to value
-  double beyond = 0;            ///< ln of how far the fastest impact is beyond what the atlas tells; 0: within
+  double beyond = 0;  ///< ln of how far the fastest impact is beyond what the atlas tells; 0: within
 };
 
 /// Predicts a measurement of spheres of this material.
@@ -33,8 +34,8 @@ Prediction predict(const Measurement& measurement, const LawMaterial& material, 
 /// How many Prediction::errors a kind has.
 std::size_t model_errors_of(MeasurementKind kind);
 
-/// Hardness over the flow stress: Johnson's expanding cavity for the cone that is as a Vickers pyramid (70.3 degrees;
-/// Johnson 1985, eq. 6.36), 3 at most; the flow stress is that at a strain of 8 % (Tabor 1951).
+/// Hardness over the flow stress: Johnson's expanding cavity for the cone that is as a Vickers pyramid (70.3
+/// degrees; Johnson 1985, eq. 6.36), 3 at most; the flow stress is that at a strain of 8 % (Tabor 1951).
 double hardness_of(const LawMaterial& material);
 
 /// Force on a flat at which a sphere begins to yield (Johnson 1985, sect. 6.1).

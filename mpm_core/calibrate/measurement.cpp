@@ -17,8 +17,8 @@ bool is_impact(MeasurementKind kind)
 
 std::size_t Measurement::reversal() const
 {
-  const auto deepest = std::max_element(data.begin(), data.end(),
-                                        [](const Datum& a, const Datum& b) { return a.x < b.x; });
+  const auto deepest =
+      std::max_element(data.begin(), data.end(), [](const Datum& a, const Datum& b) { return a.x < b.x; });
   return static_cast<std::size_t>(deepest - data.begin());
 }
 

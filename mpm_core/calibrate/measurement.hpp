@@ -10,9 +10,9 @@ namespace granulaw {
 
 /// What was measured. The columns of each file: measurement_file.hpp.
 enum class MeasurementKind {
-  restitution,            ///< e of a sphere that hits a wall, or its like, against the impact speed
-  platens,                ///< force on a sphere between two platens against the displacement of one towards the other
-  flat,                   ///< force of one contact with a flat against its overlap
+  restitution,  ///< e of a sphere that hits a wall, or its like, against the impact speed
+  platens,      ///< force on a sphere between two platens against the displacement of one towards the other
+  flat,         ///< force of one contact with a flat against its overlap
   contact_radius,         ///< m, of the flattened area, against the impact speed
   residual_displacement,  ///< m, residual overlap after an impact, against its speed
   contact_time,           ///< s, against the impact speed
@@ -44,11 +44,11 @@ struct Measurement
   MeasurementKind kind = MeasurementKind::restitution;
   std::string source;  ///< leads messages: the file's path
   std::vector<Datum> data;
-  double radius = 0;    ///< m, of the sphere
+  double radius = 0;  ///< m, of the sphere
   ImpactPartner partner = ImpactPartner::rigid_wall;
   std::optional<LawMaterial> wall;  ///< restitution: a thick wall of this material in place of the rigid one
-  bool fit_offset = false;      ///< curves: the displacement of first touch is unknown
-  bool fit_compliance = false;  ///< curves: the machine gives way in proportion to the force
+  bool fit_offset = false;          ///< curves: the displacement of first touch is unknown
+  bool fit_compliance = false;      ///< curves: the machine gives way in proportion to the force
 
   /// Curves: index of the datum of largest displacement; what follows is unloading.
   std::size_t reversal() const;

@@ -10,8 +10,8 @@ namespace granulaw {
 namespace {
 
 constexpr double clear = 4;  // standard deviations
-/// A pattern counts from so many standard deviations on: of those stated; of the scatter about the pattern, where that is
-/// less: of eight values it is itself known to a third, and Student's t has 0.4 % beyond.
+/// A pattern counts from so many standard deviations on: of those stated; of the scatter about the pattern,
+/// where that is less: of eight values it is itself known to a third, and Student's t has 0.4 % beyond.
 constexpr double clear_by_stated = 3, clear_by_scatter = 5;
 
 /// Relative differences of some values from the fit, over a coordinate from -1 to 1.
@@ -117,25 +117,29 @@ class Inspection
       least = std::min(least, predicted);
     }
     if (!elastic.empty())
-      say(fmt::format("e is below 1 at speeds that do not yield ({}): adhesion, waves in the wall or roughness "
-                      "take energy, not plasticity",
-                      elastic));
+      say(fmt::format(
+          "e is below 1 at speeds that do not yield ({}): adhesion, waves in the wall or roughness "
+          "take energy, not plasticity",
+          elastic));
     if (d.place.size() < 4 || range < 0.3) return;
     const Factors f = legendre_factors(d);
     // e of the atlas is 0.0012 (rms) off, in each of three factors
     const double model = 0.0012 / std::sqrt(3.0) / least;
     const bool trend = f.seen(1, model);
     if (trend && f.value[1] < 0)
-      say(fmt::format("e falls faster with the speed than any J2 material's ({:+.1f} % against the fit from the "
-                      "slowest to the fastest): damage, adhesion or waves; or what is held fixed is wrong",
-                      200 * f.value[1]));
+      say(fmt::format(
+          "e falls faster with the speed than any J2 material's ({:+.1f} % against the fit from the "
+          "slowest to the fastest): damage, adhesion or waves; or what is held fixed is wrong",
+          200 * f.value[1]));
     if (trend && f.value[1] > 0)
-      say(fmt::format("e falls slower with the speed than the fit ({:+.1f} % from the slowest to the fastest): the "
-                      "material is stronger at fast impacts, as one that depends on the rate, or hardens more "
-                      "than the fit may",
-                      200 * f.value[1]));
+      say(fmt::format(
+          "e falls slower with the speed than the fit ({:+.1f} % from the slowest to the fastest): the "
+          "material is stronger at fast impacts, as one that depends on the rate, or hardens more "
+          "than the fit may",
+          200 * f.value[1]));
     if (!trend && f.seen(2, model))
-      say(fmt::format("e bends {} against the logarithm of the speed than the fit: another flow law, or two "
+      say(
+          fmt::format("e bends {} against the logarithm of the speed than the fit: another flow law, or two "
                       "mechanisms of loss",
                       f.value[2] > 0 ? "less" : "more"));
   }
@@ -162,16 +166,19 @@ class Inspection
     if (f.seen(2, model))
       say(fmt::format("the force bends {} on loading than the fit ({:.1f} %): {}",
                       f.value[2] > 0 ? "up more" : "down more", 150 * std::abs(f.value[2]),
-                      f.value[2] > 0 ? "hardening that grows with strain, or a solid ground beneath the particle"
-                                     : "hardening that saturates (Voce, Swift) where the fit's is linear, or damage"));
+                      f.value[2] > 0
+                          ? "hardening that grows with strain, or a solid ground beneath the particle"
+                          : "hardening that saturates (Voce, Swift) where the fit's is linear, or damage"));
     else if (f.seen(1, model))
-      say(fmt::format("the force grows {} on loading than the fit's ({:+.1f} % from a tenth to all of it): "
+      say(
+          fmt::format("the force grows {} on loading than the fit's ({:+.1f} % from a tenth to all of it): "
                       "another flow law, or a particle that is no sphere",
                       f.value[1] > 0 ? "faster" : "slower", 200 * f.value[1]));
     else if (missing_runs(signs) > clear && rms_relative(d) > 2 * model)
-      say(fmt::format("the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
-                      "systematic, though of no known pattern",
-                      100 * rms_relative(d)));
+      say(fmt::format(
+          "the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
+          "systematic, though of no known pattern",
+          100 * rms_relative(d)));
     look_at_unloading();
   }
 
@@ -209,7 +216,8 @@ class Inspection
       if (d.y > peak) peak = d.y, peak_at = d.x, sd = d.sd;
       const bool stays = k + 1 > reversal || measurement_.data[k + 1].y < peak - clear * sd;
       if (peak - d.y > least_drop * peak + clear * std::hypot(sd, d.sd) && stays) {
-        say(fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, as by "
+        say(
+            fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, as by "
                         "fracture; rows beyond tell nothing of a contact",
                         100 * (peak - d.y) / peak, peak_at));
         return;

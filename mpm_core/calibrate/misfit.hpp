@@ -15,7 +15,8 @@ struct Misfit
 };
 
 /// Looks at what the fit leaves of each measurement.
-/// - Trend and bend: factors of Legendre polynomials over the logarithm of speed or force, which count where neither the
+/// - Trend and bend: factors of Legendre polynomials over the logarithm of speed or force, which count where
+/// neither the
 ///   scatter nor the model's error explains them.
 /// - e below 1 where the fitted material does not yield.
 /// - A loading force that falls: fracture.

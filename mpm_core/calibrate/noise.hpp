@@ -12,12 +12,13 @@ struct ForceScatter
   double at(double force) const;
 };
 
-/// From the curve alone, no model: each force against the cubic through its two neighbours on either side on the same
-/// branch (after Gasser, Sroka and Jennen-Steinmetz, Biometrika 73, 1986); of constant and share the likeliest.
+/// From the curve alone, no model: each force against the cubic through its two neighbours on either side on
+/// the same branch (after Gasser, Sroka and Jennen-Steinmetz, Biometrika 73, 1986); of constant and share the
+/// likeliest.
 ForceScatter scatter_of(const Measurement& curve);
 
-/// Fills in the standard deviations that are not stated: of a curve its scatter, but 0.1 % of its largest force at least
-/// (contact curves of the atlas are no smoother); of other kinds `relative_sd` of the value.
+/// Fills in the standard deviations that are not stated: of a curve its scatter, but 0.1 % of its largest
+/// force at least (contact curves of the atlas are no smoother); of other kinds `relative_sd` of the value.
 void complete_standard_deviations(Measurement& measurement, double relative_sd);
 
 }  // namespace granulaw

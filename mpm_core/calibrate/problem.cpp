@@ -13,9 +13,9 @@ namespace {
 
 using Unknown = CalibrationProblem::Unknown;
 
-constexpr double wall_steepness = 100;    // residual for a factor e beyond what is allowed
-constexpr double robust_from = 3;         // sd from which a datum counts in proportion
-constexpr double normal95 = 1.959964;     // sd on either side of the mean that hold 95 %
+constexpr double wall_steepness = 100;  // residual for a factor e beyond what is allowed
+constexpr double robust_from = 3;       // sd from which a datum counts in proportion
+constexpr double normal95 = 1.959964;   // sd on either side of the mean that hold 95 %
 
 double largest_displacement(const Measurement& m)
 {
@@ -33,8 +33,9 @@ double largest_force(const Measurement& m)
 double tempered(double r)
 {
   const double size = std::abs(r);
-  return size <= robust_from ? r
-                             : std::copysign(std::sqrt(2 * robust_from * size - robust_from * robust_from), r);
+  return size <= robust_from
+             ? r
+             : std::copysign(std::sqrt(2 * robust_from * size - robust_from * robust_from), r);
 }
 
 void check(const CalibrationRequest& r, const Atlas& atlas)
@@ -77,18 +78,24 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
     const Measurement& m = request_.measurements[k];
     data_ += m.data.size();
     if (m.fit_offset)
-      unknowns_.push_back({Unknown::Kind::offset, {}, k, 0.01 * largest_displacement(m), 1e-2,
+      unknowns_.push_back({Unknown::Kind::offset,
+                           {},
+                           k,
+                           0.01 * largest_displacement(m),
+                           1e-2,
                            fmt::format("offset of {}", m.source)});
     if (m.fit_compliance)
-      unknowns_.push_back({Unknown::Kind::compliance, {}, k,
-                           0.01 * largest_displacement(m) / largest_force(m), 1e-2,
+      unknowns_.push_back({Unknown::Kind::compliance,
+                           {},
+                           k,
+                           0.01 * largest_displacement(m) / largest_force(m),
+                           1e-2,
                            fmt::format("compliance of {}", m.source)});
   }
   const std::size_t wanted = std::max<std::size_t>(2, fitted_count());
   if (data_ + request_.priors.size() < wanted)
-    fail(request_.measurements.front().source,
-         fmt::format("too few values for {} unknowns", fitted_count()), std::to_string(data_),
-         fmt::format("{} or more", wanted));
+    fail(request_.measurements.front().source, fmt::format("too few values for {} unknowns", fitted_count()),
+         std::to_string(data_), fmt::format("{} or more", wanted));
   for (std::size_t k = 0; k < request_.measurements.size(); ++k)
     for (std::size_t j = 0; j < model_errors_of(request_.measurements[k].kind); ++j)
       unknowns_.push_back({Unknown::Kind::model_error, {}, k, 1, 0.5, "model error"});
@@ -287,14 +294,13 @@ Range CalibrationProblem::allowed(std::size_t unknown, const Coordinates& q) con
     case Unknown::Kind::modulus:
       // the other modulus follows where it is free: four decades either way stand for no end
       if (u.parameter == Parameter::youngs_modulus)
-        r = fits(Parameter::yield_stress)
-                ? Range{1e-4 * m.youngs_modulus, 1e4 * m.youngs_modulus}
-                : Range{grid.stiffnesses.front() * m.yield_stress * softening,
-                        grid.stiffnesses.back() * m.yield_stress * softening};
+        r = fits(Parameter::yield_stress) ? Range{1e-4 * m.youngs_modulus, 1e4 * m.youngs_modulus}
+                                          : Range{grid.stiffnesses.front() * m.yield_stress * softening,
+                                                  grid.stiffnesses.back() * m.yield_stress * softening};
       else
-        r = fits(Parameter::youngs_modulus) ? Range{1e-4 * m.yield_stress, 1e4 * m.yield_stress}
-                                            : Range{m.e_star() / grid.stiffnesses.back(),
-                                                    m.e_star() / grid.stiffnesses.front()};
+        r = fits(Parameter::youngs_modulus)
+                ? Range{1e-4 * m.yield_stress, 1e4 * m.yield_stress}
+                : Range{m.e_star() / grid.stiffnesses.back(), m.e_star() / grid.stiffnesses.front()};
       break;
     case Unknown::Kind::hardening:
       r = {0, grid.hardenings.back() * (fits(Parameter::youngs_modulus) ? 100 : 1) * m.youngs_modulus};
@@ -337,11 +343,11 @@ std::vector<double> CalibrationProblem::likely_yield_stresses() const
 std::vector<Coordinates> CalibrationProblem::starts() const
 {
   constexpr std::size_t most = 3;
-  const bool fits_modulus = unknowns_.front().parameter == Parameter::youngs_modulus ||
-                            std::find(request_.fit.begin(), request_.fit.end(), Parameter::youngs_modulus) !=
-                                request_.fit.end();
-  const bool fits_yield = std::find(request_.fit.begin(), request_.fit.end(), Parameter::yield_stress) !=
-                          request_.fit.end();
+  const bool fits_modulus =
+      unknowns_.front().parameter == Parameter::youngs_modulus ||
+      std::find(request_.fit.begin(), request_.fit.end(), Parameter::youngs_modulus) != request_.fit.end();
+  const bool fits_yield =
+      std::find(request_.fit.begin(), request_.fit.end(), Parameter::yield_stress) != request_.fit.end();
   const double softening = 1 - request_.known.poisson_ratio * request_.known.poisson_ratio;
   const std::vector<double> stiffnesses{25, 40, 70, 120, 200, 400, 900, 2500};
   struct Candidate
@@ -355,7 +361,9 @@ std::vector<Coordinates> CalibrationProblem::starts() const
     Coordinates q = Coordinates::Zero(static_cast<Eigen::Index>(count()));
     for (std::size_t k = 0; k < request_.fit.size(); ++k) {
       const Parameter p = request_.fit[k];
-      const double v = p == Parameter::youngs_modulus ? modulus : p == Parameter::yield_stress ? yield : 0.3 * yield;
+      const double v = p == Parameter::youngs_modulus ? modulus
+                       : p == Parameter::yield_stress ? yield
+                                                      : 0.3 * yield;
       q[static_cast<Eigen::Index>(k)] = coordinate(k, v);
     }
     const double cost = residuals(q).squaredNorm();

@@ -14,7 +14,7 @@ namespace granulaw {
 struct CalibrationRequest
 {
   std::vector<Measurement> measurements;  ///< with all standard deviations
-  LawMaterial known;                      ///< density and nu; of what is not fitted, its value; of what is, ignored
+  LawMaterial known;  ///< density and nu; of what is not fitted, its value; of what is, ignored
   std::vector<Parameter> fit;
   std::vector<ParameterRange> priors, bounds;
   std::optional<Range> hardness_ratio;  ///< prior of hardness over yield stress, in place of the model's
@@ -23,10 +23,12 @@ struct CalibrationRequest
 
 /// The unknowns as a minimiser sees them, each of order one or a logarithm:
 ///     ln of a modulus or stress;  ln(1 + 2 H/Y_ref) of the hardening, which is linear where it is weak;
-///     displacements of first touch and compliances over the curve's own scales;  the model's own errors over their sd
+///     displacements of first touch and compliances over the curve's own scales;  the model's own errors over
+///     their sd
 using Coordinates = Eigen::VectorXd;
 
-/// The sum of squares to be least: data, priors, the model's own errors, and walls at the ends of what is allowed.
+/// The sum of squares to be least: data, priors, the model's own errors, and walls at the ends of what is
+/// allowed.
 class CalibrationProblem
 {
  public:
@@ -56,7 +58,7 @@ class CalibrationProblem
 
   LawMaterial material(const Coordinates& q) const;
   MachineState machine(const Coordinates& q, std::size_t measurement) const;
-  double value(std::size_t unknown, double q) const;       ///< SI
+  double value(std::size_t unknown, double q) const;  ///< SI
   double coordinate(std::size_t unknown, double value) const;
   /// Ends of what the atlas, the bounds and the data allow the unknown, all others at q, as coordinates.
   Range allowed(std::size_t unknown, const Coordinates& q) const;

@@ -50,7 +50,8 @@ class Side
         if (low >= length) return {end_, false};
         const double here = places_[low].root_rise;
         // the root of the rise goes in proportion to the distance near a minimum
-        const double straight = here > 0.2 ? low * std::min(3.0, 1.02 * wanted / here) : 3 * std::max(low, step_ / 3);
+        const double straight =
+            here > 0.2 ? low * std::min(3.0, 1.02 * wanted / here) : 3 * std::max(low, step_ / 3);
         next = std::min(length, std::max(straight, 1.05 * low));
       } else {
         const double a = places_[low].root_rise, b = places_[high].root_rise;
@@ -102,8 +103,8 @@ class Side
 
 }  // namespace
 
-ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Minimum& minimum, std::size_t unknown,
-                           double scale)
+ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Minimum& minimum,
+                                    std::size_t unknown, double scale)
 {
   const auto u = static_cast<Eigen::Index>(unknown);
   const Range allowed = problem.allowed(unknown, minimum.q);

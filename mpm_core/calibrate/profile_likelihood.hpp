@@ -16,12 +16,14 @@ struct ParameterProfile
 {
   double value = 0;
   Interval within68, within95;
-  std::optional<Coordinates> better;  ///< a place with a smaller sum of squares than the minimum's, if one was met
+  std::optional<Coordinates>
+      better;  ///< a place with a smaller sum of squares than the minimum's, if one was met
 };
 
-/// The interval in which, with all other unknowns fitted anew at each place, the sum of squares stays within what 68 or 95
-/// % of a chi^2 of one degree of freedom do (Venzon and Moolgavkar, Appl. Statist. 37, 1988), times `scale`.
-ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Minimum& minimum, std::size_t unknown,
-                           double scale);
+/// The interval in which, with all other unknowns fitted anew at each place, the sum of squares stays within
+/// what 68 or 95 % of a chi^2 of one degree of freedom do (Venzon and Moolgavkar, Appl. Statist. 37, 1988),
+/// times `scale`.
+ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Minimum& minimum,
+                                    std::size_t unknown, double scale);
 
 }  // namespace granulaw

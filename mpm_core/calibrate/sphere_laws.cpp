@@ -49,7 +49,8 @@ SphereLaws::Impact SphereLaws::impact(double v) const
   return {e, x, residual, top.radius, contact_time(x, residual, e)};
 }
 
-/// Loading by the slow press's work, brought to the impact's energy; unloading by the shape that gives e^2 of it back.
+/// Loading by the slow press's work, brought to the impact's energy; unloading by the shape that gives e^2 of
+/// it back.
 double SphereLaws::contact_time(double x, double residual, double restitution) const
 {
   // x' = x (1 - w^2), u = 1 - w^2: the integrands are smooth at the reversal
@@ -60,17 +61,17 @@ double SphereLaws::contact_time(double x, double residual, double restitution) c
   const ContactCurve::Reversal top = free_.reversal(x);
   UnloadingShape shape = top.shape;
   const double share = restitution * restitution * all / (top.force * (x - residual));
-  shape.exponent = std::clamp(UnloadingShape::exponent_of(share, shape.hertz_share),
-                              UnloadingShape::least_exponent,
-                              UnloadingShape::largest_exponent(shape.hertz_share));
+  shape.exponent =
+      std::clamp(UnloadingShape::exponent_of(share, shape.hertz_share), UnloadingShape::least_exponent,
+                 UnloadingShape::largest_exponent(shape.hertz_share));
   const double unloading = gauss<7>(0.0, 1.0, [&](double w) {
     return 2 * w / std::sqrt(std::max(1e-12, 1 - shape.work(1 - w * w) / shape.work()));
   });
   return x * loading + (x - residual) / restitution * unloading;
 }
 
-/// As deep as the interpolated shape is a law: of a few materials the force falls or the unloading is none before the end;
-/// beyond, it goes on with its last stiffness.
+/// As deep as the interpolated shape is a law: of a few materials the force falls or the unloading is none
+/// before the end; beyond, it goes on with its last stiffness.
 ContactCurve SphereLaws::make_midplane() const
 {
   const LawShape shape = atlas_->midplane().shape(material_, shape_);
@@ -96,8 +97,8 @@ const ContactCurve& SphereLaws::midplane() const
 const SphereLaws& SphereLawsCache::of(const MaterialRatios& material)
 {
   const MaterialRatios wanted = within(atlas_, material);
-  const auto found = std::find_if(kept_.begin(), kept_.end(),
-                                  [&](const SphereLaws& l) { return l.material() == wanted; });
+  const auto found =
+      std::find_if(kept_.begin(), kept_.end(), [&](const SphereLaws& l) { return l.material() == wanted; });
   if (found != kept_.end()) {
     kept_.splice(kept_.begin(), kept_, found);
     return kept_.front();

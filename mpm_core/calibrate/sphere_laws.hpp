@@ -9,9 +9,9 @@
 
 namespace granulaw {
 
-/// What the atlas says of one homogeneous sphere: lengths over R, forces over 4/3 E* R^2. Impacts come from the law shape
-/// itself, without the tables of a velocity axis, which `mpm table` makes of it: e is within 0.1 % of a replay of that
-/// law (0.4 % at E*/Y over 1000), at a twentieth of the time.
+/// What the atlas says of one homogeneous sphere: lengths over R, forces over 4/3 E* R^2. Impacts come from
+/// the law shape itself, without the tables of a velocity axis, which `mpm table` makes of it: e is within
+/// 0.1 % of a replay of that law (0.4 % at E*/Y over 1000), at a twentieth of the time.
 class SphereLaws
 {
  public:
@@ -33,8 +33,8 @@ class SphereLaws
   Impact impact(double v) const;
   static constexpr double fastest = 0.3;
 
-  const ContactCurve& free() const { return free_; }          ///< slow press of a free sphere
-  const ContactCurve& midplane() const;                       ///< of one held at its equator; made when asked for
+  const ContactCurve& free() const { return free_; }  ///< slow press of a free sphere
+  const ContactCurve& midplane() const;               ///< of one held at its equator; made when asked for
 
  private:
   double contact_time(double x, double residual, double restitution) const;
@@ -49,8 +49,8 @@ class SphereLaws
   mutable std::unique_ptr<ContactCurve> midplane_;
 };
 
-/// Keeps the laws of the last materials that were asked for: a fit varies what is no property of the material at a fixed
-/// material.
+/// Keeps the laws of the last materials that were asked for: a fit varies what is no property of the material
+/// at a fixed material.
 class SphereLawsCache
 {
  public:

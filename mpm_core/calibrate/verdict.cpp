@@ -76,9 +76,10 @@ std::string correlation_clause(const Calibration& c)
   for (Eigen::Index a = 0; a < c.correlation.rows(); ++a)
     for (Eigen::Index b = 0; b < a; ++b)
       if (std::abs(c.correlation(a, b)) > strong)
-        said += fmt::format(" {} and {} change together (correlation {:.2f}): one known would tell the other.",
-                            name_of(c.parameters[static_cast<std::size_t>(b)].parameter),
-                            name_of(c.parameters[static_cast<std::size_t>(a)].parameter), c.correlation(a, b));
+        said +=
+            fmt::format(" {} and {} change together (correlation {:.2f}): one known would tell the other.",
+                        name_of(c.parameters[static_cast<std::size_t>(b)].parameter),
+                        name_of(c.parameters[static_cast<std::size_t>(a)].parameter), c.correlation(a, b));
   return said;
 }
 
@@ -88,14 +89,14 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& c)
 {
   constexpr double unlikely = 0.01;
   std::string text = span_of(problem, c) + ": ";
-  for (std::size_t k = 0; k < c.parameters.size(); ++k)
-    text += (k > 0 ? "; " : "") + clause(c.parameters[k]);
+  for (std::size_t k = 0; k < c.parameters.size(); ++k) text += (k > 0 ? "; " : "") + clause(c.parameters[k]);
   text += "." + correlation_clause(c);
   for (const Misfit& m : c.misfits) text += fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
   if (c.misfits.empty())
     text += c.degrees_of_freedom > 0 && c.p_value < unlikely
-                ? fmt::format(" The data scatter more than stated (p = {:.2g}); the intervals are widened by {:.2g}.",
-                              c.p_value, std::sqrt(c.interval_scale))
+                ? fmt::format(
+                      " The data scatter more than stated (p = {:.2g}); the intervals are widened by {:.2g}.",
+                      c.p_value, std::sqrt(c.interval_scale))
                 : std::string(" The fit is as good as the data.");
   return text;
 }

@@ -28,8 +28,7 @@ LawMaterial within(const Atlas& atlas, LawMaterial m)
   const double stiffness =
       std::clamp(m.e_star() / m.yield_stress, grid.stiffnesses.front(), grid.stiffnesses.back());
   m.youngs_modulus = stiffness * m.yield_stress * softening;
-  m.hardening_modulus =
-      std::clamp(m.hardening_modulus, 0.0, grid.hardenings.back() * m.youngs_modulus);
+  m.hardening_modulus = std::clamp(m.hardening_modulus, 0.0, grid.hardenings.back() * m.youngs_modulus);
   return m;
 }
 
@@ -58,9 +57,9 @@ std::vector<double> WallModel::compute(const LawMaterial& asked) const
   law.bodies[wall_body].material = wall_.material();
   law.bodies[wall_body].material.name = wall_body;
   law.pairs = {{sphere.name, wall_body}};
-  law.pair_laws[sphere.name + ":" + wall_body] = {
-      sphere_yields ? compose_law(*atlas_, body, wall_, infinite, options)
-                    : compose_law(*atlas_, wall_, body, 0.0, options)};
+  law.pair_laws[sphere.name + ":" + wall_body] = {sphere_yields
+                                                      ? compose_law(*atlas_, body, wall_, infinite, options)
+                                                      : compose_law(*atlas_, wall_, body, 0.0, options)};
   const PairLaw pair = resolve_pair(law, sphere.name, wall_body, "wall", radius, infinite);
   const double mass = 4.0 / 3.0 * M_PI * sphere.density * radius * radius * radius;
   const SphereLaws rigid(*atlas_, MaterialRatios::of(sphere));
@@ -76,7 +75,9 @@ const std::vector<double>& WallModel::at(const Key& key, const LawMaterial& sphe
   const auto [entry, is_new] = known_.try_emplace(key);
   if (!is_new) return entry->second;
   LawMaterial m = sphere;
-  const auto varies = [&](Parameter p) { return std::find(varied_.begin(), varied_.end(), p) != varied_.end(); };
+  const auto varies = [&](Parameter p) {
+    return std::find(varied_.begin(), varied_.end(), p) != varied_.end();
+  };
   if (varies(Parameter::youngs_modulus)) m.youngs_modulus = std::exp(spacing * key.modulus);
   if (varies(Parameter::yield_stress)) m.yield_stress = std::exp(spacing * key.yield);
   if (varies(Parameter::hardening_modulus))
@@ -91,8 +92,8 @@ std::vector<double> WallModel::change(const LawMaterial& sphere) const
   int below[3];
   double share[3];
   for (int k = 0; k < 3; ++k) {
-    const bool varies = std::find(varied_.begin(), varied_.end(), all_parameters[static_cast<std::size_t>(k)]) !=
-                        varied_.end();
+    const bool varies = std::find(varied_.begin(), varied_.end(),
+                                  all_parameters[static_cast<std::size_t>(k)]) != varied_.end();
     below[k] = varies ? static_cast<int>(std::floor(place[k])) : 0;
     share[k] = varies ? place[k] - below[k] : 0;
   }
@@ -115,8 +116,8 @@ std::vector<double> WallModel::change(const LawMaterial& sphere) const
 double WallModel::error(const LawMaterial& sphere) const
 {
   const bool first = yields_first(sphere, wall_.material());
-  const double ratio = first ? wall_.material().e_star() / sphere.e_star()
-                             : sphere.e_star() / wall_.material().e_star();
+  const double ratio =
+      first ? wall_.material().e_star() / sphere.e_star() : sphere.e_star() / wall_.material().e_star();
   return 0.5 * composed_error(ratio).restitution;  // stated: what 95 % lie within
 }
 

@@ -10,14 +10,15 @@
 
 namespace granulaw {
 
-/// What a thick wall of a known material changes of e, against the rigid wall: by composed laws (docs/pairs.md), at 30 ms
-/// a material. So it is computed at materials whose E, Y and Y + 2 H are whole powers of a factor, and linear in their
-/// logarithms between: what the wall changes varies so little between two that e is within 0.001.
+/// What a thick wall of a known material changes of e, against the rigid wall: by composed laws
+/// (docs/pairs.md), at 30 ms a material. So it is computed at materials whose E, Y and Y + 2 H are whole
+/// powers of a factor, and linear in their logarithms between: what the wall changes varies so little between
+/// two that e is within 0.001.
 class WallModel
 {
  public:
-  /// Throws Error if the atlas does not know the wall's material. `atlas` and `drops` outlive this. What is not in `varied`
-  /// is always the same.
+  /// Throws Error if the atlas does not know the wall's material. `atlas` and `drops` outlive this. What is
+  /// not in `varied` is always the same.
   WallModel(const Atlas& atlas, const Measurement& drops, std::vector<Parameter> varied);
 
   /// e on this wall less e on the rigid one, by the drops' data.

@@ -54,16 +54,18 @@ constexpr Field midplane_block_stiffnesses{"midplane_block_stiffnesses", "1",
                                            "E*/Y of those at other Poisson's ratios"};
 constexpr Field midplane_block_hardenings{"midplane_block_hardenings", "1",
                                           "H/E of those at other Poisson's ratios"};
-constexpr Field midplane_block_poisson_ratios{"midplane_block_poisson_ratios", "1", "the other Poisson's ratios"};
+constexpr Field midplane_block_poisson_ratios{"midplane_block_poisson_ratios", "1",
+                                              "the other Poisson's ratios"};
 constexpr Field midplane_elastic{"midplane_elastic", "1", "rows of c1, c2, d1 by Poisson's ratio"};
 constexpr Field midplane_onset{"midplane_onset", "1", "delta/R of the onset of yield of each material"};
-constexpr Field midplane_change{
-    "midplane_change", "1",
-    "softening, widening, residual, dissipation, foot of each material: the press's less those of the free sphere "
-    "with a series compliance"};
-constexpr Field midplane_checks{"midplane_checks", "1",
-                                "rows of E*/Y, nu, H/E, delta/R, rms relative error of F, error of e, error of "
-                                "delta_r/delta_m"};
+constexpr Field midplane_change{"midplane_change", "1",
+                                "softening, widening, residual, dissipation, foot of each material: the "
+                                "press's less those of the free sphere "
+                                "with a series compliance"};
+constexpr Field midplane_checks{
+    "midplane_checks", "1",
+    "rows of E*/Y, nu, H/E, delta/R, rms relative error of F, error of e, error of "
+    "delta_r/delta_m"};
 
 struct Curve
 {

@@ -41,8 +41,8 @@ struct Weighted
   double weight;
 };
 
-/// The weights of a block of stiffnesses and hardenings whose first node is `first`; `stride` nodes lie between two
-/// hardenings.
+/// The weights of a block of stiffnesses and hardenings whose first node is `first`; `stride` nodes lie
+/// between two hardenings.
 void add_weights(std::vector<Weighted>& sum, const MaterialRatios& m, const std::vector<double>& stiffnesses,
                  const std::vector<double>& hardenings, std::size_t first, std::size_t stride, double factor)
 {
@@ -58,7 +58,8 @@ void add_weights(std::vector<Weighted>& sum, const MaterialRatios& m, const std:
   }
 }
 
-/// The main plane at m's stiffness and hardening, and for another Poisson's ratio what the block says it changes.
+/// The main plane at m's stiffness and hardening, and for another Poisson's ratio what the block says it
+/// changes.
 std::vector<Weighted> weights_of(const MidplaneGrid& grid, const MaterialRatios& m)
 {
   std::vector<Weighted> weights;
@@ -124,8 +125,9 @@ MidplaneShapes::MidplaneShapes(MidplaneGrid grid, std::vector<ElasticCorrection>
     if (!(nodes_[k].material == expected[k]))
       fail("atlas", fmt::format("midplane material {} is not the grid's", k));
   for (const Node& node : nodes_)
-    changes_.push_back({ShapeFunction(node.change.force_reduction, 1.0), ShapeFunction(node.change.widening, 1.0),
-                        ShapeFunction(node.change.residual, 1.0), ShapeFunction(node.change.dissipation, 1.0),
+    changes_.push_back({ShapeFunction(node.change.force_reduction, 1.0),
+                        ShapeFunction(node.change.widening, 1.0), ShapeFunction(node.change.residual, 1.0),
+                        ShapeFunction(node.change.dissipation, 1.0),
                         ShapeFunction(node.change.hertz_share, 1.0)});
   std::vector<double> force, restitution, residual;
   for (const MidplaneCheck& c : checks_) {

@@ -9,8 +9,8 @@
 
 namespace granulaw {
 
-/// Materials of which the atlas has run midplane presses. A main plane at one Poisson's ratio, and a coarser block that
-/// tells what another one changes.
+/// Materials of which the atlas has run midplane presses. A main plane at one Poisson's ratio, and a coarser
+/// block that tells what another one changes.
 struct MidplaneGrid
 {
   double main_poisson_ratio = 0.3;
@@ -36,11 +36,13 @@ struct MidplaneCheck
   double error_residual = 0;     ///< of the residual over the largest overlap, signed
 };
 
-/// What holding the equator plane, in place of the whole sphere, changes of a contact: a particle between two platens.
+/// What holding the equator plane, in place of the whole sphere, changes of a contact: a particle between two
+/// platens.
 ///
-/// While the contact is small the change is elastic: the half between contact and equator is a series compliance
-/// (LawShape::as_skin_of, with the midplane press's own elastic correction). What presses show beyond that, where the
-/// two plastic zones meet, is kept as a function of ln(overlap/R) for each material of the grid.
+/// While the contact is small the change is elastic: the half between contact and equator is a series
+/// compliance (LawShape::as_skin_of, with the midplane press's own elastic correction). What presses show
+/// beyond that, where the two plastic zones meet, is kept as a function of ln(overlap/R) for each material of
+/// the grid.
 class MidplaneShapes
 {
  public:
@@ -70,7 +72,8 @@ class MidplaneShapes
   /// The midplane shape of a material whose free sphere has the shape `free`; no velocity effects.
   LawShape shape(const MaterialRatios& m, const LawShape& free) const;
 
-  /// 95 % of midplane presses lie within, by the checks: of F, of e, of the residual over the largest overlap.
+  /// 95 % of midplane presses lie within, by the checks: of F, of e, of the residual over the largest
+  /// overlap.
   double claimed_force() const { return claimed_force_; }
   double claimed_restitution() const { return claimed_restitution_; }
   double claimed_residual() const { return claimed_residual_; }

@@ -101,7 +101,8 @@ RunJob press_job(const CharacterisedBody& body, const SamplingPlan::Press& press
   const auto stops = static_cast<double>(press.stops.size());  // off and on again takes 0.4 of the ramp each
   return {fmt::format("press to {:.3g} R", press.depth),
           key(body, press.resolution, press.shifted_grids,
-              fmt::format("press {} depth={:.17g}{}", press.support == Support::free ? "free" : "midplane", press.depth, path)),
+              fmt::format("press {} depth={:.17g}{}", press.support == Support::free ? "free" : "midplane",
+                          press.depth, path)),
           cost_of(body, press.depth, (1.4 + 0.8 * stops) * ramp, press.resolution, press.shifted_grids),
           [body, press, &source](const RunOptions& options) {
             PressPlan plan{press.depth * body.scale.length, press.support, press.stops, press.ramp};

@@ -1,6 +1,6 @@
-// Synthetic laboratories: random materials, measured with noise, calibrated; how often the truth lies in the intervals, and
-// how near the values are (docs/calibrate.md). What is measured comes from laws as `mpm table` makes them (drops), and
-// from the atlas's midplane curves (platens).
+// Synthetic laboratories: random materials, measured with noise, calibrated; how often the truth lies in the
+// intervals, and how near the values are (docs/calibrate.md). What is measured comes from laws as `mpm table`
+// makes them (drops), and from the atlas's midplane curves (platens).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -48,7 +48,8 @@ LawMaterial random_material(Chance& chance, bool hardens)
   m.poisson_ratio = chance.uniform(0, 0.45);
   m.youngs_modulus = chance.between(1e8, 1e11);
   m.yield_stress = m.e_star() / chance.between(30, 2000);
-  if (hardens && chance.uniform(0, 1) < 0.75) m.hardening_modulus = m.youngs_modulus * chance.between(1e-3, 0.1);
+  if (hardens && chance.uniform(0, 1) < 0.75)
+    m.hardening_modulus = m.youngs_modulus * chance.between(1e-3, 0.1);
   return m;
 }
 
@@ -89,8 +90,8 @@ Measurement platens(const Atlas& atlas, const LawMaterial& m, Chance& chance, do
   measured.fit_offset = true;
   const auto add = [&](double x, double force) {
     const double d = 2 * x * radius + offset;
-    measured.data.push_back({d, unit * force * (1 + noise * chance.normal()), 0,
-                             static_cast<int>(measured.data.size()) + 2});
+    measured.data.push_back(
+        {d, unit * force * (1 + noise * chance.normal()), 0, static_cast<int>(measured.data.size()) + 2});
   };
   for (int k = 1; k <= loading; ++k) {
     const double x = x_m * k / loading;
@@ -177,11 +178,11 @@ int main(int argc, char** argv)
       tallies[k].add(c.parameters[k], value_of(truth, fit[k]));
       if (verbose) {
         const auto& p = c.parameters[k].profile;
-        fmt::print("{:3} E*/Y {:6.1f} nu {:.2f} H/E {:.4f} {}: {:.4g} truth {:.4g}, 95 % {:.4g} to {:.4g}{}\n", lab,
-                   truth.e_star() / truth.yield_stress, truth.poisson_ratio,
-                   truth.hardening_modulus / truth.youngs_modulus, name_of(fit[k]), p.value,
-                   value_of(truth, fit[k]), p.within95.low, p.within95.high,
-                   c.parameters[k].identifiable() ? "" : " (not told)");
+        fmt::print(
+            "{:3} E*/Y {:6.1f} nu {:.2f} H/E {:.4f} {}: {:.4g} truth {:.4g}, 95 % {:.4g} to {:.4g}{}\n", lab,
+            truth.e_star() / truth.yield_stress, truth.poisson_ratio,
+            truth.hardening_modulus / truth.youngs_modulus, name_of(fit[k]), p.value, value_of(truth, fit[k]),
+            p.within95.low, p.within95.high, c.parameters[k].identifiable() ? "" : " (not told)");
       }
     }
     if (verbose)
@@ -189,10 +190,12 @@ int main(int argc, char** argv)
     std::fflush(stdout);
   }
   for (std::size_t k = 0; k < fit.size(); ++k)
-    fmt::print("{:<18} told in {} of {} laboratories; truth within 95 % in {} of {} told, {} of all; median error {:.2f} %\n",
-               name_of(fit[k]), tallies[k].told, tallies[k].labs, tallies[k].within, tallies[k].told,
-               tallies[k].all_within, 100 * tallies[k].median());
+    fmt::print(
+        "{:<18} told in {} of {} laboratories; truth within 95 % in {} of {} told, {} of all; median error "
+        "{:.2f} %\n",
+        name_of(fit[k]), tallies[k].told, tallies[k].labs, tallies[k].within, tallies[k].told,
+        tallies[k].all_within, 100 * tallies[k].median());
   std::sort(seconds.begin(), seconds.end());
-  fmt::print("misfits named in {}; p below 0.05 in {}; CPU s: median {:.2f}, longest {:.2f}\n", misfits, unlikely,
-             seconds[seconds.size() / 2], seconds.back());
+  fmt::print("misfits named in {}; p below 0.05 in {}; CPU s: median {:.2f}, longest {:.2f}\n", misfits,
+             unlikely, seconds[seconds.size() / 2], seconds.back());
 }

@@ -22,8 +22,8 @@ namespace {
 struct AtlasRequest
 {
   std::string output;
-  std::string from;      ///< an atlas whose materials stay; empty: all are run
-  bool impacts = false;  ///< but their fast impacts, which are run
+  std::string from;       ///< an atlas whose materials stay; empty: all are run
+  bool impacts = false;   ///< but their fast impacts, which are run
   bool midplane = false;  ///< all of it stays but the midplane presses, which are run
   int checks = 500, midplane_checks = 100;
   unsigned seed = 1;
@@ -46,8 +46,8 @@ Atlas with_midplane(const Atlas& free, const AtlasRequest& r, Farm& farm, Progre
   const auto atlas = [&](MidplaneShapes shapes) {
     return Atlas(free.grid(), free.nodes(), free.elastic_spheres(), free.checks(), std::move(shapes));
   };
-  const Atlas bare = atlas(
-      midplane_from(free, grid, farm.run(midplane_jobs(grid, source), part_of(bar, from, middle))));
+  const Atlas bare =
+      atlas(midplane_from(free, grid, farm.run(midplane_jobs(grid, source), part_of(bar, from, middle))));
   return atlas(bare.midplane().with_checks(
       check_midplane(bare, farm, r.midplane_checks, r.seed, part_of(bar, middle, 1))));
 }
@@ -79,10 +79,11 @@ void make_atlas(const AtlasRequest& r)
              r.output, atlas.nodes().size(), atlas.checks().size(), 100 * atlas.claimed_force(),
              atlas.claimed_restitution());
   const MidplaneShapes& midplane = atlas.midplane();
-  fmt::print("midplane: {} materials; {} fresh presses: 95 % within {:.2g} % of force, {:.2g} of e, {:.2g} of the "
-             "residual\n",
-             midplane.nodes().size(), midplane.checks().size(), 100 * midplane.claimed_force(),
-             midplane.claimed_restitution(), midplane.claimed_residual());
+  fmt::print(
+      "midplane: {} materials; {} fresh presses: 95 % within {:.2g} % of force, {:.2g} of e, {:.2g} of the "
+      "residual\n",
+      midplane.nodes().size(), midplane.checks().size(), 100 * midplane.claimed_force(),
+      midplane.claimed_restitution(), midplane.claimed_residual());
   print_count(farm->count());
 }
 
@@ -102,7 +103,8 @@ void define(CLI::App& command)
       ->needs(from);
   command
       .add_flag("--midplane", r->midplane,
-                "with --from: all of it stays but the presses between two platens, which are run (half an hour of CPU "
+                "with --from: all of it stays but the presses between two platens, which are run (half an "
+                "hour of CPU "
                 "time)")
       ->needs(from);
   command.add_option("--midplane-checks", r->midplane_checks, "fresh midplane presses that tell their error")

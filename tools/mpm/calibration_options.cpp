@@ -49,12 +49,13 @@ NamedRange parse_named_range(const std::string& word, const std::string& option)
 {
   const auto equals = word.find('='), dots = word.find("..");
   const auto complain = [&] {
-    fail(option, "cannot be understood", fmt::format("'{}'", cut(word)), "'NAME = LOW..HIGH', SI, both over 0");
+    fail(option, "cannot be understood", fmt::format("'{}'", cut(word)),
+         "'NAME = LOW..HIGH', SI, both over 0");
   };
   if (equals == std::string::npos || dots == std::string::npos || dots < equals) complain();
-  const NamedRange r{without_blanks(word.substr(0, equals)),
-                     {number_or_nan(word.substr(equals + 1, dots - equals - 1)),
-                      number_or_nan(word.substr(dots + 2))}};
+  const NamedRange r{
+      without_blanks(word.substr(0, equals)),
+      {number_or_nan(word.substr(equals + 1, dots - equals - 1)), number_or_nan(word.substr(dots + 2))}};
   if (!(r.range.low > 0 && r.range.high > r.range.low && std::isfinite(r.range.high))) complain();
   return r;
 }
@@ -64,7 +65,8 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
   CLI::Option* files = command.add_option(
       "DATA", data,
       "CSV files, SI, one kind of measurement each: velocity_m_per_s with restitution, contact_radius_m,\n"
-      "residual_displacement_m or contact_time_s; displacement_m,force_N; hardness_Pa; onset_force_N; each with a\n"
+      "residual_displacement_m or contact_time_s; displacement_m,force_N; hardness_Pa; onset_force_N; each "
+      "with a\n"
       "further column NAME_sd where the standard deviation is known (docs/calibrate.md)");
   if (needs_data) files->required();
   command.add_option("--fit", fit, "what is wanted: youngs_modulus, yield_stress, hardening_modulus")
@@ -78,30 +80,39 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
       ->check(above_zero());
   command.add_option("--hardening-modulus", hardening_modulus,
                      "Pa, where it is known and not fitted (default 0: perfectly plastic)");
-  command.add_option("--kind", kind,
-                     "of force curves. platens: a sphere between two plates, displacement of one towards the "
-                     "other; flat: one contact, displacement of the sphere's middle")
+  command
+      .add_option("--kind", kind,
+                  "of force curves. platens: a sphere between two plates, displacement of one towards the "
+                  "other; flat: one contact, displacement of the sphere's middle")
       ->check(CLI::IsMember({"platens", "flat"}))
       ->capture_default_str();
-  command.add_option("--partner", partner,
-                     "of impacts. wall: rigid; like: a sphere of the same material and size, the speed is that of "
-                     "approach")
+  command
+      .add_option(
+          "--partner", partner,
+          "of impacts. wall: rigid; like: a sphere of the same material and size, the speed is that of "
+          "approach")
       ->check(CLI::IsMember({"wall", "like"}))
       ->capture_default_str();
-  CLI::Option* materials_file = command.add_option("--materials", materials, "TOML file that holds the wall's material");
+  CLI::Option* materials_file =
+      command.add_option("--materials", materials, "TOML file that holds the wall's material");
   command
-      .add_option("--wall", wall, "restitution: name of the material of a thick deformable wall (default: rigid)")
+      .add_option("--wall", wall,
+                  "restitution: name of the material of a thick deformable wall (default: rigid)")
       ->needs(materials_file);
-  command.add_option("--offset", offset,
-                     "m, displacement at first touch, where it is known (default: it is fitted, for each curve)");
+  command.add_option(
+      "--offset", offset,
+      "m, displacement at first touch, where it is known (default: it is fitted, for each curve)");
   command.add_flag("--compliance", compliance, "fit the machine's compliance, m/N, for each curve");
-  command.add_option("--relative-sd", relative_sd,
-                     "standard deviation of values whose file states none, as a share of the value; a curve's is "
-                     "taken from its own scatter")
+  command
+      .add_option(
+          "--relative-sd", relative_sd,
+          "standard deviation of values whose file states none, as a share of the value; a curve's is "
+          "taken from its own scatter")
       ->check(above_zero_to(1))
       ->capture_default_str();
-  command.add_option("--prior", priors,
-                     "'NAME = LOW..HIGH': known before, 95 % lie between; NAME as in --fit, or hardness/yield_stress");
+  command.add_option(
+      "--prior", priors,
+      "'NAME = LOW..HIGH': known before, 95 % lie between; NAME as in --fit, or hardness/yield_stress");
   command.add_option("--bounds", bounds, "'NAME = LOW..HIGH': never outside");
   command.add_flag("--no-robust", plain, "outliers count by their square, as all other values");
   command.add_option("--name", name, "of the material in what is written")->capture_default_str();
@@ -140,9 +151,10 @@ CalibrationRequest CalibrationOptions::request() const
   for (const Parameter p : r.fit)
     if (value_of(r.known, p) > 0)
       fail("--fit", fmt::format("'{}' is given, too: either it is known or it is fitted", name_of(p)));
-  for (const auto& [parameter, option] :
-       {std::pair{Parameter::youngs_modulus, "--youngs-modulus"}, {Parameter::yield_stress, "--yield-stress"}})
-    if (std::find(r.fit.begin(), r.fit.end(), parameter) == r.fit.end() && !(value_of(r.known, parameter) > 0))
+  for (const auto& [parameter, option] : {std::pair{Parameter::youngs_modulus, "--youngs-modulus"},
+                                          {Parameter::yield_stress, "--yield-stress"}})
+    if (std::find(r.fit.begin(), r.fit.end(), parameter) == r.fit.end() &&
+        !(value_of(r.known, parameter) > 0))
       fail(option, fmt::format("is missing: give it, or add {} to --fit", name_of(parameter)));
   r.priors = ranges_of(priors, "--prior", &r.hardness_ratio);
   r.bounds = ranges_of(bounds, "--bounds", nullptr);

@@ -27,7 +27,8 @@ struct CalibrationOptions
   void set_wall(CalibrationRequest& request) const;
 };
 
-/// "NAME = A..B" of a prior or a bound; NAME may hold a '/'. `option` leads the sentence of what cannot be understood.
+/// "NAME = A..B" of a prior or a bound; NAME may hold a '/'. `option` leads the sentence of what cannot be
+/// understood.
 struct NamedRange
 {
   std::string name;

@@ -60,7 +60,8 @@ std::vector<double> band_of(const CalibrationProblem& problem, const Calibration
   return band;
 }
 
-nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const Calibration& c, std::size_t k)
+nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const Calibration& c,
+                                        std::size_t k)
 {
   const Measurement& m = problem.request().measurements[k];
   const CalibrationProblem::Comparison compared = problem.compare(c.minimum.q, k);
@@ -83,10 +84,13 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   nlohmann::ordered_json out;
   for (const FittedParameter& p : c.parameters) {
     const Interval &a = p.profile.within68, &b = p.profile.within95;
-    out["parameters"][name_of(p.parameter)] = {
-        {"value", json_number(p.profile.value)}, {"low68", json_number(a.low)},  {"high68", json_number(a.high)},
-        {"low95", json_number(b.low)},           {"high95", json_number(b.high)}, {"identifiable", p.identifiable()},
-        {"told", word_of(p.told)}};
+    out["parameters"][name_of(p.parameter)] = {{"value", json_number(p.profile.value)},
+                                               {"low68", json_number(a.low)},
+                                               {"high68", json_number(a.high)},
+                                               {"low95", json_number(b.low)},
+                                               {"high95", json_number(b.high)},
+                                               {"identifiable", p.identifiable()},
+                                               {"told", word_of(p.told)}};
   }
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (Eigen::Index a = 0; a < c.correlation.rows(); ++a) {
@@ -101,7 +105,8 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   out["interval_scale"] = c.interval_scale;
   out["verdict"] = verdict(problem, c);
   out["misfits"] = nlohmann::ordered_json::array();
-  for (const Misfit& m : c.misfits) out["misfits"].push_back({{"source", m.source}, {"sentence", m.sentence}});
+  for (const Misfit& m : c.misfits)
+    out["misfits"].push_back({{"source", m.source}, {"sentence", m.sentence}});
   out["material"] = {{"density", c.material.density},
                      {"youngs_modulus", c.material.youngs_modulus},
                      {"poisson_ratio", c.material.poisson_ratio},
@@ -117,19 +122,19 @@ std::string interval_comments(const CalibrationProblem& problem, const Calibrati
 {
   std::string text;
   for (const FittedParameter& p : c.parameters)
-    text += fmt::format("# {}: {:.4g} Pa, 68 %: {:.4g} to {:.4g}, 95 %: {:.4g} to {:.4g}{}\n", name_of(p.parameter),
-                        p.profile.value, p.profile.within68.low, p.profile.within68.high,
-                        p.profile.within95.low, p.profile.within95.high,
+    text += fmt::format("# {}: {:.4g} Pa, 68 %: {:.4g} to {:.4g}, 95 %: {:.4g} to {:.4g}{}\n",
+                        name_of(p.parameter), p.profile.value, p.profile.within68.low,
+                        p.profile.within68.high, p.profile.within95.low, p.profile.within95.high,
                         p.identifiable() ? "" : fmt::format(" ({})", word_of(p.told)));
   return text + fmt::format("# {}\n", verdict(problem, c));
 }
 
 std::string material_toml(const LawMaterial& m, const std::string& comments)
 {
-  std::string text = comments + fmt::format("[material.{}]\ndensity = {:.6g}\nyoungs_modulus = {:.6g}\n"
-                                            "poisson_ratio = {:.6g}\nyield_stress = {:.6g}\n",
-                                            m.name, m.density, m.youngs_modulus, m.poisson_ratio,
-                                            m.yield_stress);
+  std::string text = comments + fmt::format(
+                                    "[material.{}]\ndensity = {:.6g}\nyoungs_modulus = {:.6g}\n"
+                                    "poisson_ratio = {:.6g}\nyield_stress = {:.6g}\n",
+                                    m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress);
   if (m.hardening_modulus > 0)
     text += fmt::format("hardening = {{law = \"linear\", modulus = {:.6g}}}\n", m.hardening_modulus);
   return text;
@@ -141,8 +146,7 @@ void print_calibration(const CalibrationProblem& problem, const Calibration& c)
   for (const FittedParameter& p : c.parameters) {
     const Interval &a = p.profile.within68, &b = p.profile.within95;
     fmt::print("{:<20}{:>12.4g}{:>12.4g} to {:<10.4g}{:>12.4g} to {:<10.4g}{}\n", name_of(p.parameter),
-               p.profile.value, a.low, a.high, b.low, b.high,
-               p.identifiable() ? "" : word_of(p.told));
+               p.profile.value, a.low, a.high, b.low, b.high, p.identifiable() ? "" : word_of(p.told));
   }
   for (std::size_t k = 0; k < c.machines.size(); ++k) {
     const Measurement& m = problem.request().measurements[k];

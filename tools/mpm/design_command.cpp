@@ -37,7 +37,8 @@ LawMaterial assumed_material(const DesignRequest& r, const CalibrationRequest& r
 {
   if (r.guess.empty()) {
     if (request.measurements.empty())
-      fail("--guess", "is missing: without data the design needs a material to go by, such as yield_stress=50e6");
+      fail("--guess",
+           "is missing: without data the design needs a material to go by, such as yield_stress=50e6");
     return calibrate(CalibrationProblem(atlas, request)).material;
   }
   LawMaterial m = request.known;
@@ -79,7 +80,8 @@ void print(const DesignRequest& r, const Design& design, const std::vector<std::
   for (std::size_t k = 0; k < design.candidates().size(); ++k) {
     const bool curve = is_curve(design.candidates()[k].kind);
     const std::vector<std::size_t> copies(curve ? 1 : static_cast<std::size_t>(r.count), k);
-    fmt::print("{:<48}{}\n", fmt::format("{} {}", curve ? "1" : std::to_string(r.count), label(design.candidates()[k])),
+    fmt::print("{:<48}{}\n",
+               fmt::format("{} {}", curve ? "1" : std::to_string(r.count), label(design.candidates()[k])),
                cells(design.expected(copies)));
   }
   fmt::print("best {} measurements:\n", plan.size());
@@ -121,7 +123,8 @@ void run(const DesignRequest& r)
   add_candidates(candidates, MeasurementKind::restitution, r.speeds, "--speeds", r.places);
   add_candidates(candidates, MeasurementKind::platens, r.displacements, "--displacements", r.places);
   if (!r.speeds.empty() && !r.options.density) fail("--density", "is missing: impacts depend on it");
-  if (candidates.empty()) fail("mpm design", "nothing to choose from: give --speeds, --displacements or both");
+  if (candidates.empty())
+    fail("mpm design", "nothing to choose from: give --speeds, --displacements or both");
   const std::optional<Atlas> atlas = own_atlas();
   if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/atlas.md)");
   const LawMaterial assumed = assumed_material(r, request, *atlas);
@@ -156,7 +159,8 @@ void define(CLI::App& command)
 
 extern const Command design_command{
     "design",
-    "Which measurement would narrow what is wanted most: expected intervals of impacts at given speeds and of\n"
+    "Which measurement would narrow what is wanted most: expected intervals of impacts at given speeds and "
+    "of\n"
     "curves between platens, given what was measured already (docs/calibrate.md).\n"
     "Example: mpm design --fit yield_stress --youngs-modulus 3e9 --guess yield_stress=40e6 --radius 1e-3\n"
     "         --density 1500 --speeds 0.1..5",

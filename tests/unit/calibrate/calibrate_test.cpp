@@ -33,7 +33,8 @@ Measurement drops(const LawMaterial& m, const std::vector<double>& speeds)
   Measurement measured;
   measured.source = "drops.csv";
   measured.radius = radius;
-  for (const double v : speeds) measured.data.push_back({v, 1, 0, static_cast<int>(measured.data.size()) + 2});
+  for (const double v : speeds)
+    measured.data.push_back({v, 1, 0, static_cast<int>(measured.data.size()) + 2});
   const SphereLaws laws(atlas(), MaterialRatios::of(m));
   const std::vector<double> e = predict(measured, m, laws, {}).values;
   for (std::size_t k = 0; k < e.size(); ++k) measured.data[k].y = e[k], measured.data[k].sd = 0.01 * e[k];
@@ -98,7 +99,8 @@ TEST(Calibrate, ACurveGivesBackModulusYieldStressAndOffset)
 {
   const double offset = 3e-6;
   const CalibrationProblem problem(
-      atlas(), request_for(curve(stone(), 0.05, offset), {Parameter::youngs_modulus, Parameter::yield_stress}));
+      atlas(),
+      request_for(curve(stone(), 0.05, offset), {Parameter::youngs_modulus, Parameter::yield_stress}));
   const Calibration c = calibrate(problem);
   // the same model made the data
   EXPECT_NEAR(c.material.youngs_modulus / 10e9, 1, 5e-3);
@@ -109,8 +111,8 @@ TEST(Calibrate, ACurveGivesBackModulusYieldStressAndOffset)
 
 TEST(Calibrate, APriorNarrows)
 {
-  CalibrationRequest plain = request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}),
-                                         {Parameter::youngs_modulus, Parameter::yield_stress});
+  CalibrationRequest plain =
+      request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::youngs_modulus, Parameter::yield_stress});
   CalibrationRequest informed = plain;
   informed.priors = {{Parameter::youngs_modulus, {9.5e9, 10.5e9}}};
   const auto width = [](const CalibrationRequest& r) {
@@ -135,8 +137,8 @@ TEST(Calibrate, AForceThatFallsIsNamed)
 {
   Measurement m = curve(stone(), 0.05, 0);
   for (int k = 25; k < 40; ++k) m.data[static_cast<std::size_t>(k)].y *= 0.7;
-  const CalibrationProblem problem(
-      atlas(), request_for(m, {Parameter::youngs_modulus, Parameter::yield_stress}));
+  const CalibrationProblem problem(atlas(),
+                                   request_for(m, {Parameter::youngs_modulus, Parameter::yield_stress}));
   std::string all;
   for (const Misfit& f : calibrate(problem).misfits) all += f.sentence;
   EXPECT_THAT(all, HasSubstr("fracture"));
@@ -144,7 +146,8 @@ TEST(Calibrate, AForceThatFallsIsNamed)
 
 TEST(Calibrate, OneValueIsTooFew)
 {
-  EXPECT_THROW(CalibrationProblem(atlas(), request_for(drops(stone(), {1.0}), {Parameter::yield_stress})), Error);
+  EXPECT_THROW(CalibrationProblem(atlas(), request_for(drops(stone(), {1.0}), {Parameter::yield_stress})),
+               Error);
 }
 
 TEST(Calibrate, TheEnsembleScattersAsTheIntervalSays)
@@ -169,7 +172,8 @@ TEST(Design, PlasticImpactsTellMoreThanElasticOnes)
   r.known.yield_stress = 0;
   r.fit = {Parameter::yield_stress};
   const Design design(atlas(), r, stone(),
-                      {{MeasurementKind::restitution, 0.004}, {MeasurementKind::restitution, 2.0}}, radius, 0.01);
+                      {{MeasurementKind::restitution, 0.004}, {MeasurementKind::restitution, 2.0}}, radius,
+                      0.01);
   EXPECT_LT(design.expected({1, 1})[0], 0.1 * design.expected({0, 0})[0]);
   EXPECT_EQ(design.best(1), (std::vector<std::size_t>{1}));
 }

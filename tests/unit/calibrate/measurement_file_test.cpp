@@ -21,7 +21,8 @@ std::string complaint(const std::string& text)
 
 TEST(MeasurementFile, TellsTheKindByItsHeader)
 {
-  const Measurement m = parse_measurement("# a comment\nvelocity_m_per_s,restitution,restitution_sd\n1,0.8,0.01\n", "x");
+  const Measurement m =
+      parse_measurement("# a comment\nvelocity_m_per_s,restitution,restitution_sd\n1,0.8,0.01\n", "x");
   EXPECT_EQ(m.kind, MeasurementKind::restitution);
   ASSERT_EQ(m.data.size(), 1u);
   EXPECT_EQ(m.data[0].x, 1);
