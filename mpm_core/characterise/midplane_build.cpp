@@ -90,7 +90,8 @@ MidplaneShapes midplane_from(const Atlas& free, const MidplaneGrid& grid,
     const ElasticCorrection& correction = elastic[static_cast<std::size_t>(ratio)];
     const double onset = sphere_of(m).onset;
     const LawShape guide = skin_of(free, m, correction);
-    LawShape change = fit_shape(records, correction, onset, Atlas::depth, &guide).shape;
+    const ShapePrior prior = ShapePrior::of(guide, onset, Atlas::depth, Atlas::depth);
+    LawShape change = fit_shape(records, correction, onset, Atlas::depth, &prior).shape;
     change.add(-1, guide);
     nodes.push_back({m, onset, std::move(change)});
   }
