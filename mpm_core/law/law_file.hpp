@@ -7,7 +7,7 @@
 
 namespace granulaw {
 
-/// Reads a law file (HDF5; layout in docs/law-format.md, every name in h5_names.hpp). Any file that is not a
+/// Reads a law file (HDF5; layout in docs/reference/law-format.md, every name in h5_names.hpp). Any file that is not a
 /// whole, sane law of this major version gives one sentence as Error; never a crash or a large allocation.
 Law read_law(const std::string& path);
 

@@ -1,4 +1,4 @@
-"""docs/liggghts-matrix.md from the rows of matrix.py."""
+"""docs/evidence/liggghts-matrix.md from the rows of matrix.py."""
 import pathlib
 import re
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""docs/trials.md from the tests themselves: trials_page.py DOCS_FOLDER (the target trials_page sets the environment).
+"""docs/evidence/trials.md from the tests themselves: trials_page.py DOCS_FOLDER (the target trials_page sets the environment).
 
 Runs test_drop50, test_invariance (full: 10,000 steps), test_geometry and test_hard_cases (full: a million steps), keeps what they measured in
 trials_rows/rows.jsonl and writes it. trials_page.py DOCS_FOLDER ROWS.jsonl makes the page from rows that are there."""

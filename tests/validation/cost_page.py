@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""docs/cost.md and docs/cost.png from what granulaw_cost_study wrote: cost_page.py COST.json DOCS_FOLDER"""
+"""docs/evidence/cost.md and docs/evidence/cost.png from what granulaw_cost_study wrote: cost_page.py COST.json FOLDER"""
 import json
 import sys
 from pathlib import Path
@@ -23,7 +23,7 @@ MARKS = {"plastic": [(0.3, 0.01), (1.0, 0.003)], "elastic": [(0.5, 0.002)]}
 
 def main():
     if len(sys.argv) != 3:
-        sys.exit("cost_page.py COST.json DOCS_FOLDER")
+        sys.exit("cost_page.py COST.json FOLDER")
     study = json.loads(Path(sys.argv[1]).read_text())
     jobs = {job["name"]: job for job in study["jobs"]}
     docs = Path(sys.argv[2])

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""docs/pairs.md and docs/pairs.png from the CSV of granulaw_pairs_study: pairs_page.py PAIRS.csv DOCS_FOLDER"""
+"""docs/evidence/pairs.md and docs/evidence/pairs.png from the CSV of granulaw_pairs_study: pairs_page.py PAIRS.csv FOLDER"""
 import csv
 import sys
 from pathlib import Path
@@ -29,7 +29,7 @@ def percent(value, uncertainty):
 
 def main():
     if len(sys.argv) != 3:
-        sys.exit("pairs_page.py PAIRS.csv DOCS_FOLDER")
+        sys.exit("pairs_page.py PAIRS.csv FOLDER")
     rows = [{k: v if k == "group" else float(v) for k, v in row.items()} for row in csv.DictReader(open(sys.argv[1]))]
     docs = Path(sys.argv[2])
 
