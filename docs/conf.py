@@ -43,8 +43,10 @@ highlight_language = "none"
 
 # MathJax is copied into the site (copy_mathjax), because the book is read without a network.
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG-full"
+# MyST marks each page to be left alone but for its elements of class "math".
+myst_update_mathjax = False
 mathjax2_config = {"tex2jax": {"inlineMath": [["\\(", "\\)"]], "displayMath": [["\\[", "\\]"]], "processRefs": False,
-                               "processEnvironments": False},
+                               "processEnvironments": False, "ignoreClass": "mathjax_ignore", "processClass": "math"},
                    "SVG": {"font": "TeX", "linebreaks": {"automatic": True}},
                    "showMathMenu": False, "messageStyle": "none"}
 # What the pages load of MathJax's 54 MB: TeX input and SVG output, which needs no font files: browsers refuse those of file:// pages.
