@@ -38,7 +38,7 @@ html_copy_source = False
 html_show_sphinx = False
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
-html_search_scorer = "search_scorer.js"
+html_search_scorer = str(HERE / "search_scorer.js")
 # Pygments has no LIGGGHTS; an indented block is shown as it is.
 highlight_language = "none"
 
