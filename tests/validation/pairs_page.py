@@ -21,7 +21,7 @@ GROUPS = {
 
 RUNS_INTRO = """# Pairs: the single runs
 
-This page is the appendix of [how exact pairs are](pairs.md): every pair that was run, the pair rule over the two bodies, less 1. Behind `+-` stands twice what changes from 10 to 14 cells.
+This page is the appendix of [how exact pairs are](pairs.md): every pair of the study, the pair rule over the two bodies, less 1. Behind `+-` stands twice what changes from 10 to 14 cells.
 `tests/validation/pairs.csv` has the same numbers. V/V_y, d/(lambda R\\*) and I are those of the one sphere that stands for the pair.
 """
 
