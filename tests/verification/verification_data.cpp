@@ -4,7 +4,8 @@
 //     impacts
 //                                               convergence step energy references
 //
-// pictures.py FOLDER docs/evidence/verification draws them. About five minutes of CPU. R = rho = E* = 1 throughout.
+// pictures.py FOLDER docs/evidence/verification draws them. About five minutes of CPU. R = rho = E* = 1
+// throughout.
 #include <fmt/os.h>
 
 #include <filesystem>
