@@ -111,7 +111,7 @@ def case_press():
         assert 0 < result["delta_residual_m"] < result["delta_max_m"] and 0 < result["e"] < 1
         assert list(result)[:len(KEYS)] == KEYS
     # three quarters of the default ramp (60 R/c*) is still the rate-free law: at most, I = rho v^2/Y is
-    # (pi/2 0.05/45)^2 100 = 3e-4, where inertia takes less than 0.5 % of e (docs/theory/method.md)
+    # (pi/2 0.05/45)^2 100 = 3e-4, where inertia takes less than 0.5 % of e (docs/theory/damage-number.md)
     words = ["press", "m.toml", "--particle", "grain", "--depth", "0.05", "--resolution", "8", "--json"]
     slow, fast = Run(*words).json(), Run(*words, "--ramp", "45").json()
     assert 0.6 * slow["steps"] < fast["steps"] < 0.9 * slow["steps"], (fast["steps"], slow["steps"])
