@@ -39,7 +39,7 @@ macro(liggghts_find root)
     endif()
     if(NOT liggghts_own_library)
       message(FATAL_ERROR "GRANULAW_LIGGGHTS_ROOT: no libliggghts.so in ${root}, its src, build or lib: build the shared "
-                          "library (docs/own-liggghts.md), or put the models into LIGGGHTS's src")
+                          "library (docs/guide/own-liggghts.md), or put the models into LIGGGHTS's src")
     endif()
     file(REAL_PATH ${liggghts_own_headers} LIGGGHTS_INCLUDE_DIR)
     file(REAL_PATH ${liggghts_own_library} LIGGGHTS_LIBRARY)

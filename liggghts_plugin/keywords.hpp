@@ -24,7 +24,7 @@ struct Keyword
   constexpr bool stands_in(bool wall) const { return wall ? in_wall : in_pair_style; }
 };
 
-/// Keywords of all models. docs/pair_gran_model_mpm.md says what they mean.
+/// Keywords of all models. docs/reference/pair_gran_model_mpm.md says what they mean.
 inline constexpr std::array shared_keywords{
     Keyword{.name = "tangentialDampingRatio", .least = 0.0, .most = 1.0},
     Keyword{.name = "tangentialStiffness", .words = {"computed", "mindlin"}},

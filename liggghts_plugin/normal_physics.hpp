@@ -11,7 +11,7 @@
 #include "liggghts_plugin/types.hpp"
 
 // What a normal model is: NAME_physics.hpp, NAME_physics.cpp and a line in models.list.
-// docs/new-contact-model.md shows one. PlasticModel adds history, damping, tangential stiffness and
+// docs/guide/new-contact-model.md shows one. PlasticModel adds history, damping, tangential stiffness and
 // statistics, and LIGGGHTS's loops call it.
 //
 // Nothing here needs LIGGGHTS's headers, so that a model's keywords and formulas can be tested without it.

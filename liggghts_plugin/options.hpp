@@ -22,7 +22,7 @@ struct ElasticDamping
 inline constexpr double stretched_overlap_limit = 0.5;
 
 /// What the plug-in's own words in `pair_style gran` and `fix wall/gran` say. See
-/// docs/pair_gran_model_mpm.md.
+/// docs/reference/pair_gran_model_mpm.md.
 struct Options
 {
   bool deformable_wall = false;               ///< `wall rigid|deformable` (walls)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How fast clouds of several sizes and densities hit the floor, beside what `mpm plan` says (docs/plan.md: a cloud shields its floor).
+"""How fast clouds of several sizes and densities hit the floor, beside what `mpm plan` says (docs/guide/plan.md: a cloud shields its floor).
 
     floor.py [-o out/floor] [--quick]     # model thornton, wax and elastic; ten runs of 0.4 s
 

@@ -111,7 +111,7 @@ class Atlas
   double claimed_force_ = 0, claimed_restitution_ = 0, solver_error_ = 0;
 };
 
-/// Reads and writes the atlas's file (HDF5; layout: docs/atlas.md). Throws Error.
+/// Reads and writes the atlas's file (HDF5; layout: docs/evidence/atlas.md). Throws Error.
 Atlas read_atlas(const std::string& path);
 void write_atlas(const Atlas& atlas, const std::string& path);
 

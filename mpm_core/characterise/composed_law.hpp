@@ -36,7 +36,7 @@ struct ComposedState
 ///               - k pi a^2 (p - p_twin)/(E* R)                               the finite sphere's
 /// The common shape follows from the residual over the recovered overlaps of both. An elastic body yields
 /// nothing: the second line then says what curvature a flatter pressure gives it. Measured against two-body
-/// impacts: docs/pairs.md.
+/// impacts: docs/theory/pairs.md.
 class ComposedPair
 {
  public:
@@ -62,7 +62,7 @@ struct ComposedError
   double force = 0, restitution = 0;
 };
 /// Fitted to the 95th percentiles of two-body impacts against stiffer, like and softer partners
-/// (docs/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.
+/// (docs/theory/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.
 ComposedError composed_error(double e_star_ratio);
 
 /// What the law of a yielding pair is tabulated from.

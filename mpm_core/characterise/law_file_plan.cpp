@@ -181,7 +181,7 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
 template <class Estimate>
 ReductionError either_way(const LawMaterial& a, const LawMaterial& b, double radius_ratio, Estimate estimate)
 {
-  constexpr double measured_to = 0.002;  // rho V^2/Y of the one body that stands for the pair: docs/pairs.md
+  constexpr double measured_to = 0.002;  // rho V^2/Y of the one body that stands for the pair: docs/evidence/pairs.md
   ReductionError worst;
   for (const double ratio : {radius_ratio, 1 / radius_ratio}) {
     const UnlikePair pair = unlike_pair(a, b, ratio);

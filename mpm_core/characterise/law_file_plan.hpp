@@ -87,7 +87,7 @@ LawFilePlan plan_law_file(LawFileRequest request);
 UnlikePair unlike_pair(const LawMaterial& a, const LawMaterial& b, double radius_ratio = 1);
 
 /// Error of the pair's law, whichever of the two bodies is `radius_ratio` times the larger, to the end of the
-/// range that the pair rule was measured in: by the rule (docs/pairs.md).
+/// range that the pair rule was measured in: by the rule (docs/evidence/pairs.md).
 ReductionError pair_rule_error(const LawMaterial& a, const LawMaterial& b, double radius_ratio);
 /// The same of the pair's own law, made at the radius ratio `law_radius_ratio`.
 ReductionError own_law_error(const LawMaterial& a, const LawMaterial& b, double radius_ratio,

@@ -183,7 +183,7 @@ Causes causes_of(const UnlikePair& pair, double velocity)
   // 3. The smaller body's contact is larger against its radius; it matters as far as the other gives way.
   const double unlike = (1 - 1 / pair.radius_ratio) / (1 + 1 / pair.radius_ratio);
   c.uneven = unlike * unlike * depth * std::min(1.0, 2 * c.share);
-  // 4. A half-space takes 1.25 (V/c)^0.6 of the energy of a like sphere (docs/method.md; Hunter 1957), and as
+  // 4. A half-space takes 1.25 (V/c)^0.6 of the energy of a like sphere (docs/theory/method.md; Hunter 1957), and as
   // 1/(E c) of the larger body.
   const double radiating =
       pair.radius_ratio >= 1 ? std::pow(stiffness, -1.5) * std::sqrt(h.density / s.density) : 1.0;
@@ -202,7 +202,7 @@ ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
 {
   const Causes c = causes_of(pair, velocity);
   const double finite = std::abs(c.finite);
-  // Coefficients: bounds of what docs/pairs.md shows, cause by cause.
+  // Coefficients: bounds of what docs/evidence/pairs.md shows, cause by cause.
   return {0.002 + 0.10 * c.share * c.unshared + 0.65 * finite + 5 * c.uneven + 0.25 * c.waves,
           0.002 + 0.11 * std::pow(c.share, 0.7) * c.unshared + 3.2 * finite * (1 - c.e * c.e) + 4 * c.uneven +
               c.waves,

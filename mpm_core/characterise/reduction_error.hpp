@@ -35,9 +35,10 @@ struct ReductionError
 };
 
 /// Bound of the error of F_max and e of a collision at the relative `velocity` (m/s, > 0) by the pair rule,
-/// from pairs.csv of tests/validation (docs/pairs.md): at least 95 % of the measured collisions lie below it,
-/// typically at a third. Never below 0.002, what the measurements resolve. Grows with the velocity, so that a
-/// law's certificate takes the largest velocity it is meant for (`fastest_of_law`). Four causes add up:
+/// from pairs.csv of tests/validation (docs/evidence/pairs.md): at least 95 % of the measured collisions lie
+/// below it, typically at a third. Never below 0.002, what the measurements resolve. Grows with the velocity,
+/// so that a law's certificate takes the largest velocity it is meant for (`fastest_of_law`). Four causes add
+/// up:
 /// - a stronger partner stays elastic, and the rule lets it yield along: Y_h/Y_s, E_s/E_h;
 /// - a finite body is stiffer than its half-space, and the rule counts as if both were like the yielding one;
 /// - the smaller of two unlike spheres gives way more than its half of the overlap: radii and depth;

@@ -10,7 +10,7 @@ namespace granulaw {
 /// run beside the runs' samples.
 struct ShapePrior
 {
-  /// Standard error of F and e of a run of 24 cells on two grids (docs/atlas.md).
+  /// Standard error of F and e of a run of 24 cells on two grids (docs/evidence/atlas.md).
   static constexpr double run_error = 0.003;
 
   LawShape shape;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Every name, unit and legend of a law file, shared by writer and reader (layout: docs/law-format.md).
+/// Every name, unit and legend of a law file, shared by writer and reader (layout:
+/// docs/reference/law-format.md).
 namespace granulaw::h5 {
 
 /// A dataset: its name, and what its attributes `unit` and `legend` say. Unit "1": a pure number.

@@ -143,7 +143,7 @@ void check_body(const BodyLaw& body, const std::string& where)
   if (m.yields() != std::isfinite(body.curve.onset()))
     fail(where, m.yields() ? "the material yields but its curve has no onset"
                            : "the material is elastic but its curve has an onset of yield");
-  // g(0) = 1 by definition (docs/law-format.md); a fit may round
+  // g(0) = 1 by definition (docs/reference/law-format.md); a fit may round
   if (const double first = body.curve.table().force_ratio.front(); !(std::abs(first - 1) <= 1e-3))
     fail(where, "the force does not begin as Hertz's: 'force_ratio' at node 0 is out of range",
          fmt::format("{:.6g}", first), "1");

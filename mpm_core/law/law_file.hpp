@@ -7,8 +7,9 @@
 
 namespace granulaw {
 
-/// Reads a law file (HDF5; layout in docs/law-format.md, every name in h5_names.hpp). Any file that is not a
-/// whole, sane law of this major version gives one sentence as Error; never a crash or a large allocation.
+/// Reads a law file (HDF5; layout in docs/reference/law-format.md, every name in h5_names.hpp). Any file that
+/// is not a whole, sane law of this major version gives one sentence as Error; never a crash or a large
+/// allocation.
 Law read_law(const std::string& path);
 
 /// The same out of `image`, the bytes of a law file that read_law(path) accepts: for the other ranks of an

@@ -84,7 +84,8 @@ RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& op
 
 // Elastic: half as long changes F by 0.15 %. Plastic: 60 at E*/Y = 100 (40 changes e by 0.1 %), and the
 // longer the less is given back (E*/Y = 1000 to 0.02 R: 60, 90, 120, 240 give e .1980, .1991, .1995, .1996);
-// and inertia enters with I = rho v^2/Y (docs/method.md): the top speed pi depth/(2 ramp) keeps I below 4e-4.
+// and inertia enters with I = rho v^2/Y (docs/theory/damage-number.md): the top speed pi depth/(2 ramp) keeps
+// I below 4e-4.
 double default_press_ramp(double depth, double yield_over_e_star)
 {
   if (!std::isfinite(yield_over_e_star)) return 40.0;

@@ -19,7 +19,7 @@ enum class Support {
   midplane  ///< half a sphere whose equator plane is driven: as finite-element references do
 };
 
-/// How a body is cut into cells (docs/method.md).
+/// How a body is cut into cells (docs/theory/method.md).
 enum class GridKind {
   automatic,    ///< what the scene needs: `mapped` for homogeneous spheres, else `rectilinear`
   mapped,       ///< fitted to the sphere: fastest and most exact

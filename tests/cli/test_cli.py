@@ -111,7 +111,7 @@ def case_press():
         assert 0 < result["delta_residual_m"] < result["delta_max_m"] and 0 < result["e"] < 1
         assert list(result)[:len(KEYS)] == KEYS
     # three quarters of the default ramp (60 R/c*) is still the rate-free law: at most, I = rho v^2/Y is
-    # (pi/2 0.05/45)^2 100 = 3e-4, where inertia takes less than 0.5 % of e (docs/method.md)
+    # (pi/2 0.05/45)^2 100 = 3e-4, where inertia takes less than 0.5 % of e (docs/theory/damage-number.md)
     words = ["press", "m.toml", "--particle", "grain", "--depth", "0.05", "--resolution", "8", "--json"]
     slow, fast = Run(*words).json(), Run(*words, "--ramp", "45").json()
     assert 0.6 * slow["steps"] < fast["steps"] < 0.9 * slow["steps"], (fast["steps"], slow["steps"])
@@ -488,8 +488,8 @@ def case_claims():
 
 
 def case_format():
-    """The h5py lines of docs/law-format.md run and give the library's force (mpm export); every name is documented."""
-    text = (SOURCE / "docs/law-format.md").read_text()
+    """The h5py lines of docs/reference/law-format.md run and give the library's force (mpm export); every name is documented."""
+    text = (SOURCE / "docs/reference/law-format.md").read_text()
     code = re.search(r"```python\n(.*?)```", text, re.S).group(1)
     assert len(code.splitlines()) <= 12
     os.symlink(LAW, "law.h5")

@@ -39,7 +39,7 @@ class Run(unittest.TestCase):
         cls._folder.cleanup()
 
     def test_plan_contains_what_was_visited(self):
-        """Speeds of the yielding body. The plan bounds all but what particles hand on to each other (docs/plan.md): a few contacts of a
+        """Speeds of the yielding body. The plan bounds all but what particles hand on to each other (docs/guide/plan.md): a few contacts of a
         thousand, of which the fastest one of a chaotic bed is chance. So 99.9 % of the contacts stay within the bound; and since of two equal
         spheres one may gain the other's speed and keep its own across, the fastest one within sqrt(2) of it. A bound three times too high
         builds laws that nobody needs (full size: examples/README.md; fewer spheres meet less often at their fastest: 3.5)."""
@@ -125,7 +125,7 @@ class Packing(Run):
             self.assertLess(self.mean(model, "kinetic energy at the end / peak"), 0.01)
 
     def test_the_cloud_shields_its_floor(self):
-        """An estimate that one run in a hundred exceeds (docs/plan.md); beside the whole fall it was 2.5 to 4 times too high."""
+        """An estimate that one run in a hundred exceeds (docs/guide/plan.md); beside the whole fall it was 2.5 to 4 times too high."""
         for model, _, bound, seen, _ in example("planned.py").compare(self.folder):
             self.assertTrue(1 < bound["wall"] / seen["wall"] < 3, (model, bound, seen))
 

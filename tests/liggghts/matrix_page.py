@@ -1,4 +1,4 @@
-"""docs/liggghts-matrix.md from the rows of matrix.py."""
+"""docs/evidence/liggghts-matrix.md from the rows of matrix.py."""
 import pathlib
 import re
 
@@ -6,8 +6,10 @@ from matrix_known import KNOWN
 
 INTRO = """# The matrix: LIGGGHTS's commands with the models mpm and thornton
 
-Each command of LIGGGHTS's manual that touches a contact, a particle or a wall, tried with both models beside stock `hertz`. Made by
-`cmake --build --preset release --target matrix_page`; the test `liggghts_matrix` fails where an outcome turns into a defect that is not listed here.
+This page shows which of LIGGGHTS's commands work with the models `mpm` and `thornton`. Each command of the manual that touches a contact, a particle or a wall was tried with both models beside stock `hertz`.
+`same` means that it works as with hertz. What is refused stands in the first table, all features in the last part.
+
+`cmake --build --preset release --target matrix_page` makes the page. The test `liggghts_matrix` fails where an outcome turns into a defect that is not listed here.
 
 The scene: eighteen spheres (R = 1.7 mm, powder and glass) thrown at each other over a floor, 600 steps of 0.2 us; a feature changes or adds some lines
 (`tests/liggghts/matrix_*.py`). Each feature runs {runs} times (fewer where the plain deck is refused):
@@ -26,7 +28,7 @@ The scene: eighteen spheres (R = 1.7 mm, powder and glass) thrown at each other 
 | as hertz: SENTENCE | stock Hertz is refused as well |
 | DEFECT | anything else |
 
-Left out: `fix external`, `couple/cfd` (they need a second program), `sph`, bonds, superquadrics (not of contacts of spheres, or not built), and what only moves numbers about
+Not tried: `fix external`, `couple/cfd` (they need a second program), `sph`, bonds, superquadrics (not of contacts of spheres, or not built), and what only moves numbers about
 (`echo`, `group`, `variable` beyond their use here). `delete_atoms` and `insert ... compress_tags yes` renumber particles while they touch: LIGGGHTS then loses the history of their
 contacts, of hertz as well; say `compress no`. Heat flows through the overlap that LIGGGHTS sees: with `stretch S` it flows as if the moduli were S^2.5 times smaller.
 
@@ -38,6 +40,11 @@ One feature: `python3 tests/liggghts/matrix.py WORDS` with the environment of th
 
 def plain(text):
     return re.sub(r"\s+", " ", text).replace("|", "\\|")
+
+
+def line(row, group=""):
+    first, second = (plain(cell) for cell in row["cells"].values())
+    return f"| {group}{plain(row['name'])} | {first} | {'the same words' if second == first and len(first) > 40 else second} |"
 
 
 def write(path, rows, limits):
@@ -55,11 +62,13 @@ def write(path, rows, limits):
         text += ["## Known defects", "", "| feature | models | what is seen | why it stands |", "|---|---|---|---|"]
         text += [f"| {'all features' if name == '.*' else plain(name.replace('.*', '...'))} | {', '.join(who)} | {plain(part)} | {plain(why)} |" for name, who, part, why in KNOWN]
         text.append("")
+    text += ["## Refused", "", "Features that stock Hertz runs and these models refuse.", "", "| group | feature | " + " | ".join(models) + " |", "|---|---|---|---|"]
+    text += [line(row, f"{plain(row['group'])} | ") for row in rows if any(cell.startswith("refused") for cell in row["cells"].values())]
+    text += ["", "## All features"]
     group = None
     for row in rows:
         if row["group"] != group:
-            text += ([""] if group else []) + [f"## {row['group']}", "", "| feature | " + " | ".join(models) + " |", "|---|---|---|"]
+            text += ["", f"### {row['group']}", "", "| feature | " + " | ".join(models) + " |", "|---|---|---|"]
             group = row["group"]
-        first, second = (plain(cell) for cell in row["cells"].values())
-        text.append(f"| {plain(row['name'])} | {first} | {'the same words' if second == first and len(first) > 40 else second} |")
+        text.append(line(row))
     pathlib.Path(path).write_text("\n".join(text) + "\n")

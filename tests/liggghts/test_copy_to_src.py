@@ -41,7 +41,7 @@ class CopyToSrc(unittest.TestCase):
             self.assertNotIn("@", (self.src / filled_in).read_text())
 
     def test_its_words_compile(self):
-        """One file of each folder (docs/own-liggghts.md: the whole of LIGGGHTS, done once)."""
+        """One file of each folder (docs/guide/own-liggghts.md: the whole of LIGGGHTS, done once)."""
         words = dict(line.split(" = ", 1) for line in self.copy().splitlines() if " = " in line)
         flags = words["MPI_CCFLAGS_USR"].split() + ["-O2", "-std=c++17"] + words["LMP_INC"].split()  # as Makefile.auto orders them
         for name in ("law_law.cpp", "liggghts_plugin_options.cpp", "base_version.cpp"):

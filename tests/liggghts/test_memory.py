@@ -1,4 +1,4 @@
-"""Values of history that LIGGGHTS keeps for a contact, 8 bytes each: the number that docs/pair_gran_model_*.md state."""
+"""Values of history that LIGGGHTS keeps for a contact, 8 bytes each: the number that docs/reference/pair_gran_model_*.md state."""
 import unittest
 
 from harness import POWDER, Deck, head, properties

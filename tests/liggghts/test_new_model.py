@@ -1,4 +1,4 @@
-"""A model made as docs/new-contact-model.md says, of two files and a line (plain_hertz): against stock Hertz, and what a user sees."""
+"""A model made as docs/guide/new-contact-model.md says, of two files and a line (plain_hertz): against stock Hertz, and what a user sees."""
 import os
 import pathlib
 import subprocess

@@ -1,5 +1,5 @@
 """Superquadrics, with a LIGGGHTS that has them: GRANULAW_SUPERQUADRIC_LIGGGHTS names its source tree or install prefix
-(docs/own-liggghts.md). Builds the plug-in against it, then: a superquadric that is a sphere moves as the sphere does in the plug-in
+(docs/guide/own-liggghts.md). Builds the plug-in against it, then: a superquadric that is a sphere moves as the sphere does in the plug-in
 at hand, an ellipsoid on its pole rebounds as the law of the local curvature says, tilted elastic ellipsoids move as under LIGGGHTS's
 own Hertz, LIGGGHTS's tutorial runs, and what cannot work is refused."""
 import math
@@ -12,7 +12,7 @@ import unittest
 
 LIGGGHTS = os.environ.get("GRANULAW_SUPERQUADRIC_LIGGGHTS", "")
 if not LIGGGHTS:
-    print("skipped: GRANULAW_SUPERQUADRIC_LIGGGHTS names no LIGGGHTS with superquadrics (docs/own-liggghts.md)")
+    print("skipped: GRANULAW_SUPERQUADRIC_LIGGGHTS names no LIGGGHTS with superquadrics (docs/guide/own-liggghts.md)")
     sys.exit(77)
 
 import harness

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""docs/trials.md from the tests themselves: trials_page.py DOCS_FOLDER (the target trials_page sets the environment).
+"""docs/evidence/trials.md from the tests themselves: trials_page.py DOCS_FOLDER (the target trials_page sets the environment).
 
 Runs test_drop50, test_invariance (full: 10,000 steps), test_geometry and test_hard_cases (full: a million steps), keeps what they measured in
 trials_rows/rows.jsonl and writes it. trials_page.py DOCS_FOLDER ROWS.jsonl makes the page from rows that are there."""
@@ -15,10 +15,10 @@ RUNS = (("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_
 
 INTRO = """# Trials of the LIGGGHTS models
 
-What the tests of `tests/liggghts` measured: forces and trajectories that must not depend on LIGGGHTS's bookkeeping, walls and
-particles of every kind, hard cases, 50 drops. Made by `cmake --build --preset release --target trials_page`; the law is the synthetic one of
-`tests/unit/synthetic_law.hpp` (E*/Y = 100), R = 1.7 mm. `hertz` (without damping) and `thornton_ning` are LIGGGHTS's own, at
-`contact_distance_factor 1.01`.
+This page shows what the tests of `tests/liggghts` measured. Forces and trajectories must not depend on LIGGGHTS's bookkeeping: exchange between ranks, rebuilt lists, restarts. Each section says what its test asks for.
+
+The law is the synthetic one of `tests/unit/synthetic_law.hpp` (E*/Y = 100), R = 1.7 mm. `hertz` (without damping) and `thornton_ning` are LIGGGHTS's own, at `contact_distance_factor 1.01`.
+`cmake --build --preset release --target trials_page` makes the page.
 """
 
 # table: (title, note, columns as (head, key))

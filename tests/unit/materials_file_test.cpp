@@ -33,10 +33,10 @@ class MaterialsFileTest : public testing::Test
                             testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
 };
 
-/// All ```toml blocks of docs/particles.md, one after the other.
+/// All ```toml blocks of docs/guide/particles.md, one after the other.
 std::string documented()
 {
-  std::ifstream file(GRANULAW_SOURCE_DIR "/docs/particles.md");
+  std::ifstream file(GRANULAW_SOURCE_DIR "/docs/guide/particles.md");
   std::string line, text;
   bool inside = false;
   while (std::getline(file, line)) {

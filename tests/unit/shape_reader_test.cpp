@@ -57,7 +57,7 @@ class ShapeReader : public testing::Test
 
 TEST_F(ShapeReader, DocumentedExamplesAreWhatTheySay)
 {
-  std::ifstream page(GRANULAW_SOURCE_DIR "/docs/shapes.md");
+  std::ifstream page(GRANULAW_SOURCE_DIR "/docs/guide/shapes.md");
   std::string line, text;
   for (bool inside = false; std::getline(page, line);) {
     if (line.starts_with("```"))

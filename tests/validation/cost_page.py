@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""docs/cost.md and docs/cost.png from what granulaw_cost_study wrote: cost_page.py COST.json DOCS_FOLDER"""
+"""docs/evidence/cost.md and docs/evidence/cost.png from what granulaw_cost_study wrote: cost_page.py COST.json FOLDER"""
 import json
 import sys
 from pathlib import Path
@@ -23,7 +23,7 @@ MARKS = {"plastic": [(0.3, 0.01), (1.0, 0.003)], "elastic": [(0.5, 0.002)]}
 
 def main():
     if len(sys.argv) != 3:
-        sys.exit("cost_page.py COST.json DOCS_FOLDER")
+        sys.exit("cost_page.py COST.json FOLDER")
     study = json.loads(Path(sys.argv[1]).read_text())
     jobs = {job["name"]: job for job in study["jobs"]}
     docs = Path(sys.argv[2])
@@ -48,33 +48,50 @@ def main():
     figure.tight_layout()
     figure.savefig(docs / "cost.png", dpi=110)
 
-    text = [
-        "# Cost: error against CPU seconds",
-        "",
-        "![L2 error of the loading force against CPU seconds](cost.png)",
-        "",
-        f"One core of: {study['processor']}. Four shifted grids (or one, dotted), three grids, both precisions; black line: how far",
-        "the reference (mapped, 56 cells, 8 shifted grids, Courant number 0.5) is from the same at 40 cells. L2: deviation of the",
-        "treated loading force over 0.05 to 1 delta_max. F_max and e: deviation. Grid noise: rms of raw/treated force - 1 over 0.25 to 1",
-        "delta_max, that is, of the mean of the shifted grids. F_max of several grids is the peak of their mean, of a single one the",
-        "fit's, which does not follow the ringing: 0.7 % lower here. The treated force of a single grid (dotted) is as good as that of",
-        "four for a quarter of the time; what the mean of four buys is e, and a trace that needs no treatment. Single precision",
-        "changes no digit of the errors. Made by",
-        "",
-        "    cmake --build --preset release --target cost_page        # twenty minutes; use an idle machine",
-        "",
-    ]
-    for job, title in JOBS.items():
-        text += [f"## {title[0].upper()}{title[1:]}", "",
+    (docs / "cost.md").write_text(page(study["processor"], {title: [jobs[job]["reference"], *jobs[job]["rows"]] for job, title in JOBS.items()}))
+
+
+INTRO = """# Cost: error against CPU seconds
+
+This page shows how many CPU seconds a run costs for how small an error, on one core of: {processor}.
+
+![L2 error of the loading force against CPU seconds](cost.png)
+
+- The picture shows three grids and both precisions with four shifted grids, and one grid dotted. The black line is the reference's own error: mapped, 56 cells, 8 shifted grids, Courant number 0.5, against the same at 40 cells.
+- *L2*: deviation of the treated loading force over 0.05 to 1 delta_max. *F_max*, *e*: deviation. *Grid noise*: rms of raw/treated force - 1 over 0.25 to 1 delta_max, that is, of the mean of the shifted grids.
+- F_max of several grids is the peak of their mean. Of a single grid it is the fit's, which does not follow the ringing: 0.7 % lower here.
+- The treated force of a single grid is as good as that of four for a quarter of the time. The mean of four buys e, and a trace that needs no treatment.
+- Single precision changes no digit of the errors.
+
+    cmake --build --preset release --target cost_page        # makes this page in twenty minutes; use an idle machine
+
+## Which resolution
+
+The default: mapped grid, double precision, four shifted grids.
+"""
+
+
+def percents(row):
+    return [f"{100 * row[c]:{'+' if c.startswith('err') else ''}.3f}" for c in ("L2_force", "err_force", "err_e", "ripple")]
+
+
+def page(processor, jobs):
+    """`jobs`: title -> its rows, the reference first."""
+    text = [INTRO.format(processor=processor)]
+    for title, (_, *rows) in jobs.items():
+        text += [f"{title[0].upper()}{title[1:]}:", "", "| cells | CPU s | L2 % | F_max % | e % |", "|---|---|---|---|---|"]
+        text += ["| " + " | ".join([str(r["cells"]), f"{r['cpu_s']:.4g}", *percents(r)[:3]]) + " |" for r in rows
+                 if (r["grid"], r["precision"], r["grids"]) == ("mapped", "double", 4)] + [""]
+    for title, rows in jobs.items():
+        text += [f"## All rows: {title}", "",
                  "| grid | precision | cells | shifted grids | points | CPU s | million updates/s | L2 % | F_max % | e % | grid noise % | energy error |",
                  "|---|---|---|---|---|---|---|---|---|---|---|---|"]
-        for k, r in enumerate([jobs[job]["reference"], *jobs[job]["rows"]]):
-            percent = [f"{100 * r[c]:{'+' if c.startswith('err') else ''}.3f}" for c in ("L2_force", "err_force", "err_e", "ripple")]
+        for k, r in enumerate(rows):
             name = r["grid"] + (" (against the reference)" if k == 0 else "")
             text.append("| " + " | ".join([name, r["precision"], str(r["cells"]), str(r["grids"]), str(r["points"]),
-                                           f"{r['cpu_s']:.4g}", f"{r['Mupd_s']:.0f}", *percent, f"{r['energy']:.2g}"]) + " |")
+                                           f"{r['cpu_s']:.4g}", f"{r['Mupd_s']:.0f}", *percents(r), f"{r['energy']:.2g}"]) + " |")
         text.append("")
-    (docs / "cost.md").write_text("\n".join(text))
+    return "\n".join(text)
 
 
 if __name__ == "__main__":

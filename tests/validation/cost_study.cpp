@@ -1,4 +1,5 @@
-// Error against CPU seconds for every grid and precision: the numbers behind docs/cost.md and its picture.
+// Error against CPU seconds for every grid and precision: the numbers behind docs/evidence/cost.md and its
+// picture.
 //
 //   cost_study OUT.json [quick]           quick: the plastic impact alone, coarser (half a minute)
 //

@@ -4,7 +4,7 @@
 The law of its own reproduces the two bodies at equal radii; at another ratio it says what the pair rule says, times
 what it corrected at equal radii and the same I of the one body. So two-body impacts and the rule's replays tell it:
 error = (rule/two bodies at the ratio)/(rule/two bodies at equal radii) - 1. Some five CPU minutes; the rows of
-docs/pairs.md and of tests/unit/reduction_error_test.cpp are in pair_law_radii.csv.
+docs/evidence/pairs.md and of tests/unit/reduction_error_test.cpp are in pair_law_radii.csv.
 """
 import json
 import os

@@ -1,4 +1,4 @@
-// A law of the pair's own, from two-body impacts, against the pair rule: the table in docs/pairs.md.
+// A law of the pair's own, from two-body impacts, against the pair rule: the table in docs/evidence/pairs.md.
 //
 //   pair_law_study        about a CPU minute; prints rule/two bodies - 1 and own law/two bodies - 1
 //

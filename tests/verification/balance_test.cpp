@@ -1,4 +1,5 @@
-// Momentum and energy of a whole impact, audited from what the solver writes. Pictures: docs/verification.md.
+// Momentum and energy of a whole impact, audited from what the solver writes. Pictures:
+// docs/evidence/verification.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

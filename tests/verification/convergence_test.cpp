@@ -1,4 +1,4 @@
-// Errors against cells and time steps. Pictures: docs/verification.md.
+// Errors against cells and time steps. Pictures: docs/evidence/verification.md.
 #include "convergence.hpp"
 
 #include <gtest/gtest.h>

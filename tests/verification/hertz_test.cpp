@@ -1,5 +1,5 @@
 // The pressure under an elastic sphere, p = p0 sqrt(1 - (r/a)^2), with a and p0 from the force: nothing is
-// fitted. Pictures: docs/verification.md.
+// fitted. Pictures: docs/evidence/verification.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

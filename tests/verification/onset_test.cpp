@@ -1,4 +1,4 @@
-// Yield begins below the surface, where Hertz's stress field says. Pictures: docs/verification.md.
+// Yield begins below the surface, where Hertz's stress field says. Pictures: docs/evidence/verification.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

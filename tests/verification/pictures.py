@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/verification.md: pictures.py DATA_FOLDER PICTURE_FOLDER [NAME...]
+"""Draws the pictures of docs/evidence/verification.md: pictures.py DATA_FOLDER PICTURE_FOLDER [NAME...]
 
 DATA_FOLDER holds the CSV files of verification_data. Lines are what must hold (equations, references), points what
 the solver computed. Prints the numbers that the page quotes.

@@ -1,4 +1,4 @@
-// The time integration by itself. Pictures: docs/verification.md.
+// The time integration by itself. Pictures: docs/evidence/verification.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Stress-strain curve of every flow law under uniaxial compression. Pictures: docs/verification.md.
+// Stress-strain curve of every flow law under uniaxial compression. Pictures: docs/evidence/verification.md.
 #include "uniaxial.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,11 @@
-// Writes the numbers behind the pictures of docs/verification.md, one CSV file for each.
+// Writes the numbers behind the pictures of docs/evidence/verification.md, one CSV file for each.
 //
 //     verification_data FOLDER [NAME...]        all, or those named: identities uniaxial pressure onset
 //     impacts
 //                                               convergence step energy references
 //
-// pictures.py FOLDER docs/verification draws them. About five minutes of CPU. R = rho = E* = 1 throughout.
+// pictures.py FOLDER docs/evidence/verification draws them. About five minutes of CPU. R = rho = E* = 1
+// throughout.
 #include <fmt/os.h>
 
 #include <filesystem>

@@ -25,7 +25,8 @@ struct Plan
   bool complete() const { return questions.empty(); }
 };
 
-/// Below this I inertia takes less than 1 % of e: the law needs no velocity axis (docs/method.md).
+/// Below this I inertia takes less than 1 % of e: the law needs no velocity axis
+/// (docs/theory/damage-number.md).
 inline constexpr double negligible_damage_number = 0.002;
 /// Time steps in the shortest contact.
 inline constexpr double steps_per_contact = 25;

@@ -65,7 +65,8 @@ def page(results, seed, picked):
     caught, changing = score(results)
     by = lambda verdict: [r for r in results if r["verdict"] == verdict]
     done = f"{len(results)} of {picked} are done" if len(results) < picked else f"All {picked} are done"
-    lines = ["# Faults put in by hand: what the quick tests notice",
+    lines = ["# Faults put in by hand: what the quick tests notice", "",
+             "This page shows how many one-line faults in the code the quick tests catch.", "",
              f"`tools/faults --seed {seed}` puts faults into a copy of the sources, one line and one fault at a time, and runs the quick",
              f"tests on each. The seed picks the places; {sum(r['named'] for r in results)} faults are chosen by hand. {done}. `--page` writes this page.", "",
              f"**The tests catch {caught} of the {changing} faults that change a result ({100 * caught / max(1, changing):.0f} %).**", "",
@@ -84,5 +85,5 @@ def page(results, seed, picked):
                                 ("no change seen", "", lambda r: ""),
                                 ("not compiled", "the compiler says", lambda r: code(r["by"][:60]))):
         if by(verdict):
-            lines += ["", f"## {verdict.capitalize()}", f"| kind | file | line | with the fault | {head} |", "|---|---|---|---|---|", *rows(by(verdict), last)]
+            lines += ["", f"## {verdict.capitalize()}", "", f"| kind | file | line | with the fault | {head} |", "|---|---|---|---|---|", *rows(by(verdict), last)]
     return "\n".join(lines) + "\n"

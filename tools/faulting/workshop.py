@@ -42,7 +42,7 @@ MIRRORED = {
     "tools/deck": ("deck", "law", "base"),
     "tools/mpm": ("mpm_parts", "deck", "characterise", "farm", "solver", "law", "base"),
 }
-NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer")  # they run none of the six folders
+NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer", "docs.links", "docs.book")  # they run none of the six folders
 CHEAP = 2.0  # s; tests up to it come before the battery
 FAIR = 20.0  # s; up to it they are run where the battery shows no change, too
 

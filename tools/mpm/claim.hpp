@@ -23,9 +23,11 @@ struct Claim
 };
 
 /// What a certificate states for a collision whose coefficient of restitution is `e`.
-/// - A yielding body of the atlas: the bound of its checks (docs/atlas.md). These are fresh impacts, so it
+/// - A yielding body of the atlas: the bound of its checks (docs/evidence/atlas.md). These are fresh impacts,
+/// so it
 ///   holds whatever the solver's runs, the fit, the interpolation and the table leave.
-/// - A pair's law composed of its bodies': the bound of two-body impacts that took no part (docs/pairs.md);
+/// - A pair's law composed of its bodies': the bound of two-body impacts that took no part
+/// (docs/evidence/pairs.md);
 ///   corrected by impacts of the two bodies: as by runs, each impact left out in turn.
 /// - A body by runs: what its verification found, impacts that took no part in the fit at the cells of those
 ///   that did; and what these cells cost (grid_convergence.hpp). Without impacts, what fit and table leave.

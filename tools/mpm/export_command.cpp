@@ -28,7 +28,7 @@ struct ExportRequest
 
 void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
 {
-  out << fmt::format("# contact law, exported from {}; formulas: docs/law-format.md of granulaw\n", r.law);
+  out << fmt::format("# contact law, exported from {}; formulas: docs/reference/law-format.md of granulaw\n", r.law);
   for (const char* note : {"version", "git_hash"})
     if (const auto found = law.provenance.find(note); found != law.provenance.end())
       out << fmt::format("# {} = {}\n", note, printable(found->second));

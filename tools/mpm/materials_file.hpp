@@ -31,7 +31,7 @@ namespace granulaw {
 ///     radius = 2e-3                # m
 ///     material = "powder"
 ///
-///     [particle.capsule]           # layers, inclusions, profile: any of them (docs/particles.md)
+///     [particle.capsule]           # layers, inclusions, profile: any of them (docs/guide/particles.md)
 ///     radius = 2e-3                # m: largest distance from the axis; may be left out with points
 ///     material = "powder"          # the body; of a layered one, the core
 ///     # from the surface inwards; m

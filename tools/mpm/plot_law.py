@@ -15,7 +15,7 @@ import numpy as np
 
 
 def hermite(nodes, value, slope, s):
-    """Cubic Hermite with slopes d/ds, nodes uniform: as the law library evaluates (docs/law-format.md)."""
+    """Cubic Hermite with slopes d/ds, nodes uniform: as the law library evaluates (docs/reference/law-format.md)."""
     h = nodes[1] - nodes[0]
     k = np.clip((s / h).astype(int), 0, len(nodes) - 2)
     t = s / h - k

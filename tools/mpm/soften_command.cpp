@@ -163,7 +163,7 @@ extern const Command soften_command{
     "soften",
     "The largest stretch s of a deck's contact law F(delta/s)/s within limits: the time step grows by s, "
     "every\n"
-    "binary impact keeps its e (docs/plan.md). Prints the lines to paste.\n"
+    "binary impact keeps its e (docs/guide/plan.md). Prints the lines to paste.\n"
     "Example: mpm soften in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
     define};
 

@@ -141,7 +141,7 @@ void print_warnings(const LawFilePlan& plan, const MadeLawFile& file)
     if (!has_own_laws(pair, file.law) && pair.is_extrapolated())
       fmt::print(stderr,
                  "mpm: what the pair rule costs {} is extrapolated: the partner is softer than was measured "
-                 "(docs/pairs.md)\n",
+                 "(docs/guide/pairs.md)\n",
                  pair.name());
   for (const auto& [name, runs] : file.runs)
     if (runs.sampling_error > plan.request.tolerance)

@@ -14,7 +14,7 @@ BINS = 8  # a decade, as the plug-in counts
 
 
 class Law:
-    """What the map needs of a law file (docs/law-format.md): E*/Y, the onset, and the curve of a head-on impact."""
+    """What the map needs of a law file (docs/reference/law-format.md): E*/Y, the onset, and the curve of a head-on impact."""
 
     def __init__(self, path, material):
         try:

@@ -73,7 +73,7 @@ def make(out, quick, say, seeds=None, decks=None):
         pathlib.Path(out, folder).mkdir(parents=True, exist_ok=True)
     for part, commands in PARTS.items():
         if quick and part == "hard cases":
-            continue  # docs/hard-cases.json comes with the tree
+            continue  # docs/evidence/hard-cases.json comes with the tree
         for command in commands(out, quick, seeds, decks) if part == "flow" else commands(out, quick):
             say(f"{part}: {command}")
             code, said = call(command)

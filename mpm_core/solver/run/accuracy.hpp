@@ -13,7 +13,7 @@ using Run = std::function<RunResult(const RunOptions&)>;
 int coarse_partner(int resolution);
 
 /// Error of the finer of two runs of one job at resolutions N and coarse_partner(N), relative, of F_max and
-/// e, the larger. Measured on the cases of tests/validation/error_study.cpp (docs/method.md).
+/// e, the larger. Measured on the cases of tests/validation/error_study.cpp (docs/theory/method.md).
 double error_between(const RunResult& fine, const RunResult& coarse);
 
 /// Runs the job and its coarse partner; error_estimate filled, cost of both counted.
