@@ -6,7 +6,6 @@
 MPM: the program of the build, which the packaged one must equal."""
 import functools
 import json
-import os
 import pathlib
 import re
 import shutil
