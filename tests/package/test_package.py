@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The Debian packages that CPack left in FOLDER.
 
-    test_package.py FOLDER MPM SOURCES Contents|Fields|Unpacked|Lintian
+    test_package.py FOLDER MPM SOURCES Contents|Fields|Unpacked|Programs|Lintian
 
 MPM: the program of the build, which the packaged one must equal."""
 import functools
@@ -149,6 +149,19 @@ class Unpacked(unittest.TestCase):
     def test_no_path_of_the_build(self):
         for name in ("bin/mpm", "bin/liggghts-mpm", "lib/libgranulaw_liggghts.so"):
             self.assertNotIn(str(SOURCES).encode() + b"/build", (self.work / "root/usr" / name).read_bytes(), name)
+
+
+class Programs(unittest.TestCase):
+    """A C++ project finds the libraries of granulaw-dev and the atlas of granulaw in one place."""
+    def test_find_package(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root, build = pathlib.Path(folder) / "root", pathlib.Path(folder) / "build"
+            for name in ("granulaw", "granulaw-dev"):
+                said("dpkg-deb", "--extract", package(name), root)
+            said("cmake", "-S", SOURCES / "tests/install/consumer", "-B", build, f"-DCMAKE_PREFIX_PATH={root}/usr")
+            self.assertIn(f"granulaw_DIR:PATH={root}/usr/", (build / "CMakeCache.txt").read_text())
+            said("cmake", "--build", build)
+            said(build / "consumer", cwd=build)
 
 
 class Lintian(unittest.TestCase):
