@@ -19,7 +19,7 @@ import time
 SKIPPED = 77
 MIRROR = os.environ.get("GRANULAW_DEBIAN_MIRROR", "http://deb.debian.org/debian")
 # What changes whether or not a package comes or goes.
-BOOKKEEPING = re.compile(r"/(proc|sys|dev|tmp|run|root/\.cache|root/work|var/(log|cache|lib/(apt|dpkg|systemd|python)))(/|$)"
+BOOKKEEPING = re.compile(r"/(proc|sys|dev|tmp|run|root/work|var/(log|cache|lib/(apt|dpkg|systemd|python)))(/|$)"
                          r"|/etc/ld\.so\.cache$|/var/lib/apt$")
 # Ordinary words of a user, line by line; the hopper is the example's own small one.
 USE = """set -e
@@ -44,7 +44,7 @@ def skip(why):
 def inside(root, script):
     """Runs a shell script in the root. Its mounts are in a namespace of their own: none is left behind, however this ends."""
     enter = (f"mount --bind /proc '{root}/proc' && mount --rbind /dev '{root}/dev' && "
-             f"exec chroot '{root}' /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C "
+             f"exec chroot '{root}' /usr/bin/env -i HOME=/root/work PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C "
              "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 /bin/sh -c \"$1\"")
     done = subprocess.run(["unshare", "--mount", "sh", "-c", enter, "sh", script], capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if done.returncode:
