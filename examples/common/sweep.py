@@ -80,7 +80,8 @@ def run(args, deck, model, folder, inputs=(), law=None, variables=None, more="")
             more += f" stretch {args.stretch:g}"
         words.update({"more": more.strip()} if more else {})
     launcher = program("liggghts" if model == "hertz" else "liggghts-mpm")
-    plugin = [p for p in pathlib.Path(launcher).parent.glob("libgranulaw_liggghts.so")]
+    beside = pathlib.Path(launcher).resolve().parent  # as built; as installed
+    plugin = [p / "libgranulaw_liggghts.so" for p in (beside, beside.parent / "lib") if (p / "libgranulaw_liggghts.so").exists()]
     recipe = digest(deck, *sorted(COMMON.glob("*.in")), *inputs, *plugin, args.ranks,
                     *[f"{k}={digest(v) if k == 'law' else v}" for k, v in words.items() if k not in ("out", "common")])
     done = folder / "done"
