@@ -11,7 +11,7 @@
 namespace granulaw {
 
 /// What a thick wall of a known material changes of e, against the rigid wall: by composed laws
-/// (docs/pairs.md), at 30 ms a material. So it is computed at materials whose E, Y and Y + 2 H are whole
+/// (docs/evidence/pairs.md), at 30 ms a material. So it is computed at materials whose E, Y and Y + 2 H are whole
 /// powers of a factor, and linear in their logarithms between: what the wall changes varies so little between
 /// two that e is within 0.001.
 class WallModel

@@ -77,7 +77,7 @@ void run(const CalibrateRequest& r)
   check_outputs(r);
   const CalibrationRequest request = r.options.request();
   const std::optional<Atlas> atlas = own_atlas();
-  if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/atlas.md)");
+  if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
   const CalibrationProblem problem(*atlas, request);
   const Calibration result = calibrate(problem);
   const nlohmann::ordered_json json = calibration_json(problem, result);
@@ -117,7 +117,7 @@ void define(CLI::App& command)
 extern const Command calibrate_command{
     "calibrate",
     "From measurements to a material: what data tell of Young's modulus, yield stress and hardening, with\n"
-    "intervals and a verdict on what they cannot tell (docs/calibrate.md).\n"
+    "intervals and a verdict on what they cannot tell (docs/guide/calibrate.md).\n"
     "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus "
     "3.2e9\n"
     "         --fit yield_stress -o material.toml --plot fit.png",

@@ -67,7 +67,7 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
       "CSV files, SI, one kind of measurement each: velocity_m_per_s with restitution, contact_radius_m,\n"
       "residual_displacement_m or contact_time_s; displacement_m,force_N; hardness_Pa; onset_force_N; each "
       "with a\n"
-      "further column NAME_sd where the standard deviation is known (docs/calibrate.md)");
+      "further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)");
   if (needs_data) files->required();
   command.add_option("--fit", fit, "what is wanted: youngs_modulus, yield_stress, hardening_modulus")
       ->required();

@@ -126,7 +126,7 @@ void run(const DesignRequest& r)
   if (candidates.empty())
     fail("mpm design", "nothing to choose from: give --speeds, --displacements or both");
   const std::optional<Atlas> atlas = own_atlas();
-  if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/atlas.md)");
+  if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/evidence/atlas.md)");
   const LawMaterial assumed = assumed_material(r, request, *atlas);
   const Design design(*atlas, request, assumed, candidates, *r.options.radius, r.options.relative_sd);
   const std::vector<std::size_t> plan = design.best(static_cast<std::size_t>(r.count));
@@ -161,7 +161,7 @@ extern const Command design_command{
     "design",
     "Which measurement would narrow what is wanted most: expected intervals of impacts at given speeds and "
     "of\n"
-    "curves between platens, given what was measured already (docs/calibrate.md).\n"
+    "curves between platens, given what was measured already (docs/guide/calibrate.md).\n"
     "Example: mpm design --fit yield_stress --youngs-modulus 3e9 --guess yield_stress=40e6 --radius 1e-3\n"
     "         --density 1500 --speeds 0.1..5",
     define};
