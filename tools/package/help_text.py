@@ -94,13 +94,13 @@ def parse(head, text):
     head, excludes = cut(head, " Excludes: ")
     head, needs = cut(head, " Needs: ")
     head, required = head.removesuffix(" REQUIRED"), head.endswith(" REQUIRED")
-    head, several = head.removesuffix(" ..."), head.endswith(" ...")
+    head, several = re.subn(r" (\.\.\.|x \d+)$", "", head)  # any number of words, or so many
     names, _, kind = head.partition(" ")
     matched = re.fullmatch(r"([A-Z]*)(?::(.*?))?(?:=(.*))?", kind)
     if not matched:
         raise SystemExit(f"help_text.py: cannot read '{head}' in the help of mpm")
     value, allowed, default = (part or "" for part in matched.groups())
-    return Entry(re.sub(r"\{.*?\}", "", names).split(","), value, allowed, default, several, required, needs, excludes, text)
+    return Entry(re.sub(r"\{.*?\}", "", names).split(","), value, allowed, default, bool(several), required, needs, excludes, text)
 
 
 def cut(head, mark):
