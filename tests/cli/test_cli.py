@@ -118,6 +118,33 @@ def case_press():
     assert abs(fast["e"] / slow["e"] - 1) < 5e-3, (fast["e"], slow["e"])
 
 
+def case_three_dimensions():
+    words = ["--resolution", "6", "--shifted-grids", "1", "--no-estimate"]
+    hit = ["impact", materials(), "--particle", "grain", "--velocity", "13", *words]
+    oblique = Run(*hit, "--friction", "0.1", "--tangential-velocity", "39", "-o", "t.csv", "--json").json()
+    assert list(oblique)[:len(KEYS)] == KEYS and oblique["grid"] == "rectilinear-3d"
+    # the whole contact slides: tangential impulse mu times the normal one
+    assert abs(oblique["impulse_tangential_Ns"] / oblique["impulse_normal_Ns"] / 0.1 - 1) < 2e-3
+    assert 0.9 < oblique["e_tangential"] < 1 and oblique["spin_after_rad_s"] > 0
+    header = Path("t.csv").read_text().splitlines()[0]
+    assert header.startswith("time_s,delta_m,force_N,contact_radius_m,branch,force_x_N,"), header
+    squeeze = ["press", "m.toml", "--particle", "grain", "--depth", "0.1", *words]
+    cube = Run(*squeeze, "--planes", "cube", "-o", "p.csv", "--fields", "f.xdmf", "--json").json()
+    assert len(cube["planes"]) == 6 and abs(cube["planes"][0]["delta_max_m"] / 2e-4 - 1) < 1e-3
+    assert set(cube["planes"][0]) == {"normal", "delta_max_m", "force_max_N", "force_N_at_depth"}
+    assert "Hexahedron" in Path("f.xdmf").read_text()
+    with h5py.File("f.h5") as file:
+        assert file["cells"].shape[1] == 8 and file["frame0000/position"].shape[1] == 3
+    assert Path("p.csv").read_text().splitlines()[0].endswith("branch," + ",".join(f"force_{k}_N" for k in range(1, 7)))
+    Path("planes.txt").write_text("# two planes\n0 0 1\n0 0 -1 touch 0 0.2\n")
+    assert len(Run(*squeeze, "--planes", "planes.txt", "--json").json()["planes"]) == 2
+    Path("planes.txt").write_text("0 0 1\n0 0\n")
+    refused([*squeeze, "--planes", "planes.txt"], "planes.txt:2", "3 to 6")
+    refused([*squeeze, "--planes", "octa"], "pair, cube, die, bcc, fcc")
+    refused([*hit, "--friction", "0.1", "--grid", "mapped"], "--friction needs three dimensions")
+    refused([*hit, "--grid", "rectilinear-3d", "--wall", "glass"], "rigid planes only")
+
+
 def case_fields():
     blind = Run("impact", materials(), *HIT, "-o", "blind.csv", "--json").json()
     seen = Run("impact", "m.toml", *HIT, "-o", "seen.csv", "--fields", "f.xdmf", "--frames", "12", "--json").json()

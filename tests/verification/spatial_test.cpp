@@ -234,11 +234,11 @@ TEST(SpatialImpact, SlidingLosesFrictionTimesTheNormalImpulse)
   EXPECT_GT(lever, radius - 4 * r.summary.delta_max);  // the pressure moves ahead of the centre, too
 }
 
-RunResult press(const std::string& planes, double depth, int cells)
+RunResult press(const std::string& planes, double depth, int cells, int grids = 1)
 {
   PlanesPlan plan;
   plan.planes = named_planes(planes), plan.depth = depth * radius;
-  return run_planes_press(sphere(100), plan, coarse(cells));
+  return run_planes_press(sphere(100), plan, coarse(cells, grids));
 }
 
 /// Mean force over Y R^2 about an overlap of `x` R.
@@ -251,10 +251,11 @@ double force_at_overlap(const RunResult& r, double x)
   return sum / count / (e_star / 100 * radius * radius);
 }
 
-/// Axisymmetric solver: 1.334, 1.92, 2.36 (good to 0.5 %); 1 % for ten cells to the block.
+/// Axisymmetric solver: 1.334, 1.92, 2.36 (good to 0.5 %; at 0.3 R its two grids differ by 0.4 %); 1 % for
+/// the mean of four grids of eight cells to the block. A single one swings by as much.
 TEST(SpatialPress, TwoPlanes)
 {
-  const RunResult r = press("pair", 0.305, 10);
+  const RunResult r = press("pair", 0.305, 8, 4);
   EXPECT_NEAR(force_at_overlap(r, 0.1) / 1.334, 1, 0.01);
   EXPECT_NEAR(force_at_overlap(r, 0.2) / 1.92, 1, 0.01);
   EXPECT_NEAR(force_at_overlap(r, 0.3) / 2.36, 1, 0.01);

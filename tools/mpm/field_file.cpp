@@ -24,6 +24,7 @@ struct NodeField
   h5::Field field;
   std::vector<double> FieldFrame::*r;
   std::vector<double> FieldFrame::*z;
+  std::vector<double> FieldFrame::*y;  ///< three dimensions
 };
 struct CellField
 {
@@ -31,9 +32,14 @@ struct CellField
   std::vector<double> FieldFrame::*value;
 };
 constexpr h5::Field geometry{"position", "m", "deformed position of the nodes: r, z; the plane is z = 0"};
+constexpr h5::Field solid_geometry{"position", "m",
+                                   "deformed position of the nodes: x, y, z; wall: z away from it"};
 constexpr NodeField node_fields[] = {
-    {{"displacement", "m", "displacement since first touch: r, z, 0"}, &FieldFrame::ur, &FieldFrame::uz},
-    {{"velocity", "m/s", "velocity: r, z, 0"}, &FieldFrame::vr, &FieldFrame::vz}};
+    {{"displacement", "m", "displacement since first touch: r, z, 0"},
+     &FieldFrame::ur,
+     &FieldFrame::uz,
+     &FieldFrame::uy},
+    {{"velocity", "m/s", "velocity: r, z, 0"}, &FieldFrame::vr, &FieldFrame::vz, &FieldFrame::vy}};
 constexpr CellField cell_fields[] = {
     {{"equivalent_plastic_strain", "1", "equivalent plastic strain"}, &FieldFrame::plastic_strain},
     {{"pressure", "Pa", "minus a third of the trace of the Cauchy stress: compression positive"},
@@ -50,19 +56,22 @@ class FieldFile
   {
   }
 
-  void begin(int nodes, const std::vector<std::array<int, 4>>& cells)
+  /// Four corners each: axisymmetric; eight: three-dimensional.
+  template <std::size_t corners>
+  void begin(int nodes, const std::vector<std::array<int, corners>>& cells)
   {
     const h5::Silence silence;
     file_ = h5::Handle();
     file_ = h5::Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
     if (!file_.ok()) fail(path_, "cannot be written");
-    nodes_ = nodes, cells_ = cells.size();
+    nodes_ = nodes, cells_ = cells.size(), corners_ = corners;
     frames_.clear();
     h5::write_text_attribute(file_, h5::format, "granulaw-fields", path_);
     h5::write_text_attribute(file_, "version", version(), path_);
     h5::write_text_attribute(file_, "git_hash", git_hash(), path_);
-    write(file_, {"cells", "1", "nodes of each cell, counter-clockwise in (r, z)"}, H5T_NATIVE_INT,
-          H5T_STD_I32LE, cells.size(), 4, cells.data());
+    const char* legend = solid() ? "nodes of each cell: lower four, upper four, counter-clockwise"
+                                 : "nodes of each cell, counter-clockwise in (r, z)";
+    write(file_, {"cells", "1", legend}, H5T_NATIVE_INT, H5T_STD_I32LE, cells.size(), corners, cells.data());
   }
 
   void frame(const FieldFrame& f)
@@ -77,8 +86,13 @@ class FieldFile
     scalar({"delta", "m", "overlap of this grid"}, f.delta);
     scalar({"force", "N", "contact force on this grid, mean over a trace sample, repulsive positive"},
            f.force);
-    write_pairs(group, geometry, f.r, f.z, 2);
-    for (const NodeField& n : node_fields) write_pairs(group, n.field, f.*n.r, f.*n.z, 3);
+    if (solid()) {
+      write_triples(group, solid_geometry, f.r, f.y, f.z);
+      for (const NodeField& n : node_fields) write_triples(group, n.field, f.*n.r, f.*n.y, f.*n.z);
+    } else {
+      write_pairs(group, geometry, f.r, f.z, 2);
+      for (const NodeField& n : node_fields) write_pairs(group, n.field, f.*n.r, f.*n.z, 3);
+    }
     for (const CellField& c : cell_fields) {
       const std::vector<double>& v = f.*c.value;
       write(group, c.field, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, v.size(), 1, v.data());
@@ -116,12 +130,12 @@ class FieldFile
       const int k = static_cast<int>(n);
       out += fmt::format("<Grid Name=\"frame{:04}\" GridType=\"Uniform\">\n  <Time Value=\"{:.9g}\"/>\n", k,
                          frames_[n]);
-      out += fmt::format(
-          "  <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">\n    {}\n  </Topology>\n",
-          cells_, item("Int", 4, fmt::format("{} 4", cells_), "cells"));
-      out +=
-          fmt::format("  <Geometry GeometryType=\"XY\">\n    {}\n  </Geometry>\n",
-                      item("Float", 4, fmt::format("{} 2", nodes_), fmt::format("frame{:04}/position", k)));
+      out += fmt::format("  <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n    {}\n  </Topology>\n",
+                         solid() ? "Hexahedron" : "Quadrilateral", cells_,
+                         item("Int", 4, fmt::format("{} {}", cells_, corners_), "cells"));
+      out += fmt::format("  <Geometry GeometryType=\"{}\">\n    {}\n  </Geometry>\n", solid() ? "XYZ" : "XY",
+                         item("Float", 4, fmt::format("{} {}", nodes_, solid() ? 3 : 2),
+                              fmt::format("frame{:04}/position", k)));
       for (const NodeField& f : node_fields)
         attribute(f.field, "Vector", "Node", fmt::format("{} 3", nodes_), k);
       for (const CellField& f : cell_fields) attribute(f.field, "Scalar", "Cell", std::to_string(cells_), k);
@@ -152,11 +166,20 @@ class FieldFile
     write(group, field, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, r.size(), columns, values.data());
   }
 
+  void write_triples(hid_t group, const h5::Field& field, const std::vector<double>& x,
+                     const std::vector<double>& y, const std::vector<double>& z) const
+  {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < x.size(); ++i) values.insert(values.end(), {x[i], y[i], z[i]});
+    write(group, field, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, x.size(), 3, values.data());
+  }
+  bool solid() const { return corners_ == 8; }
+
   std::string temporary_, path_;
   h5::Handle file_;
   std::vector<double> frames_;
   int nodes_ = 0;
-  std::size_t cells_ = 0;
+  std::size_t cells_ = 0, corners_ = 4;
 };
 
 std::string h5_beside(const std::string& path)
@@ -187,6 +210,9 @@ RunResult run_with_fields(const std::string& path, int frames,
     FieldObserver observer;
     observer.frames = frames;
     observer.begin = [&](int nodes, const std::vector<std::array<int, 4>>& cells) {
+      file.begin(nodes, cells);
+    };
+    observer.begin_solid = [&](int nodes, const std::vector<std::array<int, 8>>& cells) {
       file.begin(nodes, cells);
     };
     observer.frame = [&](const FieldFrame& f) { file.frame(f); };

@@ -87,6 +87,10 @@ struct SpatialBody
   double mass = 0;                 ///< of the part that is computed
   std::array<double, 3> travel{};  ///< displacement of its centre of mass, integrated from the momentum
   SpatialSurface surface;
+  /// for looking at: corners of the cells, moved onto the surface where they lie outside, and each cell's
+  /// eight
+  SpatialSurface corners;
+  std::vector<std::array<int, 8>> drawn_cells;
 
   // material points
   std::vector<SpatialCell> cells;

@@ -191,6 +191,7 @@ class Builder
     join_cells();
     set_masses();
     set_surface();
+    if (section_.drawn) set_corners();
     return std::move(body_);
   }
 
@@ -330,7 +331,6 @@ class Builder
   void set_surface()
   {
     SpatialSurface& s = body_.surface;
-    s.finest = 1e300;
     for (auto& [x, area] : patches_) {
       for (int n = 0; n < 3; ++n) x += section_.depth(x) * section_.normal(x);
       for (int d = 0; d < 3; ++d)
@@ -341,11 +341,38 @@ class Builder
     s.count = static_cast<int>(s.place.size());
   }
 
+  void set_corners()
+  {
+    const std::array<int, 3> lines{body_.axes[0].cells() + 1, body_.axes[1].cells() + 1,
+                                   body_.axes[2].cells() + 1};
+    std::vector<int> known(std::size_t(lines[0]) * lines[1] * lines[2], -1);
+    for (const SpatialCell& cell : body_.cells) {
+      std::array<int, 8> drawn{};
+      for (int k = 0; k < 8; ++k) {
+        const int x = cell.column[0] + (k % 4 == 1 || k % 4 == 2), y = cell.column[1] + (k % 4 > 1),
+                  z = cell.column[2] + k / 4;
+        int& corner = known[(std::size_t(z) * lines[1] + y) * lines[0] + x];
+        if (corner < 0) {
+          corner = static_cast<int>(body_.corners.place.size());
+          Vector3 place(section_.lines[0][x], section_.lines[1][y], section_.lines[2][z]);
+          for (int n = 0; n < 3; ++n) place += std::min(0.0, section_.depth(place)) * section_.normal(place);
+          for (int d = 0; d < 3; ++d)
+            place[d] = std::clamp(place[d], section_.lines[d].front(), section_.lines[d].back());
+          add_marker(body_.corners, place);
+        }
+        drawn[k] = corner;
+      }
+      body_.drawn_cells.push_back(drawn);
+    }
+    body_.corners.count = static_cast<int>(body_.corners.place.size());
+  }
+
   void add_marker(SpatialSurface& s, const Vector3& x)
   {
     SplineAxis::Values v[3];
     for (int d = 0; d < 3; ++d) {
       v[d] = body_.axes[d].at(x[d]);
+      if (s.finest == 0) s.finest = splines_[d][v[d].first].edge;
       s.finest = std::min(s.finest, splines_[d][v[d].first].edge);
     }
     const std::array<int, 3> stride = body_.strides();

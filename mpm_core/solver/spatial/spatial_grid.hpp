@@ -23,6 +23,7 @@ struct SpatialSection
   std::function<double(const Vector3&)> interface_distance{};
   std::array<std::vector<double>, 3> lines;
   std::array<bool, 3> mirrored{};  ///< a symmetry plane at the first line of the axis
+  bool drawn = false;              ///< corners of the cells are wanted
   double mass = 0;                 ///< exact, of the part on the grid; 0: as sampled
 };
 

@@ -34,8 +34,8 @@ void check(const RunOptions& options)
          "0.05 to 1");
   if (options.precision == Precision::single)
     fail("--precision", "three-dimensional grids do double precision only", "single", "double");
-  if (options.fields)
-    fail("--fields", "three-dimensional runs write none yet; the trace, -o, has forces and contact");
+  if (options.checkpoints && options.fields)
+    fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
 }
 
 int cells_of(const RunOptions& options)
@@ -142,7 +142,8 @@ RunResult run_body_impact(const Particle& particle, const BodyThrow& thrown, con
   wall.friction = thrown.friction;
   const bool slides = thrown.tangential_velocity != 0 || thrown.spin != 0;
   const Eigen::Matrix3d rotation = rotation_to_plane(unit(thrown.orientation, "--orientation"), thrown.turn);
-  const SpatialSetup setup(particle, rotation, {wall}, {!slides, true, false});
+  SpatialSetup setup(particle, rotation, {wall}, {!slides, true, false});
+  if (options.fields) setup.draw();
   const Scales scale = setup.scale();
   if (!(thrown.velocity > 0 && thrown.velocity < 0.5 * scale.velocity()))
     fail("--velocity", "cannot be used", fmt::format("{:g} m/s", thrown.velocity),
@@ -206,7 +207,8 @@ RunResult run_planes_press(const Particle& particle, const PlanesPlan& plan, con
   std::vector<Plane> planes;
   for (const PressPlane& p : plan.planes) planes.push_back(plane_of(p, units));
   if (planes.empty()) fail("--planes", "no plane is given");
-  const SpatialSetup setup(particle, Eigen::Matrix3d::Identity(), planes, {true, true, true});
+  SpatialSetup setup(particle, Eigen::Matrix3d::Identity(), planes, {true, true, true});
+  if (options.fields) setup.draw();
   const Scales scale = setup.scale();
   const double depth = plan.depth / scale.length;
   if (!(depth > 0 && depth <= 0.8))

@@ -221,7 +221,7 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
       return least / length;
     };
   }
-  s.mirrored = mirrored_;
+  s.mirrored = mirrored_, s.drawn = drawn_;
   int copies = 1;
   for (int d = 0; d < 3; ++d) copies *= mirrored_[d] ? 2 : 1;
   if (!s.phase_at) s.mass = mass_ / copies;

@@ -35,6 +35,9 @@ class SpatialSetup
   /// The planes that were given, in their order, from those that were computed.
   void give_mirrored_planes(std::vector<PlaneTrace>& planes) const;
 
+  /// Grids hold what is needed to draw them.
+  void draw() { drawn_ = true; }
+
   /// The body at rest for overlaps up to `deepest`, with `cells` across the contact block.
   SpatialScene build(double deepest, int cells, double shift) const;
   /// Finest edge of that grid; rounded edges that touch a plane need a quarter of their radius.
@@ -64,6 +67,7 @@ class SpatialSetup
   std::vector<Plane> given_;
   std::vector<int> computed_;  ///< of each given plane the one that is computed: itself or its mirror image
   std::array<bool, 3> mirrored_{};
+  bool drawn_ = false;
   double yield_ = 0, mass_ = 0;
   Vector3 low_, high_;  ///< box of the body
 };

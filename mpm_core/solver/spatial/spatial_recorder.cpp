@@ -1,0 +1,123 @@
+#include "solver/spatial/spatial_recorder.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "solver/spatial/spatial_kernels.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// A field at one of the places whose weights a surface keeps.
+Vector3 carried(const SpatialBody& body, const NodeField& field, const SpatialSurface& places, int k)
+{
+  const std::array<int, 3> stride = body.strides();
+  Vector3 sum = Vector3::Zero();
+  for (int n = 0; n < cell_nodes; ++n) {
+    const int node = places.node[k] + n / 9 + n / 3 % 3 * stride[1] + n % 3 * stride[2];
+    const double weight = places.weight[std::size_t(cell_nodes) * k + n];
+    for (int d = 0; d < 3; ++d) sum[d] += weight * field[4 * node + d];
+  }
+  return sum;
+}
+
+/// F at the middle of what an octant holds.
+Eigen::Matrix3d deformation_at(const SpatialBody& body, const SpatialCell& cell, int lane)
+{
+  SplineAxis::Values v[3];
+  for (int d = 0; d < 3; ++d) {
+    const std::vector<double>& lines = body.axes[d].lines();
+    const double low = lines[cell.column[d]], high = lines[cell.column[d] + 1];
+    constexpr int first_moment[3] = {9, 3, 1};
+    const double xi =
+        cell.cut < 0
+            ? (lane >> (2 - d) & 1 ? 0.25 : -0.25)
+            : body.cut_moments[(std::size_t(cell.cut) * cut_moments_each + first_moment[d]) * octants + lane];
+    v[d] = body.axes[d].at(0.5 * (low + high) + xi * (high - low));
+  }
+  const std::array<int, 3> stride = body.strides();
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  for (int k = 0; k < cell_nodes; ++k) {
+    const int a = k / 9, b = k / 3 % 3, c = k % 3;
+    const double* u = body.u_i.data() + 4 * (cell.node + a + b * stride[1] + c * stride[2]);
+    const Vector3 slope(v[0].dn[a] * v[1].n[b] * v[2].n[c], v[0].n[a] * v[1].dn[b] * v[2].n[c],
+                        v[0].n[a] * v[1].n[b] * v[2].dn[c]);
+    f += Vector3(u[0], u[1], u[2]) * slope.transpose();
+  }
+  return f;
+}
+
+/// Cauchy stress of a point, by principal axes: the equations of the kernel, written for reading.
+Eigen::Matrix3d cauchy_stress(const SpatialBody& body, const Moduli& m, const SpatialCell& cell,
+                              std::size_t p)
+{
+  const Eigen::Matrix3d f = deformation_at(body, cell, static_cast<int>(p % octants));
+  Eigen::Matrix3d c;
+  c << body.c_p[0][p], body.c_p[3][p], body.c_p[4][p], body.c_p[3][p], body.c_p[1][p], body.c_p[5][p],
+      body.c_p[4][p], body.c_p[5][p], body.c_p[2][p];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(f * (Eigen::Matrix3d::Identity() + c) *
+                                                            f.transpose());
+  const Eigen::Array3d e = 0.5 * axes.eigenvalues().array().max(1e-12).log();
+  const double trace = e.sum();
+  const Vector3 tau = (2 * m.shear * (e - trace / 3) + m.bulk * trace).matrix();
+  return axes.eigenvectors() * tau.asDiagonal() * axes.eigenvectors().transpose() / f.determinant();
+}
+
+/// Volume means of the cells.
+void add_cells(const SpatialBody& body, double unit, FieldFrame& frame)
+{
+  for (const SpatialRegion& region : body.regions)
+    for (int k = region.begin; k < region.end; ++k) {
+      Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+      double volume = 0, strain = 0;
+      for (int lane = 0; lane < octants; ++lane) {
+        const std::size_t p = std::size_t(octants) * k + lane;
+        const double v = body.volume_p[p];
+        if (v == 0) continue;
+        volume += v, strain += v * body.plastic_strain_p[p];
+        stress += v * cauchy_stress(body, region.moduli, body.cells[k], p);
+      }
+      stress *= unit / volume;
+      const Eigen::Matrix3d deviator = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
+      frame.plastic_strain.push_back(strain / volume);
+      frame.pressure.push_back(-stress.trace() / 3);
+      frame.von_mises.push_back(std::sqrt(1.5) * deviator.norm());
+      frame.axial_stress.push_back(stress(2, 2));
+    }
+}
+
+}  // namespace
+
+void SpatialRecorder::begin(const SpatialScene& scene)
+{
+  if (!observer_) return;
+  const SpatialBody& body = scene.bodies.front();
+  if (observer_.begin_solid) observer_.begin_solid(body.corners.count, body.drawn_cells);
+  record(scene, 0, 0, 0);
+}
+
+void SpatialRecorder::record(const SpatialScene& scene, double time, double overlap, double force)
+{
+  next_ = interval_ * (std::floor(time / interval_ + 1e-9) + 1);
+  SpatialBody body = scene.bodies.front();  // a copy, whose plastic state is brought up to the displacements
+  spatial_kernels().internal_force(body, false);
+  FieldFrame frame;
+  frame.time = time * scale_.time(), frame.delta = overlap * scale_.length;
+  frame.force = force * scale_.force();
+  std::vector<double>* places[3] = {&frame.r, &frame.y, &frame.z};
+  std::vector<double>* displacements[3] = {&frame.ur, &frame.uy, &frame.uz};
+  std::vector<double>* velocities[3] = {&frame.vr, &frame.vy, &frame.vz};
+  for (int k = 0; k < body.corners.count; ++k) {
+    const Vector3 u = carried(body, body.u_i, body.corners, k), v = carried(body, body.v_i, body.corners, k);
+    for (int d = 0; d < 3; ++d) {
+      places[d]->push_back((body.corners.place[k][d] + u[d]) * scale_.length);
+      displacements[d]->push_back(u[d] * scale_.length);
+      velocities[d]->push_back(v[d] * scale_.velocity());
+    }
+  }
+  add_cells(body, scale_.stress, frame);
+  observer_.frame(frame);
+}
+
+}  // namespace granulaw
