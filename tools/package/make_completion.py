@@ -8,10 +8,12 @@ import pathlib
 import help_text
 
 # Which files a positional argument names; of a deck no ending is agreed on.
-ENDINGS = {"MATERIALS": "toml", "LAW": "h5", "DECK": ""}
+ENDINGS = {"MATERIALS": "toml", "LAW": "h5", "DECK": "", "DATA": "csv"}
 # Words of the materials file's headings [particle.NAME] and [material.NAME].
 HEADINGS = {"--particle": "particle", "--against": "particle", "--wall": "material"}
-WORDS = {"--grid": "mapped rectilinear tartan updated", "--precision": "double single", "--support": "free midplane"}
+WORDS = {"--grid": "mapped rectilinear tartan updated rectilinear-3d", "--precision": "double single", "--support": "free midplane",
+         "--fit": "youngs_modulus yield_stress hardening_modulus", "--planes": "pair cube die bcc fcc"}
+NOTHING = ("--pair", "--var", "--materials", "--prior", "--bounds", "--name", "--guess", "--speeds", "--displacements")  # free text
 NUMBERS = ("INT", "UINT", "FLOAT")
 
 SCRIPT = """\
@@ -86,8 +88,10 @@ def value_of(entry):
     if not entry.value:
         return ""
     name = entry.names[-1]
-    if entry.value in NUMBERS or name in ("--pair", "--var", "--materials"):
+    if entry.value in NUMBERS or name in NOTHING:
         return "nothing"
+    if entry.allowed.startswith("{"):
+        return "words:" + entry.allowed.strip("{}").replace(",", " ")
     if name in WORDS:
         return f"words:{WORDS[name]}"
     return f"heading:{HEADINGS[name]}" if name in HEADINGS else "files"

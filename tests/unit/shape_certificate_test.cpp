@@ -1,0 +1,92 @@
+// What the law of spheres is wrong by for a body of any shape.
+#include "characterise/shape_certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "characterise/law_from_atlas.hpp"
+#include "characterise/law_material.hpp"
+#include "own_atlas.hpp"
+#include "solver/solid/box_solid.hpp"
+#include "solver/solid/sphere_solid.hpp"
+
+namespace granulaw {
+namespace {
+
+/// E*/Y = 50: cheap runs.
+Material powder()
+{
+  Material m;
+  m.density = 1000, m.youngs_modulus = 0.91e9, m.poisson_ratio = 0.3, m.yield_stress = 20e6;
+  return m;
+}
+
+BodyLaw law()
+{
+  BuildOptions options;
+  options.depth = 0.5;
+  return law_from(testing::own_atlas(), law_material("powder", powder()), options);
+}
+
+Particle of_shape(std::shared_ptr<const Solid> solid)
+{
+  Particle particle;
+  particle.materials = {powder()};
+  particle.solid = std::move(solid);
+  return particle;
+}
+
+ShapeQuestion question(double velocity)
+{
+  ShapeQuestion q;
+  q.directions = 4;
+  q.velocities = {velocity};
+  q.resolution = 6;
+  return q;
+}
+
+/// Of a sphere the law is the body's own, in every direction.
+TEST(ShapeCertificate, OfASphereIsTheSolversError)
+{
+  ThreadFarm farm(2);
+  const ShapeCertificate certificate =
+      certify_shape(of_shape(std::make_shared<SphereSolid>(1e-3)), law(), question(20), farm);
+  EXPECT_EQ(certificate.covered(), 1);
+  for (const OrientationCheck& check : certificate.checks) {
+    EXPECT_NEAR(check.orientation.effective_mass, 1, 1e-9);
+    EXPECT_NEAR(check.local_radius, 1e-3, 1e-9);
+  }
+  // a single grid of 6 cells: 2 % of F and 1 % of e (docs/theory/three-dimensions.md)
+  EXPECT_LT(certificate.force().largest, 0.03);
+  EXPECT_LT(certificate.restitution().largest, 0.02);
+  EXPECT_GT(certificate.solver_error, 0);
+}
+
+/// A corner of radius r is flattened over more than r: no sphere of that radius tells what follows.
+TEST(ShapeCertificate, SaysWhereACornerIsFlattened)
+{
+  const Vector3 sides(2e-3, 2e-3, 2e-3);
+  ThreadFarm farm(2);
+  const ShapeQuestion q = question(30);
+  const ShapeCertificate certificate =
+      certify_shape(of_shape(std::make_shared<BoxSolid>(sides, 0.3e-3)), law(), q, farm);
+  EXPECT_LT(certificate.covered(), 1);
+  for (const OrientationCheck& check : certificate.checks) {
+    EXPECT_LT(check.orientation.effective_mass, 1);  // no direction of the lattice passes through the centre
+    EXPECT_GT(check.solver.force_max, 0);
+    EXPECT_TRUE(check.solver.restitution > 0 && check.solver.restitution < 1) << check.solver.restitution;
+  }
+}
+
+TEST(ShapeCertificate, WantsABodyOfOneMaterial)
+{
+  Particle two = of_shape(std::make_shared<SphereSolid>(1e-3));
+  two.materials.push_back(powder());
+  ThreadFarm farm(1);
+  EXPECT_THROW(certify_shape(two, law(), question(1), farm), Error);
+}
+
+}  // namespace
+}  // namespace granulaw
