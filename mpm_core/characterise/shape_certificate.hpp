@@ -13,8 +13,10 @@ namespace granulaw {
 /// What a contact does in one impact: by the solver, or by a sphere's law.
 struct ContactAnswer
 {
-  double force_max = 0;    ///< N
-  double restitution = 0;  ///< of the contact point's normal velocity: J/(m_e V) - 1, J the normal impulse
+  double force_max = 0;  ///< N
+  /// Of the normal velocity of the point that touches first: J/(m_e V) - 1, J the normal impulse. Where the
+  /// contact moves far over the body, as at a flattened corner, m_e grows on the way, and it may exceed 1.
+  double restitution = 0;
 };
 
 /// One way in which a body of any shape hits a rigid wall, by the solver and by the law of a sphere of the
@@ -61,7 +63,7 @@ struct ShapeQuestion
 {
   int directions = 30;             ///< over all that the body's mirror planes leave
   std::vector<double> velocities;  ///< m/s, over 0
-  int resolution = 12;             ///< cells across the contact block of each run
+  int resolution = 8;              ///< cells across the contact block of each run
 };
 
 /// Throws the body in each direction and replays the law of a sphere of its material. The law's contact has
