@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 #include "base/error.hpp"
@@ -91,6 +92,7 @@ class PairImpacts
   double last_place() const;
   RunJob job(double place, int cells) const;
   void begin();
+  void check_onset();
   Departure departure(double place, const RunResult& run) const;
   void take(double place, const RunResult& run);
   Replay replay(double speed) const;
@@ -108,6 +110,7 @@ class PairImpacts
   std::vector<Departure> departures_;  // ascending place
   std::vector<double> restitutions_;   // of the runs
   int cells_ = first_resolution;
+  Miss at_onset_;
   DiscretisationError solver_error_;
 };
 
@@ -122,15 +125,19 @@ double PairImpacts::speed_to(double overlap) const
 }
 
 /// Of the deepest impact: at the end of the law, or as fast as it goes without ringing, which no cells of a
-/// cheap run resolve in two bodies.
+/// cheap run resolve in two bodies, or as deep as no body is squeezed flat.
 double PairImpacts::last_place() const
 {
   const double fastest = std::min(ringing, options_.fastest > 0 ? options_.fastest : slow_speed);
+  const double flattest = deepest_of_two_bodies(pair_);
+  const auto reached = [&](double place) {
+    return overlap_at(place) <= flattest && speed_to(overlap_at(place)) <= fastest;
+  };
   double low = 0.1, high = 0.98;
-  if (speed_to(overlap_at(high)) <= fastest) return high;
+  if (reached(high)) return high;
   for (int round = 0; round < 30; ++round) {
     const double middle = 0.5 * (low + high);
-    (speed_to(overlap_at(middle)) <= fastest ? low : high) = middle;
+    (reached(middle) ? low : high) = middle;
   }
   return low;
 }
@@ -153,7 +160,7 @@ Replay PairImpacts::replay(double speed) const
 /// and what the grid and vibrations add cancels.
 double force_departure(const ContactRecord& run, const Replay& law, double length, double force)
 {
-  constexpr double from = 0.6, to = 0.98;
+  constexpr double from = 0.8, to = 1.0;
   const double reach = std::min(run.depth, law.delta_max / length);
   double sum = 0;
   int count = 0;
@@ -202,7 +209,7 @@ PairImpacts::Miss PairImpacts::miss(std::size_t left_out) const
 
 PairImpacts::Miss PairImpacts::largest_miss() const
 {
-  Miss largest;
+  Miss largest = at_onset_;
   for (std::size_t k = 0; k + 1 < departures_.size(); ++k) {  // the deepest would be extrapolated
     const Miss one = miss(k);
     largest = {std::max(largest.force, one.force), std::max(largest.restitution, one.restitution),
@@ -226,36 +233,62 @@ std::vector<double> PairImpacts::bisections() const
   return places;
 }
 
-/// The first three impacts, with cells so many that they are known within the tolerance, or the most.
+/// Grid convergence index of what is taken from a run.
+DiscretisationError index_between(const Departure& fine, const Departure& coarse, double cell_ratio)
+{
+  return {convergence_index(std::abs(std::expm1(coarse.force - fine.force)), cell_ratio),
+          convergence_index(std::abs(std::expm1(0.5 * (coarse.dissipation - fine.dissipation))), cell_ratio)};
+}
+
+/// The first three impacts, with cells so many that they are known within the tolerance, or the most; the
+/// deepest as deep as the solver follows it.
 void PairImpacts::begin()
 {
-  const double last = last_place();
-  const std::vector<double> places{0.4 * last, 0.7 * last, last};
+  constexpr double shallower = 0.7;  // of the overlap, where a run failed
+  constexpr double shallowest = 0.3;
+  double last = last_place();
   for (const int cells : {first_resolution, 34, 48}) {
     cells_ = cells;
-    std::vector<RunJob> jobs;
-    for (const double place : places) jobs.push_back(job(place, cells));
     const int coarse_cells = coarse_partner(cells);
-    jobs.push_back(job(last, coarse_cells));
-    const std::vector<RunOutcome> outcomes = runs_.make_needed(jobs, 0.7, "an impact of the two bodies");
+    std::vector<RunOutcome> outcomes;
+    const auto failed = [&] {
+      return std::any_of(outcomes.begin(), outcomes.end(), [](const RunOutcome& o) { return o.failed(); });
+    };
+    for (bool first = true; first || failed(); first = false) {
+      if (!first) last = place_of(shallower * overlap_at(last));
+      if (last < shallowest) fail("an impact of the two bodies", outcomes.back().error);
+      outcomes = runs_.make(
+          {job(0.4 * last, cells), job(0.7 * last, cells), job(last, cells), job(last, coarse_cells)}, 0.7);
+    }
     departures_.clear();
     restitutions_.clear();
-    for (std::size_t k = 0; k < places.size(); ++k) take(places[k], outcomes[k].result);
-    const double ratio = static_cast<double>(cells) / coarse_cells;
-    const Departure fine = departures_.back(), coarse = departure(last, outcomes.back().result);
-    solver_error_ = {
-        convergence_index(std::abs(std::expm1(coarse.force - fine.force)), ratio),
-        convergence_index(std::abs(std::expm1(0.5 * (coarse.dissipation - fine.dissipation))), ratio)};
+    take(0.4 * last, outcomes[0].result);
+    take(0.7 * last, outcomes[1].result);
+    take(last, outcomes[2].result);
+    solver_error_ = index_between(departures_.back(), departure(last, outcomes[3].result),
+                                  static_cast<double>(cells) / coarse_cells);
     if (std::max(solver_error_.force, counted(solver_error_.restitution, restitutions_.back())) <=
         options_.tolerance)
       return;
   }
 }
 
+/// An impact to the onset of yield, up to which nothing is corrected: what the law is off by there.
+void PairImpacts::check_onset()
+{
+  constexpr double barely = 0.02;  // a place: the overlap is the onset's, as good as
+  const RunOutcome outcome =
+      runs_.make_needed({job(barely, cells_)}, 0.8, "an impact to the onset of yield").front();
+  const Departure d = departure(barely, outcome.result);
+  const double force = std::abs(std::expm1(d.force)), e = std::abs(std::expm1(0.5 * d.dissipation));
+  at_onset_ = {force, e, std::max(force, counted(e, outcome.result.summary.restitution))};
+}
+
 void PairImpacts::sample()
 {
   constexpr std::size_t most = 9;
   begin();
+  check_onset();
   for (std::vector<double> places = bisections(); !places.empty(); places = bisections()) {
     if (departures_.size() + places.size() > most) return;
     std::vector<RunJob> jobs;
@@ -269,7 +302,7 @@ void PairImpacts::sample()
 class Correction
 {
  public:
-  explicit Correction(const std::vector<PairImpacts>& impacts) : impacts_(impacts) {}
+  explicit Correction(const std::deque<PairImpacts>& impacts) : impacts_(impacts) {}
 
   double at(double size_share, double Departure::*part, double place) const
   {
@@ -307,7 +340,7 @@ class Correction
     return {k - 1, k, (size_share - low) / (high - low)};
   }
 
-  const std::vector<PairImpacts>& impacts_;
+  const std::deque<PairImpacts>& impacts_;
 };
 
 /// Ascending ratios at which impacts are made.
@@ -360,9 +393,8 @@ CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, c
   ThreadFarm alone(1);
   Farm& farm = options.farm ? *options.farm : alone;
   CorrectedLaws made;
-  std::vector<PairImpacts> impacts;
+  std::deque<PairImpacts> impacts;  // which stay where they are: jobs refer to them
   const std::vector<double> sampled = sampled_ratios(ratios);
-  impacts.reserve(sampled.size());
   for (const double ratio : sampled) {
     UnlikePair at_ratio = pair;
     at_ratio.radius_ratio = ratio;

@@ -150,7 +150,7 @@ class Maker
       if (pair.own_law) add_law_by_runs(pair);
     } else
       try {
-        file_.law.pair_laws[pair.name()] = pair.own_law ? corrected(pair) : composed(pair);
+        file_.law.pair_laws[pair.name()] = pair.own_law ? corrected_or_composed(pair) : composed(pair);
       } catch (const Error& error) {  // the pair rule serves any pair
         stated = pair.by_rule;
         file_.law.provenance["not_composed." + pair.name()] = error.what();
@@ -167,6 +167,19 @@ class Maker
       laws.push_back(
           compose_law(atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
     return laws;
+  }
+
+  /// Where an impact of the two bodies fails, what is composed stands.
+  std::vector<TwoBodyLaw> corrected_or_composed(const LawFilePlan::Pair& pair)
+  {
+    try {
+      return corrected(pair);
+    } catch (const Error& error) {
+      file_.law.provenance["not_corrected." + pair.name()] = error.what();
+      file_.runs[pair.name()] = {};
+      ++finished_;
+      return composed(pair);
+    }
   }
 
   std::vector<TwoBodyLaw> corrected(const LawFilePlan::Pair& pair)

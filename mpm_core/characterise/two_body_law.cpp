@@ -20,8 +20,7 @@ BuiltLaw build_two_body_law(const UnlikePair& pair, const BuildOptions& options)
   PairFarm farm(options.farm ? *options.farm : alone, pair);
   BuildOptions own = options;
   own.farm = &farm;
-  const double smaller = std::min(1.0, pair.radius_ratio) / pair.mapping().length(pair.r_eff());
-  own.depth = std::min(options.depth, 0.4 * smaller);
+  own.depth = std::min(options.depth, deepest_of_two_bodies(pair));
   return build_law(s, yielding_body(pair), own, two_body_runs(pair));
 }
 

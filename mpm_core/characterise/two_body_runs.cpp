@@ -90,6 +90,11 @@ std::vector<RunOutcome> PairFarm::make(const std::vector<RunJob>& jobs, const Pr
   return farm_.run(own, progress);
 }
 
+double deepest_of_two_bodies(const UnlikePair& pair)
+{
+  return 0.4 * std::min(1.0, pair.radius_ratio) / pair.mapping().length(pair.r_eff());
+}
+
 CharacterisedBody yielding_body(const UnlikePair& pair)
 {
   return characterised_body_of(material_of(pair.yielding));

@@ -26,6 +26,10 @@ class PairFarm : public Farm
   std::string text_;
 };
 
+/// Overlap over lambda R* up to which two bodies are run: 0.4 of the smaller radius. Beyond, the softer one
+/// is squeezed flat.
+double deepest_of_two_bodies(const UnlikePair& pair);
+
 /// The yielding body, as the sampling plan wants it.
 CharacterisedBody yielding_body(const UnlikePair& pair);
 

@@ -107,8 +107,9 @@ void print_pair(const LawFilePlan::Pair& pair, const MadeLawFile& file)
   }
   if (pair.a == pair.b) return;
   const Certificate& c = file.law.pair_laws.at(pair.name()).front().law.certificate;
-  if (!pair.own_law)
-    fmt::print("{}: composed of both bodies' laws: {}\n", pair.name(), atlas_errors_text(c));
+  if (!pair.own_law || (c.origin == composed_origin && c.verification_impacts == 0))
+    fmt::print("{}: composed of both bodies' laws{}: {}\n", pair.name(),
+               pair.own_law ? " (impacts of the two failed: mpm info says why)" : "", atlas_errors_text(c));
   else if (c.origin == composed_origin)
     fmt::print("{}: composed of both bodies' laws, corrected by {} impacts of the two: {}\n", pair.name(),
                file.runs.at(pair.name()).made, composed_errors_text(c));
