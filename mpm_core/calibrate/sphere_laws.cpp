@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/gauss.hpp"
 #include "base/scales.hpp"
+#include "characterise/overlap_at_work.hpp"
 #include "characterise/tabulate_curve.hpp"
 
 namespace granulaw {
@@ -28,7 +29,7 @@ SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material)
     : material_(within(atlas, material)),
       atlas_(&atlas),
       onset_(onset_overlap(material_.stiffness, 1.0, material_.poisson_ratio)),
-      energy_unit_(0.375 * sphere_mass / material_.stiffness),
+      energy_unit_(energy_unit(sphere_mass, 1 / material_.stiffness)),
       shape_(atlas.shape(material_)),
       free_(tabulate(shape_, onset_, Atlas::depth, Atlas::depth)),
       impacts_(std::make_unique<ImpactsBySpeed>(shape_, free_, energy_unit_, VelocityAxis::Kind::inertia))

@@ -24,20 +24,6 @@ std::vector<double> with(std::vector<double> values, double another)
   return values;
 }
 
-std::vector<double> logarithms(const std::vector<double>& values)
-{
-  std::vector<double> logs;
-  for (const double v : values) logs.push_back(std::log(v));
-  return logs;
-}
-
-std::vector<double> coordinates(double stiffness, const std::vector<double>& hardenings)
-{
-  std::vector<double> z;
-  for (const double h : hardenings) z.push_back(hardening_coordinate(stiffness, h));
-  return z;
-}
-
 /// The value that 95 of 100 do not exceed; 0 of none.
 double percentile95(std::vector<double> values)
 {
@@ -57,6 +43,13 @@ MaterialRatios MaterialRatios::of(const LawMaterial& m)
 double hardening_coordinate(double stiffness, double hardening)
 {
   return std::log1p(2 * hardening * stiffness);
+}
+
+std::vector<double> hardening_coordinates(double stiffness, const std::vector<double>& hardenings)
+{
+  std::vector<double> z;
+  for (const double h : hardenings) z.push_back(hardening_coordinate(stiffness, h));
+  return z;
 }
 
 std::vector<double> AtlasGrid::hardenings_at(double stiffness) const
@@ -156,7 +149,8 @@ LawShape Atlas::main_shape(double stiffness, double hardening) const
   for (std::size_t i = 0; i < grid_.stiffnesses.size(); ++i) {
     const double k = grid_.stiffnesses[i];
     const std::vector<double> hardenings = grid_.hardenings_at(k);
-    const auto across = interpolation_weights(coordinates(k, hardenings), hardening_coordinate(k, hardening));
+    const auto across =
+        interpolation_weights(hardening_coordinates(k, hardenings), hardening_coordinate(k, hardening));
     for (const double weight : across) {
       if (along[i] != 0 && weight != 0) result.add(along[i] * weight, nodes_[next].shape);
       ++next;
@@ -190,8 +184,8 @@ LawShape Atlas::shape(const MaterialRatios& m) const
   std::size_t next = grid_.main_plane().size();
   for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
     const double k = stiffnesses[i];
-    const auto across =
-        interpolation_weights(coordinates(k, grid_.block_hardenings), hardening_coordinate(k, m.hardening));
+    const auto across = interpolation_weights(hardening_coordinates(k, grid_.block_hardenings),
+                                              hardening_coordinate(k, m.hardening));
     for (std::size_t j = 0; j < grid_.block_hardenings.size(); ++j)
       for (std::size_t r = 0; r < ratios.size(); ++r) {
         if (ratios[r] == grid_.main_poisson_ratio) continue;

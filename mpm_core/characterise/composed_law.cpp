@@ -330,7 +330,7 @@ std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, cons
 {
   std::vector<LawShape::VelocityEffect> effects = own.velocity_effects;
   for (LawShape::VelocityEffect& effect : effects) {
-    const double energy = 0.375 * body.mass * body.yield * effect.speed * effect.speed;  // over 4/3 E* R^3
+    const double energy = energy_unit(body.mass, body.yield) * effect.speed * effect.speed;
     effect.log_overlap += std::log(overlap_at_work(pair_slow, energy) / overlap_at_work(own_slow, energy));
   }
   return effects;
@@ -341,13 +341,12 @@ std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, cons
 double finish_where_admissible(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
                                BuildOptions options, double end)
 {
-  constexpr double slowest = 0.02;  // sqrt(I): below, speed changes nothing
-  for (; options.fastest > slowest; options.fastest /= 2) try {
+  for (; options.fastest > slow_speed; options.fastest /= 2) try {
       return finish_curve(law, shape, body, options, end);
     } catch (const Error&) {
     }
   options.fastest = 0;
-  law.certificate.damage_number_max = slowest * slowest;
+  law.certificate.damage_number_max = slow_speed * slow_speed;
   return finish_curve(law, shape, body, options, end);
 }
 

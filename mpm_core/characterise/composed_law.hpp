@@ -65,6 +65,9 @@ struct ComposedError
 /// (docs/theory/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.
 ComposedError composed_error(double e_star_ratio);
 
+/// sqrt(I) up to which speed changes nothing: an impact shows the rate-free law.
+inline constexpr double slow_speed = 0.02;
+
 /// What the law of a yielding pair is tabulated from.
 struct ComposedShape
 {

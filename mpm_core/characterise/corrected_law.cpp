@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "characterise/build_runs.hpp"
 #include "characterise/grid_convergence.hpp"
+#include "characterise/overlap_at_work.hpp"
 #include "characterise/refinement.hpp"
 #include "characterise/resolution_choice.hpp"
 #include "characterise/two_body_runs.hpp"
@@ -115,13 +116,11 @@ class PairImpacts
 };
 
 constexpr int grids = 2;  // shifted against each other
-/// sqrt(I) up to which an impact shows the rate-free law (composed_law.cpp).
-constexpr double slow_speed = 0.02;
 
 /// sqrt(I) of the impact whose energy is the law's loading work up to this overlap.
 double PairImpacts::speed_to(double overlap) const
 {
-  return std::sqrt(guide_.law.curve.work_loading(overlap) / (0.375 * body_.mass * body_.yield));
+  return std::sqrt(guide_.law.curve.work_loading(overlap) / energy_unit(body_.mass, body_.yield));
 }
 
 /// Of the deepest impact: at the end of the law, or as fast as it goes without ringing, which no cells of a

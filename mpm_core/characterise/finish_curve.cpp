@@ -1,7 +1,6 @@
 #include "characterise/finish_curve.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "characterise/sampling_plan.hpp"
 #include "characterise/tabulate_curve.hpp"
@@ -36,13 +35,6 @@ double note_axis_cost(BodyLaw& law, const ContactCurve& slow, const VelocityAxis
   return worst;
 }
 
-/// sqrt(I) of a slow impact that reaches the curve's end: faster ones leave the table, and their axis would
-/// tell of overlaps that it does not have.
-double speed_to_end(const ContactCurve& slow, const CharacterisedBody& body)
-{
-  return std::sqrt(slow.work_loading(slow.x_end()) / (0.375 * body.mass * body.yield));
-}
-
 }  // namespace
 
 double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
@@ -55,16 +47,16 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody
     return error;
   }
   const bool rate = body.rate_dependent();
-  const double fastest = std::min(options.fastest, speed_to_end(slow, body));
+  const VelocityAxis::Table axis =
+      rate ? tabulate_rate(shape, slow, 1 / body.yield, body.mass, options.fastest, body.scale.length)
+           : tabulate_inertia(shape, slow, 1 / body.yield, body.mass, options.fastest);
+  // It ends where an impact reaches the end of the curve.
   if (const double slow_enough = negligible_damage_number(options.tolerance);
-      !rate && fastest * fastest <= slow_enough) {
+      !rate && axis.speed_end * axis.speed_end <= slow_enough) {
     law.curve = slow;
     law.certificate.damage_number_max = std::min(options.fastest * options.fastest, slow_enough);
     return error;
   }
-  const VelocityAxis::Table axis =
-      rate ? tabulate_rate(shape, slow, 1 / body.yield, body.mass, fastest, body.scale.length)
-           : tabulate_inertia(shape, slow, 1 / body.yield, body.mass, fastest);
   law.certificate.damage_number_max = axis.speed_end * axis.speed_end;
   law.curve = ContactCurve(slow.table(), axis, law.material.name);
   require_admissible(law.curve);

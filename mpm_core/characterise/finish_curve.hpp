@@ -8,9 +8,9 @@
 namespace granulaw {
 
 /// The curve and axis of `law` from its shape, which ends at `shape_end`, for a body of this onset. Options:
-/// depth, fastest, tolerance. The axis ends where a slow impact reaches the curve's end. An axis that changes F and e by no more than the tolerance is left out; the
-/// certificate says what that costs. Returns the largest relative error of the force that the table's cubics
-/// add to the shape.
+/// depth, fastest, tolerance. The axis ends where an impact reaches the curve's end. An axis that changes F
+/// and e by no more than the tolerance is left out; the certificate says what that costs. Returns the largest
+/// relative error of the force that the table's cubics add to the shape.
 double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
                     const BuildOptions& options, double shape_end);
 

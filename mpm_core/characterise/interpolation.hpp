@@ -1,9 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace granulaw {
+
+/// Natural logarithms: nodes of a coordinate that counts in factors.
+inline std::vector<double> logarithms(const std::vector<double>& values)
+{
+  std::vector<double> logs;
+  for (const double value : values) logs.push_back(std::log(value));
+  return logs;
+}
 
 /// Weights of Lagrange's polynomial through the (up to) four of the ascending `nodes` nearest to x; zero for
 /// the others. Beyond the ends: the end value.

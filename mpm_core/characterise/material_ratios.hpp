@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "law/law_material.hpp"
 
 namespace granulaw {
@@ -17,5 +19,7 @@ struct MaterialRatios
 
 /// ln(1 + 2 (H/E)(E*/Y)): the coordinate along hardening.
 double hardening_coordinate(double stiffness, double hardening);
+/// The same of several H/E.
+std::vector<double> hardening_coordinates(double stiffness, const std::vector<double>& hardenings);
 
 }  // namespace granulaw

@@ -15,20 +15,6 @@ namespace granulaw {
 
 namespace {
 
-std::vector<double> logarithms(const std::vector<double>& values)
-{
-  std::vector<double> logs;
-  for (const double v : values) logs.push_back(std::log(v));
-  return logs;
-}
-
-std::vector<double> coordinates(double stiffness, const std::vector<double>& hardenings)
-{
-  std::vector<double> z;
-  for (const double h : hardenings) z.push_back(hardening_coordinate(stiffness, h));
-  return z;
-}
-
 double onset_of(const MaterialRatios& m)
 {
   return onset_overlap(m.stiffness, 1.0, m.poisson_ratio);
@@ -51,7 +37,7 @@ void add_weights(std::vector<Weighted>& sum, const MaterialRatios& m, const std:
     if (along[i] == 0) continue;
     const double k = stiffnesses[i];
     const auto across =
-        interpolation_weights(coordinates(k, hardenings), hardening_coordinate(k, m.hardening));
+        interpolation_weights(hardening_coordinates(k, hardenings), hardening_coordinate(k, m.hardening));
     for (std::size_t j = 0; j < hardenings.size(); ++j)
       if (across[j] != 0)
         sum.push_back({first + (i * hardenings.size() + j) * stride, factor * along[i] * across[j]});

@@ -9,6 +9,7 @@
 #include "characterise/impact_level.hpp"
 #include "characterise/impacts_by_speed.hpp"
 #include "characterise/node_slopes.hpp"
+#include "characterise/overlap_at_work.hpp"
 
 namespace granulaw {
 
@@ -160,12 +161,6 @@ double end_of_axis(const LawShape& shape, const ContactCurve& slow, const Impact
   return fastest;
 }
 
-/// 1/2 m Y v^2 at v = 1 over 4/3 E* R^3.
-double energy_unit(double e_star_over_yield, double mass)
-{
-  return 0.375 * mass / e_star_over_yield;
-}
-
 /// What impacts to the levels' overlaps change.
 std::vector<LawShape::VelocityEffect> effects_at(const ImpactLevels& scale, const VelocityAxis::Table& table,
                                                  const ImpactsBySpeed& impacts)
@@ -198,7 +193,7 @@ std::vector<ImpactLevel> rate_levels(const VelocityAxis::Table& table, const Imp
 VelocityAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& slow,
                                      double e_star_over_yield, double mass, double fastest)
 {
-  const ImpactsBySpeed impacts(shape, slow, energy_unit(e_star_over_yield, mass),
+  const ImpactsBySpeed impacts(shape, slow, energy_unit(mass, 1 / e_star_over_yield),
                                VelocityAxis::Kind::inertia);
   VelocityAxis::Table table;
   table.speed_end = end_of_axis(shape, slow, impacts, fastest);
@@ -219,7 +214,8 @@ VelocityAxis::Table tabulate_inertia(const LawShape& shape, const ContactCurve& 
 VelocityAxis::Table tabulate_rate(const LawShape& shape, const ContactCurve& slow, double e_star_over_yield,
                                   double mass, double fastest, double reference_radius)
 {
-  const ImpactsBySpeed impacts(shape, slow, energy_unit(e_star_over_yield, mass), VelocityAxis::Kind::rate);
+  const ImpactsBySpeed impacts(shape, slow, energy_unit(mass, 1 / e_star_over_yield),
+                               VelocityAxis::Kind::rate);
   VelocityAxis::Table table;
   table.kind = VelocityAxis::Kind::rate;
   table.reference_radius = reference_radius;
