@@ -17,7 +17,7 @@ constexpr double radius_error = 0.01, residual_error = 0.005, time_error = 0.01,
 /// The atlas's rms errors, by its checks.
 struct AtlasErrors
 {
-  double restitution = 0, force = 0, midplane_force = 0, midplane_residual = 0;
+  double restitution = 0, force = 0, midplane_force = 0, recovery = 0;
 };
 
 template <class Checks, class Of>
@@ -39,7 +39,7 @@ const AtlasErrors& errors_of(const Atlas& atlas)
     errors.force = rms(atlas.checks(), [](const AtlasCheck& c) { return c.error_force; });
     const auto& presses = atlas.midplane().checks();
     errors.midplane_force = rms(presses, [](const MidplaneCheck& c) { return c.error_force; });
-    errors.midplane_residual = rms(presses, [](const MidplaneCheck& c) { return c.error_residual; });
+    errors.recovery = rms(presses, [](const MidplaneCheck& c) { return c.error_recovery; });
   }
   return errors;
 }
@@ -103,11 +103,11 @@ void predict_impacts(const Measurement& m, const LawMaterial& material, const Sp
   }
 }
 
-/// Unloading from `top` at overlap x, the residual as given.
-double unloading_force(const ContactCurve::Reversal& top, double x_m, double residual, double x)
+/// Unloading from `top` where the overlap is this share of the recovery, the largest overlap less the
+/// residual, above the residual.
+double unloading_force(const ContactCurve::Reversal& top, double share)
 {
-  const double u = (x - residual) / (x_m - residual);
-  return u > 0 ? top.force * top.shape.at(std::min(u, 1.0)).value : 0.0;
+  return share > 0 ? top.force * top.shape.at(std::min(share, 1.0)).value : 0.0;
 }
 
 void predict_curve(const Measurement& m, const LawMaterial& material, const SphereLaws& laws,
@@ -125,17 +125,21 @@ void predict_curve(const Measurement& m, const LawMaterial& material, const Sphe
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
   const ContactCurve::Reversal top = curve.reversal(std::max(x_m, 1e-12));
   const AtlasErrors& atlas = errors_of(*laws.atlas());
-  // half of the variance in the smooth error, half from value to value
-  const double factor_error = std::sqrt(0.5) * (platens ? atlas.midplane_force : atlas.force),
-               residual_shift = (platens ? atlas.midplane_residual : residual_error) * x_m;
+  // Half of the variance in the smooth error, half from value to value. Unloading is off by a share of what
+  // it recovers, however far the press went.
+  const double half = std::sqrt(0.5), factor_error = half * (platens ? atlas.midplane_force : atlas.force),
+               recovery_error = half * atlas.recovery, recovery = x_m - top.residual;
   constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured
   for (std::size_t k = 0; k < m.data.size(); ++k) {
     const double x = overlap(m.data[k]);
     const bool unloads = k > reversal && x_m > laws.onset();
-    double force = 0, shifted = 0, place = 1;
+    double force = 0, stretched = 0, steep = 0, place = 1;
     if (unloads) {
-      force = unloading_force(top, x_m, top.residual, x);
-      shifted = unloading_force(top, x_m, top.residual + residual_shift, x) - force;
+      const double share = (x - top.residual) / recovery;
+      force = unloading_force(top, share);
+      stretched = unloading_force(top, 1 - (1 - share) / (1 - recovery_error)) - force;
+      steep =
+          0.5 * (unloading_force(top, share + recovery_error) - unloading_force(top, share - recovery_error));
     } else if (x > 0) {
       force = curve.loading(x).force;
       place = 1 + 2 * std::log(x / x_m) / span;
@@ -145,8 +149,8 @@ void predict_curve(const Measurement& m, const LawMaterial& material, const Sphe
     legendre(place, shape);
     for (int j = 0; j < 3; ++j)
       p.errors[j].push_back(unit * force * factor_error / std::sqrt(3.0) * shape[j]);
-    p.errors[3].push_back(unit * shifted);
-    p.scatter.push_back(unit * force * factor_error);
+    p.errors[3].push_back(unit * stretched);
+    p.scatter.push_back(unit * std::hypot(force * factor_error, steep));
   }
 }
 

@@ -16,9 +16,11 @@ constexpr int most_places = 14;
 class Side
 {
  public:
-  Side(const CalibrationProblem& problem, const Minimum& minimum, std::size_t unknown, double end,
-       double first_step)
+  /// `along`: how all unknowns go with this one where the sum of squares stays least, near the minimum.
+  Side(const CalibrationProblem& problem, const Minimum& minimum, std::size_t unknown, Coordinates along,
+       double end, double first_step)
       : problem_(problem),
+        along_(std::move(along)),
         best_(minimum.cost),
         least_(minimum.cost),
         unknown_(unknown),
@@ -82,6 +84,8 @@ class Side
     if (nearest->first > 0) {
       const double share = std::clamp(distance / nearest->first - 1, -1.0, 2.0);
       q += share * (nearest->second.q - places_[0].q);
+    } else {
+      q += (at(distance) - start_) * along_;
     }
     q[static_cast<Eigen::Index>(unknown_)] = at(distance);
     std::vector<bool> fixed(problem_.count(), false);
@@ -94,6 +98,7 @@ class Side
   }
 
   const CalibrationProblem& problem_;
+  Coordinates along_;
   double best_, least_;
   std::optional<Coordinates> better_;
   std::size_t unknown_;
@@ -109,10 +114,13 @@ ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Min
   const auto u = static_cast<Eigen::Index>(unknown);
   const Range allowed = problem.allowed(unknown, minimum.q);
   const double q = std::clamp(minimum.q[u], allowed.low, allowed.high);
-  const double sd = std::clamp(std::sqrt(covariance(minimum)(u, u)), 1e-4, 2.0) * std::sqrt(scale);
+  const Eigen::MatrixXd spread = covariance(minimum);
+  const Coordinates along = spread.col(u) / spread(u, u);
+  const double sd = std::clamp(std::sqrt(spread(u, u)), 1e-4, 2.0) * std::sqrt(scale);
   ParameterProfile profile;
   profile.value = problem.value(unknown, q);
-  Side below(problem, minimum, unknown, allowed.low, sd), above(problem, minimum, unknown, allowed.high, sd);
+  Side below(problem, minimum, unknown, along, allowed.low, sd),
+      above(problem, minimum, unknown, along, allowed.high, sd);
   const auto fill = [&](Interval& interval, double rise) {
     const Side::End low = below.reach(std::sqrt(rise * scale)), high = above.reach(std::sqrt(rise * scale));
     interval = {problem.value(unknown, low.q), problem.value(unknown, high.q), low.told, high.told};

@@ -63,9 +63,9 @@ constexpr Field midplane_change{"midplane_change", "1",
                                 "press's less those of the free sphere "
                                 "with a series compliance"};
 constexpr Field midplane_checks{
-    "midplane_checks", "1",
-    "rows of E*/Y, nu, H/E, delta/R, rms relative error of F, error of e, error of "
-    "delta_r/delta_m"};
+    "midplane_press_checks", "1",
+    "rows of E*/Y, nu, H/E, delta/R, rms relative error of F, error of e, relative error "
+    "of delta_m - delta_r"};
 
 struct Curve
 {
@@ -116,7 +116,7 @@ void write_midplane(hid_t file, const MidplaneShapes& midplane, const std::strin
   }
   for (const MidplaneCheck& c : midplane.checks())
     rows.insert(rows.end(), {c.material.stiffness, c.material.poisson_ratio, c.material.hardening, c.depth,
-                             c.error_force, c.error_restitution, c.error_residual});
+                             c.error_force, c.error_restitution, c.error_recovery});
   h5::write_vector(file, midplane_elastic, elastic_terms, path);
   h5::write_vector(file, midplane_onset, onsets, path);
   h5::write_vector(file, midplane_change, changes, path);

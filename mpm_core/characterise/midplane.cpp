@@ -115,15 +115,15 @@ MidplaneShapes::MidplaneShapes(MidplaneGrid grid, std::vector<ElasticCorrection>
                         ShapeFunction(node.change.widening, 1.0), ShapeFunction(node.change.residual, 1.0),
                         ShapeFunction(node.change.dissipation, 1.0),
                         ShapeFunction(node.change.hertz_share, 1.0)});
-  std::vector<double> force, restitution, residual;
+  std::vector<double> force, restitution, recovery;
   for (const MidplaneCheck& c : checks_) {
     force.push_back(std::abs(c.error_force));
     restitution.push_back(std::abs(c.error_restitution));
-    residual.push_back(std::abs(c.error_residual));
+    recovery.push_back(std::abs(c.error_recovery));
   }
   claimed_force_ = confident_bound(std::move(force));
   claimed_restitution_ = confident_bound(std::move(restitution));
-  claimed_residual_ = confident_bound(std::move(residual));
+  claimed_recovery_ = confident_bound(std::move(recovery));
 }
 
 MidplaneShapes MidplaneShapes::with_checks(std::vector<MidplaneCheck> checks) const

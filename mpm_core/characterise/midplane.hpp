@@ -33,7 +33,7 @@ struct MidplaneCheck
   double depth = 0;              ///< overlap/R
   double error_force = 0;        ///< rms over the loading beyond a third of the depth, relative
   double error_restitution = 0;  ///< of sqrt(W_u/W_L), absolute, signed
-  double error_residual = 0;     ///< of the residual over the largest overlap, signed
+  double error_recovery = 0;     ///< of the recovery, largest overlap less residual, relative, signed
 };
 
 /// What holding the equator plane, in place of the whole sphere, changes of a contact: a particle between two
@@ -72,11 +72,11 @@ class MidplaneShapes
   /// The midplane shape of a material whose free sphere has the shape `free`; no velocity effects.
   LawShape shape(const MaterialRatios& m, const LawShape& free) const;
 
-  /// 95 % of midplane presses lie within, by the checks: of F, of e, of the residual over the largest
-  /// overlap.
+  /// 95 % of midplane presses lie within, by the checks: of F, of e, of the recovery (largest overlap less
+  /// residual, relative).
   double claimed_force() const { return claimed_force_; }
   double claimed_restitution() const { return claimed_restitution_; }
-  double claimed_residual() const { return claimed_residual_; }
+  double claimed_recovery() const { return claimed_recovery_; }
 
  private:
   MidplaneGrid grid_;
@@ -84,7 +84,7 @@ class MidplaneShapes
   std::vector<Node> nodes_;
   std::vector<std::array<ShapeFunction, 5>> changes_;  ///< of each node, over u from 0 to 1
   std::vector<MidplaneCheck> checks_;
-  double claimed_force_ = 0, claimed_restitution_ = 0, claimed_residual_ = 0;
+  double claimed_force_ = 0, claimed_restitution_ = 0, claimed_recovery_ = 0;
 };
 
 }  // namespace granulaw

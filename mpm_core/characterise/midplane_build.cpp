@@ -118,7 +118,7 @@ MidplaneCheck compare(MidplaneCheck check, const Atlas& atlas, const RunResult& 
   const double x = record.depth;
   check.error_restitution =
       std::sqrt(curve.work_unloading(x) / curve.work_loading(x)) - std::sqrt(record.work_ratio);
-  check.error_residual = (curve.reversal(x).residual - record.residual) / x;
+  check.error_recovery = (x - curve.reversal(x).residual) / (x - record.residual) - 1;
   return check;
 }
 

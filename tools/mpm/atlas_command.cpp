@@ -80,10 +80,10 @@ void make_atlas(const AtlasRequest& r)
              atlas.claimed_restitution());
   const MidplaneShapes& midplane = atlas.midplane();
   fmt::print(
-      "midplane: {} materials; {} fresh presses: 95 % within {:.2g} % of force, {:.2g} of e, {:.2g} of the "
-      "residual\n",
+      "midplane: {} materials; {} fresh presses: 95 % within {:.2g} % of force, {:.2g} of e, {:.2g} % of "
+      "the recovery\n",
       midplane.nodes().size(), midplane.checks().size(), 100 * midplane.claimed_force(),
-      midplane.claimed_restitution(), midplane.claimed_residual());
+      midplane.claimed_restitution(), 100 * midplane.claimed_recovery());
   print_count(farm->count());
 }
 
