@@ -39,7 +39,7 @@ KINDS = {
     "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),
 }
 NOTES = """Two things hold with hertz as well. `delete_atoms` and `insert ... compress_tags yes` renumber particles while they touch: LIGGGHTS then loses the history of their contacts, so say `compress no`.
-Heat flows through the overlap that LIGGGHTS sees: with `stretch S` it flows as if the moduli were S^2.5 times smaller.
+Heat flows through the overlap that LIGGGHTS sees: with `stretch S` it flows as with moduli S^2.5 times smaller.
 """
 
 
