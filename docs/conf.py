@@ -32,7 +32,7 @@ myst_heading_anchors = 4
 
 html_theme = "alabaster"
 html_theme_options = {"description": "Contact laws by the material point method, for LIGGGHTS", "fixed_sidebar": True,
-                      "page_width": "1180px", "sidebar_width": "260px", "show_powered_by": False,
+                      "page_width": "min(96vw, 1500px)", "sidebar_width": "260px", "show_powered_by": False,
                       "font_family": "sans-serif", "code_font_size": "0.85em"}
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_title = f"Granulaw {release}"

@@ -66,7 +66,7 @@ def write(path, rows, limits):
     """rows: {"group", "name", "cells": {model: outcome}} in the order of the page."""
     models = list(rows[0]["cells"])
     counts = {kind: [sum(kind_of(row["cells"][model]) == kind for row in rows) for model in models] for kind in KINDS}
-    table = ["| features that | " + " | ".join(models) + " |", "|---|---|---|"]
+    table = ["| outcome | " + " | ".join(models) + " |", "|---|---|---|"]
     table += [f"| [{title[0].lower()}{title[1:]}](#{re.sub('[^a-z ]', '', title.lower()).replace(' ', '-')}) | " + " | ".join(map(str, counts[kind])) + " |"
               for kind, (title, _) in KINDS.items() if any(counts[kind])]
     text = [INTRO.format(counts="\n".join(table))]
