@@ -10,6 +10,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from sphinx.search.en import SearchEnglish
+
 HERE = Path(__file__).resolve().parent
 MATHJAX = Path("/usr/share/javascript/mathjax")
 
@@ -30,7 +32,7 @@ myst_heading_anchors = 4
 
 html_theme = "alabaster"
 html_theme_options = {"description": "Contact laws by the material point method, for LIGGGHTS", "fixed_sidebar": True,
-                      "page_width": "1180px", "sidebar_width": "260px", "show_powered_by": False,
+                      "page_width": "min(96vw, 1500px)", "sidebar_width": "260px", "show_powered_by": False,
                       "font_family": "sans-serif", "code_font_size": "0.85em"}
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_title = f"Granulaw {release}"
@@ -39,6 +41,11 @@ html_show_sphinx = False
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
 html_search_scorer = str(HERE / "search_scorer.js")
+# Titles keep the apostrophe that a reader types into the search.
+smartquotes = False
+# A question is searched by the words that say what it is about.
+SearchEnglish.stopwords |= {"how", "do", "does", "i", "my", "me", "can", "may", "what", "which", "when", "where", "why", "should", "have", "has", "use", "from",
+                            "mean", "s", "t", "you", "your"}
 # Pygments has no LIGGGHTS; an indented block is shown as it is.
 highlight_language = "none"
 

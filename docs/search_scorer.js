@@ -1,8 +1,9 @@
-// Order of the search's results: what a user does stands before what is looked up, and that before evidence and history.
+// Order of the search's results. A page with the word in a title stands before all that have it in the text. Of equals, what a user does stands
+// before what is looked up, and that before evidence and history.
 var Scorer = {
   score: (result) => {
     const [docname, title, anchor, descr, score, filename] = result;
-    const parts = [["guide/", 30], ["reference/", 20], ["theory/", 15], ["examples/", 5], ["evidence/pairs-runs", -15], ["decisions", -15]];
+    const parts = [["guide/", 4], ["reference/", 3], ["theory/", 2], ["examples/", 1], ["decisions", -12]];
     const found = parts.find(([start]) => docname.startsWith(start));
     return score + (found ? found[1] : 0);
   },

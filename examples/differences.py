@@ -51,10 +51,17 @@ def table(out):
     lines = [f"{tests} tests. Mean ± standard error of the seeds.", "",
              "| deck (seeds) | observable | " + " | ".join(sweep.MODELS) + " | " + " | ".join(f"{a} differs from {b}" for a, b in PAIRS) + " |",
              "|---|---|" + "---|" * (len(sweep.MODELS) + len(PAIRS))]
+    alike = {}
     for deck, quantity, f in found:
         seeds = min(s.values.size for s in f.values())
-        lines.append(f"| {deck} ({seeds}) | {quantity} | " + " | ".join(str(f.get(m, "")) for m in sweep.MODELS) + " | " +
-                     " | ".join(cell(f, pair, tests) for pair in PAIRS) + " |")
+        verdicts = [cell(f, pair, tests) for pair in PAIRS]
+        if all(v == "" or v.startswith("no (") for v in verdicts):
+            alike.setdefault(f"{deck} ({seeds})", []).append(quantity)
+            continue
+        lines.append(f"| {deck} ({seeds}) | {quantity} | " + " | ".join(str(f.get(m, "")) for m in sweep.MODELS) + " | " + " | ".join(verdicts) + " |")
+    if alike:
+        lines += ["", "No two models differ (p over 0.05) in:", ""]
+        lines += [f"- {deck}: {'; '.join(quantities)}" for deck, quantities in alike.items()]
     return "\n".join(lines) + "\n"
 
 

@@ -52,7 +52,7 @@ struct PairInfo
 };
 
 /// A step may take this part of the period 2 pi sqrt(m*/k) of the stiffest contact. Ten steps or more for a
-/// contact: docs/reference/pair_gran_model_mpm.md, "Time step".
+/// contact: docs/reference/fix_granulaw_stats.md, "Time step".
 inline constexpr double dt_fraction = 1.0 / 20.0;
 /// Part of the table's overlap range from which a contact counts as near its edge.
 inline constexpr double near_edge = 0.9;

@@ -64,6 +64,15 @@ class Links(unittest.TestCase):
             wrong += [f"{path.relative_to(TOP)}: {name}" for name in NAMED.findall(text) if not (TOP / name).exists()]
         self.assertEqual(wrong, [])
 
+    def test_source_tree(self):
+        """docs/reference/source-tree.md names every folder of sources, tools and tests, and no other."""
+        page = (TOP / "docs/reference/source-tree.md").read_text()
+        there = {str(f.relative_to(TOP)) for pattern in ("mpm_core/*/", "mpm_core/solver/*/", "tools/*/", "tests/*/") for f in TOP.glob(pattern)
+                 if f.is_dir() and f.name != "__pycache__"}
+        named = set(re.findall(r"`((?:mpm_core|tools|tests)(?:/\w+)+)`", page))
+        self.assertEqual(there - named, set())
+        self.assertEqual({n for n in named if not (TOP / n).exists()}, set())
+
     def test_every_page_says_what_it_is_for(self):
         for page in PAGES:
             lines = [line for line in page.read_text().splitlines() if line.strip()]

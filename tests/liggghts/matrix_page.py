@@ -6,35 +6,40 @@ from matrix_known import KNOWN
 
 INTRO = """# The matrix: LIGGGHTS's commands with the models mpm and thornton
 
-This page shows which of LIGGGHTS's commands work with the models `mpm` and `thornton`. Each command of the manual that touches a contact, a particle or a wall was tried with both models beside stock `hertz`.
-`same` means that it works as with hertz. What is refused stands in the first table, all features in the last part.
+This page says which of LIGGGHTS's commands work with the models `mpm` and `thornton`. Search it for your command. Each command of the manual that touches a contact, a particle or a wall is tried with both models
+beside stock `hertz`.
 
-`cmake --build --preset release --target matrix_page` makes the page. The test `liggghts_matrix` fails where an outcome turns into a defect that is not listed here.
+{counts}
 
-The scene: eighteen spheres (R = 1.7 mm, powder and glass) thrown at each other over a floor, 600 steps of 0.2 us; a feature changes or adds some lines
-(`tests/liggghts/matrix_*.py`). Each feature runs {runs} times (fewer where the plain deck is refused):
+The test `liggghts_matrix` fails where an outcome turns into a defect that is not listed here. `cmake --build --preset release --target matrix_page` makes the page.
+"""
+
+HOW = """## How they are tried
+
+Eighteen spheres (R = 1.7 mm, powder and glass) are thrown at each other over a floor, 600 steps of 0.2 us. A feature changes or adds some lines (`tests/liggghts/matrix_*.py`). Each feature runs {runs} times,
+fewer where the plain deck is refused:
 
 | runs | what must hold |
 |---|---|
-| elastic: plain; `energy on contactMap on`; `stretch 3`; all three; on 1 and 2 ranks | Without yield and damping both models are Hertz's law, and with `stretch S` Hertz's law with moduli divided by S^2.5. Thermo values, dumps of particles, contacts and meshes and every file that the feature writes equal stock Hertz's of the same ranks: thornton within {thornton:g} of the largest value of the column, mpm within {mpm:g} (its law is a table, 3e-6 off) |
+| elastic: plain; `energy on contactMap on`; `stretch 3`; all three; on 1 and 2 ranks | Without yield and damping both models are Hertz's law, and with `stretch S` Hertz's law with moduli divided by S^2.5. Thermo values, dumps and every file of the feature equal stock Hertz's of the same ranks: thornton within {thornton:g} of the largest value of the column, mpm within {mpm:g} (its law is a table, 3e-6 off) |
 | elastic and plastic with `energy on` | kinetic + gravity + held + dissipated energy, with what waves took, is constant within {energy:g}, unless the feature does work |
-| plastic, all three words, on 1 and 2 ranks; mpm also with composed pair laws and `waves on` | the run ends well; no value that is no number; both ranks give the same trajectory within {ranks:g} |
+| plastic, all three words, on 1 and 2 ranks; mpm also with composed pair laws and `waves on` | the run ends well; every value is a number; both ranks give the same trajectory within {ranks:g} |
 
-| outcome | meaning |
-|---|---|
-| same | all of the above |
-| runs | the same without the comparison with Hertz, whose numbers are others (history values, say) |
-| refused: SENTENCE | the run ends with this sentence |
-| as hertz: SENTENCE | stock Hertz is refused as well |
-| DEFECT | anything else |
+Not tried: `fix external`, `couple/cfd` (they need a second program), `sph`, bonds, superquadrics (not of contacts of spheres, or not built), and commands that only move numbers about (`echo`, `group`, `variable`).
 
-Not tried: `fix external`, `couple/cfd` (they need a second program), `sph`, bonds, superquadrics (not of contacts of spheres, or not built), and what only moves numbers about
-(`echo`, `group`, `variable` beyond their use here). `delete_atoms` and `insert ... compress_tags yes` renumber particles while they touch: LIGGGHTS then loses the history of their
-contacts, of hertz as well; say `compress no`. Heat flows through the overlap that LIGGGHTS sees: with `stretch S` it flows as if the moduli were S^2.5 times smaller.
+One feature: `python3 tests/liggghts/matrix.py WORDS` with the environment of the tests. It runs the features whose group or name holds one of the words.
+"""
 
-One feature: `python3 tests/liggghts/matrix.py WORDS` with the environment of the tests; features whose group or name holds one of the words are run.
-
-{counts}
+# outcome of a cell: title, what it says
+KINDS = {
+    "DEFECT": ("Defects", "Anything else than the outcomes below."),
+    "refused": ("Refused", "Stock Hertz runs these features. The models refuse them with a sentence."),
+    "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these features with every model."),
+    "runs": ("Runs, with other numbers than hertz", "These work. Their numbers are not compared with Hertz's, which are others (history values, say)."),
+    "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),
+}
+NOTES = """Two things hold with hertz as well. `delete_atoms` and `insert ... compress_tags yes` renumber particles while they touch: LIGGGHTS then loses the history of their contacts, so say `compress no`.
+Heat flows through the overlap that LIGGGHTS sees: with `stretch S` it flows as with moduli S^2.5 times smaller.
 """
 
 
@@ -42,33 +47,43 @@ def plain(text):
     return re.sub(r"\s+", " ", text).replace("|", "\\|")
 
 
-def line(row, group=""):
-    first, second = (plain(cell) for cell in row["cells"].values())
-    return f"| {group}{plain(row['name'])} | {first} | {'the same words' if second == first and len(first) > 40 else second} |"
+def kind_of(cell):
+    return next(kind for kind in KINDS if kind in cell)
+
+
+def kind_of_row(row):
+    """The first of the kinds, worst first, that either model has."""
+    return next(kind for kind in KINDS if kind in map(kind_of, row["cells"].values()))
+
+
+def sentence(row):
+    """What mpm says; thornton's outcome where it is of another kind. Within a kind the sentences differ in the model's name and in numbers only."""
+    first, second = row["cells"].values()
+    return plain(first) + (f"; thornton: {plain(second)}" if kind_of(second) != kind_of(first) else "")
 
 
 def write(path, rows, limits):
     """rows: {"group", "name", "cells": {model: outcome}} in the order of the page."""
     models = list(rows[0]["cells"])
-    kinds = {}
-    for row in rows:
-        for model, cell in row["cells"].items():
-            kind = next(k for k in ("DEFECT", "refused", "as hertz", "same", "runs") if k in cell)
-            kinds.setdefault(kind, dict.fromkeys(models, 0))[model] += 1
-    counts = ["| outcome | " + " | ".join(models) + " |", "|---|---|---|"]
-    counts += [f"| {kind} | " + " | ".join(str(each[model]) for model in models) + " |" for kind, each in sorted(kinds.items())]
-    text = [INTRO.format(counts="\n".join(counts), **limits)]
+    counts = {kind: [sum(kind_of(row["cells"][model]) == kind for row in rows) for model in models] for kind in KINDS}
+    table = ["| outcome | " + " | ".join(models) + " |", "|---|---|---|"]
+    table += [f"| [{title[0].lower()}{title[1:]}](#{re.sub('[^a-z ]', '', title.lower()).replace(' ', '-')}) | " + " | ".join(map(str, counts[kind])) + " |"
+              for kind, (title, _) in KINDS.items() if any(counts[kind])]
+    text = [INTRO.format(counts="\n".join(table))]
     if KNOWN:
         text += ["## Known defects", "", "| feature | models | what is seen | why it stands |", "|---|---|---|---|"]
         text += [f"| {'all features' if name == '.*' else plain(name.replace('.*', '...'))} | {', '.join(who)} | {plain(part)} | {plain(why)} |" for name, who, part, why in KNOWN]
         text.append("")
-    text += ["## Refused", "", "Features that stock Hertz runs and these models refuse.", "", "| group | feature | " + " | ".join(models) + " |", "|---|---|---|---|"]
-    text += [line(row, f"{plain(row['group'])} | ") for row in rows if any(cell.startswith("refused") for cell in row["cells"].values())]
-    text += ["", "## All features"]
-    group = None
-    for row in rows:
-        if row["group"] != group:
-            text += ["", f"### {row['group']}", "", "| feature | " + " | ".join(models) + " |", "|---|---|---|"]
-            group = row["group"]
-        text.append(line(row))
-    pathlib.Path(path).write_text("\n".join(text) + "\n")
+    for kind, (title, what) in KINDS.items():
+        own = [row for row in rows if kind_of_row(row) == kind]
+        if not own:
+            continue
+        text += [f"## {title}", "", what, ""]
+        groups = dict.fromkeys(row["group"] for row in own)
+        if kind in ("runs", "same"):
+            for group in groups:
+                text += [f"**{plain(group)}.** " + "; ".join(plain(row["name"]) for row in own if row["group"] == group) + ".", ""]
+        else:
+            text += ["| group | feature | sentence of mpm |", "|---|---|---|"]
+            text += [f"| {plain(row['group'])} | {plain(row['name'])} | {sentence(row).removeprefix(kind + ': ')} |" for row in own] + [""]
+    pathlib.Path(path).write_text("\n".join(text) + "\n" + NOTES + "\n" + HOW.format(**limits))

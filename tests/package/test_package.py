@@ -52,6 +52,8 @@ class Contents(unittest.TestCase):
                      "share/man/man1/liggghts-mpm.1.gz", "share/bash-completion/completions/mpm", "share/doc/granulaw/copyright",
                      "share/doc/granulaw/changelog.gz", "share/doc/granulaw/examples"):
             self.assertIn(f"usr/{path}", files)
+        if shutil.which("sphinx-build"):  # without it the package has no book
+            self.assertIn("usr/share/doc/granulaw/html/index.html", files)
 
     def test_every_example(self):
         """All that git keeps of examples/."""
@@ -166,8 +168,6 @@ class Programs(unittest.TestCase):
 
 class Lintian(unittest.TestCase):
     def test_no_errors(self):
-        if not shutil.which("lintian"):
-            self.skipTest("lintian is not installed")
         words = ["lintian", "--tag-display-limit", "0", "--allow-root", package("granulaw"), package("granulaw-dev")]
         told = subprocess.run([str(w) for w in words], capture_output=True, text=True)
         print(told.stdout)
@@ -176,4 +176,7 @@ class Lintian(unittest.TestCase):
         self.assertEqual(told.returncode, 0)
 
 
+if sys.argv[4] == "Lintian" and not shutil.which("lintian"):
+    print("skipped: Debian's lintian is not installed")
+    sys.exit(77)
 unittest.main(argv=[sys.argv[0], sys.argv[4]])

@@ -54,10 +54,11 @@ def change(before, after):
     return cut(before), cut(after)
 
 
-def rows(results, last):
+def rows(results, last=None):
+    """`last`: what the last column says, if there is one."""
     for r in sorted(results, key=lambda r: (FOLDERS.index(r["folder"]), r["file"], r["line"])):
         old, new = change(r["before"], r["after"])
-        yield f"| {r['kind']}{' (by hand)' if r['named'] else ''} | `{r['file']}` | {code(old)} | {code(new)} | {last(r)} |"
+        yield f"| {r['kind']}{' (by hand)' if r['named'] else ''} | `{r['file']}` | {code(old)} | {code(new)} |" + (f" {last(r)} |" if last else "")
 
 
 def page(results, seed, picked):
@@ -67,23 +68,22 @@ def page(results, seed, picked):
     done = f"{len(results)} of {picked} are done" if len(results) < picked else f"All {picked} are done"
     lines = ["# Faults put in by hand: what the quick tests notice", "",
              "This page shows how many one-line faults in the code the quick tests catch.", "",
-             f"`tools/faults --seed {seed}` puts faults into a copy of the sources, one line and one fault at a time, and runs the quick",
-             f"tests on each. The seed picks the places; {sum(r['named'] for r in results)} faults are chosen by hand. {done}. `--page` writes this page.", "",
-             f"**The tests catch {caught} of the {changing} faults that change a result ({100 * caught / max(1, changing):.0f} %).**", "",
-             "Tests were added for faults of this seed that got through. How many of all faults are caught, only a seed that nobody has",
-             "worked on can say.", "",
-             "- *Caught*: a test fails, or takes five times as long as it should.",
-             "- *Survived*: every quick test passes, yet a number changes in the output of a battery of commands (`tools/faulting/battery.py`).",
-             "- *No change seen*: the tests near the fault pass, and no output of the battery differs by more than 1e-9. Most of",
-             "  these lines do the same with the fault; the others lie where neither quick tests nor battery go.",
-             "- *Not compiled*: the compiler is the test.", "",
+             f"**The tests catch {caught} of the {changing} faults that change a result ({100 * caught / max(1, changing):.0f} %).** Tests have been added for faults of this seed that got",
+             "through. Only a seed that nobody has worked on can say how many of all faults are caught.", "",
              "| | " + " | ".join(VERDICTS) + " |", "|---|" + "---|" * len(VERDICTS)]
     for name, numbers in counts(results, "kind", KINDS) + counts(results, "folder", FOLDERS) + [total(results)]:
         lines.append(f"| {name} | " + " | ".join(map(str, numbers)) + " |")
-    for verdict, head, last in (("survived", "changes", lambda r: ", ".join(r["changed"])),
-                                ("caught", "by", lambda r: f"`{r['by'].split('  #')[0]}`"),
-                                ("no change seen", "", lambda r: ""),
-                                ("not compiled", "the compiler says", lambda r: code(r["by"][:60]))):
+    lines += ["",
+              "- *Caught*: a test fails, or takes five times as long as it should.",
+              "- *Survived*: every quick test passes, yet a number changes in the output of a battery of commands (`tools/faulting/battery.py`).",
+              "- *No change seen*: the tests near the fault pass, and no output of the battery differs by more than 1e-9. Most of",
+              "  these lines do the same with the fault. The others lie where neither quick tests nor battery go.",
+              "- *Not compiled*: the compiler is the test.", "",
+              f"`tools/faults --seed {seed}` puts faults into a copy of the sources, one line and one fault at a time, and runs the quick",
+              f"tests on each. The seed picks the places; {sum(r['named'] for r in results)} faults are chosen by hand. {done}. `build/faults/results.jsonl` has each",
+              "fault, and the test that caught it. `--page` writes this page."]
+    for verdict, head, last in (("survived", "changes", lambda r: ", ".join(r["changed"])), ("no change seen", "", None)):
         if by(verdict):
-            lines += ["", f"## {verdict.capitalize()}", "", f"| kind | file | line | with the fault | {head} |", "|---|---|---|---|---|", *rows(by(verdict), last)]
+            heads = ["kind", "file", "line", "with the fault"] + ([head] if last else [])
+            lines += ["", f"## {verdict.capitalize()}", "", f"| {' | '.join(heads)} |", "|---" * len(heads) + "|", *rows(by(verdict), last)]
     return "\n".join(lines) + "\n"

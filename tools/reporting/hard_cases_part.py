@@ -39,4 +39,4 @@ def write(page, found, path):
                  "" if r.get("steps") is None else str(r["steps"]), "" if r.get("cpu_s") is None else number(r["cpu_s"], 2), r["verdict"]]
                 for r in rows], fold=f"All {len(rows)} cases")
     page.origin(f"`{path}`, made with {found['mpm']}; from grid to grid: what the coarser grid does to e; CPU seconds of a shared machine, to be "
-                "read to a factor of two. Each row is one command, in `docs/evidence/hard-cases.md`.")
+                "read to a factor of two. Each row is one command: `tools/hard_cases --commands` prints it.")
