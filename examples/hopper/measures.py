@@ -44,12 +44,15 @@ def discharge_rate(run, mass, rng):
 
 
 def bulk_density(run, scene):
-    """kg/m^3 of the filled bed, away from walls and surface: centres counted in an inner cone and cylinder."""
+    """kg/m^3 of the filled bed, away from walls and surface: centres counted in an inner cone and cylinder. None of a
+    bed too shallow to have such an inside."""
     bed = run.dump(bed_step(run))
     d = 2 * scene["radius"]
     r, z = np.hypot(bed["x"], bed["y"]), bed["z"]
     slope = math.tan(math.radians(scene["half_angle_deg"]))
     low, high = 1.5 * d, np.percentile(z, 95) - 2 * d
+    if high <= low:
+        return None
     heights = np.linspace(low, high, 400)
     limit = lambda zz: np.minimum(scene["orifice"] + slope * zz, scene["cylinder"]) - 1.5 * d
     inside = (z > low) & (z < high) & (r < limit(z))
@@ -62,8 +65,10 @@ def bulk_density(run, scene):
 
 
 def beverloo(density, scene, k=1.4, c=0.58):
-    """Beverloo, Leniger and van de Velde (1961), flat bottom: C rho_b sqrt(g) (D - k d)^2.5, kg/s."""
-    return c * density * math.sqrt(GRAVITY) * (2 * scene["orifice"] - k * 2 * scene["radius"])**2.5
+    """Beverloo, Leniger and van de Velde (1961), flat bottom: C rho_b sqrt(g) (D - k d)^2.5, kg/s; None without a density."""
+    if density is None:
+        return None
+    return c * density.value * math.sqrt(GRAVITY) * (2 * scene["orifice"] - k * 2 * scene["radius"])**2.5
 
 
 def bed_step(run):

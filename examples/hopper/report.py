@@ -43,7 +43,7 @@ def measure(run, scene, times):
     rng = np.random.default_rng(1)
     rate = measures.discharge_rate(run, scene["mass"], rng)
     density = measures.bulk_density(run, scene)
-    expected = measures.beverloo(density.value, scene)
+    expected = measures.beverloo(density, scene)
     one = lambda v: None if v is None else Value(float(v))
     stats = run.stats or {}
     side = lambda s, key: one(stats[s][key]) if stats else None
@@ -54,7 +54,7 @@ def measure(run, scene, times):
     ratio = np.array(t[:n]) / np.array(base[:n]) if n else np.array([])
     return {
         "discharge rate": ("kg/s", rate),
-        "rate / Beverloo (flat bottom)": ("", rate and Value(rate.value / expected, rate.error / expected)),
+        "rate / Beverloo (flat bottom)": ("", rate and expected and Value(rate.value / expected, rate.error / expected)),
         "bulk density of the bed": ("kg/m3", density),
         "coordination number, full": ("", measures.coordination(run)),
         "bed height": ("m", measures.bed_height(run)),
@@ -115,7 +115,7 @@ def sentences(runs, table):
 
 
 def write_markdown(path, runs, scene, table, times):
-    expected = {m: measures.beverloo(measures.bulk_density(r, scene).value, scene) for m, r in runs.items()}
+    expected = {m: measures.beverloo(measures.bulk_density(r, scene), scene) for m, r in runs.items()}
     lines = ["# The hopper under three contact laws", "",
              f"{scene['particles']} spheres of radius {1e3 * scene['radius']:g} mm ({scene['mass']:.3f} kg) fall "
              f"{scene['drop']:.3f} to {scene['cloud_top']:.3f} m into a conical hopper (half angle "
@@ -139,7 +139,7 @@ def write_markdown(path, runs, scene, table, times):
         "- The spread lies within one run each (windows of the flow, particles, sectors of the surface). Other fillings "
         "(`make_scene.py --seed`) may scatter more.",
         "- Beverloo: 0.58 rho_b sqrt(g) (D - 1.4 d)^2.5 with the measured bulk density, a flat bottom: " +
-        ", ".join(f"{m} {v:.3f} kg/s" for m, v in expected.items()) +
+        ", ".join(f"{m} {v:.3f} kg/s" if v else f"{m} none (too shallow a bed)" for m, v in expected.items()) +
         ". A 30 degree cone flows faster than a flat bottom (Rose and Tanaka's factor (tan 30 tan 45)^-0.35 = 1.21).",
         "- The total energy dissipated while filling is fixed by the fall; what the models decide is how fast, and where: "
         "the plug-in's contact statistics give the share of normal contacts, friction takes the rest. Stock Hertz keeps no contact statistics.",

@@ -64,12 +64,15 @@ def measure(folder, model, scene):
     if run.lost() or run.series["atoms"][0] != scene["particles"]:
         raise SystemExit(f"{folder}: particles were lost")
     f = measures.filling(run)
-    density, rate = measures.bulk_density(run, scene).value, measures.discharge_rate(run, scene["mass"], np.random.default_rng(1))
+    density, rate = measures.bulk_density(run, scene), measures.discharge_rate(run, scene["mass"], np.random.default_rng(1))
     found = {}
     if rate:
         found["discharge rate, kg/s"] = rate.value
-        found["rate / Beverloo"] = rate.value / measures.beverloo(density, scene)
-    found.update({"bulk density, kg/m3": density, "coordination number": measures.coordination(run).value,
+        if density:
+            found["rate / Beverloo"] = rate.value / measures.beverloo(density, scene)
+    if density:
+        found["bulk density, kg/m3"] = density.value
+    found.update({"coordination number": measures.coordination(run).value,
                   "bed height, m": measures.bed_height(run).value, "peak kinetic energy while filling, J": f["peak"],
                   "energy dissipated while filling, J": f["dissipated"]})
     kinetic, closed = run.series["kinetic"] + run.series["rotational"], int(np.sum(run.series["time"] <= run.opened + 0.5 * run.dt))
