@@ -11,8 +11,7 @@ namespace {
 
 // One standard deviation of what the model of each kind is off, relative; those without a source here:
 // forward_model.hpp.
-constexpr double radius_error = 0.01, residual_error = 0.005, time_error = 0.01, hardness_error = 0.07,
-                 onset_error = 0.02;
+constexpr double radius_error = 0.01, time_error = 0.01, hardness_error = 0.07, onset_error = 0.02;
 
 /// The atlas's rms errors, by its checks.
 struct AtlasErrors
@@ -110,28 +109,35 @@ double unloading_force(const ContactCurve::Reversal& top, double x_m, double res
   return u > 0 ? top.force * top.shape.at(std::min(u, 1.0)).value : 0.0;
 }
 
-void predict_curve(const Measurement& m, const LawMaterial& material, const SphereLaws& laws,
-                   const MachineState& machine, Prediction& p)
+CurveModel curve_model(const Measurement& m, const LawMaterial& material, const SphereLaws& laws)
 {
-  const bool platens = m.kind == MeasurementKind::platens;
-  const ContactCurve& curve = platens ? laws.midplane() : laws.free();
   const double unit = 4.0 / 3.0 * material.e_star() * m.radius * m.radius;
+  const AtlasErrors& atlas = errors_of(*laws.atlas());
+  if (m.kind == MeasurementKind::platens)
+    return {&laws.midplane(), m.radius, unit, atlas.midplane_force, atlas.midplane_residual};
+  return {&laws.free(), m.radius, unit, atlas.force, residual_error};
+}
+
+}  // namespace
+
+Prediction predict_curve(const Measurement& m, const CurveModel& model, const MachineState& machine)
+{
+  Prediction p;
+  p.errors.resize(model_errors_of(m.kind));
+  const ContactCurve& curve = *model.curve;
   const auto overlap = [&](const Datum& d) {
-    const double both = d.x - machine.offset - machine.compliance * d.y;
-    return (platens ? 0.5 * both : both) / m.radius;
+    return (d.x - machine.offset - machine.compliance * d.y) / m.contacts() / model.length;
   };
   const std::size_t reversal = m.reversal();
   double x_m = 0;
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
   const ContactCurve::Reversal top = curve.reversal(std::max(x_m, 1e-12));
-  const AtlasErrors& atlas = errors_of(*laws.atlas());
   // half of the variance in the smooth error, half from value to value
-  const double factor_error = std::sqrt(0.5) * (platens ? atlas.midplane_force : atlas.force),
-               residual_shift = (platens ? atlas.midplane_residual : residual_error) * x_m;
+  const double factor_error = std::sqrt(0.5) * model.force_error, residual_shift = model.residual_error * x_m;
   constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured
   for (std::size_t k = 0; k < m.data.size(); ++k) {
     const double x = overlap(m.data[k]);
-    const bool unloads = k > reversal && x_m > laws.onset();
+    const bool unloads = k > reversal && x_m > curve.onset();
     double force = 0, shifted = 0, place = 1;
     if (unloads) {
       force = unloading_force(top, x_m, top.residual, x);
@@ -140,17 +146,16 @@ void predict_curve(const Measurement& m, const LawMaterial& material, const Sphe
       force = curve.loading(x).force;
       place = 1 + 2 * std::log(x / x_m) / span;
     }
-    p.values.push_back(unit * force);
+    p.values.push_back(model.force * force);
     double shape[3];
     legendre(place, shape);
     for (int j = 0; j < 3; ++j)
-      p.errors[j].push_back(unit * force * factor_error / std::sqrt(3.0) * shape[j]);
-    p.errors[3].push_back(unit * shifted);
-    p.scatter.push_back(unit * force * factor_error);
+      p.errors[j].push_back(model.force * force * factor_error / std::sqrt(3.0) * shape[j]);
+    p.errors[3].push_back(model.force * shifted);
+    p.scatter.push_back(model.force * force * factor_error);
   }
+  return p;
 }
-
-}  // namespace
 
 double hardness_of(const LawMaterial& m)
 {
@@ -182,10 +187,7 @@ Prediction predict(const Measurement& m, const LawMaterial& material, const Sphe
     predict_impacts(m, material, laws, p);
     return p;
   }
-  if (is_curve(m.kind)) {
-    predict_curve(m, material, laws, machine, p);
-    return p;
-  }
+  if (is_curve(m.kind)) return predict_curve(m, curve_model(m, material, laws), machine);
   const bool hardness = m.kind == MeasurementKind::hardness;
   const double value = hardness ? hardness_of(material) : onset_force(material, m.radius);
   p.values.assign(m.data.size(), value);

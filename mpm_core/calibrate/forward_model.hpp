@@ -27,9 +27,24 @@ struct Prediction
   double beyond = 0;  ///< ln of how far the fastest impact is beyond what the atlas tells; 0: within
 };
 
-/// Predicts a measurement of spheres of this material.
+/// Predicts a measurement of spheres of this material; an indenter's curve by its own law (IndenterModel) and
+/// predict_curve().
 Prediction predict(const Measurement& measurement, const LawMaterial& material, const SphereLaws& laws,
                    const MachineState& machine);
+
+/// A contact's slow law, the units that bring it to a measured curve, and its errors (sd).
+struct CurveModel
+{
+  const ContactCurve* curve;
+  double length, force;   ///< m, N
+  double force_error;     ///< relative
+  double residual_error;  ///< over the largest overlap
+};
+Prediction predict_curve(const Measurement& measurement, const CurveModel& model,
+                         const MachineState& machine);
+
+/// Sd of the residual overlap of a contact's slow law, over its largest overlap.
+inline constexpr double residual_error = 0.005;
 
 /// How many Prediction::errors a kind has.
 std::size_t model_errors_of(MeasurementKind kind);

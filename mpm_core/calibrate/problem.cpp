@@ -38,6 +38,17 @@ double tempered(double r)
              : std::copysign(std::sqrt(2 * robust_from * size - robust_from * robust_from), r);
 }
 
+/// Overlap of one contact over R* at which its law ends.
+double deepest_of(const Measurement& m)
+{
+  if (m.kind == MeasurementKind::platens) return MidplaneShapes::depth;
+  if (m.kind == MeasurementKind::flat) return Atlas::depth;
+  // where an elastic contact would be as wide as composed laws go, 0.9 of the smaller radius; others are
+  // wider
+  const double widest = 0.9 * std::min(m.radius, m.indenter_radius) / m.effective_radius();
+  return std::min(Atlas::depth, widest * widest);
+}
+
 void check(const CalibrationRequest& r, const Atlas& atlas)
 {
   if (r.measurements.empty()) fail("calibrate", "no measurement was given");
@@ -51,13 +62,14 @@ void check(const CalibrationRequest& r, const Atlas& atlas)
     fail("calibrate", "Poisson's ratio is outside the atlas", fmt::format("{:g}", r.known.poisson_ratio),
          fmt::format("{:g} to {:g}", ratios.front(), ratios.back()));
   for (const Measurement& m : r.measurements) {
+    if (m.kind != MeasurementKind::indenter && !std::isfinite(m.radius))
+      fail(m.source, "only an indenter meets a specimen without a radius: give --radius");
     if (!is_curve(m.kind)) continue;
-    const bool platens = m.kind == MeasurementKind::platens;
-    const double deepest = largest_displacement(m) / m.radius / (platens ? 2 : 1),
-                 end = platens ? MidplaneShapes::depth : Atlas::depth;
+    const double deepest = largest_displacement(m) / m.effective_radius() / m.contacts(), end = deepest_of(m);
     // some of it may be offset
     if (deepest > 1.3 * end)
-      fail(m.source, "the curve goes deeper than the atlas knows: overlap of one contact, in radii",
+      fail(m.source,
+           "the curve goes deeper than the atlas knows: overlap of one contact over its effective radius",
            fmt::format("{:.3g}", deepest), fmt::format("up to {:g}", end));
   }
 }
@@ -99,8 +111,12 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
   for (std::size_t k = 0; k < request_.measurements.size(); ++k)
     for (std::size_t j = 0; j < model_errors_of(request_.measurements[k].kind); ++j)
       unknowns_.push_back({Unknown::Kind::model_error, {}, k, 1, 0.5, "model error"});
-  for (const Measurement& m : request_.measurements)
+  for (const Measurement& m : request_.measurements) {
+    indenters_.push_back(m.kind == MeasurementKind::indenter
+                             ? std::make_unique<IndenterModel>(atlas, m, request_.fit)
+                             : nullptr);
     walls_.push_back(m.wall ? std::make_unique<WallModel>(atlas, m, request_.fit) : nullptr);
+  }
   // the hardening's reference is a yield stress: the one given, else of the middle of what is likely
   for (Unknown& u : unknowns_)
     if (u.kind == Unknown::Kind::hardening) {
@@ -178,6 +194,13 @@ Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k, c
                                           const SphereLaws& laws) const
 {
   const Measurement& m = request_.measurements[k];
+  if (indenters_[k]) {
+    const IndenterModel::Law& law = indenters_[k]->law(material);
+    Prediction p =
+        predict_curve(m, {&law.curve, law.length, law.force, law.force_error, residual_error}, machine(q, k));
+    p.beyond = std::log(largest_displacement(m) / (law.length * law.curve.x_end()));
+    return p;
+  }
   Prediction p = predict(m, material, laws, machine(q, k));
   if (walls_[k]) {
     const std::vector<double> change = walls_[k]->change(material);
@@ -322,8 +345,8 @@ std::vector<double> CalibrationProblem::likely_yield_stresses() const
   for (const Measurement& m : request_.measurements) {
     if (is_curve(m.kind)) {
       // a mean pressure of 2.8 Y over 2 pi R delta
-      const double overlap = largest_displacement(m) / (m.kind == MeasurementKind::platens ? 2 : 1);
-      const double middle = largest_force(m) / (2 * M_PI * m.radius * overlap * 2.8);
+      const double overlap = largest_displacement(m) / m.contacts();
+      const double middle = largest_force(m) / (2 * M_PI * m.effective_radius() * overlap * 2.8);
       for (const double factor : {0.4, 0.7, 1.0, 1.5, 3.0, 10.0}) likely.push_back(factor * middle);
     } else if (m.kind == MeasurementKind::hardness) {
       for (const double ratio : {3.0, 2.5, 2.0, 1.5}) likely.push_back(m.data.front().y / ratio);
@@ -357,13 +380,16 @@ std::vector<Coordinates> CalibrationProblem::starts() const
     double stiffness;
   };
   std::vector<Candidate> candidates;
+  const bool composes =
+      std::any_of(indenters_.begin(), indenters_.end(), [](const auto& i) { return i != nullptr; });
   const auto consider = [&](double modulus, double yield) {
+    if (composes) modulus = MaterialLattice::nearest(modulus), yield = MaterialLattice::nearest(yield);
     Coordinates q = Coordinates::Zero(static_cast<Eigen::Index>(count()));
     for (std::size_t k = 0; k < request_.fit.size(); ++k) {
       const Parameter p = request_.fit[k];
       const double v = p == Parameter::youngs_modulus ? modulus
                        : p == Parameter::yield_stress ? yield
-                                                      : 0.3 * yield;
+                                                      : 0.5 * std::expm1(0.5) * yield;  // on the lattice
       q[static_cast<Eigen::Index>(k)] = coordinate(k, v);
     }
     const double cost = residuals(q).squaredNorm();

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "calibrate/forward_model.hpp"
+#include "calibrate/indenter_model.hpp"
 #include "calibrate/parameters.hpp"
 #include "calibrate/wall_model.hpp"
 
@@ -87,7 +88,8 @@ class CalibrationProblem
 
   CalibrationRequest request_;
   mutable SphereLawsCache laws_;
-  std::vector<std::unique_ptr<WallModel>> walls_;  ///< by measurement; null: rigid
+  std::vector<std::unique_ptr<WallModel>> walls_;          ///< by measurement; null: rigid
+  std::vector<std::unique_ptr<IndenterModel>> indenters_;  ///< by measurement; null: it is of another kind
   std::vector<Unknown> unknowns_;
   std::size_t data_ = 0;
 };

@@ -25,6 +25,18 @@ constexpr double sphere_mass = 4.0 / 3.0 * M_PI;  // over rho R^3
 
 }  // namespace
 
+ContactCurve deepest_curve(const LawShape& shape, double onset, double shape_end, double depth)
+{
+  constexpr double shorter = 0.85;
+  for (;; depth *= shorter) {
+    try {
+      return tabulate(shape, onset, shape_end, depth);
+    } catch (const Error&) {
+      if (depth < 2 * onset || depth < 0.05) throw;
+    }
+  }
+}
+
 SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material)
     : material_(within(atlas, material)),
       atlas_(&atlas),
@@ -71,19 +83,10 @@ double SphereLaws::contact_time(double x, double residual, double restitution) c
   return x * loading + (x - residual) / restitution * unloading;
 }
 
-/// As deep as the interpolated shape is a law: of a few materials the force falls or the unloading is none
-/// before the end; beyond, it goes on with its last stiffness.
 ContactCurve SphereLaws::make_midplane() const
 {
-  const LawShape shape = atlas_->midplane().shape(material_, shape_);
-  constexpr double shorter = 0.85;
-  for (double depth = MidplaneShapes::depth;; depth *= shorter) {
-    try {
-      return tabulate(shape, onset_, Atlas::depth, depth);
-    } catch (const Error&) {
-      if (depth < 2 * onset_ || depth < 0.05) throw;
-    }
-  }
+  return deepest_curve(atlas_->midplane().shape(material_, shape_), onset_, Atlas::depth,
+                       MidplaneShapes::depth);
 }
 
 const ContactCurve& SphereLaws::midplane() const

@@ -9,6 +9,10 @@
 
 namespace granulaw {
 
+/// A shape's curve, as deep as it is a law, to `depth` at most: of a few interpolated ones the force falls or
+/// the unloading is none before the end; beyond, the curve goes on with its last stiffness.
+ContactCurve deepest_curve(const LawShape& shape, double onset, double shape_end, double depth);
+
 /// What the atlas says of one homogeneous sphere: lengths over R, forces over 4/3 E* R^2. Impacts come from
 /// the law shape itself, without the tables of a velocity axis, which `mpm table` makes of it: e is within
 /// 0.1 % of a replay of that law (0.4 % at E*/Y over 1000), at a twentieth of the time.

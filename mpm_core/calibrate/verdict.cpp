@@ -23,6 +23,13 @@ std::string pressure(double pa)
   return fmt::format("{:.3g} Pa", pa);
 }
 
+/// Overlap over R* at which a specimen begins to yield under an indenter that does not.
+double onset_on(const LawMaterial& specimen, const LawMaterial& indenter)
+{
+  const double both = 1 / (1 / specimen.e_star() + 1 / indenter.e_star());
+  return onset_overlap(both, specimen.yield_stress, specimen.poisson_ratio);
+}
+
 /// What the data span, as the beginning of a sentence.
 std::string span_of(const CalibrationProblem& problem, const Calibration& c)
 {
@@ -36,8 +43,8 @@ std::string span_of(const CalibrationProblem& problem, const Calibration& c)
       if (is_impact(m.kind))
         slowest = std::min(slowest, share * d.x / slow), fastest = std::max(fastest, share * d.x / slow);
       if (is_curve(m.kind))
-        deepest = std::max(deepest, (d.x - c.machines[k].offset) / m.radius /
-                                        (m.kind == MeasurementKind::platens ? 2 : 1) / onset);
+        deepest = std::max(deepest, (d.x - c.machines[k].offset) / m.effective_radius() / m.contacts() /
+                                        (m.indenter ? onset_on(c.material, *m.indenter) : onset));
     }
   }
   std::string span;
@@ -89,7 +96,8 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& c)
 {
   constexpr double unlikely = 0.01;
   std::string text = span_of(problem, c) + ": ";
-  for (std::size_t k = 0; k < c.parameters.size(); ++k) text += (k > 0 ? "; " : "") + clause(c.parameters[k]);
+  for (std::size_t k = 0; k < c.parameters.size(); ++k)
+    text.append(k > 0 ? "; " : "").append(clause(c.parameters[k]));
   text += "." + correlation_clause(c);
   for (const Misfit& m : c.misfits) text += fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
   if (c.misfits.empty())

@@ -31,6 +31,8 @@ const char* name_of_kind(MeasurementKind kind)
       return "platens";
     case MeasurementKind::flat:
       return "flat";
+    case MeasurementKind::indenter:
+      return "sphere";
     case MeasurementKind::contact_radius:
       return "contact radius";
     case MeasurementKind::residual_displacement:

@@ -109,6 +109,61 @@ TEST(Calibrate, ACurveGivesBackModulusYieldStressAndOffset)
   EXPECT_THAT(c.misfits, IsEmpty());
 }
 
+/// Of an elastic indenter, by the composed law itself.
+Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, double indenter_radius,
+                        double depth)
+{
+  Measurement measured;
+  measured.kind = MeasurementKind::indenter;
+  measured.source = "indenter.csv";
+  measured.radius = radius;
+  measured.indenter_radius = indenter_radius;
+  measured.indenter = indenter;
+  measured.fit_offset = true;
+  const TwoBodyLaw law = compose_law(atlas(), PairBody(atlas(), m), PairBody(atlas(), indenter),
+                                     indenter_radius / radius, {.depth = 0.2, .fastest = 0});
+  const PairMapping mapping = PairMapping::deformable_partner(m.e_star(), indenter.e_star());
+  const double r_eff = measured.effective_radius(), deepest = depth * r_eff;
+  const auto add = [&](double d, double delta_max) {
+    const double force = law.law.curve.evaluate(mapping, r_eff, d, delta_max).force;
+    measured.data.push_back({d, force, 0.01 * force, static_cast<int>(measured.data.size()) + 2});
+  };
+  for (int k = 1; k <= 40; ++k) add(deepest * k / 40, 0);
+  for (int k = 39; k > 20; --k) add(deepest * k / 40, deepest);
+  for (Datum& d : measured.data) d.sd += 1e-3 * measured.data[39].y;
+  return measured;
+}
+
+TEST(Calibrate, AnIndenterGivesBackTheYieldStress)
+{
+  const LawMaterial hard{"hard", 4000, 60e9, 0.2};
+  CalibrationRequest r = request_for(indentation(stone(), hard, 0.5e-3, 0.05), {Parameter::yield_stress});
+  const CalibrationProblem problem(atlas(), r);
+  const Calibration c = calibrate(problem);
+  // the data are from the law itself; the fit goes by laws interpolated between materials 10 % apart: 0.2 %
+  // of F
+  EXPECT_NEAR(c.material.yield_stress / 60e6, 1, 5e-3);
+  EXPECT_TRUE(c.parameters[0].identifiable());
+  EXPECT_THAT(c.misfits, IsEmpty());
+}
+
+TEST(Calibrate, ARigidIndenterIsTheLimitOfStiffOnes)
+{
+  const LawMaterial stiff{"stiff", 4000, 5e12, 0.2};
+  Measurement m = indentation(stone(), stiff, 0.5e-3, 0.05);
+  m.indenter.reset();
+  const CalibrationProblem problem(atlas(), request_for(m, {Parameter::yield_stress}));
+  // an indenter 500 times as stiff yields 0.2 % of the overlap, which is 0.3 % of the force
+  EXPECT_NEAR(calibrate(problem).material.yield_stress / 60e6, 1, 0.01);
+}
+
+TEST(Calibrate, AnIndenterThatGoesTooDeepIsRefused)
+{
+  Measurement m = indentation(stone(), {"hard", 4000, 60e9, 0.2}, 0.5e-3, 0.05);
+  for (Datum& d : m.data) d.x *= 20;
+  EXPECT_THROW(CalibrationProblem(atlas(), request_for(m, {Parameter::yield_stress})), Error);
+}
+
 TEST(Calibrate, APriorNarrows)
 {
   CalibrationRequest plain =
