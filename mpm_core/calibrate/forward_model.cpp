@@ -157,11 +157,11 @@ Prediction predict_curve(const Measurement& m, const CurveModel& model, const Ma
   return p;
 }
 
-double hardness_of(const LawMaterial& m)
+double hardness_of(const CandidateMaterial& m)
 {
-  constexpr double representative_strain = 0.08;
+  constexpr double representative_strain = 0.08;  // of a pyramid
   const double tan_beta = std::tan((90 - 70.3) * M_PI / 180), nu = m.poisson_ratio;
-  const double flow = m.yield_stress + representative_strain * m.hardening_modulus;
+  const double flow = m.yield_stress * m.flow(representative_strain);
   const double cavity =
       2.0 / 3.0 * (1 + std::log((m.youngs_modulus / flow * tan_beta + 4 * (1 - 2 * nu)) / (6 * (1 - nu))));
   return flow * std::clamp(cavity, 1.0, 3.0);
@@ -178,7 +178,7 @@ std::size_t model_errors_of(MeasurementKind kind)
   return is_curve(kind) ? 4 : kind == MeasurementKind::restitution ? 3 : 1;
 }
 
-Prediction predict(const Measurement& m, const LawMaterial& material, const SphereLaws& laws,
+Prediction predict(const Measurement& m, const CandidateMaterial& material, const SphereLaws& laws,
                    const MachineState& machine)
 {
   Prediction p;

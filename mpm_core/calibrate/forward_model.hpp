@@ -29,7 +29,7 @@ struct Prediction
 
 /// Predicts a measurement of spheres of this material; an indenter's curve by its own law (IndenterModel) and
 /// predict_curve().
-Prediction predict(const Measurement& measurement, const LawMaterial& material, const SphereLaws& laws,
+Prediction predict(const Measurement& measurement, const CandidateMaterial& material, const SphereLaws& laws,
                    const MachineState& machine);
 
 /// A contact's slow law, the units that bring it to a measured curve, and its errors (sd).
@@ -51,7 +51,7 @@ std::size_t model_errors_of(MeasurementKind kind);
 
 /// Hardness over the flow stress: Johnson's expanding cavity for the cone that is as a Vickers pyramid (70.3
 /// degrees; Johnson 1985, eq. 6.36), 3 at most; the flow stress is that at a strain of 8 % (Tabor 1951).
-double hardness_of(const LawMaterial& material);
+double hardness_of(const CandidateMaterial& material);
 
 /// Force on a flat at which a sphere begins to yield (Johnson 1985, sect. 6.1).
 double onset_force(const LawMaterial& material, double radius);

@@ -49,6 +49,29 @@ double deepest_of(const Measurement& m)
   return std::min(Atlas::depth, widest * widest);
 }
 
+/// The parameters of the hardening law are fitted or given, no other law's are fitted.
+void check_hardening(const CalibrationRequest& r)
+{
+  const std::vector<Parameter> own = parameters_of(r.known.hardening);
+  const auto has = [](const std::vector<Parameter>& all, Parameter p) {
+    return std::find(all.begin(), all.end(), p) != all.end();
+  };
+  std::vector<std::string> known{name_of(Parameter::youngs_modulus), name_of(Parameter::yield_stress)};
+  for (const Parameter p : own) known.emplace_back(name_of(p));
+  for (const Parameter p : r.fit)
+    if (p != Parameter::youngs_modulus && p != Parameter::yield_stress && !has(own, p))
+      fail("calibrate", fmt::format("{} is no parameter of this hardening law", name_of(p)),
+           r.known.hardens_linearly() ? "linear" : r.known.hardening, list_of(known));
+  if (r.known.hardens_linearly()) return;
+  for (const Parameter p : own)
+    if (!has(r.fit, p) && !(value_of(r.known, p) > 0))
+      fail("calibrate", fmt::format("{} is neither to be fitted nor given", name_of(p)));
+  for (const Measurement& m : r.measurements)
+    if (m.wall || m.kind == MeasurementKind::indenter)
+      fail(m.source, "a wall that gives way or an indenter goes with linear hardening only",
+           r.known.hardening);
+}
+
 void check(const CalibrationRequest& r, const Atlas& atlas)
 {
   if (r.measurements.empty()) fail("calibrate", "no measurement was given");
@@ -57,6 +80,7 @@ void check(const CalibrationRequest& r, const Atlas& atlas)
   for (const Parameter p : {Parameter::youngs_modulus, Parameter::yield_stress})
     if (!fits(p) && !(value_of(r.known, p) > 0 && std::isfinite(value_of(r.known, p))))
       fail("calibrate", fmt::format("{} is neither to be fitted nor given", name_of(p)));
+  check_hardening(r);
   const std::vector<double> ratios = atlas.grid().poisson_ratios();
   if (!(r.known.poisson_ratio >= ratios.front() && r.known.poisson_ratio <= ratios.back()))
     fail("calibrate", "Poisson's ratio is outside the atlas", fmt::format("{:g}", r.known.poisson_ratio),
@@ -165,9 +189,9 @@ double CalibrationProblem::coordinate(std::size_t unknown, double value) const
   }
 }
 
-LawMaterial CalibrationProblem::material(const Coordinates& q) const
+CandidateMaterial CalibrationProblem::material(const Coordinates& q) const
 {
-  LawMaterial m = request_.known;
+  CandidateMaterial m = request_.known;
   for (std::size_t k = 0; k < request_.fit.size(); ++k)
     set_value(m, request_.fit[k], value(k, q[static_cast<Eigen::Index>(k)]));
   return m;
@@ -185,13 +209,13 @@ MachineState CalibrationProblem::machine(const Coordinates& q, std::size_t measu
   return state;
 }
 
-const SphereLaws& CalibrationProblem::laws_of(const LawMaterial& m) const
+const SphereLaws& CalibrationProblem::laws_of(const CandidateMaterial& m) const
 {
-  return laws_.of(MaterialRatios::of(m));
+  return laws_.of(m);
 }
 
-Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k, const LawMaterial& material,
-                                          const SphereLaws& laws) const
+Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k,
+                                          const CandidateMaterial& material, const SphereLaws& laws) const
 {
   const Measurement& m = request_.measurements[k];
   if (indenters_[k]) {
@@ -223,7 +247,7 @@ Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k, c
 
 CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q, std::size_t k) const
 {
-  const LawMaterial m = material(q);
+  const CandidateMaterial m = material(q);
   const Prediction p = prediction(q, k, m, laws_of(m));
   Comparison c{p.values, p.values, {}};
   std::size_t error = 0;
@@ -238,7 +262,7 @@ CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q,
   return c;
 }
 
-void CalibrationProblem::add_walls(std::vector<double>& all, const LawMaterial& m, double beyond) const
+void CalibrationProblem::add_walls(std::vector<double>& all, const CandidateMaterial& m, double beyond) const
 {
   const AtlasGrid& grid = laws_.atlas().grid();
   const MaterialRatios r = MaterialRatios::of(m);
@@ -247,6 +271,14 @@ void CalibrationProblem::add_walls(std::vector<double>& all, const LawMaterial& 
   wall(std::log(grid.stiffnesses.front() / r.stiffness));
   wall(std::log(std::max(r.hardening, 1e-12) / grid.hardenings.back()));
   wall(beyond);
+  if (!m.hardens_linearly())
+    for (const Parameter p : parameters_of(m.hardening)) {
+      const Range range = p == Parameter::saturation_stress
+                              ? Range{m.yield_stress, std::numeric_limits<double>::infinity()}
+                              : range_of(p);
+      if (range.low > 0) wall(std::log(range.low / value_of(m, p)));
+      wall(std::log(value_of(m, p) / range.high));
+    }
   for (const ParameterRange& b : request_.bounds) {
     const double here = std::max(value_of(m, b.parameter), 1e-300);
     wall(std::log(here / b.range.high));
@@ -256,7 +288,7 @@ void CalibrationProblem::add_walls(std::vector<double>& all, const LawMaterial& 
 
 Eigen::VectorXd CalibrationProblem::all_residuals(const Coordinates& q, bool robust, bool walls) const
 {
-  const LawMaterial m = material(q);
+  const CandidateMaterial m = material(q);
   const SphereLaws& laws = laws_of(m);
   std::vector<double> all;
   double beyond = 0;
@@ -306,7 +338,7 @@ double CalibrationProblem::chi_squared(const Coordinates& q) const
 Range CalibrationProblem::allowed(std::size_t unknown, const Coordinates& q) const
 {
   const Unknown& u = unknowns_[unknown];
-  const LawMaterial m = material(q);
+  const CandidateMaterial m = material(q);
   const AtlasGrid& grid = laws_.atlas().grid();
   const double softening = 1 - m.poisson_ratio * m.poisson_ratio;
   const auto fits = [&](Parameter p) {
@@ -315,6 +347,15 @@ Range CalibrationProblem::allowed(std::size_t unknown, const Coordinates& q) con
   Range r{0, std::numeric_limits<double>::infinity()};
   switch (u.kind) {
     case Unknown::Kind::modulus:
+      if (u.parameter == Parameter::saturation_stress || u.parameter == Parameter::strength) {
+        r = {u.parameter == Parameter::strength ? 1e-4 * m.yield_stress : m.yield_stress,
+             1e4 * m.yield_stress};
+        break;
+      }
+      if (u.parameter != Parameter::youngs_modulus && u.parameter != Parameter::yield_stress) {
+        r = range_of(u.parameter);
+        break;
+      }
       // the other modulus follows where it is free: four decades either way stand for no end
       if (u.parameter == Parameter::youngs_modulus)
         r = fits(Parameter::yield_stress) ? Range{1e-4 * m.youngs_modulus, 1e4 * m.youngs_modulus}
@@ -363,6 +404,39 @@ std::vector<double> CalibrationProblem::likely_yield_stresses() const
   return likely;
 }
 
+namespace {
+
+/// Where a search for the parameters of hardening begins: `gain` is what hardening adds over Y, at about
+/// `strain`.
+struct HardeningStart
+{
+  double gain, strain;
+  double value(Parameter p, double yield) const
+  {
+    switch (p) {
+      case Parameter::saturation_stress:
+        return (1 + gain) * yield;
+      case Parameter::strength:
+        return 2 * gain * yield;
+      case Parameter::exponent:
+        return 0.25;
+      case Parameter::strain:
+      case Parameter::offset:
+        return strain;
+      default:
+        return 0.5 * std::expm1(0.5) * yield;  // on the lattice
+    }
+  }
+};
+
+std::vector<HardeningStart> hardening_starts(const CalibrationRequest& r)
+{
+  if (r.known.hardens_linearly()) return {{0.3, 0.1}};
+  return {{0.2, 0.03}, {0.6, 0.03}, {0.6, 0.15}, {1.5, 0.15}};
+}
+
+}  // namespace
+
 std::vector<Coordinates> CalibrationProblem::starts() const
 {
   constexpr std::size_t most = 3;
@@ -382,18 +456,22 @@ std::vector<Coordinates> CalibrationProblem::starts() const
   std::vector<Candidate> candidates;
   const bool composes =
       std::any_of(indenters_.begin(), indenters_.end(), [](const auto& i) { return i != nullptr; });
-  const auto consider = [&](double modulus, double yield) {
-    if (composes) modulus = MaterialLattice::nearest(modulus), yield = MaterialLattice::nearest(yield);
+  const auto consider_one = [&](double modulus, double yield, const HardeningStart& hardening) {
     Coordinates q = Coordinates::Zero(static_cast<Eigen::Index>(count()));
     for (std::size_t k = 0; k < request_.fit.size(); ++k) {
       const Parameter p = request_.fit[k];
       const double v = p == Parameter::youngs_modulus ? modulus
                        : p == Parameter::yield_stress ? yield
-                                                      : 0.5 * std::expm1(0.5) * yield;  // on the lattice
+                                                      : hardening.value(p, yield);
       q[static_cast<Eigen::Index>(k)] = coordinate(k, v);
     }
     const double cost = residuals(q).squaredNorm();
     if (std::isfinite(cost)) candidates.push_back({cost, q, modulus / (softening * yield)});
+  };
+  const auto consider = [&](double modulus, double yield) {
+    if (composes) modulus = MaterialLattice::nearest(modulus), yield = MaterialLattice::nearest(yield);
+    for (const HardeningStart& hardening : hardening_starts(request_))
+      consider_one(modulus, yield, hardening);
   };
   const std::vector<double> likely = likely_yield_stresses();
   for (const double k : stiffnesses) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <list>
 #include <memory>
+#include <optional>
 
+#include "calibrate/parameters.hpp"
 #include "characterise/atlas.hpp"
 #include "characterise/impacts_by_speed.hpp"
 #include "law/contact_curve.hpp"
@@ -21,6 +24,9 @@ class SphereLaws
  public:
   /// Ratios outside the atlas count as those at its edge.
   SphereLaws(const Atlas& atlas, const MaterialRatios& material);
+  /// Of a material that does not harden linearly: flow_shape(), and what its own law departs from it by, if
+  /// that is known.
+  SphereLaws(const Atlas& atlas, const CandidateMaterial& material, const LawShape* departure);
   SphereLaws(const SphereLaws&) = delete;  // impacts_ points into it
   SphereLaws& operator=(const SphereLaws&) = delete;
 
@@ -41,6 +47,7 @@ class SphereLaws
   const ContactCurve& midplane() const;               ///< of one held at its equator; made when asked for
 
  private:
+  SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawShape shape, ContactCurve free);
   double contact_time(double x, double residual, double restitution) const;
   ContactCurve make_midplane() const;
 
@@ -59,13 +66,17 @@ class SphereLawsCache
 {
  public:
   explicit SphereLawsCache(const Atlas& atlas) : atlas_(atlas) {}
-  const SphereLaws& of(const MaterialRatios& material);
+  const SphereLaws& of(const CandidateMaterial& material);
   const Atlas& atlas() const { return atlas_; }
+  /// Of all laws whose hardening is not linear, from now on.
+  void set_departure(LawShape departure);
 
  private:
+  using Key = std::array<double, all_parameters.size()>;  // stresses over the yield stress
   static constexpr std::size_t most = 32;
   const Atlas& atlas_;
-  std::list<SphereLaws> kept_;
+  std::optional<LawShape> departure_;
+  std::list<std::pair<Key, SphereLaws>> kept_;
 };
 
 }  // namespace granulaw

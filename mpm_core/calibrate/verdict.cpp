@@ -11,7 +11,7 @@ namespace granulaw {
 namespace {
 
 /// "41 MPa", "3.2 GPa".
-std::string pressure(double pa)
+std::string stress(double pa)
 {
   struct Unit
   {
@@ -59,18 +59,21 @@ std::string span_of(const CalibrationProblem& problem, const Calibration& c)
 
 std::string clause(const FittedParameter& p)
 {
+  const auto number = [&](double value) {
+    return is_stress(p.parameter) ? stress(value) : fmt::format("{:.3g}", value);
+  };
   const Interval& i = p.profile.within95;
   switch (p.told) {
     case Told::value:
-      return fmt::format("{} is {} (95 %: {} to {})", name_of(p.parameter), pressure(p.profile.value),
-                         pressure(i.low), pressure(i.high));
+      return fmt::format("{} is {} (95 %: {} to {})", name_of(p.parameter), number(p.profile.value),
+                         number(i.low), number(i.high));
     case Told::from_below:
-      return fmt::format("they bound {} from below (95 %: over {})", name_of(p.parameter), pressure(i.low));
+      return fmt::format("they bound {} from below (95 %: over {})", name_of(p.parameter), number(i.low));
     case Told::from_above:
       return i.low_told ? fmt::format("{} lies between {} and {} (95 %), which cannot be told closer",
-                                      name_of(p.parameter), pressure(i.low), pressure(i.high))
+                                      name_of(p.parameter), number(i.low), number(i.high))
                         : fmt::format("they bound {} from above (95 %: below {})", name_of(p.parameter),
-                                      pressure(i.high));
+                                      number(i.high));
     default:
       return fmt::format("they say nothing of {}: it cannot be told", name_of(p.parameter));
   }

@@ -69,8 +69,18 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
       "with a\n"
       "further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)");
   if (needs_data) files->required();
-  command.add_option("--fit", fit, "what is wanted: youngs_modulus, yield_stress, hardening_modulus")
+  command
+      .add_option("--fit", fit,
+                  "what is wanted: youngs_modulus, yield_stress, hardening_modulus; with --hardening voce: "
+                  "saturation_stress, strain; swift: exponent, offset; johnson-cook: strength, exponent")
       ->required();
+  command
+      .add_option(
+          "--hardening", hardening,
+          "law: linear (from the atlas), voce, swift or johnson-cook (some laws are made by the solver)")
+      ->check(CLI::IsMember(fitted_hardening_laws()))
+      ->capture_default_str();
+  command.add_option("--known", known, "NAME=VALUE, SI, of a parameter of --hardening that is not fitted");
   command
       .add_option("--radius", radius,
                   "of the sphere, m; inf: a thick flat specimen under a spherical indenter")
@@ -154,6 +164,27 @@ void CalibrationOptions::set_wall(CalibrationRequest& r) const
   }
 }
 
+/// The hardening law, and its parameters that are known.
+void CalibrationOptions::set_hardening(CalibrationRequest& r) const
+{
+  if (hardening == "linear") {
+    if (!known.empty()) fail("--known", "belongs to --hardening voce, swift or johnson-cook");
+    return;
+  }
+  if (hardening_modulus) fail("--hardening-modulus", "belongs to linear hardening", hardening);
+  r.known.hardening = hardening;
+  for (const std::string& word : known) {
+    const auto equals = word.find('=');
+    const double value = equals == std::string::npos ? -1 : number_or_nan(word.substr(equals + 1));
+    require(value > 0, "--known", fmt::format("'{}'", cut(word)), "NAME=VALUE, SI, over 0");
+    const Parameter p = parameter_named(without_blanks(word.substr(0, equals)), "--known");
+    const std::vector<Parameter> own = parameters_of(hardening);
+    if (std::find(own.begin(), own.end(), p) == own.end())
+      fail("--known", fmt::format("'{}' is no parameter of the hardening law '{}'", name_of(p), hardening));
+    set_value(r.known, p, value);
+  }
+}
+
 void CalibrationOptions::set_indenter(Measurement& m) const
 {
   if (!indenter_radius) fail("--indenter-radius", "is missing: --kind sphere needs it");
@@ -195,6 +226,7 @@ CalibrationRequest CalibrationOptions::request() const
   r.known.hardening_modulus = hardening_modulus.value_or(0);
   require(r.known.hardening_modulus >= 0, "--hardening-modulus",
           fmt::format("{:g}", r.known.hardening_modulus), "0 or more");
+  set_hardening(r);
   for (const Parameter p : r.fit)
     if (value_of(r.known, p) > 0)
       fail("--fit", fmt::format("'{}' is given, too: either it is known or it is fitted", name_of(p)));

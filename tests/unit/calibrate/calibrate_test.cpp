@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "calibrate/calibrate_by_runs.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/noise.hpp"
 
@@ -164,6 +165,64 @@ TEST(Calibrate, AnIndenterThatGoesTooDeepIsRefused)
   EXPECT_THROW(CalibrationProblem(atlas(), request_for(m, {Parameter::yield_stress})), Error);
 }
 
+CandidateMaterial voce()
+{
+  CandidateMaterial m = stone();
+  m.hardening = "voce";
+  m.saturation_stress = 120e6, m.strain = 0.1;
+  return m;
+}
+
+CalibrationRequest request_for_voce(const Measurement& m)
+{
+  CalibrationRequest r;
+  r.known = voce();
+  r.fit = {Parameter::yield_stress, Parameter::saturation_stress};
+  for (const Parameter p : r.fit) set_value(r.known, p, 0);
+  r.measurements = {m};
+  return r;
+}
+
+TEST(Calibrate, DropsGiveBackYieldAndSaturationStress)
+{
+  SphereLawsCache laws(atlas());
+  Measurement m = drops(stone(), {0.2, 0.5, 1, 2, 4, 8, 16, 20});
+  const std::vector<double> e = predict(m, voce(), laws.of(voce()), {}).values;
+  for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.003 * e[k];
+  const CalibrationProblem problem(atlas(), request_for_voce(m));
+  const Calibration c = calibrate(problem);
+  // the same model made the data: what the minimiser leaves where two parameters go nearly together
+  EXPECT_NEAR(c.material.yield_stress / 60e6, 1, 0.01);
+  EXPECT_NEAR(c.material.saturation_stress / 120e6, 1, 0.02);
+  EXPECT_EQ(c.material.hardening, "voce");
+}
+
+TEST(Calibrate, AParameterOfAnotherHardeningLawIsRefused)
+{
+  CalibrationRequest r = request_for_voce(drops(stone(), {0.5, 1, 2}));
+  r.fit.push_back(Parameter::hardening_modulus);
+  EXPECT_THROW(CalibrationProblem(atlas(), r), Error);
+  r = request_for_voce(drops(stone(), {0.5, 1, 2}));
+  r.known.strain = 0;
+  EXPECT_THROW(CalibrationProblem(atlas(), r), Error);
+}
+
+TEST(CalibrateSlow, ALawByRunsCorrectsTheFit)
+{
+  SphereLawsCache laws(atlas());
+  Measurement m = drops(stone(), {0.2, 0.5, 1, 2, 4, 8});
+  const std::vector<double> e = predict(m, voce(), laws.of(voce()), {}).values;
+  for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.01 * e[k];
+  CalibrationProblem problem(atlas(), request_for_voce(m));
+  ThreadFarm farm(2);
+  const CalibrationByRuns fit = calibrate_by_runs(problem, farm);
+  EXPECT_GE(fit.laws, 1);
+  EXPECT_LT(fit.miss_force, close_enough);
+  EXPECT_LT(fit.miss_restitution, close_enough);
+  // e of the coarse model that made the data is within 0.01: 5 % of Y at these speeds
+  EXPECT_NEAR(fit.calibration.material.yield_stress / 60e6, 1, 0.1);
+}
+
 TEST(Calibrate, APriorNarrows)
 {
   CalibrationRequest plain =
@@ -210,10 +269,10 @@ TEST(Calibrate, TheEnsembleScattersAsTheIntervalSays)
   const CalibrationProblem problem(
       atlas(), request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::yield_stress}));
   const Calibration c = calibrate(problem);
-  const std::vector<LawMaterial> drawn = draw_materials(problem, c, 100, 7);
+  const std::vector<CandidateMaterial> drawn = draw_materials(problem, c, 100, 7);
   ASSERT_EQ(drawn.size(), 100u);
   int within = 0;
-  for (const LawMaterial& m : drawn)
+  for (const CandidateMaterial& m : drawn)
     within += m.yield_stress >= c.parameters[0].profile.within95.low &&
               m.yield_stress <= c.parameters[0].profile.within95.high;
   EXPECT_GE(within, 85);  // 95 expected, sd 2.2 of independent draws
