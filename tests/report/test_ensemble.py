@@ -129,6 +129,11 @@ class Driver(unittest.TestCase):
         self.assertEqual(broken, [])
         self.assertEqual(ensemble_part.feels(e, "rate"), ("yield_stress", 1.0))
 
+    def test_numbers_of_the_material_are_at_hand(self):
+        done = self.run_tool("--", "sh", "-c", "test {yield_stress} = {member}000000.0 && echo {other} {law} > {folder}/x")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.root / "out" / "3" / "x").read_text().startswith("{other} /"))
+
     def test_a_member_that_fails_is_named(self):
         done = self.run_tool("--", "sh", "-c", "test {member} != 4 && touch {folder}/x {law}")
         self.assertEqual(done.returncode, 1)
