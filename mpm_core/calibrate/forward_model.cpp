@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/scales.hpp"
+#include "calibrate/atlas_errors.hpp"
 
 namespace granulaw {
 
@@ -12,36 +13,6 @@ namespace {
 // One standard deviation of what the model of each kind is off, relative; those without a source here:
 // forward_model.hpp.
 constexpr double radius_error = 0.01, time_error = 0.01, hardness_error = 0.07, onset_error = 0.02;
-
-/// The atlas's rms errors, by its checks.
-struct AtlasErrors
-{
-  double restitution = 0, force = 0, midplane_force = 0, midplane_residual = 0;
-};
-
-template <class Checks, class Of>
-double rms(const Checks& checks, const Of& of)
-{
-  if (checks.empty()) return 0;
-  double sum = 0;
-  for (const auto& c : checks) sum += of(c) * of(c);
-  return std::sqrt(sum / static_cast<double>(checks.size()));
-}
-
-const AtlasErrors& errors_of(const Atlas& atlas)
-{
-  static thread_local const Atlas* known = nullptr;
-  static thread_local AtlasErrors errors;
-  if (known != &atlas) {
-    known = &atlas;
-    errors.restitution = rms(atlas.checks(), [](const AtlasCheck& c) { return c.error_restitution; });
-    errors.force = rms(atlas.checks(), [](const AtlasCheck& c) { return c.error_force; });
-    const auto& presses = atlas.midplane().checks();
-    errors.midplane_force = rms(presses, [](const MidplaneCheck& c) { return c.error_force; });
-    errors.midplane_residual = rms(presses, [](const MidplaneCheck& c) { return c.error_residual; });
-  }
-  return errors;
-}
 
 /// Legendre's polynomials of degree 0 to 2 at t from -1 to 1, each of mean square 1.
 void legendre(double t, double out[3])

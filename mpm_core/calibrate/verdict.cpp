@@ -93,6 +93,22 @@ std::string correlation_clause(const Calibration& c)
   return said;
 }
 
+/// Hardening and rate both make fast impacts bounce more.
+std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
+{
+  const auto& all = problem.request().measurements;
+  const bool fast_only =
+      std::all_of(all.begin(), all.end(), [](const Measurement& m) { return is_impact(m.kind); });
+  const bool hardens = std::any_of(c.parameters.begin(), c.parameters.end(), [](const FittedParameter& p) {
+    return p.parameter != Parameter::youngs_modulus && p.parameter != Parameter::yield_stress &&
+           p.told != Told::nothing && p.profile.value > 0;
+  });
+  return fast_only && hardens
+             ? " Impacts alone do not tell hardening from a yield stress that grows with the strain "
+               "rate: a slow curve beside them would."
+             : "";
+}
+
 }  // namespace
 
 std::string verdict(const CalibrationProblem& problem, const Calibration& c)
@@ -102,7 +118,10 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& c)
   for (std::size_t k = 0; k < c.parameters.size(); ++k)
     text.append(k > 0 ? "; " : "").append(clause(c.parameters[k]));
   text += "." + correlation_clause(c);
-  for (const Misfit& m : c.misfits) text += fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
+  for (const Misfit& m : c.misfits)
+    text += m.source.empty() ? fmt::format(" Misfit: {}.", m.sentence)
+                             : fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
+  text += rate_clause(problem, c);
   if (c.misfits.empty())
     text += c.degrees_of_freedom > 0 && c.p_value < unlikely
                 ? fmt::format(

@@ -108,7 +108,7 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   out["verdict"] = verdict(problem, c);
   out["misfits"] = nlohmann::ordered_json::array();
   for (const Misfit& m : c.misfits)
-    out["misfits"].push_back({{"source", m.source}, {"sentence", m.sentence}});
+    out["misfits"].push_back({{"source", m.source}, {"name", m.name}, {"sentence", m.sentence}});
   out["material"] = {{"density", c.material.density},
                      {"youngs_modulus", c.material.youngs_modulus},
                      {"poisson_ratio", c.material.poisson_ratio},

@@ -258,6 +258,33 @@ TEST(Calibrate, AForceThatFallsIsNamed)
   EXPECT_THAT(all, HasSubstr("fracture"));
 }
 
+TEST(Calibrate, ARateIsNamedWhereImpactsAreStrongerThanASlowCurve)
+{
+  LawMaterial fast = stone();
+  fast.yield_stress *= 1.25;
+  CalibrationRequest r = request_for(drops(fast, {0.2, 0.4, 0.8, 1.6, 3.2, 6}),
+                                     {Parameter::yield_stress, Parameter::hardening_modulus});
+  r.measurements.push_back(curve(stone(), 0.05, 0));
+  const auto names = [](const CalibrationRequest& request) {
+    std::string all;
+    for (const Misfit& m : calibrate(CalibrationProblem(atlas(), request)).misfits) all += m.name + ";";
+    return all;
+  };
+  EXPECT_THAT(names(r), HasSubstr("rate;"));
+  r.measurements[0] = drops(stone(), {0.2, 0.4, 0.8, 1.6, 3.2, 6});
+  EXPECT_THAT(names(r), IsEmpty());
+}
+
+TEST(Calibrate, ImpactsAloneDoNotTellHardeningFromARate)
+{
+  LawMaterial hard = stone();
+  hard.hardening_modulus = 600e6;
+  const CalibrationProblem problem(atlas(),
+                                   request_for(drops(hard, {0.2, 0.5, 1, 2, 4, 8}),
+                                               {Parameter::yield_stress, Parameter::hardening_modulus}));
+  EXPECT_THAT(verdict(problem, calibrate(problem)), HasSubstr("do not tell hardening from"));
+}
+
 TEST(Calibrate, OneValueIsTooFew)
 {
   EXPECT_THROW(CalibrationProblem(atlas(), request_for(drops(stone(), {1.0}), {Parameter::yield_stress})),
