@@ -207,14 +207,14 @@ class Inspection
     double largest = 0;
     for (std::size_t k = 0; k <= reversal; ++k) largest = std::max(largest, comparison_.predicted[k]);
     Differences d;
-    std::vector<double> signs;
+    std::vector<double> left;  // what neither the fit nor the model's own error explains, relative
     for (std::size_t k = 0; k <= reversal; ++k) {
       const double predicted = comparison_.predicted[k];
       if (predicted < 0.1 * largest) continue;
       d.place.push_back(1 + 2 * std::log(predicted / largest) / std::log(10.0));
       d.relative.push_back(measurement_.data[k].y / predicted - 1);
       d.sd.push_back(comparison_.sd[k] / predicted);
-      signs.push_back(measurement_.data[k].y - comparison_.with_errors[k]);
+      left.push_back((measurement_.data[k].y - comparison_.with_errors[k]) / predicted);
     }
     if (d.place.size() < 8) return;
     const Factors f = legendre_factors(d);
@@ -231,20 +231,20 @@ class Inspection
           fmt::format("the force grows {} on loading than the fit's ({:+.1f} % from a tenth to all of it): "
                       "another flow law, or a particle that is no sphere",
                       f.value[1] > 0 ? "faster" : "slower", 200 * f.value[1]));
-    else if (missing_runs(signs) > clear && rms_relative(d) > 2 * model)
+    else if (missing_runs(left) > clear && rms(left) > model)
       say("long runs",
           fmt::format(
               "the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
               "systematic, though of no known pattern",
-              100 * rms_relative(d)));
+              100 * rms(left)));
     look_at_unloading();
   }
 
-  static double rms_relative(const Differences& d)
+  static double rms(const std::vector<double>& values)
   {
     double sum = 0;
-    for (const double r : d.relative) sum += r * r;
-    return std::sqrt(sum / static_cast<double>(d.relative.size()));
+    for (const double v : values) sum += v * v;
+    return std::sqrt(sum / static_cast<double>(values.size()));
   }
 
   void look_at_unloading()

@@ -101,7 +101,7 @@ std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
       std::all_of(all.begin(), all.end(), [](const Measurement& m) { return is_impact(m.kind); });
   const bool hardens = std::any_of(c.parameters.begin(), c.parameters.end(), [](const FittedParameter& p) {
     return p.parameter != Parameter::youngs_modulus && p.parameter != Parameter::yield_stress &&
-           p.told != Told::nothing && p.profile.value > 0;
+           p.profile.within68.low > 0;
   });
   return fast_only && hardens
              ? " Impacts alone do not tell hardening from a yield stress that grows with the strain "

@@ -258,7 +258,7 @@ TEST(Calibrate, AForceThatFallsIsNamed)
   EXPECT_THAT(all, HasSubstr("fracture"));
 }
 
-TEST(Calibrate, ARateIsNamedWhereImpactsAreStrongerThanASlowCurve)
+TEST(Calibrate, ARateIsNamedWhereImpactsAreStrongerThanAPress)
 {
   LawMaterial fast = stone();
   fast.yield_stress *= 1.25;
