@@ -83,6 +83,7 @@ class Inspection
   Inspection(const CalibrationProblem& problem, const Minimum& minimum, std::size_t index)
       : problem_(problem),
         minimum_(minimum),
+        index_(index),
         measurement_(problem.request().measurements[index]),
         comparison_(problem.compare(minimum.q, index))
   {
@@ -112,6 +113,7 @@ class Inspection
   {
     if (measurement_.kind == MeasurementKind::restitution) look_at_restitution();
     if (is_curve(measurement_.kind)) look_at_curve();
+    if (is_curve(measurement_.kind) && found_.empty()) look_at_model_errors();
     look_for_outliers();
     return std::move(found_);
   }
@@ -247,6 +249,44 @@ class Inspection
     return std::sqrt(sum / static_cast<double>(values.size()));
   }
 
+  /// What the fit takes for the model's own error is more than the atlas certifies.
+  void look_at_model_errors()
+  {
+    struct Pattern
+    {
+      const char *name, *above, *below;
+    };
+    static constexpr Pattern patterns[] = {
+        {"curve level", "the force lies above the fit", "the force lies below the fit"},
+        {"curve grows", "the force grows faster on loading than the fit",
+         "the force grows slower on loading than the fit"},
+        {"curve bends", "the force bends up more on loading than the fit",
+         "the force bends down more on loading than the fit"},
+        {"unloading", "the dent is deeper than the fit's", "the dent is shallower than the fit's"}};
+    const std::vector<double> taken = model_errors();
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < taken.size(); ++k)
+      if (std::abs(taken[k]) > std::abs(taken[most])) most = k;
+    if (taken.size() != std::size(patterns) || std::abs(taken[most]) < clear_by_stated) return;
+    const Pattern& p = patterns[most];
+    say(p.name,
+        fmt::format(
+            "{} by {:.2g} standard deviations of the model's own error: another flow law (hardening that is "
+            "not fitted, a rate), or what is held fixed is wrong",
+            taken[most] > 0 ? p.above : p.below, std::abs(taken[most])));
+  }
+  /// Over their standard deviations.
+  std::vector<double> model_errors() const
+  {
+    std::vector<double> taken;
+    for (std::size_t u = 0; u < problem_.unknowns().size(); ++u) {
+      const CalibrationProblem::Unknown& unknown = problem_.unknowns()[u];
+      if (unknown.kind == CalibrationProblem::Unknown::Kind::model_error && unknown.measurement == index_)
+        taken.push_back(minimum_.q[static_cast<Eigen::Index>(u)]);
+    }
+    return taken;
+  }
+
   void look_at_unloading()
   {
     const std::size_t reversal = measurement_.reversal();
@@ -302,6 +342,7 @@ class Inspection
 
   const CalibrationProblem& problem_;
   const Minimum& minimum_;
+  std::size_t index_;
   const Measurement& measurement_;
   CalibrationProblem::Comparison comparison_;
   std::vector<Misfit> found_;

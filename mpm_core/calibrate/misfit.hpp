@@ -23,6 +23,7 @@ struct Misfit
 /// - A loading force that falls: fracture.
 /// - Values further off than four standard deviations while the others fit.
 /// - Impacts that show a stronger material than slow measurements, or a weaker one.
+/// - A curve that takes more of the model's own error than three of its standard deviations.
 /// - Runs of one sign longer than chance (Wald and Wolfowitz 1940).
 std::vector<Misfit> name_misfits(const CalibrationProblem& problem, const Minimum& minimum);
 

@@ -275,6 +275,16 @@ TEST(Calibrate, ARateIsNamedWhereImpactsAreStrongerThanAPress)
   EXPECT_THAT(names(r), IsEmpty());
 }
 
+TEST(Calibrate, HardeningThatIsNotFittedIsNamed)
+{
+  LawMaterial hard = stone();
+  hard.hardening_modulus = 400e6;
+  const CalibrationProblem problem(atlas(), request_for(curve(hard, 0.08, 0), {Parameter::yield_stress}));
+  const std::vector<Misfit> misfits = calibrate(problem).misfits;
+  ASSERT_FALSE(misfits.empty());
+  EXPECT_THAT(misfits[0].sentence, HasSubstr("hardening that is not fitted"));
+}
+
 TEST(Calibrate, ImpactsAloneDoNotTellHardeningFromARate)
 {
   LawMaterial hard = stone();
