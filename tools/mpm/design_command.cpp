@@ -33,7 +33,8 @@ void add_candidates(std::vector<DesignCandidate>& all, MeasurementKind kind, con
 }
 
 /// The material by which the design goes: the guess, else what the data say.
-CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequest& request, const Atlas& atlas)
+CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequest& request,
+                                   const Atlas& atlas)
 {
   if (r.guess.empty()) {
     if (request.measurements.empty())
