@@ -71,11 +71,13 @@ std::optional<Coordinates> profile_all(Calibration& c, const CalibrationProblem&
 
 }  // namespace
 
-Calibration calibrate(const CalibrationProblem& problem)
+namespace {
+
+Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
 {
   constexpr int most_rounds = 4;
   Calibration c;
-  c.minimum = best_fit(problem);
+  c.minimum = std::move(minimum);
   for (int round = 0; round < most_rounds; ++round) {
     judge(c, problem);
     const std::optional<Coordinates> better = profile_all(c, problem);
@@ -98,6 +100,18 @@ Calibration calibrate(const CalibrationProblem& problem)
   c.correlation = correlation_of(c.minimum, problem.request().fit.size());
   c.misfits = name_misfits(problem, c.minimum);
   return c;
+}
+
+}  // namespace
+
+Calibration calibrate(const CalibrationProblem& problem)
+{
+  return calibrate_at(problem, best_fit(problem));
+}
+
+Calibration calibrate(const CalibrationProblem& problem, const Coordinates& start)
+{
+  return calibrate_at(problem, polished(problem, start));
 }
 
 }  // namespace granulaw

@@ -26,7 +26,7 @@ struct FittedParameter
 /// What came out of the data.
 struct Calibration
 {
-  LawMaterial material;
+  CandidateMaterial material;
   std::vector<FittedParameter> parameters;
   Eigen::MatrixXd correlation;  ///< of the parameters, in their order
   double chi_squared = 0, p_value = 1;
@@ -40,6 +40,8 @@ struct Calibration
 
 /// Fits, profiles, looks for misfits.
 Calibration calibrate(const CalibrationProblem& problem);
+/// The same from a minimum that is known.
+Calibration calibrate(const CalibrationProblem& problem, const Coordinates& start);
 
 /// A parameter is told where its 95 % interval ends on both sides and is narrower than a factor of 1.5
 /// (hardening: of 1 + 2 H/Y); else bounded on the side where it ends.
@@ -50,7 +52,7 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& calibr
 
 /// Materials drawn from the posterior: a random walk (Metropolis) over the likelihood from the best fit,
 /// every draw independent of the one before as far as twenty steps make it so. The same seed gives the same.
-std::vector<LawMaterial> draw_materials(const CalibrationProblem& problem, const Calibration& calibration,
-                                        int count, std::uint32_t seed);
+std::vector<CandidateMaterial> draw_materials(const CalibrationProblem& problem,
+                                              const Calibration& calibration, int count, std::uint32_t seed);
 
 }  // namespace granulaw

@@ -27,9 +27,10 @@ Measurement curve_to(double displacement, double radius)
 }
 
 /// Fills in what this material would show.
-void fill(Measurement& m, const LawMaterial& material, const Atlas& atlas, double relative_sd)
+void fill(Measurement& m, const CandidateMaterial& material, const Atlas& atlas, double relative_sd)
 {
-  const SphereLaws laws(atlas, MaterialRatios::of(material));
+  SphereLawsCache cache(atlas);
+  const SphereLaws& laws = cache.of(material);
   const std::vector<double> values = predict(m, material, laws, {}).values;
   const double largest = *std::max_element(values.begin(), values.end());
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -40,7 +41,7 @@ void fill(Measurement& m, const LawMaterial& material, const Atlas& atlas, doubl
 
 }  // namespace
 
-Design::Design(const Atlas& atlas, CalibrationRequest request, const LawMaterial& assumed,
+Design::Design(const Atlas& atlas, CalibrationRequest request, const CandidateMaterial& assumed,
                std::vector<DesignCandidate> candidates, double radius, double relative_sd)
     : candidates_(std::move(candidates))
 {

@@ -24,7 +24,7 @@ class Design
  public:
   /// `request`: what there is, `fit` what is wanted; `assumed`: the material. `relative_sd`: of e, and of the
   /// force.
-  Design(const Atlas& atlas, CalibrationRequest request, const LawMaterial& assumed,
+  Design(const Atlas& atlas, CalibrationRequest request, const CandidateMaterial& assumed,
          std::vector<DesignCandidate> candidates, double radius, double relative_sd);
 
   const std::vector<DesignCandidate>& candidates() const { return candidates_; }

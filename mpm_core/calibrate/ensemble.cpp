@@ -18,8 +18,8 @@ Eigen::MatrixXd steps_of(const Minimum& minimum)
 
 }  // namespace
 
-std::vector<LawMaterial> draw_materials(const CalibrationProblem& problem, const Calibration& c, int count,
-                                        std::uint32_t seed)
+std::vector<CandidateMaterial> draw_materials(const CalibrationProblem& problem, const Calibration& c,
+                                              int count, std::uint32_t seed)
 {
   constexpr int burn_in = 200, between = 20;
   std::mt19937 random(seed);
@@ -30,7 +30,7 @@ std::vector<LawMaterial> draw_materials(const CalibrationProblem& problem, const
   const Eigen::MatrixXd step = 2.4 / std::sqrt(unknowns) * std::sqrt(c.interval_scale) * steps_of(c.minimum);
   Coordinates q = c.minimum.q;
   double cost = c.minimum.cost;
-  std::vector<LawMaterial> drawn;
+  std::vector<CandidateMaterial> drawn;
   for (int k = 1; static_cast<int>(drawn.size()) < count; ++k) {
     Coordinates next(q.size());
     for (Eigen::Index i = 0; i < q.size(); ++i) next[i] = normal(random);

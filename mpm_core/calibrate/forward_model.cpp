@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/scales.hpp"
+#include "calibrate/atlas_errors.hpp"
 
 namespace granulaw {
 
@@ -13,36 +14,6 @@ namespace {
 // forward_model.hpp.
 constexpr double radius_error = 0.01, residual_error = 0.005, time_error = 0.01, hardness_error = 0.07,
                  onset_error = 0.02;
-
-/// The atlas's rms errors, by its checks.
-struct AtlasErrors
-{
-  double restitution = 0, force = 0, midplane_force = 0, recovery = 0;
-};
-
-template <class Checks, class Of>
-double rms(const Checks& checks, const Of& of)
-{
-  if (checks.empty()) return 0;
-  double sum = 0;
-  for (const auto& c : checks) sum += of(c) * of(c);
-  return std::sqrt(sum / static_cast<double>(checks.size()));
-}
-
-const AtlasErrors& errors_of(const Atlas& atlas)
-{
-  static thread_local const Atlas* known = nullptr;
-  static thread_local AtlasErrors errors;
-  if (known != &atlas) {
-    known = &atlas;
-    errors.restitution = rms(atlas.checks(), [](const AtlasCheck& c) { return c.error_restitution; });
-    errors.force = rms(atlas.checks(), [](const AtlasCheck& c) { return c.error_force; });
-    const auto& presses = atlas.midplane().checks();
-    errors.midplane_force = rms(presses, [](const MidplaneCheck& c) { return c.error_force; });
-    errors.recovery = rms(presses, [](const MidplaneCheck& c) { return c.error_recovery; });
-  }
-  return errors;
-}
 
 /// Legendre's polynomials of degree 0 to 2 at t from -1 to 1, each of mean square 1.
 void legendre(double t, double out[3])
@@ -110,29 +81,37 @@ double unloading_force(const ContactCurve::Reversal& top, double share)
   return share > 0 ? top.force * top.shape.at(std::min(share, 1.0)).value : 0.0;
 }
 
-void predict_curve(const Measurement& m, const LawMaterial& material, const SphereLaws& laws,
-                   const MachineState& machine, Prediction& p)
+CurveModel curve_model(const Measurement& m, const LawMaterial& material, const SphereLaws& laws)
 {
-  const bool platens = m.kind == MeasurementKind::platens;
-  const ContactCurve& curve = platens ? laws.midplane() : laws.free();
   const double unit = 4.0 / 3.0 * material.e_star() * m.radius * m.radius;
+  const AtlasErrors& atlas = errors_of(*laws.atlas());
+  if (m.kind == MeasurementKind::platens)
+    return {&laws.midplane(), m.radius, unit, atlas.midplane_force, atlas.recovery};
+  return {&laws.free(), m.radius, unit, atlas.force, atlas.recovery};
+}
+
+}  // namespace
+
+Prediction predict_curve(const Measurement& m, const CurveModel& model, const MachineState& machine)
+{
+  Prediction p;
+  p.errors.resize(model_errors_of(m.kind));
+  const ContactCurve& curve = *model.curve;
   const auto overlap = [&](const Datum& d) {
-    const double both = d.x - machine.offset - machine.compliance * d.y;
-    return (platens ? 0.5 * both : both) / m.radius;
+    return (d.x - machine.offset - machine.compliance * d.y) / m.contacts() / model.length;
   };
   const std::size_t reversal = m.reversal();
   double x_m = 0;
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
   const ContactCurve::Reversal top = curve.reversal(std::max(x_m, 1e-12));
-  const AtlasErrors& atlas = errors_of(*laws.atlas());
   // Half of the variance in the smooth error, half from value to value. Unloading is off by a share of what
   // it recovers, however far the press went.
-  const double half = std::sqrt(0.5), factor_error = half * (platens ? atlas.midplane_force : atlas.force),
-               recovery_error = half * atlas.recovery, recovery = x_m - top.residual;
+  const double half = std::sqrt(0.5), factor_error = half * model.force_error,
+               recovery_error = half * model.recovery_error, recovery = x_m - top.residual;
   constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured
   for (std::size_t k = 0; k < m.data.size(); ++k) {
     const double x = overlap(m.data[k]);
-    const bool unloads = k > reversal && x_m > laws.onset();
+    const bool unloads = k > reversal && x_m > curve.onset();
     double force = 0, stretched = 0, steep = 0, place = 1;
     if (unloads) {
       const double share = (x - top.residual) / recovery;
@@ -144,23 +123,22 @@ void predict_curve(const Measurement& m, const LawMaterial& material, const Sphe
       force = curve.loading(x).force;
       place = 1 + 2 * std::log(x / x_m) / span;
     }
-    p.values.push_back(unit * force);
+    p.values.push_back(model.force * force);
     double shape[3];
     legendre(place, shape);
     for (int j = 0; j < 3; ++j)
-      p.errors[j].push_back(unit * force * factor_error / std::sqrt(3.0) * shape[j]);
-    p.errors[3].push_back(unit * stretched);
-    p.scatter.push_back(unit * std::hypot(force * factor_error, steep));
+      p.errors[j].push_back(model.force * force * factor_error / std::sqrt(3.0) * shape[j]);
+    p.errors[3].push_back(model.force * stretched);
+    p.scatter.push_back(model.force * std::hypot(force * factor_error, steep));
   }
+  return p;
 }
 
-}  // namespace
-
-double hardness_of(const LawMaterial& m)
+double hardness_of(const CandidateMaterial& m)
 {
-  constexpr double representative_strain = 0.08;
+  constexpr double representative_strain = 0.08;  // of a pyramid
   const double tan_beta = std::tan((90 - 70.3) * M_PI / 180), nu = m.poisson_ratio;
-  const double flow = m.yield_stress + representative_strain * m.hardening_modulus;
+  const double flow = m.yield_stress * m.flow(representative_strain);
   const double cavity =
       2.0 / 3.0 * (1 + std::log((m.youngs_modulus / flow * tan_beta + 4 * (1 - 2 * nu)) / (6 * (1 - nu))));
   return flow * std::clamp(cavity, 1.0, 3.0);
@@ -177,7 +155,7 @@ std::size_t model_errors_of(MeasurementKind kind)
   return is_curve(kind) ? 4 : kind == MeasurementKind::restitution ? 3 : 1;
 }
 
-Prediction predict(const Measurement& m, const LawMaterial& material, const SphereLaws& laws,
+Prediction predict(const Measurement& m, const CandidateMaterial& material, const SphereLaws& laws,
                    const MachineState& machine)
 {
   Prediction p;
@@ -186,10 +164,7 @@ Prediction predict(const Measurement& m, const LawMaterial& material, const Sphe
     predict_impacts(m, material, laws, p);
     return p;
   }
-  if (is_curve(m.kind)) {
-    predict_curve(m, material, laws, machine, p);
-    return p;
-  }
+  if (is_curve(m.kind)) return predict_curve(m, curve_model(m, material, laws), machine);
   const bool hardness = m.kind == MeasurementKind::hardness;
   const double value = hardness ? hardness_of(material) : onset_force(material, m.radius);
   p.values.assign(m.data.size(), value);

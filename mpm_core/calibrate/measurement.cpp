@@ -6,7 +6,8 @@ namespace granulaw {
 
 bool is_curve(MeasurementKind kind)
 {
-  return kind == MeasurementKind::platens || kind == MeasurementKind::flat;
+  return kind == MeasurementKind::platens || kind == MeasurementKind::flat ||
+         kind == MeasurementKind::indenter;
 }
 
 bool is_impact(MeasurementKind kind)
@@ -20,6 +21,11 @@ std::size_t Measurement::reversal() const
   const auto deepest =
       std::max_element(data.begin(), data.end(), [](const Datum& a, const Datum& b) { return a.x < b.x; });
   return static_cast<std::size_t>(deepest - data.begin());
+}
+
+double Measurement::effective_radius() const
+{
+  return kind == MeasurementKind::indenter ? 1 / (1 / radius + 1 / indenter_radius) : radius;
 }
 
 }  // namespace granulaw

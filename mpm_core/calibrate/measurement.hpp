@@ -13,6 +13,7 @@ enum class MeasurementKind {
   restitution,  ///< e of a sphere that hits a wall, or its like, against the impact speed
   platens,      ///< force on a sphere between two platens against the displacement of one towards the other
   flat,         ///< force of one contact with a flat against its overlap
+  indenter,     ///< force of a spherical indenter against its displacement towards the specimen's middle
   contact_radius,         ///< m, of the flattened area, against the impact speed
   residual_displacement,  ///< m, residual overlap after an impact, against its speed
   contact_time,           ///< s, against the impact speed
@@ -44,7 +45,9 @@ struct Measurement
   MeasurementKind kind = MeasurementKind::restitution;
   std::string source;  ///< leads messages: the file's path
   std::vector<Datum> data;
-  double radius = 0;  ///< m, of the sphere
+  double radius = 0;           ///< m, of the sphere; infinity: a thick flat specimen, which an indenter meets
+  double indenter_radius = 0;  ///< m; of the kind indenter
+  std::optional<LawMaterial> indenter;  ///< its material; none: rigid
   ImpactPartner partner = ImpactPartner::rigid_wall;
   std::optional<LawMaterial> wall;  ///< restitution: a thick wall of this material in place of the rigid one
   bool fit_offset = false;          ///< curves: the displacement of first touch is unknown
@@ -52,6 +55,10 @@ struct Measurement
 
   /// Curves: index of the datum of largest displacement; what follows is unloading.
   std::size_t reversal() const;
+  /// Curves: contacts that share the displacement.
+  double contacts() const { return kind == MeasurementKind::platens ? 2 : 1; }
+  /// Curves: R* of a contact.
+  double effective_radius() const;
 };
 
 }  // namespace granulaw

@@ -159,7 +159,7 @@ void check_all(const Measurement& m)
 
 }  // namespace
 
-Measurement parse_measurement(const std::string& text, const std::string& source, bool flat)
+Measurement parse_measurement(const std::string& text, const std::string& source, MeasurementKind curves)
 {
   Measurement m;
   m.source = source;
@@ -176,7 +176,7 @@ Measurement parse_measurement(const std::string& text, const std::string& source
     if (!header) {
       columns = read_header(words, where);
       header = columns.header;
-      m.kind = header->kind == MeasurementKind::platens && flat ? MeasurementKind::flat : header->kind;
+      m.kind = is_curve(header->kind) ? curves : header->kind;
       continue;
     }
     if (words.size() != columns.count())
@@ -197,7 +197,7 @@ Measurement parse_measurement(const std::string& text, const std::string& source
   return m;
 }
 
-Measurement read_measurement(const std::string& path, bool flat)
+Measurement read_measurement(const std::string& path, MeasurementKind curves)
 {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) fail(path, "no such file");
@@ -205,7 +205,7 @@ Measurement read_measurement(const std::string& path, bool flat)
   if (!std::filesystem::is_regular_file(path, ignored) || !file) fail(path, "cannot be read as a file");
   std::stringstream text;
   text << file.rdbuf();
-  return parse_measurement(text.str(), path, flat);
+  return parse_measurement(text.str(), path, curves);
 }
 
 }  // namespace granulaw

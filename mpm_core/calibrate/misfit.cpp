@@ -4,12 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "calibrate/atlas_errors.hpp"
+#include "characterise/composed_law.hpp"
 
 namespace granulaw {
 
 namespace {
 
-constexpr double clear = 4;  // standard deviations
+constexpr double rigid_partner = 1e4;    // E* of a rigid partner over the specimen's
+constexpr double by_runs_error = 0.003;  // of a law by runs
+constexpr double clear = 4;              // standard deviations
 /// A pattern counts from so many standard deviations on: of those stated; of the scatter about the pattern,
 /// where that is less: of eight values it is itself known to a third, and Student's t has 0.4 % beyond.
 constexpr double clear_by_stated = 3, clear_by_scatter = 5;
@@ -77,23 +83,73 @@ class Inspection
   Inspection(const CalibrationProblem& problem, const Minimum& minimum, std::size_t index)
       : problem_(problem),
         minimum_(minimum),
+        index_(index),
         measurement_(problem.request().measurements[index]),
         comparison_(problem.compare(minimum.q, index))
   {
   }
+  /// Standard deviations by which the values as a whole lie above the fit; those of e at which nothing
+  /// yields, and what unloads, tell nothing of the strength.
+  double above() const
+  {
+    double sum = 0, weights = 0;
+    const bool curve = is_curve(measurement_.kind);
+    const std::size_t count = curve ? measurement_.reversal() + 1 : measurement_.data.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const double predicted = comparison_.predicted[k];
+      if (!(predicted > 0) || (!curve && predicted > 0.9995)) continue;
+      const double weight = std::pow(predicted / comparison_.sd[k], 2);
+      sum += weight * (measurement_.data[k].y / predicted - 1), weights += weight;
+    }
+    return weights > 0 ? sum / weights / std::hypot(1 / std::sqrt(weights), model_error()) : 0;
+  }
+  bool is_fast() const { return measurement_.kind == MeasurementKind::restitution; }
+  bool is_slow() const
+  {
+    return !is_impact(measurement_.kind) && measurement_.kind != MeasurementKind::onset_force;
+  }
+
   std::vector<Misfit> misfits()
   {
     if (measurement_.kind == MeasurementKind::restitution) look_at_restitution();
     if (is_curve(measurement_.kind)) look_at_curve();
+    if (is_curve(measurement_.kind) && found_.empty()) look_at_model_errors();
     look_for_outliers();
     return std::move(found_);
   }
 
  private:
-  void say(const std::string& sentence) { found_.push_back({measurement_.source, sentence}); }
+  void say(const char* name, const std::string& sentence)
+  {
+    found_.push_back({measurement_.source, name, sentence});
+  }
   double residual(std::size_t k) const
   {
     return (measurement_.data[k].y - comparison_.with_errors[k]) / comparison_.sd[k];
+  }
+
+  /// Sd of each of the three factors that the model's own error may have: the atlas's, as its file certifies;
+  /// of e, absolute, or of the force, relative.
+  double model_error() const
+  {
+    const AtlasErrors& atlas = errors_of(problem_.laws().atlas());
+    const double error = measurement_.kind == MeasurementKind::restitution ? atlas.restitution
+                         : measurement_.kind == MeasurementKind::platens   ? atlas.midplane_force
+                                                                           : atlas.force;
+    const bool by_runs = !problem_.request().known.hardens_linearly();
+    return std::hypot(error, by_runs ? by_runs_error : 0.0, composed_error_of()) / std::sqrt(3.0);
+  }
+  /// Of an indenter's law, or of a wall that gives way.
+  double composed_error_of() const
+  {
+    constexpr double stated = 2;  // standard deviations
+    const std::optional<LawMaterial>& partner =
+        measurement_.kind == MeasurementKind::indenter ? measurement_.indenter : measurement_.wall;
+    const bool composed = measurement_.kind == MeasurementKind::indenter || measurement_.wall;
+    if (!composed) return 0;
+    const double ratio = partner ? partner->e_star() / problem_.material(minimum_.q).e_star() : rigid_partner;
+    const ComposedError error = composed_error(ratio);
+    return (measurement_.kind == MeasurementKind::indenter ? error.force : error.restitution) / stated;
   }
 
   void look_at_restitution()
@@ -117,28 +173,30 @@ class Inspection
       least = std::min(least, predicted);
     }
     if (!elastic.empty())
-      say(fmt::format(
-          "e is below 1 at speeds that do not yield ({}): adhesion, waves in the wall or roughness "
-          "take energy, not plasticity",
-          elastic));
+      say("elastic loss",
+          fmt::format(
+              "e is below 1 at speeds that do not yield ({}): adhesion, waves in the wall or roughness "
+              "take energy, not plasticity",
+              elastic));
     if (d.place.size() < 4 || range < 0.3) return;
     const Factors f = legendre_factors(d);
-    // e of the atlas is 0.0012 (rms) off, in each of three factors
-    const double model = 0.0012 / std::sqrt(3.0) / least;
+    const double model = model_error() / least;
     const bool trend = f.seen(1, model);
     if (trend && f.value[1] < 0)
-      say(fmt::format(
-          "e falls faster with the speed than any J2 material's ({:+.1f} % against the fit from the "
-          "slowest to the fastest): damage, adhesion or waves; or what is held fixed is wrong",
-          200 * f.value[1]));
+      say("falls faster",
+          fmt::format(
+              "e falls faster with the speed than any J2 material's ({:+.1f} % against the fit from the "
+              "slowest to the fastest): damage, adhesion or waves; or what is held fixed is wrong",
+              200 * f.value[1]));
     if (trend && f.value[1] > 0)
-      say(fmt::format(
-          "e falls slower with the speed than the fit ({:+.1f} % from the slowest to the fastest): the "
-          "material is stronger at fast impacts, as one that depends on the rate, or hardens more "
-          "than the fit may",
-          200 * f.value[1]));
+      say("falls slower",
+          fmt::format(
+              "e falls slower with the speed than the fit ({:+.1f} % from the slowest to the fastest): the "
+              "material is stronger at fast impacts, as one that depends on the rate, or hardens more "
+              "than the fit may",
+              200 * f.value[1]));
     if (!trend && f.seen(2, model))
-      say(
+      say("bends",
           fmt::format("e bends {} against the logarithm of the speed than the fit: another flow law, or two "
                       "mechanisms of loss",
                       f.value[2] > 0 ? "less" : "more"));
@@ -151,42 +209,82 @@ class Inspection
     double largest = 0;
     for (std::size_t k = 0; k <= reversal; ++k) largest = std::max(largest, comparison_.predicted[k]);
     Differences d;
-    std::vector<double> signs;
+    std::vector<double> left;  // what neither the fit nor the model's own error explains, relative
     for (std::size_t k = 0; k <= reversal; ++k) {
       const double predicted = comparison_.predicted[k];
       if (predicted < 0.1 * largest) continue;
       d.place.push_back(1 + 2 * std::log(predicted / largest) / std::log(10.0));
       d.relative.push_back(measurement_.data[k].y / predicted - 1);
       d.sd.push_back(comparison_.sd[k] / predicted);
-      signs.push_back(measurement_.data[k].y - comparison_.with_errors[k]);
+      left.push_back((measurement_.data[k].y - comparison_.with_errors[k]) / predicted);
     }
     if (d.place.size() < 8) return;
     const Factors f = legendre_factors(d);
-    constexpr double model = 0.003;  // the atlas's own error, of each factor
+    const double model = model_error();
     if (f.seen(2, model))
-      say(fmt::format("the force bends {} on loading than the fit ({:.1f} %): {}",
+      say("curve bends",
+          fmt::format("the force bends {} on loading than the fit ({:.1f} %): {}",
                       f.value[2] > 0 ? "up more" : "down more", 150 * std::abs(f.value[2]),
                       f.value[2] > 0
                           ? "hardening that grows with strain, or a solid ground beneath the particle"
                           : "hardening that saturates (Voce, Swift) where the fit's is linear, or damage"));
     else if (f.seen(1, model))
-      say(
+      say("curve grows",
           fmt::format("the force grows {} on loading than the fit's ({:+.1f} % from a tenth to all of it): "
                       "another flow law, or a particle that is no sphere",
                       f.value[1] > 0 ? "faster" : "slower", 200 * f.value[1]));
-    else if (missing_runs(signs) > clear && rms_relative(d) > 2 * model)
-      say(fmt::format(
-          "the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
-          "systematic, though of no known pattern",
-          100 * rms_relative(d)));
+    else if (missing_runs(left) > clear && rms(left) > model)
+      say("long runs",
+          fmt::format(
+              "the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
+              "systematic, though of no known pattern",
+              100 * rms(left)));
     look_at_unloading();
   }
 
-  static double rms_relative(const Differences& d)
+  static double rms(const std::vector<double>& values)
   {
     double sum = 0;
-    for (const double r : d.relative) sum += r * r;
-    return std::sqrt(sum / static_cast<double>(d.relative.size()));
+    for (const double v : values) sum += v * v;
+    return std::sqrt(sum / static_cast<double>(values.size()));
+  }
+
+  /// What the fit takes for the model's own error is more than the atlas certifies.
+  void look_at_model_errors()
+  {
+    struct Pattern
+    {
+      const char *name, *above, *below;
+    };
+    static constexpr Pattern patterns[] = {
+        {"curve level", "the force lies above the fit", "the force lies below the fit"},
+        {"curve grows", "the force grows faster on loading than the fit",
+         "the force grows slower on loading than the fit"},
+        {"curve bends", "the force bends up more on loading than the fit",
+         "the force bends down more on loading than the fit"},
+        {"unloading", "the dent is deeper than the fit's", "the dent is shallower than the fit's"}};
+    const std::vector<double> taken = model_errors();
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < taken.size(); ++k)
+      if (std::abs(taken[k]) > std::abs(taken[most])) most = k;
+    if (taken.size() != std::size(patterns) || std::abs(taken[most]) < clear_by_stated) return;
+    const Pattern& p = patterns[most];
+    say(p.name,
+        fmt::format(
+            "{} by {:.2g} standard deviations of the model's own error: another flow law (hardening that is "
+            "not fitted, a rate), or what is held fixed is wrong",
+            taken[most] > 0 ? p.above : p.below, std::abs(taken[most])));
+  }
+  /// Over their standard deviations.
+  std::vector<double> model_errors() const
+  {
+    std::vector<double> taken;
+    for (std::size_t u = 0; u < problem_.unknowns().size(); ++u) {
+      const CalibrationProblem::Unknown& unknown = problem_.unknowns()[u];
+      if (unknown.kind == CalibrationProblem::Unknown::Kind::model_error && unknown.measurement == index_)
+        taken.push_back(minimum_.q[static_cast<Eigen::Index>(u)]);
+    }
+    return taken;
   }
 
   void look_at_unloading()
@@ -200,7 +298,8 @@ class Inspection
     if (weights < 4 || !(largest > 0)) return;
     const double mean = difference / weights / largest;
     if (std::abs(mean) > 0.03)
-      say(fmt::format("unloading lies {} the fit by {:.1f} % of the largest force: {}",
+      say("unloading",
+          fmt::format("unloading lies {} the fit by {:.1f} % of the largest force: {}",
                       mean > 0 ? "above" : "below", 100 * std::abs(mean),
                       mean > 0 ? "a machine that gives way, or E is lower than the loading says"
                                : "time-dependent recovery, or E is higher than the loading says"));
@@ -216,7 +315,7 @@ class Inspection
       if (d.y > peak) peak = d.y, peak_at = d.x, sd = d.sd;
       const bool stays = k + 1 > reversal || measurement_.data[k + 1].y < peak - clear * sd;
       if (peak - d.y > least_drop * peak + clear * std::hypot(sd, d.sd) && stays) {
-        say(
+        say("fracture",
             fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, as by "
                         "fracture; rows beyond tell nothing of a contact",
                         100 * (peak - d.y) / peak, peak_at));
@@ -238,11 +337,12 @@ class Inspection
       lines += fmt::format("{} ({:+.1f} sd)", measurement_.data[k].line, residual(k));
       if (lines.size() > 100) break;
     }
-    say(fmt::format("single values lie far off the fit, in line {}: outliers count less", lines));
+    say("outliers", fmt::format("single values lie far off the fit, in line {}: outliers count less", lines));
   }
 
   const CalibrationProblem& problem_;
   const Minimum& minimum_;
+  std::size_t index_;
   const Measurement& measurement_;
   CalibrationProblem::Comparison comparison_;
   std::vector<Misfit> found_;
@@ -250,11 +350,43 @@ class Inspection
 
 }  // namespace
 
+namespace {
+
+/// Impacts that show another strength than slow measurements of the same material.
+std::optional<Misfit> contradiction(const std::vector<Inspection>& inspections)
+{
+  constexpr double agrees = 1;  // the side that has more values pulls the fit to itself
+  double fast = 0, slow = 0;
+  bool has_fast = false, has_slow = false;
+  for (const Inspection& i : inspections) {
+    if (!i.is_fast() && !i.is_slow()) continue;
+    (i.is_fast() ? has_fast : has_slow) = true;
+    double& side = i.is_fast() ? fast : slow;
+    if (const double above = i.above(); std::abs(above) > std::abs(side)) side = above;
+  }
+  const bool same_side = (fast > 0) == (slow > 0) && std::min(std::abs(fast), std::abs(slow)) > agrees;
+  if (!has_fast || !has_slow || same_side || std::max(std::abs(fast), std::abs(slow)) < clear_by_stated)
+    return std::nullopt;
+  return Misfit{
+      "", fast > slow ? "rate" : "slow is stronger",
+      fast > slow
+          ? "impacts show a stronger material than slow measurements do: its yield stress grows with the "
+            "strain rate, which this fit does not know"
+          : "slow measurements show a stronger material than impacts do: losses that are not plastic, or "
+            "specimens that differ"};
+}
+
+}  // namespace
+
 std::vector<Misfit> name_misfits(const CalibrationProblem& problem, const Minimum& minimum)
 {
   std::vector<Misfit> all;
+  std::vector<Inspection> inspections;
   for (std::size_t k = 0; k < problem.request().measurements.size(); ++k)
-    for (Misfit& m : Inspection(problem, minimum, k).misfits()) all.push_back(std::move(m));
+    inspections.emplace_back(problem, minimum, k);
+  if (const std::optional<Misfit> found = contradiction(inspections)) all.push_back(*found);
+  for (Inspection& inspection : inspections)
+    for (Misfit& m : inspection.misfits()) all.push_back(std::move(m));
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "calibrate/atlas_errors.hpp"
 
 namespace granulaw {
 
@@ -38,6 +39,40 @@ double tempered(double r)
              : std::copysign(std::sqrt(2 * robust_from * size - robust_from * robust_from), r);
 }
 
+/// Overlap of one contact over R* at which its law ends.
+double deepest_of(const Measurement& m)
+{
+  if (m.kind == MeasurementKind::platens) return MidplaneShapes::depth;
+  if (m.kind == MeasurementKind::flat) return Atlas::depth;
+  // where an elastic contact would be as wide as composed laws go, 0.9 of the smaller radius; others are
+  // wider
+  const double widest = 0.9 * std::min(m.radius, m.indenter_radius) / m.effective_radius();
+  return std::min(Atlas::depth, widest * widest);
+}
+
+/// The parameters of the hardening law are fitted or given, no other law's are fitted.
+void check_hardening(const CalibrationRequest& r)
+{
+  const std::vector<Parameter> own = parameters_of(r.known.hardening);
+  const auto has = [](const std::vector<Parameter>& all, Parameter p) {
+    return std::find(all.begin(), all.end(), p) != all.end();
+  };
+  std::vector<std::string> known{name_of(Parameter::youngs_modulus), name_of(Parameter::yield_stress)};
+  for (const Parameter p : own) known.emplace_back(name_of(p));
+  for (const Parameter p : r.fit)
+    if (p != Parameter::youngs_modulus && p != Parameter::yield_stress && !has(own, p))
+      fail("calibrate", fmt::format("{} is no parameter of this hardening law", name_of(p)),
+           r.known.hardens_linearly() ? "linear" : r.known.hardening, list_of(known));
+  if (r.known.hardens_linearly()) return;
+  for (const Parameter p : own)
+    if (!has(r.fit, p) && !(value_of(r.known, p) > 0))
+      fail("calibrate", fmt::format("{} is neither to be fitted nor given", name_of(p)));
+  for (const Measurement& m : r.measurements)
+    if (m.wall || m.kind == MeasurementKind::indenter)
+      fail(m.source, "a wall that gives way or an indenter goes with linear hardening only",
+           r.known.hardening);
+}
+
 void check(const CalibrationRequest& r, const Atlas& atlas)
 {
   if (r.measurements.empty()) fail("calibrate", "no measurement was given");
@@ -46,18 +81,20 @@ void check(const CalibrationRequest& r, const Atlas& atlas)
   for (const Parameter p : {Parameter::youngs_modulus, Parameter::yield_stress})
     if (!fits(p) && !(value_of(r.known, p) > 0 && std::isfinite(value_of(r.known, p))))
       fail("calibrate", fmt::format("{} is neither to be fitted nor given", name_of(p)));
+  check_hardening(r);
   const std::vector<double> ratios = atlas.grid().poisson_ratios();
   if (!(r.known.poisson_ratio >= ratios.front() && r.known.poisson_ratio <= ratios.back()))
     fail("calibrate", "Poisson's ratio is outside the atlas", fmt::format("{:g}", r.known.poisson_ratio),
          fmt::format("{:g} to {:g}", ratios.front(), ratios.back()));
   for (const Measurement& m : r.measurements) {
+    if (m.kind != MeasurementKind::indenter && !std::isfinite(m.radius))
+      fail(m.source, "only an indenter meets a specimen without a radius: give --radius");
     if (!is_curve(m.kind)) continue;
-    const bool platens = m.kind == MeasurementKind::platens;
-    const double deepest = largest_displacement(m) / m.radius / (platens ? 2 : 1),
-                 end = platens ? MidplaneShapes::depth : Atlas::depth;
+    const double deepest = largest_displacement(m) / m.effective_radius() / m.contacts(), end = deepest_of(m);
     // some of it may be offset
     if (deepest > 1.3 * end)
-      fail(m.source, "the curve goes deeper than the atlas knows: overlap of one contact, in radii",
+      fail(m.source,
+           "the curve goes deeper than the atlas knows: overlap of one contact over its effective radius",
            fmt::format("{:.3g}", deepest), fmt::format("up to {:g}", end));
   }
 }
@@ -99,8 +136,12 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
   for (std::size_t k = 0; k < request_.measurements.size(); ++k)
     for (std::size_t j = 0; j < model_errors_of(request_.measurements[k].kind); ++j)
       unknowns_.push_back({Unknown::Kind::model_error, {}, k, 1, 0.5, "model error"});
-  for (const Measurement& m : request_.measurements)
+  for (const Measurement& m : request_.measurements) {
+    indenters_.push_back(m.kind == MeasurementKind::indenter
+                             ? std::make_unique<IndenterModel>(atlas, m, request_.fit)
+                             : nullptr);
     walls_.push_back(m.wall ? std::make_unique<WallModel>(atlas, m, request_.fit) : nullptr);
+  }
   // the hardening's reference is a yield stress: the one given, else of the middle of what is likely
   for (Unknown& u : unknowns_)
     if (u.kind == Unknown::Kind::hardening) {
@@ -149,9 +190,9 @@ double CalibrationProblem::coordinate(std::size_t unknown, double value) const
   }
 }
 
-LawMaterial CalibrationProblem::material(const Coordinates& q) const
+CandidateMaterial CalibrationProblem::material(const Coordinates& q) const
 {
-  LawMaterial m = request_.known;
+  CandidateMaterial m = request_.known;
   for (std::size_t k = 0; k < request_.fit.size(); ++k)
     set_value(m, request_.fit[k], value(k, q[static_cast<Eigen::Index>(k)]));
   return m;
@@ -169,15 +210,23 @@ MachineState CalibrationProblem::machine(const Coordinates& q, std::size_t measu
   return state;
 }
 
-const SphereLaws& CalibrationProblem::laws_of(const LawMaterial& m) const
+const SphereLaws& CalibrationProblem::laws_of(const CandidateMaterial& m) const
 {
-  return laws_.of(MaterialRatios::of(m));
+  return laws_.of(m);
 }
 
-Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k, const LawMaterial& material,
-                                          const SphereLaws& laws) const
+Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k,
+                                          const CandidateMaterial& material, const SphereLaws& laws) const
 {
   const Measurement& m = request_.measurements[k];
+  if (indenters_[k]) {
+    const IndenterModel::Law& law = indenters_[k]->law(material);
+    Prediction p = predict_curve(
+        m, {&law.curve, law.length, law.force, law.force_error, errors_of(laws_.atlas()).recovery},
+        machine(q, k));
+    p.beyond = std::log(largest_displacement(m) / (law.length * law.curve.x_end()));
+    return p;
+  }
   Prediction p = predict(m, material, laws, machine(q, k));
   if (walls_[k]) {
     const std::vector<double> change = walls_[k]->change(material);
@@ -200,7 +249,7 @@ Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k, c
 
 CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q, std::size_t k) const
 {
-  const LawMaterial m = material(q);
+  const CandidateMaterial m = material(q);
   const Prediction p = prediction(q, k, m, laws_of(m));
   Comparison c{p.values, p.values, {}};
   std::size_t error = 0;
@@ -215,7 +264,7 @@ CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q,
   return c;
 }
 
-void CalibrationProblem::add_walls(std::vector<double>& all, const LawMaterial& m, double beyond) const
+void CalibrationProblem::add_walls(std::vector<double>& all, const CandidateMaterial& m, double beyond) const
 {
   const AtlasGrid& grid = laws_.atlas().grid();
   const MaterialRatios r = MaterialRatios::of(m);
@@ -224,6 +273,14 @@ void CalibrationProblem::add_walls(std::vector<double>& all, const LawMaterial& 
   wall(std::log(grid.stiffnesses.front() / r.stiffness));
   wall(std::log(std::max(r.hardening, 1e-12) / grid.hardenings.back()));
   wall(beyond);
+  if (!m.hardens_linearly())
+    for (const Parameter p : parameters_of(m.hardening)) {
+      const Range range = p == Parameter::saturation_stress
+                              ? Range{m.yield_stress, std::numeric_limits<double>::infinity()}
+                              : range_of(p);
+      if (range.low > 0) wall(std::log(range.low / value_of(m, p)));
+      wall(std::log(value_of(m, p) / range.high));
+    }
   for (const ParameterRange& b : request_.bounds) {
     const double here = std::max(value_of(m, b.parameter), 1e-300);
     wall(std::log(here / b.range.high));
@@ -233,7 +290,7 @@ void CalibrationProblem::add_walls(std::vector<double>& all, const LawMaterial& 
 
 Eigen::VectorXd CalibrationProblem::all_residuals(const Coordinates& q, bool robust, bool walls) const
 {
-  const LawMaterial m = material(q);
+  const CandidateMaterial m = material(q);
   const SphereLaws& laws = laws_of(m);
   std::vector<double> all;
   double beyond = 0;
@@ -283,7 +340,7 @@ double CalibrationProblem::chi_squared(const Coordinates& q) const
 Range CalibrationProblem::allowed(std::size_t unknown, const Coordinates& q) const
 {
   const Unknown& u = unknowns_[unknown];
-  const LawMaterial m = material(q);
+  const CandidateMaterial m = material(q);
   const AtlasGrid& grid = laws_.atlas().grid();
   const double softening = 1 - m.poisson_ratio * m.poisson_ratio;
   const auto fits = [&](Parameter p) {
@@ -292,6 +349,15 @@ Range CalibrationProblem::allowed(std::size_t unknown, const Coordinates& q) con
   Range r{0, std::numeric_limits<double>::infinity()};
   switch (u.kind) {
     case Unknown::Kind::modulus:
+      if (u.parameter == Parameter::saturation_stress || u.parameter == Parameter::strength) {
+        r = {u.parameter == Parameter::strength ? 1e-4 * m.yield_stress : m.yield_stress,
+             1e4 * m.yield_stress};
+        break;
+      }
+      if (u.parameter != Parameter::youngs_modulus && u.parameter != Parameter::yield_stress) {
+        r = range_of(u.parameter);
+        break;
+      }
       // the other modulus follows where it is free: four decades either way stand for no end
       if (u.parameter == Parameter::youngs_modulus)
         r = fits(Parameter::yield_stress) ? Range{1e-4 * m.youngs_modulus, 1e4 * m.youngs_modulus}
@@ -322,8 +388,8 @@ std::vector<double> CalibrationProblem::likely_yield_stresses() const
   for (const Measurement& m : request_.measurements) {
     if (is_curve(m.kind)) {
       // a mean pressure of 2.8 Y over 2 pi R delta
-      const double overlap = largest_displacement(m) / (m.kind == MeasurementKind::platens ? 2 : 1);
-      const double middle = largest_force(m) / (2 * M_PI * m.radius * overlap * 2.8);
+      const double overlap = largest_displacement(m) / m.contacts();
+      const double middle = largest_force(m) / (2 * M_PI * m.effective_radius() * overlap * 2.8);
       for (const double factor : {0.4, 0.7, 1.0, 1.5, 3.0, 10.0}) likely.push_back(factor * middle);
     } else if (m.kind == MeasurementKind::hardness) {
       for (const double ratio : {3.0, 2.5, 2.0, 1.5}) likely.push_back(m.data.front().y / ratio);
@@ -339,6 +405,39 @@ std::vector<double> CalibrationProblem::likely_yield_stresses() const
   std::sort(likely.begin(), likely.end());
   return likely;
 }
+
+namespace {
+
+/// Where a search for the parameters of hardening begins: `gain` is what hardening adds over Y, at about
+/// `strain`.
+struct HardeningStart
+{
+  double gain, strain;
+  double value(Parameter p, double yield) const
+  {
+    switch (p) {
+      case Parameter::saturation_stress:
+        return (1 + gain) * yield;
+      case Parameter::strength:
+        return 2 * gain * yield;
+      case Parameter::exponent:
+        return 0.25;
+      case Parameter::strain:
+      case Parameter::offset:
+        return strain;
+      default:
+        return 0.5 * std::expm1(0.5) * yield;  // on the lattice
+    }
+  }
+};
+
+std::vector<HardeningStart> hardening_starts(const CalibrationRequest& r)
+{
+  if (r.known.hardens_linearly()) return {{0.3, 0.1}};
+  return {{0.2, 0.03}, {0.6, 0.03}, {0.6, 0.15}, {1.5, 0.15}};
+}
+
+}  // namespace
 
 std::vector<Coordinates> CalibrationProblem::starts() const
 {
@@ -357,17 +456,24 @@ std::vector<Coordinates> CalibrationProblem::starts() const
     double stiffness;
   };
   std::vector<Candidate> candidates;
-  const auto consider = [&](double modulus, double yield) {
+  const bool composes =
+      std::any_of(indenters_.begin(), indenters_.end(), [](const auto& i) { return i != nullptr; });
+  const auto consider_one = [&](double modulus, double yield, const HardeningStart& hardening) {
     Coordinates q = Coordinates::Zero(static_cast<Eigen::Index>(count()));
     for (std::size_t k = 0; k < request_.fit.size(); ++k) {
       const Parameter p = request_.fit[k];
       const double v = p == Parameter::youngs_modulus ? modulus
                        : p == Parameter::yield_stress ? yield
-                                                      : 0.3 * yield;
+                                                      : hardening.value(p, yield);
       q[static_cast<Eigen::Index>(k)] = coordinate(k, v);
     }
     const double cost = residuals(q).squaredNorm();
     if (std::isfinite(cost)) candidates.push_back({cost, q, modulus / (softening * yield)});
+  };
+  const auto consider = [&](double modulus, double yield) {
+    if (composes) modulus = MaterialLattice::nearest(modulus), yield = MaterialLattice::nearest(yield);
+    for (const HardeningStart& hardening : hardening_starts(request_))
+      consider_one(modulus, yield, hardening);
   };
   const std::vector<double> likely = likely_yield_stresses();
   for (const double k : stiffnesses) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "calibrate/forward_model.hpp"
+#include "calibrate/indenter_model.hpp"
 #include "calibrate/parameters.hpp"
 #include "calibrate/wall_model.hpp"
 
@@ -14,7 +15,7 @@ namespace granulaw {
 struct CalibrationRequest
 {
   std::vector<Measurement> measurements;  ///< with all standard deviations
-  LawMaterial known;  ///< density and nu; of what is not fitted, its value; of what is, ignored
+  CandidateMaterial known;  ///< density and nu; of what is not fitted, its value; of what is, ignored
   std::vector<Parameter> fit;
   std::vector<ParameterRange> priors, bounds;
   std::optional<Range> hardness_ratio;  ///< prior of hardness over yield stress, in place of the model's
@@ -37,6 +38,8 @@ class CalibrationProblem
 
   const CalibrationRequest& request() const { return request_; }
   SphereLawsCache& laws() const { return laws_; }
+  /// What laws of other than linear hardening depart from flow_shape() by: of a law by runs.
+  void set_departure(LawShape departure) { laws_.set_departure(std::move(departure)); }
 
   /// A place of the unknowns.
   struct Unknown
@@ -56,7 +59,7 @@ class CalibrationProblem
   /// Index of a fitted parameter.
   std::size_t index_of(Parameter parameter) const;
 
-  LawMaterial material(const Coordinates& q) const;
+  CandidateMaterial material(const Coordinates& q) const;
   MachineState machine(const Coordinates& q, std::size_t measurement) const;
   double value(std::size_t unknown, double q) const;  ///< SI
   double coordinate(std::size_t unknown, double value) const;
@@ -78,16 +81,17 @@ class CalibrationProblem
   std::vector<Coordinates> starts() const;
 
  private:
-  Prediction prediction(const Coordinates& q, std::size_t measurement, const LawMaterial& material,
+  Prediction prediction(const Coordinates& q, std::size_t measurement, const CandidateMaterial& material,
                         const SphereLaws& laws) const;
-  const SphereLaws& laws_of(const LawMaterial& material) const;
+  const SphereLaws& laws_of(const CandidateMaterial& material) const;
   std::vector<double> likely_yield_stresses() const;
-  void add_walls(std::vector<double>& residuals, const LawMaterial& material, double beyond) const;
+  void add_walls(std::vector<double>& residuals, const CandidateMaterial& material, double beyond) const;
   Eigen::VectorXd all_residuals(const Coordinates& q, bool robust, bool walls) const;
 
   CalibrationRequest request_;
   mutable SphereLawsCache laws_;
-  std::vector<std::unique_ptr<WallModel>> walls_;  ///< by measurement; null: rigid
+  std::vector<std::unique_ptr<WallModel>> walls_;          ///< by measurement; null: rigid
+  std::vector<std::unique_ptr<IndenterModel>> indenters_;  ///< by measurement; null: it is of another kind
   std::vector<Unknown> unknowns_;
   std::size_t data_ = 0;
 };

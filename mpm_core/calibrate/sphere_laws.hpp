@@ -1,13 +1,20 @@
 #pragma once
 
+#include <array>
 #include <list>
 #include <memory>
+#include <optional>
 
+#include "calibrate/parameters.hpp"
 #include "characterise/atlas.hpp"
 #include "characterise/impacts_by_speed.hpp"
 #include "law/contact_curve.hpp"
 
 namespace granulaw {
+
+/// A shape's curve, as deep as it is a law, to `depth` at most: of a few interpolated ones the force falls or
+/// the unloading is none before the end; beyond, the curve goes on with its last stiffness.
+ContactCurve deepest_curve(const LawShape& shape, double onset, double shape_end, double depth);
 
 /// What the atlas says of one homogeneous sphere: lengths over R, forces over 4/3 E* R^2. Impacts come from
 /// the law shape itself, without the tables of a velocity axis, which `mpm table` makes of it: e is within
@@ -17,6 +24,9 @@ class SphereLaws
  public:
   /// Ratios outside the atlas count as those at its edge.
   SphereLaws(const Atlas& atlas, const MaterialRatios& material);
+  /// Of a material that does not harden linearly: flow_shape(), and what its own law departs from it by, if
+  /// that is known.
+  SphereLaws(const Atlas& atlas, const CandidateMaterial& material, const LawShape* departure);
   SphereLaws(const SphereLaws&) = delete;  // impacts_ points into it
   SphereLaws& operator=(const SphereLaws&) = delete;
 
@@ -37,6 +47,7 @@ class SphereLaws
   const ContactCurve& midplane() const;               ///< of one held at its equator; made when asked for
 
  private:
+  SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawShape shape, ContactCurve free);
   double contact_time(double x, double residual, double restitution) const;
   ContactCurve make_midplane() const;
 
@@ -55,13 +66,17 @@ class SphereLawsCache
 {
  public:
   explicit SphereLawsCache(const Atlas& atlas) : atlas_(atlas) {}
-  const SphereLaws& of(const MaterialRatios& material);
+  const SphereLaws& of(const CandidateMaterial& material);
   const Atlas& atlas() const { return atlas_; }
+  /// Of all laws whose hardening is not linear, from now on.
+  void set_departure(LawShape departure);
 
  private:
+  using Key = std::array<double, all_parameters.size()>;  // stresses over the yield stress
   static constexpr std::size_t most = 32;
   const Atlas& atlas_;
-  std::list<SphereLaws> kept_;
+  std::optional<LawShape> departure_;
+  std::list<std::pair<Key, SphereLaws>> kept_;
 };
 
 }  // namespace granulaw

@@ -11,7 +11,7 @@ namespace granulaw {
 namespace {
 
 /// "41 MPa", "3.2 GPa".
-std::string pressure(double pa)
+std::string stress(double pa)
 {
   struct Unit
   {
@@ -21,6 +21,13 @@ std::string pressure(double pa)
   for (const Unit u : {Unit{1e9, "GPa"}, Unit{1e6, "MPa"}, Unit{1e3, "kPa"}})
     if (pa >= u.size) return fmt::format("{:.3g} {}", pa / u.size, u.name);
   return fmt::format("{:.3g} Pa", pa);
+}
+
+/// Overlap over R* at which a specimen begins to yield under an indenter that does not.
+double onset_on(const LawMaterial& specimen, const LawMaterial& indenter)
+{
+  const double both = 1 / (1 / specimen.e_star() + 1 / indenter.e_star());
+  return onset_overlap(both, specimen.yield_stress, specimen.poisson_ratio);
 }
 
 /// What the data span, as the beginning of a sentence.
@@ -36,8 +43,8 @@ std::string span_of(const CalibrationProblem& problem, const Calibration& c)
       if (is_impact(m.kind))
         slowest = std::min(slowest, share * d.x / slow), fastest = std::max(fastest, share * d.x / slow);
       if (is_curve(m.kind))
-        deepest = std::max(deepest, (d.x - c.machines[k].offset) / m.radius /
-                                        (m.kind == MeasurementKind::platens ? 2 : 1) / onset);
+        deepest = std::max(deepest, (d.x - c.machines[k].offset) / m.effective_radius() / m.contacts() /
+                                        (m.indenter ? onset_on(c.material, *m.indenter) : onset));
     }
   }
   std::string span;
@@ -52,18 +59,21 @@ std::string span_of(const CalibrationProblem& problem, const Calibration& c)
 
 std::string clause(const FittedParameter& p)
 {
+  const auto number = [&](double value) {
+    return is_stress(p.parameter) ? stress(value) : fmt::format("{:.3g}", value);
+  };
   const Interval& i = p.profile.within95;
   switch (p.told) {
     case Told::value:
-      return fmt::format("{} is {} (95 %: {} to {})", name_of(p.parameter), pressure(p.profile.value),
-                         pressure(i.low), pressure(i.high));
+      return fmt::format("{} is {} (95 %: {} to {})", name_of(p.parameter), number(p.profile.value),
+                         number(i.low), number(i.high));
     case Told::from_below:
-      return fmt::format("they bound {} from below (95 %: over {})", name_of(p.parameter), pressure(i.low));
+      return fmt::format("they bound {} from below (95 %: over {})", name_of(p.parameter), number(i.low));
     case Told::from_above:
       return i.low_told ? fmt::format("{} lies between {} and {} (95 %), which cannot be told closer",
-                                      name_of(p.parameter), pressure(i.low), pressure(i.high))
+                                      name_of(p.parameter), number(i.low), number(i.high))
                         : fmt::format("they bound {} from above (95 %: below {})", name_of(p.parameter),
-                                      pressure(i.high));
+                                      number(i.high));
     default:
       return fmt::format("they say nothing of {}: it cannot be told", name_of(p.parameter));
   }
@@ -83,15 +93,35 @@ std::string correlation_clause(const Calibration& c)
   return said;
 }
 
+/// Hardening and rate both make fast impacts bounce more.
+std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
+{
+  const auto& all = problem.request().measurements;
+  const bool fast_only =
+      std::all_of(all.begin(), all.end(), [](const Measurement& m) { return is_impact(m.kind); });
+  const bool hardens = std::any_of(c.parameters.begin(), c.parameters.end(), [](const FittedParameter& p) {
+    return p.parameter != Parameter::youngs_modulus && p.parameter != Parameter::yield_stress &&
+           p.profile.within68.low > 0;
+  });
+  return fast_only && hardens
+             ? " Impacts alone do not tell hardening from a yield stress that grows with the strain "
+               "rate: a slow curve beside them would."
+             : "";
+}
+
 }  // namespace
 
 std::string verdict(const CalibrationProblem& problem, const Calibration& c)
 {
   constexpr double unlikely = 0.01;
   std::string text = span_of(problem, c) + ": ";
-  for (std::size_t k = 0; k < c.parameters.size(); ++k) text += (k > 0 ? "; " : "") + clause(c.parameters[k]);
+  for (std::size_t k = 0; k < c.parameters.size(); ++k)
+    text.append(k > 0 ? "; " : "").append(clause(c.parameters[k]));
   text += "." + correlation_clause(c);
-  for (const Misfit& m : c.misfits) text += fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
+  for (const Misfit& m : c.misfits)
+    text += m.source.empty() ? fmt::format(" Misfit: {}.", m.sentence)
+                             : fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
+  text += rate_clause(problem, c);
   if (c.misfits.empty())
     text += c.degrees_of_freedom > 0 && c.p_value < unlikely
                 ? fmt::format(

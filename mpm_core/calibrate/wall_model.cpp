@@ -11,37 +11,19 @@ namespace granulaw {
 
 namespace {
 
-constexpr double spacing = 0.1;  // of the logarithms
 constexpr const char* wall_body = "thick wall";
 constexpr int replay_steps = 1500;  // e to 2e-4 of that of 20000
-
-double hardening_log(const LawMaterial& m)
-{
-  return std::log1p(2 * m.hardening_modulus / m.yield_stress);
-}
-
-/// The sphere brought into the atlas, its yield stress as it is.
-LawMaterial within(const Atlas& atlas, LawMaterial m)
-{
-  const AtlasGrid& grid = atlas.grid();
-  const double softening = 1 - m.poisson_ratio * m.poisson_ratio;
-  const double stiffness =
-      std::clamp(m.e_star() / m.yield_stress, grid.stiffnesses.front(), grid.stiffnesses.back());
-  m.youngs_modulus = stiffness * m.yield_stress * softening;
-  m.hardening_modulus = std::clamp(m.hardening_modulus, 0.0, grid.hardenings.back() * m.youngs_modulus);
-  return m;
-}
 
 }  // namespace
 
 WallModel::WallModel(const Atlas& atlas, const Measurement& drops, std::vector<Parameter> varied)
-    : atlas_(&atlas), drops_(&drops), varied_(std::move(varied)), wall_(atlas, *drops.wall)
+    : atlas_(&atlas), drops_(&drops), lattice_(std::move(varied)), wall_(atlas, *drops.wall)
 {
 }
 
 std::vector<double> WallModel::compute(const LawMaterial& asked) const
 {
-  LawMaterial sphere = within(*atlas_, asked);
+  LawMaterial sphere = within_atlas(*atlas_, asked);
   sphere.name = "sphere";
   const PairBody body(*atlas_, sphere);
   const bool sphere_yields = yields_first(sphere, wall_.material());
@@ -70,45 +52,19 @@ std::vector<double> WallModel::compute(const LawMaterial& asked) const
   return change;
 }
 
-const std::vector<double>& WallModel::at(const Key& key, const LawMaterial& sphere) const
+const std::vector<double>& WallModel::at(const MaterialLattice::Corner& corner) const
 {
-  const auto [entry, is_new] = known_.try_emplace(key);
-  if (!is_new) return entry->second;
-  LawMaterial m = sphere;
-  const auto varies = [&](Parameter p) {
-    return std::find(varied_.begin(), varied_.end(), p) != varied_.end();
-  };
-  if (varies(Parameter::youngs_modulus)) m.youngs_modulus = std::exp(spacing * key.modulus);
-  if (varies(Parameter::yield_stress)) m.yield_stress = std::exp(spacing * key.yield);
-  if (varies(Parameter::hardening_modulus))
-    m.hardening_modulus = 0.5 * m.yield_stress * std::expm1(spacing * key.hardening);
-  return entry->second = compute(m);
+  const auto [entry, is_new] = known_.try_emplace(corner.key);
+  if (is_new) entry->second = compute(corner.material);
+  return entry->second;
 }
 
 std::vector<double> WallModel::change(const LawMaterial& sphere) const
 {
-  const double place[3] = {std::log(sphere.youngs_modulus) / spacing, std::log(sphere.yield_stress) / spacing,
-                           hardening_log(sphere) / spacing};
-  int below[3];
-  double share[3];
-  for (int k = 0; k < 3; ++k) {
-    const bool varies = std::find(varied_.begin(), varied_.end(),
-                                  all_parameters[static_cast<std::size_t>(k)]) != varied_.end();
-    below[k] = varies ? static_cast<int>(std::floor(place[k])) : 0;
-    share[k] = varies ? place[k] - below[k] : 0;
-  }
   std::vector<double> sum(drops_->data.size(), 0.0);
-  for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1;
-    int key[3];
-    for (int k = 0; k < 3; ++k) {
-      const bool upper = (corner >> k) & 1;
-      key[k] = below[k] + (upper ? 1 : 0);
-      weight *= upper ? share[k] : 1 - share[k];
-    }
-    if (weight < 1e-9) continue;
-    const std::vector<double>& here = at({key[0], key[1], key[2]}, sphere);
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * here[i];
+  for (const MaterialLattice::Corner& corner : lattice_.around(sphere)) {
+    const std::vector<double>& here = at(corner);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += corner.weight * here[i];
   }
   return sum;
 }

@@ -3,17 +3,16 @@
 #include <map>
 #include <vector>
 
+#include "calibrate/material_lattice.hpp"
 #include "calibrate/measurement.hpp"
-#include "calibrate/parameters.hpp"
 #include "calibrate/sphere_laws.hpp"
 #include "characterise/pair_body.hpp"
 
 namespace granulaw {
 
 /// What a thick wall of a known material changes of e, against the rigid wall: by composed laws
-/// (docs/evidence/pairs.md), at 30 ms a material. So it is computed at materials whose E, Y and Y + 2 H are whole
-/// powers of a factor, and linear in their logarithms between: what the wall changes varies so little between
-/// two that e is within 0.001.
+/// (docs/evidence/pairs.md), at 30 ms a material. So it is computed at the materials of a lattice: what the
+/// wall changes varies so little between two that e is within 0.001.
 class WallModel
 {
  public:
@@ -27,19 +26,14 @@ class WallModel
   double error(const LawMaterial& sphere) const;
 
  private:
-  struct Key
-  {
-    int modulus, yield, hardening;
-    auto operator<=>(const Key&) const = default;
-  };
-  const std::vector<double>& at(const Key& key, const LawMaterial& sphere) const;
+  const std::vector<double>& at(const MaterialLattice::Corner& corner) const;
   std::vector<double> compute(const LawMaterial& sphere) const;
 
   const Atlas* atlas_;
   const Measurement* drops_;
-  std::vector<Parameter> varied_;
+  MaterialLattice lattice_;
   PairBody wall_;
-  mutable std::map<Key, std::vector<double>> known_;
+  mutable std::map<MaterialLattice::Key, std::vector<double>> known_;
 };
 
 }  // namespace granulaw

@@ -220,8 +220,11 @@ double PairBody::Departure::rms() const
 double PairBody::elastic_overlap(double contact) const
 {
   double x = contact * contact;
-  for (int round = 0; round < 30; ++round)
-    x = std::pow(contact / elastic_.radius_ratio(std::pow(x, 0.25)), 2);
+  for (int round = 0; round < 30; ++round) {
+    const double next = std::pow(contact / elastic_.radius_ratio(std::pow(x, 0.25)), 2);
+    if (next == x) break;
+    x = next;
+  }
   return x;
 }
 

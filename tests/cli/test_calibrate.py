@@ -101,6 +101,9 @@ def errors():
         assert done.returncode == 1 and wanted in done.stderr, (text, done.stderr)
         assert done.stderr.startswith("mpm: bad.csv") and done.stderr.count("\n") == 1, done.stderr
     Path("good.csv").write_text(header + "1,0.7\n2,0.6\n")
+    Path("curve.csv").write_text("displacement_m,force_N\n" + "".join(f"{k}e-6,{k**1.5}\n" for k in range(6)))
+    Path("walls.toml").write_text(MATERIAL + "hardening = {law = \"voce\", saturation_stress = 8e7, strain = 0.1}\n")
+    sphere = ["curve.csv", "--kind", "sphere", *KNOWN, *fit]
     for words, wanted in [
         (["nowhere.csv", *KNOWN, *fit], "no such file"),
         (["good.csv", *KNOWN, "--fit", "yield_stres"], "did you mean 'yield_stress'"),
@@ -109,6 +112,14 @@ def errors():
         (["good.csv", *KNOWN, *fit, "--yield-stress", "4e7"], "is given, too"),
         (["good.csv", *KNOWN, *fit, "--prior", "yield_stress > 3"], "--prior"),
         (["good.csv", *KNOWN, *fit, "--ensemble", "3"], "--ensemble"),
+        (["good.csv", *KNOWN, *fit, "--hardening", "voce"], "saturation_stress is neither"),
+        (["good.csv", *KNOWN, *fit, "--hardening", "voce", "--known", "offset=1"], "no parameter of the hardening law 'voce'"),
+        (["good.csv", *KNOWN, *fit, "exponent"], "no parameter of this hardening law"),
+        (["good.csv", *KNOWN, *fit, "--known", "strain=1"], "--known: belongs to"),
+        (sphere, "--indenter-radius: is missing"),
+        ([*sphere, "--indenter-radius", "1e-7"], "goes deeper than the atlas knows"),
+        ([*sphere, "--indenter-radius", "1e-3", "--indenter", "stone", "--materials", "walls.toml"], "--indenter: this material must"),
+        (["good.csv", "--radius", "inf", "--density", "1500", *fit], "only an indenter"),
     ]:
         done = run("calibrate", *words)
         assert done.returncode == 1 and wanted in done.stderr and done.stderr.count("\n") == 1, (words, done.stderr)

@@ -7,12 +7,15 @@
 #include "atlas_path.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
+#include "calibrate/calibrate_by_runs.hpp"
 #include "calibration_options.hpp"
 #include "calibration_output.hpp"
 #include "command.hpp"
+#include "farm_options.hpp"
 #include "json_output.hpp"
 #include "option_checks.hpp"
 #include "python_script.hpp"
+#include "terminal.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -22,6 +25,7 @@ namespace {
 struct CalibrateRequest
 {
   CalibrationOptions options;
+  FarmOptions farm;
   std::string output, plot;
   int ensemble = 0;
   unsigned seed = 1;
@@ -40,7 +44,7 @@ std::string numbered(const std::string& path, int number, int count)
 
 void write_ensemble(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& c)
 {
-  const std::vector<LawMaterial> drawn = draw_materials(problem, c, r.ensemble, r.seed);
+  const std::vector<CandidateMaterial> drawn = draw_materials(problem, c, r.ensemble, r.seed);
   for (int k = 1; k <= r.ensemble; ++k)
     write_text_atomically(
         numbered(r.output, k, r.ensemble),
@@ -72,15 +76,39 @@ void check_outputs(const CalibrateRequest& r)
   if (!r.output.empty() && !r.options.density) fail("--density", "is missing: a materials file holds it");
 }
 
+/// Of hardening that the atlas does not know; says what it took.
+Calibration fit_by_runs(const CalibrateRequest& r, CalibrationProblem& problem, nlohmann::ordered_json& runs)
+{
+  const std::unique_ptr<Farm> farm = r.farm.farm();
+  ProgressBar bar;
+  CalibrationByRuns fit = calibrate_by_runs(
+      problem, *farm, [&](double done, const std::string& what) { bar.update(done, what); });
+  bar.clear();
+  const FarmCount& count = farm->count();
+  runs = {{"laws", fit.laws},     {"runs", count.made},           {"runs_from_cache", count.from_cache},
+          {"cpu_s", count.cpu_s}, {"miss_force", fit.miss_force}, {"miss_restitution", fit.miss_restitution}};
+  if (!r.json) {
+    fmt::print(
+        "{} laws by the solver; the last is within {:.2g} % of F and {:.2g} of e of what the fit went by; ",
+        fit.laws, 100 * fit.miss_force, fit.miss_restitution);
+    print_count(count);
+  }
+  return std::move(fit.calibration);
+}
+
 void run(const CalibrateRequest& r)
 {
   check_outputs(r);
+  r.farm.check();
   const CalibrationRequest request = r.options.request();
   const std::optional<Atlas> atlas = own_atlas();
   if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
-  const CalibrationProblem problem(*atlas, request);
-  const Calibration result = calibrate(problem);
-  const nlohmann::ordered_json json = calibration_json(problem, result);
+  CalibrationProblem problem(*atlas, request);
+  nlohmann::ordered_json runs;
+  const Calibration result =
+      request.known.hardens_linearly() ? calibrate(problem) : fit_by_runs(r, problem, runs);
+  nlohmann::ordered_json json = calibration_json(problem, result);
+  if (!runs.empty()) json["runs"] = runs;
   if (!r.output.empty())
     write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" +
                                                                        interval_comments(problem, result)));
@@ -96,6 +124,7 @@ void define(CLI::App& command)
 {
   const auto r = std::make_shared<CalibrateRequest>();
   r->options.add_to(command, true);
+  r->farm.add_to(command);
   command.add_option("-o,--output", r->output, "materials file, NAME.toml, that mpm table takes");
   command.add_option("--plot", r->plot, "picture of data, fit and its 95 % band: NAME.png, .pdf or .svg");
   command

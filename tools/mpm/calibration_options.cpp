@@ -69,9 +69,23 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
       "with a\n"
       "further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)");
   if (needs_data) files->required();
-  command.add_option("--fit", fit, "what is wanted: youngs_modulus, yield_stress, hardening_modulus")
+  command
+      .add_option("--fit", fit,
+                  "what is wanted: youngs_modulus, yield_stress, hardening_modulus; with --hardening voce: "
+                  "saturation_stress, strain; swift: exponent, offset; johnson-cook: strength, exponent")
       ->required();
-  command.add_option("--radius", radius, "of the sphere, m")->required()->check(above_zero_to(1e3));
+  command
+      .add_option(
+          "--hardening", hardening,
+          "law: linear (from the atlas), voce, swift or johnson-cook (some laws are made by the solver)")
+      ->check(CLI::IsMember(fitted_hardening_laws()))
+      ->capture_default_str();
+  command.add_option("--known", known, "NAME=VALUE, SI, of a parameter of --hardening that is not fitted");
+  command
+      .add_option("--radius", radius,
+                  "of the sphere, m; inf: a thick flat specimen under a spherical indenter")
+      ->required()
+      ->check(above_zero_to(std::numeric_limits<double>::infinity()));
   command.add_option("--density", density, "kg/m^3; force curves do without")->check(above_zero());
   command.add_option("--poisson-ratio", poisson_ratio)->check(from_to(0, 0.49))->capture_default_str();
   command.add_option("--youngs-modulus", youngs_modulus, "Pa, where it is known and not fitted")
@@ -81,11 +95,15 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
   command.add_option("--hardening-modulus", hardening_modulus,
                      "Pa, where it is known and not fitted (default 0: perfectly plastic)");
   command
-      .add_option("--kind", kind,
-                  "of force curves. platens: a sphere between two plates, displacement of one towards the "
-                  "other; flat: one contact, displacement of the sphere's middle")
-      ->check(CLI::IsMember({"platens", "flat"}))
+      .add_option(
+          "--kind", kind,
+          "of force curves. platens: a sphere between two plates, displacement of one towards the "
+          "other; flat: one contact, displacement of the sphere's middle; sphere: a spherical indenter, "
+          "its displacement towards the specimen's middle")
+      ->check(CLI::IsMember({"platens", "flat", "sphere"}))
       ->capture_default_str();
+  command.add_option("--indenter-radius", indenter_radius, "m, with --kind sphere")
+      ->check(above_zero_to(1e3));
   command
       .add_option(
           "--partner", partner,
@@ -93,8 +111,10 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
           "approach")
       ->check(CLI::IsMember({"wall", "like"}))
       ->capture_default_str();
-  CLI::Option* materials_file =
-      command.add_option("--materials", materials, "TOML file that holds the wall's material");
+  CLI::Option* materials_file = command.add_option(
+      "--materials", materials, "TOML file that holds the material of the wall or the indenter");
+  command.add_option("--indenter", indenter, "name of the indenter's material (default: rigid)")
+      ->needs(materials_file);
   command
       .add_option("--wall", wall,
                   "restitution: name of the material of a thick deformable wall (default: rigid)")
@@ -118,19 +138,77 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
   command.add_option("--name", name, "of the material in what is written")->capture_default_str();
 }
 
+namespace {
+
+/// The material of a wall or an indenter.
+LawMaterial partner_material(const std::string& path, const std::string& name, const char* option)
+{
+  const MaterialsFile file = read_materials(path);
+  const Material& m = file.material(name);
+  if (!m.hardening.name.empty() || m.rate_dependent())
+    fail(option, "this material must harden linearly or not at all, and know no rate", name);
+  return law_material(name, m);
+}
+
+}  // namespace
+
 /// Puts the wall to all drops.
 void CalibrationOptions::set_wall(CalibrationRequest& r) const
 {
-  const MaterialsFile file = read_materials(materials);
-  const Material& m = file.material(wall);
-  if (!m.hardening.name.empty() || m.rate_dependent())
-    fail("--wall", "a wall hardens linearly or not at all, and knows no rate", wall);
+  const LawMaterial material = partner_material(materials, wall, "--wall");
   for (Measurement& measurement : r.measurements) {
     if (!is_impact(measurement.kind)) continue;
     if (measurement.kind != MeasurementKind::restitution || measurement.partner != ImpactPartner::rigid_wall)
       fail(measurement.source, "only restitution of drops can be against --wall");
-    measurement.wall = law_material(wall, m);
+    measurement.wall = material;
   }
+}
+
+/// The hardening law, and its parameters that are known.
+void CalibrationOptions::set_hardening(CalibrationRequest& r) const
+{
+  if (hardening == "linear") {
+    if (!known.empty()) fail("--known", "belongs to --hardening voce, swift or johnson-cook");
+    return;
+  }
+  if (hardening_modulus) fail("--hardening-modulus", "belongs to linear hardening", hardening);
+  r.known.hardening = hardening;
+  for (const std::string& word : known) {
+    const auto equals = word.find('=');
+    const double value = equals == std::string::npos ? -1 : number_or_nan(word.substr(equals + 1));
+    require(value > 0, "--known", fmt::format("'{}'", cut(word)), "NAME=VALUE, SI, over 0");
+    const Parameter p = parameter_named(without_blanks(word.substr(0, equals)), "--known");
+    const std::vector<Parameter> own = parameters_of(hardening);
+    if (std::find(own.begin(), own.end(), p) == own.end())
+      fail("--known", fmt::format("'{}' is no parameter of the hardening law '{}'", name_of(p), hardening));
+    set_value(r.known, p, value);
+  }
+}
+
+void CalibrationOptions::set_indenter(Measurement& m) const
+{
+  if (!indenter_radius) fail("--indenter-radius", "is missing: --kind sphere needs it");
+  m.indenter_radius = *indenter_radius;
+  if (!indenter.empty()) m.indenter = partner_material(materials, indenter, "--indenter");
+}
+
+Measurement CalibrationOptions::measurement(const std::string& path) const
+{
+  const MeasurementKind curves = kind == "flat"     ? MeasurementKind::flat
+                                 : kind == "sphere" ? MeasurementKind::indenter
+                                                    : MeasurementKind::platens;
+  Measurement m = read_measurement(path, curves);
+  if (is_impact(m.kind) && !density) fail("--density", "is missing: impacts depend on it");
+  m.radius = *radius;
+  m.partner = partner == "like" ? ImpactPartner::like_sphere : ImpactPartner::rigid_wall;
+  if (m.kind == MeasurementKind::indenter) set_indenter(m);
+  if (is_curve(m.kind)) {
+    m.fit_offset = !offset, m.fit_compliance = compliance;
+    if (offset)
+      for (Datum& d : m.data) d.x -= *offset;
+  }
+  complete_standard_deviations(m, relative_sd);
+  return m;
 }
 
 CalibrationRequest CalibrationOptions::request() const
@@ -148,6 +226,7 @@ CalibrationRequest CalibrationOptions::request() const
   r.known.hardening_modulus = hardening_modulus.value_or(0);
   require(r.known.hardening_modulus >= 0, "--hardening-modulus",
           fmt::format("{:g}", r.known.hardening_modulus), "0 or more");
+  set_hardening(r);
   for (const Parameter p : r.fit)
     if (value_of(r.known, p) > 0)
       fail("--fit", fmt::format("'{}' is given, too: either it is known or it is fitted", name_of(p)));
@@ -158,19 +237,7 @@ CalibrationRequest CalibrationOptions::request() const
       fail(option, fmt::format("is missing: give it, or add {} to --fit", name_of(parameter)));
   r.priors = ranges_of(priors, "--prior", &r.hardness_ratio);
   r.bounds = ranges_of(bounds, "--bounds", nullptr);
-  for (const std::string& path : data) {
-    Measurement m = read_measurement(path, kind == "flat");
-    if (is_impact(m.kind) && !density) fail("--density", "is missing: impacts depend on it");
-    m.radius = *radius;
-    m.partner = partner == "like" ? ImpactPartner::like_sphere : ImpactPartner::rigid_wall;
-    if (is_curve(m.kind)) {
-      m.fit_offset = !offset, m.fit_compliance = compliance;
-      if (offset)
-        for (Datum& d : m.data) d.x -= *offset;
-    }
-    complete_standard_deviations(m, relative_sd);
-    r.measurements.push_back(std::move(m));
-  }
+  for (const std::string& path : data) r.measurements.push_back(measurement(path));
   if (!wall.empty()) set_wall(r);
   r.known.density = density.value_or(1000);  // no curve of force depends on it
   return r;

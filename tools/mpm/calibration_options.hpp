@@ -12,11 +12,13 @@ namespace granulaw {
 /// What `mpm calibrate` and `mpm design` take: data, what is known of the specimen, what is wanted.
 struct CalibrationOptions
 {
-  std::vector<std::string> data, fit, priors, bounds;
-  std::optional<double> radius, density, youngs_modulus, yield_stress, hardening_modulus, offset;
+  std::vector<std::string> data, fit, priors, bounds, known;
+  std::optional<double> radius, density, youngs_modulus, yield_stress, hardening_modulus, offset,
+      indenter_radius;
   double poisson_ratio = 0.3, relative_sd = 0.01;
-  std::string kind = "platens", partner = "wall", name = "material";
-  std::string materials, wall;  ///< a file, and the name of the wall's material there; empty: a rigid wall
+  std::string kind = "platens", partner = "wall", name = "material", hardening = "linear";
+  std::string materials;       ///< a file that holds the materials of wall and indenter
+  std::string wall, indenter;  ///< names there; empty: rigid
   bool compliance = false, plain = false;
 
   void add_to(CLI::App& command, bool needs_data);
@@ -24,6 +26,9 @@ struct CalibrationOptions
   CalibrationRequest request() const;
 
  private:
+  Measurement measurement(const std::string& path) const;
+  void set_hardening(CalibrationRequest& request) const;
+  void set_indenter(Measurement& measurement) const;
   void set_wall(CalibrationRequest& request) const;
 };
 

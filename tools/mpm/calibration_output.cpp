@@ -31,6 +31,8 @@ const char* name_of_kind(MeasurementKind kind)
       return "platens";
     case MeasurementKind::flat:
       return "flat";
+    case MeasurementKind::indenter:
+      return "sphere";
     case MeasurementKind::contact_radius:
       return "contact radius";
     case MeasurementKind::residual_displacement:
@@ -106,12 +108,17 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   out["verdict"] = verdict(problem, c);
   out["misfits"] = nlohmann::ordered_json::array();
   for (const Misfit& m : c.misfits)
-    out["misfits"].push_back({{"source", m.source}, {"sentence", m.sentence}});
+    out["misfits"].push_back({{"source", m.source}, {"name", m.name}, {"sentence", m.sentence}});
   out["material"] = {{"density", c.material.density},
                      {"youngs_modulus", c.material.youngs_modulus},
                      {"poisson_ratio", c.material.poisson_ratio},
                      {"yield_stress", c.material.yield_stress},
                      {"hardening_modulus", c.material.hardening_modulus}};
+  if (!c.material.hardens_linearly()) {
+    const FlowLaw law = solver_material(c.material).hardening;
+    out["material"]["hardening"]["law"] = law.name;
+    for (const auto& [key, values] : law.values) out["material"]["hardening"][key] = values.front();
+  }
   out["measurements"] = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < problem.request().measurements.size(); ++k)
     out["measurements"].push_back(measurement_json(problem, c, k));
@@ -122,19 +129,26 @@ std::string interval_comments(const CalibrationProblem& problem, const Calibrati
 {
   std::string text;
   for (const FittedParameter& p : c.parameters)
-    text += fmt::format("# {}: {:.4g} Pa, 68 %: {:.4g} to {:.4g}, 95 %: {:.4g} to {:.4g}{}\n",
-                        name_of(p.parameter), p.profile.value, p.profile.within68.low,
-                        p.profile.within68.high, p.profile.within95.low, p.profile.within95.high,
-                        p.identifiable() ? "" : fmt::format(" ({})", word_of(p.told)));
+    text +=
+        fmt::format("# {}: {:.4g}{}, 68 %: {:.4g} to {:.4g}, 95 %: {:.4g} to {:.4g}{}\n",
+                    name_of(p.parameter), p.profile.value, is_stress(p.parameter) ? " Pa" : "",
+                    p.profile.within68.low, p.profile.within68.high, p.profile.within95.low,
+                    p.profile.within95.high, p.identifiable() ? "" : fmt::format(" ({})", word_of(p.told)));
   return text + fmt::format("# {}\n", verdict(problem, c));
 }
 
-std::string material_toml(const LawMaterial& m, const std::string& comments)
+std::string material_toml(const CandidateMaterial& m, const std::string& comments)
 {
   std::string text = comments + fmt::format(
                                     "[material.{}]\ndensity = {:.6g}\nyoungs_modulus = {:.6g}\n"
                                     "poisson_ratio = {:.6g}\nyield_stress = {:.6g}\n",
                                     m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress);
+  if (!m.hardens_linearly()) {
+    const FlowLaw law = solver_material(m).hardening;
+    text += fmt::format("hardening = {{law = \"{}\"", law.name);
+    for (const auto& [key, values] : law.values) text += fmt::format(", {} = {:.8g}", key, values.front());
+    return text + "}\n";
+  }
   if (m.hardening_modulus > 0)
     text += fmt::format("hardening = {{law = \"linear\", modulus = {:.6g}}}\n", m.hardening_modulus);
   return text;
@@ -142,7 +156,7 @@ std::string material_toml(const LawMaterial& m, const std::string& comments)
 
 void print_calibration(const CalibrationProblem& problem, const Calibration& c)
 {
-  fmt::print("{:<20}{:>12}{:>26}{:>26}\n", "", "Pa", "68 %", "95 %");
+  fmt::print("{:<20}{:>12}{:>26}{:>26}\n", "", "SI", "68 %", "95 %");
   for (const FittedParameter& p : c.parameters) {
     const Interval &a = p.profile.within68, &b = p.profile.within95;
     fmt::print("{:<20}{:>12.4g}{:>12.4g} to {:<10.4g}{:>12.4g} to {:<10.4g}{}\n", name_of(p.parameter),

@@ -12,7 +12,7 @@ namespace granulaw {
 nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const Calibration& calibration);
 
 /// [material.NAME] as `mpm table` reads it, with the intervals as comments.
-std::string material_toml(const LawMaterial& material, const std::string& comments);
+std::string material_toml(const CandidateMaterial& material, const std::string& comments);
 std::string interval_comments(const CalibrationProblem& problem, const Calibration& calibration);
 
 /// The summary for a person.

@@ -33,7 +33,8 @@ void add_candidates(std::vector<DesignCandidate>& all, MeasurementKind kind, con
 }
 
 /// The material by which the design goes: the guess, else what the data say.
-LawMaterial assumed_material(const DesignRequest& r, const CalibrationRequest& request, const Atlas& atlas)
+CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequest& request,
+                                   const Atlas& atlas)
 {
   if (r.guess.empty()) {
     if (request.measurements.empty())
@@ -41,7 +42,7 @@ LawMaterial assumed_material(const DesignRequest& r, const CalibrationRequest& r
            "is missing: without data the design needs a material to go by, such as yield_stress=50e6");
     return calibrate(CalibrationProblem(atlas, request)).material;
   }
-  LawMaterial m = request.known;
+  CandidateMaterial m = request.known;
   for (const std::string& word : r.guess) {
     const auto equals = word.find('=');
     const double value = equals == std::string::npos ? -1 : number_in(word.substr(equals + 1));
@@ -127,7 +128,7 @@ void run(const DesignRequest& r)
     fail("mpm design", "nothing to choose from: give --speeds, --displacements or both");
   const std::optional<Atlas> atlas = own_atlas();
   if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/evidence/atlas.md)");
-  const LawMaterial assumed = assumed_material(r, request, *atlas);
+  const CandidateMaterial assumed = assumed_material(r, request, *atlas);
   const Design design(*atlas, request, assumed, candidates, *r.options.radius, r.options.relative_sd);
   const std::vector<std::size_t> plan = design.best(static_cast<std::size_t>(r.count));
   if (r.json)

@@ -13,6 +13,7 @@ AXES = {
     "restitution": ("impact speed, m/s", "coefficient of restitution"),
     "platens": ("displacement, m", "force, N"),
     "flat": ("displacement, m", "force, N"),
+    "sphere": ("displacement, m", "force, N"),
     "contact radius": ("impact speed, m/s", "contact radius, m"),
     "residual displacement": ("impact speed, m/s", "residual displacement, m"),
     "contact time": ("impact speed, m/s", "contact time, s"),
@@ -23,7 +24,7 @@ AXES = {
 
 def draw(axis, m):
     x, y, sd, fit, band = (np.array(m[k]) for k in ("x", "measured", "sd", "fit", "fit_sd"))
-    curve = m["kind"] in ("platens", "flat")
+    curve = m["kind"] in ("platens", "flat", "sphere")
     if m["kind"] in ("hardness", "onset force"):
         x = np.arange(len(y))
     order = np.arange(len(x)) if curve else np.argsort(x)

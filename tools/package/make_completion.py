@@ -10,10 +10,10 @@ import help_text
 # Which files a positional argument names; of a deck no ending is agreed on.
 ENDINGS = {"MATERIALS": "toml", "LAW": "h5", "DECK": "", "DATA": "csv"}
 # Words of the materials file's headings [particle.NAME] and [material.NAME].
-HEADINGS = {"--particle": "particle", "--against": "particle", "--wall": "material"}
+HEADINGS = {"--particle": "particle", "--against": "particle", "--wall": "material", "--indenter": "material"}
 WORDS = {"--grid": "mapped rectilinear tartan updated rectilinear-3d", "--precision": "double single", "--support": "free midplane",
-         "--fit": "youngs_modulus yield_stress hardening_modulus", "--planes": "pair cube die bcc fcc"}
-NOTHING = ("--pair", "--var", "--materials", "--prior", "--bounds", "--name", "--guess", "--speeds", "--displacements")  # free text
+         "--fit": "youngs_modulus yield_stress hardening_modulus saturation_stress strain strength exponent offset", "--planes": "pair cube die bcc fcc"}
+NOTHING = ("--pair", "--var", "--materials", "--prior", "--bounds", "--name", "--guess", "--known", "--speeds", "--displacements")  # free text
 NUMBERS = ("INT", "UINT", "FLOAT")
 
 SCRIPT = """\

@@ -10,6 +10,7 @@ import statistics
 from spread import Sample, welch
 
 from . import files
+from .ensemble_part import is_member
 from .page import legend_below, number, plt, with_error
 
 REFERENCE = "mpm"
@@ -178,7 +179,7 @@ def read_demo(decks, path):
 def read_all(folder):
     """([Deck, ...], [Unreadable, ...]) of all that lies under `folder`."""
     decks, broken = {}, []
-    found = [p for deck in DECKS for p in files.find(folder, f"{deck}.csv")]
+    found = [p for deck in DECKS for p in files.find(folder, f"{deck}.csv") if not is_member(p, folder)]
     for path in sorted(found):
         try:
             read_example(decks, path)

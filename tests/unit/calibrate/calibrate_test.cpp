@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "calibrate/calibrate_by_runs.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/noise.hpp"
 
@@ -109,6 +110,119 @@ TEST(Calibrate, ACurveGivesBackModulusYieldStressAndOffset)
   EXPECT_THAT(c.misfits, IsEmpty());
 }
 
+/// Of an elastic indenter, by the composed law itself.
+Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, double indenter_radius,
+                        double depth)
+{
+  Measurement measured;
+  measured.kind = MeasurementKind::indenter;
+  measured.source = "indenter.csv";
+  measured.radius = radius;
+  measured.indenter_radius = indenter_radius;
+  measured.indenter = indenter;
+  measured.fit_offset = true;
+  const TwoBodyLaw law = compose_law(atlas(), PairBody(atlas(), m), PairBody(atlas(), indenter),
+                                     indenter_radius / radius, {.depth = 0.2, .fastest = 0});
+  const PairMapping mapping = PairMapping::deformable_partner(m.e_star(), indenter.e_star());
+  const double r_eff = measured.effective_radius(), deepest = depth * r_eff;
+  const auto add = [&](double d, double delta_max) {
+    const double force = law.law.curve.evaluate(mapping, r_eff, d, delta_max).force;
+    measured.data.push_back({d, force, 0.01 * force, static_cast<int>(measured.data.size()) + 2});
+  };
+  for (int k = 1; k <= 40; ++k) add(deepest * k / 40, 0);
+  for (int k = 39; k > 20; --k) add(deepest * k / 40, deepest);
+  for (Datum& d : measured.data) d.sd += 1e-3 * measured.data[39].y;
+  return measured;
+}
+
+TEST(Calibrate, AnIndenterGivesBackTheYieldStress)
+{
+  const LawMaterial hard{"hard", 4000, 60e9, 0.2};
+  CalibrationRequest r = request_for(indentation(stone(), hard, 0.5e-3, 0.05), {Parameter::yield_stress});
+  const CalibrationProblem problem(atlas(), r);
+  const Calibration c = calibrate(problem);
+  // the data are from the law itself; the fit goes by laws interpolated between materials 10 % apart: 0.2 %
+  // of F
+  EXPECT_NEAR(c.material.yield_stress / 60e6, 1, 5e-3);
+  EXPECT_TRUE(c.parameters[0].identifiable());
+  EXPECT_THAT(c.misfits, IsEmpty());
+}
+
+TEST(Calibrate, ARigidIndenterIsTheLimitOfStiffOnes)
+{
+  const LawMaterial stiff{"stiff", 4000, 5e12, 0.2};
+  Measurement m = indentation(stone(), stiff, 0.5e-3, 0.05);
+  m.indenter.reset();
+  const CalibrationProblem problem(atlas(), request_for(m, {Parameter::yield_stress}));
+  // an indenter 500 times as stiff yields 0.2 % of the overlap, which is 0.3 % of the force
+  EXPECT_NEAR(calibrate(problem).material.yield_stress / 60e6, 1, 0.01);
+}
+
+TEST(Calibrate, AnIndenterThatGoesTooDeepIsRefused)
+{
+  Measurement m = indentation(stone(), {"hard", 4000, 60e9, 0.2}, 0.5e-3, 0.05);
+  for (Datum& d : m.data) d.x *= 20;
+  EXPECT_THROW(CalibrationProblem(atlas(), request_for(m, {Parameter::yield_stress})), Error);
+}
+
+CandidateMaterial voce()
+{
+  CandidateMaterial m = stone();
+  m.hardening = "voce";
+  m.saturation_stress = 120e6, m.strain = 0.1;
+  return m;
+}
+
+CalibrationRequest request_for_voce(const Measurement& m)
+{
+  CalibrationRequest r;
+  r.known = voce();
+  r.fit = {Parameter::yield_stress, Parameter::saturation_stress};
+  for (const Parameter p : r.fit) set_value(r.known, p, 0);
+  r.measurements = {m};
+  return r;
+}
+
+TEST(Calibrate, DropsGiveBackYieldAndSaturationStress)
+{
+  SphereLawsCache laws(atlas());
+  Measurement m = drops(stone(), {0.2, 0.5, 1, 2, 4, 8, 16, 20});
+  const std::vector<double> e = predict(m, voce(), laws.of(voce()), {}).values;
+  for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.003 * e[k];
+  const CalibrationProblem problem(atlas(), request_for_voce(m));
+  const Calibration c = calibrate(problem);
+  // the same model made the data: what the minimiser leaves where two parameters go nearly together
+  EXPECT_NEAR(c.material.yield_stress / 60e6, 1, 0.01);
+  EXPECT_NEAR(c.material.saturation_stress / 120e6, 1, 0.02);
+  EXPECT_EQ(c.material.hardening, "voce");
+}
+
+TEST(Calibrate, AParameterOfAnotherHardeningLawIsRefused)
+{
+  CalibrationRequest r = request_for_voce(drops(stone(), {0.5, 1, 2}));
+  r.fit.push_back(Parameter::hardening_modulus);
+  EXPECT_THROW(CalibrationProblem(atlas(), r), Error);
+  r = request_for_voce(drops(stone(), {0.5, 1, 2}));
+  r.known.strain = 0;
+  EXPECT_THROW(CalibrationProblem(atlas(), r), Error);
+}
+
+TEST(CalibrateSlow, ALawByRunsCorrectsTheFit)
+{
+  SphereLawsCache laws(atlas());
+  Measurement m = drops(stone(), {0.2, 0.5, 1, 2, 4, 8});
+  const std::vector<double> e = predict(m, voce(), laws.of(voce()), {}).values;
+  for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.01 * e[k];
+  CalibrationProblem problem(atlas(), request_for_voce(m));
+  ThreadFarm farm(2);
+  const CalibrationByRuns fit = calibrate_by_runs(problem, farm);
+  EXPECT_GE(fit.laws, 1);
+  EXPECT_LT(fit.miss_force, close_enough);
+  EXPECT_LT(fit.miss_restitution, close_enough);
+  // e of the coarse model that made the data is within 0.01: 5 % of Y at these speeds
+  EXPECT_NEAR(fit.calibration.material.yield_stress / 60e6, 1, 0.1);
+}
+
 TEST(Calibrate, APriorNarrows)
 {
   CalibrationRequest plain =
@@ -144,6 +258,43 @@ TEST(Calibrate, AForceThatFallsIsNamed)
   EXPECT_THAT(all, HasSubstr("fracture"));
 }
 
+TEST(Calibrate, ARateIsNamedWhereImpactsAreStrongerThanAPress)
+{
+  LawMaterial fast = stone();
+  fast.yield_stress *= 1.25;
+  CalibrationRequest r = request_for(drops(fast, {0.2, 0.4, 0.8, 1.6, 3.2, 6}),
+                                     {Parameter::yield_stress, Parameter::hardening_modulus});
+  r.measurements.push_back(curve(stone(), 0.05, 0));
+  const auto names = [](const CalibrationRequest& request) {
+    std::string all;
+    for (const Misfit& m : calibrate(CalibrationProblem(atlas(), request)).misfits) all += m.name + ";";
+    return all;
+  };
+  EXPECT_THAT(names(r), HasSubstr("rate;"));
+  r.measurements[0] = drops(stone(), {0.2, 0.4, 0.8, 1.6, 3.2, 6});
+  EXPECT_THAT(names(r), IsEmpty());
+}
+
+TEST(Calibrate, HardeningThatIsNotFittedIsNamed)
+{
+  LawMaterial hard = stone();
+  hard.hardening_modulus = 400e6;
+  const CalibrationProblem problem(atlas(), request_for(curve(hard, 0.08, 0), {Parameter::yield_stress}));
+  const std::vector<Misfit> misfits = calibrate(problem).misfits;
+  ASSERT_FALSE(misfits.empty());
+  EXPECT_THAT(misfits[0].sentence, HasSubstr("hardening that is not fitted"));
+}
+
+TEST(Calibrate, ImpactsAloneDoNotTellHardeningFromARate)
+{
+  LawMaterial hard = stone();
+  hard.hardening_modulus = 600e6;
+  const CalibrationProblem problem(atlas(),
+                                   request_for(drops(hard, {0.2, 0.5, 1, 2, 4, 8}),
+                                               {Parameter::yield_stress, Parameter::hardening_modulus}));
+  EXPECT_THAT(verdict(problem, calibrate(problem)), HasSubstr("do not tell hardening from"));
+}
+
 TEST(Calibrate, OneValueIsTooFew)
 {
   EXPECT_THROW(CalibrationProblem(atlas(), request_for(drops(stone(), {1.0}), {Parameter::yield_stress})),
@@ -155,10 +306,10 @@ TEST(Calibrate, TheEnsembleScattersAsTheIntervalSays)
   const CalibrationProblem problem(
       atlas(), request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::yield_stress}));
   const Calibration c = calibrate(problem);
-  const std::vector<LawMaterial> drawn = draw_materials(problem, c, 100, 7);
+  const std::vector<CandidateMaterial> drawn = draw_materials(problem, c, 100, 7);
   ASSERT_EQ(drawn.size(), 100u);
   int within = 0;
-  for (const LawMaterial& m : drawn)
+  for (const CandidateMaterial& m : drawn)
     within += m.yield_stress >= c.parameters[0].profile.within95.low &&
               m.yield_stress <= c.parameters[0].profile.within95.high;
   EXPECT_GE(within, 85);  // 95 expected, sd 2.2 of independent draws

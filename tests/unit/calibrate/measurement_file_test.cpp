@@ -35,7 +35,7 @@ TEST(MeasurementFile, ForcesArePlatensUnlessFlat)
 {
   const std::string text = "displacement_m,force_N\n0,0\n1,1\n2,2\n3,3\n4,4\n3,2\n";
   EXPECT_EQ(parse_measurement(text, "x").kind, MeasurementKind::platens);
-  EXPECT_EQ(parse_measurement(text, "x", true).kind, MeasurementKind::flat);
+  EXPECT_EQ(parse_measurement(text, "x", MeasurementKind::flat).kind, MeasurementKind::flat);
   EXPECT_EQ(parse_measurement(text, "x").reversal(), 4u);
 }
 

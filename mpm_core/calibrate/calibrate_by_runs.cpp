@@ -1,0 +1,94 @@
+#include "calibrate/calibrate_by_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/scales.hpp"
+#include "calibrate/flow_shape.hpp"
+#include "characterise/build_law.hpp"
+#include "characterise/law_material.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Deepest overlap over the radius that the data show of a sphere of this material.
+double deepest(const CalibrationProblem& problem, const CandidateMaterial& material, const SphereLaws& laws)
+{
+  const double per_speed = std::sqrt(material.density / material.yield_stress);
+  double depth = 0;
+  for (const Measurement& m : problem.request().measurements)
+    for (const Datum& d : m.data) {
+      const double share = m.partner == ImpactPartner::like_sphere ? 0.5 : 1.0;
+      if (is_impact(m.kind)) depth = std::max(depth, laws.impact(share * d.x * per_speed).overlap);
+      if (is_curve(m.kind)) depth = std::max(depth, d.x / m.radius / m.contacts());
+    }
+  return depth;
+}
+
+/// The slow law of a material, by runs, as deep as the data go.
+ContactCurve law_by_runs(const CandidateMaterial& material, double depth, double onset, const Atlas& atlas,
+                         Farm& farm, const Progress& progress)
+{
+  constexpr double margin = 1.1, least_over_onset = 8;
+  BuildOptions options;
+  options.depth = std::clamp(std::max(margin * depth, least_over_onset * onset), 0.02, Atlas::depth);
+  options.fastest = 0;
+  options.atlas = &atlas, options.farm = &farm, options.progress = progress;
+  const Material solid = solver_material(material);
+  return build_law(law_material(material.name, solid), characterised_body_of(solid), options).law.curve;
+}
+
+struct Miss
+{
+  double force = 0, restitution = 0;
+  bool is_small() const { return force < close_enough && restitution < close_enough; }
+};
+
+/// From twice the onset to the depth of the data.
+Miss miss_of(const ContactCurve& fitted, const ContactCurve& own, double depth)
+{
+  constexpr int places = 12;
+  Miss miss;
+  const double first = 2 * own.onset(), last = std::min(depth, own.x_end());
+  if (!(last > first)) return miss;
+  for (int k = 0; k <= places; ++k) {
+    const double x = first * std::pow(last / first, static_cast<double>(k) / places);
+    const auto e = [x](const ContactCurve& c) { return std::sqrt(c.work_unloading(x) / c.work_loading(x)); };
+    miss.force = std::max(miss.force, std::abs(fitted.loading(x).force / own.loading(x).force - 1));
+    miss.restitution = std::max(miss.restitution, std::abs(e(fitted) - e(own)));
+  }
+  return miss;
+}
+
+}  // namespace
+
+CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, const Progress& progress)
+{
+  CalibrationByRuns result;
+  Coordinates q = best_fit(problem).q;
+  const Atlas& atlas = problem.laws().atlas();
+  for (; result.laws < most_laws;) {
+    const CandidateMaterial material = problem.material(q);
+    const SphereLaws& laws = problem.laws().of(material);
+    const double depth = deepest(problem, material, laws);
+    const ContactCurve own =
+        law_by_runs(material, depth, laws.onset(), atlas, farm, [&](double done, const std::string& what) {
+          if (progress)
+            progress((result.laws + done) / most_laws, fmt::format("law {}: {}", result.laws + 1, what));
+        });
+    ++result.laws;
+    const Miss miss = miss_of(laws.free(), own, depth);
+    result.miss_force = miss.force, result.miss_restitution = miss.restitution;
+    const SphereLaws coarse(atlas, material, nullptr);
+    problem.set_departure(departure(own, coarse.free()));
+    q = polished(problem, q).q;
+    if (miss.is_small()) break;
+  }
+  result.calibration = calibrate(problem, q);
+  return result;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "calibrate/calibrate.hpp"
+#include "farm/farm.hpp"
+
+namespace granulaw {
+
+/// A fit of hardening that the atlas does not know, and what it took.
+struct CalibrationByRuns
+{
+  Calibration calibration;
+  int laws = 0;  ///< made by runs
+  /// How far the last of them is off what the fit went by, relative: of force, and of e.
+  double miss_force = 0, miss_restitution = 0;
+};
+
+/// Fits a hardening law that is not linear, by space mapping (Bandler et al., IEEE Trans. Microw. Theory
+/// Tech. 42, 1994): flow_shape() is the coarse model. The law of the material that it finds is made by runs
+/// of the solver; what it departs from the coarse one by is added to all materials, and the fit goes on. It
+/// ends where the law by runs is within `close_enough` of what was fitted; after `most_laws` in any case.
+CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, const Progress& progress = {});
+
+inline constexpr double close_enough = 0.003;  ///< relative: the error of one run of 24 cells
+inline constexpr int most_laws = 4;
+
+}  // namespace granulaw

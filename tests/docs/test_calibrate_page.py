@@ -1,0 +1,56 @@
+"""The worked cases of docs/guide/calibrate.md run as printed, and say what the page says. With `flows` also the commands that need
+LIGGGHTS."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parents[2]
+PAGE = (TOP / "docs/guide/calibrate.md").read_text()
+CASES = PAGE[PAGE.index("## Worked cases"):]
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+FLOWS = sys.argv.pop() == "flows" if len(sys.argv) > 1 else False
+# A page's numbers have three digits; a new build of the atlas may change the last one.
+TOLERANCE = 0.02
+
+
+def blocks():
+    """[(commands, what the page says they answer or None)]."""
+    found = re.findall(r"```(sh|text)\n(.*?)```", CASES, re.DOTALL)
+    return [(text.strip().splitlines(), found[k + 1][1].strip() if found[k + 1:] and found[k + 1][0] == "text" else None)
+            for k, (kind, text) in enumerate(found) if kind == "sh"]
+
+
+class WorkedCases(unittest.TestCase):
+    def test_as_printed(self):
+        mpm = Path(os.environ["GRANULAW_MPM"]).resolve()
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("examples", "tools", "docs"):
+                (Path(folder) / name).symlink_to(TOP / name)
+            (Path(folder) / "out/calibrate").mkdir(parents=True)
+            path = os.pathsep.join([str(mpm.parent), *([str(Path(os.environ["GRANULAW_LAUNCHER"]).resolve().parent)] if FLOWS else []),
+                                    os.environ["PATH"]])
+            ran = 0
+            for commands, said in blocks():
+                for command in commands:
+                    if not command.startswith("mpm ") and not FLOWS:
+                        continue
+                    done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True, env={**os.environ, "PATH": path}, timeout=1200)
+                    self.assertEqual(done.returncode, 0, command + done.stdout[-500:] + done.stderr[-1000:])
+                    ran += 1
+                    if said and command.startswith("mpm "):
+                        self.same(done.stdout.strip().splitlines()[-1], said)
+            self.assertGreater(ran, 3)
+
+    def same(self, printed, said):
+        """The words are the same, the numbers within TOLERANCE."""
+        self.assertEqual(NUMBER.sub("#", printed), NUMBER.sub("#", said))
+        for a, b in zip(NUMBER.findall(printed), NUMBER.findall(said)):
+            self.assertAlmostEqual(float(a), float(b), delta=TOLERANCE * abs(float(b)), msg=printed)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,151 @@
+#!/usr/bin/python3
+"""tools/ensemble and what tools/report says of its runs: folders whose numbers are known, a command that is known."""
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "examples" / "common")]
+from reporting import ensemble_part  # noqa: E402
+
+
+def member_files(folder, yields, measure):
+    """Members with these yield stresses; measure(k): {quantity: value}."""
+    rows = ["member,density,yield_stress"]
+    for k, y in enumerate(yields, 1):
+        rows.append(f"{k:02},1500,{y}")
+        (folder / f"{k:02}").mkdir(parents=True)
+        values = "".join(f"{q},{v}\n" for q, v in measure(k, y).items())
+        (folder / f"{k:02}" / "observables.csv").write_text("quantity,value\n" + values)
+    (folder / "ensemble.csv").write_text("\n".join(rows) + "\n")
+
+
+class Numbers(unittest.TestCase):
+    def test_rank_correlation(self):
+        rho, p = ensemble_part.rank_correlation([1, 2, 3, 4, 5], [1, 4, 9, 16, 25])
+        self.assertEqual((rho, p), (1.0, 0.0))
+        rho, p = ensemble_part.rank_correlation([1, 2, 3, 4, 5, 6], [2, 1, 4, 3, 6, 5])
+        self.assertAlmostEqual(rho, 1 - 6 * 6 / (6 * 35))  # Spearman's formula without ties
+        t = rho * math.sqrt(4 / (1 - rho**2))
+        self.assertAlmostEqual(p, 0.0416, delta=5e-4, msg=f"t = {t}")  # Student's t of 4 degrees of freedom, tables
+        self.assertIsNone(ensemble_part.rank_correlation([1, 1, 1], [1, 2, 3]))
+
+    def test_equal_values_share_their_rank(self):
+        self.assertEqual(list(ensemble_part.ranks([3, 1, 1, 2])), [4, 1.5, 1.5, 3])
+
+    def test_numbers_of_a_material(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "m.toml"
+            path.write_text('[material.grain]\ndensity = 1500\nhardening = {law = "voce", strain = 0.1}\n')
+            self.assertEqual(ensemble_part.numbers_of(path), {"density": 1500.0, "hardening.strain": 0.1})
+            path.write_text("what = \n")
+            with self.assertRaises(ensemble_part.Unreadable):
+                ensemble_part.numbers_of(path)
+
+
+class Folders(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name) / "sweep"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_what_follows_the_material_is_named(self):
+        noise = [3, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8]
+        member_files(self.root, [40e6 + 1e6 * k for k in range(12)],
+                     lambda k, y: {"rate": 1e-9 * y, "angle": 30 + 0.01 * noise[k - 1], "constant": 2.0})
+        (e,), broken = ensemble_part.read_all(self.root)
+        self.assertEqual(broken, [])
+        self.assertEqual(list(e.parameters), ["yield_stress"])  # the density does not vary
+        self.assertEqual(ensemble_part.feels(e, "rate"), ("yield_stress", 1.0))
+        self.assertIsNone(ensemble_part.feels(e, "constant"))
+        row = ensemble_part.row_of(e, "rate")
+        self.assertEqual(row[1], "0.04550")
+        # quantiles 2.5 % and 97.5 % of 12 evenly spaced values: 0.275 from either end
+        low, high = map(float, row[2].split(" to "))
+        self.assertAlmostEqual(low, 0.040275, delta=1e-5)  # four digits are shown
+        self.assertAlmostEqual(high, 0.050725, delta=1e-5)
+
+    def test_the_page(self):
+        member_files(self.root, [40e6 + 1e6 * k for k in range(8)], lambda k, y: {"rate": 1e-9 * y})
+        done = subprocess.run([str(ROOT / "tools/report"), "--from", str(self.root), "-o", str(self.root / "page")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.root / "page" / "report.md").read_text()
+        self.assertIn("8 members", text)
+        self.assertIn("rate (yield_stress, +1.00)", text)
+        self.assertIn("1 of 1 observables feel the material", text)
+
+    def test_a_deck_of_a_member_is_no_deck_of_the_report(self):
+        member_files(self.root, [40e6 + 1e6 * k for k in range(5)], lambda k, y: {"rate": 1e-9 * y})
+        for k in range(1, 6):
+            (self.root / f"{k:02}" / "observables.csv").unlink()
+            (self.root / f"{k:02}" / "hopper.csv").write_text(f"model,seed,quantity,value\nmpm,1,rate,{k}\nmpm,2,rate,{k + 0.5}\n")
+        from reporting import flow_part
+        self.assertEqual(flow_part.read_all(self.root)[0], [])
+        (e,), _ = ensemble_part.read_all(self.root)
+        between, by_seed = e.spread("rate")
+        self.assertAlmostEqual(between, math.sqrt(2.5))
+        self.assertAlmostEqual(by_seed, 0.25)  # sd 0.3536 of two seeds, over sqrt(2)
+
+    def test_a_member_without_results_is_named(self):
+        member_files(self.root, [40e6 + 1e6 * k for k in range(6)], lambda k, y: {"rate": 1e-9 * y})
+        (self.root / "03" / "observables.csv").unlink()
+        (e,), broken = ensemble_part.read_all(self.root)
+        self.assertEqual(len(e.members), 5)
+        self.assertIn("neither observables.csv", str(broken[0]))
+
+
+class Driver(unittest.TestCase):
+    """A program in place of mpm writes the yield stress for a law; the command measures it."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+        fake = self.root / "mpm"
+        fake.write_text('#!/bin/sh\necho ran >> "$(dirname "$0")/count"\ngrep yield_stress "$2" | cut -d" " -f3 > "$4"\n')
+        fake.chmod(0o755)
+        for k in range(1, 7):
+            (self.root / f"grain-{k}.toml").write_text(f"[material.grain]\nyield_stress = {k}e6\n")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_tool(self, *words):
+        return subprocess.run([str(ROOT / "tools/ensemble"), *sorted(str(p) for p in self.root.glob("grain-*.toml")), "-o", str(self.root / "out"),
+                               "--mpm", str(self.root / "mpm"), *words], capture_output=True, text=True)
+
+    COMMAND = ("--", "sh", "-c", "echo quantity,value > {folder}/observables.csv; echo rate,$(cat {law}) >> {folder}/observables.csv")
+
+    def test_members_are_run_once(self):
+        for _ in range(2):
+            done = self.run_tool("--jobs", "2", *self.COMMAND)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.root / "count").read_text().count("ran"), 6)
+        (e,), broken = ensemble_part.read_all(self.root)
+        self.assertEqual(broken, [])
+        self.assertEqual(ensemble_part.feels(e, "rate"), ("yield_stress", 1.0))
+
+    def test_numbers_of_the_material_are_at_hand(self):
+        done = self.run_tool("--", "sh", "-c", "test {yield_stress} = {member}000000.0 && echo {other} {law} > {folder}/x")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.root / "out" / "3" / "x").read_text().startswith("{other} /"))
+
+    def test_a_member_that_fails_is_named(self):
+        done = self.run_tool("--", "sh", "-c", "test {member} != 4 && touch {folder}/x {law}")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("member 4: failed", done.stderr)
+        self.assertIn("5 of 6 members", done.stdout)
+
+    def test_a_command_without_law_is_refused(self):
+        for words, said in [(("--", "true", "{folder}"), "no {law}"), (("--", "true", "{law}"), "no {folder}"), ((), "no command")]:
+            done = self.run_tool(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
