@@ -50,10 +50,10 @@ def main(picture):
     points = [images(c["direction"], told["mirrors"]) for c in checks]
     force = np.array([np.nan if c["law_e"] is None else 100 * (c["law_force_max_N"] / c["force_max_N"] - 1) for c in checks])
     e = np.array([np.nan if c["law_e"] is None else c["law_e"] - c["e"] for c in checks])
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), subplot_kw={"projection": "mollweide"})
+    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.4), subplot_kw={"projection": "mollweide"})
     draw(left, points, force, "law over solver, %", "largest force")
     draw(right, points, e, "law less solver", "coefficient of restitution e")
-    figure.suptitle(f"{told['name']}: spheres' law at the local radius, {told['orientations']}", fontsize=10)
+    figure.suptitle(f"{told['name']}: spheres' law at the local radius, {told['orientations']}", fontsize=10, y=1.0)
     figure.savefig(picture, dpi=150, bbox_inches="tight")
 
 
