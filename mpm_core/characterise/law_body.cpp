@@ -10,9 +10,34 @@ namespace granulaw {
 
 namespace {
 
+LawBody body_of_material(const std::string& name, const Material& material)
+{
+  const CharacterisedBody characterised = characterised_body_of(material);
+  return {law_material(name, material), characterised, sphere_name, material_hash(characterised, material)};
+}
+
+/// Of any shape: the sphere of its material, at whatever radius touches.
+LawBody body_of_shape(const std::string& name, const Particle& particle, const std::string& where)
+{
+  const bool uniform =
+      particle.materials.size() == 1 && particle.layers.empty() && particle.inclusions.empty();
+  if (!uniform)
+    fail(where,
+         "has a shape in three dimensions and layers or inclusions, which no sphere of its radius of "
+         "curvature tells: a law is made of shapes of one material, or of a profile");
+  if (particle.materials.front().rate_dependent())
+    fail(where,
+         "has a shape in three dimensions and a material that depends on the rate, whose law holds "
+         "for one radius: a shape touches with many");
+  LawBody body = body_of_material(name, particle.materials.front());
+  body.shape = particle;
+  return body;
+}
+
 LawBody body_of_particle(const std::string& name, const Particle& particle, const std::string& source)
 {
-  check_revolution(particle, fmt::format("{}: [particle.{}]", source, name));
+  const std::string where = fmt::format("{}: [particle.{}]", source, name);
+  if (particle.solid) return body_of_shape(name, particle, where);
   const CharacterisedBody characterised = characterised_body_of(particle);
   const Material& at_pole = particle.materials[static_cast<std::size_t>(characterised.pole_material)];
   LawBody body{law_material(name, at_pole), characterised, sphere_name,
@@ -21,12 +46,6 @@ LawBody body_of_particle(const std::string& name, const Particle& particle, cons
   body.body = name;
   if (characterised.yields()) body.material.yield_stress = characterised.yield * characterised.scale.stress;
   return body;
-}
-
-LawBody body_of_material(const std::string& name, const Material& material)
-{
-  const CharacterisedBody characterised = characterised_body_of(material);
-  return {law_material(name, material), characterised, sphere_name, material_hash(characterised, material)};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "characterise/characterised_body.hpp"
@@ -16,6 +17,9 @@ struct LawBody
   CharacterisedBody characterised;
   std::string body = sphere_name;  ///< BodyLaw::body
   std::string hash;                ///< material_hash() of all that determines the law
+  /// A particle of any shape. Its law is that of its material's sphere, for the radius of curvature at the
+  /// contact; a certificate over orientations says what that is wrong by.
+  std::optional<Particle> shape{};
 
   /// Whether the atlas and the pair rule may serve it: a homogeneous sphere of five numbers.
   bool is_plain_sphere() const { return body == sphere_name && characterised.is_plain(); }

@@ -181,7 +181,8 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
 template <class Estimate>
 ReductionError either_way(const LawMaterial& a, const LawMaterial& b, double radius_ratio, Estimate estimate)
 {
-  constexpr double measured_to = 0.002;  // rho V^2/Y of the one body that stands for the pair: docs/evidence/pairs.md
+  constexpr double measured_to =
+      0.002;  // rho V^2/Y of the one body that stands for the pair: docs/evidence/pairs.md
   ReductionError worst;
   for (const double ratio : {radius_ratio, 1 / radius_ratio}) {
     const UnlikePair pair = unlike_pair(a, b, ratio);
@@ -198,7 +199,8 @@ ReductionError either_way(const LawMaterial& a, const LawMaterial& b, double rad
 
 bool LawFilePlan::needs_runs() const
 {
-  return std::any_of(bodies.begin(), bodies.end(), [](const auto& b) { return !b.second.from_atlas(); }) ||
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const auto& b) { return !b.second.from_atlas() || b.second.body.shape; }) ||
          std::any_of(pairs.begin(), pairs.end(), [](const Pair& p) { return p.own_law; });
 }
 

@@ -8,6 +8,7 @@
 #include "characterise/atlas.hpp"
 #include "characterise/law_body.hpp"
 #include "characterise/reduction_error.hpp"
+#include "characterise/shape_certificate.hpp"
 
 namespace granulaw {
 
@@ -30,6 +31,7 @@ struct LawFileRequest
   bool thick_walls = true;       ///< either of two bodies may also be a thick deformable wall
   bool own_laws =
       false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
+  ShapeQuestion shapes{};        ///< of bodies of any shape; no velocities: usual_velocity()
   const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan
 
   /// What the caller calls these things, for messages.

@@ -99,6 +99,7 @@ class Maker
     options_.atlas = plan.request.atlas;
     options_.farm = &farm;
     laws_ = plan.bodies.size();
+    for (const auto& [name, planned] : plan.bodies) laws_ += planned.body.shape ? 1 : 0;
     for (const LawFilePlan::Pair& pair : plan.pairs)
       laws_ += pair.own_law ? 1 : 0;  // composing takes no time
   }
@@ -122,9 +123,10 @@ class Maker
       law.pole_radius = body.characterised.scale.length;
       law.mass_ratio = body.characterised.mass / (4.0 / 3.0 * M_PI);
     }
-    file_.law.bodies[name] = std::move(law);
     file_.law.provenance["material_hash." + name] = body.hash;
     ++finished_;
+    if (body.shape) law.shape = certificate_of(name, body, law);
+    file_.law.bodies[name] = std::move(law);
   }
 
   BodyLaw body_by_runs(const std::string& name, const LawBody& body)
@@ -141,6 +143,17 @@ class Maker
     if (body.characterised.rate_dependent())
       runs.size = provenance["size." + name] = size_of(body, built.law);
     return std::move(built.law);
+  }
+
+  ShapeCertificate certificate_of(const std::string& name, const LawBody& body, const BodyLaw& law)
+  {
+    ShapeQuestion question = plan_.request.shapes;
+    if (question.velocities.empty())
+      question.velocities = {usual_velocity(body.material, plan_.request.damage_number)};
+    ShapeCertificate certificate =
+        certify_shape(*body.shape, law, question, farm_, options_named(name).progress);
+    ++finished_;
+    return certificate;
   }
 
   void add_pair(const LawFilePlan::Pair& pair)

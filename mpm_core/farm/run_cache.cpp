@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* magic = "granulaw run 2";
+constexpr const char* magic = "granulaw run 3";
 
 /// The file's bytes before the outcome's, and what must follow.
 std::string header_of(const std::string& key, double cost, double cpu_s, const std::string& body)

@@ -11,7 +11,7 @@ namespace granulaw {
 /// stands in the file and decides. A file is complete or absent, so that several builds may share a folder;
 /// a damaged one counts as absent. Nothing is ever removed: to empty the cache, remove the folder.
 ///
-///     granulaw run 2
+///     granulaw run 3
 ///     key KEY
 ///     cost COST                    as expected, RunJob::cost
 ///     cpu_s SECONDS                as it turned out

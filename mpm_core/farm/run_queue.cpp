@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "farm/run_cache.hpp"
+#include "solver/output/checkpoint.hpp"
 #include "solver/output/state_archive.hpp"
 
 namespace granulaw {
@@ -23,7 +24,7 @@ double thread_cpu_s()
 
 void visit_state(StateArchive& a, RunOutcome& o)
 {
-  a.growing(o.result.trace), a.value(o.result.summary), a.growing(o.result.yield_overlaps);
+  visit_result(a, o.result);
   a.value(o.first_error), a.value(o.error), a.value(o.cpu_s);
 }
 

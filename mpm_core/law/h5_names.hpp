@@ -18,7 +18,7 @@ inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
 inline constexpr int major = 3;  ///< counts up where an old reader would misread the file
-inline constexpr int minor = 0;  ///< counts up where something is only added
+inline constexpr int minor = 1;  ///< counts up where something is only added
 
 // Attributes of every dataset.
 inline constexpr const char* unit = "unit";
@@ -35,7 +35,10 @@ inline constexpr const char* support = "support";             ///< string attrib
 inline constexpr const char* origin = "origin";               ///< the same: "runs", "atlas" or "composed"
 inline constexpr const char* body = "body";                   ///< string attribute of bodies/<name>
 inline constexpr const char* velocity_axis = "inertia_axis";  ///< bodies/<name>/inertia_axis, if it has one
-inline constexpr const char* kind = "kind";                   ///< string attribute of it
+inline constexpr const char* orientations =
+    "orientations";                            ///< bodies/<name>/orientations, if it has a shape
+inline constexpr const char* shape = "shape";  ///< string attribute of it: the body's definition
+inline constexpr const char* kind = "kind";    ///< string attribute of it
 inline constexpr const char* kind_inertia = "inertia";
 inline constexpr const char* kind_rate = "logarithmic rate";
 
@@ -130,5 +133,28 @@ inline constexpr Field atlas_error_force{"atlas_error_force", "1",
                                          "relative, of an interpolated law; 0: computed by runs"};
 inline constexpr Field atlas_error_restitution{"atlas_error_restitution", "1",
                                                "absolute in e, of an interpolated law; 0: computed by runs"};
+
+// bodies/<name>/orientations: lists of equal length, one entry for each impact
+inline constexpr Field shape_volume{"volume", "m^3", "volume of the body"};
+inline constexpr Field orientations_solver_error{"solver_error", "1",
+                                                 "relative, of F_max: two resolutions of one impact"};
+inline constexpr Field mirrors{"mirrors", "1",
+                               "1: the plane x = 0 (y, z) is a mirror of the body; entries lie on one side"};
+inline constexpr Field contact_kind{
+    "contact", "1", "0: curved, the law answers; 1: edge; 2: flat or hollow; 3: beyond the law's table"};
+inline constexpr Field direction_x{"direction_x", "1",
+                                   "unit vector in the body's frame that points at the wall"};
+inline constexpr Field direction_y{"direction_y", "1", "the same"};
+inline constexpr Field direction_z{"direction_z", "1", "the same"};
+inline constexpr Field velocity{"velocity", "m/s", "of the impact on the rigid wall, without friction"};
+inline constexpr Field sharper_radius{"sharper_radius", "m",
+                                      "R', smaller principal radius of curvature that touches; 0: an edge"};
+inline constexpr Field flatter_radius{"flatter_radius", "m", "R'', the larger one; infinity: flat"};
+inline constexpr Field effective_mass{"effective_mass", "1", "mass that resists there over the body's"};
+inline constexpr Field solver_force_max{"force_max", "N", "largest force, by the solver"};
+inline constexpr Field solver_restitution{"restitution", "1", "e = sqrt(W_u/W_l), by the solver"};
+inline constexpr Field law_force_max{"law_force_max", "N",
+                                     "by the law of a sphere of radius sqrt(R' R''); 0: no answer"};
+inline constexpr Field law_restitution{"law_restitution", "1", "the same of e"};
 
 }  // namespace granulaw::h5

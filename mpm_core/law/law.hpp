@@ -3,12 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/scales.hpp"
 #include "law/contact_curve.hpp"
 #include "law/law_material.hpp"
+#include "law/orientation_check.hpp"
 
 namespace granulaw {
 
@@ -52,6 +54,9 @@ struct BodyLaw
   std::string body = sphere_name;  ///< else the name of a layered or shaped particle: wall and like pair only
   double pole_radius = 0;          ///< m, radius of curvature at the pole, as computed; 0: any (spheres)
   double mass_ratio = 1;           ///< mass over rho 4/3 pi R^3, R the radius of curvature at the pole
+  /// Of a particle of any shape: the law is its material's sphere's, used with the radius of curvature at the
+  /// contact. What that is wrong by, orientation by orientation.
+  std::optional<ShapeCertificate> shape{};
 
   bool is_sphere() const { return body == sphere_name; }
 };

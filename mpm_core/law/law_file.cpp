@@ -12,6 +12,7 @@
 #include "law/h5.hpp"
 #include "law/h5_names.hpp"
 #include "law/h5_structure.hpp"
+#include "law/shape_certificate_file.hpp"
 
 namespace granulaw {
 
@@ -166,6 +167,7 @@ void check_body(const BodyLaw& body, const std::string& where)
     fail(where, "'mass_ratio' of a homogeneous sphere", fmt::format("{:.6g}", body.mass_ratio), "1");
   if (!body.is_sphere() && body.pole_radius == 0)
     fail(where, fmt::format("'pole_radius' of the body {} is missing", shortened(body.body)));
+  if (body.shape) h5::check_shape_certificate(*body.shape, where);
 }
 
 void check_own_law(const std::string& name, const TwoBodyLaw& own, bool one_material,
@@ -347,6 +349,7 @@ BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
   body.body = h5::read_text_attribute(group, h5::body, where);
   body.pole_radius = h5::read_scalar(group, h5::pole_radius, where);
   body.mass_ratio = h5::read_scalar(group, h5::mass_ratio, where);
+  if (h5::has_link(group, h5::orientations)) body.shape = h5::read_shape_certificate(group, where);
 
   check_body(body, where);
   return body;
@@ -366,6 +369,7 @@ void write_body(hid_t group, const BodyLaw& body, const std::string& path)
   h5::write_text_attribute(group, h5::body, body.body, path);
   h5::write_scalar(group, h5::pole_radius, body.pole_radius, path);
   h5::write_scalar(group, h5::mass_ratio, body.mass_ratio, path);
+  if (body.shape) h5::write_shape_certificate(group, *body.shape, path);
 }
 
 TwoBodyLaw read_two_body_law(hid_t group, const LawMaterial& yielding, const std::string& where)
@@ -436,7 +440,7 @@ Law read_open(const h5::Handle& file, const std::string& path)
   Law law;
 
   const h5::Handle bodies = h5::open_group(file, h5::bodies, path);
-  std::size_t nodes = 0;
+  std::size_t nodes = 0, orientations = 0;
   const auto count_nodes = [&](const ContactCurve& curve) {
     nodes += node_count(curve);
     if (nodes > most_nodes_together)
@@ -449,6 +453,10 @@ Law read_open(const h5::Handle& file, const std::string& path)
         law.bodies.emplace(name, read_body(h5::open_group(bodies, name.c_str(), path), name, path))
             .first->second;
     count_nodes(body.curve);
+    if (body.shape) orientations += body.shape->checks.size();
+    if (orientations > h5::most_orientations)
+      fail(path, "has too many orientations together", std::to_string(orientations),
+           fmt::format("up to {}", h5::most_orientations));
   }
 
   for (const std::string& pair : h5::read_texts(file, h5::pairs, most_pairs, path)) {

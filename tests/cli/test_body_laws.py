@@ -6,6 +6,8 @@ import subprocess
 import sys
 import tempfile
 
+import h5py
+
 MATERIALS = """
 [material.core]
 density = 1200
@@ -50,6 +52,9 @@ density = 1200
 youngs_modulus = 4.5e9
 poisson_ratio = 0.3
 yield_stress = 2e7
+[particle.egg]
+material = "core"
+shape = {kind = "ellipsoid", axes = [1e-3, 1e-3, 1.5e-3]}
 [particle.stiff]
 radius = 1e-3
 material = "alloy"
@@ -159,10 +164,38 @@ def skin():
     assert "that of its skin" in said and not os.path.exists("thin.h5"), said
 
 
+def oriented():
+    # A particle with a shape: its material's law, and a certificate over orientations.
+    table = ("table", "m.toml", "--pair", "egg:wall", "--orientations", 4, "--velocity", 2, "-o", "law.h5")
+    told = mpm(*table)
+    assert "egg: from the atlas" in told and "answers 100 % of 4 orientations at 2 m/s" in told and "5 runs made" in told, told
+    assert "ellipsoid 0.001 0.001 0.0015" in mpm("info", "law.h5")
+    assert "answers 100 %" in mpm("check", "law.h5", "--materials", "m.toml", "--impacts", 1, "--seed", 1)
+    with h5py.File("law.h5") as file:
+        group = file["bodies/egg/orientations"]
+        off = group["law_force_max"][:] / group["force_max"][:] - 1
+        assert group["force_max"].attrs["unit"] == b"N" and len(off) == 4 and list(group["mirrors"]) == [1, 1, 1]
+        assert abs(off).max() < 0.05, off  # single grids of 8 cells: 2 %, and the shape's 1 to 2 %
+        first = {name: group[name][:] for name in group if group[name].shape}
+    again = mpm(*table)
+    assert "0 runs made" in again and "5 taken from the cache" in again, again
+    with h5py.File("law.h5") as file:
+        for name, values in first.items():
+            assert (file["bodies/egg/orientations"][name][:] == values).all(), name
+    with open("m.toml") as file:
+        text = file.read()
+    with open("other.toml", "w") as file:
+        file.write(text.replace("1e-3, 1.5e-3]}", "1e-3, 1.4e-3]}"))
+    assert "another shape" in mpm("check", "law.h5", "--materials", "other.toml", "--impacts", 1, ok=False)
+    mpm("plot", "law.h5", "--shape", "egg", "-o", "map.png")
+    assert open("map.png", "rb").read(4) == b"\x89PNG"
+    assert "no body with a certificate" in mpm("plot", "law.h5", "--shape", "eg", "-o", "map.png", ok=False)
+
+
 MPM = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     os.environ["XDG_CACHE_HOME"] = folder
     with open("m.toml", "w") as file:
         file.write(MATERIALS)
-    {"shaped": shaped, "layered": layered, "rated": rated, "stiff": stiff, "skin": skin}[sys.argv[2]]()
+    {"shaped": shaped, "layered": layered, "rated": rated, "stiff": stiff, "skin": skin, "oriented": oriented}[sys.argv[2]]()

@@ -224,8 +224,9 @@ layers = [{material = "glass", thickness = 1e-4}]
 """)
     refused(["table", "coated.toml", "--pair", "coated:glass", "--cache", "runs", "-o", "out.h5"], "coated:glass", "no homogeneous sphere")
     refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "in.x", "cannot be read")
-    egg = materials(GOOD + '[particle.egg]\nmaterial = "powder"\nshape = {kind = "ellipsoid", axes = [1e-3, 1e-3, 1.5e-3]}\n')
-    refused(["table", egg, "--pair", "egg:wall", "-o", "out.h5"], "[particle.egg]: has a shape in three dimensions", "ellipsoid")
+    egg = materials(GOOD + '[particle.egg]\nmaterial = "powder"\nshape = {kind = "ellipsoid", axes = [1e-3, 1e-3, 1.5e-3]}\n'
+                    'layers = [{material = "glass", thickness = 1e-4}]\n')
+    refused(["table", egg, "--pair", "egg:wall", "-o", "out.h5"], "[particle.egg]: has a shape in three dimensions and layers")
     materials()
     refused(["plan", "in.hopper"], "in.hopper", "cannot be read")
 

@@ -2,6 +2,7 @@
 
 #include "characterise/law_material.hpp"
 #include "scratch_folder.hpp"
+#include "solver/solid/ellipsoid_solid.hpp"
 #include "some_materials.hpp"
 
 namespace granulaw {
@@ -48,6 +49,27 @@ TEST(LawBody, ALayeredParticleHasItsOwnLawAndItsWeakestYieldStress)
   EXPECT_FALSE(body.is_plain_sphere());
   EXPECT_EQ(body.material.youngs_modulus, glass().youngs_modulus);  // of the pole
   EXPECT_NEAR(body.material.yield_stress, 100e6, 1e-6 * 100e6);     // of the core
+}
+
+/// The law is that of its material's sphere; layers and rates are no sphere's at every radius.
+TEST(LawBody, AShapeIsASphereOfItsMaterial)
+{
+  Materials m = some_materials();
+  Particle pebble;
+  pebble.materials = {soft_powder()};
+  pebble.solid = std::make_shared<EllipsoidSolid>(Vector3(1e-3, 1.2e-3, 1.5e-3));
+  pebble.radius = 1.2e-3;
+  m.particles["pebble"] = pebble;
+  const LawBody body = law_body("pebble", m);
+  EXPECT_TRUE(body.is_plain_sphere());
+  EXPECT_TRUE(body.shape.has_value());
+  EXPECT_EQ(body.hash, law_body("powder", m).hash);
+  m.particles["pebble"].layers = {{1e-4, 0}};
+  expect_error("[particle.pebble]: has a shape in three dimensions and layers",
+               [&] { law_body("pebble", m); });
+  m.particles["pebble"] = pebble;
+  m.particles["pebble"].materials = {rate_dependent_powder()};
+  expect_error("depends on the rate", [&] { law_body("pebble", m); });
 }
 
 TEST(LawBody, ARateNeedsAParticle)

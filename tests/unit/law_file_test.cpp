@@ -252,6 +252,76 @@ TEST_F(LawFile, UnusableAdditionsAreRefused)
   refuses([](Law& l) { l.bodies["glass"].curve = l.bodies["powder"].curve; }, "elastic");
 }
 
+/// Two orientations, one of which no sphere answers.
+Law law_with_orientations()
+{
+  Law law = SyntheticLaw{}.law();
+  ShapeCertificate shape;
+  shape.shape = "box 1 1 1 0.1", shape.mirrors = {true, false, true};
+  shape.volume = 1.0 / 3, shape.solver_error = 0.01;
+  using Local = OrientationCheck::Local;
+  shape.checks = {{{0, 0.6, -0.8}, 0.7, 1e-3, 2e-3, 0.9, Local::curved, {2.5, 0.5}, {2.6, 0.45}},
+                  {{1, 0, 0}, 0.7, 1e-4, INFINITY, 1, Local::flat, {3.5, 0.6}, {}}};
+  law.bodies["powder"].shape = shape;
+  return law;
+}
+
+TEST_F(LawFile, OrientationsComeBackBitExact)
+{
+  const Law law = law_with_orientations();
+  write_law(law, path_);
+  const ShapeCertificate a = *law.bodies.at("powder").shape,
+                         b = read_law(path_).bodies.at("powder").shape.value();
+  EXPECT_EQ(a.shape, b.shape);
+  EXPECT_EQ(a.mirrors, b.mirrors);
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.solver_error, b.solver_error);
+  ASSERT_EQ(b.checks.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const OrientationCheck &x = a.checks[k], &y = b.checks[k];
+    EXPECT_EQ(x.direction, y.direction);
+    EXPECT_EQ(x.velocity, y.velocity);
+    EXPECT_EQ(x.sharper_radius, y.sharper_radius);
+    EXPECT_EQ(x.flatter_radius, y.flatter_radius);
+    EXPECT_EQ(x.effective_mass, y.effective_mass);
+    EXPECT_EQ(x.local, y.local);
+    EXPECT_EQ(x.solver.force_max, y.solver.force_max);
+    EXPECT_EQ(x.solver.restitution, y.solver.restitution);
+    EXPECT_EQ(x.law.force_max, y.law.force_max);
+    EXPECT_EQ(x.law.restitution, y.law.restitution);
+  }
+  EXPECT_EQ(b.covered(), 0.5);
+  EXPECT_NEAR(b.force().largest, 0.04, 1e-12);
+  EXPECT_FALSE(read_law(path_).bodies.at("glass").shape.has_value());
+}
+
+TEST_F(LawFile, UnusableOrientationsAreRefused)
+{
+  const Law law = law_with_orientations();
+  const auto says = [&](const std::function<void(hid_t)>& change, const char* what) {
+    const std::string sentence = after(change, law);
+    EXPECT_NE(sentence.find(what), std::string::npos) << "wanted '" << what << "', got: " << sentence;
+  };
+  const std::string group = "bodies/powder/orientations/";
+  const auto set = [&](const char* name, double value) {
+    return [=](hid_t f) {
+      overwrite(f, (group + name).c_str(), [=](std::vector<double>& v) { v.front() = value; });
+    };
+  };
+  says(set("contact", 4), "contact");
+  says(set("contact", NAN), "contact");
+  says(set("direction_z", 0), "direction_x");
+  says(set("velocity", -1), "velocity");
+  says(set("force_max", 0), "force_max");
+  says(set("restitution", NAN), "restitution");
+  says(set("effective_mass", 2), "effective_mass");
+  says(set("sharper_radius", INFINITY), "sharper_radius");
+  says(set("law_force_max", 0), "law_force_max");
+  says(set("volume", 0), "volume");
+  says([&](hid_t f) { H5Ldelete(f, (group + "law_restitution").c_str(), H5P_DEFAULT); }, "law_restitution");
+  says([&](hid_t f) { H5Adelete_by_name(f, group.c_str(), "shape", H5P_DEFAULT); }, "shape");
+}
+
 TEST_F(LawFile, EveryTruncationIsRefused)
 {
   write_law(SyntheticLaw{}.law(), path_);

@@ -39,12 +39,27 @@ TEST(RunCache, RoundTripIsExactAndKeysDecide)
   EXPECT_EQ(found.result.trace[13].force, some_result(1.1).trace[13].force);
   EXPECT_FALSE(cache.load("two", found));
   const fs::path file = fs::directory_iterator(scratch.folder)->path();
-  EXPECT_TRUE(read(file).starts_with("granulaw run 2\nkey one\ncost 2.5\ncpu_s 0.366667\noutcome "));
+  EXPECT_TRUE(read(file).starts_with("granulaw run 3\nkey one\ncost 2.5\ncpu_s 0.366667\noutcome "));
   // the file of another key under this one's name
   cache.store("two", 1, some_outcome(2));
   for (const fs::directory_entry& other : fs::directory_iterator(scratch.folder))
     if (other.path() != file) fs::rename(other.path(), file);
   EXPECT_FALSE(cache.load("one", found));
+}
+
+TEST(RunCache, KeepsWhatThreeDimensionsAdd)
+{
+  const Scratch scratch;
+  const RunCache cache(scratch.folder.string());
+  RunOutcome outcome = some_outcome(1.1), found;
+  outcome.result.planes = {{{0, 0, 1}, {{1e-6, 2.0 / 3, {0.1, 0, 2.0 / 3}, {}, {}, {}}}}};
+  outcome.result.rebound = {0.5, 0.7, {0, 1.0 / 3, 0}, 0.01, 0.002};
+  cache.store("one", 1, outcome);
+  ASSERT_TRUE(cache.load("one", found));
+  ASSERT_EQ(found.result.planes.size(), 1u);
+  EXPECT_EQ(found.result.planes[0].samples.at(0).vector[2], 2.0 / 3);
+  ASSERT_TRUE(found.result.rebound.has_value());
+  EXPECT_EQ(found.result.rebound->spin[1], 1.0 / 3);
 }
 
 TEST(RunCache, ADamagedFileCountsAsNotThere)

@@ -20,7 +20,9 @@
 #include "materials_file.hpp"
 #include "option_checks.hpp"
 #include "pair_names.hpp"
+#include "shape_output.hpp"
 #include "solver/runs.hpp"
+#include "solver/solid/body_frame.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {
@@ -113,6 +115,9 @@ std::optional<CharacterisedBody> body_for(const std::string& name, const Law& la
                                                                        : std::nullopt;
   }
   const LawBody body = law_body(name, read_materials(r.materials));
+  const std::optional<ShapeCertificate>& certified = law.bodies.at(name).shape;
+  if (certified && (!body.shape || shape_text(*solid_of(*body.shape)) != certified->shape))
+    fail(r.materials, fmt::format("'{}' has another shape than the law's certificate", name));
   if (!hash.empty() && hash != body.hash)
     fail(r.materials, fmt::format("'{}' is not what the law was made from", name), body.hash, hash);
   return body.characterised;
@@ -222,6 +227,8 @@ void check(const CheckRequest& r)
   const bool sane = admissible(law, r.law);
   const bool bodies = bodies_agree(law, r, throws);
   const bool pairs = pairs_agree(law, throws);
+  for (const auto& [name, body] : law.bodies)
+    if (body.shape) print_shape(name, *body.shape);
   if (!sane || !bodies || !pairs) fail(r.law, fmt::format("the law fails its check (seed {})", seed));
   fmt::print(
       "{}: good ({} materials, pairs {}; no closed cycle gains energy; {} fresh impacts in all, seed "

@@ -12,6 +12,7 @@
 #include "claim.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
+#include "shape_output.hpp"
 
 namespace granulaw {
 
@@ -96,6 +97,10 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
   print_errors(c);
   if (std::isfinite(c.damage_number_max))
     fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.damage_number_max);
+  if (body.shape) {
+    fmt::print("  shape                {}\n", printable(body.shape->shape.substr(0, 100)));
+    print_shape("  orientations", *body.shape);
+  }
   if (m.yields())
     fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n",
                support_ratio(body.curve.x_end()));

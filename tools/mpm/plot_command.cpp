@@ -4,11 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "base/error.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
 #include "option_checks.hpp"
 #include "pair_curves.hpp"
 #include "python_script.hpp"
+#include "shape_output.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -17,7 +19,7 @@ namespace {
 
 struct Request : PairOptions
 {
-  std::string output;
+  std::string output, shape;
   std::optional<double> velocity;
 };
 
@@ -28,10 +30,22 @@ void draw(const char* script, const std::vector<std::string>& words, const std::
   fmt::print("wrote {}\n", output);
 }
 
+void draw_certificate(const Law& law, const Request& r)
+{
+  std::vector<std::string> shapes;
+  for (const auto& [name, body] : law.bodies)
+    if (body.shape) shapes.push_back(name);
+  const auto found = law.bodies.find(r.shape);
+  if (found == law.bodies.end() || !found->second.shape)
+    fail_unknown("--shape", "no body with a certificate over orientations", r.shape, shapes);
+  draw_shape("mpm plot", r.shape, *found->second.shape, r.output);
+}
+
 void plot(const Request& r)
 {
   check_output(r.output, ".png, .pdf, .svg");
   const Law law = read_law(r.law);  // its sentence is better than Python's
+  if (!r.shape.empty()) return draw_certificate(law, r);
   if (r.pair.empty()) return draw("plot_law.py", {r.law, r.output}, {}, r.output);
   const auto curves = pair_curves(law, choose_pair(law, r), r.velocity);
   draw("plot_pair.py", {r.output}, curves.dump(), r.output);
@@ -47,6 +61,10 @@ void define(CLI::App& command)
                   "of a pair: the largest approach speed, m/s (default: a hundred yield velocities, or where "
                   "the law ends)")
       ->check(above_zero());
+  command
+      .add_option("--shape", r->shape,
+                  "a particle of any shape: draw what its law is wrong by over its orientations")
+      ->excludes(command.get_option("--pair"));
   command.get_option("--pair")->description(
       "a:b or a:wall: draw this pair (default: every material on the rigid wall)");
   for (const char* of_pair : {"--radius", "--radius2", "--velocity"})
@@ -62,6 +80,7 @@ extern const Command plot_command{
     "Draws a law: force against overlap with its unloading branches, and e against velocity beside\n"
     "Thornton's closed form; of a pair also the pair rule, Hertz's force and what waves take.\n"
     "Example: mpm plot law.h5 -o law.png\n"
+    "         mpm plot law.h5 --shape pebble -o map.png\n"
     "         mpm plot law.h5 --pair powder:steel --radius 5e-4 --radius2 inf -o pair.png",
     define};
 

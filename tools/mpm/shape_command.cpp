@@ -17,6 +17,7 @@
 #include "law/law_file.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
+#include "shape_output.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
 
@@ -26,7 +27,7 @@ namespace {
 
 struct ShapeRequest
 {
-  std::string materials, particle, law, output;
+  std::string materials, particle, law, output, picture;
   ShapeQuestion question;
   FarmOptions farm;
   bool json = false;
@@ -58,93 +59,48 @@ BodyLaw sphere_law(const Particle& particle, const ShapeRequest& r)
   return law_from(*atlas, material, options);
 }
 
-const char* name_of(OrientationCheck::Local local)
-{
-  switch (local) {
-    case OrientationCheck::Local::edge:
-      return "edge";
-    case OrientationCheck::Local::flat:
-      return "flat";
-    case OrientationCheck::Local::beyond_law:
-      return "beyond the law";
-    default:
-      return "curved";
-  }
-}
-
 void write_map(const ShapeCertificate& certificate, const std::string& path)
 {
   std::string text =
       "direction_x,direction_y,direction_z,velocity_m_per_s,contact,sharper_radius_m,flatter_radius_m,"
       "effective_mass_share,force_max_N,restitution,law_force_max_N,law_restitution\n";
   for (const OrientationCheck& c : certificate.checks) {
-    const Vector3& n = c.orientation.direction;
+    const std::array<double, 3>& n = c.direction;
     text += fmt::format("{:.6f},{:.6f},{:.6f},{:g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
-                        n.x(), n.y(), n.z(), c.velocity, name_of(c.local), c.orientation.radii.sharper,
-                        c.orientation.radii.flatter, c.orientation.effective_mass, c.solver.force_max,
-                        c.solver.restitution, c.law.force_max, c.law.restitution);
+                        n[0], n[1], n[2], c.velocity, name_of(c.local), c.sharper_radius, c.flatter_radius,
+                        c.effective_mass, c.solver.force_max, c.solver.restitution, c.law.force_max,
+                        c.law.restitution);
   }
   write_text_atomically(path, text);
 }
 
-nlohmann::ordered_json as_json(const OrientationCheck& c)
-{
-  const Vector3& n = c.orientation.direction;
-  nlohmann::ordered_json out;
-  out["direction"] = {n.x(), n.y(), n.z()};
-  out["velocity_m_per_s"] = c.velocity;
-  out["contact"] = name_of(c.local);
-  out["sharper_radius_m"] = json_number(c.orientation.radii.sharper);
-  out["flatter_radius_m"] = json_number(c.orientation.radii.flatter);
-  out["effective_mass_share"] = c.orientation.effective_mass;
-  out["force_max_N"] = c.solver.force_max;
-  out["e"] = c.solver.restitution;
-  const bool answered = c.local == OrientationCheck::Local::curved;
-  out["law_force_max_N"] = answered ? json_number(c.law.force_max) : nullptr;
-  out["law_e"] = answered ? json_number(c.law.restitution) : nullptr;
-  return out;
-}
-
-void print_as_json(const ShapeCertificate& certificate, const FarmCount& count)
-{
-  nlohmann::ordered_json out;
-  const ErrorQuantiles force = certificate.force(), e = certificate.restitution();
-  out["covered"] = certificate.covered();
-  out["force_error_median"] = force.median;
-  out["force_error_95"] = force.largest;
-  out["restitution_error_median"] = e.median;
-  out["restitution_error_95"] = e.largest;
-  out["solver_error"] = certificate.solver_error;
-  out["cpu_s"] = count.cpu_s;
-  for (const OrientationCheck& check : certificate.checks) out["directions"].push_back(as_json(check));
-  print_json(out, 2);
-}
-
-void print(const ShapeRequest& r, const ShapeCertificate& certificate)
+void print_directions(const ShapeCertificate& certificate)
 {
   fmt::print("   direction            V m/s   R', R'' mm       m_e/m   F_max N    e      law: F      e\n");
   for (const OrientationCheck& c : certificate.checks) {
-    const Vector3& n = c.orientation.direction;
-    fmt::print("{:6.2f} {:6.2f} {:6.2f}  {:7.4g}  {:7.4g} {:7.4g}  {:6.3f}  {:9.4g}  {:.3f}", n.x(), n.y(),
-               n.z(), c.velocity, 1e3 * c.orientation.radii.sharper, 1e3 * c.orientation.radii.flatter,
-               c.orientation.effective_mass, c.solver.force_max, c.solver.restitution);
+    const std::array<double, 3>& n = c.direction;
+    fmt::print("{:6.2f} {:6.2f} {:6.2f}  {:7.4g}  {:7.4g} {:7.4g}  {:6.3f}  {:9.4g}  {:.3f}", n[0], n[1],
+               n[2], c.velocity, 1e3 * c.sharper_radius, 1e3 * c.flatter_radius, c.effective_mass,
+               c.solver.force_max, c.solver.restitution);
     if (c.local == OrientationCheck::Local::curved)
       fmt::print("  {:+6.1f} %  {:+.3f}\n", 100 * c.force_error(), c.restitution_error());
     else
       fmt::print("  {}\n", name_of(c.local));
   }
-  const ErrorQuantiles force = certificate.force(), e = certificate.restitution();
-  fmt::print("{}: the law of spheres with the local radius answers {:.0f} % of the directions\n", r.particle,
-             100 * certificate.covered());
-  fmt::print("F_max: off by {:.2g} % in the median, within {:.2g} % in 95 %; e: {:.2g} and {:.2g}\n",
-             100 * force.median, 100 * force.largest, e.median, e.largest);
-  fmt::print("solver error (two resolutions of one direction) {:.2g} %\n", 100 * certificate.solver_error);
+}
+
+void print_json_of(const ShapeCertificate& certificate, const FarmCount& count)
+{
+  nlohmann::ordered_json out = as_json(certificate);
+  out["cpu_s"] = count.cpu_s;
+  print_json(out, 2);
 }
 
 void certify(ShapeRequest& r)
 {
   r.farm.check();
   if (!r.output.empty()) check_output(r.output, ".csv");
+  if (!r.picture.empty()) check_output(r.picture, ".png, .pdf, .svg");
   const MaterialsFile materials = read_materials(r.materials);
   const Particle& particle = materials.particle(r.particle);
   const BodyLaw law = sphere_law(particle, r);
@@ -156,8 +112,10 @@ void certify(ShapeRequest& r)
                                 [&](double done, const std::string& what) { bar.update(done, what); });
   }
   if (!r.output.empty()) write_map(certificate, r.output);
-  if (r.json) return print_as_json(certificate, farm->count());
-  print(r, certificate);
+  if (!r.picture.empty()) draw_shape("mpm shape", r.particle, certificate, r.picture);
+  if (r.json) return print_json_of(certificate, farm->count());
+  print_directions(certificate);
+  print_shape(r.particle, certificate);
   print_count(farm->count());
 }
 
@@ -182,6 +140,8 @@ void define(CLI::App& command)
   command.add_option("--law", r->law,
                      "law file with the law of a sphere of this material (default: from the atlas)");
   command.add_option("-o,--output", r->output, "NAME.csv: the map, direction by direction");
+  command.add_option("--plot", r->picture,
+                     "NAME.png, .pdf or .svg: the map as a picture, errors over the sphere of directions");
   command.add_flag("--json", r->json, "print one JSON object instead of the table");
   r->farm.add_to(command);
   command.callback([r] { certify(*r); });

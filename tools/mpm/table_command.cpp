@@ -20,6 +20,7 @@
 #include "option_checks.hpp"
 #include "pair_names.hpp"
 #include "ranks.hpp"
+#include "shape_output.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
 
@@ -158,7 +159,10 @@ void report(const TableRequest& r, const LawFilePlan& plan, const MadeLawFile& f
   fmt::print("wrote {}: pairs {}\n", r.output, file.law.pair_list());
   for (const auto& [name, planned] : plan.bodies) print_body(name, planned, file);
   for (const LawFilePlan::Pair& pair : plan.pairs) print_pair(pair, file);
-  for (const auto& [name, body] : file.law.bodies) print_certificate(name, body);
+  for (const auto& [name, body] : file.law.bodies) {
+    print_certificate(name, body);
+    if (body.shape) print_shape(name, *body.shape);
+  }
   for (const auto& [name, laws] : file.law.pair_laws)
     for (const TwoBodyLaw& own : laws)
       if (own.law.certificate.origin != composed_origin) print_certificate(name, own.law);
@@ -229,6 +233,21 @@ void add_range_options(CLI::App& command, LawFileRequest& file)
                    "by runs, at equal radii)");
 }
 
+void add_shape_options(CLI::App& command, ShapeQuestion& shapes)
+{
+  command
+      .add_option("--orientations", shapes.directions,
+                  "of a particle with a shape: directions of its certificate, over all that its mirror "
+                  "planes leave")
+      ->check(whole_from_to(4, 10000))
+      ->capture_default_str();
+  command
+      .add_option("--velocity", shapes.velocities,
+                  "of a particle with a shape: speeds of the certificate's impacts, m/s (default: where rho\n"
+                  "V^2/Y is 0.0025)")
+      ->check(above_zero());
+}
+
 void define(CLI::App& command)
 {
   const auto r = std::make_shared<TableRequest>();
@@ -241,6 +260,7 @@ void define(CLI::App& command)
       "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
       "materials");
   add_range_options(command, r->file);
+  add_shape_options(command, r->file.shapes);
   command.add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");
   r->farm.add_to(command);
   command.add_option("-o,--output", r->output, "law file, NAME.h5")->required();
@@ -261,6 +281,9 @@ extern const Command table_command{
     "linearly or not at all comes from the atlas at once (--no-atlas: computed anew); other hardening laws,\n"
     "rate dependence, layers, inclusions and profiles are computed by the solver: name the particle in "
     "--pair.\n"
+    "A particle with a shape in three dimensions gets its material's law, for the radius of curvature at "
+    "the\n"
+    "contact, and a certificate over its orientations.\n"
     "Finished runs are kept in a folder (--cache): a build that was stopped goes on where it was, and one\n"
     "with a wider range reuses them. The folder may be removed at any time.\n"
     "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"

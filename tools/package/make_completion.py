@@ -13,7 +13,7 @@ ENDINGS = {"MATERIALS": "toml", "LAW": "h5", "DECK": "", "DATA": "csv"}
 HEADINGS = {"--particle": "particle", "--against": "particle", "--wall": "material", "--indenter": "material"}
 WORDS = {"--grid": "mapped rectilinear tartan updated rectilinear-3d", "--precision": "double single", "--support": "free midplane",
          "--fit": "youngs_modulus yield_stress hardening_modulus saturation_stress strain strength exponent offset", "--planes": "pair cube die bcc fcc"}
-NOTHING = ("--pair", "--var", "--materials", "--prior", "--bounds", "--name", "--guess", "--known", "--speeds", "--displacements")  # free text
+NOTHING = ("--pair", "--var", "--materials", "--prior", "--bounds", "--name", "--guess", "--known", "--speeds", "--displacements", "--shape")  # free text
 NUMBERS = ("INT", "UINT", "FLOAT")
 
 SCRIPT = """\

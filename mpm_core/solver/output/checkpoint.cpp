@@ -4,7 +4,11 @@
 
 namespace granulaw {
 
-namespace {
+void visit_planes(StateArchive& a, std::vector<PlaneTrace>& planes)
+{
+  planes.resize(a.count(planes.size(), sizeof(PlaneTrace::normal)));
+  for (PlaneTrace& plane : planes) a.value(plane.normal), a.growing(plane.samples);
+}
 
 void visit_result(StateArchive& a, RunResult& r)
 {
@@ -15,14 +19,6 @@ void visit_result(StateArchive& a, RunResult& r)
   if (!rebounds) return;
   if (a.loading()) r.rebound.emplace();
   a.value(*r.rebound);
-}
-
-}  // namespace
-
-void visit_planes(StateArchive& a, std::vector<PlaneTrace>& planes)
-{
-  planes.resize(a.count(planes.size(), sizeof(PlaneTrace::normal)));
-  for (PlaneTrace& plane : planes) a.value(plane.normal), a.growing(plane.samples);
 }
 
 std::optional<StateArchive> CheckpointSlot::open(Kind kind) const

@@ -29,6 +29,8 @@ struct CheckpointStore
 };
 
 void visit_planes(StateArchive& archive, std::vector<PlaneTrace>& planes);
+/// All that a run found.
+void visit_result(StateArchive& archive, RunResult& result);
 
 /// The place of one run in a store. Without a store every call is a single test.
 class CheckpointSlot

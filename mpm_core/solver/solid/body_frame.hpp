@@ -19,4 +19,9 @@ int material_at(const Particle& particle, const Vector3& x, double depth);
 /// %.
 bool is_deeper_than(const Solid& solid, double depth);
 
+/// Rotation from the body's frame to that of a wall with the normal +z: it turns the unit vector `direction`
+/// of the body to -z. The axis of the body nearest to it leans towards +x; where it lies along an axis, the
+/// next axis of the body becomes x.
+Eigen::Matrix3d rotation_to_plane(const Vector3& direction, double turn = 0);
+
 }  // namespace granulaw

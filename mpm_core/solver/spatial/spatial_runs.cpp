@@ -12,6 +12,7 @@
 #include "solver/run/accuracy.hpp"
 #include "solver/run/mean_run.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/solid/body_frame.hpp"
 #include "solver/spatial/planes_programme.hpp"
 #include "solver/spatial/spatial_setup.hpp"
 
@@ -51,21 +52,6 @@ Vector3 unit(const std::array<double, 3>& v, const char* where)
     fail(where, "is no direction", fmt::format("{:g}, {:g}, {:g}", v[0], v[1], v[2]),
          "three numbers, not all 0");
   return x.normalized();
-}
-
-/// Turns `direction` of the body to -z. The axis of the body nearest to it leans towards +x; where it lies
-/// along an axis, the next axis of the body becomes x.
-Eigen::Matrix3d rotation_to_plane(const Vector3& direction, double turn)
-{
-  int nearest = 0;
-  for (int d = 1; d < 3; ++d)
-    if (std::abs(direction[d]) > std::abs(direction[nearest]) + 1e-12) nearest = d;
-  const bool along = std::abs(direction[nearest]) > 1 - 1e-12;
-  const Vector3 z = -direction, lean = Vector3::Unit(along ? (nearest + 1) % 3 : nearest);
-  const Vector3 x = (lean - lean.dot(z) * z).normalized();
-  Eigen::Matrix3d rotation;
-  rotation.row(0) = x, rotation.row(1) = z.cross(x), rotation.row(2) = z;
-  return Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix() * rotation;
 }
 
 /// Sums over the nodes of a part, for the whole body: what the mirrored parts add.

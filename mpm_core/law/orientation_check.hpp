@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace granulaw {
+
+/// What a contact does in one impact: by the solver, or by a sphere's law.
+struct ContactAnswer
+{
+  double force_max = 0;  ///< N
+  /// sqrt(W_u/W_l): W_l is the energy of the rigid motion that the contact takes until that energy is least,
+  /// W_u what it gives back (Stronge 1990). Where the contact stays at its place on the body, the ratio of
+  /// its normal velocities.
+  double restitution = 0;
+};
+
+/// One way in which a body of any shape hits a rigid wall, by the solver and by the law of a sphere of the
+/// local radius.
+struct OrientationCheck
+{
+  enum class Local {
+    curved,     ///< the law answers
+    edge,       ///< a radius of curvature is 0: no sphere is like it
+    flat,       ///< a radius is infinite, or the surface is hollow
+    beyond_law  ///< the overlap leaves the law's table
+  };
+
+  std::array<double, 3> direction{};  ///< unit vector in the body's frame that points at the wall
+  double velocity = 0;                ///< m/s
+  /// m, principal radii of curvature of the surface that touches first; infinite in a flat.
+  double sharper_radius = 0, flatter_radius = 0;
+  double effective_mass = 1;  ///< that resists there, over the body's (effective_mass_share)
+  Local local = Local::curved;
+  ContactAnswer solver, law;  ///< law: only where Local::curved
+
+  /// sqrt(R' R''), m: the Gaussian radius of curvature.
+  double local_radius() const;
+  double force_error() const { return law.force_max / solver.force_max - 1; }        ///< relative
+  double restitution_error() const { return law.restitution - solver.restitution; }  ///< absolute
+};
+
+/// "curved", "edge", "flat", "beyond the law".
+const char* name_of(OrientationCheck::Local local);
+
+/// Two quantiles of the errors' magnitudes over the directions where the law answers.
+struct ErrorQuantiles
+{
+  double median = 0, largest = 0;  ///< largest: of 95 % of the directions
+};
+
+/// What a sphere's law with the local radius of curvature is wrong by for one body, direction by direction:
+/// whether spheres' laws serve a DEM code's clumps or superquadrics of this shape.
+struct ShapeCertificate
+{
+  std::string shape;                     ///< which body it is of, on one line
+  std::array<bool, 3> mirrors{};         ///< the body's mirror planes x, y, z = 0: the checks lie on one side
+  double volume = 0;                     ///< m^3
+  double solver_error = 0;               ///< relative, of F: two resolutions of one direction
+  std::vector<OrientationCheck> checks;  ///< by velocity, then by direction
+
+  ErrorQuantiles force() const;
+  ErrorQuantiles restitution() const;
+  /// Share of all directions where the law has an answer.
+  double covered() const;
+};
+
+}  // namespace granulaw

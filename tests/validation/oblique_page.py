@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+"""docs/evidence/oblique.png, and the tables of docs/evidence/oblique.md on stdout, from what granulaw_oblique_study wrote:
+oblique_page.py OBLIQUE.json FOLDER"""
+import json
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+MODELS = {"mindlin": ("Mindlin, Hertz's radius", "--"), "computed": ("Mindlin, computed radius", "-."), "flow": ("yielding contact", ":")}
+QUANTITIES = {"e": "e", "tangential": "tangential velocity after / before", "spin": "spin after, R omega / V_n"}
+
+
+def value(row, key, angle):
+    """Of the picture: the tangential velocity over the one before."""
+    return row[key] / np.tan(np.radians(angle)) if key == "tangential" else row[key]
+
+
+def draw(study, picture):
+    figure, axes = plt.subplots(1, 3, figsize=(12, 3.8))
+    for colour, friction in enumerate(sorted({c["friction"] for c in study["cases"]})):
+        cases = [c for c in study["cases"] if c["friction"] == friction]
+        angles = [c["angle"] for c in cases]
+        for axis, (key, title) in zip(axes, QUANTITIES.items()):
+            axis.plot(angles, [value(c["solver"], key, c["angle"]) for c in cases], f"C{colour}o-", lw=1, ms=4, label=f"solver, {friction:g}")
+            for model, (_, line) in MODELS.items():
+                axis.plot(angles, [value(c[model], key, c["angle"]) for c in cases], f"C{colour}{line}", lw=1.2)
+            axis.set(title=title, xlabel="impact angle from the normal, degrees")
+            axis.title.set_fontsize(10)
+            axis.grid(alpha=0.3)
+    for label, line in MODELS.values():
+        axes[1].plot([], [], f"k{line}", label=label)
+    axes[0].legend(fontsize=8)
+    axes[1].legend(*(list(part)[-len(MODELS):] for part in axes[1].get_legend_handles_labels()), fontsize=8)
+    figure.tight_layout()
+    figure.savefig(picture, dpi=110)
+
+
+def off(case, model):
+    """e relative; tangential velocity over that before; spin relative; %."""
+    solver, told = case["solver"], case[model]
+    before = np.tan(np.radians(case["angle"]))
+    return [100 * (told["e"] / solver["e"] - 1), 100 * (told["tangential"] - solver["tangential"]) / before,
+            100 * (told["spin"] / solver["spin"] - 1)]
+
+
+def table(study):
+    names = list(MODELS)
+    print("| friction | angle | e | tangential velocity kept | R omega/V_n |" + "".join(f" {MODELS[m][0]}: e, v_t, omega |" for m in names))
+    print("|---|---|---|---|---|" + "---|" * len(names))
+    for case in study["cases"]:
+        solver = case["solver"]
+        words = [f"{case['friction']:g}", f"{case['angle']:g}", f"{solver['e']:.3f}", f"{value(solver, 'tangential', case['angle']):.3f}",
+                 f"{solver['spin']:.3f}"]
+        words += [", ".join(f"{x:+.1f}" for x in off(case, m)) for m in names]
+        print("| " + " | ".join(words) + " |")
+
+
+if __name__ == "__main__":
+    told = json.loads(Path(sys.argv[1]).read_text())
+    draw(told, Path(sys.argv[2]) / "oblique.png")
+    table(told)
