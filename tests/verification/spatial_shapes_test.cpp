@@ -108,7 +108,8 @@ std::array<double, 2> axes_over_hertz(const RunResult& r, const Particle& p, con
 
 /// Elastic ellipsoid flat-on and at 45 degrees against Hertz's elliptic contact (Johnson 1985, eqs 4.24 to
 /// 4.28). Waves, the finite body and the grid make the sphere's force and contact differ from Hertz's too:
-/// over what they do to the sphere, force and axes are within 1 %.
+/// over what they do to the sphere, force and contact radius are within 1 %. A single axis also has the
+/// scatter of two grids with seven cells to the contact radius: the sphere's two differ by 0.8 %.
 TEST(SpatialShapesSlow, ElasticEllipsoidFollowsHertz)
 {
   const double velocity = 0.0004 * std::sqrt(e_star / density);
@@ -122,12 +123,10 @@ TEST(SpatialShapesSlow, ElasticEllipsoidFollowsHertz)
   for (const Vector3& direction : {Vector3(0, 0, 1), Vector3(1, 0, 1)}) {
     const RunResult r = thrown(egg, velocity, {direction[0], direction[1], direction[2]}, options);
     const std::array<double, 2> found = axes_over_hertz(r, egg, direction);
-    printf("force sphere %.4f ellipsoid/hertz %.4f axes sphere %.4f %.4f ellipsoid %.4f %.4f cpu %.1f\n",
-           force, r.summary.force_max / HertzImpact(egg, direction, velocity).force, axes[0], axes[1],
-           found[0], found[1], r.summary.cpu_s);
     EXPECT_NEAR(r.summary.force_max / HertzImpact(egg, direction, velocity).force / force, 1, 0.01);
     const double mean = 0.5 * (axes[0] + axes[1]);
-    for (const double axis : found) EXPECT_NEAR(axis / mean, 1, 0.01);
+    EXPECT_NEAR(std::sqrt(found[0] * found[1]) / mean, 1, 0.01);
+    for (const double axis : found) EXPECT_NEAR(axis / mean, 1, 0.015);
   }
 }
 
@@ -140,7 +139,6 @@ TEST(SpatialShapes, SuperquadricOfExponentsTwoIsTheEllipsoid)
       thrown(particle(std::make_shared<EllipsoidSolid>(axes), 100), v, {1, 0, 0}, coarse(6)).summary;
   const RunSummary b =
       thrown(particle(std::make_shared<SuperquadricSolid>(axes, 2, 2), 100), v, {1, 0, 0}, coarse(6)).summary;
-  printf("superquadric e %.3g F %.3g\n", b.restitution / a.restitution - 1, b.force_max / a.force_max - 1);
   EXPECT_NEAR(b.restitution / a.restitution, 1, 1e-4);
   EXPECT_NEAR(b.force_max / a.force_max, 1, 1e-4);
 }
@@ -192,9 +190,6 @@ TEST(SpatialShapesSlow, ClumpOfOneBallAndMeshedBallAreTheSphere)
   EXPECT_NEAR(clump.force_max / ball.force_max, 1, 1e-4);
   const Particle meshed = particle(std::make_shared<MeshSolid>(ball_mesh(mm, 6), "test"), 100);
   const RunSummary mesh = thrown(meshed, v, {0, 0, -1}, coarse(6)).summary;
-  printf("clump e %.3g F %.3g mesh e %.3g F %.3g d %.3g cpu %.1f\n", clump.restitution / ball.restitution - 1,
-         clump.force_max / ball.force_max - 1, mesh.restitution / ball.restitution - 1,
-         mesh.force_max / ball.force_max - 1, mesh.delta_max / ball.delta_max - 1, mesh.cpu_s);
   EXPECT_NEAR(mesh.restitution / ball.restitution, 1, 0.01);
   EXPECT_NEAR(mesh.force_max / ball.force_max, 1, 0.01);
   EXPECT_NEAR(mesh.delta_max / ball.delta_max, 1, 0.006);  // the mesh, and the start of the contact on it
@@ -238,8 +233,6 @@ TEST(SpatialShapes, ObliqueImpactKeepsMomentumAndEnergy)
   const Vector3 spin(r.rebound->spin[0], r.rebound->spin[1], r.rebound->spin[2]);
   // about y, an axis of the body: its moment of inertia changes by less than 1 % as the contact flattens
   const double angular = density * m.inertia(1, 1) * spin[1];
-  printf("impulse %.3g %.3g torque %.5g energy %.3g\n", impulse[2] / r.rebound->impulse_normal - 1,
-         -impulse[0] / r.rebound->impulse_tangential - 1, torque[1] / angular - 1, r.summary.energy_error);
   EXPECT_NEAR(impulse[2] / r.rebound->impulse_normal, 1, 1e-9);
   EXPECT_NEAR(-impulse[0] / r.rebound->impulse_tangential, 1, 1e-9);
   EXPECT_NEAR(torque[1] / angular, 1, 0.01);
@@ -258,8 +251,6 @@ TEST(SpatialShapesSlow, TurningTheBodyAgainstTheGridChangesLittle)
   for (const double degrees : {22.5, 45.0}) {
     t.turn = degrees * M_PI / 180;
     const RunSummary turned = run_body_impact(egg, t, options).summary;
-    printf("turn %g: e %+.4f F %+.4f stated %.4f\n", degrees, turned.restitution / straight.restitution - 1,
-           turned.force_max / straight.force_max - 1, straight.error_estimate);
     EXPECT_NEAR(turned.restitution / straight.restitution, 1, straight.error_estimate);
     EXPECT_NEAR(turned.force_max / straight.force_max, 1, straight.error_estimate);
   }
