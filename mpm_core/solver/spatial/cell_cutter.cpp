@@ -23,7 +23,11 @@ CellSplines::CellSplines(const SplineAxis& axis, int cell)
 void Moments::add_point(const Vector3& x, double weight)
 {
   const double power[3][3] = {{1, x[0], x[0] * x[0]}, {1, x[1], x[1] * x[1]}, {1, x[2], x[2] * x[2]}};
-  for (int k = 0; k < 27; ++k) value[k] += weight * power[0][k / 9] * power[1][k / 3 % 3] * power[2][k % 3];
+  for (int l = 0; l < 3; ++l)
+    for (int m = 0; m < 3; ++m) {
+      const double part = weight * power[0][l] * power[1][m];
+      for (int n = 0; n < 3; ++n) value[9 * l + 3 * m + n] += part * power[2][n];
+    }
 }
 
 void Moments::add_box(const Vector3& centre, const Vector3& edges)
@@ -111,6 +115,14 @@ void CellCutter::cut_box(const Corner& low, const Vector3& middle)
     phase = section_.phase_at(outside < 0 ? Vector3(middle + outside * section_.normal(middle)) : middle);
   }
   if (phase < 0) return;
+  int inside = 0;
+  for (int k = 0; k < octants; ++k)
+    inside += depth_at({low[0] + (k >> 2 & 1), low[1] + (k >> 1 & 1), low[2] + (k & 1)}) > 0 ? 1 : 0;
+  if (inside == 0) return;
+  if (inside == octants) {
+    const Vector3 edges = Vector3::Constant(0.5 / boxes);
+    return content_.phases[phase].add_box(cell_place(low) + 0.5 * edges, edges);
+  }
   constexpr int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   for (const int(&axes)[3] : order) {  // from the lowest corner to the highest along the axes in this order
     std::array<Corner, 4> corners{low, low, low, low};
