@@ -391,7 +391,8 @@ void update(Body& body, Then then)
     else if (!region.moduli.yields)
       update_region<Real>(body, region, then, ElasticWithState{}, no_rate);
     else if (region.moduli.flow.hardening == 0 && region.moduli.flow.rate == 0)
-      update_region<Real>(body, region, then, flow::Linear{}, no_rate);
+      update_region<Real>(body, region, then, flow::Linear{region.moduli.yield, region.moduli.hardening},
+                          no_rate);
     else
       with_flow_laws(region.moduli, [&](auto hardening, auto rate) {
         update_region<Real>(body, region, then, hardening, rate);

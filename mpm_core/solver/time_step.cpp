@@ -234,9 +234,8 @@ StableStep<SpatialBody>::StableStep(SpatialBody& body)
       if (body.inverse_mass_i[k] == 0) x.x[k] = 0;
   };
   omega_ =
-      1.01 * std::sqrt(largest_eigenvalue(x, body.mass_i, 1e-7 * body.surface.finest, 20, respond, hold));
+      1.01 * std::sqrt(largest_eigenvalue(x, body.mass_i, 1e-7 * body.surface.finest, 30, respond, hold));
   std::fill(body.u_i.begin(), body.u_i.end(), 0.0);
-  bound_ = kernel.growth(body).bound;
 }
 
 template <>
@@ -248,8 +247,10 @@ double StableStep<SpatialBody>::limit(const SpatialBody& body) const
         "solver",
         "a cell was turned inside out: the body is squeezed further than a reference grid can follow (planes "
         "from all sides: beyond a nominal density of about 1.1); stay below this depth or take a finer grid");
-  if (now.bound > squeezed * squeezed * bound_) fail_squeezed();
-  return 2 / (omega_ * std::sqrt(std::max(1.0, now.bound / bound_)));
+  if (now.largest > squeezed * squeezed) fail_squeezed();
+  // At the surface a cut lets the frequencies be up to twice those of a filled cell: there they grow from the
+  // highest of the body at rest.
+  return 2 / std::sqrt(std::max(omega_ * omega_ * std::max(1.0, now.cut), now.filled_omega2));
 }
 
 }  // namespace granulaw

@@ -9,10 +9,6 @@ namespace granulaw {
 
 namespace {
 
-/// Where the raising starts and ends, cells across the block.
-constexpr int first_resolution = 14, last_resolution = 120;
-/// Resolution at which time step and ramp are varied: their effect on F and e does not depend on it.
-constexpr int probe_resolution = 10;
 /// Shares of the tolerance: the square root of the sum of the squares is the whole.
 constexpr double share = 0.25;
 
@@ -28,6 +24,15 @@ double difference(const RunResult& a, const RunResult& b)
 {
   return std::max(std::abs(fitted_force(b) / fitted_force(a) - 1),
                   std::abs(b.summary.restitution / a.summary.restitution - 1));
+}
+
+/// What the fine run's error may be of the difference between both. In three dimensions (runs that tell of
+/// their planes) the cut surface lets errors fall like h and no faster: h/(H - h). Those of bodies of
+/// revolution fall faster than that; the difference to 0.7 of the resolution is at least half of them.
+double error_over_difference(const RunSummary& fine, const RunSummary& coarse, bool spatial)
+{
+  if (!spatial) return 2;
+  return static_cast<double>(coarse.resolution) / std::max(1, fine.resolution - coarse.resolution);
 }
 
 void add_cost(RunSummary& s, const RunSummary& other)
@@ -48,12 +53,13 @@ int coarse_partner(int resolution)
 double error_between(const RunResult& fine, const RunResult& coarse)
 {
   const RunSummary& s = fine.summary;
-  // Errors fall at least like h: the difference to 0.7 of the resolution is at least 0.4 of the fine run's.
-  // Two runs may agree by chance: the grid noise that the mean over the shifted grids has left, half of which
-  // a peak may be off, and the scatter of e between them, bound it from below.
   const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
+  // Two runs may agree by chance: the grid noise that the mean over the shifted grids has left, half of which
+  // a peak may be off, and the scatter of e between them, bound the error from below.
   const double scatter = s.restitution_spread / s.restitution / std::max(1, s.grids);
-  return 2 * std::max({difference(fine, coarse), peak, scatter, 0.5 * s.grid_noise});
+  return std::max(error_over_difference(s, coarse.summary, !fine.planes.empty()) *
+                      std::max(difference(fine, coarse), peak),
+                  2 * std::max(scatter, 0.5 * s.grid_noise));
 }
 
 RunResult run_with_estimate(const RunOptions& options, const Run& run)
@@ -81,8 +87,8 @@ namespace {
 class ToleranceSearch
 {
  public:
-  ToleranceSearch(double tolerance, const RunOptions& options, const Run& run)
-      : tolerance_(tolerance), options_(options), run_(run)
+  ToleranceSearch(double tolerance, const RunOptions& options, const Run& run, const ToleranceRange& range)
+      : tolerance_(tolerance), options_(options), run_(run), range_(range)
   {
     options_.estimate_error = false;
     base_ = probe(options_);
@@ -112,7 +118,7 @@ class ToleranceSearch
 
   ToleranceResult raise_resolution()
   {
-    int cells = std::max(first_resolution, options_.resolution);
+    int cells = std::max(range_.first, options_.resolution);
     RunResult coarse = run_at(options_, coarse_partner(cells));
     add_cost(spent_, coarse.summary);
     for (;; cells = static_cast<int>(std::lround(cells / 0.7))) {
@@ -122,7 +128,7 @@ class ToleranceSearch
       found_.resolution_error = error_between(found_.result, coarse);
       s.error_estimate = std::hypot(found_.resolution_error, found_.step_error, found_.ramp_error);
       found_.reached = s.error_estimate <= tolerance_;
-      if (found_.reached || cells / 0.7 > last_resolution) break;
+      if (found_.reached || cells / 0.7 > range_.last) break;
       add_cost(spent_, s);
       coarse = std::move(found_.result);
     }
@@ -140,7 +146,7 @@ class ToleranceSearch
   }
   RunResult probe(const RunOptions& options)
   {
-    RunResult probed = run_at(options, probe_resolution);
+    RunResult probed = run_at(options, range_.probe);
     add_cost(spent_, probed.summary);
     return probed;
   }
@@ -161,6 +167,7 @@ class ToleranceSearch
   double tolerance_;
   RunOptions options_;
   const Run& run_;
+  const ToleranceRange& range_;
   RunResult base_, finer_;  ///< probes with the options so far, and with those tried last
   RunSummary spent_{};
   ToleranceResult found_;
@@ -168,9 +175,10 @@ class ToleranceSearch
 
 }  // namespace
 
-ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run)
+ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run,
+                                 const ToleranceRange& range)
 {
-  ToleranceSearch search(tolerance, options, run);
+  ToleranceSearch search(tolerance, options, run, range);
   search.shorten_step();
   if (has_ramp) search.lengthen_ramp();
   return search.raise_resolution();

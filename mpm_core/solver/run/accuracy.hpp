@@ -13,7 +13,8 @@ using Run = std::function<RunResult(const RunOptions&)>;
 int coarse_partner(int resolution);
 
 /// Error of the finer of two runs of one job at resolutions N and coarse_partner(N), relative, of F_max and
-/// e, the larger. Measured on the cases of tests/validation/error_study.cpp (docs/theory/method.md).
+/// e, the larger. Measured on the cases of tests/validation/error_study.cpp (docs/theory/method.md), in three
+/// dimensions on those of docs/theory/three-dimensions.md.
 double error_between(const RunResult& fine, const RunResult& coarse);
 
 /// Runs the job and its coarse partner; error_estimate filled, cost of both counted.
@@ -28,10 +29,21 @@ struct ToleranceResult
   bool reached = false;
 };
 
+/// Cells across the block between which run_to_tolerance goes.
+struct ToleranceRange
+{
+  int first, last;  ///< where the raising starts and ends
+  int probe;        ///< where time step and ramp are varied: their effect on F and e does not depend on it
+};
+inline constexpr ToleranceRange flat_range{14, 120, 10};
+/// Cost goes with the fourth power in three dimensions.
+inline constexpr ToleranceRange spatial_range{8, 100, 7};
+
 /// Raises the resolution, step by step, until two of them agree to within `tolerance` in F_max and e; what
 /// the time step and, for a press (`has_ramp`), the ramp contribute is measured at a coarse resolution, where
 /// it costs little, and both are refined until they take no more than a quarter of the tolerance each.
 /// options.resolution, courant and slowness are where it starts.
-ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run);
+ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run,
+                                 const ToleranceRange& range = flat_range);
 
 }  // namespace granulaw

@@ -41,7 +41,8 @@ struct SpatialRegion
 {
   int begin, end;
   Moduli moduli;
-  int material = 0;  ///< index in the particle's list
+  int material = 0;        ///< index in the particle's list
+  double wave_speed2 = 1;  ///< square of that of pressure waves
 };
 
 /// Points of the true surface, where planes push: place, cell nodes and their weights.

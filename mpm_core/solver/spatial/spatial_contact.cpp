@@ -19,12 +19,47 @@ constexpr double small_change = 1e-6;
 constexpr double recovery = 0.05;
 /// Markers nearer to a plane than this many of the finest edges are looked at in every step.
 constexpr double candidate_edges = 2;
+/// Share of the gap three patches outside a contact below which a marker is in it: markers inside that push
+/// in turns are open by 1 % of that gap at most.
+constexpr double in_contact = 0.02;
 
 double fastest_node(const SpatialBody& body)
 {
   double most = 0;
   for (const double v : body.v_i) most = std::max(most, std::abs(v));
   return std::sqrt(3.0) * most;
+}
+
+/// A marker about a contact.
+struct NearMarker
+{
+  double gap, area;
+  Vector3 place;
+};
+
+/// Half axes of the ellipse with the second moments of the markers' patches, larger first.
+std::array<double, 2> ellipse_of(const SpatialBody& body, const Plane& plane,
+                                 std::span<const NearMarker> markers)
+{
+  double area = 0;
+  Vector3 centre = Vector3::Zero();
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+  for (const NearMarker& m : markers) {
+    area += m.area, centre += m.area * m.place, moment += m.area * m.place * m.place.transpose();
+  }
+  if (!(area > 0)) return {0, 0};
+  centre /= area, moment /= area;
+  for (int d = 0; d < 3; ++d)
+    if (body.mirrored[d] && std::abs(plane.normal[d]) < 1e-9) {
+      centre[d] = 0;
+      for (int e = 0; e < 3; ++e)
+        if (e != d) moment(d, e) = moment(e, d) = 0;
+    }
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - plane.normal * plane.normal.transpose();
+  moment = across * (moment - centre * centre.transpose()) * across;
+  const Vector3 values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment).eigenvalues();
+  // of an ellipse the second moment along an axis is a quarter of its square
+  return {2 * std::sqrt(std::max(0.0, values[2])), 2 * std::sqrt(std::max(0.0, values[1]))};
 }
 
 }  // namespace
@@ -194,29 +229,40 @@ std::vector<PlaneTally> SpatialContact::take_tallies()
 
 std::array<double, 2> SpatialContact::contact_axes(const SpatialBody& body, int k) const
 {
-  const Plane& plane = planes_[k];
-  double area = 0;
-  Vector3 centre = Vector3::Zero();
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-  for (const Row& row : rows_) {
-    if (row.plane != k || !(plane.normal.dot(impulse_[std::size_t(k) * markers_ + row.marker]) > 0)) continue;
-    const double share = body.surface.area[row.marker];
-    const Vector3 x = place(body, row.marker);
-    area += share, centre += share * x, moment += share * x * x.transpose();
+  if (!pushing_[k]) return {0, 0};
+  std::vector<NearMarker> near;
+  double closed = 0;
+  for (const int m : candidates_[k]) {
+    const Vector3 x = place(body, m);
+    const bool pushed = planes_[k].normal.dot(impulse_[std::size_t(k) * markers_ + m]) > 0;
+    near.push_back({pushed ? 0.0 : std::max(0.0, planes_[k].normal.dot(x) - planes_[k].position),
+                    body.surface.area[m], x});
+    if (pushed) closed += body.surface.area[m];
   }
-  if (!(area > 0)) return {0, 0};
-  centre /= area, moment /= area;
-  for (int d = 0; d < 3; ++d)
-    if (body.mirrored[d] && std::abs(plane.normal[d]) < 1e-9) {
-      centre[d] = 0;
-      for (int e = 0; e < 3; ++e)
-        if (e != d) moment(d, e) = moment(e, d) = 0;
-    }
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - plane.normal * plane.normal.transpose();
-  moment = across * (moment - centre * centre.transpose()) * across;
-  const Vector3 values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment).eigenvalues();
-  // of an ellipse the second moment along an axis is a quarter of its square
-  return {2 * std::sqrt(std::max(0.0, values[2])), 2 * std::sqrt(std::max(0.0, values[1]))};
+  std::sort(near.begin(), near.end(), [](const NearMarker& a, const NearMarker& b) { return a.gap < b.gap; });
+  const auto upto = [&](double area) {
+    std::size_t count = 0;
+    for (double sum = 0; count < near.size() && sum < area; ++count) sum += near[count].area;
+    return count;
+  };
+  // width of a patch over the radius of the contact
+  const double patch = std::sqrt(closed / static_cast<double>(upto(closed)));
+  const double ring = patch / std::sqrt(closed * planes_[k].copies / M_PI);
+  const auto wider = [&](double rings) { return upto(closed * (1 + rings * ring) * (1 + rings * ring)); };
+  // markers that do not push just now, but are far nearer than those outside, are in contact
+  const double outside = near[std::min(wider(3), near.size()) - 1].gap;
+  closed = 0;
+  for (const NearMarker& m : near)
+    if (m.gap <= in_contact * outside) closed += m.area;
+  const std::size_t first = wider(1), second = wider(2);
+  const std::array<double, 2> inner = ellipse_of(body, planes_[k], {near.data(), upto(closed)});
+  if (second >= near.size() || first == 0) return inner;
+  const std::array<double, 2> next = ellipse_of(body, planes_[k], {near.data(), first}),
+                              outer = ellipse_of(body, planes_[k], {near.data(), second});
+  std::array<double, 2> axes{};
+  for (int d = 0; d < 2; ++d)
+    axes[d] = edge_between(inner[d], {next[d], near[first - 1].gap}, {outer[d], near[second - 1].gap});
+  return axes;
 }
 
 double SpatialContact::edge_radius(std::span<const SpatialBody> bodies) const

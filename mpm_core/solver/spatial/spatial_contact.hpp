@@ -39,8 +39,7 @@ class SpatialContact : public BasicContact<SpatialBody>
 
   double correct(std::span<SpatialBody> bodies, double kick, double dt) override;
   void account(std::span<const SpatialBody> bodies) override;
-  /// Of the first plane: root of the product of the axes of the ellipse with the second moments of the
-  /// markers in contact.
+  /// Of the first plane: root of the product of contact_axes().
   double edge_radius(std::span<const SpatialBody> bodies) const override;
   void visit_state(StateArchive& archive) override;
 
@@ -51,7 +50,9 @@ class SpatialContact : public BasicContact<SpatialBody>
   /// Whether each plane pushed in the last step.
   bool pushes(int plane) const { return pushing_[plane]; }
   bool pushes() const;
-  /// Half axes of the contact with a plane, larger first; 0, 0 without contact.
+  /// Half axes of the contact with a plane, larger first; 0, 0 without contact. Where the gap ends that opens
+  /// behind the edge: between the ellipses of the markers in contact, and with one and two rings of patches
+  /// more, by edge_between().
   std::array<double, 2> contact_axes(const SpatialBody& body, int plane) const;
   /// Work that the planes have done on the body.
   double work() const { return work_; }

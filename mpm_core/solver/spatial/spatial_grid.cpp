@@ -5,39 +5,14 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "solver/spatial/cell_cutter.hpp"
 
 namespace granulaw {
 
 namespace {
 
-/// Halvings of an octant that is cut.
-constexpr int levels = 2;
 /// Pieces of less than this share of an octant are left out.
 constexpr double least_share = 1e-6;
-/// Shares of a sub-box below which its patch of the surface is not worth a marker's place.
-constexpr double on_surface = 1e-3;
-
-/// The three splines that reach into a cell as polynomials of xi = (x - middle)/edge, -1/2 to 1/2.
-struct CellSplines
-{
-  double middle, edge;
-  double left, right;  ///< as in AxisWeights
-  double n[3][3];      ///< spline, power
-
-  CellSplines(const SplineAxis& axis, int cell)
-  {
-    const std::vector<double>& t = axis.lines();
-    const int last = axis.cells() - 1;
-    edge = t[cell + 1] - t[cell], middle = 0.5 * (t[cell] + t[cell + 1]);
-    left = edge / (t[cell + 1] - (cell > 0 ? t[cell - 1] : t[cell]));
-    right = edge / ((cell < last ? t[cell + 2] : t[cell + 1]) - t[cell]);
-    const double lower[3] = {0.25 * left, -left, left}, upper[3] = {0.25 * right, right, right};
-    for (int m = 0; m < 3; ++m) {
-      n[0][m] = lower[m], n[2][m] = upper[m];
-      n[1][m] = (m == 0 ? 1.0 : 0.0) - lower[m] - upper[m];
-    }
-  }
-};
 
 /// Means over one half of the cell.
 AxisWeights axis_weights(const CellSplines& s, int direction)
@@ -54,116 +29,6 @@ AxisWeights axis_weights(const CellSplines& s, int direction)
   }
   return w;
 }
-
-/// Integrals of xi^l eta^m zeta^n over a piece of a cell, l, m, n up to 2, over the cell's volume.
-struct Moments
-{
-  double value[27]{};
-
-  double volume() const { return value[0]; }
-  /// Adds `share` of a box at `centre` with `edges`, both in the cell's coordinates.
-  void add(const Vector3& centre, const Vector3& edges, double share)
-  {
-    const double volume = share * edges.prod();
-    double power[3][3];
-    for (int d = 0; d < 3; ++d) {
-      power[d][0] = 1, power[d][1] = centre[d];
-      power[d][2] = centre[d] * centre[d] + edges[d] * edges[d] / 12;
-    }
-    for (int k = 0; k < 27; ++k) value[k] += volume * power[0][k / 9] * power[1][k / 3 % 3] * power[2][k % 3];
-  }
-  /// Integral of the product of three polynomials, one in each coordinate.
-  double of(const double (&x)[3], const double (&y)[3], const double (&z)[3]) const
-  {
-    double sum = 0;
-    for (int k = 0; k < 27; ++k) sum += x[k / 9] * y[k / 3 % 3] * z[k % 3] * value[k];
-    return sum;
-  }
-};
-
-/// What an octant holds: moments of each phase, and the middle of its patch of the outer surface.
-struct OctantContent
-{
-  std::vector<Moments> phases;
-  Vector3 patch = Vector3::Zero();
-  double patch_weight = 0, patch_area = 0;
-};
-
-/// Cuts the octants of one cell.
-class CellCutter
-{
- public:
-  CellCutter(const SpatialSection& section, const std::array<const CellSplines*, 3>& splines)
-      : section_(section)
-  {
-    for (int d = 0; d < 3; ++d) middle_[d] = splines[d]->middle, edge_[d] = splines[d]->edge;
-  }
-
-  /// The phase that fills the whole cell; -1: it lies outside, -2: neither.
-  int whole_phase() const
-  {
-    const double depth = section_.depth(middle_), reach = 0.5 * edge_.norm();
-    if (depth <= -reach) return -1;
-    return depth >= reach ? phase_of_whole(middle_, reach) : -2;
-  }
-
-  OctantContent octant(int k)
-  {
-    content_ = {};
-    content_.phases.resize(section_.phases.size());
-    const Vector3 sign(k & 4 ? 1 : -1, k & 2 ? 1 : -1, k & 1 ? 1 : -1);
-    divide(middle_ + 0.25 * sign.cwiseProduct(edge_), 0.5 * edge_, levels);
-    if (content_.patch_weight > 0) content_.patch /= content_.patch_weight;
-    return std::move(content_);
-  }
-
- private:
-  /// -2: an interface passes through the ball of radius `reach` about x.
-  int phase_of_whole(const Vector3& x, double reach) const
-  {
-    if (!section_.phase_at) return 0;
-    return section_.interface_distance(x) >= reach ? section_.phase_at(x) : -2;
-  }
-
-  void divide(const Vector3& x, const Vector3& edges, int left)
-  {
-    const double depth = section_.depth(x), reach = 0.5 * edges.norm();
-    if (depth <= -reach) return;
-    const int phase = depth >= reach ? phase_of_whole(x, reach) : -2;
-    if (phase != -2) return add(phase, x, edges, 1);
-    if (left == 0) return add_cut(x, edges, depth);
-    for (int k = 0; k < octants; ++k) {
-      const Vector3 sign(k & 4 ? 1 : -1, k & 2 ? 1 : -1, k & 1 ? 1 : -1);
-      divide(x + 0.25 * sign.cwiseProduct(edges), 0.5 * edges, left - 1);
-    }
-  }
-
-  /// The share of a small box on the inner side of the tangent plane: exact where the plane lies along two
-  /// axes, without bias elsewhere.
-  void add_cut(const Vector3& x, const Vector3& edges, double depth)
-  {
-    const Vector3 normal = section_.normal(x);
-    const double width = normal.cwiseAbs().dot(edges);
-    const double share = std::clamp(0.5 + depth / width, 0.0, 1.0);
-    const Vector3 inside = x + std::min(0.0, depth) * normal;
-    add(section_.phase_at ? section_.phase_at(inside) : 0, x, edges, share);
-    if (share < on_surface || share > 1 - on_surface) return;
-    const double weight = share * (1 - share);
-    content_.patch += weight * (x + depth * normal);
-    content_.patch_weight += weight;
-    content_.patch_area += edges.prod() / width;  // the share falls from 1 to 0 over the width
-  }
-
-  void add(int phase, const Vector3& x, const Vector3& edges, double share)
-  {
-    if (phase < 0 || share <= 0) return;
-    content_.phases[phase].add((x - middle_).cwiseQuotient(edge_), edges.cwiseQuotient(edge_), share);
-  }
-
-  const SpatialSection& section_;
-  Vector3 middle_, edge_;
-  OctantContent content_;
-};
 
 /// Builds a body cell by cell.
 class Builder
@@ -204,8 +69,8 @@ class Builder
   using Column = std::array<int, 3>;
   struct Patch
   {
-    Vector3 middle;
-    double area;
+    Column column;
+    Moments moments;
   };
 
   std::array<const CellSplines*, 3> splines(const Column& c) const
@@ -231,12 +96,12 @@ class Builder
       OctantContent content = cutter.octant(k);
       bool any = false;
       for (std::size_t p = 0; p < found.size(); ++p) {
-        if (content.phases[p].volume() < least_share / octants) continue;
+        if (content.phases[p].size() < least_share / octants) continue;
         found[p].moments[k] = content.phases[p];
-        held[p] += content.phases[p].volume();
+        held[p] += content.phases[p].size();
         any = true;
       }
-      if (any && content.patch_weight > 0) patches_.push_back({content.patch, content.patch_area});
+      if (any && content.patch.size() > 0) patches_.push_back({column, content.patch});
     }
     for (std::size_t p = 0; p < found.size(); ++p) {
       if (held[p] >= 1 - 1e-12)
@@ -257,8 +122,10 @@ class Builder
         c.cell.cut = static_cast<int>(cut_cells++);
         body_.cells.push_back(c.cell);
       }
+      const Moduli& m = section_.phases[p].moduli;
+      const double wave_speed2 = (m.bulk + 4.0 / 3.0 * m.shear) / section_.phases[p].density;
       body_.regions.push_back(
-          {begin, static_cast<int>(body_.cells.size()), section_.phases[p].moduli, static_cast<int>(p)});
+          {begin, static_cast<int>(body_.cells.size()), m, static_cast<int>(p), wave_speed2});
     }
     if (body_.cells.empty()) fail("reference grid", "no part of the body lies on it");
     body_.cut_moments.assign(cut_cells * cut_moments_each * octants, 0.0);
@@ -282,7 +149,7 @@ class Builder
     for (int lane = 0; lane < octants; ++lane) body_.volume_p[octants * at + lane] = piece;
     body_.points += octants;
     Moments whole;
-    whole.add(Vector3::Zero(), Vector3::Ones(), 1);
+    whole.add_box(Vector3::Zero(), Vector3::Ones());
     add_mass(cell, whole, density);
   }
 
@@ -300,13 +167,13 @@ class Builder
         body_.cut_moments.data() + std::size_t(body_.cells[at].cut) * cut_moments_each * octants;
     for (int lane = 0; lane < octants; ++lane) {
       const Moments& m = c.moments[lane];
-      if (m.volume() <= 0) continue;
+      if (m.size() <= 0) continue;
       ++body_.points;
-      body_.volume_p[octants * at + lane] = volume(c.cell.column) * m.volume();
+      body_.volume_p[octants * at + lane] = volume(c.cell.column) * m.size();
       add_mass(c.cell, m, density);
       for (int k = 0; k < cut_moments_each; ++k) {
         const double halves = (k / 9 == 2 ? 0.5 : 1) * (k / 3 % 3 == 2 ? 0.5 : 1) * (k % 3 == 2 ? 0.5 : 1);
-        moments[k * octants + lane] = halves * m.value[k] / m.volume();
+        moments[k * octants + lane] = halves * m.value[k] / m.size();
       }
     }
   }
@@ -327,18 +194,33 @@ class Builder
   }
 
   /// One marker for each patch: with fewer the force swings with every cell that closes (one a cell: ripple
-  /// twice to three times as large, force 9 % off), with more the impulses are not unique.
+  /// twice to three times as large, force 9 % off), with more the impulses are not unique. It stands for the
+  /// mean of the patch: the splines' means are its weights, so that impulses of a uniform pressure are in
+  /// balance with uniform stress (Gauss). With the splines at its middle small pieces flow without end.
   void set_surface()
   {
-    SpatialSurface& s = body_.surface;
-    for (auto& [x, area] : patches_) {
-      for (int n = 0; n < 3; ++n) x += section_.depth(x) * section_.normal(x);
-      for (int d = 0; d < 3; ++d)
-        x[d] = std::clamp(x[d], section_.lines[d].front(), section_.lines[d].back());
-      add_marker(s, x);
-      s.area.push_back(area);
+    SpatialSurface& surface = body_.surface;
+    for (const Patch& patch : patches_) {
+      const auto s = splines(patch.column);
+      const double area = patch.moments.size();
+      constexpr int first_moment[3] = {9, 3, 1};
+      Vector3 mean;
+      for (int d = 0; d < 3; ++d) {
+        mean[d] = s[d]->middle + s[d]->edge * patch.moments.value[first_moment[d]] / area;
+        surface.finest = surface.finest > 0 ? std::min(surface.finest, s[d]->edge) : s[d]->edge;
+      }
+      const std::array<int, 3> stride = body_.strides();
+      const int lowest = patch.column[0] + patch.column[1] * stride[1] + patch.column[2] * stride[2];
+      surface.place.push_back({mean[0], mean[1], mean[2]});
+      surface.node.push_back(lowest);
+      surface.area.push_back(area);
+      for (int k = 0; k < cell_nodes; ++k) {
+        const bool held = body_.mass_i[lowest + k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]] > 0;
+        const double sum = patch.moments.of(s[0]->n[k / 9], s[1]->n[k / 3 % 3], s[2]->n[k % 3]);
+        surface.weight.push_back(held ? sum / area : 0.0);
+      }
     }
-    s.count = static_cast<int>(s.place.size());
+    surface.count = static_cast<int>(surface.place.size());
   }
 
   void set_corners()

@@ -4,11 +4,16 @@
 
 namespace granulaw {
 
-/// How far the cells of a body are from their reference shape.
+/// What the deformed cells allow for the step. A plane wave sum_j kappa_j A_j over the grid, row j of A that
+/// of F^-1 over h_j, has the frequency c |sum_j kappa_j A_j|: a cell's frequencies go with the largest
+/// eigenvalue of A A^T.
 struct CellGrowth
 {
-  /// largest of sum_j |row j of F^-1|^2/h_j^2, the cell's own bound on omega^2 but for a common factor
-  double bound;
+  /// Largest omega^2 of filled cells, 1.5 c^2 times that eigenvalue: inside a body quadratic splines with
+  /// lumped masses admit |kappa|^2 up to 1.5 along an axis, 1.41 and 1.44 across.
+  double filled_omega2;
+  double cut;           ///< largest of the eigenvalue over its value at rest, of cut cells
+  double largest;       ///< of all cells
   double least_volume;  ///< smallest det F
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "solver/spatial/cell_cutter.hpp"
 #include "solver/spatial/spatial_kernels.hpp"
 
 namespace granulaw {
@@ -22,37 +23,75 @@ Vector3 carried(const SpatialBody& body, const NodeField& field, const SpatialSu
   return sum;
 }
 
-/// F at the middle of what an octant holds.
-Eigen::Matrix3d deformation_at(const SpatialBody& body, const SpatialCell& cell, int lane)
+/// 1 plus the displacement gradient: `slope(a, b, c)` is the mean gradient of the function of a cell's node.
+template <class Slope>
+Eigen::Matrix3d one_plus_gradient(const SpatialBody& body, const SpatialCell& cell, Slope slope)
 {
-  SplineAxis::Values v[3];
-  for (int d = 0; d < 3; ++d) {
-    const std::vector<double>& lines = body.axes[d].lines();
-    const double low = lines[cell.column[d]], high = lines[cell.column[d] + 1];
-    constexpr int first_moment[3] = {9, 3, 1};
-    const double xi =
-        cell.cut < 0
-            ? (lane >> (2 - d) & 1 ? 0.25 : -0.25)
-            : body.cut_moments[(std::size_t(cell.cut) * cut_moments_each + first_moment[d]) * octants + lane];
-    v[d] = body.axes[d].at(0.5 * (low + high) + xi * (high - low));
-  }
   const std::array<int, 3> stride = body.strides();
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   for (int k = 0; k < cell_nodes; ++k) {
     const int a = k / 9, b = k / 3 % 3, c = k % 3;
     const double* u = body.u_i.data() + 4 * (cell.node + a + b * stride[1] + c * stride[2]);
-    const Vector3 slope(v[0].dn[a] * v[1].n[b] * v[2].n[c], v[0].n[a] * v[1].dn[b] * v[2].n[c],
-                        v[0].n[a] * v[1].n[b] * v[2].dn[c]);
-    f += Vector3(u[0], u[1], u[2]) * slope.transpose();
+    f += Vector3(u[0], u[1], u[2]) * slope(a, b, c).transpose();
   }
   return f;
+}
+
+/// Mean of the three splines of an axis over a half of a filled cell, or of their slopes, for one octant.
+std::array<double, 3> half_cell_means(const double (&of)[3][octants], int lane)
+{
+  return {of[0][lane], of[1][lane], of[2][lane]};
+}
+
+/// Mean of F over an octant of a filled cell.
+Eigen::Matrix3d filled_deformation(const SpatialBody& body, const SpatialCell& cell, int lane)
+{
+  std::array<double, 3> n[3], slope[3];
+  for (int d = 0; d < 3; ++d) {
+    const AxisWeights& w = body.axis_weights[d][cell.column[d]];
+    n[d] = half_cell_means(w.n, lane), slope[d] = half_cell_means(w.dn, lane);
+  }
+  return one_plus_gradient(body, cell, [&](int a, int b, int c) {
+    return Vector3(slope[0][a] * n[1][b] * n[2][c], n[0][a] * slope[1][b] * n[2][c],
+                   n[0][a] * n[1][b] * slope[2][c]);
+  });
+}
+
+/// Mean of F over the piece of a cut cell that an octant holds, by the piece's moments.
+Eigen::Matrix3d cut_deformation(const SpatialBody& body, const SpatialCell& cell, int lane)
+{
+  const CellSplines axes[3] = {
+      {body.axes[0], cell.column[0]}, {body.axes[1], cell.column[1]}, {body.axes[2], cell.column[2]}};
+  const double* moments = body.cut_moments.data() + std::size_t(cell.cut) * cut_moments_each * octants + lane;
+  return one_plus_gradient(body, cell, [&](int a, int b, int c) {
+    const int node[3] = {a, b, c};
+    Vector3 mean = Vector3::Zero();
+    for (int k = 0; k < cut_moments_each; ++k) {
+      const int power[3] = {k / 9, k / 3 % 3, k % 3};
+      for (int along = 0; along < 3; ++along) {
+        if (power[along] == 2) continue;
+        double term = moments[k * octants];  // of xi^2/2
+        for (int d = 0; d < 3; ++d) {
+          const double(&n)[3] = axes[d].n[node[d]];
+          if (d == along)
+            term *= (power[d] + 1) * n[power[d] + 1] / axes[d].edge;
+          else
+            term *= (power[d] == 2 ? 2 : 1) * n[power[d]];
+        }
+        mean[along] += term;
+      }
+    }
+    return mean;
+  });
 }
 
 /// Cauchy stress of a point, by principal axes: the equations of the kernel, written for reading.
 Eigen::Matrix3d cauchy_stress(const SpatialBody& body, const Moduli& m, const SpatialCell& cell,
                               std::size_t p)
 {
-  const Eigen::Matrix3d f = deformation_at(body, cell, static_cast<int>(p % octants));
+  const int lane = static_cast<int>(p % octants);
+  const Eigen::Matrix3d f =
+      cell.cut < 0 ? filled_deformation(body, cell, lane) : cut_deformation(body, cell, lane);
   Eigen::Matrix3d c;
   c << body.c_p[0][p], body.c_p[3][p], body.c_p[4][p], body.c_p[3][p], body.c_p[1][p], body.c_p[5][p],
       body.c_p[4][p], body.c_p[5][p], body.c_p[2][p];
