@@ -77,6 +77,7 @@ struct ComposedShape
   CharacterisedBody body;  ///< the yielding one, with the pair's onset
   double end;              ///< overlap where the shape ends
   ComposedError stated;
+  double damage_number_max;  ///< up to which impacts have shown that error to hold
 };
 
 /// The shape of a pair that yields at this ratio of the partner's radius to the yielding body's; infinity:
