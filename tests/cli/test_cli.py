@@ -126,6 +126,8 @@ def case_three_dimensions():
     # the whole contact slides: tangential impulse mu times the normal one
     assert abs(oblique["impulse_tangential_Ns"] / oblique["impulse_normal_Ns"] / 0.1 - 1) < 2e-3
     assert 0.9 < oblique["e_tangential"] < 1 and oblique["spin_after_rad_s"] > 0
+    single = Run(*hit, "--friction", "0.1", "--tangential-velocity", "39", "--precision", "single", "--json").json()
+    assert single["e"] != oblique["e"] and abs(single["e"] / oblique["e"] - 1) < 1e-3  # rounding; a grid is good to 1 %
     header = Path("t.csv").read_text().splitlines()[0]
     assert header.startswith("time_s,delta_m,force_N,contact_radius_m,branch,force_x_N,"), header
     squeeze = ["press", "m.toml", "--particle", "grain", "--depth", "0.1", *words]

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <new>
 
 #include "references.hpp"
 #include "solver/run/loading_programme.hpp"
 #include "solver/run/scene_builder.hpp"
+#include "solver/spatial/spatial_setup.hpp"
 #include "solver/time_step.hpp"
 
 namespace {
@@ -110,6 +112,39 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
   EXPECT_GT(touching, 200);
   EXPECT_GT(widest, 0.1);  // over several of the 8 cells of the block
 }
+
+/// The same in three dimensions, oblique and with friction.
+class SpatialAllocations : public testing::TestWithParam<Precision>
+{
+};
+
+TEST_P(SpatialAllocations, NoneAfterTheFirstStep)
+{
+  Plane wall{Vector3::UnitZ(), std::nan("")};
+  wall.friction = 0.3;
+  const SpatialSetup setup(Particle::from(reference::unit_sphere(100)), Eigen::Matrix3d::Identity(), {wall},
+                           {false, true, false});
+  constexpr double velocity = 0.1;
+  SpatialScene scene = setup.build(setup.expected_overlap(velocity), 6, 0.0, GetParam());
+  SpatialBody& body = scene.bodies.front();
+  const StableStep<SpatialBody> stable(body);
+  throw_body(body, {velocity, 0, -velocity}, Vector3::Zero(), scene.centre);
+  FreeFlight<SpatialScene> programme(20);
+  long first = 0, steps = 0, touching = 0;
+  double time = 0;
+  while (!programme.finished()) {
+    const double dt = 0.85 * stable.limit(body);
+    touching += advance(scene, programme, time, dt, dt) > 0;
+    time += dt;
+    if (++steps == 1) first = allocations;
+    ASSERT_EQ(allocations, first) << "in step " << steps;
+    ASSERT_LT(steps, 100000);
+  }
+  EXPECT_GT(touching, 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(Precisions, SpatialAllocations, testing::Values(Precision::full, Precision::single),
+                         [](const auto& p) { return p.param == Precision::full ? "full" : "single"; });
 
 TEST(Allocations, AreCounted)
 {

@@ -11,6 +11,7 @@
 #include "references.hpp"
 #include "solver/run/accuracy.hpp"
 #include "solver/runs.hpp"
+#include "solver/spatial/spatial_runs.hpp"
 
 namespace granulaw {
 namespace {
@@ -127,6 +128,21 @@ Run press(Support support, const Partner& partner = {})
   return [=](const RunOptions& o) { return run_press(Particle::from(soft()), plan, o, partner); };
 }
 
+/// Three dimensions, with all that they keep: friction, spin, impulses at the markers.
+Run oblique_impact()
+{
+  BodyThrow thrown{0.1};
+  thrown.friction = 0.2, thrown.tangential_velocity = 0.1;
+  return [=](const RunOptions& o) { return run_body_impact(Particle::from(soft()), thrown, o); };
+}
+
+Run cube_press()
+{
+  PlanesPlan plan;
+  plan.planes = named_planes("cube"), plan.depth = 0.08, plan.ramp = 10;
+  return [=](const RunOptions& o) { return run_planes_press(Particle::from(soft()), plan, o); };
+}
+
 std::vector<Job> jobs()
 {
   Sphere other = reference::unit_sphere(60);
@@ -146,6 +162,9 @@ std::vector<Job> jobs()
       {"press_midplane", press(Support::midplane), small(GridKind::mapped)},
       {"press_rectilinear", press(Support::midplane), small(GridKind::rectilinear)},
       {"press_two", press(Support::free, particle), small(GridKind::mapped)},
+      {"oblique_impact", oblique_impact(), small(GridKind::spatial)},
+      {"oblique_impact_single", oblique_impact(), small(GridKind::spatial, Precision::single)},
+      {"cube_press_single", cube_press(), small(GridKind::spatial, Precision::single)},
   };
   RunOptions shifted = several(2);
   shifted.estimate_error = true;

@@ -182,24 +182,91 @@ TEST(SpatialGrid, FillsTheBallAndItsParts)
   }
 }
 
-TEST(SpatialInstructionSets, Agree)
+/// Forces of a ball that is moved off and stretched until it flows.
+NodeField forces_of_stretched_ball(const SpatialKernels& kernels, bool single, const Vector3& shift)
 {
-  const auto forces = [](const SpatialKernels& k) {
-    SpatialBody b = ball(plastic, 0.2);
-    for (int step = 1; step <= 3; ++step) {
-      displace(b, 0.1 * step * stretch);
-      k.internal_force(b, false);
-    }
-    return b.f_i;
-  };
-  const auto compare = [&](const SpatialKernels& other) {
-    const auto expected = forces(isa_generic::spatial_kernels), found = forces(other);
-    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-14);
-  };
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) compare(isa_avx2::spatial_kernels);
+  SpatialBody b = ball(plastic, 0.2);
+  if (single) b.use_single();
+  for (int step = 1; step <= 3; ++step) {
+    displace(b, 0.1 * step * stretch, shift);
+    kernels.internal_force(b, false);
+  }
+  return b.f_i;
+}
+
+double largest_difference(const NodeField& a, const NodeField& b)
+{
+  double worst = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+  return worst;
+}
+
+std::vector<const SpatialKernels*> kernels_of_this_processor()
+{
+  std::vector<const SpatialKernels*> all{&isa_generic::spatial_kernels};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    all.push_back(&isa_avx2::spatial_kernels);
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl"))
-    compare(isa_avx512::spatial_kernels);
+    all.push_back(&isa_avx512::spatial_kernels);
+  return all;
+}
+
+TEST(SpatialInstructionSets, Agree)
+{
+  const Vector3 here = Vector3::Zero();
+  const NodeField expected = forces_of_stretched_ball(isa_generic::spatial_kernels, false, here);
+  for (const SpatialKernels* k : kernels_of_this_processor())
+    EXPECT_LT(largest_difference(forces_of_stretched_ball(*k, false, here), expected), 1e-14) << k->name;
+}
+
+/// Points in float, forces of up to 1e-3: rounding (6e-8) of a few of a point's stresses. The ball has moved
+/// by 400 times its radius: displacements rounded themselves would be wrong by 2e-5.
+TEST(SpatialSinglePrecision, ForcesAgreeOnEverySetOfInstructions)
+{
+  const Vector3 away(400, -200, 100);
+  const NodeField expected = forces_of_stretched_ball(isa_generic::spatial_kernels, false, away);
+  for (const SpatialKernels* k : kernels_of_this_processor())
+    EXPECT_LT(largest_difference(forces_of_stretched_ball(*k, true, away), expected), 1e-9) << k->name;
+}
+
+/// Nodes that the body hardly reaches are lighter than others by many orders of magnitude. Their
+/// accelerations are as exact as the others', since their weights are (SpatialCell::along): 1e-7 of the
+/// largest.
+TEST(SpatialSinglePrecision, LightNodesAccelerateAsInDouble)
+{
+  SpatialBody b = ball(elastic), f = b;
+  f.use_single();
+  double lightest = 1, heaviest = 0;
+  for (const double m : b.mass_i)
+    if (m > 0) lightest = std::min(lightest, m), heaviest = std::max(heaviest, m);
+  EXPECT_LT(lightest, 1e-5 * heaviest);
+  for (SpatialBody* body : {&b, &f}) {
+    displace(*body, 0.05 * stretch, {0.4, -0.2, 0.1});
+    spatial_kernels().internal_force(*body, false);
+  }
+  double worst = 0, largest = 0;
+  for (std::size_t i = 0; i < b.f_i.size(); ++i) {
+    worst = std::max(worst, b.inverse_mass_i[i] * std::abs(b.f_i[i] - f.f_i[i]));
+    largest = std::max(largest, b.inverse_mass_i[i] * std::abs(b.f_i[i]));
+  }
+  EXPECT_LT(worst, 1e-6 * largest);
+}
+
+/// Strains as small as 1e-8 keep their digits: everything is a difference from the identity.
+TEST(SpatialSinglePrecision, SmallStrainsKeepTheirDigits)
+{
+  SpatialBody b = ball(elastic, 0.2);
+  b.use_single();
+  displace(b, 1e-8 * stretch);
+  spatial_kernels().internal_force(b, false);
+  const Eigen::Matrix3d strain = 0.5e-8 * (stretch + stretch.transpose());
+  const double trace = strain.trace();
+  const Eigen::Matrix3d deviator = strain - trace / 3 * Eigen::Matrix3d::Identity();
+  double volume = 0;
+  for (const double v : b.volume_p) volume += v;
+  const double density = elastic.shear * deviator.squaredNorm() + 0.5 * elastic.bulk * trace * trace;
+  EXPECT_NEAR(b.strain_energy() / (density * volume), 1, 1e-6);  // rounding, and strains themselves: 1e-8
 }
 
 // Runs: E* = 1 GPa, rho = 1000 kg/m^3, nu = 0.3, R = 1 mm.
@@ -237,6 +304,22 @@ TEST(SpatialImpact, SphereAgreesWithTheAxisymmetricSolver)
   EXPECT_NEAR(found.force_max / flat.force_max, 1, 0.012);
   EXPECT_NEAR(found.delta_max / flat.delta_max, 1, 0.005);
   EXPECT_LT(found.energy_error, 1e-3);  // of second order in the step
+}
+
+/// Rounding shakes the instant at which single markers touch: e and F move with it by a hundredth of what a
+/// shifted grid moves them by (0.5 %, 1 %).
+TEST(SpatialImpact, SinglePrecisionChangesNothingOfWeight)
+{
+  const double v = 100 * customary_velocity(100);
+  RunOptions options = coarse(7, 1);
+  const RunSummary full = run_body_impact(sphere(100), {v}, options).summary;
+  options.precision = Precision::single;
+  const RunSummary single = run_body_impact(sphere(100), {v}, options).summary;
+  EXPECT_NE(single.restitution, full.restitution);
+  EXPECT_NEAR(single.restitution / full.restitution, 1, 5e-5);
+  EXPECT_NEAR(single.force_max / full.force_max, 1, 1e-4);
+  EXPECT_NEAR(single.delta_max / full.delta_max, 1, 1e-5);
+  EXPECT_NEAR(single.energy_error, full.energy_error, 1e-5);
 }
 
 /// An elastic impact gives everything back but what vibrates on; Hertz's F(V) holds but for the finite body.

@@ -23,6 +23,7 @@ struct CacheLineAllocator
   bool operator==(const CacheLineAllocator&) const { return true; }
 };
 
-using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
+template <class Real>
+using AlignedVector = std::vector<Real, CacheLineAllocator<Real>>;
 
 }  // namespace granulaw

@@ -9,9 +9,37 @@ namespace granulaw {
 
 namespace {
 
-double sum_of(const AlignedVector& values)
+template <class Real>
+double sum_of(const AlignedVector<Real>& values)
 {
   return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+template <class Real>
+double largest_of(const AlignedVector<Real>& values)
+{
+  return values.empty() ? 0.0 : double(*std::max_element(values.begin(), values.end()));
+}
+
+/// Calls visit(field of a, field of b) for each field of the points' state.
+template <class A, class B, class Visit>
+void for_state(A& a, B& b, Visit visit)
+{
+  for (std::size_t k = 0; k < a.c_p.size(); ++k) visit(a.c_p[k], b.c_p[k]);
+  visit(a.plastic_strain_p, b.plastic_strain_p);
+  visit(a.plastic_work_p, b.plastic_work_p);
+  visit(a.elastic_energy_p, b.elastic_energy_p);
+}
+
+constexpr auto copy_values = [](const auto& from, auto& to) { to.assign(from.begin(), from.end()); };
+
+AxisWeights<float> rounded(const AxisWeights<double>& w)
+{
+  AxisWeights<float> r{};
+  for (int a = 0; a < 3; ++a)
+    for (int k = 0; k < octants; ++k) r.n[a][k] = float(w.n[a][k]), r.dn[a][k] = float(w.dn[a][k]);
+  r.per_edge = float(w.per_edge), r.left = float(w.left), r.right = float(w.right);
+  return r;
 }
 
 }  // namespace
@@ -32,9 +60,25 @@ void SpatialBody::allocate_nodes()
 void SpatialBody::allocate_points()
 {
   const std::size_t lanes = octants * cells.size();
-  for (AlignedVector& component : c_p) component.assign(lanes, 0.0);
-  for (AlignedVector* field : {&volume_p, &plastic_strain_p, &plastic_work_p, &elastic_energy_p})
+  for (AlignedVector<double>& component : c_p) component.assign(lanes, 0.0);
+  for (AlignedVector<double>* field : {&volume_p, &plastic_strain_p, &plastic_work_p, &elastic_energy_p})
     field->assign(lanes, 0.0);
+}
+
+void SpatialBody::use_single()
+{
+  for (int d = 0; d < 3; ++d) {
+    single.axis_weights[d].clear();
+    for (const AxisWeights<double>& w : axis_weights[d]) single.axis_weights[d].push_back(rounded(w));
+  }
+  copy_values(cut_moments, single.cut_moments);
+  copy_values(volume_p, single.volume_p);
+  for_state(*this, single, copy_values);
+}
+
+void SpatialBody::fetch_state()
+{
+  if (is_single()) for_state(single, *this, copy_values);
 }
 
 double SpatialBody::kinetic_energy() const
@@ -49,17 +93,17 @@ double SpatialBody::kinetic_energy() const
 
 double SpatialBody::strain_energy() const
 {
-  return sum_of(elastic_energy_p);
+  return is_single() ? sum_of(single.elastic_energy_p) : sum_of(elastic_energy_p);
 }
 
 double SpatialBody::plastic_work() const
 {
-  return sum_of(plastic_work_p);
+  return is_single() ? sum_of(single.plastic_work_p) : sum_of(plastic_work_p);
 }
 
 double SpatialBody::largest_plastic_strain() const
 {
-  return plastic_strain_p.empty() ? 0 : *std::max_element(plastic_strain_p.begin(), plastic_strain_p.end());
+  return is_single() ? largest_of(single.plastic_strain_p) : largest_of(plastic_strain_p);
 }
 
 void SpatialBody::visit_state(StateArchive& a)
@@ -71,8 +115,11 @@ void SpatialBody::visit_state(StateArchive& a)
   for (int d = 0; d < 3; ++d) a.value(travel[d]);
   a.value(elapsed);
   for (NodeField* field : {&u_i, &v_i}) a.values(*field);
-  for (AlignedVector& component : c_p) a.values(component);
-  for (AlignedVector* field : {&plastic_strain_p, &plastic_work_p, &elastic_energy_p}) a.values(*field);
+  const auto carry = [&](auto& field, const auto&) { a.values(field); };
+  if (is_single())
+    for_state(single, single, carry);
+  else
+    for_state(*this, *this, carry);
 }
 
 }  // namespace granulaw

@@ -19,12 +19,13 @@ inline constexpr int cell_nodes = 27;
 
 /// Means of the three splines of an axis and of their slopes over both halves of one cell, one entry for each
 /// octant.
+template <class Real>
 struct alignas(64) AxisWeights
 {
-  double n[3][octants], dn[3][octants];
-  double per_edge;     ///< 1/h, h the edge of the cell
-  double left, right;  ///< h over itself and the cell before, or behind: with xi = x/h from the middle of the
-                       ///< cell the outer splines are left (xi - 1/2)^2 and right (xi + 1/2)^2
+  Real n[3][octants], dn[3][octants];
+  Real per_edge;     ///< 1/h, h the edge of the cell
+  Real left, right;  ///< h over itself and the cell before, or behind: with xi = x/h from the middle of the
+                     ///< cell the outer splines are left (xi - 1/2)^2 and right (xi + 1/2)^2
 };
 
 /// A cell with the one material that its points are made of: a cell across an interface occurs once for each
@@ -34,6 +35,9 @@ struct SpatialCell
   int node;                   ///< the lowest of its nodes; the others follow by the strides of the grid
   std::array<int, 3> column;  ///< its index along x, y, z
   int cut;                    ///< place in cut_moments; -1: the whole cell is of this material
+  /// Cut cells: on each axis t = 1/2 + along x/h from the middle of the cell, so that the material lies at
+  /// small t. The nodes that it hardly reaches have powers of t for weights, exact to rounding also in float.
+  std::array<int, 3> along{1, 1, 1};
 };
 
 /// Cells [begin, end) of one material.
@@ -57,12 +61,24 @@ struct SpatialSurface
 };
 
 /// A vector at each node: x, y, z and a zero, so that a node is one access. Entry 4 node + component.
-using NodeField = AlignedVector;
+using NodeField = AlignedVector<double>;
 
-/// Moments of a piece that the kernels read: means over the piece of l(xi) m(eta) n(zeta), l, m, n each one
-/// of 1, xi, xi^2/2 of the cell's own coordinates (-1/2 to 1/2); number 9 l + 3 m + n, all but the last
-/// of 27.
+/// Moments of a piece that the kernels read: means over the piece of l(t_x) m(t_y) n(t_z), l, m, n each one
+/// of 1, t, t^2/2 of the cell's own coordinates (SpatialCell::along, 0 to 1); number 9 l + 3 m + n, all but
+/// the last of 27.
 inline constexpr int cut_moments_each = 26;
+
+/// What the material points of a three-dimensional body carry, and their weights.
+template <class Real>
+struct SpatialPoints
+{
+  std::array<std::vector<AxisWeights<Real>>, 3> axis_weights;
+  AlignedVector<Real> cut_moments;  ///< [cut cell][cut_moments_each][octant]
+  AlignedVector<Real> volume_p;     ///< reference volume, 0: nothing there
+  /// plastic state: inverse plastic right Cauchy-Green tensor minus identity, xx yy zz xy xz yz
+  std::array<AlignedVector<Real>, 6> c_p;
+  AlignedVector<Real> plastic_strain_p, plastic_work_p, elastic_energy_p;
+};
 
 /// A three-dimensional body on its graded rectilinear grid, structure of arrays, solver units (E* = rho = 1).
 /// Total Lagrangian: weights are computed once on the reference grid, nodal displacements are kept.
@@ -73,13 +89,12 @@ inline constexpr int cut_moments_each = 26;
 /// displacement fields, uniform stress, momentum and angular momentum are exact (Flanagan and Belytschko
 /// 1981). In a cell that is filled they are products of the axes' own means. Within a cell every spline is a
 /// polynomial, so a cut piece needs its moments only: a third of the memory of its 81 weights.
-struct SpatialBody
+struct SpatialBody : SpatialPoints<double>
 {
   // grid
   std::array<SplineAxis, 3> axes;
   std::array<int, 3> count{};  ///< functions along each axis
   int nodes = 0;
-  std::array<std::vector<AxisWeights>, 3> axis_weights;
   std::vector<double> mass_i;
   NodeField inverse_mass_i;  ///< zero in a direction in which a symmetry plane holds the node
   NodeField u_i, v_i, f_i;   ///< displacement, velocity, internal force
@@ -96,13 +111,16 @@ struct SpatialBody
   // material points
   std::vector<SpatialCell> cells;
   std::vector<SpatialRegion> regions;
-  int points = 0;             ///< octants that hold material; a cell has eight lanes whatever it holds
-  AlignedVector cut_moments;  ///< [cut cell][cut_moments_each][octant]
-  AlignedVector volume_p;     ///< reference volume, 0: nothing there
-  /// plastic state: inverse plastic right Cauchy-Green tensor minus identity, xx yy zz xy xz yz
-  std::array<AlignedVector, 6> c_p;
-  AlignedVector plastic_strain_p, plastic_work_p, elastic_energy_p;
+  int points = 0;      ///< octants that hold material; a cell has eight lanes whatever it holds
   double elapsed = 0;  ///< time since the plastic state was last updated
+
+  /// Single precision: weights and state of the points in float, used instead of the double ones where
+  /// filled. Nodes stay double, and so do the equations of flow laws without a closed form. `fetch_state`
+  /// copies the state back.
+  SpatialPoints<float> single;
+  bool is_single() const { return !single.volume_p.empty(); }
+  void use_single();
+  void fetch_state();
 
   std::array<int, 3> strides() const { return {1, count[0], count[0] * count[1]}; }
   /// How many of these parts make the whole body.
@@ -115,7 +133,6 @@ struct SpatialBody
   double strain_energy() const;
   double plastic_work() const;
   double hourglass_energy() const { return 0; }  ///< eight points a cell need no hourglass control
-  void fetch_state() {}                          ///< always double
   double largest_plastic_strain() const;
 
   void visit_state(StateArchive& archive);

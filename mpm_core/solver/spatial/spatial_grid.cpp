@@ -15,9 +15,9 @@ namespace {
 constexpr double least_share = 1e-6;
 
 /// Means over one half of the cell.
-AxisWeights axis_weights(const CellSplines& s, int direction)
+AxisWeights<double> axis_weights(const CellSplines& s, int direction)
 {
-  AxisWeights w{};
+  AxisWeights<double> w{};
   w.per_edge = 1 / s.edge, w.left = s.left, w.right = s.right;
   for (int octant = 0; octant < octants; ++octant) {
     const bool upper = octant >> (2 - direction) & 1;
@@ -161,20 +161,38 @@ class Builder
           density * volume(cell.column) * moments.of(s[0]->n[k / 9], s[1]->n[k / 3 % 3], s[2]->n[k % 3]);
   }
 
+  /// Each axis runs from where the material is (SpatialCell::along).
+  static std::array<int, 3> from_material(const std::array<Moments, octants>& pieces)
+  {
+    constexpr int first_moment[3] = {9, 3, 1};
+    std::array<int, 3> along{};
+    for (int d = 0; d < 3; ++d) {
+      double sum = 0;
+      for (const Moments& m : pieces) sum += m.value[first_moment[d]];
+      along[d] = sum > 0 ? -1 : 1;
+    }
+    return along;
+  }
+
   void cut_cell(int at, const CutCell& c, double density)
   {
-    double* moments =
-        body_.cut_moments.data() + std::size_t(body_.cells[at].cut) * cut_moments_each * octants;
+    SpatialCell& cell = body_.cells[at];
+    cell.along = from_material(c.moments);
+    double* moments = body_.cut_moments.data() + std::size_t(cell.cut) * cut_moments_each * octants;
     for (int lane = 0; lane < octants; ++lane) {
       const Moments& m = c.moments[lane];
       if (m.size() <= 0) continue;
       ++body_.points;
       body_.volume_p[octants * at + lane] = volume(c.cell.column) * m.size();
       add_mass(c.cell, m, density);
-      for (int k = 0; k < cut_moments_each; ++k) {
-        const double halves = (k / 9 == 2 ? 0.5 : 1) * (k / 3 % 3 == 2 ? 0.5 : 1) * (k % 3 == 2 ? 0.5 : 1);
-        moments[k * octants + lane] = halves * m.value[k] / m.size();
+      double power[3][3][3];  // axis, then 1, t, t^2/2 as polynomials of xi
+      for (int d = 0; d < 3; ++d) {
+        const double s = cell.along[d];
+        const double all[3][3] = {{1, 0, 0}, {0.5, s, 0}, {0.125, 0.5 * s, 0.5}};
+        std::copy(&all[0][0], &all[0][0] + 9, &power[d][0][0]);
       }
+      for (int k = 0; k < cut_moments_each; ++k)
+        moments[k * octants + lane] = m.of(power[0][k / 9], power[1][k / 3 % 3], power[2][k % 3]) / m.size();
     }
   }
 

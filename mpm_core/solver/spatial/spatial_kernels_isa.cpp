@@ -8,6 +8,7 @@
 #include "solver/kernel_flow.hpp"
 #include "solver/kernel_math.hpp"
 #include "solver/spatial/spatial_kernels.hpp"
+#include "solver/spatial/symmetric_tensor.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
@@ -15,76 +16,128 @@ namespace {
 
 using namespace kernel;
 
-/// One double for each octant of a cell, and for the four octants of one half.
-typedef double Lanes __attribute__((vector_size(64), may_alias));
-typedef double HalfLanes __attribute__((vector_size(32), may_alias));
+/// One number for each octant of a cell, and for the four octants of one half.
+template <class Real>
+struct Vectors;
+template <>
+struct Vectors<double>
+{
+  typedef double Lanes __attribute__((vector_size(64), may_alias));
+  typedef double HalfLanes __attribute__((vector_size(32), may_alias));
+};
+template <>
+struct Vectors<float>
+{
+  typedef float Lanes __attribute__((vector_size(32), may_alias));
+  typedef float HalfLanes __attribute__((vector_size(16), may_alias));
+};
+template <class Real>
+using Lanes = typename Vectors<Real>::Lanes;
+template <class Real>
+using HalfLanes = typename Vectors<Real>::HalfLanes;
 
 constexpr int block_cells = block_points / octants;
 
 /// What the stages hand on for the points of one block. [3 i + j]: component i, derivative by x_j.
+template <class Real>
 struct alignas(64) Block
 {
-  double h[9][block_points];  ///< displacement gradient, F = 1 + h; after the stress update first
-                              ///< Piola-Kirchhoff stress times volume
+  Real h[9][block_points];  ///< displacement gradient, F = 1 + h; after the stress update first
+                            ///< Piola-Kirchhoff stress times volume
 };
 
-GRANULAW_INLINE const Lanes& lanes(const double* values)
+/// Keeps a quotient by zero finite.
+template <class Real>
+constexpr Real tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
+
+template <class Real>
+GRANULAW_INLINE const Lanes<Real>& lanes(const Real* values)
 {
-  return *reinterpret_cast<const Lanes*>(values);
+  return *reinterpret_cast<const Lanes<Real>*>(values);
 }
-GRANULAW_INLINE Lanes& lanes(double* values)
+template <class Real>
+GRANULAW_INLINE Lanes<Real>& lanes(Real* values)
 {
-  return *reinterpret_cast<Lanes*>(values);
+  return *reinterpret_cast<Lanes<Real>*>(values);
 }
-GRANULAW_INLINE const HalfLanes& half_lanes(const double* values)
+template <class Real>
+GRANULAW_INLINE const HalfLanes<Real>& half_lanes(const Real* values)
 {
-  return *reinterpret_cast<const HalfLanes*>(values);
+  return *reinterpret_cast<const HalfLanes<Real>*>(values);
 }
-GRANULAW_INLINE HalfLanes& half_lanes(double* values)
+template <class Real>
+GRANULAW_INLINE HalfLanes<Real>& half_lanes(Real* values)
 {
-  return *reinterpret_cast<HalfLanes*>(values);
+  return *reinterpret_cast<HalfLanes<Real>*>(values);
 }
-GRANULAW_INLINE Lanes both_halves(HalfLanes v)
+template <class Half>
+GRANULAW_INLINE auto both_halves(Half v)
 {
   return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3);
 }
-GRANULAW_INLINE HalfLanes sum_of_halves(Lanes v)
+template <class Whole>
+GRANULAW_INLINE auto sum_of_halves(Whole v)
 {
   return __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
 }
 /// Entry k: the sum of all entries of v[k].
-GRANULAW_INLINE HalfLanes row_sums(const HalfLanes (&v)[4])
+template <class Half>
+GRANULAW_INLINE Half row_sums(const Half (&v)[4])
 {
-  const HalfLanes a =
+  const Half a =
       __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6) + __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
-  const HalfLanes b =
+  const Half b =
       __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6) + __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
   return __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
 }
 
+template <class Real>
+GRANULAW_INLINE SpatialPoints<Real>& points_of(SpatialBody& body)
+{
+  if constexpr (std::is_same_v<Real, float>)
+    return body.single;
+  else
+    return body;
+}
+
 /// Raw pointers to the grid of a body.
+template <class Real>
 struct Grid
 {
   const double* u;
   double* f;
-  const AxisWeights* axis[3];
+  const AxisWeights<Real>* axis[3];
   const SpatialCell* cells;
-  const double* cut_moments;
+  const Real* cut_moments;
   long across, up;  ///< strides along y and z, in nodes; along x it is 1
 
   GRANULAW_MEMBER explicit Grid(SpatialBody& body)
       : u(body.u_i.data()),
         f(body.f_i.data()),
-        axis{body.axis_weights[0].data(), body.axis_weights[1].data(), body.axis_weights[2].data()},
+        axis{points_of<Real>(body).axis_weights[0].data(), points_of<Real>(body).axis_weights[1].data(),
+             points_of<Real>(body).axis_weights[2].data()},
         cells(body.cells.data()),
-        cut_moments(body.cut_moments.data()),
+        cut_moments(points_of<Real>(body).cut_moments.data()),
         across(body.count[0]),
         up(long(body.count[0]) * body.count[1])
   {
   }
-  GRANULAW_MEMBER const double* moments_of(const SpatialCell& cell) const
+  GRANULAW_MEMBER const Real* moments_of(const SpatialCell& cell) const
   {
     return cut_moments + long(cell.cut) * (cut_moments_each * octants);
+  }
+  /// Displacement of a node. Float: from that of the node `from`, a difference taken in double, so that
+  /// nothing is lost to a common displacement.
+  GRANULAW_MEMBER HalfLanes<Real> displacement(long node, [[maybe_unused]] long from) const
+  {
+    if constexpr (std::is_same_v<Real, float>)
+      return __builtin_convertvector(half_lanes(u + 4 * node) - half_lanes(u + 4 * from), HalfLanes<float>);
+    else
+      return half_lanes(u + 4 * node);
+  }
+  GRANULAW_MEMBER void take_force(long node, HalfLanes<Real> force) const
+  {
+    half_lanes(f + 4 * node) -= __builtin_convertvector(force, HalfLanes<double>);
   }
 };
 
@@ -98,11 +151,12 @@ GRANULAW_INLINE int row_length(const SpatialCell* cells, int first, int most)
 
 /// Weights of the nine columns of nodes along x about a row of filled cells, for the octants of one half:
 /// N N, N' N and N N' of y and z. Node 3 y + z of a column.
+template <class Real>
 struct RowWeights
 {
-  HalfLanes w[3][9];
+  HalfLanes<Real> w[3][9];
 
-  GRANULAW_MEMBER RowWeights(const AxisWeights& y, const AxisWeights& z)
+  GRANULAW_MEMBER RowWeights(const AxisWeights<Real>& y, const AxisWeights<Real>& z)
   {
 #pragma GCC unroll 3
     for (int b = 0; b < 3; ++b)
@@ -118,32 +172,29 @@ struct RowWeights
 constexpr int row_nodes = block_cells + 2;  // along x about a row of eight cells
 
 /// Displacement gradients of a row of filled cells: first along y and z at each node of x, then along x.
-__attribute__((noinline)) void gather_row(const Grid& grid, int first, int n, double* __restrict h)
+template <class Real>
+__attribute__((noinline)) void gather_row(const Grid<Real>& grid, int first, int n, Real* __restrict h)
 {
   const SpatialCell cell = grid.cells[first];
-  const RowWeights weights(grid.axis[1][cell.column[1]], grid.axis[2][cell.column[2]]);
-  HalfLanes at_node[row_nodes][9];  // [3 kind + component]
-  for (int j = 0; j < n + 2; ++j)
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
-      const double* __restrict u = grid.u + 4 * (cell.node + j) + i;
-      HalfLanes nn{}, dn{}, nd{};
-#pragma GCC unroll 3
-      for (int b = 0; b < 3; ++b)
-#pragma GCC unroll 3
-        for (int c = 0; c < 3; ++c) {
-          const double value = u[4 * (b * grid.across + c * grid.up)];
-          nn += weights.w[0][3 * b + c] * value;
-          dn += weights.w[1][3 * b + c] * value;
-          nd += weights.w[2][3 * b + c] * value;
-        }
-      at_node[j][i] = nn, at_node[j][3 + i] = dn, at_node[j][6 + i] = nd;
+  const RowWeights<Real> weights(grid.axis[1][cell.column[1]], grid.axis[2][cell.column[2]]);
+  HalfLanes<Real> at_node[row_nodes][9];  // [3 kind + component]
+  for (int j = 0; j < n + 2; ++j) {
+    HalfLanes<Real> sums[9]{};
+#pragma GCC unroll 9
+    for (int bc = 0; bc < 9; ++bc) {
+      const HalfLanes<Real> u =
+          grid.displacement(cell.node + j + bc / 3 * grid.across + bc % 3 * grid.up, cell.node);
+#pragma GCC unroll 9
+      for (int m = 0; m < 9; ++m) sums[m] += weights.w[m / 3][bc] * u[m % 3];
     }
+#pragma GCC unroll 9
+    for (int m = 0; m < 9; ++m) at_node[j][m] = sums[m];
+  }
   for (int k = 0; k < n; ++k) {
-    const AxisWeights& x = grid.axis[0][cell.column[0] + k];
+    const AxisWeights<Real>& x = grid.axis[0][cell.column[0] + k];
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
-      Lanes hx{}, hy{}, hz{};
+      Lanes<Real> hx{}, hy{}, hz{};
 #pragma GCC unroll 3
       for (int a = 0; a < 3; ++a) {
         hx += lanes(x.dn[a]) * both_halves(at_node[k + a][i]);
@@ -158,21 +209,22 @@ __attribute__((noinline)) void gather_row(const Grid& grid, int first, int n, do
 }
 
 /// Forces of a row of filled cells, the transposed of gather_row.
-__attribute__((noinline)) void scatter_row(const Grid& grid, int first, int n, const double* __restrict p)
+template <class Real>
+__attribute__((noinline)) void scatter_row(const Grid<Real>& grid, int first, int n, const Real* __restrict p)
 {
   const SpatialCell cell = grid.cells[first];
-  const RowWeights weights(grid.axis[1][cell.column[1]], grid.axis[2][cell.column[2]]);
-  HalfLanes at_node[row_nodes][9];
+  const RowWeights<Real> weights(grid.axis[1][cell.column[1]], grid.axis[2][cell.column[2]]);
+  HalfLanes<Real> at_node[row_nodes][9];
   for (int j = 0; j < row_nodes; ++j)
 #pragma GCC unroll 9
-    for (int i = 0; i < 9; ++i) at_node[j][i] = HalfLanes{};
+    for (int i = 0; i < 9; ++i) at_node[j][i] = HalfLanes<Real>{};
   for (int k = 0; k < n; ++k) {
-    const AxisWeights& x = grid.axis[0][cell.column[0] + k];
+    const AxisWeights<Real>& x = grid.axis[0][cell.column[0] + k];
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
-      const Lanes px = lanes(p + (3 * i + 0) * block_points + octants * k);
-      const Lanes py = lanes(p + (3 * i + 1) * block_points + octants * k);
-      const Lanes pz = lanes(p + (3 * i + 2) * block_points + octants * k);
+      const Lanes<Real> px = lanes(p + (3 * i + 0) * block_points + octants * k);
+      const Lanes<Real> py = lanes(p + (3 * i + 1) * block_points + octants * k);
+      const Lanes<Real> pz = lanes(p + (3 * i + 2) * block_points + octants * k);
 #pragma GCC unroll 3
       for (int a = 0; a < 3; ++a) {
         at_node[k + a][i] += sum_of_halves(lanes(x.dn[a]) * px);
@@ -182,66 +234,91 @@ __attribute__((noinline)) void scatter_row(const Grid& grid, int first, int n, c
     }
   }
   for (int j = 0; j < n + 2; ++j) {
-    const HalfLanes(&node)[9] = at_node[j];
+    const HalfLanes<Real>(&node)[9] = at_node[j];
 #pragma GCC unroll 9
     for (int bc = 0; bc < 9; ++bc) {
-      HalfLanes sums[4]{};
+      HalfLanes<Real> sums[4]{};
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i)
         sums[i] =
             weights.w[0][bc] * node[i] + weights.w[1][bc] * node[3 + i] + weights.w[2][bc] * node[6 + i];
-      half_lanes(grid.f + 4 * (cell.node + j + bc / 3 * grid.across + bc % 3 * grid.up)) -= row_sums(sums);
+      grid.take_force(cell.node + j + bc / 3 * grid.across + bc % 3 * grid.up, row_sums(sums));
     }
   }
 }
 
-/// Node values of a cell along one axis become coefficients of 1, xi, xi^2/2.
-template <int stride>
-GRANULAW_INLINE void to_polynomials(HalfLanes (&c)[cell_nodes], const AxisWeights& axis)
+/// A cut cell as its moments see it. Where an axis is turned round (SpatialCell::along) the nodes run
+/// backwards, and the outer splines change places.
+template <class Real>
+struct CutFrame
+{
+  long node, step[3];
+  Real first[3], last[3];  ///< outer splines: first (1 - t)^2, last t^2
+  Real per_edge[3];        ///< dt/dx
+
+  GRANULAW_MEMBER CutFrame(const Grid<Real>& grid, const SpatialCell& cell)
+      : node(cell.node), step{1, grid.across, grid.up}
+  {
+#pragma GCC unroll 3
+    for (int d = 0; d < 3; ++d) {
+      const AxisWeights<Real>& axis = grid.axis[d][cell.column[d]];
+      const bool turned = cell.along[d] < 0;
+      first[d] = turned ? axis.right : axis.left, last[d] = turned ? axis.left : axis.right;
+      per_edge[d] = turned ? -axis.per_edge : axis.per_edge;
+      node += turned ? 2 * step[d] : 0;
+      step[d] = turned ? -step[d] : step[d];
+    }
+  }
+  GRANULAW_MEMBER long node_of(int k) const
+  {
+    return node + k / 9 * step[0] + k / 3 % 3 * step[1] + k % 3 * step[2];
+  }
+};
+
+/// Node values of a cell along one axis become coefficients of 1, t, t^2/2.
+template <int stride, class Real>
+GRANULAW_INLINE void to_polynomials(HalfLanes<Real> (&c)[cell_nodes], Real first, Real last)
 {
 #pragma GCC unroll 9
   for (int k = 0; k < 9; ++k) {
     const int at = k / stride * 3 * stride + k % stride;
-    const HalfLanes middle = c[at + stride];
-    const HalfLanes p = axis.left * (c[at] - middle), q = axis.right * (c[at + 2 * stride] - middle);
-    const HalfLanes sum = p + q;
-    c[at] = middle + 0.25 * sum, c[at + stride] = q - p, c[at + 2 * stride] = 2.0 * sum;
+    const HalfLanes<Real> middle = c[at + stride];
+    const HalfLanes<Real> p = first * (c[at] - middle), q = last * (c[at + 2 * stride] - middle);
+    c[at] = middle + p, c[at + stride] = Real(-2) * p, c[at + 2 * stride] = Real(2) * (p + q);
   }
 }
 
 /// The transposed of to_polynomials.
-template <int stride>
-GRANULAW_INLINE void to_nodes(HalfLanes (&c)[cell_nodes], const AxisWeights& axis)
+template <int stride, class Real>
+GRANULAW_INLINE void to_nodes(HalfLanes<Real> (&c)[cell_nodes], Real first, Real last)
 {
 #pragma GCC unroll 9
   for (int k = 0; k < 9; ++k) {
     const int at = k / stride * 3 * stride + k % stride;
-    const HalfLanes all = c[at], sum = 0.25 * all + 2.0 * c[at + 2 * stride];
-    c[at] = axis.left * (sum - c[at + stride]), c[at + 2 * stride] = axis.right * (sum + c[at + stride]);
+    const HalfLanes<Real> all = c[at], twice = Real(2) * c[at + 2 * stride];
+    c[at] = first * (all - Real(2) * c[at + stride] + twice), c[at + 2 * stride] = last * twice;
     c[at + stride] = all - c[at] - c[at + 2 * stride];
   }
 }
 
 /// Displacement gradients of a cell that the surface or an interface cuts: the polynomial of the
 /// displacement, and the mean of its derivatives over each piece by the piece's moments.
-__attribute__((noinline)) void gather_cut(const Grid& grid, const SpatialCell& cell, double* __restrict h)
+template <class Real>
+__attribute__((noinline)) void gather_cut(const Grid<Real>& grid, const SpatialCell& cell, Real* __restrict h)
 {
-  const double* __restrict moments = grid.moments_of(cell);
-  const AxisWeights* axis[3];
-#pragma GCC unroll 3
-  for (int d = 0; d < 3; ++d) axis[d] = grid.axis[d] + cell.column[d];
-  HalfLanes c[cell_nodes];
+  const Real* __restrict moments = grid.moments_of(cell);
+  const CutFrame<Real> frame(grid, cell);
+  HalfLanes<Real> c[cell_nodes];
 #pragma GCC unroll 27
-  for (int k = 0; k < cell_nodes; ++k)
-    c[k] = half_lanes(grid.u + 4 * (cell.node + k / 9 + k / 3 % 3 * grid.across + k % 3 * grid.up));
-  to_polynomials<9>(c, *axis[0]);
-  to_polynomials<3>(c, *axis[1]);
-  to_polynomials<1>(c, *axis[2]);
-  const double* __restrict coefficient = reinterpret_cast<const double*>(c);
-  Lanes sums[9]{};
+  for (int k = 0; k < cell_nodes; ++k) c[k] = grid.displacement(frame.node_of(k), cell.node);
+  to_polynomials<9, Real>(c, frame.first[0], frame.last[0]);
+  to_polynomials<3, Real>(c, frame.first[1], frame.last[1]);
+  to_polynomials<1, Real>(c, frame.first[2], frame.last[2]);
+  const Real* __restrict coefficient = reinterpret_cast<const Real*>(c);
+  Lanes<Real> sums[9]{};
 #pragma GCC unroll 26
   for (int k = 0; k < cut_moments_each; ++k) {
-    const Lanes moment = lanes(moments + k * octants);
+    const Lanes<Real> moment = lanes(moments + k * octants);
     const int power[3] = {k / 9, k / 3 % 3, k % 3}, step[3] = {9, 3, 1};
 #pragma GCC unroll 3
     for (int d = 0; d < 3; ++d)
@@ -250,48 +327,46 @@ __attribute__((noinline)) void gather_cut(const Grid& grid, const SpatialCell& c
         for (int i = 0; i < 3; ++i) sums[3 * i + d] += moment * coefficient[4 * (k + step[d]) + i];
   }
 #pragma GCC unroll 9
-  for (int m = 0; m < 9; ++m) lanes(h + m * block_points) = sums[m] * axis[m % 3]->per_edge;
+  for (int m = 0; m < 9; ++m) lanes(h + m * block_points) = sums[m] * frame.per_edge[m % 3];
 }
 
 /// Forces of a cut cell, the transposed of gather_cut.
-__attribute__((noinline)) void scatter_cut(const Grid& grid, const SpatialCell& cell,
-                                           const double* __restrict p)
+template <class Real>
+__attribute__((noinline)) void scatter_cut(const Grid<Real>& grid, const SpatialCell& cell,
+                                           const Real* __restrict p)
 {
-  const double* __restrict moments = grid.moments_of(cell);
-  const AxisWeights* axis[3];
-#pragma GCC unroll 3
-  for (int d = 0; d < 3; ++d) axis[d] = grid.axis[d] + cell.column[d];
-  Lanes stress[9];
+  const Real* __restrict moments = grid.moments_of(cell);
+  const CutFrame<Real> frame(grid, cell);
+  Lanes<Real> stress[9];
 #pragma GCC unroll 9
-  for (int m = 0; m < 9; ++m) stress[m] = lanes(p + m * block_points) * axis[m % 3]->per_edge;
-  HalfLanes c[cell_nodes];
-  c[0] = HalfLanes{};
+  for (int m = 0; m < 9; ++m) stress[m] = lanes(p + m * block_points) * frame.per_edge[m % 3];
+  HalfLanes<Real> c[cell_nodes];
+  c[0] = HalfLanes<Real>{};
 #pragma GCC unroll 26
   for (int k = 1; k < cell_nodes; ++k) {
     const int power[3] = {k / 9, k / 3 % 3, k % 3}, step[3] = {9, 3, 1};
-    Lanes sums[3]{};
+    Lanes<Real> sums[3]{};
 #pragma GCC unroll 3
     for (int d = 0; d < 3; ++d)
       if (power[d] > 0) {
-        const Lanes moment = lanes(moments + (k - step[d]) * octants);
+        const Lanes<Real> moment = lanes(moments + (k - step[d]) * octants);
 #pragma GCC unroll 3
         for (int i = 0; i < 3; ++i) sums[i] += stress[3 * i + d] * moment;
       }
-    const HalfLanes halves[4] = {sum_of_halves(sums[0]), sum_of_halves(sums[1]), sum_of_halves(sums[2]),
-                                 HalfLanes{}};
+    const HalfLanes<Real> halves[4] = {sum_of_halves(sums[0]), sum_of_halves(sums[1]), sum_of_halves(sums[2]),
+                                       HalfLanes<Real>{}};
     c[k] = row_sums(halves);
   }
-  to_nodes<1>(c, *axis[2]);
-  to_nodes<3>(c, *axis[1]);
-  to_nodes<9>(c, *axis[0]);
+  to_nodes<1, Real>(c, frame.first[2], frame.last[2]);
+  to_nodes<3, Real>(c, frame.first[1], frame.last[1]);
+  to_nodes<9, Real>(c, frame.first[0], frame.last[0]);
 #pragma GCC unroll 27
-  for (int k = 0; k < cell_nodes; ++k)
-    half_lanes(grid.f + 4 * (cell.node + k / 9 + k / 3 % 3 * grid.across + k % 3 * grid.up)) -= c[k];
+  for (int k = 0; k < cell_nodes; ++k) grid.take_force(frame.node_of(k), c[k]);
 }
 
 /// Calls row(first, length) for each row of filled cells and cut(cell) for each cut one in [first, end).
-template <class Row, class Cut>
-GRANULAW_INLINE void each_part(const Grid& grid, int first, int end, Row row, Cut cut)
+template <class Real, class Row, class Cut>
+GRANULAW_INLINE void each_part(const Grid<Real>& grid, int first, int end, Row row, Cut cut)
 {
   while (first < end) {
     if (grid.cells[first].cut >= 0) {
@@ -305,7 +380,8 @@ GRANULAW_INLINE void each_part(const Grid& grid, int first, int end, Row row, Cu
   }
 }
 
-GRANULAW_INLINE void gather(const Grid& grid, int first, int end, Block& block)
+template <class Real>
+GRANULAW_INLINE void gather(const Grid<Real>& grid, int first, int end, Block<Real>& block)
 {
   each_part(
       grid, first, end,
@@ -316,7 +392,8 @@ GRANULAW_INLINE void gather(const Grid& grid, int first, int end, Block& block)
       });
 }
 
-GRANULAW_INLINE void scatter(const Grid& grid, int first, int end, const Block& block)
+template <class Real>
+GRANULAW_INLINE void scatter(const Grid<Real>& grid, int first, int end, const Block<Real>& block)
 {
   each_part(
       grid, first, end,
@@ -327,149 +404,61 @@ GRANULAW_INLINE void scatter(const Grid& grid, int first, int end, const Block& 
       });
 }
 
-/// A symmetric tensor.
-struct Symmetric
-{
-  double xx, yy, zz, xy, xz, yz;
-};
-
-GRANULAW_INLINE double trace_of(const Symmetric& a)
-{
-  return a.xx + a.yy + a.zz;
-}
-GRANULAW_INLINE double determinant_of(const Symmetric& a)
-{
-  return a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) +
-         a.xz * (a.xy * a.yz - a.yy * a.xz);
-}
-/// a : a
-GRANULAW_INLINE double square_of(const Symmetric& a)
-{
-  return a.xx * a.xx + a.yy * a.yy + a.zz * a.zz + 2.0 * (a.xy * a.xy + a.xz * a.xz + a.yz * a.yz);
-}
-/// a b of two tensors that commute.
-GRANULAW_INLINE Symmetric product(const Symmetric& a, const Symmetric& b)
-{
-  return {a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, a.xy * b.xy + a.yy * b.yy + a.yz * b.yz,
-          a.xz * b.xz + a.yz * b.yz + a.zz * b.zz, a.xx * b.xy + a.xy * b.yy + a.xz * b.yz,
-          a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.xy * b.xz + a.yy * b.yz + a.yz * b.zz};
-}
-/// p 1 + q a + r b
-GRANULAW_INLINE Symmetric combination(double p, double q, const Symmetric& a, double r, const Symmetric& b)
-{
-  return {p + q * a.xx + r * b.xx, p + q * a.yy + r * b.yy, p + q * a.zz + r * b.zz,
-          q * a.xy + r * b.xy,     q * a.xz + r * b.xz,     q * a.yz + r * b.yz};
-}
-
-/// Logarithmic strain e = ln(b)/2 of a positive b: its deviator and its trace.
-struct LogarithmicStrain
-{
-  Symmetric deviator;
-  double trace;
-};
-
-/// Of b = 1 + x. With m = 1 + tr(x)/3 and d the deviator of x, b = m + d:
-///
-///     ln(b)/2 = ln(m)/2 + artanh(s),    s = d (d + 2 m)^-1 = (I3 + w^2 d - w d^2)/(w^3 + w I2 + I3),  w = 2
-///     m,
-///
-/// I2, I3 the invariants of d (Cayley-Hamilton: d^3 + I2 d - I3 = 0). The series of artanh(s)/s in s^2 is
-/// summed in the basis 1, s^2, s^4 by the characteristic polynomial of s^2. Its eight terms leave 1e-18 of it
-/// at deviatoric strains of 0.1, 1e-11 at 0.27, 1e-8 at 0.4; no principal axes are needed, and small strains
-/// are exact to rounding.
-GRANULAW_INLINE LogarithmicStrain logarithmic_strain(const Symmetric& x)
-{
-  const double mean = trace_of(x) * (1.0 / 3.0);
-  const Symmetric d{x.xx - mean, x.yy - mean, x.zz - mean, x.xy, x.xz, x.yz};
-  const Symmetric d2 = product(d, d);
-  const double second = -0.5 * trace_of(d2), third = determinant_of(d), w = 2.0 + 2.0 * mean;
-  const double per = 1.0 / (w * (w * w + second) + third);
-  const Symmetric s = combination(third * per, w * w * per, d, -w * per, d2);
-  const Symmetric z = product(s, s);
-  const double j1 = trace_of(s), j2 = 0.5 * (j1 * j1 - trace_of(z)), j3 = determinant_of(s);
-  const double k1 = j1 * j1 - 2.0 * j2, k2 = j2 * j2 - 2.0 * j1 * j3, k3 = j3 * j3;  // invariants of s^2
-  double p = 1.0 / 15.0, q = 0.0, r = 0.0;
-#pragma GCC unroll 7
-  for (int n = 6; n >= 0; --n) {
-    const double pn = 1.0 / (2.0 * n + 1.0) + r * k3, qn = p - r * k2, rn = q + r * k1;
-    p = pn, q = qn, r = rn;
-  }
-  // artanh(s) = p s + q s^3 + r s^5, and s^3 = j3 - j2 s + j1 s^2
-  const double one = q * j3 + r * (j1 * j1 * j3 - j2 * j3);
-  const double first = p - q * j2 + r * (j1 * j3 - j1 * j1 * j2 + j2 * j2);
-  const double square = q * j1 + r * (j1 * j1 * j1 - 2.0 * j1 * j2 + j3);
-  const Symmetric g = combination(one, first, s, square, z);
-  const double trace = trace_of(g), part = trace * (1.0 / 3.0);
-  return {{g.xx - part, g.yy - part, g.zz - part, g.xy, g.xz, g.yz}, 1.5 * log_1p(mean) + trace};
-}
-
-/// exp(a) - 1 of a small tensor without trace, such as one time step's plastic flow; eight terms.
-GRANULAW_INLINE Symmetric exponential_m1(const Symmetric& a)
-{
-  const Symmetric square = product(a, a);
-  const double second = -0.5 * trace_of(square), third = determinant_of(a);
-  // sum of a^n/(n + 1)! in the basis 1, a, a^2, with a^3 = third - second a
-  constexpr double per_factorial[] = {1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040};
-  double p = 1.0 / 40320, q = 0.0, r = 0.0;
-#pragma GCC unroll 7
-  for (int n = 6; n >= 0; --n) {
-    const double pn = per_factorial[n] + r * third, qn = p - r * second, rn = q;
-    p = pn, q = qn, r = rn;
-  }
-  return combination(r * third, p - r * second, a, q, square);
-}
-
 /// Of the points of a block: the state with all plastic flow of the step undone, and what flows.
+template <class Real>
 struct alignas(64) Trials
 {
-  double x[6][block_points];         ///< elastic left Cauchy-Green tensor minus identity
-  double deviator[6][block_points];  ///< of the elastic logarithmic strain
-  double trace[block_points];        ///< and its trace, ln J
-  double q[block_points], jacobian[block_points], strain[block_points], stress[block_points];
+  Real x[6][block_points];         ///< elastic left Cauchy-Green tensor minus identity
+  Real deviator[6][block_points];  ///< of the elastic logarithmic strain
+  Real trace[block_points];        ///< and its trace, ln J
+  Real q[block_points], jacobian[block_points], strain[block_points], stress[block_points];
 
-  GRANULAW_MEMBER static Symmetric read(const double (&a)[6][block_points], int p)
+  GRANULAW_MEMBER static Symmetric<Real> read(const Real (&a)[6][block_points], int p)
   {
     return {a[0][p], a[1][p], a[2][p], a[3][p], a[4][p], a[5][p]};
   }
-  GRANULAW_MEMBER static void write(double (&a)[6][block_points], int p, const Symmetric& s)
+  GRANULAW_MEMBER static void write(Real (&a)[6][block_points], int p, const Symmetric<Real>& s)
   {
     a[0][p] = s.xx, a[1][p] = s.yy, a[2][p] = s.zz, a[3][p] = s.xy, a[4][p] = s.xz, a[5][p] = s.yz;
   }
 };
 
 /// State of the points of one block, from its first.
+template <class Real>
 struct PointState
 {
-  double* __restrict c[6];
-  double* __restrict plastic_strain;
-  double* __restrict plastic_work;
-  double* __restrict energy;
-  const double* __restrict volume;
+  Real* __restrict c[6];
+  Real* __restrict plastic_strain;
+  Real* __restrict plastic_work;
+  Real* __restrict energy;
+  const Real* __restrict volume;
 
-  GRANULAW_MEMBER PointState(SpatialBody& body, int first)
-      : c{body.c_p[0].data() + first, body.c_p[1].data() + first, body.c_p[2].data() + first,
-          body.c_p[3].data() + first, body.c_p[4].data() + first, body.c_p[5].data() + first},
-        plastic_strain(body.plastic_strain_p.data() + first),
-        plastic_work(body.plastic_work_p.data() + first),
-        energy(body.elastic_energy_p.data() + first),
-        volume(body.volume_p.data() + first)
+  GRANULAW_MEMBER PointState(SpatialPoints<Real>& points, int first)
+      : c{points.c_p[0].data() + first, points.c_p[1].data() + first, points.c_p[2].data() + first,
+          points.c_p[3].data() + first, points.c_p[4].data() + first, points.c_p[5].data() + first},
+        plastic_strain(points.plastic_strain_p.data() + first),
+        plastic_work(points.plastic_work_p.data() + first),
+        energy(points.elastic_energy_p.data() + first),
+        volume(points.volume_p.data() + first)
   {
   }
 };
 
 /// F = 1 + h, its adjugate F^-1 det F, and its determinant.
+template <class Real>
 struct Deformation
 {
-  double f[3][3], adjugate[3][3], determinant;
+  Real f[3][3], adjugate[3][3], determinant;
 };
 
-GRANULAW_INLINE Deformation deformation(const Block& block, int p)
+template <class Real>
+GRANULAW_INLINE Deformation<Real> deformation(const Block<Real>& block, int p)
 {
-  Deformation d;
+  Deformation<Real> d;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
 #pragma GCC unroll 3
-    for (int j = 0; j < 3; ++j) d.f[i][j] = block.h[3 * i + j][p] + (i == j ? 1.0 : 0.0);
+    for (int j = 0; j < 3; ++j) d.f[i][j] = block.h[3 * i + j][p] + (i == j ? Real(1) : Real(0));
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
 #pragma GCC unroll 3
@@ -482,9 +471,10 @@ GRANULAW_INLINE Deformation deformation(const Block& block, int p)
 }
 
 /// a s a^T
-GRANULAW_INLINE Symmetric pushed(const double (&a)[3][3], const Symmetric& s)
+template <class Real>
+GRANULAW_INLINE Symmetric<Real> pushed(const Real (&a)[3][3], const Symmetric<Real>& s)
 {
-  double t[3][3];
+  Real t[3][3];
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     t[i][0] = a[i][0] * s.xx + a[i][1] * s.xy + a[i][2] * s.xz;
@@ -499,11 +489,11 @@ GRANULAW_INLINE Symmetric pushed(const double (&a)[3][3], const Symmetric& s)
 }
 
 /// Trial state of a point: x = F C_p^-1 F^T - 1 = h + h^T + h h^T + F c F^T, and its logarithmic strain.
-template <bool has_state, bool yields>
-GRANULAW_INLINE void trial_point(const Block& block, const PointState& state, int p, double shear2,
-                                 Trials& out)
+template <bool has_state, bool yields, class Real>
+GRANULAW_INLINE void trial_point(const Block<Real>& block, const PointState<Real>& state, int p, Real shear2,
+                                 Trials<Real>& out)
 {
-  const Deformation d = deformation(block, p);
+  const Deformation<Real> d = deformation(block, p);
   const auto h = [&](int i, int j) __attribute__((always_inline))
   {
     return block.h[3 * i + j][p];
@@ -512,54 +502,54 @@ GRANULAW_INLINE void trial_point(const Block& block, const PointState& state, in
   {
     return h(i, j) + h(j, i) + h(i, 0) * h(j, 0) + h(i, 1) * h(j, 1) + h(i, 2) * h(j, 2);
   };
-  Symmetric x{entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
+  Symmetric<Real> x{entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
   if constexpr (has_state) {
-    const Symmetric c{state.c[0][p], state.c[1][p], state.c[2][p],
-                      state.c[3][p], state.c[4][p], state.c[5][p]};
-    const Symmetric y = pushed(d.f, c);
+    const Symmetric<Real> c{state.c[0][p], state.c[1][p], state.c[2][p],
+                            state.c[3][p], state.c[4][p], state.c[5][p]};
+    const Symmetric<Real> y = pushed(d.f, c);
     x.xx += y.xx, x.yy += y.yy, x.zz += y.zz, x.xy += y.xy, x.xz += y.xz, x.yz += y.yz;
   }
-  const LogarithmicStrain e = logarithmic_strain(x);
-  Trials::write(out.deviator, p, e.deviator);
+  const LogarithmicStrain<Real> e = logarithmic_strain(x);
+  Trials<Real>::write(out.deviator, p, e.deviator);
   out.trace[p] = e.trace;
   if constexpr (yields) {
-    Trials::write(out.x, p, x);
-    out.q[p] = shear2 * root_of(1.5 * square_of(e.deviator));
+    Trials<Real>::write(out.x, p, x);
+    out.q[p] = shear2 * root_of(Real(1.5) * square_of(e.deviator));
     out.jacobian[p] = d.determinant;  // plastic flow keeps the volume
   }
 }
 
 /// The point after its flow: plastic state, stored energy, first Piola-Kirchhoff stress P = tau F^-T.
-template <bool flows>
-GRANULAW_INLINE void finish_point(Block& block, const PointState& state, int p, const Trials& trials,
-                                  double shear2, double bulk)
+template <bool flows, class Real>
+GRANULAW_INLINE void finish_point(Block<Real>& block, const PointState<Real>& state, int p,
+                                  const Trials<Real>& trials, Real shear2, Real bulk)
 {
-  const Deformation d = deformation(block, p);
-  const double per_det = 1.0 / d.determinant, volume = state.volume[p];
-  Symmetric e = Trials::read(trials.deviator, p);
+  const Deformation<Real> d = deformation(block, p);
+  const Real per_det = Real(1) / d.determinant, volume = state.volume[p];
+  Symmetric<Real> e = Trials<Real>::read(trials.deviator, p);
   if constexpr (flows) {
-    const double shrink = 1.5 * shear2 * trials.strain[p] / (trials.q[p] + 1e-300);
+    const Real shrink = Real(1.5) * shear2 * trials.strain[p] / (trials.q[p] + tiny<Real>);
     // plastic state: b_new - b_trial = b_trial (exp(-2 shrink e) - 1), carried back through F
-    const double by = -2.0 * shrink;
-    const Symmetric change =
-        exponential_m1({by * e.xx, by * e.yy, by * e.zz, by * e.xy, by * e.xz, by * e.yz});
-    Symmetric b = Trials::read(trials.x, p);
-    b.xx += 1.0, b.yy += 1.0, b.zz += 1.0;
-    const Symmetric c = pushed(d.adjugate, product(b, change));
-    const double per_det2 = per_det * per_det;
+    const Real by = -Real(2) * shrink;
+    const Symmetric<Real> change =
+        exponential_m1<Real>({by * e.xx, by * e.yy, by * e.zz, by * e.xy, by * e.xz, by * e.yz});
+    Symmetric<Real> b = Trials<Real>::read(trials.x, p);
+    b.xx += Real(1), b.yy += Real(1), b.zz += Real(1);
+    const Symmetric<Real> c = pushed(d.adjugate, product(b, change));
+    const Real per_det2 = per_det * per_det;
     state.c[0][p] += per_det2 * c.xx, state.c[1][p] += per_det2 * c.yy, state.c[2][p] += per_det2 * c.zz;
     state.c[3][p] += per_det2 * c.xy, state.c[4][p] += per_det2 * c.xz, state.c[5][p] += per_det2 * c.yz;
     state.plastic_strain[p] += trials.strain[p];
     state.plastic_work[p] += volume * trials.stress[p] * trials.strain[p];
-    const double keep = 1.0 - shrink;
+    const Real keep = Real(1) - shrink;
     e.xx *= keep, e.yy *= keep, e.zz *= keep, e.xy *= keep, e.xz *= keep, e.yz *= keep;
   }
-  const double trace = trials.trace[p], pressure = bulk * trace;
-  state.energy[p] = volume * 0.5 * (shear2 * square_of(e) + bulk * trace * trace);
-  const double scale = volume * per_det;
-  const double tau[3][3] = {{shear2 * e.xx + pressure, shear2 * e.xy, shear2 * e.xz},
-                            {shear2 * e.xy, shear2 * e.yy + pressure, shear2 * e.yz},
-                            {shear2 * e.xz, shear2 * e.yz, shear2 * e.zz + pressure}};
+  const Real trace = trials.trace[p], pressure = bulk * trace;
+  state.energy[p] = volume * Real(0.5) * (shear2 * square_of(e) + bulk * trace * trace);
+  const Real scale = volume * per_det;
+  const Real tau[3][3] = {{shear2 * e.xx + pressure, shear2 * e.xy, shear2 * e.xz},
+                          {shear2 * e.xy, shear2 * e.yy + pressure, shear2 * e.yz},
+                          {shear2 * e.xz, shear2 * e.yz, shear2 * e.zz + pressure}};
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
 #pragma GCC unroll 3
@@ -568,17 +558,17 @@ GRANULAW_INLINE void finish_point(Block& block, const PointState& state, int p, 
                                        tau[i][2] * d.adjugate[j][2]);
 }
 
-template <bool has_state, bool yields>
-__attribute__((noinline)) void find_trials(const Block& block, const PointState state, int count,
-                                           double shear2, Trials& trials)
+template <bool has_state, bool yields, class Real>
+__attribute__((noinline)) void find_trials(const Block<Real>& block, const PointState<Real> state, int count,
+                                           Real shear2, Trials<Real>& trials)
 {
 #pragma omp simd
   for (int p = 0; p < count; ++p) trial_point<has_state, yields>(block, state, p, shear2, trials);
 }
 
-template <bool flows>
-__attribute__((noinline)) void finish(Block& block, const PointState state, int count, const Trials& trials,
-                                      double shear2, double bulk)
+template <bool flows, class Real>
+__attribute__((noinline)) void finish(Block<Real>& block, const PointState<Real> state, int count,
+                                      const Trials<Real>& trials, Real shear2, Real bulk)
 {
 #pragma omp simd
   for (int p = 0; p < count; ++p) finish_point<flows>(block, state, p, trials, shear2, bulk);
@@ -586,33 +576,33 @@ __attribute__((noinline)) void finish(Block& block, const PointState state, int 
 
 /// Stress update of the points of one block: the equations of kernels_isa.cpp in three dimensions.
 /// Multiplicative J2 plasticity with logarithmic elastic strain; yield on the Cauchy stress.
-template <class Hardening, class Rate>
-GRANULAW_INLINE void stress(SpatialBody& body, const Moduli& moduli, int first, int count, Block& block,
+template <class Real, class Hardening, class Rate>
+GRANULAW_INLINE void stress(SpatialBody& body, const Moduli& moduli, int first, int count, Block<Real>& block,
                             [[maybe_unused]] const Hardening hardening, [[maybe_unused]] const Rate rate)
 {
   constexpr bool yields = !std::is_same_v<Hardening, Elastic> && !std::is_same_v<Hardening, ElasticWithState>;
   constexpr bool has_state = !std::is_same_v<Hardening, Elastic>;
-  const double shear2 = 2.0 * moduli.shear;
-  const PointState state(body, first);
-  Trials trials;
+  const Real shear2 = Real(2.0 * moduli.shear), bulk = Real(moduli.bulk);
+  const PointState<Real> state(points_of<Real>(body), first);
+  Trials<Real> trials;
   find_trials<has_state, yields>(block, state, count, shear2, trials);
   bool flows = false;
   if constexpr (yields)
-    flows = find_flow(trials, count, static_cast<const double*>(state.plastic_strain), hardening, rate,
-                      moduli, body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0);
+    flows = find_flow(trials, count, static_cast<const Real*>(state.plastic_strain), hardening, rate, moduli,
+                      body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0);
   if (flows)
-    finish<true>(block, state, count, trials, shear2, moduli.bulk);
+    finish<true>(block, state, count, trials, shear2, bulk);
   else
-    finish<false>(block, state, count, trials, shear2, moduli.bulk);
+    finish<false>(block, state, count, trials, shear2, bulk);
 }
 
 /// One region under one pair of laws, block by block. A function of its own for each pair.
-template <class Hardening, class Rate>
+template <class Real, class Hardening, class Rate>
 __attribute__((noinline)) void update_region(SpatialBody& body, const SpatialRegion& region,
                                              const Hardening hardening, const Rate rate)
 {
-  const Grid grid(body);
-  Block block;
+  const Grid<Real> grid(body);
+  Block<Real> block;
   for (int first = region.begin; first < region.end; first += block_cells) {
     const int end = first + block_cells < region.end ? first + block_cells : region.end;
     gather(grid, first, end, block);
@@ -621,19 +611,28 @@ __attribute__((noinline)) void update_region(SpatialBody& body, const SpatialReg
   }
 }
 
+template <class Real>
+GRANULAW_INLINE void update(SpatialBody& body, bool frozen)
+{
+  for (const SpatialRegion& region : body.regions) {
+    if (frozen && region.moduli.yields)
+      update_region<Real>(body, region, ElasticWithState{}, no_rate);
+    else if (!region.moduli.yields)
+      update_region<Real>(body, region, Elastic{}, no_rate);
+    else
+      with_flow_laws(region.moduli,
+                     [&](auto hardening, auto rate) { update_region<Real>(body, region, hardening, rate); });
+  }
+}
+
 void internal_force(SpatialBody& body, bool frozen)
 {
   double* __restrict f = body.f_i.data();
   for (int i = 0; i < 4 * body.nodes; ++i) f[i] = 0.0;
-  for (const SpatialRegion& region : body.regions) {
-    if (frozen && region.moduli.yields)
-      update_region(body, region, ElasticWithState{}, no_rate);
-    else if (!region.moduli.yields)
-      update_region(body, region, Elastic{}, no_rate);
-    else
-      with_flow_laws(region.moduli,
-                     [&](auto hardening, auto rate) { update_region(body, region, hardening, rate); });
-  }
+  if (body.is_single())
+    update<float>(body, frozen);
+  else
+    update<double>(body, frozen);
   if (!frozen) body.elapsed = 0.0;
 }
 
@@ -657,73 +656,82 @@ void move(SpatialBody& body, double dt)
 
 /// Largest eigenvalue of a positive tensor, from above by less than 1 %: with equal smaller ones the first
 /// estimate is exact (Smith 1961), elsewhere Newton's steps on the characteristic polynomial come down to it.
-GRANULAW_INLINE double largest_eigenvalue(const Symmetric& a)
+template <class Real>
+GRANULAW_INLINE Real largest_eigenvalue(const Symmetric<Real>& a)
 {
-  const double mean = trace_of(a) * (1.0 / 3.0);
-  const Symmetric d{a.xx - mean, a.yy - mean, a.zz - mean, a.xy, a.xz, a.yz};
-  const double second = 0.5 * square_of(d), third = determinant_of(d);
-  double x = 2.0 * root_of(second * (1.0 / 3.0));
+  const Real mean = trace_of(a) * Real(1.0 / 3.0);
+  const Symmetric<Real> d{a.xx - mean, a.yy - mean, a.zz - mean, a.xy, a.xz, a.yz};
+  const Real second = Real(0.5) * square_of(d), third = determinant_of(d);
+  Real x = Real(2) * root_of(second * Real(1.0 / 3.0));
 #pragma GCC unroll 3
   for (int n = 0; n < 3; ++n) {
-    const double slope = 3.0 * x * x - second;
-    x -= (x * (x * x - second) - third) / (slope + 1e-300);
+    const Real slope = Real(3) * x * x - second;
+    x -= (x * (x * x - second) - third) / (slope + tiny<Real>);
   }
   return mean + x;
 }
 
 /// Largest eigenvalue of A A^T (CellGrowth) and least det F of the octants of one cell.
-GRANULAW_INLINE void measure_cell(const Block& block, int first, const double (&per_edge)[3], double& largest,
-                                  double& least_volume)
+template <class Real>
+GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Real (&per_edge)[3],
+                                  Real& largest, Real& least_volume)
 {
-  double most = 0.0, least = 1.0;
+  Real most = 0, least = 1;
 #pragma omp simd reduction(max : most) reduction(min : least)
   for (int lane = 0; lane < octants; ++lane) {
-    const Deformation d = deformation(block, first + lane);
-    const double(&a)[3][3] = d.adjugate;
+    const Deformation<Real> d = deformation(block, first + lane);
+    const Real(&a)[3][3] = d.adjugate;
     const auto entry = [&](int i, int j) __attribute__((always_inline))
     {
       return per_edge[i] * per_edge[j] * (a[i][0] * a[j][0] + a[i][1] * a[j][1] + a[i][2] * a[j][2]);
     };
-    const double found =
-        largest_eigenvalue({entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)}) /
-        (d.determinant * d.determinant);
+    const Real found = largest_eigenvalue<Real>(
+                           {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)}) /
+                       (d.determinant * d.determinant);
     most = found > most ? found : most;
     // not a number counts as turned inside out
-    least = d.determinant > least ? least : (d.determinant == d.determinant ? d.determinant : -1.0);
+    least = d.determinant > least ? least : (d.determinant == d.determinant ? d.determinant : Real(-1));
   }
   largest = most, least_volume = least;
 }
 
-CellGrowth growth(const SpatialBody& body)
+template <class Real>
+GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
 {
-  const Grid grid(const_cast<SpatialBody&>(body));  // reads only
+  const Grid<Real> grid(const_cast<SpatialBody&>(body));  // reads only
   CellGrowth found{0.0, 1.0, 1.0, 1.0};
   const auto raise = [](double& most, double value) __attribute__((always_inline))
   {
     most = value > most ? value : most;
   };
-  Block block;
+  Block<Real> block;
   for (const SpatialRegion& region : body.regions)
     for (int first = region.begin; first < region.end; first += block_cells) {
       const int end = first + block_cells < region.end ? first + block_cells : region.end;
       gather(grid, first, end, block);
       for (int cell = first; cell < end; ++cell) {
-        double per_edge[3], finest = 0.0, largest, volume;
+        Real per_edge[3], largest, volume;
+        double finest = 0.0;
         for (int d = 0; d < 3; ++d) {
           per_edge[d] = grid.axis[d][grid.cells[cell].column[d]].per_edge;
           raise(finest, per_edge[d]);
         }
         measure_cell(block, octants * (cell - first), per_edge, largest, volume);
-        const double ratio = largest / (finest * finest);
+        const double ratio = double(largest) / (finest * finest);
         raise(found.largest, ratio);
         if (grid.cells[cell].cut >= 0)
           raise(found.cut, ratio);
         else
           raise(found.filled_omega2, 1.5 * region.wave_speed2 * largest);
-        found.least_volume = volume < found.least_volume ? volume : found.least_volume;
+        found.least_volume = volume < found.least_volume ? double(volume) : found.least_volume;
       }
     }
   return found;
+}
+
+CellGrowth growth(const SpatialBody& body)
+{
+  return body.is_single() ? growth_of<float>(body) : growth_of<double>(body);
 }
 
 }  // namespace

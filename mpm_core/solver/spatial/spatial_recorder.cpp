@@ -48,7 +48,7 @@ Eigen::Matrix3d filled_deformation(const SpatialBody& body, const SpatialCell& c
 {
   std::array<double, 3> n[3], slope[3];
   for (int d = 0; d < 3; ++d) {
-    const AxisWeights& w = body.axis_weights[d][cell.column[d]];
+    const AxisWeights<double>& w = body.axis_weights[d][cell.column[d]];
     n[d] = half_cell_means(w.n, lane), slope[d] = half_cell_means(w.dn, lane);
   }
   return one_plus_gradient(body, cell, [&](int a, int b, int c) {
@@ -57,11 +57,27 @@ Eigen::Matrix3d filled_deformation(const SpatialBody& body, const SpatialCell& c
   });
 }
 
+/// The three splines of a cut cell's axis as polynomials of its own coordinate t (SpatialCell::along).
+std::array<std::array<double, 3>, 3> splines_of_t(const CellSplines& axis, int along)
+{
+  std::array<std::array<double, 3>, 3> of_t;
+  for (int a = 0; a < 3; ++a) {
+    const double(&n)[3] = axis.n[a];  // of xi = along (t - 1/2)
+    of_t[a] = {n[0] - 0.5 * along * n[1] + 0.25 * n[2], along * n[1] - n[2], n[2]};
+  }
+  return of_t;
+}
+
 /// Mean of F over the piece of a cut cell that an octant holds, by the piece's moments.
 Eigen::Matrix3d cut_deformation(const SpatialBody& body, const SpatialCell& cell, int lane)
 {
-  const CellSplines axes[3] = {
-      {body.axes[0], cell.column[0]}, {body.axes[1], cell.column[1]}, {body.axes[2], cell.column[2]}};
+  std::array<std::array<double, 3>, 3> splines[3];
+  double per_edge[3];
+  for (int d = 0; d < 3; ++d) {
+    const CellSplines axis(body.axes[d], cell.column[d]);
+    splines[d] = splines_of_t(axis, cell.along[d]);
+    per_edge[d] = cell.along[d] / axis.edge;
+  }
   const double* moments = body.cut_moments.data() + std::size_t(cell.cut) * cut_moments_each * octants + lane;
   return one_plus_gradient(body, cell, [&](int a, int b, int c) {
     const int node[3] = {a, b, c};
@@ -70,11 +86,11 @@ Eigen::Matrix3d cut_deformation(const SpatialBody& body, const SpatialCell& cell
       const int power[3] = {k / 9, k / 3 % 3, k % 3};
       for (int along = 0; along < 3; ++along) {
         if (power[along] == 2) continue;
-        double term = moments[k * octants];  // of xi^2/2
+        double term = moments[k * octants];  // of t^2/2
         for (int d = 0; d < 3; ++d) {
-          const double(&n)[3] = axes[d].n[node[d]];
+          const std::array<double, 3>& n = splines[d][node[d]];
           if (d == along)
-            term *= (power[d] + 1) * n[power[d] + 1] / axes[d].edge;
+            term *= (power[d] + 1) * n[power[d] + 1] * per_edge[d];
           else
             term *= (power[d] == 2 ? 2 : 1) * n[power[d]];
         }
@@ -141,6 +157,7 @@ void SpatialRecorder::record(const SpatialScene& scene, double time, double over
   next_ = interval_ * (std::floor(time / interval_ + 1e-9) + 1);
   SpatialBody body = scene.bodies.front();  // a copy, whose plastic state is brought up to the displacements
   spatial_kernels().internal_force(body, false);
+  body.fetch_state();
   FieldFrame frame;
   frame.time = time * scale_.time(), frame.delta = overlap * scale_.length;
   frame.force = force * scale_.force();

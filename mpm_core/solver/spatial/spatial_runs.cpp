@@ -33,8 +33,6 @@ void check(const RunOptions& options)
   if (!(options.courant >= 0.05 && options.courant <= 1.0))
     fail("courant", "the explicit step is stable up to 1 only", fmt::format("{:g}", options.courant),
          "0.05 to 1");
-  if (options.precision == Precision::single)
-    fail("--precision", "three-dimensional grids do double precision only", "single", "double");
   if (options.checkpoints && options.fields)
     fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
 }
@@ -145,7 +143,8 @@ RunResult run_body_impact(const Particle& particle, const BodyThrow& thrown, con
   return mean_of_shifted_grids(
       options, cells_of(options), scale, true,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation<SpatialScene> run(setup.build(deepest, cells, shift), options, duration, scale.stress);
+        Simulation<SpatialScene> run(setup.build(deepest, cells, shift, options.precision), options, duration,
+                                     scale.stress);
         SpatialBody& body = run.scene.bodies.front();
         const Eigen::Matrix3d exact = setup.inertia();
         const ReboundMeter meter(run.scene, homogeneous ? &exact : nullptr);
@@ -208,7 +207,8 @@ RunResult run_planes_press(const Particle& particle, const PlanesPlan& plan, con
   return mean_of_shifted_grids(
       options, cells_of(options), scale, false,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation<SpatialScene> run(setup.build(depth, cells, shift), options, duration, scale.stress);
+        Simulation<SpatialScene> run(setup.build(depth, cells, shift, options.precision), options, duration,
+                                     scale.stress);
         auto& contact = static_cast<SpatialContact&>(*run.scene.contact);
         for (Plane& plane : contact.planes()) plane.velocity = 0;
         PlanesProgramme programme(stops);

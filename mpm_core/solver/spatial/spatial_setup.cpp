@@ -244,11 +244,12 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
   return s;
 }
 
-SpatialScene SpatialSetup::build(double deepest, int cells, double shift) const
+SpatialScene SpatialSetup::build(double deepest, int cells, double shift, Precision precision) const
 {
   SpatialScene scene;
   scene.bodies.push_back(spatial_body(section(deepest, cells, shift)));
-  const SpatialBody& body = scene.bodies.front();
+  SpatialBody& body = scene.bodies.front();
+  if (precision == Precision::single) body.use_single();
   scene.contact = std::make_unique<SpatialContact>(body, planes_);
   scene.normal = planes_.front().normal;
   for (int i = 0; i < body.nodes; ++i) scene.centre += body.mass_i[i] / body.mass * reference_place(body, i);

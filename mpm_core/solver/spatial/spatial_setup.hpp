@@ -39,7 +39,7 @@ class SpatialSetup
   void draw() { drawn_ = true; }
 
   /// The body at rest for overlaps up to `deepest`, with `cells` across the contact block.
-  SpatialScene build(double deepest, int cells, double shift) const;
+  SpatialScene build(double deepest, int cells, double shift, Precision precision) const;
   /// Finest edge of that grid; rounded edges that touch a plane need a quarter of their radius.
   double finest_edge(double deepest, int cells) const;
 
