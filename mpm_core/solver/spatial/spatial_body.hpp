@@ -98,7 +98,11 @@ struct SpatialBody
   std::vector<SpatialRegion> regions;
   int points = 0;             ///< octants that hold material; a cell has eight lanes whatever it holds
   AlignedVector cut_moments;  ///< [cut cell][cut_moments_each][octant]
-  AlignedVector volume_p;     ///< reference volume, 0: nothing there
+  /// [cut cell][octant]: by how much of its own growth a piece raises the body's highest frequency, 0 to 1. A
+  /// piece adds no more to omega^2 than its stiffness over the masses of its nodes (Weyl's inequality), here
+  /// as a share of what a filled octant has.
+  AlignedVector step_share_p;
+  AlignedVector volume_p;  ///< reference volume, 0: nothing there
   /// plastic state: inverse plastic right Cauchy-Green tensor minus identity, xx yy zz xy xz yz
   std::array<AlignedVector, 6> c_p;
   AlignedVector plastic_strain_p, plastic_work_p, elastic_energy_p;

@@ -671,9 +671,10 @@ GRANULAW_INLINE double largest_eigenvalue(const Symmetric& a)
   return mean + x;
 }
 
-/// Largest eigenvalue of A A^T (CellGrowth) and least det F of the octants of one cell.
-GRANULAW_INLINE void measure_cell(const Block& block, int first, const double (&per_edge)[3], double& largest,
-                                  double& least_volume)
+/// Largest 1 + share (ratio - 1) and least det F of the octants of one cell, ratio the largest eigenvalue of
+/// A A^T (CellGrowth) over `at_rest`.
+GRANULAW_INLINE void measure_cell(const Block& block, int first, const double (&per_edge)[3], double at_rest,
+                                  const double* __restrict share, double& largest, double& least_volume)
 {
   double most = 0.0, least = 1.0;
 #pragma omp simd reduction(max : most) reduction(min : least)
@@ -686,8 +687,9 @@ GRANULAW_INLINE void measure_cell(const Block& block, int first, const double (&
     };
     const double found =
         largest_eigenvalue({entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)}) /
-        (d.determinant * d.determinant);
-    most = found > most ? found : most;
+        (d.determinant * d.determinant * at_rest);
+    const double counted = 1.0 + share[lane] * (found - 1.0);
+    most = counted > most ? counted : most;
     // not a number counts as turned inside out
     least = d.determinant > least ? least : (d.determinant == d.determinant ? d.determinant : -1.0);
   }
@@ -697,6 +699,7 @@ GRANULAW_INLINE void measure_cell(const Block& block, int first, const double (&
 CellGrowth growth(const SpatialBody& body)
 {
   const Grid grid(const_cast<SpatialBody&>(body));  // reads only
+  constexpr double whole[octants] = {1, 1, 1, 1, 1, 1, 1, 1};
   CellGrowth found{0.0, 1.0, 1.0, 1.0};
   const auto raise = [](double& most, double value) __attribute__((always_inline))
   {
@@ -708,18 +711,19 @@ CellGrowth growth(const SpatialBody& body)
       const int end = first + block_cells < region.end ? first + block_cells : region.end;
       gather(grid, first, end, block);
       for (int cell = first; cell < end; ++cell) {
-        double per_edge[3], finest = 0.0, largest, volume;
+        double per_edge[3], finest = 0.0, ratio, volume;
         for (int d = 0; d < 3; ++d) {
           per_edge[d] = grid.axis[d][grid.cells[cell].column[d]].per_edge;
           raise(finest, per_edge[d]);
         }
-        measure_cell(block, octants * (cell - first), per_edge, largest, volume);
-        const double ratio = largest / (finest * finest);
+        const int cut = grid.cells[cell].cut;
+        const double* share = cut >= 0 ? body.step_share_p.data() + octants * std::size_t(cut) : whole;
+        measure_cell(block, octants * (cell - first), per_edge, finest * finest, share, ratio, volume);
         raise(found.largest, ratio);
-        if (grid.cells[cell].cut >= 0)
+        if (cut >= 0)
           raise(found.cut, ratio);
         else
-          raise(found.filled_omega2, 1.5 * region.wave_speed2 * largest);
+          raise(found.filled_omega2, 1.5 * region.wave_speed2 * finest * finest * ratio);
         found.least_volume = volume < found.least_volume ? volume : found.least_volume;
       }
     }
