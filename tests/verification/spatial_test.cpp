@@ -212,27 +212,17 @@ double highest_frequency(SpatialBody b)
   return std::pow(omega2, 0.25);
 }
 
-/// A node that only slivers reach takes them far off, as under a plane; the step stays as long as the body's
-/// highest frequency lets it, which hardly changes. A node of a filled cell shortens it.
+/// Nodes that little of the body reaches shear their slivers, as under a plane: the step follows the body's
+/// highest frequency, which power iteration tells.
 TEST(SpatialStep, SliversDoNotRuleIt)
 {
   SpatialBody b = ball(elastic, 0.1);
   StableStep<SpatialBody> step(b);
-  const double at_rest = step.limit(b);
-  int light = -1, heavy = -1;
-  for (int i = 0; i < b.nodes; ++i) {
-    if (b.mass_i[i] <= 0) continue;
-    if (light < 0 || b.mass_i[i] < b.mass_i[light]) light = i;
-    if (heavy < 0 || reference_place(b, i).norm() < reference_place(b, heavy).norm()) heavy = i;
-  }
-  b.u_i[4 * light] = 2;  // 20 cells
-  const double shear_of_slivers = step.limit(b);
-  EXPECT_GT(shear_of_slivers, 0.9 * at_rest);  // a bound that counts them in full gives a tenth and less
-  EXPECT_LT(shear_of_slivers * highest_frequency(b), 2.0);
-  b.u_i[4 * light] = 0;
-  b.u_i[4 * heavy] = 0.1;  // a cell: 1.4 at rest, where the surface rules
-  EXPECT_LT(step.limit(b), 0.9 * at_rest);
-  EXPECT_LT(step.limit(b) * highest_frequency(b), 2.0);
+  const double at_rest = step.limit(b), cell = b.surface.finest;
+  for (int i = 0; i < b.nodes; ++i)
+    if (b.mass_i[i] < 0.012 * std::pow(cell, 3)) b.u_i[4 * i] = 6 * cell;
+  EXPECT_GT(step.limit(b), 0.75 * at_rest);              // 0.78; with slivers counted in full 0.64
+  EXPECT_LT(step.limit(b) * highest_frequency(b), 2.0);  // 1.81; without them 2.31
 }
 
 TEST(SpatialInstructionSets, Agree)
