@@ -13,6 +13,11 @@ namespace {
 
 /// Pieces of less than this share of an octant are left out.
 constexpr double least_share = 1e-6;
+/// No node weighs less than this share of a finest cell. Nodes that only slivers reach fly far off otherwise,
+/// and take the slivers with them; all that is added is 1e-4 to 2e-4 of a body at 8 cells.
+constexpr double least_mass = 0.01;
+/// V sum_k |b_k|^2/m_k of a filled octant amid filled cells of edge 1 and density 1 (step_share_p).
+constexpr double own_stiffness_of_filled = 0.096;
 
 /// Means over one half of the cell.
 AxisWeights<double> axis_weights(const CellSplines& s, int direction)
@@ -55,6 +60,7 @@ class Builder
         for (int x = 0; x < body_.axes[0].cells(); ++x) take_cell({x, y, z});
     join_cells();
     set_masses();
+    set_step_shares();
     set_surface();
     if (section_.drawn) set_corners();
     return std::move(body_);
@@ -129,6 +135,7 @@ class Builder
     }
     if (body_.cells.empty()) fail("reference grid", "no part of the body lies on it");
     body_.cut_moments.assign(cut_cells * cut_moments_each * octants, 0.0);
+    body_.step_share_p.assign(cut_cells * octants, 0.0);
     body_.allocate_points();
     int at = 0;
     for (std::size_t p = 0; p < section_.phases.size(); ++p) {
@@ -196,8 +203,61 @@ class Builder
     }
   }
 
+  /// Before masses are brought to the exact one.
+  void raise_masses()
+  {
+    double density = section_.phases.front().density, finest = 1;
+    for (const Phase& phase : section_.phases) density = std::min(density, phase.density);
+    for (const auto& splines : splines_)
+      finest *= std::min_element(splines.begin(), splines.end(), [](const auto& a, const auto& b) {
+                  return a.edge < b.edge;
+                })->edge;
+    for (double& mass : body_.mass_i)
+      if (mass > 0) mass = std::max(mass, least_mass * density * finest);
+  }
+
+  /// Own stiffness of each cut piece over the masses of its nodes (SpatialBody::step_share_p).
+  void set_step_shares()
+  {
+    for (const SpatialRegion& region : body_.regions)
+      for (int at = region.begin; at < region.end; ++at) {
+        const SpatialCell& cell = body_.cells[at];
+        if (cell.cut < 0) continue;
+        const auto& pieces = cut_[region.material][at - region.end + cut_[region.material].size()].moments;
+        for (int lane = 0; lane < octants; ++lane)
+          if (pieces[lane].size() > 0)
+            body_.step_share_p[std::size_t(cell.cut) * octants + lane] =
+                step_share(cell, pieces[lane], section_.phases[region.material].density);
+      }
+  }
+
+  double step_share(const SpatialCell& cell, const Moments& piece, double density) const
+  {
+    const auto s = splines(cell.column);
+    double sum = 0, finest = s[0]->edge;
+    for (int d = 1; d < 3; ++d) finest = std::min(finest, s[d]->edge);
+    for (int k = 0; k < cell_nodes; ++k) {
+      const int spline[3] = {k / 9, k / 3 % 3, k % 3};
+      double slope2 = 0;  // of the mean gradient
+      for (int d = 0; d < 3; ++d) {
+        double part[3][3];
+        for (int e = 0; e < 3; ++e) {
+          const double(&n)[3] = s[e]->n[spline[e]];
+          const double sloped[3] = {n[1], 2 * n[2], 0};
+          std::copy_n(e == d ? sloped : n, 3, part[e]);
+        }
+        const double slope = piece.of(part[0], part[1], part[2]) / (piece.size() * s[d]->edge);
+        slope2 += slope * slope;
+      }
+      sum += slope2 / body_.mass_i[node(cell, k)];
+    }
+    const double own = density * volume(cell.column) * piece.size() * finest * finest * sum;
+    return std::min(1.0, own / own_stiffness_of_filled);
+  }
+
   void set_masses()
   {
+    raise_masses();
     const double sampled = std::accumulate(body_.mass_i.begin(), body_.mass_i.end(), 0.0);
     body_.mass = section_.mass > 0 ? section_.mass : sampled;
     for (int i = 0; i < body_.nodes; ++i) {

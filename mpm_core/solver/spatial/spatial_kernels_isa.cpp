@@ -671,10 +671,11 @@ GRANULAW_INLINE Real largest_eigenvalue(const Symmetric<Real>& a)
   return mean + x;
 }
 
-/// Largest eigenvalue of A A^T (CellGrowth) and least det F of the octants of one cell.
+/// Largest 1 + share (ratio - 1) and least det F of the octants of one cell, ratio the largest eigenvalue of
+/// A A^T (CellGrowth) over `at_rest`.
 template <class Real>
-GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Real (&per_edge)[3],
-                                  Real& largest, Real& least_volume)
+GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Real (&per_edge)[3], Real at_rest,
+                                  const double* __restrict share, Real& largest, Real& least_volume)
 {
   Real most = 0, least = 1;
 #pragma omp simd reduction(max : most) reduction(min : least)
@@ -687,8 +688,9 @@ GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Rea
     };
     const Real found = largest_eigenvalue<Real>(
                            {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)}) /
-                       (d.determinant * d.determinant);
-    most = found > most ? found : most;
+                       (d.determinant * d.determinant * at_rest);
+    const Real counted = Real(1) + Real(share[lane]) * (found - Real(1));
+    most = counted > most ? counted : most;
     // not a number counts as turned inside out
     least = d.determinant > least ? least : (d.determinant == d.determinant ? d.determinant : Real(-1));
   }
@@ -699,6 +701,7 @@ template <class Real>
 GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
 {
   const Grid<Real> grid(const_cast<SpatialBody&>(body));  // reads only
+  constexpr double whole[octants] = {1, 1, 1, 1, 1, 1, 1, 1};
   CellGrowth found{0.0, 1.0, 1.0, 1.0};
   const auto raise = [](double& most, double value) __attribute__((always_inline))
   {
@@ -710,19 +713,20 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
       const int end = first + block_cells < region.end ? first + block_cells : region.end;
       gather(grid, first, end, block);
       for (int cell = first; cell < end; ++cell) {
-        Real per_edge[3], largest, volume;
+        Real per_edge[3], ratio, volume;
         double finest = 0.0;
         for (int d = 0; d < 3; ++d) {
           per_edge[d] = grid.axis[d][grid.cells[cell].column[d]].per_edge;
           raise(finest, per_edge[d]);
         }
-        measure_cell(block, octants * (cell - first), per_edge, largest, volume);
-        const double ratio = double(largest) / (finest * finest);
+        const int cut = grid.cells[cell].cut;
+        const double* share = cut >= 0 ? body.step_share_p.data() + octants * std::size_t(cut) : whole;
+        measure_cell(block, octants * (cell - first), per_edge, Real(finest * finest), share, ratio, volume);
         raise(found.largest, ratio);
-        if (grid.cells[cell].cut >= 0)
+        if (cut >= 0)
           raise(found.cut, ratio);
         else
-          raise(found.filled_omega2, 1.5 * region.wave_speed2 * largest);
+          raise(found.filled_omega2, 1.5 * region.wave_speed2 * finest * finest * double(ratio));
         found.least_volume = volume < found.least_volume ? double(volume) : found.least_volume;
       }
     }
