@@ -214,15 +214,14 @@ double highest_frequency(SpatialBody b)
 
 /// Nodes that little of the body reaches shear their slivers, as under a plane: the step follows the body's
 /// highest frequency, which power iteration tells.
-TEST(SpatialStep, SliversDoNotRuleIt)
+TEST(SpatialStep, IsStableWhereSliversFlow)
 {
   SpatialBody b = ball(elastic, 0.1);
   StableStep<SpatialBody> step(b);
-  const double at_rest = step.limit(b), cell = b.surface.finest;
+  const double cell = b.surface.finest;
   for (int i = 0; i < b.nodes; ++i)
-    if (b.mass_i[i] < 0.012 * std::pow(cell, 3)) b.u_i[4 * i] = 6 * cell;
-  EXPECT_GT(step.limit(b), 0.75 * at_rest);              // 0.78; with slivers counted in full 0.64
-  EXPECT_LT(step.limit(b) * highest_frequency(b), 2.0);  // 1.81; without them 2.31
+    if (b.mass_i[i] < 0.0012 * std::pow(cell, 3)) b.u_i[4 * i] = 20 * cell;
+  EXPECT_LT(step.limit(b) * highest_frequency(b), 2.0);  // 1.84; with slivers left out 2.56
 }
 
 /// Forces of a ball that is moved off and stretched until it flows.
