@@ -115,7 +115,7 @@ struct SpatialBody : SpatialPoints<double>
   /// [cut cell][octant]: by how much of its own growth a piece raises the body's highest frequency, 0 to 1. A
   /// piece adds no more to omega^2 than its stiffness over the masses of its nodes (Weyl's inequality), here
   /// as a share of what a filled octant has.
-  AlignedVector step_share_p;
+  AlignedVector<double> step_share_p;
   double elapsed = 0;  ///< time since the plastic state was last updated
 
   /// Single precision: weights and state of the points in float, used instead of the double ones where

@@ -674,8 +674,9 @@ GRANULAW_INLINE Real largest_eigenvalue(const Symmetric<Real>& a)
 /// Largest 1 + share (ratio - 1) and least det F of the octants of one cell, ratio the largest eigenvalue of
 /// A A^T (CellGrowth) over `at_rest`.
 template <class Real>
-GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Real (&per_edge)[3], Real at_rest,
-                                  const double* __restrict share, Real& largest, Real& least_volume)
+GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Real (&per_edge)[3],
+                                  Real at_rest, const double* __restrict share, Real& largest,
+                                  Real& least_volume)
 {
   Real most = 0, least = 1;
 #pragma omp simd reduction(max : most) reduction(min : least)
