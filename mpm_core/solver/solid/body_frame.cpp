@@ -81,4 +81,10 @@ Eigen::Matrix3d rotation_to_plane(const Vector3& direction, double turn)
   return Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix() * rotation;
 }
 
+double turn_along(const Vector3& direction, const Vector3& tangent)
+{
+  const Vector3 x = rotation_to_plane(direction) * tangent;
+  return -std::atan2(x.y(), x.x());
+}
+
 }  // namespace granulaw

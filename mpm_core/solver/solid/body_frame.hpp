@@ -23,5 +23,8 @@ bool is_deeper_than(const Solid& solid, double depth);
 /// of the body to -z. The axis of the body nearest to it leans towards +x; where it lies along an axis, the
 /// next axis of the body becomes x.
 Eigen::Matrix3d rotation_to_plane(const Vector3& direction, double turn = 0);
+/// The turn, rad, with which the unit vector `tangent` of the body, at right angles to `direction`, becomes
+/// +x.
+double turn_along(const Vector3& direction, const Vector3& tangent);
 
 }  // namespace granulaw

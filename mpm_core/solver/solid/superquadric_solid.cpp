@@ -14,17 +14,34 @@ namespace granulaw {
 
 namespace {
 
+/// x^n. Whole exponents, as most decks have, by squaring: a tenth of pow()'s time.
+double raised(double x, double n)
+{
+  int left = static_cast<int>(n);
+  if (n < 0 || left != n) return std::pow(x, n);
+  double result = 1;
+  for (; left > 0; left >>= 1, x *= x)
+    if (left & 1) result *= x;
+  return result;
+}
+
+/// x^(1/n)
+double root(double x, double n)
+{
+  return n == 2 ? std::sqrt(x) : n == 4 ? std::sqrt(std::sqrt(x)) : std::pow(x, 1 / n);
+}
+
 /// (x^n + y^n)^(1/n) of numbers that are not negative, without overflow.
 double norm(double x, double y, double n)
 {
   const double most = std::max(x, y);
-  return most == 0 ? 0 : most * std::pow(std::pow(x / most, n) + std::pow(y / most, n), 1 / n);
+  return most == 0 ? 0 : most * root(raised(x / most, n) + raised(y / most, n), n);
 }
 
 /// The share that x has of the norm, to the power n - 1: derivative of the norm.
 double slope(double x, double whole, double n)
 {
-  return whole == 0 ? 0 : std::pow(x / whole, n - 1);
+  return whole == 0 ? 0 : raised(x / whole, n - 1);
 }
 
 }  // namespace
@@ -40,19 +57,19 @@ void SuperquadricSolid::derivatives(const Vector3& x, Vector3& gradient, Eigen::
   const Vector3 u = x.cwiseQuotient(axes_);
   const double rho = norm(u.x(), u.y(), n2_);
   // On the z axis, where n1 = 2 < n2 makes the curvature depend on the direction: that of the diagonal.
-  const double even = std::pow(0.5, 1 / n2_);
+  const double even = root(0.5, n2_);
   const double share[2] = {rho > 0 ? u.x() / rho : even, rho > 0 ? u.y() / rho : even};
-  const double first = n1_ * std::pow(rho, n1_ - 1), second = n1_ * std::pow(rho, n1_ - 2);
+  const double first = n1_ * raised(rho, n1_ - 1), second = n1_ * raised(rho, n1_ - 2);
   hessian.setZero();
   double power[2];  // share^(n2 - 1)
   for (int k = 0; k < 2; ++k) {
-    const double low = std::pow(share[k], n2_ - 2);
+    const double low = raised(share[k], n2_ - 2);
     power[k] = low * share[k];
     gradient[k] = first * power[k];
     hessian(k, k) = second * ((n1_ - n2_) * power[k] * power[k] + (n2_ - 1) * low);
   }
   hessian(0, 1) = hessian(1, 0) = second * (n1_ - n2_) * power[0] * power[1];
-  const double low = std::pow(u.z(), n1_ - 2);
+  const double low = raised(u.z(), n1_ - 2);
   gradient[2] = n1_ * low * u.z();
   hessian(2, 2) = n1_ * (n1_ - 1) * low;
   gradient = gradient.cwiseQuotient(axes_);
@@ -67,12 +84,11 @@ Vector3 SuperquadricSolid::nearest_of_starts(const Vector3& x) const
   Vector3 best = level > 0 ? Vector3(x / level) : Vector3(0, 0, axes_.z());
   if (!(level < 1)) return best;
   const Vector3 u = x.cwiseQuotient(axes_);
-  const double in_plane = std::pow(std::max(0.0, 1 - std::pow(u.z(), n1_)), n2_ / n1_);
+  const double in_plane = raised(std::max(0.0, 1 - raised(u.z(), n1_)), n2_ / n1_);
   for (int k = 0; k < 3; ++k) {
     Vector3 candidate = x;
-    candidate[k] =
-        axes_[k] * (k == 2 ? std::pow(std::max(0.0, 1 - std::pow(norm(u.x(), u.y(), n2_), n1_)), 1 / n1_)
-                           : std::pow(std::max(0.0, in_plane - std::pow(u[1 - k], n2_)), 1 / n2_));
+    candidate[k] = axes_[k] * (k == 2 ? root(std::max(0.0, 1 - raised(norm(u.x(), u.y(), n2_), n1_)), n1_)
+                                      : root(std::max(0.0, in_plane - raised(u[1 - k], n2_)), n2_));
     if ((candidate - x).norm() < (best - x).norm()) best = candidate;
   }
   return best;

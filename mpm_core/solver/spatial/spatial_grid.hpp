@@ -40,7 +40,7 @@ struct FineZone
   double edge;
 };
 
-/// Lines of one axis over [low, high]: edges `edge` in the zones, growing by 15 % a cell away from them up to
+/// Lines of one axis over [low, high]: edges `edge` in the zones, growing away from them up to
 /// `coarsest`, all moved by `shift` of a cell. `mirrored`: the first line stands at `low`, else the lines
 /// reach beyond both ends.
 std::vector<double> graded_axis(double low, double high, const std::vector<FineZone>& zones, double coarsest,

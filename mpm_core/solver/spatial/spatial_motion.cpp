@@ -56,4 +56,13 @@ Vector3 angular_momentum(const SpatialBody& b, const Vector3& centre)
   return sum;
 }
 
+Vector3 of_whole(const SpatialBody& body, Vector3 angular)
+{
+  for (int d = 0; d < 3; ++d)
+    if (body.mirrored[d])
+      for (int e = 0; e < 3; ++e)
+        if (e != d) angular[e] = 0;
+  return body.copies() * angular;
+}
+
 }  // namespace granulaw

@@ -21,5 +21,8 @@ Vector3 momentum(const SpatialBody& body);
 /// Of the centre of mass of the whole body.
 Vector3 mean_velocity(const SpatialBody& body);
 Vector3 angular_momentum(const SpatialBody& body, const Vector3& centre);
+/// The whole body's angular momentum from that of the part that is computed: mirrored parts cancel all but
+/// the component along a mirror's normal.
+Vector3 of_whole(const SpatialBody& body, Vector3 angular);
 
 }  // namespace granulaw

@@ -69,16 +69,6 @@ Eigen::Matrix3d lumped_inertia(const SpatialBody& body, const Vector3& centre)
   return second.trace() * Eigen::Matrix3d::Identity() - second;
 }
 
-/// An axial vector keeps only the component along a mirror's normal.
-Vector3 of_whole(const SpatialBody& body, Vector3 angular)
-{
-  for (int d = 0; d < 3; ++d)
-    if (body.mirrored[d])
-      for (int e = 0; e < 3; ++e)
-        if (e != d) angular[e] = 0;
-  return body.copies() * angular;
-}
-
 /// The rigid-body motion after an impact. The tensor of inertia is the exact one of the undeformed body plus
 /// what the nodes' own has changed by since (their own is h^2/2 a mass too large).
 class ReboundMeter
@@ -88,6 +78,7 @@ class ReboundMeter
       : start_(lumped_inertia(scene.bodies.front(), scene.centre)), exact_(exact ? *exact : start_)
   {
   }
+  const Eigen::Matrix3d& inertia_at_rest() const { return exact_; }
   /// Angular velocity and energy of the rigid motion.
   Vector3 spin(const SpatialScene& scene) const { return inertia(scene).ldlt().solve(angular(scene)); }
   double energy(const SpatialScene& scene) const
@@ -149,6 +140,8 @@ RunResult run_body_impact(const Particle& particle, const BodyThrow& thrown, con
         const Eigen::Matrix3d exact = setup.inertia();
         const ReboundMeter meter(run.scene, homogeneous ? &exact : nullptr);
         throw_body(body, velocity, spin, run.scene.centre);
+        if (thrown.first_contact_only)
+          run.scene.watched = {setup.first_contact() - run.scene.centre, meter.inertia_at_rest().inverse()};
         FreeFlight<SpatialScene> programme(duration);
         run.run(
             programme, {fields, scale, duration}, progress, [](const TraceSample&) {}, checkpoint);

@@ -20,6 +20,9 @@ struct BodyThrow
   /// along which the tangential velocity is.
   std::array<double, 3> orientation{0, 0, -1};
   double turn = 0;  ///< rad, by which the body is turned about the plane's normal
+  /// The run ends with the first contact. Otherwise it ends when the centre of mass leaves: an eccentric body
+  /// may turn over its first contact and hit again elsewhere.
+  bool first_contact_only = false;
 };
 
 /// A rigid plane that a body is pressed with.
@@ -42,7 +45,7 @@ struct PlanesPlan
   double ramp = 0;   ///< loading time in R/c*; 0: the default of the run
 };
 
-/// The body hits the plane once and leaves it. `rebound` and `planes` of the result are filled; restitution
+/// The body hits the plane and leaves it. `rebound` and `planes` of the result are filled; restitution
 /// is that of the centre's normal velocity.
 RunResult run_body_impact(const Particle& particle, const BodyThrow& thrown, const RunOptions& options = {});
 

@@ -185,14 +185,18 @@ std::array<double, 2> SpatialSetup::block_of(const Touch& touch, double deepest)
   return {half_width(touch.sharper), half_width(touch.flatter)};
 }
 
-double SpatialSetup::finest_edge(double deepest, int cells) const
+/// `cells` to each half width of the block, across and along: in the metric in which the block is a circle a
+/// cell's edge has the length 1/cells.
+Vector3 SpatialSetup::edges_of(const Touch& touch, const Vector3& normal, double deepest, int cells) const
 {
-  double edge = 1e300;
-  for (const Touch& touch : touches_) {
-    const double block = block_of(touch, deepest)[0];
-    edge = std::min({edge, block / cells, std::max(touch.sharper / cells_in_edge, 0.1 * block / cells)});
-  }
-  return edge;
+  const std::array<double, 2> block = block_of(touch, deepest);
+  const auto edge = [&](double half_width, double radius) {
+    return std::min(half_width / cells, std::max(radius / cells_in_edge, 0.1 * half_width / cells));
+  };
+  const double across = edge(block[0], touch.sharper), along = edge(block[1], touch.flatter);
+  const Vector3 metric = (touch.sharper_direction.cwiseAbs2() + normal.cwiseAbs2()) / (across * across) +
+                         touch.flatter_direction.cwiseAbs2() / (along * along);
+  return metric.cwiseSqrt().cwiseInverse();
 }
 
 SpatialSection SpatialSetup::section(double deepest, int cells, double shift) const
@@ -225,21 +229,23 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
   int copies = 1;
   for (int d = 0; d < 3; ++d) copies *= mirrored_[d] ? 2 : 1;
   if (!s.phase_at) s.mass = mass_ / copies;
-  const double edge = finest_edge(deepest, cells);
   for (int d = 0; d < 3; ++d) {
     std::vector<FineZone> zones;
+    double finest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < touches_.size(); ++k) {
       const Touch& t = touches_[k];
       const std::array<double, 2> block = block_of(t, deepest);
       const double depth = 0.8 * block[1] * planes_[k].normal[d];  // into the body
       const double reach =
           std::abs(t.sharper_direction[d]) * block[0] + std::abs(t.flatter_direction[d]) * block[1];
+      const double edge = edges_of(t, planes_[k].normal, deepest, cells)[d];
+      finest = std::min(finest, edge);
       zones.push_back(
           {t.place[d] - reach + std::min(0.0, depth), t.place[d] + reach + std::max(0.0, depth), edge});
     }
     const double low = mirrored_[d] ? 0.0 : low_[d];
     const double coarsest = coarsest_share * std::min(1.0, (high_ - low_).minCoeff() / 2);
-    s.lines[d] = graded_axis(low, high_[d], zones, std::max(coarsest, edge), shift, mirrored_[d]);
+    s.lines[d] = graded_axis(low, high_[d], zones, std::max(coarsest, finest), shift, mirrored_[d]);
   }
   return s;
 }

@@ -30,6 +30,8 @@ class SpatialSetup
   /// Tensor of inertia of the whole body about its centre of mass, as if all of it were of the first
   /// material.
   Eigen::Matrix3d inertia() const;
+  /// Point of the body that touches the first plane.
+  const Vector3& first_contact() const { return touches_.front().place; }
   /// Speeds of the planes that are computed, as given.
   std::vector<double> speeds() const;
   /// The planes that were given, in their order, from those that were computed.
@@ -40,8 +42,6 @@ class SpatialSetup
 
   /// The body at rest for overlaps up to `deepest`, with `cells` across the contact block.
   SpatialScene build(double deepest, int cells, double shift, Precision precision) const;
-  /// Finest edge of that grid; rounded edges that touch a plane need a quarter of their radius.
-  double finest_edge(double deepest, int cells) const;
 
  private:
   /// Where a plane touches, and what the surface is like there.
@@ -56,6 +56,9 @@ class SpatialSetup
   void find_mirrors(const std::array<bool, 3>& may_mirror);
   void drop_mirrored_planes();
   std::array<double, 2> block_of(const Touch& touch, double deepest) const;
+  /// Edges of the cells along x, y and z at a contact; rounded edges that touch a plane need a quarter of
+  /// their radius.
+  Vector3 edges_of(const Touch& touch, const Vector3& normal, double deepest, int cells) const;
   SpatialSection section(double deepest, int cells, double shift) const;
 
   Particle particle_;
