@@ -7,7 +7,7 @@ from matrix_known import KNOWN
 INTRO = """# The matrix: LIGGGHTS's commands with the models mpm and thornton
 
 This page says which of LIGGGHTS's commands work with the models `mpm` and `thornton`. Search it for your command. Of {count} commands, options and situations that touch a contact, a particle or a wall, {same} work as with
-stock `hertz`. What a model refuses stops the run with a sentence.
+stock `hertz`. If a model refuses a word, the run stops with a sentence.
 
 {counts}
 
@@ -35,7 +35,7 @@ KINDS = {
     "DEFECT": ("Defects", "Anything else than the outcomes below."),
     "refused": ("Refused", "These work with stock Hertz. The models refuse them, with the sentence of mpm; thornton's differs in the model's name."),
     "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these with every model, or crashes."),
-    "runs": ("Runs, with other numbers than hertz", "These work. What they show is not Hertz's by nature (history values, for instance), so their numbers are not compared."),
+    "runs": ("Runs, with other numbers than hertz", "These work. Their numbers differ from Hertz's by nature (history values, for instance), so they are not compared."),
     "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),
 }
 NOTES = """Two limits hold with every model, hertz included:

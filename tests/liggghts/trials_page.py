@@ -112,7 +112,7 @@ TABLES = {
     "forces": ("Forces under exchange, rebuild and sorting", "27 spheres are thrown together with friction. The table has the largest difference of a force component over 100 steps, over the "
                "largest force.", grid_of((("way", "way"),), "model", ("", "difference"))),
     "collapse": ("Collapse of 500 spheres", "All runs start from one restart file with open contacts, without viscous damping, and go on for 10,000 steps. The table has the largest difference of a coordinate "
-                 "from the first run, over R. For the yardstick each sphere starts one unit in the last place beside: this is how far rounding alone takes the spheres apart. A lost history lies far above it, as stock "
+                 "from the first run, over R. The yardstick is the same run with each sphere moved by one unit in the last place: rounding alone takes the spheres so far apart. A lost history lies far above it, as stock "
                  "`thornton_ning` shows on several ranks.", by_yardstick),
     "rejoin": ("A pair that parts and meets again", "A first impact has left a plastic dent. The second contact begins as a virgin one, whatever the neighbour list still holds.",
                list_of(("gap/R", "gap"), ("neigh_modify", "neigh"), ("e of the second impact", "e"), ("virgin", "virgin"))),
