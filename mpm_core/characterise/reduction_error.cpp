@@ -183,8 +183,8 @@ Causes causes_of(const UnlikePair& pair, double velocity)
   // 3. The smaller body's contact is larger against its radius; it matters as far as the other gives way.
   const double unlike = (1 - 1 / pair.radius_ratio) / (1 + 1 / pair.radius_ratio);
   c.uneven = unlike * unlike * depth * std::min(1.0, 2 * c.share);
-  // 4. A half-space takes 1.25 (V/c)^0.6 of the energy of a like sphere (docs/theory/method.md; Hunter 1957), and as
-  // 1/(E c) of the larger body.
+  // 4. A half-space takes 1.25 (V/c)^0.6 of the energy of a like sphere (docs/evidence/solver-accuracy.md;
+  // Hunter 1957), and as 1/(E c) of the larger body.
   const double radiating =
       pair.radius_ratio >= 1 ? std::pow(stiffness, -1.5) * std::sqrt(h.density / s.density) : 1.0;
   c.waves = 1.3 * unlike * unlike * std::pow(v_over_c, 0.6) * radiating / (2 * e * e);

@@ -6,41 +6,45 @@ from matrix_known import KNOWN
 
 INTRO = """# The matrix: LIGGGHTS's commands with the models mpm and thornton
 
-This page says which of LIGGGHTS's commands work with the models `mpm` and `thornton`. Search it for your command. Each command of the manual that touches a contact, a particle or a wall is tried with both models
-beside stock `hertz`.
+This page says which of LIGGGHTS's commands work with the models `mpm` and `thornton`. Search it for your command. Of {count} commands, options and situations that touch a contact, a particle or a wall, {same} work as with
+stock `hertz`. If a model refuses a word, the run stops with a sentence.
 
 {counts}
 
-The test `liggghts_matrix` fails where an outcome turns into a defect that is not listed here. `cmake --build --preset release --target matrix_page` makes the page.
+The test `liggghts_matrix` fails if a command gets another outcome than these. `cmake --build --preset release --target matrix_page` makes the page.
 """
 
 HOW = """## How they are tried
 
-Eighteen spheres (R = 1.7 mm, powder and glass) are thrown at each other over a floor, 600 steps of 0.2 us. A feature changes or adds some lines (`tests/liggghts/matrix_*.py`). Each feature runs {runs} times,
-fewer where the plain deck is refused:
+Eighteen spheres (R = 1.7 mm, powder and glass) are thrown at each other over a floor, 600 steps of 0.2 us. Each command or option changes or adds some lines (`tests/liggghts/matrix_*.py`), and runs {runs} times with both
+models beside stock `hertz`; fewer times where LIGGGHTS refuses the plain deck:
 
 | runs | what must hold |
 |---|---|
-| elastic: plain; `energy on contactMap on`; `stretch 3`; all three; on 1 and 2 ranks | Without yield and damping both models are Hertz's law, and with `stretch S` Hertz's law with moduli divided by S^2.5. Thermo values, dumps and every file of the feature equal stock Hertz's of the same ranks: thornton within {thornton:g} of the largest value of the column, mpm within {mpm:g} (its law is a table, 3e-6 off) |
-| elastic and plastic with `energy on` | kinetic + gravity + held + dissipated energy, with what waves took, is constant within {energy:g}, unless the feature does work |
-| plastic, all three words, on 1 and 2 ranks; mpm also with composed pair laws and `waves on` | the run ends well; every value is a number; both ranks give the same trajectory within {ranks:g} |
+| elastic: plain; `energy on contactMap on`; `stretch 3`; all three; on 1 and 2 ranks | Without yield and damping both models are Hertz's law, and with `stretch S` Hertz's law with moduli divided by S^2.5. Thermo values, dumps and every file equal those of stock Hertz on as many ranks: thornton within {thornton:g} of the largest value of the column, mpm within {mpm:g} (its law is a table, 3e-6 off) |
+| elastic and plastic with `energy on` | The sum of kinetic energy, gravity, energy held, energy dissipated and energy that waves took is constant within {energy:g}, unless the command does work |
+| plastic, all three words, on 1 and 2 ranks; mpm also with composed pair laws and `waves on` | The run ends well; every value is a number; both ranks give the same trajectory within {ranks:g} |
 
-Not tried: `fix external`, `couple/cfd` (they need a second program), `sph`, bonds, superquadrics (not of contacts of spheres, or not built), and commands that only move numbers about (`echo`, `group`, `variable`).
+Not tried: `fix external` and `couple/cfd`, which need a second program; `sph`, bonds and superquadrics, which are not contacts of spheres or not built; commands that only move numbers about (`echo`, `group`, `variable`).
 
-One feature: `python3 tests/liggghts/matrix.py WORDS` with the environment of the tests. It runs the features whose group or name holds one of the words.
+To try one: `python3 tests/liggghts/matrix.py WORDS` with the environment of the tests. It runs those whose group or name holds one of the words.
 """
 
 # outcome of a cell: title, what it says
 KINDS = {
     "DEFECT": ("Defects", "Anything else than the outcomes below."),
-    "refused": ("Refused", "Stock Hertz runs these features. The models refuse them with a sentence."),
-    "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these features with every model."),
-    "runs": ("Runs, with other numbers than hertz", "These work. Their numbers are not compared with Hertz's, which are others (history values, say)."),
+    "refused": ("Refused", "These work with stock Hertz. The models refuse them, with the sentence of mpm; thornton's differs in the model's name."),
+    "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these with every model, or crashes."),
+    "runs": ("Runs, with other numbers than hertz", "These work. Their numbers differ from Hertz's by nature (history values, for instance), so they are not compared."),
     "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),
 }
-NOTES = """Two things hold with hertz as well. `delete_atoms` and `insert ... compress_tags yes` renumber particles while they touch: LIGGGHTS then loses the history of their contacts, so say `compress no`.
-Heat flows through the overlap that LIGGGHTS sees: with `stretch S` it flows as with moduli S^2.5 times smaller.
+NOTES = """Two limits hold with every model, hertz included:
+
+- `delete_atoms` and `insert ... compress_tags yes` renumber particles while they touch, and LIGGGHTS then loses the history of their contacts. Say `compress no`.
+- Heat flows through the overlap that LIGGGHTS sees. With `stretch S` it flows as with moduli S^2.5 times smaller ([heat](../reference/pair_gran_model_mpm.md#heat)).
 """
+# Of a sentence the page shows so many characters: the rest lists what is allowed, as the run does.
+SHOWN = 240
 
 
 def plain(text):
@@ -56,10 +60,21 @@ def kind_of_row(row):
     return next(kind for kind in KINDS if kind in map(kind_of, row["cells"].values()))
 
 
-def sentence(row):
+def sentence(row, kind):
     """What mpm says; thornton's outcome where it is of another kind. Within a kind the sentences differ in the model's name and in numbers only."""
     first, second = row["cells"].values()
-    return plain(first) + (f"; thornton: {plain(second)}" if kind_of(second) != kind_of(first) else "")
+    text = plain(first) + (f"; thornton: {plain(second)}" if kind_of(second) != kind_of(first) else "")
+    text = text.removeprefix(kind + ": ").removeprefix("ERROR: ")
+    text = re.sub(r"ends with -(\d+) and no sentence", r"crashes without a sentence (signal \1)", text)
+    return text if len(text) <= SHOWN else text[:SHOWN].rsplit(" ", 1)[0] + " ..."
+
+
+def by_sentence(rows, kind):
+    """{(group, sentence): names}: what stops with the same words stands on one line."""
+    found = {}
+    for row in rows:
+        found.setdefault((row["group"], sentence(row, kind)), []).append(row["name"])
+    return found
 
 
 def write(path, rows, limits):
@@ -69,10 +84,10 @@ def write(path, rows, limits):
     table = ["| outcome | " + " | ".join(models) + " |", "|---|---|---|"]
     table += [f"| [{title[0].lower()}{title[1:]}](#{re.sub('[^a-z ]', '', title.lower()).replace(' ', '-')}) | " + " | ".join(map(str, counts[kind])) + " |"
               for kind, (title, _) in KINDS.items() if any(counts[kind])]
-    text = [INTRO.format(counts="\n".join(table))]
+    text = [INTRO.format(count=len(rows), same=min(counts["same"]), counts="\n".join(table))]
     if KNOWN:
-        text += ["## Known defects", "", "| feature | models | what is seen | why it stands |", "|---|---|---|---|"]
-        text += [f"| {'all features' if name == '.*' else plain(name.replace('.*', '...'))} | {', '.join(who)} | {plain(part)} | {plain(why)} |" for name, who, part, why in KNOWN]
+        text += ["## Known defects", "", "| command or option | models | what is seen | why it stands |", "|---|---|---|---|"]
+        text += [f"| {'all' if name == '.*' else plain(name.replace('.*', '...'))} | {', '.join(who)} | {plain(part)} | {plain(why)} |" for name, who, part, why in KNOWN]
         text.append("")
     for kind, (title, what) in KINDS.items():
         own = [row for row in rows if kind_of_row(row) == kind]
@@ -84,6 +99,6 @@ def write(path, rows, limits):
             for group in groups:
                 text += [f"**{plain(group)}.** " + "; ".join(plain(row["name"]) for row in own if row["group"] == group) + ".", ""]
         else:
-            text += ["| group | feature | sentence of mpm |", "|---|---|---|"]
-            text += [f"| {plain(row['group'])} | {plain(row['name'])} | {sentence(row).removeprefix(kind + ': ')} |" for row in own] + [""]
+            text += ["| group | command or option | sentence |", "|---|---|---|"]
+            text += [f"| {plain(group)} | {plain('; '.join(names))} | {said} |" for (group, said), names in by_sentence(own, kind).items()] + [""]
     pathlib.Path(path).write_text("\n".join(text) + "\n" + NOTES + "\n" + HOW.format(**limits))

@@ -1,5 +1,5 @@
 // Synthetic laboratories: random materials, measured with noise, calibrated; how often the truth lies in the
-// intervals, and how near the values are (docs/guide/calibrate.md). What is measured comes from laws as `mpm table`
+// intervals, and how near the values are (docs/evidence/calibration.md). What is measured comes from laws as `mpm table`
 // makes them (drops), and from the atlas's midplane curves (platens).
 #include <fmt/format.h>
 

@@ -60,18 +60,18 @@ This page shows how many CPU seconds a run costs for how small an error, on one 
 
 ![L2 error of the loading force against CPU seconds](cost.png)
 
-- One shifted grid gives the treated force of four for a quarter of the time. Four give a better e, and a trace that needs no treatment.
+- One shifted grid gives the smoothed force of four for a quarter of the time. Four give a better e, and a trace that needs no smoothing.
 - Single precision changes no digit of the errors.
-- Three dimensions (`rectilinear-3d`) have the error of `rectilinear` at equal cells: what they cost more is the third dimension. A quarter of the sphere is computed.
+- Three dimensions (`rectilinear-3d`) have the error of `rectilinear` at equal cells, and cost more by the third dimension alone. A quarter of the sphere is computed.
 
 The picture shows four grids and both precisions with four shifted grids, and one grid dotted. The black line is the reference's own error: mapped, 56 cells, 8 shifted grids, Courant number 0.5, against the same at 40
 cells.
 
 | column | |
 |---|---|
-| L2 | deviation of the treated loading force over 0.05 to 1 delta_max |
+| L2 | deviation of the smoothed loading force over 0.05 to 1 delta_max |
 | F_max, e | deviation. F_max of several grids is the peak of their mean. Of a single grid it is the fit's, which does not follow the ringing: 0.7 % lower here |
-| grid noise | rms of raw/treated force - 1 over 0.25 to 1 delta_max, of the mean of the shifted grids |
+| grid noise | rms of raw/smoothed force - 1 over 0.25 to 1 delta_max, of the mean of the shifted grids |
 
     cmake --build --preset release --target cost_page        # makes this page in twenty minutes; use an idle machine
 

@@ -151,7 +151,7 @@ class Runner
   double spent() const { return spent_; }
 
   static constexpr int coarse = 10, fine = 14;
-  static constexpr double ramp = 60;  // R/c*: 120 changes F and e by 0.1 % (docs/theory/method.md)
+  static constexpr double ramp = 60;  // R/c*: 120 changes F and e by 0.1 % (docs/evidence/solver-accuracy.md)
 
  private:
   RunCache cache_;

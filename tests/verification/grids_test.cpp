@@ -262,7 +262,7 @@ void ThreeGrids::compare()
   EXPECT_NEAR(other.summary.delta_max / mapped.summary.delta_max, 1, 0.002);
   EXPECT_NEAR(other.summary.restitution / mapped.summary.restitution, 1, a.restitution);
   // `rectilinear` measured 4e-4 at 100, 2e-3 at 500; `updated` loses 7e-3 and 2e-2: APIC's transfer smooths
-  // steep velocities (docs/theory/method.md)
+  // steep velocities (docs/evidence/solver-accuracy.md)
   EXPECT_LT(other.summary.energy_error, a.grid == GridKind::updated ? 0.025 : 0.004);
 }
 

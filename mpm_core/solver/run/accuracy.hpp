@@ -13,8 +13,8 @@ using Run = std::function<RunResult(const RunOptions&)>;
 int coarse_partner(int resolution);
 
 /// Error of the finer of two runs of one job at resolutions N and coarse_partner(N), relative, of F_max and
-/// e, the larger. Measured on the cases of tests/validation/error_study.cpp (docs/theory/method.md), in three
-/// dimensions on those of docs/theory/three-dimensions.md.
+/// e, the larger. Measured on the cases of tests/validation/error_study.cpp
+/// (docs/evidence/solver-accuracy.md), in three dimensions on those of docs/evidence/solver-accuracy-3d.md.
 double error_between(const RunResult& fine, const RunResult& coarse);
 
 /// Runs the job and its coarse partner; error_estimate filled, cost of both counted.
