@@ -293,6 +293,16 @@ TEST(Revolved, EllipsoidIsTheEllipsoid)
   }
 }
 
+TEST(BodyFrame, TurnBringsATangentToX)
+{
+  for (const Vector3& direction : {Vector3(0, 0, -1), Vector3(0.3, -0.5, 0.8), Vector3(-1, 0.1, 0)}) {
+    const Vector3 d = direction.normalized(), tangent = d.cross(Vector3(0.2, 0.7, 0.4)).normalized();
+    const Eigen::Matrix3d rotation = rotation_to_plane(d, turn_along(d, tangent));
+    EXPECT_LT((rotation * d + Vector3::UnitZ()).norm(), 1e-14);
+    EXPECT_LT((rotation * tangent - Vector3::UnitX()).norm(), 1e-14);
+  }
+}
+
 TEST(BodyFrame, LayersAndInclusionsLieWhereTheParticleHasThem)
 {
   Particle p;

@@ -239,6 +239,33 @@ TEST(SpatialShapes, ObliqueImpactKeepsMomentumAndEnergy)
   EXPECT_LT(r.summary.energy_error, 1e-3);
 }
 
+/// Normal impulse up to a time: a sample is the mean over an interval that ends halfway to the next.
+double impulse_until(const RunResult& r, double end)
+{
+  double sum = 0;
+  for (std::size_t k = 1; k < r.trace.size() && r.trace[k].time < end; ++k)
+    sum += 0.5 * (r.trace[k].force + r.trace[k - 1].force) * (r.trace[k].time - r.trace[k - 1].time);
+  return sum;
+}
+
+/// A rod hits with its end at 60 degrees from its axis, turns over it and hits with the other end. The first
+/// contact alone is the same to its end (samples begin anew at the reversal, which only one of both has: 1 %
+/// of the impulse), and shorter than the whole impact.
+TEST(SpatialShapes, FirstContactOnlyEndsBeforeTheBodyHitsAgain)
+{
+  const Particle rod = particle(std::make_shared<EllipsoidSolid>(Vector3(1, 1, 3) * mm), 100);
+  BodyThrow t{400 * customary_velocity(100)};
+  t.orientation = {std::sin(M_PI / 3), 0, -std::cos(M_PI / 3)};
+  const RunResult whole = run_body_impact(rod, t, coarse(6));
+  t.first_contact_only = true;
+  const RunResult first = run_body_impact(rod, t, coarse(6));
+  EXPECT_LT(first.summary.contact_time, 0.7 * whole.summary.contact_time);
+  EXPECT_LT(first.summary.steps, 0.7 * static_cast<double>(whole.summary.steps));
+  const double end = first.trace.back().time;
+  EXPECT_EQ(first.trace.back().force, 0);
+  EXPECT_NEAR(impulse_until(first, end) / impulse_until(whole, end), 1, 0.01);
+}
+
 /// A body turned about the wall's normal stands askew to the grid.
 TEST(SpatialShapesSlow, TurningTheBodyAgainstTheGridChangesLittle)
 {
@@ -269,7 +296,8 @@ TEST(SpatialFields, PerfectPlasticityStaysAtYield)
   };
   thrown(sphere(100), 100 * customary_velocity(100), {0, 0, -1}, options);
   EXPECT_GT(strain, 0.05);
-  EXPECT_NEAR(largest / (e_star / 100), 1, 1e-6);  // files hold as much; means of cells are below
+  EXPECT_LT(largest / (e_star / 100), 1 + 1e-6);  // files hold as much
+  EXPECT_GT(largest / (e_star / 100), 0.99);      // a cell's value is the mean of its eight points
 }
 
 }  // namespace
