@@ -6,7 +6,9 @@ namespace granulaw {
 
 /// What the deformed cells allow for the step. A plane wave sum_j kappa_j A_j over the grid, row j of A that
 /// of F^-1 over h_j, has the frequency c |sum_j kappa_j A_j|: a cell's frequencies go with the largest
-/// eigenvalue of A A^T.
+/// eigenvalue of A A^T. Under pressure it stiffens: squeezed to the volume J, a material of logarithmic
+/// strains has the longitudinal modulus (M - K ln J)/lambda^2 along a stretch lambda, M = K + 4/3 G (its
+/// energy K/2 ln^2 J + G |dev ln|^2, differentiated twice).
 struct CellGrowth
 {
   /// Largest omega^2 of filled cells, 1.5 c^2 times that eigenvalue: inside a body quadratic splines with

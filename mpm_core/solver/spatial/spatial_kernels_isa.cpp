@@ -672,11 +672,11 @@ GRANULAW_INLINE Real largest_eigenvalue(const Symmetric<Real>& a)
 }
 
 /// Largest 1 + share (ratio - 1) and least det F of the octants of one cell, ratio the largest eigenvalue of
-/// A A^T (CellGrowth) over `at_rest`.
+/// A A^T (CellGrowth) over `at_rest`, times the stiffening under pressure, of which `bulk_share` is K/M.
 template <class Real>
 GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Real (&per_edge)[3],
-                                  Real at_rest, const double* __restrict share, Real& largest,
-                                  Real& least_volume)
+                                  Real at_rest, Real bulk_share, const double* __restrict share,
+                                  Real& largest, Real& least_volume)
 {
   Real most = 0, least = 1;
 #pragma omp simd reduction(max : most) reduction(min : least)
@@ -687,7 +687,11 @@ GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Rea
     {
       return per_edge[i] * per_edge[j] * (a[i][0] * a[j][0] + a[i][1] * a[j][1] + a[i][2] * a[j][2]);
     };
-    const Real found = largest_eigenvalue<Real>(
+    const Real pressed = d.determinant < Real(1) ? d.determinant : Real(1);
+    // -ln J from above: by 0.5 % at J = 0.7, 5 % at 0.33
+    const Real squeeze = (Real(1) - pressed) / root_of(pressed > tiny<Real> ? pressed : tiny<Real>);
+    const Real found = (Real(1) + bulk_share * squeeze) *
+                       largest_eigenvalue<Real>(
                            {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)}) /
                        (d.determinant * d.determinant * at_rest);
     const Real counted = Real(1) + Real(share[lane]) * (found - Real(1));
@@ -709,7 +713,9 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
     most = value > most ? value : most;
   };
   Block<Real> block;
-  for (const SpatialRegion& region : body.regions)
+  for (const SpatialRegion& region : body.regions) {
+    const Moduli& m = region.moduli;
+    const Real bulk_share = Real(m.bulk / (m.bulk + 4.0 / 3.0 * m.shear));
     for (int first = region.begin; first < region.end; first += block_cells) {
       const int end = first + block_cells < region.end ? first + block_cells : region.end;
       gather(grid, first, end, block);
@@ -722,7 +728,8 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
         }
         const int cut = grid.cells[cell].cut;
         const double* share = cut >= 0 ? body.step_share_p.data() + octants * std::size_t(cut) : whole;
-        measure_cell(block, octants * (cell - first), per_edge, Real(finest * finest), share, ratio, volume);
+        measure_cell(block, octants * (cell - first), per_edge, Real(finest * finest), bulk_share, share,
+                     ratio, volume);
         raise(found.largest, ratio);
         if (cut >= 0)
           raise(found.cut, ratio);
@@ -731,6 +738,7 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
         found.least_volume = volume < found.least_volume ? double(volume) : found.least_volume;
       }
     }
+  }
   return found;
 }
 
