@@ -132,8 +132,8 @@ Json study(const Setting& s, const BodyLaw& law, Farm& farm)
   Json out;
   out["e_frictionless"] = runs.back().result.rebound.value().normal;
   out["frictionless"] = trace_of(runs.back().result, m.yield_stress);
-  out["stiffness"] = s.stiffness, out["hardening"] = s.hardening, out["velocity"] = s.velocity, out["cells"] = s.cells,
-  out["grids"] = s.grids;
+  out["stiffness"] = s.stiffness, out["hardening"] = s.hardening, out["velocity"] = s.velocity,
+  out["cells"] = s.cells, out["grids"] = s.grids;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (runs[k].failed()) {
       fmt::print("{}: left out: {}\n", jobs[k].label, runs[k].error);
@@ -145,16 +145,12 @@ Json study(const Setting& s, const BodyLaw& law, Farm& farm)
     one["solver"] = row(r.normal, r.tangential * thrown.tangential_velocity / v, r.spin[1] * radius / v,
                         r.impulse_normal / (mass * v), r.impulse_tangential / (mass * v));
     spring.friction = all[k].friction;
-    const auto replayed = [&](const TangentialSpring& contact) {
-      return as_row(replay_oblique(law, thrown, contact), thrown);
-    };
-    one["mindlin"] = replayed(spring);
-    TangentialSpring changed = spring;
-    changed.computed_radius = true;
-    one["computed"] = replayed(changed);
-    changed.shear_strength = 1.15 * m.yield_stress / std::sqrt(3.0);
-    changed.damping_ratio = 0;
-    one["flow"] = replayed(changed);
+    one["mindlin"] = as_row(replay_spring(law, thrown, spring), thrown);
+    TangentialSpring computed = spring;
+    computed.computed_radius = true;
+    one["computed"] = as_row(replay_spring(law, thrown, computed), thrown);
+    one["yielding"] =
+        as_row(replay_yielding(law, thrown, spring, {m.yield_stress, m.hardening_modulus}), thrown);
     one["trace"] = trace_of(runs[k].result, m.yield_stress);
     out["cases"].push_back(one);
   }
