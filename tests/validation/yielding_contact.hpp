@@ -18,12 +18,13 @@ struct ContactForces
   double tangential;  ///< against the sliding
 };
 
-/// A contact that is elastic and plastic in both directions. F follows the law's unloading curve of its
-/// depth, the largest overlap that its flow amounts to; T is a spring's, k_t = 8 G* a. It flows where
+/// A contact that is elastic and plastic in both directions. F follows the law's unloading curve from its
+/// depth: the largest overlap of a head-on contact that has flowed as far. T is a spring's, k_t = 8 G* a. It
+/// flows where
 ///
-///     F/F_0 = 1 - c + c sqrt(1 - (T/T_0)^2),   F_0 the law's loading force at the depth,
+///     F/F_0 = 1 - c + c sqrt(1 - q^2),   q = T/T_0,   F_0 the law's loading force at the depth,
 ///
-/// in the direction of that curve's normal: sliding over deepening = c (F_0/T_0) q/sqrt(1 - q^2), q = T/T_0.
+/// in the direction of that curve's normal: sliding over deepening = c (F_0/T_0) q/sqrt(1 - q^2).
 /// T_0 = w Y(strain)/sqrt(3) pi a^2 with the present radius a. The strain is Tabor's representative one, 0.2
 /// a/R, and the shear's, s u/a of the flow's sliding u, their squares added.
 class YieldingContact
