@@ -71,7 +71,7 @@ def materials(studies):
     print("|---|---|---|---|---|---|" + "---|" * len(names))
     for study in studies:
         trace = np.array(study["frictionless"])
-        words = [f"{study['stiffness']:g}", f"{study['hardening']:g}", f"{study['velocity']:g}", f"{trace[:, 1].max():.3f}",
+        words = [f"{study['stiffness']:g}", f"{study['hardening']:g}", f"{study['velocity']:g}", f"{trace[:, 1].max():.2g}",
                  f"{np.median(np.sort(trace[:, 4])[-9:]):.2f}", str(len(study["cases"]))]
         for name in names:
             words.append("; ".join(spread(column) for column in zip(*(off(case, name) for case in study["cases"]))))

@@ -57,7 +57,9 @@ class YieldingContact
   }
   double shear_strength(double contact_radius) const;  ///< T_0, N
   bool overloaded(double delta, double depth, double q) const;
-  double flow(double delta, double k, double pull, double strength);
+  double sliding_slope(double strength) const;
+  double flow(double delta, double k, double stretched, double strength);
+  void flow_sliding(double delta, double strength);
 
   const PairLaw& pair_;
   double radius_, impact_overlap_, stiffness_, friction_;
