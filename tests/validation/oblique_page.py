@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """docs/evidence/oblique.png, and the tables of docs/evidence/oblique.md on stdout, from what granulaw_oblique_study wrote:
-oblique_page.py OBLIQUE.json FOLDER"""
+oblique_page.py OBLIQUE.json FOLDER [OTHER_MATERIAL.json ...]"""
 import json
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-MODELS = {"mindlin": ("Mindlin, Hertz's radius", "--"), "computed": ("Mindlin, computed radius", "-."), "flow": ("yielding contact", ":")}
+MODELS = {"mindlin": ("Mindlin, Hertz's radius", "--"), "computed": ("Mindlin, computed radius", "-."), "yielding": ("yielding contact", ":")}
 QUANTITIES = {"e": "e", "tangential": "tangential velocity after / before", "spin": "spin after, R omega / V_n"}
 
 
@@ -60,7 +60,27 @@ def table(study):
         print("| " + " | ".join(words) + " |")
 
 
+def spread(values):
+    """Median and largest of the sizes."""
+    return f"{np.median(np.abs(values)):.1f}, {max(values, key=abs):+.1f}"
+
+
+def materials(studies):
+    names = ["mindlin", "yielding"]
+    print("| E\\*/Y | H/E | V/V_y | overlap/R | contact radius/R | cases |" + "".join(f" {MODELS[m][0]}: e, v_t, omega |" for m in names))
+    print("|---|---|---|---|---|---|" + "---|" * len(names))
+    for study in studies:
+        trace = np.array(study["frictionless"])
+        words = [f"{study['stiffness']:g}", f"{study['hardening']:g}", f"{study['velocity']:g}", f"{trace[:, 1].max():.2g}",
+                 f"{np.median(np.sort(trace[:, 4])[-9:]):.2f}", str(len(study["cases"]))]
+        for name in names:
+            words.append("; ".join(spread(column) for column in zip(*(off(case, name) for case in study["cases"]))))
+        print("| " + " | ".join(words) + " |")
+
+
 if __name__ == "__main__":
-    told = json.loads(Path(sys.argv[1]).read_text())
+    told, *others = [json.loads(Path(name).read_text()) for name in [sys.argv[1], *sys.argv[3:]]]
     draw(told, Path(sys.argv[2]) / "oblique.png")
+    materials([told, *others])
+    print()
     table(told)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "law/law.hpp"
+#include "yielding_contact.hpp"
 
 namespace granulaw {
 
@@ -12,9 +13,6 @@ struct TangentialSpring
   double stiffness = 0;
   double damping_ratio = 0;      ///< of the critical damping, while it sticks; the plug-in's default is 0.1
   bool computed_radius = false;  ///< k_t takes the law's contact radius, else Hertz's sqrt(R delta)
-  /// Of a contact that yields: T_0 over its area, Pa. It yields where (F/F_0)^4 + (T/T_0)^4 = 1, F_0 the
-  /// law's force, and flows along the normal of that curve while it deepens. 0: friction alone limits T.
-  double shear_strength = 0;
 };
 
 /// A sphere thrown at a rigid wall without spin. Signs as of `mpm impact`: tangential along the velocity
@@ -31,13 +29,15 @@ struct ObliqueAnswer
   double spin = 0;                ///< rad/s after
   double impulse_normal = 0;      ///< N s
   double impulse_tangential = 0;  ///< N s, against the tangential velocity
-  double force_max = 0;           ///< N, normal
-  double tangential_force_max = 0;
 };
 
 /// As LIGGGHTS integrates one contact (velocity Verlet, forces at the velocities of half a step): the law's
 /// normal force, and a spring k_t whose force is cut at friction times the normal force.
-ObliqueAnswer replay_oblique(const BodyLaw& law, const ObliqueThrow& thrown, const TangentialSpring& spring,
-                             int steps_per_contact = 20000);
+ObliqueAnswer replay_spring(const BodyLaw& law, const ObliqueThrow& thrown, const TangentialSpring& spring,
+                            int steps_per_contact = 20000);
+
+/// The same with a YieldingContact; of `spring` its friction and stiffness.
+ObliqueAnswer replay_yielding(const BodyLaw& law, const ObliqueThrow& thrown, const TangentialSpring& spring,
+                              const FlowStress& material, int steps_per_contact = 20000);
 
 }  // namespace granulaw

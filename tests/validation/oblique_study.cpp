@@ -1,9 +1,10 @@
 // What friction and LIGGGHTS's tangential spring make of a plastic oblique impact, against the solver in
-// three dimensions: a sphere without spin hits a rigid wall at 10 to 80 degrees from its normal, at one
-// normal velocity, with three coefficients of friction.
+// three dimensions: a sphere of one material without spin hits a rigid wall at one normal velocity, at
+// several angles from the wall's normal and with several coefficients of friction.
 //
 //   oblique_study FOLDER OUTPUT.json --atlas ATLAS.h5 [--cells N] [--grids N] [--stiffness E*/Y]
-//                 [--velocity V/V_y] [--threads N]
+//                 [--hardening H/E] [--velocity V/V_y] [--angles A,A,...] [--frictions MU,MU,...]
+//                 [--threads N]
 //   runs are kept in FOLDER and not made again; oblique_page.py draws OUTPUT.json
 #include <fmt/format.h>
 
@@ -29,12 +30,13 @@ using namespace granulaw;
 using Json = nlohmann::ordered_json;
 
 constexpr double radius = 1e-3;  // m
-constexpr double frictions[] = {0.1, 0.3, 0.6};
 
 struct Setting
 {
   int cells = 10, grids = 4;
-  double stiffness = 100, velocity = 100;  // E*/Y, V/V_y
+  double stiffness = 100, hardening = 0, velocity = 100;       // E*/Y, H/E, V/V_y
+  std::vector<double> angles{10, 20, 30, 40, 50, 60, 70, 80};  // degrees from the wall's normal
+  std::vector<double> frictions{0.1, 0.3, 0.6};
 };
 
 Material material_of(const Setting& s)
@@ -42,6 +44,7 @@ Material material_of(const Setting& s)
   Material m;
   m.density = 1500, m.youngs_modulus = 9.1e9, m.poisson_ratio = 0.3;
   m.yield_stress = m.e_star() / s.stiffness;
+  m.hardening_modulus = s.hardening * m.youngs_modulus;
   return m;
 }
 
@@ -57,11 +60,11 @@ struct Case
   double friction, angle;  // angle: degrees from the normal
 };
 
-std::vector<Case> cases()
+std::vector<Case> cases(const Setting& s)
 {
   std::vector<Case> all;
-  for (const double friction : frictions)
-    for (int angle = 10; angle <= 80; angle += 10) all.push_back({friction, double(angle)});
+  for (const double friction : s.frictions)
+    for (const double angle : s.angles) all.push_back({friction, angle});
   return all;
 }
 
@@ -96,15 +99,16 @@ Json as_row(const ObliqueAnswer& a, const ObliqueThrow& t)
              a.impulse_tangential / j);
 }
 
-/// Forces over Y R^2, lengths over R.
+/// Time in s; forces over Y R^2, lengths over R, torque about the centre of mass over Y R^3.
 Json trace_of(const RunResult& run, double yield)
 {
   Json trace;
   const double unit = yield * radius * radius;
-  for (std::size_t k = 0; k < run.planes.front().samples.size(); k += 8) {
+  for (std::size_t k = 0; k < run.planes.front().samples.size(); ++k) {
     const PlaneSample& p = run.planes.front().samples[k];
-    trace.push_back({run.trace[k].time, p.delta / radius, p.force / unit, p.vector[0] / unit,
-                     std::sqrt(p.axes[0] * p.axes[1]) / radius, p.centre[0] / radius});
+    trace.push_back({run.trace[k].time, run.trace[k].delta / radius, p.force / unit, p.vector[0] / unit,
+                     std::sqrt(p.axes[0] * p.axes[1]) / radius, p.centre[0] / radius,
+                     p.torque[1] / (unit * radius)});
   }
   return trace;
 }
@@ -116,10 +120,10 @@ Json study(const Setting& s, const BodyLaw& law, Farm& farm)
   particle.radius = radius;
   const Material& m = particle.materials[0];
   const double v = s.velocity * yield_velocity(m), mass = particle.volume() * m.density;
-  const std::vector<Case> all = cases();
+  const std::vector<Case> all = cases(s);
   std::vector<RunJob> jobs;
   for (const Case& c : all) jobs.push_back(job_of(particle, c, v, s));
-  jobs.push_back(job_of(particle, {0, 45}, v, s));
+  jobs.push_back(job_of(particle, {0, 45}, v, s));  // without friction
   const std::vector<RunOutcome> runs = farm.run(jobs);
 
   TangentialSpring spring;
@@ -127,8 +131,9 @@ Json study(const Setting& s, const BodyLaw& law, Farm& farm)
   spring.damping_ratio = 0.1;
   Json out;
   out["e_frictionless"] = runs.back().result.rebound.value().normal;
-  out["stiffness"] = s.stiffness, out["velocity"] = s.velocity, out["cells"] = s.cells,
-  out["grids"] = s.grids;
+  out["frictionless"] = trace_of(runs.back().result, m.yield_stress);
+  out["stiffness"] = s.stiffness, out["hardening"] = s.hardening, out["velocity"] = s.velocity,
+  out["cells"] = s.cells, out["grids"] = s.grids;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (runs[k].failed()) {
       fmt::print("{}: left out: {}\n", jobs[k].label, runs[k].error);
@@ -140,16 +145,12 @@ Json study(const Setting& s, const BodyLaw& law, Farm& farm)
     one["solver"] = row(r.normal, r.tangential * thrown.tangential_velocity / v, r.spin[1] * radius / v,
                         r.impulse_normal / (mass * v), r.impulse_tangential / (mass * v));
     spring.friction = all[k].friction;
-    const auto replayed = [&](const TangentialSpring& contact) {
-      return as_row(replay_oblique(law, thrown, contact), thrown);
-    };
-    one["mindlin"] = replayed(spring);
-    TangentialSpring changed = spring;
-    changed.computed_radius = true;
-    one["computed"] = replayed(changed);
-    changed.shear_strength = 1.15 * m.yield_stress / std::sqrt(3.0);
-    changed.damping_ratio = 0;
-    one["flow"] = replayed(changed);
+    one["mindlin"] = as_row(replay_spring(law, thrown, spring), thrown);
+    TangentialSpring computed = spring;
+    computed.computed_radius = true;
+    one["computed"] = as_row(replay_spring(law, thrown, computed), thrown);
+    one["yielding"] =
+        as_row(replay_yielding(law, thrown, spring, {m.yield_stress, m.hardening_modulus}), thrown);
     one["trace"] = trace_of(runs[k].result, m.yield_stress);
     out["cases"].push_back(one);
   }
@@ -170,6 +171,9 @@ int main(int argc, char** argv)
   app.add_option("--cells", setting.cells)->check(CLI::Range(6, 60));
   app.add_option("--grids", setting.grids)->check(CLI::Range(1, 64));
   app.add_option("--stiffness", setting.stiffness)->check(CLI::Range(20.0, 5000.0));
+  app.add_option("--hardening", setting.hardening)->check(CLI::Range(0.0, 1.0));
+  app.add_option("--angles", setting.angles)->delimiter(',')->check(CLI::Range(0.0, 89.0));
+  app.add_option("--frictions", setting.frictions)->delimiter(',')->check(CLI::Range(0.0, 2.0));
   app.add_option("--velocity", setting.velocity)->check(CLI::Range(2.0, 1000.0));
   app.add_option("--threads", threads)->check(CLI::Range(1, 256));
   CLI11_PARSE(app, argc, argv);
