@@ -73,40 +73,40 @@ OrientationCheck::Local local_of(double number, const std::string& where)
 
 }  // namespace
 
-ShapeCertificate read_shape_certificate(hid_t body, const std::string& where)
+ShapeCertificate read_shape_certificate(hid_t owner, const std::string& where)
 {
-  const Handle group = open_group(body, orientations, where);
-  ShapeCertificate certificate;
-  certificate.shape = read_text_attribute(group, shape, where);
-  certificate.volume = read_scalar(group, shape_volume, where);
-  certificate.solver_error = read_scalar(group, orientations_solver_error, where);
+  const Handle group = open_group(owner, orientations, where);
+  ShapeCertificate oriented;
+  oriented.shape = read_text_attribute(group, shape, where);
+  oriented.volume = read_scalar(group, shape_volume, where);
+  oriented.solver_error = read_scalar(group, orientations_solver_error, where);
   const std::vector<double> planes = read_vector(group, mirrors, 3, where);
   if (planes.size() != 3) fail(where, fmt::format("'{}' needs three numbers", mirrors.name));
-  for (std::size_t d = 0; d < 3; ++d) certificate.mirrors[d] = planes[d] != 0;
+  for (std::size_t d = 0; d < 3; ++d) oriented.mirrors[d] = planes[d] != 0;
   const std::vector<double> kinds = read_vector(group, contact_kind, most_orientations, where);
-  certificate.checks.resize(kinds.size());
-  for (std::size_t k = 0; k < kinds.size(); ++k) certificate.checks[k].local = local_of(kinds[k], where);
+  oriented.checks.resize(kinds.size());
+  for (std::size_t k = 0; k < kinds.size(); ++k) oriented.checks[k].local = local_of(kinds[k], where);
   for (const Column& column : columns()) {
     const std::vector<double> values = read_vector(group, column.field, most_orientations, where);
     if (values.size() != kinds.size())
       fail(where, fmt::format("'{}' has the wrong length", column.field.name), std::to_string(values.size()),
            std::to_string(kinds.size()));
-    for (std::size_t k = 0; k < values.size(); ++k) column.value(certificate.checks[k]) = values[k];
+    for (std::size_t k = 0; k < values.size(); ++k) column.value(oriented.checks[k]) = values[k];
   }
-  check_shape_certificate(certificate, where);
-  return certificate;
+  check_shape_certificate(oriented, where);
+  return oriented;
 }
 
-void write_shape_certificate(hid_t body, const ShapeCertificate& certificate, const std::string& where)
+void write_shape_certificate(hid_t owner, const ShapeCertificate& oriented, const std::string& where)
 {
-  const Handle group = create_group(body, orientations, where);
-  write_text_attribute(group, shape, certificate.shape, where);
-  write_scalar(group, shape_volume, certificate.volume, where);
-  write_scalar(group, orientations_solver_error, certificate.solver_error, where);
+  const Handle group = create_group(owner, orientations, where);
+  write_text_attribute(group, shape, oriented.shape, where);
+  write_scalar(group, shape_volume, oriented.volume, where);
+  write_scalar(group, orientations_solver_error, oriented.solver_error, where);
   std::vector<double> values;
-  for (const bool mirrored : certificate.mirrors) values.push_back(mirrored);
+  for (const bool mirrored : oriented.mirrors) values.push_back(mirrored);
   write_vector(group, mirrors, values, where);
-  std::vector<OrientationCheck> checks = certificate.checks;
+  std::vector<OrientationCheck> checks = oriented.checks;
   values.clear();
   for (const OrientationCheck& c : checks) values.push_back(static_cast<double>(c.local));
   write_vector(group, contact_kind, values, where);
@@ -117,14 +117,14 @@ void write_shape_certificate(hid_t body, const ShapeCertificate& certificate, co
   }
 }
 
-void check_shape_certificate(const ShapeCertificate& certificate, const std::string& where)
+void check_shape_certificate(const ShapeCertificate& oriented, const std::string& where)
 {
-  if (certificate.checks.empty() || certificate.checks.size() > most_orientations)
-    fail(where, "has an unusable number of orientations", std::to_string(certificate.checks.size()),
+  if (oriented.checks.empty() || oriented.checks.size() > most_orientations)
+    fail(where, "has an unusable number of orientations", std::to_string(oriented.checks.size()),
          fmt::format("1 to {}", most_orientations));
-  require_within(certificate.volume, 1e-60, 1e60, shape_volume, where);
-  require_within(certificate.solver_error, 0, 1e3, orientations_solver_error, where);
-  for (const OrientationCheck& check : certificate.checks) check_orientation(check, where);
+  require_within(oriented.volume, 1e-60, 1e60, shape_volume, where);
+  require_within(oriented.solver_error, 0, 1e3, orientations_solver_error, where);
+  for (const OrientationCheck& check : oriented.checks) check_orientation(check, where);
 }
 
 }  // namespace granulaw::h5

@@ -122,7 +122,7 @@ Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, doubl
   measured.indenter = indenter;
   measured.fit_offset = true;
   const TwoBodyLaw law = compose_law(atlas(), PairBody(atlas(), m), PairBody(atlas(), indenter),
-                                     indenter_radius / radius, {.depth = 0.2, .fastest = 0});
+                                     indenter_radius / radius, {.depth = 0.2, .fastest = 0, .progress = {}});
   const PairMapping mapping = PairMapping::deformable_partner(m.e_star(), indenter.e_star());
   const double r_eff = measured.effective_radius(), deepest = depth * r_eff;
   const auto add = [&](double d, double delta_max) {
