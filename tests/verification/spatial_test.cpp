@@ -27,7 +27,7 @@ SpatialBody ball(const Moduli& moduli, double edge = 0.12, int mirrors = 0, doub
   s.normal = [](const Vector3& x) { return Vector3(x.normalized()); };
   for (int d = 0; d < 3; ++d) {
     s.mirrored[d] = d < mirrors;
-    s.lines[d] = graded_axis(s.mirrored[d] ? 0 : -1, 1, {{-0.3, 0.3, edge}}, coarsest, 0.2, s.mirrored[d]);
+    s.lines[d] = graded_axis(s.mirrored[d] ? 0 : -1, 1, {{-0.3, 0.3, edge, 0.3}}, coarsest, 0.2, s.mirrored[d]);
   }
   return spatial_body(s);
 }

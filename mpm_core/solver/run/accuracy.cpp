@@ -26,13 +26,26 @@ double difference(const RunResult& a, const RunResult& b)
                   std::abs(b.summary.restitution / a.summary.restitution - 1));
 }
 
-/// What the fine run's error may be of the difference between both. In three dimensions (runs that tell of
-/// their planes) the cut surface lets errors fall like h and no faster: h/(H - h). Those of bodies of
-/// revolution fall faster than that; the difference to 0.7 of the resolution is at least half of them.
-double error_over_difference(const RunSummary& fine, const RunSummary& coarse, bool spatial)
+/// What grid noise may have done to a run's force or e: half of it, or the scatter of e between its grids.
+double noise_of(const RunSummary& s)
 {
-  if (!spatial) return 2;
-  return static_cast<double>(coarse.resolution) / std::max(1, fine.resolution - coarse.resolution);
+  return std::max(0.5 * s.grid_noise, s.restitution_spread / s.restitution / std::max(1, s.grids));
+}
+
+/// Of a body of revolution: errors fall faster than h, so that the difference to 0.7 of the resolution is at
+/// least half of them. Two runs may agree by chance: the noise bounds the error from below.
+double flat_error(double difference, const RunSummary& fine)
+{
+  return 2 * std::max(difference, noise_of(fine));
+}
+
+/// In three dimensions the cut surface lets errors fall like h and no faster: they are h/(H - h) of the
+/// difference. That is two to three, and it multiplies the noise of both runs, too.
+double spatial_error(double difference, const RunSummary& fine, const RunSummary& coarse)
+{
+  const double ratio =
+      static_cast<double>(coarse.resolution) / std::max(1, fine.resolution - coarse.resolution);
+  return ratio * std::hypot(difference, noise_of(fine), noise_of(coarse));
 }
 
 void add_cost(RunSummary& s, const RunSummary& other)
@@ -54,12 +67,9 @@ double error_between(const RunResult& fine, const RunResult& coarse)
 {
   const RunSummary& s = fine.summary;
   const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
-  // Two runs may agree by chance: the grid noise that the mean over the shifted grids has left, half of which
-  // a peak may be off, and the scatter of e between them, bound the error from below.
-  const double scatter = s.restitution_spread / s.restitution / std::max(1, s.grids);
-  return std::max(error_over_difference(s, coarse.summary, !fine.planes.empty()) *
-                      std::max(difference(fine, coarse), peak),
-                  2 * std::max(scatter, 0.5 * s.grid_noise));
+  const double largest = std::max(difference(fine, coarse), peak);
+  const bool spatial = !fine.planes.empty();  // such runs tell of their planes
+  return spatial ? spatial_error(largest, s, coarse.summary) : flat_error(largest, s);
 }
 
 RunResult run_with_estimate(const RunOptions& options, const Run& run)

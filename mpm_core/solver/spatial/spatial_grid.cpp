@@ -363,14 +363,11 @@ SpatialBody spatial_body(const SpatialSection& section)
 std::vector<double> graded_axis(double low, double high, const std::vector<FineZone>& zones, double coarsest,
                                 double shift, bool mirrored)
 {
-  // Each edge is 1/(1 - slope) times the one before. What growth costs is far below what the contact's own
-  // cells do (docs/evidence/cost.md), so that cells are better spent there.
-  constexpr double slope = 0.3;
   constexpr int samples = 4000;
   const auto edge = [&](double x) {
     double least = coarsest;
     for (const FineZone& z : zones)
-      least = std::min(least, z.edge + slope * std::max({0.0, z.low - x, x - z.high}));
+      least = std::min(least, z.edge + z.growth * std::max({0.0, z.low - x, x - z.high}));
     return least;
   };
   // index of the line at x, a real number: integral of dx/edge

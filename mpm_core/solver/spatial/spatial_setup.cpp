@@ -18,8 +18,10 @@ namespace {
 constexpr double same = 1e-9;  ///< directions closer than this are one
 /// Radii of curvature between these count for the size of a contact, in R.
 constexpr double sharpest = 1e-3, flattest = 5;
-/// Coarsest cells, over the body's smallest half width.
-constexpr double coarsest_share = 0.15;
+/// A cell at the distance d from the block, of half width b, has an edge of (b + growth d)/cells, at most
+/// this share of the body's smallest half width over cells. So all edges shrink as one: two resolutions tell
+/// the error of every part.
+constexpr double growth = 3, coarsest_share = 1.5;
 /// Cells in a rounded edge that touches: with fewer the force creeps.
 constexpr double cells_in_edge = 4;
 
@@ -240,11 +242,11 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
           std::abs(t.sharper_direction[d]) * block[0] + std::abs(t.flatter_direction[d]) * block[1];
       const double edge = edges_of(t, planes_[k].normal, deepest, cells)[d];
       finest = std::min(finest, edge);
-      zones.push_back(
-          {t.place[d] - reach + std::min(0.0, depth), t.place[d] + reach + std::max(0.0, depth), edge});
+      zones.push_back({t.place[d] - reach + std::min(0.0, depth), t.place[d] + reach + std::max(0.0, depth),
+                       edge, growth / cells});
     }
     const double low = mirrored_[d] ? 0.0 : low_[d];
-    const double coarsest = coarsest_share * std::min(1.0, (high_ - low_).minCoeff() / 2);
+    const double coarsest = coarsest_share / cells * std::min(1.0, (high_ - low_).minCoeff() / 2);
     s.lines[d] = graded_axis(low, high_[d], zones, std::max(coarsest, finest), shift, mirrored_[d]);
   }
   return s;
