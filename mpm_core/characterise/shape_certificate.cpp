@@ -61,7 +61,14 @@ std::vector<CertifiedImpact> impacts_of(const Solid& solid, const ShapeQuestion&
   return impacts;
 }
 
-/// The impacts, spread over all, that are made again with fewer cells: what these cells cost.
+/// Cells of the runs that tell what `resolution` costs: fewer, or more where there are no fewer.
+int compared_resolution(int resolution)
+{
+  const int coarse = coarse_partner(resolution);
+  return coarse < resolution ? coarse : 4 * resolution / 3;
+}
+
+/// The impacts, spread over all, that are made again at another resolution.
 std::vector<std::size_t> repeated(std::size_t count)
 {
   const std::size_t picks = std::min<std::size_t>(count, 4);
@@ -92,16 +99,39 @@ RunJob job_of(const Particle& particle, const std::string& body, const Certified
   return job;
 }
 
-/// Relative error of the runs, by what fewer cells changed in some of them. Their mean is what all runs share
-/// and falls like h: h/(H - h) of it is left. Their scatter is the noise of two single grids, of which the
-/// finer one has a share of 1/sqrt(2); twice that bounds 95 % of the runs.
-double error_of_cells(const std::vector<double>& changes, double fine, double coarse)
+/// Relative error of runs of `cells`, by what `other` cells changed in some of them. The mean of the changes
+/// is what all runs share and falls like h: h/(H - h) of it is left. Their scatter is the noise of two single
+/// grids, of which one has a share of 1/sqrt(2); twice that bounds 95 % of the runs.
+double error_of_cells(const std::vector<double>& changes, double cells, double other)
 {
   const auto count = static_cast<double>(changes.size());
   double mean = 0, squares = 0;
   for (const double change : changes) mean += change / count;
   for (const double change : changes) squares += (change - mean) * (change - mean);
-  return std::hypot(coarse / (fine - coarse) * mean, std::sqrt(2 * squares / (count - 1)));
+  return std::hypot(other / (cells - other) * mean, std::sqrt(2 * squares / (count - 1)));
+}
+
+/// Largest force and e of the contact: the centre's velocities say little of it.
+ContactAnswer answer_of(const RunResult& run, const CertifiedImpact& impact, const MassProperties& of_one,
+                        double density)
+{
+  const Eigen::Matrix3d turned = rotation_to_plane(impact.direction(), impact.turn);
+  const RigidBody rigid{density * of_one.volume, density * turned * of_one.inertia * turned.transpose()};
+  return {run.summary.force_max, energetic_restitution(run, rigid, impact.check.velocity)};
+}
+
+/// Relative, of F and e. `answers`: of all impacts, then of those of `again` at the other resolution.
+double solver_error(const std::vector<ContactAnswer>& answers, const std::vector<std::size_t>& again,
+                    std::size_t count, int resolution)
+{
+  std::vector<double> in_force, in_restitution;
+  for (std::size_t k = 0; k < again.size(); ++k) {
+    const ContactAnswer &own = answers[again[k]], &other = answers[count + k];
+    in_force.push_back(other.force_max / own.force_max - 1);
+    in_restitution.push_back(other.restitution / own.restitution - 1);
+  }
+  const double cells = resolution, other = compared_resolution(resolution);
+  return std::max(error_of_cells(in_force, cells, other), error_of_cells(in_restitution, cells, other));
 }
 
 /// The law's answer; nothing where the overlap leaves its table.
@@ -133,7 +163,7 @@ ShapeCertificate certify_shape(const Particle& particle, const BodyLaw& law, con
          fmt::format("{} materials", particle.materials.size()), "one");
   const std::shared_ptr<const Solid> solid = solid_of(particle);
   const MassProperties of_one = solid->mass_properties();
-  const double density = particle.materials[0].density, mass = density * of_one.volume;
+  const double density = particle.materials[0].density;
   ShapeCertificate certificate;
   certificate.shape = shape_text(*solid), certificate.volume = of_one.volume;
   certificate.mirrors = solid->symmetric();
@@ -142,33 +172,22 @@ ShapeCertificate certify_shape(const Particle& particle, const BodyLaw& law, con
   const std::vector<std::size_t> again = repeated(count);
   for (const std::size_t k : again) {
     impacts.push_back(impacts[k]);
-    impacts.back().cells = coarse_partner(question.resolution);
+    impacts.back().cells = compared_resolution(question.resolution);
   }
   const std::string body = fmt::format("{} {}", solid->definition(), description_of(particle.materials[0]));
   std::vector<RunJob> jobs;
   for (const CertifiedImpact& impact : impacts) jobs.push_back(job_of(particle, body, impact));
-  std::vector<RunResult> runs = farm.run_all(jobs, progress);
+  const std::vector<RunResult> runs = farm.run_all(jobs, progress);
 
-  for (std::size_t k = 0; k < impacts.size(); ++k) {
-    OrientationCheck& check = impacts[k].check;
-    RunSummary& summary = runs[k].summary;
-    const Eigen::Matrix3d turned = rotation_to_plane(impacts[k].direction(), impacts[k].turn);
-    const RigidBody rigid{mass, density * turned * of_one.inertia * turned.transpose()};
-    // of the contact: the centre's velocities say little of it
-    summary.restitution = energetic_restitution(runs[k], rigid, check.velocity);
-    check.solver = {summary.force_max, summary.restitution};
-    replay(check, law, mass * check.effective_mass);
-    if (k < count) certificate.checks.push_back(check);
+  std::vector<ContactAnswer> answers;
+  for (std::size_t k = 0; k < impacts.size(); ++k)
+    answers.push_back(answer_of(runs[k], impacts[k], of_one, density));
+  for (std::size_t k = 0; k < count; ++k) {
+    certificate.checks.push_back(impacts[k].check);
+    certificate.checks.back().solver = answers[k];
+    replay(certificate.checks.back(), law, density * of_one.volume * impacts[k].check.effective_mass);
   }
-  std::vector<double> in_force, in_restitution;
-  for (std::size_t k = 0; k < again.size(); ++k) {
-    const RunSummary &fine = runs[again[k]].summary, &coarse = runs[count + k].summary;
-    in_force.push_back(coarse.force_max / fine.force_max - 1);
-    in_restitution.push_back(coarse.restitution / fine.restitution - 1);
-  }
-  const double cells = question.resolution, fewer = coarse_partner(question.resolution);
-  certificate.solver_error =
-      std::max(error_of_cells(in_force, cells, fewer), error_of_cells(in_restitution, cells, fewer));
+  certificate.solver_error = solver_error(answers, again, count, question.resolution);
   return certificate;
 }
 

@@ -1,5 +1,7 @@
 #include "solver/time_step.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -242,12 +244,13 @@ template <>
 double StableStep<SpatialBody>::limit(const SpatialBody& body) const
 {
   const CellGrowth now = spatial_kernels().growth(body);
-  if (!(now.least_volume > 0))
+  if (!(now.least_volume > 0) || now.largest > squeezed * squeezed)
     fail(
         "solver",
-        "a cell was turned inside out: the body is squeezed further than a reference grid can follow (planes "
-        "from all sides: beyond a nominal density of about 1.1); stay below this depth or take a finer grid");
-  if (now.largest > squeezed * squeezed) fail_squeezed();
+        fmt::format("a cell was {}: the body is squeezed further than a reference grid can follow (planes "
+                    "from all sides: beyond a nominal density of about 1.1); stay below this depth or take a "
+                    "finer grid",
+                    now.least_volume > 0 ? "squeezed to a fiftieth of its size" : "turned inside out"));
   // At the surface a cut lets the frequencies be up to twice those of a filled cell: there they grow from the
   // highest of the body at rest.
   return 2 / std::sqrt(std::max(omega_ * omega_ * std::max(1.0, now.cut), now.filled_omega2));

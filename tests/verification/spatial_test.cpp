@@ -64,7 +64,7 @@ TEST(SpatialPatch, LinearFieldIsExact)
   int cut = 0;
   for (const SpatialCell& cell : b.cells) cut += cell.cut >= 0 ? 1 : 0;
   EXPECT_GT(cut, 100);
-  for (const auto [size, left] : {std::pair{0.2, 1e-12}, std::pair{1.0, 1e-9}}) {
+  for (const auto& [size, left] : {std::pair{0.2, 1e-12}, std::pair{1.0, 1e-9}}) {
     displace(b, size * stretch, {0.4, -0.2, 0.1});
     spatial_kernels().internal_force(b, false);
     const double expected = energy_density(Eigen::Matrix3d::Identity() + size * stretch, elastic);
