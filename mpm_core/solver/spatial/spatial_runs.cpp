@@ -13,6 +13,7 @@
 #include "solver/run/mean_run.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/solid/body_frame.hpp"
+#include "solver/spatial/first_contact.hpp"
 #include "solver/spatial/planes_programme.hpp"
 #include "solver/spatial/spatial_setup.hpp"
 
@@ -140,9 +141,10 @@ RunResult run_body_impact(const Particle& particle, const BodyThrow& thrown, con
         const Eigen::Matrix3d exact = setup.inertia();
         const ReboundMeter meter(run.scene, homogeneous ? &exact : nullptr);
         throw_body(body, velocity, spin, run.scene.centre);
-        if (thrown.first_contact_only)
-          run.scene.watched = {setup.first_contact() - run.scene.centre, meter.inertia_at_rest().inverse()};
-        FreeFlight<SpatialScene> programme(duration);
+        FreeFlight<SpatialScene> whole(duration);
+        FirstContact first(duration, setup.first_contact() - run.scene.centre, meter.inertia_at_rest());
+        BasicProgramme<SpatialScene>& programme =
+            thrown.first_contact_only ? static_cast<BasicProgramme<SpatialScene>&>(first) : whole;
         run.run(
             programme, {fields, scale, duration}, progress, [](const TraceSample&) {}, checkpoint);
         RunSummary& s = run.result.summary;

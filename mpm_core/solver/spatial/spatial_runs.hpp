@@ -20,8 +20,8 @@ struct BodyThrow
   /// along which the tangential velocity is.
   std::array<double, 3> orientation{0, 0, -1};
   double turn = 0;  ///< rad, by which the body is turned about the plane's normal
-  /// The run ends with the first contact. Otherwise it ends when the centre of mass leaves: an eccentric body
-  /// may turn over its first contact and hit again elsewhere.
+  /// The run ends with the first contact, and overlaps are those of the point there. Otherwise it ends when
+  /// the centre of mass leaves: an eccentric body may turn over its first contact and hit again elsewhere.
   bool first_contact_only = false;
 };
 

@@ -49,16 +49,4 @@ void SpatialScene::end_sample(double time, std::vector<PlaneTrace>& traces)
   }
 }
 
-double SpatialScene::separation_velocity() const
-{
-  const SpatialBody& body = bodies.front();
-  Vector3 velocity = mean_velocity(body);
-  if (watched) {
-    const Vector3 now = centre + Vector3(body.travel[0], body.travel[1], body.travel[2]);
-    const Vector3 spin = watched->inverse_inertia * of_whole(body, angular_momentum(body, now));
-    velocity += spin.cross(watched->arm);
-  }
-  return normal.dot(velocity);
-}
-
 }  // namespace granulaw

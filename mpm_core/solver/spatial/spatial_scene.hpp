@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "solver/output/trace.hpp"
 #include "solver/scene.hpp"
 #include "solver/spatial/spatial_motion.hpp"
@@ -20,14 +18,6 @@ struct SpatialScene : BasicScene<SpatialBody>
 
   Vector3 centre = Vector3::Zero();  ///< centre of mass of the undeformed body
 
-  /// A point of the body as a rigid one: from the centre of mass, and the inverse of the tensor of inertia.
-  struct Watched
-  {
-    Vector3 arm;
-    Eigen::Matrix3d inverse_inertia;
-  };
-  std::optional<Watched> watched{};  ///< whose leaving counts; none: the centre of mass
-
   /// Adds what each plane did over a sample of length `time`.
   void end_sample(double time, std::vector<PlaneTrace>& planes);
 
@@ -37,8 +27,8 @@ struct SpatialScene : BasicScene<SpatialBody>
     const SpatialBody& body = bodies.front();
     return -(normal[0] * body.travel[0] + normal[1] * body.travel[1] + normal[2] * body.travel[2]);
   }
-  /// Speed at which the centre of mass, or the watched point, leaves that plane.
-  double separation_velocity() const;
+  /// Speed at which it leaves that plane.
+  double separation_velocity() const { return normal.dot(mean_velocity(bodies.front())); }
 };
 
 }  // namespace granulaw
