@@ -350,7 +350,7 @@ class Particles(Geometry):
 
     def test_multisphere_as_it_is(self):
         """A law without velocity axis gives a clump its forces, whatever mass LIGGGHTS hands over: what the body loses is what the
-        law dissipated. (With an axis: refused, test_combinations.py.)"""
+        law dissipated."""
         (self.folder / "clump.txt").write_text(f"{-0.5 * RADIUS!r} 0 0 {RADIUS!r}\n{0.5 * RADIUS!r} 0 0 {RADIUS!r}\n")
         deck = (self.pair("mpm", half=10 * RADIUS, skin=RADIUS / 2) + self.wall("mpm", f"primitive type 1 zplane {-10 * RADIUS!r}") +
                 f"fix t0 all particletemplate/multisphere 15485863 atom_type 1 density constant {POWDER.density} nspheres 2 "
