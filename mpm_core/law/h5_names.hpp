@@ -137,7 +137,7 @@ inline constexpr Field atlas_error_restitution{"atlas_error_restitution", "1",
 // bodies/<name>/orientations: lists of equal length, one entry for each impact
 inline constexpr Field shape_volume{"volume", "m^3", "volume of the body"};
 inline constexpr Field orientations_solver_error{"solver_error", "1",
-                                                 "relative, of F_max and e: four impacts by two resolutions, rms"};
+                                                 "relative, of F_max and e: four impacts by two resolutions"};
 inline constexpr Field mirrors{"mirrors", "1",
                                "1: the plane x = 0 (y, z) is a mirror of the body; entries lie on one side"};
 inline constexpr Field contact_kind{

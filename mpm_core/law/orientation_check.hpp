@@ -57,7 +57,7 @@ struct ShapeCertificate
   std::string shape;                     ///< which body it is of, on one line
   std::array<bool, 3> mirrors{};         ///< the body's mirror planes x, y, z = 0: the checks lie on one side
   double volume = 0;                     ///< m^3
-  double solver_error = 0;               ///< relative, of F and e: four directions by two resolutions, rms
+  double solver_error = 0;               ///< relative, of F and e: four directions by two resolutions
   std::vector<OrientationCheck> checks;  ///< by velocity, then by direction
 
   ErrorQuantiles force() const;
