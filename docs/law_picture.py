@@ -12,9 +12,12 @@ import argparse
 import csv
 import json
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "examples/common"))
+import one_sentence  # noqa: E402, F401
 import matplotlib
 
 matplotlib.use("Agg")

@@ -4,8 +4,11 @@
 docs/theory/three-dimensions.png is made by
   mpm impact materials.toml --particle grain --velocity 60 --orientation 0,0.3,1 --resolution 8 --shifted-grids 1 --frames 12 --fields fields.xdmf
 of an ellipsoid with half axes 0.8, 1, 1.4 mm, E = 0.91 GPa, nu = 0.3, Y = 10 MPa, 1000 kg/m^3."""
+import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "examples/common"))
+import one_sentence  # noqa: E402, F401
 import h5py
 import matplotlib
 import numpy as np

@@ -12,6 +12,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "common"))
+import one_sentence  # noqa: E402, F401
 import marks, sweep  # noqa: E401, E402
 
 MARK = "planned.py"

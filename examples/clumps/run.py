@@ -10,6 +10,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "common"))
+import one_sentence  # noqa: E402, F401
 from clump_hopper import DENSITY, add_options, clump_template, prepared, report, sphere_template
 
 RADIUS = 2.2e-3  # m, of the spheres of a clump

@@ -9,6 +9,8 @@ def command(doc, page, name, table, argv=None):
     parser.add_argument("out", type=pathlib.Path, help="folder that holds the decks' outputs")
     parser.add_argument("--write", action="store_true", help=f"into {page.parent.name}/{page.name}")
     args = parser.parse_args(argv)
+    if not args.out.is_dir():
+        raise SystemExit(f"{args.out}: no such folder")
     put(page, name, table(args.out), args.write)
 
 

@@ -3,6 +3,7 @@
 import sys
 from pathlib import Path
 
+import one_sentence  # noqa: F401
 import matplotlib
 
 matplotlib.use("Agg")

@@ -7,11 +7,11 @@ Writes report.md, compression.csv and compression.png."""
 import pathlib
 import sys
 
-import numpy as np
-
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 sys.path.append(str(HERE.parent / "hopper"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 import clouds, pictures, readings, sweep  # noqa: E401, E402
 from make_scene import write_stl  # noqa: E402
 from spread import write_tables  # noqa: E402

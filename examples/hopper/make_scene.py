@@ -17,8 +17,12 @@ import argparse
 import json
 import math
 import os
+import pathlib
+import sys
 
-import numpy as np
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 
 FACETS = 48  # around the axis
 

@@ -11,6 +11,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
+import one_sentence  # noqa: E402, F401
 import ranks  # noqa: E402
 
 

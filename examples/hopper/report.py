@@ -10,13 +10,16 @@ import argparse
 import csv
 import json
 import os
+import pathlib
+import sys
 
-import numpy as np
-
-import measures
-import pictures
-from measures import Value
-from runs import read_runs
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
+import measures  # noqa: E402
+import pictures  # noqa: E402
+from measures import Value  # noqa: E402
+from runs import read_runs  # noqa: E402
 
 
 def text(value, error=None, digits=4):

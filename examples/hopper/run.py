@@ -13,11 +13,11 @@ import re
 import subprocess
 import sys
 
-import numpy as np
-
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 sys.path.append(str(HERE))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 import measures, pictures, readings, sweep  # noqa: E401, E402
 from runs import Run  # noqa: E402
 from spread import markdown, tabulate  # noqa: E402

@@ -11,10 +11,12 @@ degree is a sum of Legendre polynomials P_l(n.k) about random axes k. The clump'
 of the largest ones at every vertex, those that bring the most vertices within a twentieth of the radius, one by one."""
 import argparse
 import pathlib
-
-import numpy as np
+import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / "common"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 
 
 def icosphere(halvings):

@@ -11,10 +11,10 @@ import pathlib
 import subprocess
 import sys
 
-import numpy as np
-
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 from clump_hopper import DENSITY, add_options, clump_template, prepared, program, report, sphere_template
 
 RADIUS = 3e-3  # m, of the sphere of the grain's volume: the scale of grain.stl and grain.clump

@@ -9,11 +9,11 @@ import pathlib
 import shutil
 import sys
 
-import h5py
-import numpy as np
-
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
+import one_sentence  # noqa: E402, F401
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
 import clouds, pictures, readings, sweep  # noqa: E401, E402
 from spread import write_tables  # noqa: E402
 

@@ -9,10 +9,10 @@ import json
 import pathlib
 import sys
 
-import numpy as np
-
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent / "common"), str(HERE.parent)]
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 import clouds, planned, sweep  # noqa: E401, E402
 from run import DENSITY, RADIUS  # noqa: E402
 

@@ -11,10 +11,10 @@ import pathlib
 import shutil
 import sys
 
-import numpy as np
-
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 import clouds, ranks, readings  # noqa: E401, E402
 
 

@@ -10,10 +10,10 @@ import pathlib
 import subprocess
 import sys
 
-import numpy as np
-
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 import pictures, readings, sweep  # noqa: E401, E402
 from spread import write_tables  # noqa: E402
 

@@ -6,7 +6,11 @@ the left, at some moments between first touch and the end; under them the same n
 wall is drawn below, where it is. Lengths are in units of the first particle's largest radius.
 """
 import argparse
+import pathlib
+import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))  # in the sources; else it lies beside
+import one_sentence  # noqa: E402, F401
 import h5py
 import matplotlib
 

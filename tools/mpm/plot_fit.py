@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 """Draws data, fit and its 95 % band: plot_fit.py RESULT.json PICTURE. Called by `mpm calibrate --plot`."""
 import json
+import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))  # in the sources; else it lies beside
+import one_sentence  # noqa: E402, F401
 import matplotlib
 
 matplotlib.use("Agg")

@@ -4,8 +4,11 @@
 Left, force against overlap with unloading branches; right, e against V/V_y, Thornton (1997) beside it.
 Dimensionless, one colour a material.
 """
+import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))  # in the sources; else it lies beside
+import one_sentence  # noqa: E402, F401
 import h5py
 import matplotlib
 

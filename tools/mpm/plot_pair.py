@@ -3,8 +3,11 @@
 
 Left, force against overlap with unloading branches; right, e against approach speed."""
 import json
+import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))  # in the sources; else it lies beside
+import one_sentence  # noqa: E402, F401
 import matplotlib
 
 matplotlib.use("Agg")

@@ -6,8 +6,11 @@ Each impact direction is a dot on the whole sphere of directions (mirrored where
 map: left the error of F_max, right that of e. Crosses: no sphere is like the contact."""
 import itertools
 import json
+import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))  # in the sources; else it lies beside
+import one_sentence  # noqa: E402, F401
 import matplotlib
 
 matplotlib.use("Agg")

@@ -4,8 +4,11 @@
     make_completion.py FILE --mpm PROGRAM"""
 import argparse
 import pathlib
+import sys
 
-import help_text
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))
+import one_sentence  # noqa: E402, F401
+import help_text  # noqa: E402
 
 # Which files a positional argument names; of a deck no ending is agreed on.
 ENDINGS = {"MATERIALS": "toml", "LAW": "h5", "DECK": "", "DATA": "csv"}

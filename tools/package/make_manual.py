@@ -6,8 +6,11 @@ import argparse
 import gzip
 import pathlib
 import re
+import sys
 
-import help_text
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))
+import one_sentence  # noqa: E402, F401
+import help_text  # noqa: E402
 
 EXIT_STATUS = [("0", "done"), ("1", "the input cannot be used: one sentence on stderr says why"),
                ("2", "the command line cannot be understood"), ("130", "stopped by Ctrl-C")]
