@@ -60,7 +60,7 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
 
 void FixStats::read_keywords(int narg, char** arg)
 {
-  nevery = 0;
+  nevery = 1;
   for (int i = 3; i < narg; i += 2) {
     const std::string key = arg[i], value = i + 1 < narg ? arg[i + 1] : "";
     if ((key != "file" && key != "every") || value.empty())
@@ -74,16 +74,16 @@ void FixStats::read_keywords(int narg, char** arg)
         stop_all(lmp,
                  fmt::format("fix {} granulaw/stats: 'every' needs a number of steps, 1 or more, found '{}'",
                              id, value));
-      nevery = static_cast<int>(steps);
+      every_ = static_cast<int>(steps);
     }
   }
-  if (nevery && path_.empty())
+  if (every_ && path_.empty())
     stop_all(lmp, fmt::format("fix {} granulaw/stats: 'every N' needs 'file FILE' to write to", id));
 }
 
 int FixStats::setmask()
 {
-  return LAMMPS_NS::FixConst::PRE_FORCE | (nevery ? LAMMPS_NS::FixConst::END_OF_STEP : 0);
+  return LAMMPS_NS::FixConst::PRE_FORCE | LAMMPS_NS::FixConst::END_OF_STEP;
 }
 
 bool FixStats::speaks() const
@@ -151,6 +151,7 @@ void FixStats::warn_of_long_steps() const
 void FixStats::setup(int)
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
+  if (writes_stats()) add_energies();
   if (!speaks()) return;
   warn_of_clumps();
   warn_of_lost_contacts();
@@ -193,6 +194,39 @@ double FixStats::stored_energy() const
   double sum = 0.0;
   for (int a = 0; a < atom->nlocal; ++a) sum += session_->tally.per_atom[a][EnergyTally::stored];
   return sum;
+}
+
+bool FixStats::writes_stats() const
+{
+  return !path_.empty() ||
+         (speaks() && session_->pair_options && !session_->pair_options->stats_path.empty());
+}
+
+void FixStats::add_energies()
+{
+  EnergySeries::Row row{};
+  double fastest2 = 0;
+  for (int a = 0; a < atom->nlocal; ++a) {
+    const double *v = atom->v[a], *omega = atom->omega ? atom->omega[a] : nullptr;
+    const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    row[EnergySeries::particles] += 1;
+    row[EnergySeries::kinetic] += 0.5 * atom->rmass[a] * v2;
+    if (omega && atom->radius)
+      row[EnergySeries::rotational] +=
+          0.2 * atom->rmass[a] * atom->radius[a] * atom->radius[a] *
+          (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]);
+    fastest2 = std::max(fastest2, v2);
+  }
+  const ContactStatistics::Pair counts = session_->statistics.total();
+  row[EnergySeries::dissipated] = counts.dissipated;
+  row[EnergySeries::waves] = counts.waves;
+  row[EnergySeries::elastic] = stored_energy();
+  row[EnergySeries::other_work] = counts.other_work;
+  MPI_Allreduce(MPI_IN_PLACE, row.data(), EnergySeries::columns, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, &fastest2, 1, MPI_DOUBLE, MPI_MAX, world);
+  row[EnergySeries::time] = update->get_cur_time();
+  row[EnergySeries::fastest] = std::sqrt(fastest2);
+  energies_.add(update->ntimestep, row);
 }
 
 double FixStats::compute_scalar()
@@ -250,6 +284,8 @@ double FixStats::compute_array(int row, int column)
 void FixStats::end_of_step()
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
+  if (energies_.due(update->ntimestep) && writes_stats()) add_energies();
+  if (!every_ || update->ntimestep % every_ != 0) return;
   const ContactStatistics sum = total();
   if (comm->me == 0) write_files(sum);
 }
@@ -257,6 +293,7 @@ void FixStats::end_of_step()
 void FixStats::post_run()
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
+  if (writes_stats()) add_energies();
   const ContactStatistics sum = total();
   if (comm->me != 0) return;
   write_files(sum);
@@ -306,7 +343,9 @@ void FixStats::write_json(const ContactStatistics& sum, const std::string& path)
       "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"damage_number_limit_of_law\": {:.6g},\n"
       "  \"inertia_number_limit_of_law\": {:.6g},\n",
       version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_,
-      session_->damage_number_limit, session_->damage_number_limit);
+      session_->damage_number_limit, session_->damage_number_limit) +
+      fmt::format("  \"series\": {{\n{}\n  }},\n",
+                  energies_.json(deck_units(), session_->energy != nullptr, "    "));
   try {
     write_text_atomically(path, to_json(sum, header, deck_units()));
   } catch (const Error&) {

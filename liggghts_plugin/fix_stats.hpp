@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "liggghts_plugin/energy_series.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
 
@@ -62,6 +63,9 @@ class FixStats : public LAMMPS_NS::Fix
   /// `with_open`: as the ranks keep it, with the contacts that are open (ContactStatistics::Pair::overlap).
   ContactStatistics sum_of_ranks(bool with_open) const;
   double stored_energy() const;
+  bool writes_stats() const;
+  /// A row of the energies over time. Collective.
+  void add_energies();
   void write_json(const ContactStatistics& sum, const std::string& path) const;
   void write_files(const ContactStatistics& sum) const;
   void print(const std::string& text) const;
@@ -77,6 +81,8 @@ class FixStats : public LAMMPS_NS::Fix
   std::shared_ptr<Session> session_;
   std::string path_, last_table_;
   double largest_dt_ = 0;
+  int every_ = 0;  ///< steps between two files; 0: at the end of a run alone
+  EnergySeries energies_;
   ContactStatistics rows_;  // of compute_array: total() of step_of_rows_
   LAMMPS_NS::bigint step_of_rows_ = -1;
 };

@@ -1,12 +1,14 @@
 """The first page of the guide works as it stands: its materials file, its command, its deck."""
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-PAGE = (Path(__file__).resolve().parents[2] / "docs/guide/first-flow.md").read_text()
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs/guide/first-flow.md").read_text()
 
 
 def block(beginning):
@@ -32,7 +34,24 @@ class FirstFlow(unittest.TestCase):
             self.assertIn("granulaw contact laws", log)
             self.assertNotIn("WARNING: granulaw", log)
             self.assertRegex(log, r"(?m)^ +100000 +150 ")  # all particles are there at the end
-            self.assertTrue((Path(folder) / "stats.json").exists())
+            # the page's picture: all particles are in its frame, and the script draws it
+            frame = [line.split() for line in (Path(folder) / "frame_30000.txt").read_text().splitlines()[9:]]
+            self.assertEqual(len(frame), 150)
+            self.assertTrue(all(0 < float(row[3]) < 0.075 for row in frame))
+            (Path(folder) / "frame.py").write_text(block("import matplotlib"))
+            run("/usr/bin/python3", "frame.py")
+            self.assertEqual((Path(folder) / "frame.png").read_bytes()[:4], b"\x89PNG")
+            if os.environ.get("GRANULAW_KEEP_FRAME"):
+                shutil.copy(Path(folder) / "frame.png", os.environ["GRANULAW_KEEP_FRAME"])
+            # a deck that is no example: its contacts, energies and speeds
+            told = run(ROOT / "tools/report", "--from", ".", "-o", "page")
+            self.assertIn("contacts: stats.json", told)
+            page = (Path(folder) / "page/report.md").read_text()
+            self.assertRegex(page, r"\| stats.json \| wax-wax, particles \| \d+ \|")
+            for name in ("contacts-1.png", "run-1.png"):
+                self.assertIn(f"]({name})", page)
+                self.assertTrue((Path(folder) / "page" / name).exists())
+            self.assertNotIn("no energies over time", page)
 
 
 if __name__ == "__main__":

@@ -103,6 +103,32 @@ class Stats(Deck):
             self.assertEqual("deeper than 90 %" in text, near == 1)
             self.assertEqual(wall["contact_steps_beyond_table"] > 0, past == 1)
 
+    def test_energies_over_time(self):
+        """The series of a gas: from its first state to its last, what was lost is what the contacts took; the same by two ranks."""
+        gas.data_file(self.folder / "gas.data")
+        model = gas.model(f"law {self.law} materials powder tangentialDampingRatio 0 stats s.json energy on")
+        found = []
+        for ranks in (1, 2):
+            self.run_deck(gas.start() + model + gas.MOVE + gas.OUTPUT + "run 2000\nrun 2000\n", ranks=ranks)
+            stats = json.loads((self.folder / "s.json").read_text())
+            series = stats["series"]
+            self.assertEqual({len(column) for column in series.values()}, {len(series["time_s"])})
+            self.assertTrue(200 <= len(series["time_s"]) <= 400)
+            self.assertEqual(series["time_s"][0], 0)
+            self.assertAlmostEqual(series["time_s"][-1] / stats["time_s"], 1, delta=1e-5)  # six digits
+            self.assertEqual(set(series["particles"]), {series["particles"][0]})
+            taken = stats["pair"]["normal_dissipation_J"] + stats["wall"]["normal_dissipation_J"]
+            self.assertAlmostEqual(series["normal_dissipation_J"][-1] / taken, 1, delta=1e-5)
+            total = [sum(series[name][k] for name in ("kinetic_J", "rotational_J", "normal_dissipation_J", "wave_dissipation_J", "elastic_J",
+                                                      "other_work_J")) for k in (0, -1)]
+            # six digits of each term; the time step's own error is smaller (test_energy.py)
+            self.assertAlmostEqual(total[1] / total[0], 1, delta=2e-5)
+            self.assertLess(series["kinetic_J"][-1], 0.99 * series["kinetic_J"][0])
+            found.append(series)
+        for name, column in found[0].items():  # of a chaotic gas: before rounding grows
+            for a, b in zip(column[:50], found[1][name][:50]):
+                self.assertAlmostEqual(a, b, delta=1e-5 * abs(a) + 1e-30, msg=name)
+
     def test_every(self):
         deck = wall_deck("mpm", f"law {self.law} materials powder", POWDER, RADIUS, 1.0, 2e-8)
         write = "fix s all granulaw/stats every 50 file s.json\nrun 120 every 60 \"shell cp s.json at_${n}.json\"\n"

@@ -178,7 +178,7 @@ class Formulas(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "law.h5"
             run_files.hertz_law(path)
-            law = contacts_part.Law(path, "wax")
+            law = contacts_part.Law(path, ("wax",))
         speed, overlap = law.impacts()
         # W ~ x^2.5, so V/V_onset = (x/x_onset)^1.25; trapezoids over 20000 steps in x^(1/4): 1e-4 from a tenth of the onset up
         for v, x in list(zip(speed, overlap))[::500]:
@@ -248,6 +248,71 @@ class Missing(unittest.TestCase):
             done = subprocess.run([ROOT / "tools" / "report", "--from", pathlib.Path(name) / "no"], capture_output=True, text=True)
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, r"^tools/report: .*/no is no folder; .*\n$")
+
+
+class OwnDecks(unittest.TestCase):
+    """Files of `stats FILE` in folders that no example made."""
+
+    def write(self, folder, name="results.json", **more):
+        folder.mkdir(parents=True, exist_ok=True)
+        content = {**run_files.stats([(0.01, 60), (1.0, 40)], [(1e-3, 60), (0.05, 40)]), **more}
+        for entry in content["pairs"]:
+            entry["law"] = "mpm mine.h5"
+        # as the plug-in writes it: these first
+        (folder / name).write_text('{\n  "granulaw_version": "0",\n  "time_step_used_s": 1e-6,\n' + json.dumps(content)[1:])
+
+    def series(self, rows=5):
+        return {"time_s": [0.1 * k for k in range(rows)], **{name: [k * 1e-4 for k in range(rows)] for name in
+                ("particles", "kinetic_J", "rotational_J", "normal_dissipation_J", "wave_dissipation_J", "fastest_particle_m_per_s")}}
+
+    def page(self, folder):
+        status, told = without_drawing(folder)
+        return status, told, (folder / "page" / "report.md").read_text()
+
+    def test_contacts_energies_and_speeds(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.write(folder / "mill", series=self.series())
+            run_files.hertz_law(folder / "mill" / "mine.h5")
+            status, told, text = self.page(folder)
+            self.assertEqual((status, told), (0, ""))
+            self.assertIn("| mill/results.json | wax-wax, particles | 100 |", text)
+            for figure in ("figure contacts-1", "figure run-1"):
+                self.assertIn(figure, text)
+            self.assertEqual(text.count("**Missing.**"), 2)  # solver, law
+            run, = contacts_part.read_own(folder, [])[0]
+            figure = contacts_part.picture_of_run(run)
+            energies, fastest, speeds = figure.axes
+            self.assertEqual(energies.get_ylabel(), "energy, µJ")
+            for line in energies.lines:
+                self.assertEqual(list(line.get_ydata()), [100.0 * k for k in range(5)])
+            self.assertEqual({line.get_label() for line in energies.lines}, {"kinetic", "rotation", "taken by normal contacts", "taken by waves"})
+            self.assertAlmostEqual(speeds.lines[0].get_xdata()[0] / 0.03, 1, delta=1e-12)  # the onset, as the file has it
+            page.plt.close(figure)
+
+    def test_a_body_that_does_not_yield(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.write(folder)
+            text = (folder / "results.json").read_text()
+            (folder / "results.json").write_text(text.replace('"onset_speed_m_per_s": 0.03', '"onset_speed_m_per_s": null'))
+            status, told, text = self.page(folder)
+            self.assertEqual((status, told), (0, ""))
+            self.assertRegex(text, r"\| 100 \| 0.01\d+ m/s \|")
+            self.assertIn("The file has no energies over time", text)
+
+    def test_what_cannot_be_used_is_one_sentence(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.write(folder, series={"time_s": [1, 2], "kinetic_J": [1]})
+            run_files.hertz_law(folder / "mine.h5")
+            status, told, text = self.page(folder)
+            self.assertEqual(status, 1)
+            self.assertRegex(told, r"^tools/report: \S+/results\.json: 'series' is no table with columns of one length\n$")
+            (folder / "mine.h5").unlink()
+            self.write(folder)
+            status, told, text = self.page(folder)
+            self.assertRegex(told, r"^tools/report: \S+/results\.json: its law 'mpm mine\.h5' is not there any more\n$")
 
 
 class Damaged(unittest.TestCase):

@@ -87,7 +87,9 @@ def main(law, picture):
             right.plot(np.sqrt(2 / np.pi * loaded) / v_y, np.sqrt(returned / loaded), c, label=label)
     v = np.geomspace(0.5, max(right.get_xlim()[1], 100), 400)
     right.plot(v, thornton(v), "k--", lw=1, label="Thornton 1997")
-    right.set(xscale="log", xlim=(0.5, v[-1]), ylim=(0, 1.05), xlabel="V / V_y", ylabel="coefficient of restitution e")
+    right.set(xscale="log", xlim=(0.5, v[-1]), ylim=(0, 1.05), xlabel="V / $V_y$", ylabel="coefficient of restitution e")
+    left.set_title("Force: loading, and unloading from four overlaps", fontsize=10)
+    right.set_title("Restitution of impacts on a rigid wall", fontsize=10)
     left.set(xlabel="overlap / R", ylabel="force / (Y R²)", xlim=(0, None), ylim=(0, None))
     for axis in (left, right):
         axis.grid(alpha=0.3)

@@ -5,6 +5,7 @@ Left, force against overlap with unloading branches; right, e against approach s
 import json
 import pathlib
 import sys
+import textwrap
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))  # in the sources; else it lies beside
 import one_sentence  # noqa: E402, F401
@@ -49,10 +50,12 @@ def main(picture):
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2))
     draw_forces(Axis(left), curves["force"])
     draw_restitutions(Axis(right), curves["restitution"])
+    left.set_title("Force: loading and unloading", fontsize=10)
+    right.set_title("Restitution", fontsize=10)
     for axis in (left, right):
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8)
-    figure.suptitle(curves["title"], fontsize=10)
+    figure.suptitle(textwrap.fill(curves["title"], 120), fontsize=10)
     figure.tight_layout()
     figure.savefig(picture, dpi=150)
 

@@ -8,6 +8,7 @@ import itertools
 import json
 import pathlib
 import sys
+import textwrap
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))  # in the sources; else it lies beside
 import one_sentence  # noqa: E402, F401
@@ -16,6 +17,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 
 def images(direction, mirrors):
@@ -40,7 +42,7 @@ def draw(axis, points, errors, unit, title):
         flat = [(q, e) for p, e in zip(places, errors) if np.isfinite(e) for q in p]
         colours = axis.scatter(*on_map([q for q, _ in flat]), c=[e for _, e in flat], cmap="RdBu_r", vmin=-limit, vmax=limit,
                                s=28, edgecolors="k", linewidths=0.3)
-        axis.figure.colorbar(colours, ax=axis, orientation="horizontal", shrink=0.8, pad=0.08, label=unit)
+        axis.figure.colorbar(colours, ax=axis, orientation="horizontal", shrink=0.8, pad=0.08, label=unit, ticks=MaxNLocator(5))
     axis.set_title(title, fontsize=10)
     axis.set_xticklabels([])
     axis.set_yticklabels([])
@@ -56,7 +58,7 @@ def main(picture):
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.4), subplot_kw={"projection": "mollweide"})
     draw(left, points, force, "law over solver, %", "largest force")
     draw(right, points, e, "law less solver", "coefficient of restitution e")
-    figure.suptitle(f"{told['name']}: spheres' law at the local radius, {told['orientations']}", fontsize=10, y=1.0)
+    figure.suptitle(textwrap.fill(f"{told['name']}: spheres' law at the local radius, {told['orientations']}", 120), fontsize=10, y=1.05)
     figure.savefig(picture, dpi=150, bbox_inches="tight")
 
 

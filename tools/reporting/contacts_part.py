@@ -1,4 +1,5 @@
-"""Where in (V/V_y, delta/R) the contacts of the flow lived, over the law they used: from the plug-in's stats.json and the law file."""
+"""Where in (V/V_y, delta/R) the contacts of the flow lived, over the law they used: from the plug-in's stats.json and the law file. Of
+decks that are no example also the energies over time and the speeds."""
 import math
 import pathlib
 import re
@@ -8,25 +9,31 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from . import files
+from .ensemble_part import is_member
 from .page import legend_below, number, plt
 
 BINS = 8  # a decade, as the plug-in counts
+MOST_RUNS = 12  # of decks that are no example
+ENERGIES = {"kinetic_J": "kinetic", "rotational_J": "rotation", "elastic_J": "elastic, in contacts", "normal_dissipation_J": "taken by normal contacts",
+            "wave_dissipation_J": "taken by waves", "other_work_J": "taken by friction and the like"}
 
 
 class Law:
-    """What the map needs of a law file (docs/reference/law-format.md): E*/Y, the onset, and the curve of a head-on impact."""
+    """What the map needs of a law file (docs/reference/law-format.md): E*/Y, the onset, and the curve of a head-on impact. Of two materials
+    it is the one whose yield stress is lower."""
 
-    def __init__(self, path, material):
+    def __init__(self, path, materials):
         try:
             with h5py.File(path) as file:
-                body = file["bodies"][material]
+                found = [(file["bodies"][m]["material/yield_stress"][()], m) for m in materials if m in file["bodies"] and "yield_stress" in file["bodies"][m]["material"]]
+                body = file["bodies"][min(found)[1] if found else materials[0]]
                 get = lambda part, name: body[part][name][()]
                 e_star = get("material", "youngs_modulus") / (1 - get("material", "poisson_ratio")**2)
                 self.ratio = float(e_star / get("material", "yield_stress"))
                 self.s_end, self.onset = float(get("curve", "s_end")), float(get("curve", "onset"))
                 self.g, self.slope = get("curve", "force_ratio"), get("curve", "force_ratio_slope")
         except (OSError, KeyError, ValueError, RuntimeError) as error:
-            raise files.Unreadable(path, f"not a law file with material '{material}' ({str(error).splitlines()[0]})") from None
+            raise files.Unreadable(path, f"not a law file with material '{materials[0]}' ({str(error).splitlines()[0]})") from None
 
     @property
     def yield_per_onset(self):
@@ -54,20 +61,23 @@ class Law:
 
 
 class Contacts:
-    """All contacts of one kind of pair in one deck's runs. Speeds in V/V_y, overlaps over R*."""
+    """All contacts of one kind of pair in one deck's runs. Speeds in V/V_y (`law` None, which is of a body that does not yield: in m/s),
+    overlaps over R*."""
 
     def __init__(self, key, law, entry, path):
         self.kind, self.materials = key
         self.law = law
         onset, limit, inertia = (entry.get(k) for k in ("onset_speed_m_per_s", "overlap_over_radius_limit", "inertia_number_limit"))
-        files.rows_with(path, [entry], ("onset_speed_m_per_s", "overlap_over_radius_limit"))
-        self.yield_speed, self.limit = onset * law.yield_per_onset, limit
-        self.fastest = law.fastest(inertia) if inertia else None
+        if law:
+            files.rows_with(path, [entry], ("onset_speed_m_per_s", "overlap_over_radius_limit"))
+        self.yield_speed, self.limit = onset * law.yield_per_onset if law else 1.0, limit
+        self.fastest = law.fastest(inertia) if law and inertia else None
+        self.onset = 1 / law.yield_per_onset if law else None
         self.begun = self.beyond = self.beyond_axis = self.below_axis = 0.0
         self.speed, self.overlap = {}, {}
         self.joint, self.mapped = {}, True  # (bin of speed, of overlap): contacts that ended; of every run, or not at all
         self.speed_max = self.overlap_max = 0.0
-        self.scale = limit * (law.s_end**-4)  # lambda: x of the law to overlap/R*
+        self.scale = limit * (law.s_end**-4) if law else None  # lambda: x of the law to overlap/R*
 
     def add(self, entry, path):
         files.rows_with(path, [entry], ("contacts_begun", "contact_steps_beyond_table"))
@@ -134,21 +144,42 @@ class Contacts:
     def elastic_share(self):
         """Of the contacts, those slower than the onset of yield (the bin of the onset is cut in proportion)."""
         edges, counts = self.histogram("speed")
-        onset = 1 / self.law.yield_per_onset
-        parts = np.clip(np.log(onset / edges[:-1]) / np.log(edges[1:] / edges[:-1]), 0, 1)
+        if not self.law:
+            return 1.0
+        parts = np.clip(np.log(self.onset / edges[:-1]) / np.log(edges[1:] / edges[:-1]), 0, 1)
         return float(np.sum(parts * counts) / np.sum(counts))
 
 
 def law_of(run, entry):
-    """The law file that a run used: named by its `command` or by stats.json, else the one beside its folder."""
+    """The law file that a run used: named by its `command` or by stats.json, else the one in or beside its folder."""
     names = []
     if (run / "command").is_file():
         names += re.findall(r"-var law (\S+)", (run / "command").read_text(errors="replace"))
     names += re.findall(r"\S+\.h5", str(entry.get("law", "")))
     root = pathlib.Path(__file__).resolve().parents[2]
-    candidates = [base / name for name in names for base in (pathlib.Path("."), root, run.parent)]
-    candidates += [run.parent / pathlib.Path(name).name for name in names] + sorted(run.parent.glob("*.h5"))
+    candidates = [base / name for name in names for base in (run, pathlib.Path("."), root, run.parent)]
+    candidates += [base / pathlib.Path(name).name for base in (run, run.parent) for name in names] + sorted(run.parent.glob("*.h5"))
     return next((p for p in candidates if p.is_file()), None)
+
+
+def add_run(kinds, laws, path, stats):
+    """Adds one run's pairs to `kinds`: {(kind, materials): Contacts}."""
+    if not isinstance(stats.get("pairs"), list):
+        raise files.Unreadable(path, "has no 'pairs': an older plug-in made it, run the deck anew")
+    for entry in stats["pairs"]:
+        if not isinstance(entry, dict) or not entry.get("contacts_begun"):
+            continue
+        key, law = (entry["kind"], tuple(entry["materials"])), None
+        if entry.get("onset_speed_m_per_s") is not None and entry.get("overlap_over_radius_limit") is not None:  # neither: elastic, thornton
+            file = law_of(path.parent, entry)
+            if file is None:
+                raise files.Unreadable(path, f"its law '{entry.get('law')}' is not there any more")
+            law = laws.get((file, key[1])) or laws.setdefault((file, key[1]), Law(file, key[1]))
+        kinds.setdefault(key, Contacts(key, law, entry, path)).add(entry, path)
+
+
+def sorted_kinds(kinds):
+    return sorted(kinds.values(), key=lambda c: -c.begun)
 
 
 def read(decks):
@@ -161,31 +192,72 @@ def read(decks):
                 path = run / "stats.json"
                 if not path.exists():
                     continue
-                stats = files.read_json(path)
-                if not isinstance(stats.get("pairs"), list):
-                    raise files.Unreadable(path, "has no 'pairs': an older plug-in made it, run the deck anew")
-                for entry in stats["pairs"]:
-                    if not isinstance(entry, dict) or not entry.get("contacts_begun") or entry.get("onset_speed_m_per_s") is None:
-                        continue
-                    key = (entry["kind"], tuple(entry["materials"]))
-                    law = law_of(run, entry)
-                    if law is None:
-                        raise files.Unreadable(path, f"its law '{entry.get('law')}' is not there any more")
-                    name = entry["materials"][0]
-                    if (law, name) not in laws:
-                        laws[law, name] = Law(law, name)
-                    kinds.setdefault(key, Contacts(key, laws[law, name], entry, path)).add(entry, path)
+                add_run(kinds, laws, path, files.read_json(path))
         except files.Unreadable as error:
             error.deck = "demo" if deck.within else deck.name
             broken.append(error)
             continue
         if kinds:
-            found[deck.title] = sorted(kinds.values(), key=lambda c: -c.begun)
+            found[deck.title] = sorted_kinds(kinds)
     return found, broken
+
+
+class Run:
+    """One run of a deck that is no example: `kinds` of its contacts, `series` of its energies (None: an older plug-in)."""
+
+    def __init__(self, path, title):
+        self.path, self.title = path, title
+        stats = files.read_json(path)
+        kinds = {}
+        add_run(kinds, {}, path, stats)
+        self.kinds = sorted_kinds(kinds)
+        self.series = stats.get("series")
+        if self.series is None:
+            return
+        columns = [c for c in self.series.values() if isinstance(c, list)] if isinstance(self.series, dict) else []
+        if "time_s" not in self.series or len(columns) != len(self.series) or len({len(c) for c in columns}) != 1:
+            raise files.Unreadable(path, "'series' is no table with columns of one length")
+
+
+def is_statistics(path):
+    """True of a file of the plug-in, whatever its name."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            beginning = file.read(400)
+        return '"granulaw_version"' in beginning and '"time_step_used_s"' in beginning
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
+def read_own(folder, decks):
+    """([Run, ...], number of runs left out, [Unreadable, ...]): files that `stats FILE` wrote in runs of the user's own decks."""
+    examples = {run.resolve() for deck in decks for runs in deck.folders.values() for run in runs}
+    paths = [p for p in files.find_ending(folder, ".json") if not is_member(p, folder) and p.parent.resolve() not in examples and
+             not (p.parent / "command").exists() and is_statistics(p)]
+    found, broken = [], []
+    for path in paths[:MOST_RUNS]:
+        try:
+            found.append(Run(path, str(path.relative_to(folder))))
+        except files.Unreadable as error:
+            broken.append(error)
+    return found, len(paths[MOST_RUNS:]), broken
 
 
 def name_of(contacts):
     return "between particles" if contacts.kind == "particles" else f"at the {contacts.kind}"
+
+
+def draw_law(middle, contacts, x_low, x_high, y_low):
+    """Where the law ends, where yield begins, and how deep a head-on impact goes."""
+    end = contacts.fastest or x_high
+    middle.set_facecolor("#efe9e4")
+    middle.fill_between([x_low, end], y_low, contacts.limit, color="white", lw=0)
+    middle.plot([end, end], [y_low, contacts.limit], color="tab:red", lw=1)
+    middle.plot([x_low, end], [contacts.limit] * 2, color="tab:red", lw=1, label="end of the law")
+    middle.axvspan(x_low, contacts.onset, color="tab:green", alpha=0.08, lw=0)
+    middle.plot([contacts.onset, contacts.onset], [y_low, contacts.limit], color="tab:green", lw=0.9, linestyle="--", label="onset of yield")
+    v, x = contacts.law.impacts()
+    middle.plot(v, contacts.scale * x, color="black", lw=1.2, label="a head-on impact turns here")
 
 
 def draw(figure, contacts, title):
@@ -196,15 +268,9 @@ def draw(figure, contacts, title):
     speed, speeds = contacts.histogram("speed")
     overlap, overlaps = contacts.histogram("overlap")
     x_low, x_high = 0.5 * speed[0], 3 * max(speed[-1], contacts.fastest or 0)
-    y_low, y_high = max(0.5 * overlap[0], 1e-9), 3 * max(overlap[-1], contacts.limit)
-    end = contacts.fastest or x_high
-    middle.set_facecolor("#efe9e4")
-    middle.fill_between([x_low, end], y_low, contacts.limit, color="white", lw=0)
-    middle.plot([end, end], [y_low, contacts.limit], color="tab:red", lw=1)
-    middle.plot([x_low, end], [contacts.limit] * 2, color="tab:red", lw=1, label="end of the law")
-    onset = 1 / contacts.law.yield_per_onset
-    middle.axvspan(x_low, onset, color="tab:green", alpha=0.08, lw=0)
-    middle.plot([onset, onset], [y_low, contacts.limit], color="tab:green", lw=0.9, linestyle="--", label="onset of yield")
+    y_low, y_high = max(0.5 * overlap[0], 1e-9), 3 * max(overlap[-1], contacts.limit or 0)
+    if contacts.law:
+        draw_law(middle, contacts, x_low, x_high, y_low)
     plane = contacts.plane()
     if plane:
         v, x, counts = plane
@@ -213,17 +279,13 @@ def draw(figure, contacts, title):
         middle.axvspan(contacts.quantile("speed", 0.005), contacts.quantile("speed", 0.995), color="tab:blue", alpha=0.10, lw=0)
         middle.axhspan(contacts.quantile("overlap", 0.005), contacts.quantile("overlap", 0.995), color="tab:blue", alpha=0.10, lw=0,
                        label="99 % of the contacts, each way")
-    v, x = contacts.law.impacts()
-    middle.plot(v, contacts.scale * x, color="black", lw=1.2, label="a head-on impact turns here")
     middle.plot([contacts.speed_max], [contacts.overlap_max], marker="+", color="tab:blue", ms=9, mew=1.6, linestyle="", label="largest V, largest δ")
-    middle.set(xscale="log", yscale="log", xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="approach speed at first touch, $V/V_y$",
+    middle.set(xscale="log", yscale="log", xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="approach speed at first touch, " + ("$V/V_y$" if contacts.law else "m/s"),
                ylabel="largest overlap, $\\delta/R^*$")
     top.stairs(np.maximum(speeds, 0.3), speed, fill=True, color="tab:blue", alpha=0.55, baseline=0.3)
     right.stairs(np.maximum(overlaps, 0.3), overlap, fill=True, color="tab:blue", alpha=0.55, baseline=0.3, orientation="horizontal")
     top.set(yscale="log", ylabel="contacts", title=title, ylim=(0.5, None))
     right.set(xscale="log", xlabel="contacts", xlim=(0.5, None))
-    for counts in (top.yaxis, right.xaxis):
-        counts.set_minor_formatter(plt.NullFormatter())  # within a decade they run into each other
     top.tick_params(labelbottom=False)
     right.tick_params(labelleft=False)
     return middle
@@ -240,11 +302,58 @@ def picture(all_contacts):
     return figure
 
 
+def prefixed(values, unit):
+    """(factor, "mJ"): so that the largest of `values` is 1 to 1000."""
+    top = max(map(abs, values), default=0)
+    step = min(max(math.floor(math.log10(top) / 3), -4), 2) if top > 0 else 0
+    return 1000.0**-step, {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M"}[step] + unit
+
+
+def picture_of_run(run):
+    """Energies over time, the fastest particle, and the speeds at which contacts began."""
+    figure, axes = plt.subplots(1, 3 if run.series else 1, figsize=(12.4 if run.series else 5, 3.4), squeeze=False)
+    if run.series:
+        (energies, speed), time = axes[0][:2], run.series["time_s"]
+        factor, unit = prefixed([v for name in ENERGIES for v in run.series.get(name, [])], "J")
+        for name, text in ENERGIES.items():
+            if any(run.series.get(name, [])):
+                energies.plot(time, [factor * v for v in run.series[name]], label=text)
+        energies.set(title="Energies", xlabel="time, s", ylabel=f"energy, {unit}", ylim=(0, None))
+        energies.legend()
+        speed.plot(time, run.series["fastest_particle_m_per_s"])
+        speed.set(title="Fastest particle", xlabel="time, s", ylabel="speed, m/s", ylim=(0, None))
+    axis = axes[0][-1]
+    for k, c in enumerate(run.kinds):
+        edges, counts = c.histogram("speed")
+        axis.stairs(counts, edges * c.yield_speed, color=f"C{k}", label=f"{' - '.join(c.materials)}, {c.kind}")
+        if c.law:
+            axis.axvline(c.onset * c.yield_speed, color=f"C{k}", linestyle="--", lw=0.9)
+    axis.set(title="Approach speeds", xscale="log", yscale="log", xlabel="approach speed at first touch, m/s", ylabel="contacts begun")
+    axis.set_ylim(0.5, 4 ** len(run.kinds) * axis.get_ylim()[1])  # room for the legend
+    if run.kinds:
+        axis.legend(loc="upper left")
+    return figure
+
+
+def write_runs(page, runs, left_out):
+    """Of the user's own decks."""
+    for k, run in enumerate(runs, 1):
+        page.heading(f"Energies and speeds of {run.title}")
+        page.figure(picture_of_run(run), f"run-{k}", f"Run of `{run.path}`. Dashed: the speed at which yield begins, between the smallest particles.")
+        if not run.series:
+            page.text("The file has no energies over time: an older plug-in wrote it.")
+    if left_out:
+        page.text(f"{left_out} older runs are left out. Name their folder with --from to see them.")
+
+
 def glance(found):
     rows = []
     for deck, kinds in found.items():
+        kinds = [c for c in kinds if c.limit]
+        if not kinds:
+            continue
         c = max(kinds, key=lambda c: c.overlap_max / c.limit)
-        rows.append([f"law used by {deck}, {name_of(c)}", f"V/V_y to {number(c.speed_max)}\nlaw to {number(c.fastest) if c.fastest else 'not stated'}",
+        rows.append([f"law used by {deck}, {name_of(c)}", f"{'V/V_y' if c.law else 'V'} to {number(c.speed_max)}{'' if c.law else ' m/s'}\nlaw to {number(c.fastest) if c.fastest else 'not stated'}",
                      f"δ/R* to {number(c.overlap_max)}\nlaw to {number(c.limit)}"])
     return rows
 
@@ -257,12 +366,13 @@ def write(page, found):
               "bodies turns (quasi-static). Overlaps that speed alone does not explain come from static load and from several contacts at once.")
     rows = []
     for k, (deck, kinds) in enumerate(found.items(), 1):
-        page.figure(picture(kinds), f"contacts-{k}", f"Contacts of {deck} under the unstretched `mpm`, all seeds.")
+        page.figure(picture(kinds), f"contacts-{k}", f"Contacts of {deck}" + (f": the two kinds of {len(kinds)} with most contacts." if len(kinds) > 2 else "."))
         for c in kinds:
             share = c.elastic_share()
-            rows.append([deck, f"{'-'.join(c.materials)}, {c.kind}", f"{c.begun:.0f}", *[number(c.quantile("speed", p)) for p in (0.5, 0.995)],
-                         number(c.speed_max), number(c.fastest) if c.fastest else "not stated", f"{100 * share:.0f} %",
-                         *[number(c.quantile("overlap", p)) for p in (0.5, 0.995)], number(c.overlap_max), number(c.limit), f"{c.beyond:.0f}",
+            unit = "" if c.law else " m/s"
+            rows.append([deck, f"{'-'.join(c.materials)}, {c.kind}", f"{c.begun:.0f}", *[number(c.quantile("speed", p)) + unit for p in (0.5, 0.995)],
+                         number(c.speed_max) + unit, number(c.fastest) if c.fastest else "not stated", f"{100 * share:.0f} %",
+                         *[number(c.quantile("overlap", p)) for p in (0.5, 0.995)], number(c.overlap_max), number(c.limit) if c.limit else "no end", f"{c.beyond:.0f}",
                          f"{c.beyond_axis:.0f}", f"{c.below_axis:.0f}"])
     page.table(["deck", "pair", "contacts", "V/V_y: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
                 "law to", "steps beyond it", "too fast for it", "too slow for it"], rows)

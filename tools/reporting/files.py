@@ -16,11 +16,15 @@ class Unreadable(Exception):
 
 def find(folder, name):
     """All files of this name under `folder`, newest first; small versions (folders named *quick) are not mixed with the rest."""
+    return [p for p in find_ending(folder, name) if p.name == name]
+
+
+def find_ending(folder, ending):
+    """All files whose names end so."""
     found = []
     for base, folders, names in os.walk(folder):
         folders[:] = sorted(f for f in folders if not f.endswith("quick"))
-        if name in names:
-            found.append(pathlib.Path(base) / name)
+        found += [pathlib.Path(base) / name for name in names if name.endswith(ending)]
     return sorted(found, key=lambda p: -p.stat().st_mtime)
 
 

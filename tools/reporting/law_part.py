@@ -50,7 +50,7 @@ def picture(found):
             axis.axhline(own, color="0.5", lw=0.8)
             axis.annotate("the law's own stated error", (0.02, own), xycoords=("axes fraction", "data"), textcoords="offset points",
                           xytext=(0, -9), fontsize=7, color="0.4")
-        axis.set(xlabel="kilobytes that a lookup may read", ylabel=f"error of {what}, %")
+        axis.set(title="Force" if key == "err_force" else "Restitution", xlabel="kilobytes that a lookup may read", ylabel=f"error of {what}, %")
     handles, names = axes[0].get_legend_handles_labels()
     legend_below(figure, handles, names, 3)
     return figure

@@ -8,11 +8,13 @@ import os
 import pathlib
 import re
 import tempfile
+import textwrap
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 
 plt.rcParams.update({
     "font.size": 9, "axes.titlesize": 9.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.spines.top": False,
@@ -131,6 +133,7 @@ class Page:
     def figure(self, figure, name, caption):
         """A matplotlib figure, `name`.png beside the Markdown, SVG in the HTML."""
         plt.rcParams["svg.hashsalt"] = name  # ids differ from figure to figure, and not from call to call
+        tidy(figure)
         drawing, picture = io.StringIO(), io.BytesIO()
         figure.savefig(drawing, format="svg", metadata={"Date": None, "Creator": None})
         figure.savefig(picture, format="png", dpi=130)
@@ -170,6 +173,23 @@ class Page:
                 os.unlink(temporary)
                 raise
         return folder / "report.html"
+
+
+def tidy(figure):
+    """Titles within their panels; ticks that do not run into each other, plain numbers where a logarithmic axis shows less than two decades."""
+    for axes in figure.get_axes():
+        width = axes.get_position().width * figure.get_size_inches()[0] if axes.figure is figure else figure.get_size_inches()[0] / 2
+        title = axes.get_title(loc="left")
+        axes.set_title("\n".join(textwrap.wrap(title, max(16, int(12 * width)))))  # a bold letter is about 1/12 inch wide
+        for axis, scale, (low, high), length in ((axes.xaxis, axes.get_xscale(), axes.get_xlim(), width),
+                                                 (axes.yaxis, axes.get_yscale(), axes.get_ylim(), figure.get_size_inches()[1])):
+            if scale == "linear" and isinstance(axis.get_major_locator(), ticker.AutoLocator):
+                axis.set_major_locator(ticker.MaxNLocator(max(3, int(1.6 * length)), steps=(1, 2, 5, 10)))
+            if scale == "log":
+                axis.set_minor_formatter(ticker.NullFormatter())
+                if 0 < low < high < 100 * low:
+                    axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+                    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def legend_below(figure, handles, labels, columns):
