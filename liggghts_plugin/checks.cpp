@@ -58,20 +58,6 @@ void check_liggghts(LAMMPS_NS::LAMMPS* lmp, const void* parent, std::size_t pare
 
 namespace {
 
-/// LIGGGHTS allots the histories of a particle's neighbours, `one` of them, out of pages of `page` numbers,
-/// and crashes where they do not fit.
-void check_pages(const LAMMPS_NS::Neighbor& neighbor, const Setup& setup, int dnum)
-{
-  if (setup.wall && !setup.wall->is_mesh_wall()) return;  // a primitive has one history for each particle
-  const long needed = static_cast<long>(dnum) * neighbor.oneatom;
-  if (needed > neighbor.pgsize)
-    fail(
-        setup.where,
-        fmt::format("a contact keeps {} values, and {} neighbours of a particle do not fit into a page of {}",
-                    dnum, neighbor.oneatom, neighbor.pgsize),
-        {}, fmt::format("neigh_modify page {} or more, or a smaller 'one'", needed));
-}
-
 /// A wall takes what its own command leaves open from the pair style: from the one that stands before it.
 void check_inherited(const Setup& setup)
 {
@@ -103,13 +89,12 @@ void check_restarted(const Setup& setup)
 
 }  // namespace
 
-void check_run(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, int dnum)
+void check_run(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
 {
   constexpr int multi = 2;  // Neighbor::style of `neighbor ... multi`
   if (lmp->neighbor->style == multi)
     fail(setup.where,
          "'neighbor ... multi' lets spheres of unlike size pass through each other: use 'neighbor ... bin'");
-  check_pages(*lmp->neighbor, setup, dnum);
   check_inherited(setup);
   check_heat(lmp, setup);
   check_restarted(setup);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "liggghts_plugin/contact_history.hpp"
 #include "liggghts_plugin/contact_list.hpp"
 #include "liggghts_plugin/heat_conduction.hpp"
 #include "liggghts_plugin/runaway.hpp"
@@ -124,6 +125,7 @@ void read_command(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& se
 
 void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
 {
+  provide_contact_histories(lmp);
   provide_heat_conduction(lmp);
   provide_contact_list(lmp);
   provide_stats_fix(lmp);

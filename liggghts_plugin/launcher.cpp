@@ -9,6 +9,9 @@
 #include "lammps.h"
 #include "signal_handling.h"
 
+/// contact_history.hpp, of the plug-in's library
+extern "C" void granulaw_provide_contact_histories(LAMMPS_NS::LAMMPS* lmp);
+
 int main(int argc, char** argv)
 {
   struct sigaction on_interrupt, on_user;
@@ -22,6 +25,7 @@ int main(int argc, char** argv)
 
   MPI_Init(&argc, &argv);
   auto* lammps = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
+  granulaw_provide_contact_histories(lammps);
   lammps->input->file();
   delete lammps;
   MPI_Finalize();

@@ -53,7 +53,7 @@ class PairStyle final : public PairLoop<TalliedModel<Style>>, public CountedStyl
   {
     guarded(lmp_, [&] {
       Base::init_granular();
-      check_run(lmp_, setup_, parent_->dnum());
+      check_run(lmp_, setup_);
       provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
     });
   }

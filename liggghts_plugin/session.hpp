@@ -148,9 +148,8 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp);
 /// In words: "model mpm tangential history rolling_friction epsd2, energy on".
 std::string describe_combination(long combination);
 
-/// Throws Error where a run would go wrong with what the deck says around the contact models. `dnum`: history
-/// values of a contact.
-void check_run(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, int dnum);
+/// Throws Error where a run would go wrong with what the deck says around the contact models.
+void check_run(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 
 /// Stops with one sentence unless this is the LIGGGHTS the plug-in was built for. `parent_size` is sizeof of
 /// the pair style or fix as the plug-in's headers have it, `parent` the object LIGGGHTS allocated (most

@@ -69,7 +69,7 @@ class WallStyle final : public WallLoop<TalliedModel<Style>>, public CountedStyl
   {
     guarded(lmp_, [&] {
       Base::init_granular();
-      check_run(lmp_, setup_, parent_->dnum());
+      check_run(lmp_, setup_);
     });
   }
 

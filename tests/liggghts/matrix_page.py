@@ -2,6 +2,8 @@
 import pathlib
 import re
 
+from matrix_between import COMMANDS
+from matrix_between import rows as between_rows
 from matrix_known import KNOWN
 
 INTRO = """# The matrix: LIGGGHTS's commands with the models mpm and thornton
@@ -38,10 +40,18 @@ KINDS = {
     "runs": ("Runs, with other numbers than hertz", "These work. Their numbers differ from Hertz's by nature (history values, for instance), so they are not compared."),
     "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),
 }
-NOTES = """Two limits hold with every model, hertz included:
+NOTES = """A limit of every model, hertz included: heat flows through the overlap that LIGGGHTS sees. With `stretch S` it flows as with moduli S^2.5 times smaller ([heat](../reference/pair_gran_model_mpm.md#heat)).
+"""
+BETWEEN = """## Between two runs
 
-- `delete_atoms` and `insert ... compress_tags yes` renumber particles while they touch, and LIGGGHTS then loses the history of their contacts. Say `compress no`.
-- Heat flows through the overlap that LIGGGHTS sees. With `stretch S` it flows as with moduli S^2.5 times smaller ([heat](../reference/pair_gran_model_mpm.md#heat)).
+A pressed bed of 64 spheres is stopped in the middle of its contacts. A command follows, or several, and the bed runs on. Its state is then that of the unbroken run within 1e-9: mpm and thornton, 1 and 2 ranks, {count}
+rows. A restart file written behind each command and read on the other number of ranks leads there as well. Tests: `liggghts_between_runs`, `liggghts_between_runs_thorough`.
+
+Tried: {tried}.
+
+| not between two runs | commands |
+|---|---|
+{others}
 """
 # Of a sentence the page shows so many characters: the rest lists what is allowed, as the run does.
 SHOWN = 240
@@ -77,6 +87,16 @@ def by_sentence(rows, kind):
     return found
 
 
+def between_runs():
+    """The section of what stands between two runs."""
+    others = {}
+    for command, what in COMMANDS.items():
+        if isinstance(what, str):
+            others.setdefault(what, []).append(f"`{command}`")
+    tried = ", ".join(f"`{command}`" for command, what in COMMANDS.items() if not isinstance(what, str))
+    return BETWEEN.format(count=len(between_rows()), tried=tried, others="\n".join(f"| {why} | {', '.join(names)} |" for why, names in others.items()))
+
+
 def write(path, rows, limits):
     """rows: {"group", "name", "cells": {model: outcome}} in the order of the page."""
     models = list(rows[0]["cells"])
@@ -101,4 +121,4 @@ def write(path, rows, limits):
         else:
             text += ["| group | command or option | sentence |", "|---|---|---|"]
             text += [f"| {plain(group)} | {plain('; '.join(names))} | {said} |" for (group, said), names in by_sentence(own, kind).items()] + [""]
-    pathlib.Path(path).write_text("\n".join(text) + "\n" + NOTES + "\n" + HOW.format(**limits))
+    pathlib.Path(path).write_text("\n".join(text) + "\n" + NOTES + "\n" + between_runs() + "\n" + HOW.format(**limits))

@@ -5,7 +5,7 @@ import pathlib
 import unittest
 
 from collisions import pair_deck, wall_deck
-from harness import POWDER, Deck, head, properties, sphere_mass
+from harness import POWDER, Deck, head, plane_stl, properties, sphere_mass
 
 RADIUS = 1.7e-3
 DT = 2e-7
@@ -27,21 +27,16 @@ class Guards(Deck):
         for sentence in sentences:
             self.assertIn(sentence, errors[0])
 
-    def test_pages_too_small(self):
-        """A page must hold the values of `one` neighbours: 4 (thornton) and 10 (mpm) of them, more with energy and contactMap."""
+    def test_pages_of_one_particle(self):
+        """A page as short as LIGGGHTS allows, ten numbers for each of `one` neighbours, holds histories of more values than that, with a wall of each kind."""
         small = "neigh_modify delay 0 one 5000 page 50000"
-        for model, more, values in (("mpm", "", 0), ("mpm", "energy on", 16), ("mpm", "energy on contactMap on", 17),
-                                    ("thornton", "energy on contactMap on", 11)):
-            deck = self.deck(model, more).replace("neigh_modify delay 0", small)
-            if values:
-                self.refused(deck, f"keeps {values} values", f"neigh_modify page {values * 5000} or more")
-                self.run_deck(deck.replace("page 50000", f"page {values * 5000}"))
-            else:
-                self.run_deck(deck)
-
-    def test_pages_too_small_for_a_rolling_model(self):
-        deck = self.deck("mpm", tangential="history rolling_friction epsd2").replace("neigh_modify delay 0", "neigh_modify delay 0 one 5000 page 50000")
-        self.refused(deck, "neigh_modify page")
+        mesh = {"wall": "mesh n_meshes 1 meshes cad", "before_wall": "fix cad all mesh/surface file plane.stl type 1\n"}
+        (self.folder / "plane.stl").write_text(plane_stl())
+        for more, tangential in (("energy on contactMap on", "history"), ("", "history rolling_friction epsd2")):
+            for model in MODELS:
+                for wall in ({}, mesh):
+                    deck = self.deck(model, more, tangential=tangential, **wall)
+                    self.assertEqual(self.result(self.run_deck(deck.replace("neigh_modify delay 0", small)), "SPEED"), self.result(self.run_deck(deck), "SPEED"))
 
     def test_multi(self):
         for model in MODELS:

@@ -1,0 +1,126 @@
+"""Between two runs: the histories of open contacts outlast every command that leaves them alone (matrix_between.py).
+
+test_between_runs.py Commands   every command on one rank, those that touch lists and particles on two
+test_between_runs.py Thorough   every command on two ranks; a restart file after each, read on the other number of ranks"""
+import math
+import unittest
+
+import matrix_between as between
+from harness import Deck
+
+# A rank's sums are in another order than one rank's, and lists that are made anew list neighbours in another one: 1e-16 a step, amplified by 250 steps.
+ROUNDING = 1e-9
+MODELS = ("mpm", "thornton")
+SPLIT = f"run {between.BEFORE}\n{{}}\nrun {between.AFTER}\n"
+
+
+class Between(Deck):
+    maxDiff = None
+
+    def setUp(self):
+        super().setUp()
+        for name, text in between.FILES.items():
+            (self.folder / name).write_text(text)
+
+    def deck(self, model, run, file, **more):
+        wall = more.get("wall_model") or model
+        run = run.replace("@NOW", str(between.BEFORE)).replace("@WALL", f"model {wall} tangential history")
+        run = run.replace("@OURS", "tangential_damping off" if wall == "hertz" else "wall deformable")
+        return between.start(model, **more) + between.GROUPS + run + between.state(file)
+
+    def read(self, name):
+        """{id: values} of a state."""
+        lines = (self.folder / name).read_text().splitlines()
+        first = next(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+        rows = [[float(w) for w in line.split()] for line in lines[first:]]
+        return {int(row[0]): row[2:] for row in rows}
+
+    def apart(self, name, wanted, by_place=False):
+        """The largest difference of two states, over the largest value of each column, of the particles that both have. by_place: they have other numbers."""
+        ours, theirs = (self.read(file) for file in (name, wanted))
+        if by_place:
+            ours = {k: min(ours.values(), key=lambda row: math.dist(row[:3], there[:3])) for k, there in theirs.items()}
+        common = ours.keys() & theirs.keys()
+        self.assertGreater(len(common), 50)
+        scale = [max(map(abs, column)) for column in zip(*theirs.values())]
+        return max(abs(a - b) / s for k in common for a, b, s in zip(ours[k], theirs[k], scale))
+
+    def check(self, model, ranks, rows, whole=f"run {between.BEFORE + between.AFTER}\n", one_process=True, **more):
+        """Each row's bed against the unbroken run, or against its own twin."""
+        decks = [self.deck(model, whole, "whole.txt", **more)]
+        for k, (_, lines, twin) in enumerate(rows):
+            decks.append(self.deck(model, SPLIT.format(lines), f"{k}.txt", **more))
+            if twin:
+                decks.append(self.deck(model, SPLIT.format(twin), f"{k}.twin.txt", **more))
+        for text in ["clear\n".join(decks)] if one_process else decks:
+            self.run_deck(text, ranks=ranks)
+        found = {}
+        for k, (_, lines, twin) in enumerate(rows):
+            apart = self.apart(f"{k}.txt", f"{k}.twin.txt" if twin else "whole.txt", by_place="delete_atoms" in lines or "compress_tags" in lines)
+            if not apart <= ROUNDING:
+                found[lines] = apart
+        self.assertEqual(found, {}, (model, ranks))
+
+
+TOUCHING = ("atom_modify", "change_box", "create_atoms", "delete_atoms", "neigh_modify", "neighbor", "run", "set", "write_restart")
+
+
+class Commands(Between):
+    def test_every_command(self):
+        for model in MODELS:
+            with self.subTest(model=model):
+                self.check(model, 1, between.rows())
+
+    def test_commands_that_touch_lists_and_particles(self):
+        self.check("mpm", 2, [row for row in between.rows() if row[0] in TOUCHING or "coord/atom" in row[1]])
+
+    def test_histories_matter(self):
+        """What the rows would show: beds whose contacts begin anew are others."""
+        for model in MODELS:
+            self.run_deck(self.deck(model, SPLIT.format(""), "whole.txt"))
+            self.run_deck(self.deck(model, SPLIT.format("neigh_modify exclude group all all\nrun 0\nneigh_modify exclude none"), "lost.txt"))
+            self.assertGreater(self.apart("lost.txt", "whole.txt"), 0.01, model)
+
+    def test_another_search(self):
+        """`neighbor ... nsq` makes all lists anew; it needs primitive walls."""
+        rows = [("neighbor", "neighbor 0.0004 nsq", ""), ("neighbor", "neighbor 0.0004 nsq\nrun 0\nneighbor 0.0004 bin", "")]
+        for model in MODELS:
+            for ranks in (1, 2):
+                self.check(model, ranks, rows, mesh=False)
+
+    def test_stock_models(self):
+        """Decks of Hertz alone, and with walls of ours, keep their springs under liggghts-mpm as well."""
+        rows = [row for row in between.rows() if row[1] in ("neigh_modify page 200000", "write_restart other.restart\nneigh_modify page 200000", "compute n all coord/atom 0.0036",
+                                                            "delete_atoms group low compress yes")]
+        self.assertEqual(len(rows), 4)
+        split = SPLIT.format("")  # Hertz keeps the springs of contacts that part until the lists are made again, as a run does when it begins
+        self.check("hertz", 1, rows, split, one_process=False)  # `clear` takes the launcher's classes away where no model of ours brings them back
+        self.check("hertz", 1, rows, split, wall_model="mpm")
+
+    def test_restart_on_the_way(self):
+        """A file that a run writes on its way holds the histories of its step, not of the last rebuild of the lists."""
+        for model in MODELS:
+            self.run_deck(self.deck(model, f"restart {between.BEFORE} way.*.restart\nrun {between.BEFORE + between.AFTER}\n", "whole.txt"))
+            self.run_deck(between.again(model, f"way.{between.BEFORE}.restart") + f"run {between.AFTER}\n" + between.state("rest.txt"))
+            self.assertLess(self.apart("rest.txt", "whole.txt"), ROUNDING, model)
+
+
+class Thorough(Between):
+    def test_every_command_on_two_ranks(self):
+        for model in MODELS:
+            self.check(model, 2, between.rows())
+
+    def test_a_restart_file_after_every_command(self):
+        rows = between.rows()
+        for model in MODELS:
+            for ranks in (1, 2):
+                decks = [self.deck(model, SPLIT.format(f"{lines}\nwrite_restart {k}.restart"), f"{k}.txt") for k, (_, lines, _) in enumerate(rows)]
+                self.run_deck("clear\n".join(decks), ranks=ranks)
+                decks = [between.again(model, f"{k}.restart") + f"run {between.AFTER}\n" + between.state(f"{k}.rest.txt") for k in range(len(rows))]
+                self.run_deck("clear\n".join(decks), ranks=3 - ranks)
+                found = {lines: apart for k, (_, lines, _) in enumerate(rows) if not (apart := self.apart(f"{k}.rest.txt", f"{k}.txt")) <= ROUNDING}
+                self.assertEqual(found, {}, (model, ranks))
+
+
+if __name__ == "__main__":
+    unittest.main()
