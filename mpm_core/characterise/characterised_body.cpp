@@ -29,9 +29,16 @@ std::string text_of(const char* what, const FlowLaw& law)
 
 std::string description_of(const Material& m)
 {
-  return fmt::format("[{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}{}{}]", m.density, m.youngs_modulus,
+  return fmt::format("[{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}{}{}{}]", m.density, m.youngs_modulus,
                      m.poisson_ratio, m.yield_stress, m.hardening_modulus, text_of("hardening", m.hardening),
-                     text_of("rate", m.rate));
+                     text_of("rate", m.rate), text_of("surface", m.yield_surface));
+}
+
+void check_von_mises(const Material& m, const std::string& where)
+{
+  if (!m.yield_surface.name.empty())
+    fail(where, "'yield_surface': a contact law is made of materials that yield by von Mises only; mpm impact and "
+                "mpm press run this one", m.yield_surface.name, "no yield_surface");
 }
 
 namespace {
@@ -133,6 +140,7 @@ CharacterisedBody CharacterisedBody::rate_free() const
 CharacterisedBody characterised_body_of(const Particle& particle)
 {
   check_revolution(particle, "contact law");
+  for (const Material& m : particle.materials) check_von_mises(m, "contact law");
   if (particle.is_homogeneous_sphere() && !particle.materials[0].rate_dependent() &&
       particle.materials[0].hardening.name.empty())
     return characterised_body_of(particle.materials[0]);
@@ -155,6 +163,7 @@ CharacterisedBody characterised_body_of(const Particle& particle)
 
 CharacterisedBody characterised_body_of(const Material& material)
 {
+  check_von_mises(material, "contact law");
   if (material.rate_dependent())
     fail("contact law", "a rate-dependent material's law needs a particle of a certain size");
   if (material.hardening.name.empty()) {

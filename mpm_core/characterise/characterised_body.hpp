@@ -42,6 +42,9 @@ struct CharacterisedBody
 /// Every number of a material, on one line.
 std::string description_of(const Material& material);
 
+/// Throws Error "WHERE: ..." if the material has another yield surface than von Mises'.
+void check_von_mises(const Material& material, const std::string& where);
+
 CharacterisedBody characterised_body_of(const Particle& particle);
 /// A homogeneous sphere; of unit radius where the law knows no size.
 CharacterisedBody characterised_body_of(const Material& material);

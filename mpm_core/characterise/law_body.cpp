@@ -37,6 +37,7 @@ LawBody body_of_shape(const std::string& name, const Particle& particle, const s
 LawBody body_of_particle(const std::string& name, const Particle& particle, const std::string& source)
 {
   const std::string where = fmt::format("{}: [particle.{}]", source, name);
+  for (const Material& m : particle.materials) check_von_mises(m, where);
   if (particle.solid) return body_of_shape(name, particle, where);
   const CharacterisedBody characterised = characterised_body_of(particle);
   const Material& at_pole = particle.materials[static_cast<std::size_t>(characterised.pole_material)];
@@ -55,9 +56,11 @@ LawBody law_body(const std::string& name, const Materials& materials, const std:
   if (materials.means_particle(name))
     return body_of_particle(name, materials.particle(name), materials.source);
   const Material& material = materials.material(name);
+  const std::string where = fmt::format("{}: [material.{}]", materials.source, name);
+  check_von_mises(material, where);
   if (material.rate_dependent())
     fail(
-        fmt::format("{}: [material.{}]", materials.source, name),
+        where,
         fmt::format("its yield stress depends on the rate ('{}'), so its law depends on the particle's size: "
                     "{}",
                     material.rate.name, hint));

@@ -47,7 +47,7 @@ struct Surface
   std::vector<double> r, z;    ///< reference coordinates (`updated`: coordinates now)
 };
 
-/// The points of a body on the `updated` grid, which move through it (updated_grid.hpp).
+/// The points of a body on the `updated` grid, which move through it (updated_body.hpp).
 struct MovingPoints
 {
   SplineAxis r_axis, z_axis;
@@ -66,7 +66,7 @@ struct MovingPoints
 /// displacements are kept. The weights of a point are the mean gradients of the shape functions over the
 /// piece of the body that it stands for, with r dA as measure, so that linear displacement fields and uniform
 /// pressure are exact (Flanagan and Belytschko 1981, axisymmetric). `updated`: weights follow the points in
-/// every step (updated_grid.hpp) and the nodal displacements are those of the last step only.
+/// every step (updated_body.hpp) and the nodal displacements are those of the last step only.
 struct Body : PointArrays<double>
 {
   // grid

@@ -142,7 +142,7 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double kick, double dt)
   const int count = upper.surface.count;
   impulse_.resize(count, 0.0), gap_.resize(count), radius_.resize(count);
   rows_.clear(), entries_.clear();
-  // as above
+  // all that there can be, so that no later step allocates
   rows_.reserve(count);
   entries_.reserve(std::size_t(count) * (upper.surface.corners + (lower ? 2 * lower->surface.corners : 0)));
 

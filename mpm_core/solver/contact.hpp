@@ -19,10 +19,10 @@ class BasicContact
   virtual double correct(std::span<Body> bodies, double kick, double dt) = 0;
   /// To be called when all velocities of the step are final: adds what this contact took from the bodies.
   virtual void account(std::span<const Body> bodies) = 0;
-  /// Energy lost in the contact so far: minus the sum of impulse times the mean of the velocities of
-  /// separation before and after the step, the work that goes with the scheme's own energy balance. What
-  /// closes stops, and m v^2/2 of its nodes is lost: the grid's own loss, proportional to the cell size (3e-3
-  /// of the impact energy at V/V_y = 500 with 16 cells, 1e-2 at 1500).
+  /// Energy lost so far: -sum p (v_before + v_after)/2 over all impulses p; v: velocity of separation. It
+  /// goes with the scheme's own energy balance. Where a gap closes, m v^2/2 of its nodes is lost: the grid's
+  /// own loss, proportional to the cell size (3e-3 of the impact energy at V/V_y = 500 with 16 cells, 1e-2 at
+  /// 1500).
   double dissipated() const { return dissipated_; }
   /// Radius of the contact edge after the last correct(), 0 if open.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;

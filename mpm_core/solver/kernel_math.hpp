@@ -9,6 +9,10 @@
 
 namespace granulaw::kernel {
 
+/// Keeps a quotient by zero finite.
+template <class Real>
+static constexpr Real tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
+
 template <class Real>
 GRANULAW_INLINE Real root_of(Real x)
 {
@@ -66,4 +70,5 @@ GRANULAW_INLINE Real exp_m1(Real t)
   sum = sum * t + Real(1);
   return t * sum;
 }
+
 }  // namespace granulaw::kernel

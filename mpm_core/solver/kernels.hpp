@@ -13,7 +13,8 @@ struct Kernels
 
   /// Stress at every material point from the nodal displacements, plastic state updated, and the internal
   /// nodal forces fr_i, fz_i (force on the node = minus the stress divergence). If `frozen`, the plastic
-  /// state is left as it is and the response is elastic about it (power iteration; always in double).
+  /// state is left as it is and the response is elastic about it (power iteration). Frozen responses are in
+  /// double: of a body in single precision from the state that fetch_state() copies.
   /// On the `updated` grid the displacements are those of the last step, and forces are those of the
   /// configuration before it: only the power iteration asks for them.
   void (*internal_force)(Body& body, bool frozen);

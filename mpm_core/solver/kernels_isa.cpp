@@ -6,9 +6,8 @@
 // of each other: gather (grid: displacement gradients), stress (material), corner_forces (grid).
 #include <type_traits>
 
-#include "solver/kernel_flow.hpp"
-#include "solver/kernel_math.hpp"
 #include "solver/kernels.hpp"
+#include "solver/material/axisymmetric_tensor.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
@@ -16,15 +15,8 @@ namespace {
 
 using namespace kernel;
 
-/// What the stages hand on for the points of one block.
 template <class Real>
-struct alignas(64) Block
-{
-  using Values = Real[block_points];
-  Values hrr, hrz, hzr, hzz, hhh;  ///< displacement gradient, F = 1 + h
-  Values prr, prz, pzr, pzz, phh;  ///< first Piola-Kirchhoff stress
-  Values qr, qz;                   ///< four corners: hourglass amplitudes
-};
+using Block = typename Axisymmetric<Real>::Block;
 
 template <class Real>
 GRANULAW_INLINE PointArrays<Real>& arrays(Body& body)
@@ -104,184 +96,16 @@ __attribute__((noinline)) void corner_forces(Body& body, int first, int count, c
   }
 }
 
-/// State of the points of one block, from its first.
 template <class Real>
-struct PointState
+GRANULAW_INLINE PointState<Axisymmetric<Real>> state_of(Body& body, int first)
 {
-  Real* __restrict rr;  ///< of the plastic state as PointArrays keeps it
-  Real* __restrict zz;
-  Real* __restrict rz;
-  Real* __restrict hh;
-  Real* __restrict plastic_strain;
-  Real* __restrict plastic_work;
-  Real* __restrict energy;
-  const Real* __restrict volume;
-
-  GRANULAW_MEMBER PointState(PointArrays<Real>& points, int first)
-      : rr(points.crr_p.data() + first),
-        zz(points.czz_p.data() + first),
-        rz(points.crz_p.data() + first),
-        hh(points.chh_p.data() + first),
-        plastic_strain(points.plastic_strain_p.data() + first),
-        plastic_work(points.plastic_work_p.data() + first),
-        energy(points.elastic_energy_p.data() + first),
-        volume(points.volume_p.data() + first)
-  {
-  }
-};
-
-/// Of one point: the state with all plastic flow of the step undone.
-template <class Real>
-struct Trial
-{
-  Real x1, x2, xhh;   ///< principal values of the elastic left Cauchy-Green tensor minus identity
-  Real cosine, sine;  ///< of twice the angle of its principal axes
-  Real s1, s2, s3;    ///< deviators of the principal logarithmic strains
-  Real trace;         ///< and their sum, ln J
-  Real q, jacobian;   ///< bodies that yield: von Mises' equivalent of the Kirchhoff stress; J
-};
-
-/// What the points of a block flow in a step: equivalent plastic strain, and the Kirchhoff stress meanwhile.
-template <class Real>
-struct PlasticFlow
-{
-  Real strain, stress;
-};
-
-/// Both of a block.
-template <class Real>
-struct alignas(64) Trials
-{
-  using Values = Real[block_points];
-  Values x1, x2, xhh, cosine, sine, s1, s2, s3, trace, q, jacobian;
-  Values strain, stress;
-
-  GRANULAW_MEMBER void put(int p, const Trial<Real> t)
-  {
-    x1[p] = t.x1, x2[p] = t.x2, xhh[p] = t.xhh, cosine[p] = t.cosine, sine[p] = t.sine;
-    s1[p] = t.s1, s2[p] = t.s2, s3[p] = t.s3, trace[p] = t.trace, q[p] = t.q, jacobian[p] = t.jacobian;
-  }
-  GRANULAW_MEMBER Trial<Real> trial(int p) const
-  {
-    return {x1[p], x2[p], xhh[p], cosine[p], sine[p], s1[p], s2[p], s3[p], trace[p], q[p], jacobian[p]};
-  }
-  GRANULAW_MEMBER PlasticFlow<Real> flow(int p) const { return {strain[p], stress[p]}; }
-};
-
-/// Trial state of a point from its displacement gradient and the plastic state `c` before the step.
-template <bool has_state, bool yields, class Real>
-GRANULAW_INLINE Trial<Real> trial_state(const Block<Real>& block, const PointState<Real>& c, int p,
-                                        Real shear2)
-{
-  constexpr Real one = 1, tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
-  const Real hrr = block.hrr[p], hrz = block.hrz[p], hzr = block.hzr[p], hzz = block.hzz[p],
-             hhh = block.hhh[p];
-  const Real frr = one + hrr, fzz = one + hzz, fhh = one + hhh;
-  Real xrr = Real(2) * hrr + hrr * hrr + hrz * hrz;
-  Real xzz = Real(2) * hzz + hzz * hzz + hzr * hzr;
-  Real xrz = hrz + hzr + hrr * hzr + hrz * hzz;
-  Trial<Real> t;
-  t.xhh = Real(2) * hhh + hhh * hhh;
-  if constexpr (has_state) {
-    const Real c11 = c.rr[p], c22 = c.zz[p], c12 = c.rz[p];
-    const Real g11 = frr * c11 + hrz * c12, g12 = frr * c12 + hrz * c22;
-    const Real g21 = hzr * c11 + fzz * c12, g22 = hzr * c12 + fzz * c22;
-    xrr += g11 * frr + g12 * hrz;
-    xrz += g11 * hzr + g12 * fzz;
-    xzz += g21 * hzr + g22 * fzz;
-    t.xhh += fhh * fhh * c.hh[p];
-  }
-  const Real mean = Real(0.5) * (xrr + xzz), half = Real(0.5) * (xrr - xzz);
-  const Real radius = root_of(half * half + xrz * xrz);
-  const Real per_radius = one / (radius + tiny);
-  t.cosine = half * per_radius, t.sine = xrz * per_radius;
-  t.x1 = mean + radius, t.x2 = mean - radius;
-  const Real e1 = Real(0.5) * log_1p(t.x1), e2 = Real(0.5) * log_1p(t.x2), e3 = Real(0.5) * log_1p(t.xhh);
-  t.trace = e1 + e2 + e3;
-  const Real third = t.trace * Real(1.0 / 3.0);
-  t.s1 = e1 - third, t.s2 = e2 - third, t.s3 = e3 - third;
-  t.q = 0, t.jacobian = 1;
-  if constexpr (yields) {
-    t.q = shear2 * root_of(Real(1.5) * (t.s1 * t.s1 + t.s2 * t.s2 + t.s3 * t.s3));
-    t.jacobian = one + exp_m1(t.trace);
-  }
-  return t;
-}
-
-/// The point after its flow: plastic state, stored energy, first Piola-Kirchhoff stress.
-template <bool flows, class Real>
-GRANULAW_INLINE void finish_point(Block<Real>& block, const PointState<Real>& c, int p, Trial<Real> t,
-                                  const PlasticFlow<Real> flow, Real shear2, Real bulk)
-{
-  constexpr Real one = 1, tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
-  const Real hrr = block.hrr[p], hrz = block.hrz[p], hzr = block.hzr[p], hzz = block.hzz[p],
-             hhh = block.hhh[p];
-  const Real frr = one + hrr, fzz = one + hzz, fhh = one + hhh;
-  const Real det = frr * fzz - hrz * hzr;
-  const Real per_det = one / det, per_fhh = one / fhh;
-  if constexpr (flows) {
-    const Real shrink = Real(1.5) * shear2 * flow.strain / (t.q + tiny);
-    // plastic state: b_new - b_trial carried back through F
-    const Real d1 = (one + t.x1) * exp_m1(Real(-2) * shrink * t.s1);
-    const Real d2 = (one + t.x2) * exp_m1(Real(-2) * shrink * t.s2);
-    const Real d3 = (one + t.xhh) * exp_m1(Real(-2) * shrink * t.s3);
-    const Real dm = Real(0.5) * (d1 + d2), dd = Real(0.5) * (d1 - d2);
-    const Real drr = dm + dd * t.cosine, dzz = dm - dd * t.cosine, drz = dd * t.sine;
-    const Real g11 = fzz * drr - hrz * drz, g12 = fzz * drz - hrz * dzz;
-    const Real g21 = -hzr * drr + frr * drz, g22 = -hzr * drz + frr * dzz;
-    const Real per_det2 = per_det * per_det;
-    c.rr[p] += per_det2 * (g11 * fzz - g12 * hrz);
-    c.rz[p] += per_det2 * (-g11 * hzr + g12 * frr);
-    c.zz[p] += per_det2 * (-g21 * hzr + g22 * frr);
-    c.hh[p] += per_fhh * per_fhh * d3;
-    c.plastic_strain[p] += flow.strain;
-    c.plastic_work[p] += c.volume[p] * flow.stress * flow.strain;
-    t.s1 -= shrink * t.s1, t.s2 -= shrink * t.s2, t.s3 -= shrink * t.s3;
-  }
-  // Kirchhoff stress, then P = tau F^-T
-  const Real pressure = bulk * t.trace;
-  const Real t1 = shear2 * t.s1 + pressure, t2 = shear2 * t.s2 + pressure, t3 = shear2 * t.s3 + pressure;
-  const Real tm = Real(0.5) * (t1 + t2), td = Real(0.5) * (t1 - t2);
-  const Real trr = tm + td * t.cosine, tzz = tm - td * t.cosine, trz = td * t.sine;
-  block.prr[p] = (trr * fzz - trz * hrz) * per_det, block.prz[p] = (trz * frr - trr * hzr) * per_det;
-  block.pzr[p] = (trz * fzz - tzz * hrz) * per_det, block.pzz[p] = (tzz * frr - trz * hzr) * per_det;
-  block.phh[p] = t3 * per_fhh;
-  c.energy[p] = c.volume[p] * Real(0.5) *
-                (shear2 * (t.s1 * t.s1 + t.s2 * t.s2 + t.s3 * t.s3) + bulk * t.trace * t.trace);
-}
-
-/// Stress update of the points of one block.
-///
-/// Multiplicative J2 plasticity with logarithmic elastic strain: trial b = F Cp^-1 F^T, its principal
-/// logarithmic strains, radial return, first Piola-Kirchhoff stress P = tau F^-T. Yield is on the Cauchy
-/// stress sigma = tau/J: q(tau) <= J sigma_y, with J from the trace (plastic flow keeps the volume).
-/// Everything is kept as difference from the identity.
-template <class Real, class Hardening, class Rate>
-GRANULAW_INLINE void stress(Body& body, const Moduli& moduli, int first, int count, Block<Real>& block,
-                            [[maybe_unused]] const Hardening hardening_law,
-                            [[maybe_unused]] const Rate rate_law)
-{
-  constexpr bool has_state = !std::is_same_v<Hardening, Elastic>;
-  constexpr bool yields = has_state && !std::is_same_v<Hardening, ElasticWithState>;
-  const Real shear2 = Real(2.0 * moduli.shear), bulk = Real(moduli.bulk);
-  const PointState<Real> state(arrays<Real>(body), first);
-
-  Trials<Real> trials;
-#pragma omp simd
-  for (int p = 0; p < count; ++p) trials.put(p, trial_state<has_state, yields>(block, state, p, shear2));
-  bool flows = false;
-  if constexpr (yields)
-    flows = find_flow(trials, count, state.plastic_strain, hardening_law, rate_law, moduli,
-                      body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0);
-  if (yields && flows) {
-#pragma omp simd
-    for (int p = 0; p < count; ++p)
-      finish_point<true>(block, state, p, trials.trial(p), trials.flow(p), shear2, bulk);
-  } else {
-#pragma omp simd
-    for (int p = 0; p < count; ++p)
-      finish_point<false>(block, state, p, trials.trial(p), PlasticFlow<Real>{}, shear2, bulk);
-  }
+  PointArrays<Real>& points = arrays<Real>(body);
+  return {{points.crr_p.data() + first, points.czz_p.data() + first, points.crz_p.data() + first,
+           points.chh_p.data() + first},
+          points.plastic_strain_p.data() + first,
+          points.plastic_work_p.data() + first,
+          points.elastic_energy_p.data() + first,
+          points.volume_p.data() + first};
 }
 
 /// `updated` grid: what the stages found for the displacements of one step becomes the points' own: elastic
@@ -367,58 +191,43 @@ void pass_on(Body& body, int first, int count, const Block<Real>& block, Then th
     corner_forces<9, Real>(body, first, count, block);
 }
 
-/// One region under one pair of laws, block by block. A function of its own for each pair.
-template <class Real, class Hardening, class Rate>
-__attribute__((noinline)) void update_region(Body& body, const Region& region, Then then,
-                                             const Hardening hardening, const Rate rate)
-{
-  Block<Real> block;
-  for (int first = region.begin; first < region.end; first += block_points) {
-    const int left = region.end - first, count = left < block_points ? left : block_points;
-    gather_block<Real>(body, first, count, block);
-    stress<Real>(body, region.moduli, first, count, block, hardening, rate);
-    pass_on<Real>(body, first, count, block, then);
-  }
-}
-
-/// Every region under its own laws.
+/// Every region, block by block. `frozen`: nothing flows.
 template <class Real>
-void update(Body& body, Then then)
+void update(Body& body, Then then, bool frozen)
 {
+  const bool moves = then == Then::push_forward;
+  const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
+  Block<Real> block;
   for (const Region& region : body.regions) {
-    if (!region.moduli.yields && then == Then::forces)
-      update_region<Real>(body, region, then, Elastic{}, no_rate);
-    else if (!region.moduli.yields)
-      update_region<Real>(body, region, then, ElasticWithState{}, no_rate);
-    else if (region.moduli.flow.hardening == 0 && region.moduli.flow.rate == 0)
-      update_region<Real>(body, region, then, flow::Linear{region.moduli.yield, region.moduli.hardening},
-                          no_rate);
-    else
-      with_flow_laws(region.moduli, [&](auto hardening, auto rate) {
-        update_region<Real>(body, region, then, hardening, rate);
-      });
+    Yielding<Real> yielding = yielding_of<Real>(region.moduli);
+    if (frozen) yielding.find = nullptr;
+    if (moves) yielding.has_state = true;
+    for (int first = region.begin; first < region.end; first += block_points) {
+      const int left = region.end - first, count = left < block_points ? left : block_points;
+      gather_block<Real>(body, first, count, block);
+      update_stress<Axisymmetric<Real>>(state_of<Real>(body, first), region.moduli, yielding, per_dt, moves,
+                                        count, block);
+      pass_on<Real>(body, first, count, block, then);
+    }
   }
-  body.elapsed = 0.0;
+  if (!frozen) body.elapsed = 0.0;
 }
 
 void internal_force(Body& body, bool frozen)
 {
-  if (frozen) {
-    for (const Region& region : body.regions)
-      update_region<double>(body, region, Then::forces, Elastic{}, no_rate);
-    sum_to_nodes<double>(body);
-  } else if (body.is_single()) {
-    update<float>(body, Then::forces);
+  if (frozen) body.fetch_state();
+  if (body.is_single() && !frozen) {
+    update<float>(body, Then::forces, false);
     sum_to_nodes<float>(body);
   } else {
-    update<double>(body, Then::forces);
+    update<double>(body, Then::forces, frozen);
     sum_to_nodes<double>(body);
   }
 }
 
-void update_stress(Body& body)
+void update_stress_of_points(Body& body)
 {
-  update<double>(body, Then::push_forward);
+  update<double>(body, Then::push_forward, false);
 }
 
 void force_of_stress(Body& body)
@@ -475,7 +284,7 @@ void move(Body& body, double dt)
 
 }  // namespace
 
-extern const Kernels kernels{GRANULAW_ISA_NAME, internal_force, update_stress,
+extern const Kernels kernels{GRANULAW_ISA_NAME, internal_force, update_stress_of_points,
                              force_of_stress,   accelerate,     move};
 
 }  // namespace granulaw::GRANULAW_ISA_NAMESPACE

@@ -9,7 +9,7 @@
 
 namespace granulaw {
 
-/// A hardening or rate law of solver/flow by its name, with the values of its keys, SI; lists of one for
+/// A hardening law, rate law or yield surface of solver/flow by its name, with the values of its keys, SI; lists of one for
 /// numbers. An empty name: none.
 struct FlowLaw
 {
@@ -17,9 +17,9 @@ struct FlowLaw
   std::map<std::string, std::vector<double>> values;
 };
 
-/// An elastic-plastic material, SI. J2 yield on the Cauchy stress, logarithmic elastic strain,
+/// An elastic-plastic material, SI. Yield on the Cauchy stress, logarithmic elastic strain,
 /// sigma_y = (yield_stress + hardening_modulus * equivalent plastic strain), or the flow stress that
-/// `hardening` names, times the rate factor that `rate` names.
+/// `hardening` names, times the rate factor that `rate` names. sigma_y is that of uniaxial compression.
 struct Material
 {
   double density = 0;                                             ///< kg/m^3
@@ -29,6 +29,7 @@ struct Material
   double hardening_modulus = 0;  ///< Pa, linear hardening d(sigma_y)/d(eps_p); 0: perfectly plastic
   FlowLaw hardening{};           ///< any other hardening law; hardening_modulus is then unused
   FlowLaw rate{};                ///< rate dependence of the yield stress
+  FlowLaw yield_surface{};       ///< empty: von Mises
 
   double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
   /// The result then depends on R/c* against the time scale of the rate law: size invariance is lost.

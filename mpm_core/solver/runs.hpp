@@ -51,7 +51,7 @@ struct RunOptions
       4;  ///< runs on grids shifted against each other by equal parts of a cell; their mean is free
           ///< of the first harmonics of the contact-edge grid noise (shifted_grids.hpp); 1: a single run
   int threads = 1;        ///< threads that share these runs
-  double courant = 0.85;  ///< time step over the stability limit, 0.1 to 1
+  double courant = 0.85;  ///< time step over the stability limit, 0.05 to 1
   double slowness = 1;    ///< press: factor on the ramp
   int samples = 800;      ///< trace length aimed at
   bool estimate_error =

@@ -82,6 +82,16 @@ TEST(LawBody, ARateNeedsAParticle)
   EXPECT_TRUE(law_body("rated", m).characterised.rate_dependent());
 }
 
+TEST(LawBody, AnotherYieldSurfaceIsRefused)
+{
+  Materials m = some_materials();
+  m.materials.at("powder").yield_surface = {"drucker-prager",
+                                            {{"friction_angle", {30}}, {"dilatancy_angle", {0}}}};
+  m.particles.at("grain").materials.front() = m.materials.at("powder");
+  expect_error("[material.powder]: 'yield_surface'", [&] { law_body("powder", m); });
+  expect_error("[particle.grain]: 'yield_surface'", [&] { law_body("grain", m); });
+}
+
 TEST(LawBody, TheHashTellsEveryNumber)
 {
   const auto hash = [](const Material& m) { return material_hash(characterised_body_of(m), m); };

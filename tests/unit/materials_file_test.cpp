@@ -85,6 +85,41 @@ constexpr const char* head =
     "[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = 0.3\n"  // lines 1 to 4
     "[particle.grain]\n";                                                               // line 5
 
+constexpr const char* frictional =
+    "[material.m]\ndensity = 1500\nyoungs_modulus = 9e9\npoisson_ratio = 0.3\nyield_stress = 5e7\nyield_surface = ";
+
+TEST_F(MaterialsFileTest, YieldSurfaces)
+{
+  const MaterialsFile file =
+      read(std::string(frictional) +
+           "{kind = \"drucker-prager\", friction_angle = 30, dilatancy_angle = 10}\n");
+  const FlowLaw& surface = file.material("m").yield_surface;
+  EXPECT_EQ(surface.name, "drucker-prager");
+  EXPECT_EQ(surface.values.at("friction_angle"), std::vector<double>{30});
+  EXPECT_EQ(surface.values.at("dilatancy_angle"), std::vector<double>{10});
+}
+
+TEST_F(MaterialsFileTest, YieldSurfacesThatCannotBeUsed)
+{
+  const auto complaint = [&](const std::string& surface) {
+    try {
+      read(frictional + surface + "\n");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(complaint("{kind = \"druker-prager\"}"), ":6: [material.m.yield_surface]: no yield surface 'druker-prager'");
+  has(complaint("{kind = \"drucker-prager\", friction_angle = 30}"), "the key 'dilatancy_angle' is missing");
+  has(complaint("{kind = \"drucker-prager\", friction_angle = 30, dilatancy_angle = 10, cohesion = 1}"),
+      "unknown key 'cohesion'");
+  has(complaint("{kind = \"drucker-prager\", friction_angle = 90, dilatancy_angle = 10}"), "0 to 75");
+  has(complaint("{kind = \"drucker-prager\", friction_angle = 10, dilatancy_angle = 30}"), "is larger than");
+}
+
 TEST_F(MaterialsFileTest, OnlyHomogeneousSpheresAreSpheres)
 {
   const std::string sphere = std::string(head) + "radius = 1e-3\nmaterial = \"powder\"\n";

@@ -21,9 +21,9 @@ namespace {
 constexpr Moduli elastic{0.35, 0.76, 0.0, 0.0, false};
 constexpr Moduli plastic{0.35, 0.76, 0.01, 0.02, true};
 
-Section sphere_section(const Moduli& m, double fine)
+CutSection sphere_section(const Moduli& m, double fine)
 {
-  Section s;
+  CutSection s;
   s.phases = {{m}};
   s.phase_at = [](double r, double z) { return r * r + (z - 1) * (z - 1) <= 1 ? 0 : -1; };
   s.surface_z = [](double r) { return 1 - std::sqrt(std::max(0.0, 1 - r * r)); };
@@ -59,7 +59,7 @@ TEST(RectilinearPatch, LinearFieldIsExact)
 /// Discrete divergence theorem, at nodes whose functions live inside the body only.
 TEST(RectilinearPatch, UniformPressureIsInEquilibrium)
 {
-  Section s = sphere_section(elastic, 0.04);
+  CutSection s = sphere_section(elastic, 0.04);
   Body b = rectilinear_body(s);
   for (int i = 0; i < b.nodes; ++i) b.ur_i[i] = -0.01 * b.r_i[i], b.uz_i[i] = -0.01 * b.z_i[i];
   kernels().internal_force(b, false);
@@ -126,7 +126,7 @@ TEST(RectilinearEnergy, ForceIsItsDerivative)
 TEST(CutCells, VolumesConverge)
 {
   const auto errors = [](double fine) {
-    Section s = sphere_section(elastic, fine);
+    CutSection s = sphere_section(elastic, fine);
     s.phases = {{elastic}, {elastic, 3}};
     const auto whole = s.phase_at;
     s.phase_at = [whole](double r, double z) {

@@ -79,7 +79,7 @@ TEST_F(SameBody, AProfileOfPoints)
 /// relaxed by damped time steps.
 double apparent_bulk_modulus(const Moduli& shell, const Moduli* core, double core_radius, double fine)
 {
-  Section s;
+  CutSection s;
   s.phases = {{shell}};
   if (core) s.phases.push_back({*core});
   s.phase_at = [&](double r, double z) {
@@ -92,7 +92,7 @@ double apparent_bulk_modulus(const Moduli& shell, const Moduli* core, double cor
   Body b = rectilinear_body(s);
   // pressure on the outer surface only: gradients of the pieces fill the ball but for the pore, whose wall is
   // free, so its own part of the integral is added from a body without it
-  Section whole = s;
+  CutSection whole = s;
   whole.phases = {{shell}};
   whole.phase_at = [](double r, double z) { return std::hypot(r, z - 1) <= 1 ? 0 : -1; };
   const Body full = rectilinear_body(whole);

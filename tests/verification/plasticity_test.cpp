@@ -63,6 +63,24 @@ TEST(J2, YieldsOnCauchyStress)
   EXPECT_NEAR(q, jacobian * yield, 1e-10);  // energies of 1e-2 carry 1e-18: q^2 to 1e-18, q to 1e-10 is ample
 }
 
+/// A frozen evaluation keeps the plastic state, and its response is elastic about it: where nothing flows, the
+/// forces are the same.
+TEST(J2, FrozenResponseIsElasticAboutThePlasticState)
+{
+  Body b = ring(hardening);
+  for (int k = 1; k <= 100; ++k) stretch(b, std::exp(0.0005 * k), std::exp(-0.001 * k));
+  stretch(b, std::exp(0.0005 * 99), std::exp(-0.001 * 99));
+  const std::vector<double> fr = b.fr_i, fz = b.fz_i;
+  const double strain = b.plastic_strain_p[0];
+  kernels().internal_force(b, true);
+  EXPECT_EQ(b.plastic_strain_p[0], strain);
+  for (int i = 0; i < b.nodes; ++i) {
+    // roundings of two compilations of the same sums
+    EXPECT_NEAR(b.fr_i[i], fr[i], 1e-15);
+    EXPECT_NEAR(b.fz_i[i], fz[i], 1e-15);
+  }
+}
+
 /// A closed elastic-plastic loop: unloading to zero deviator and back is elastic.
 TEST(J2, UnloadingIsElastic)
 {

@@ -145,8 +145,9 @@ LawMaterial partner_material(const std::string& path, const std::string& name, c
 {
   const MaterialsFile file = read_materials(path);
   const Material& m = file.material(name);
-  if (!m.hardening.name.empty() || m.rate_dependent())
-    fail(option, "this material must harden linearly or not at all, and know no rate", name);
+  if (!m.hardening.name.empty() || m.rate_dependent() || !m.yield_surface.name.empty())
+    fail(option, "this material must yield by von Mises, harden linearly or not at all, and without a rate law",
+         name);
   return law_material(name, m);
 }
 

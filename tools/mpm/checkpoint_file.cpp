@@ -42,7 +42,8 @@ json describe(const Material& m)
           {"yield_stress", m.yields() ? json(m.yield_stress) : json(nullptr)},
           {"hardening_modulus", m.hardening_modulus},
           {"hardening", describe(m.hardening)},
-          {"rate", describe(m.rate)}};
+          {"rate", describe(m.rate)},
+          {"yield_surface", describe(m.yield_surface)}};
 }
 
 void add(RunIdentity& identity, const std::string& whose, const Particle& p)

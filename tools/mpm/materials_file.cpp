@@ -23,20 +23,21 @@ namespace {
 
 const char* unit_of(flow::Quantity quantity)
 {
-  return quantity == flow::Quantity::stress ? "Pa" : quantity == flow::Quantity::rate ? "1/s" : "";
+  constexpr const char* units[] = {"", "Pa", "1/s", "degrees"};
+  return units[static_cast<int>(quantity)];
 }
 
-/// {law = "NAME", key = value, ...} with the keys that the law has.
-FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<FlowLawKeys>& known)
+/// {WORD = "NAME", key = value, ...} with the keys that the law has.
+FlowLaw read_flow_law(const Section& s, const char* word, const char* kind,
+                      const std::vector<FlowLawKeys>& known)
 {
-  FlowLaw law{s.text("law"), {}};
+  FlowLaw law{s.text(word), {}};
   Words names;
   for (const FlowLawKeys& entry : known) names.push_back(entry.name);
   const auto found = std::find(names.begin(), names.end(), law.name);
-  if (found == names.end())
-    fail_unknown(s.where(s.node("law")), fmt::format("no {} law", kind), law.name, names);
+  if (found == names.end()) fail_unknown(s.where(s.node(word)), fmt::format("no {}", kind), law.name, names);
   const std::vector<flow::Parameter>& parameters = known[found - names.begin()].parameters;
-  Words keys{"law"};
+  Words keys{word};
   for (const flow::Parameter& p : parameters) keys.push_back(p.key);
   s.check_keys(keys);
   for (const flow::Parameter& p : parameters)
@@ -47,7 +48,7 @@ FlowLaw read_flow_law(const Section& s, const char* kind, const std::vector<Flow
 
 void read_hardening(const Section& h, Material& m)
 {
-  const FlowLaw law = read_flow_law(h, "hardening", hardening_laws());
+  const FlowLaw law = read_flow_law(h, "law", "hardening law", hardening_laws());
   if (law.name != flow::Linear::name) {
     m.hardening = law;
     validate_flow(m, h.where());
@@ -61,13 +62,20 @@ void read_hardening(const Section& h, Material& m)
 
 void read_rate(const Section& r, Material& m)
 {
-  m.rate = read_flow_law(r, "rate", rate_laws());
+  m.rate = read_flow_law(r, "law", "rate law", rate_laws());
   validate_flow(m, r.where());
+}
+
+void read_yield_surface(const Section& y, Material& m)
+{
+  m.yield_surface = read_flow_law(y, "kind", "yield surface", yield_surfaces());
+  validate_flow(m, y.where());
 }
 
 Material read_material(const Section& s)
 {
-  s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate"});
+  s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate",
+                "yield_surface"});
   Material m;
   m.density = s.positive("density", "kg/m^3");
   m.youngs_modulus = s.positive("youngs_modulus", "Pa");
@@ -82,13 +90,16 @@ Material read_material(const Section& s)
          fmt::format("{:g} Pa", m.yield_stress),
          fmt::format("up to a tenth of E* = E/(1-nu^2), {:.4g} Pa; without the key the body is elastic",
                      0.1 * m.e_star()));
-  if (!m.yields() && (s.has("hardening") || s.has("rate"))) {
-    const char* key = s.has("hardening") ? "hardening" : "rate";
-    fail(s.where(s.node(key)), fmt::format("'{}' needs a 'yield_stress'", key));
-  }
+  for (const char* key : {"hardening", "rate", "yield_surface"})
+    if (!m.yields() && s.has(key))
+      fail(s.where(s.node(key)), fmt::format("'{}' needs a 'yield_stress'", key));
   if (s.has("hardening")) read_hardening(s.table("hardening", "{law = \"linear\", modulus = 1e9}"), m);
   if (s.has("rate"))
     read_rate(s.table("rate", "{law = \"cowper-symonds\", reference_rate = 40, exponent = 5}"), m);
+  if (s.has("yield_surface"))
+    read_yield_surface(s.table("yield_surface", "{kind = \"drucker-prager\", friction_angle = 30, "
+                                                "dilatancy_angle = 10}"),
+                       m);
   return m;
 }
 

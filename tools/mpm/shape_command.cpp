@@ -48,6 +48,7 @@ BodyLaw sphere_law(const Particle& particle, const ShapeRequest& r)
     fail(r.law, fmt::format("holds no law of a sphere of the material of '{}'", r.particle));
   }
   const Material& m = particle.materials.front();
+  check_von_mises(m, r.particle);
   if (material.yields() && (!m.hardening.name.empty() || m.rate_dependent()))
     fail("--law", "is needed: the atlas does not know the flow law of this material", {},
          "the law file of mpm table for its sphere");

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "solver/flow/parts.hpp"
+#include "solver/material/flow_trials.hpp"
 
 namespace granulaw::flow {
 
@@ -91,6 +92,32 @@ concept RateLaw = NamedLaw<Law> &&
   {
     law.rate_at(x)
     } -> std::same_as<double>;
+};
+
+/// Where a material yields and which way it flows.
+///     from(values)                 the surface with its parameters, in the order of `parameters`
+///     surface.dilates()            its flow changes the volume: `dilation` is filled, too
+///     surface.find(trials, count, plastic_strain, moduli, shear, bulk, flow_stress, per_dt)
+///                                  fills the flow of the points of a block (flow_trials.hpp); false: none
+///                                  flows. shear, bulk: G and K of `moduli`, which flow_stress takes; per_dt:
+///                                  1 over the time since the last update, 0: rate-free
+template <class Surface>
+concept YieldSurface = std::size(Surface::parameters)
+<= surface_room&& requires(const Surface surface, const double* values, kernel::FlowTrials<double>& trials,
+                           const Moduli& moduli, const kernel::FlowStress<double>& flow_stress)
+{
+  {
+    Surface::name
+    } -> std::convertible_to<const char*>;
+  {
+    Surface::from(values)
+    } -> std::same_as<Surface>;
+  {
+    surface.dilates()
+    } -> std::same_as<bool>;
+  {
+    surface.find(trials, 1, values, moduli, 1.0, 1.0, flow_stress, 0.0)
+    } -> std::same_as<bool>;
 };
 
 }  // namespace granulaw::flow

@@ -32,7 +32,7 @@ bool with_law(flow::LawList<Law...>, const std::string& name, Use use)
   return found;
 }
 
-/// What `from` reads, in units of `stress` and 1/`time`; a sentence if the law cannot be used.
+/// Numbers that `from` reads, in units of `stress` and 1/`time`; a sentence if the law cannot be used.
 template <class Law>
 const char* pack(const FlowLaw& law, double stress, double time, double* out)
 {
@@ -42,6 +42,7 @@ const char* pack(const FlowLaw& law, double stress, double time, double* out)
     for (double& value : list) {
       if (p.quantity == flow::Quantity::stress) value /= stress;
       if (p.quantity == flow::Quantity::rate) value *= time;
+      if (p.quantity == flow::Quantity::angle) value = std::sin(value * M_PI / 180);
     }
     lists.push_back(std::move(list));
   }
@@ -95,11 +96,17 @@ void check_name(List list, const std::vector<FlowLawKeys>& known, const FlowLaw&
     return;
   std::vector<std::string> names;
   for (const FlowLawKeys& k : known) names.push_back(k.name);
-  fail(where, fmt::format("no {} law '{}'{}", kind, law.name, did_you_mean(law.name, names)), {},
+  fail(where, fmt::format("no {} '{}'{}", kind, law.name, did_you_mean(law.name, names)), {},
        fmt::format("{}", fmt::join(names, ", ")));
 }
 
 }  // namespace
+
+const std::vector<FlowLawKeys>& yield_surfaces()
+{
+  static const std::vector<FlowLawKeys> surfaces = keys_of(flow::YieldSurfaces{});
+  return surfaces;
+}
 
 const std::vector<FlowLawKeys>& hardening_laws()
 {
@@ -116,11 +123,21 @@ const std::vector<FlowLawKeys>& rate_laws()
 void validate_flow(const Material& m, const std::string& where)
 {
   const bool named = !m.hardening.name.empty();
-  if (!m.yields() && (named || m.rate_dependent()))
-    fail(where, "'hardening' and 'rate' need a 'yield_stress'");
-  if (m.rate_dependent()) check_name(flow::RateLaws{}, rate_laws(), m.rate, "rate", where);
+  if (!m.yields() && (named || m.rate_dependent() || !m.yield_surface.name.empty()))
+    fail(where, "'yield_surface', 'hardening' and 'rate' need a 'yield_stress'");
+  if (!m.yield_surface.name.empty())
+    check_name(flow::YieldSurfaces{}, yield_surfaces(), m.yield_surface, "yield surface", where);
+  with_law(flow::YieldSurfaces{}, m.yield_surface.name, [&](auto chosen, int) {
+    using Surface = decltype(chosen);
+    double values[flow::surface_room];
+    pack<Surface>(m.yield_surface, 1, 1, values);
+    if constexpr (requires { Surface::misuse(values); })
+      if (const char* problem = Surface::misuse(values))
+        fail(where, fmt::format("yield surface '{}': {}", Surface::name, problem));
+  });
+  if (m.rate_dependent()) check_name(flow::RateLaws{}, rate_laws(), m.rate, "rate law", where);
   if (!named) return;
-  check_name(flow::HardeningLaws{}, hardening_laws(), m.hardening, "hardening", where);
+  check_name(flow::HardeningLaws{}, hardening_laws(), m.hardening, "hardening law", where);
   with_law(flow::HardeningLaws{}, m.hardening.name, [&](auto chosen, int) {
     using Law = decltype(chosen);
     double values[flow::law_room];
@@ -141,6 +158,10 @@ flow::Flow flow_of(const Material& m, double stress, double time)
 {
   flow::Flow result;
   if (!m.yields()) return result;
+  with_law(flow::YieldSurfaces{}, m.yield_surface.name, [&](auto chosen, int place) {
+    result.surface = place;
+    pack<decltype(chosen)>(m.yield_surface, stress, time, result.surface_values);
+  });
   const FlowLaw hardening = hardening_of(m);
   with_law(flow::HardeningLaws{}, hardening.name, [&](auto chosen, int place) {
     result.hardening = place;
@@ -153,6 +174,15 @@ flow::Flow flow_of(const Material& m, double stress, double time)
         pack<decltype(chosen)>(m.rate, stress, time, result.rate_values);
     });
   return result;
+}
+
+bool dilates(const Material& m)
+{
+  const flow::Flow laws = flow_of(m, 1, 1);
+  bool found = false;
+  with_law(flow::YieldSurfaces{}, m.yield_surface.name,
+           [&](auto chosen, int) { found = decltype(chosen)::from(laws.surface_values).dilates(); });
+  return found;
 }
 
 double flow_stress(const Material& m, double ep)

@@ -8,13 +8,14 @@
 
 namespace granulaw {
 
-/// A flow law as the materials file may name it.
+/// A yield surface or a flow law as the materials file may name it.
 struct FlowLawKeys
 {
   std::string name;
   std::vector<flow::Parameter> parameters;
 };
 
+const std::vector<FlowLawKeys>& yield_surfaces();
 const std::vector<FlowLawKeys>& hardening_laws();
 const std::vector<FlowLawKeys>& rate_laws();
 
@@ -24,6 +25,9 @@ void validate_flow(const Material& material, const std::string& where);
 /// The material's laws for the kernels: stresses over `stress` (Pa), rates times `time` (s). Valid materials
 /// only.
 flow::Flow flow_of(const Material& material, double stress, double time);
+
+/// The material's plastic flow changes its volume.
+bool dilates(const Material& material);
 
 /// Static flow stress, Pa, at equivalent plastic strain `ep`; the material yields.
 double flow_stress(const Material& material, double ep);

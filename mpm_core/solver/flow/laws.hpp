@@ -8,6 +8,8 @@
 #include "solver/flow/swift.hpp"
 #include "solver/flow/tabulated.hpp"
 #include "solver/flow/voce.hpp"
+#include "solver/material/drucker_prager.hpp"
+#include "solver/material/von_mises.hpp"
 
 namespace granulaw::flow {
 
@@ -19,6 +21,7 @@ struct LawList
 // A new law: one file beside the others with what concepts.hpp asks for, included above and named here.
 // Kernels, materials file, checks and messages follow these lists. The first of each is what a material has
 // that names none.
+using YieldSurfaces = LawList<VonMises, DruckerPrager>;
 using HardeningLaws = LawList<Linear, Swift, Voce, JohnsonCook, Tabulated>;
 using RateLaws = LawList<RateIndependent, JohnsonCookRate, CowperSymonds>;
 
@@ -33,11 +36,17 @@ struct RequireRate
 {
   static_assert(RateLaw<Law>, "a rate law lacks what concepts.hpp asks for");
 };
+template <class Law>
+struct RequireSurface
+{
+  static_assert(YieldSurface<Law>, "a yield surface lacks what concepts.hpp asks for");
+};
 template <template <class> class Require, class... Law>
 consteval bool all(LawList<Law...>)
 {
   return ((sizeof(Require<Law>) > 0) && ...);
 }
+static_assert(all<RequireSurface>(YieldSurfaces{}));
 static_assert(all<RequireHardening>(HardeningLaws{}));
 static_assert(all<RequireRate>(RateLaws{}));
 
@@ -45,7 +54,8 @@ static_assert(all<RequireRate>(RateLaws{}));
 /// of points as its law wants it), in solver units. Plain data.
 struct Flow
 {
-  int hardening = 0, rate = 0;
+  int surface = 0, hardening = 0, rate = 0;
+  double surface_values[surface_room]{};
   double hardening_values[law_room]{};
   double rate_values[rate_room]{};
 };

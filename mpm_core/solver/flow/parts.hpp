@@ -2,7 +2,7 @@
 
 #include <limits>
 
-/// What a flow law is made of. These files are compiled into host code and, once for each instruction set,
+/// Parts of flow laws. These files are compiled into host code and, once for each instruction set,
 /// into the kernels: every function here must be always_inline, so that no copy is shared between the sets.
 #define GRANULAW_INLINE static inline __attribute__((always_inline))
 #define GRANULAW_MEMBER inline __attribute__((always_inline))
@@ -16,11 +16,8 @@ struct ValueAndSlope
   double value, slope;
 };
 
-enum class Quantity {
-  number,
-  stress,
-  rate
-};  ///< 1, Pa, 1/s: how a parameter is made dimensionless and named
+/// 1, Pa, 1/s, degrees: how a parameter is made dimensionless and named; of an angle the sine is kept.
+enum class Quantity { number, stress, rate, angle };
 
 /// One key of a law in the materials file.
 struct Parameter
@@ -37,7 +34,7 @@ inline constexpr double no_limit = std::numeric_limits<double>::max();
 /// "Not below any strain or rate that occurs."
 inline constexpr double unreached = 1e150;
 
-/// Room for what a hardening law and a rate law keep for the kernel, in doubles.
-inline constexpr int law_room = 96, rate_room = 8;
+/// Room for what a hardening law, a rate law and a yield surface keep for the kernel, in doubles.
+inline constexpr int law_room = 96, rate_room = 8, surface_room = 8;
 
 }  // namespace granulaw::flow

@@ -51,7 +51,7 @@ class PieceSum
 };
 
 /// The phase of a rectangle if its corners, edges and middle agree; -2 if they do not.
-int phase_of(const Section& s, double r0, double r1, double z0, double z1)
+int phase_of(const CutSection& s, double r0, double r1, double z0, double z1)
 {
   int phase = -2;
   for (const double r : {r0, 0.5 * (r0 + r1), r1})
@@ -82,7 +82,7 @@ Rectangle quarter_of(const SplineAxis& r_axis, int c, int right, const SplineAxi
 
 /// What a quarter holds of each phase: by 2 x 2 Gauss points if it is whole, by a raster if it is cut;
 /// nothing if it lies outside the body.
-std::vector<PieceSum> sums_over(const Section& s, const Rectangle& q, const SplineAxis& r_axis,
+std::vector<PieceSum> sums_over(const CutSection& s, const Rectangle& q, const SplineAxis& r_axis,
                                 const SplineAxis& z_axis)
 {
   const int whole = phase_of(s, q.r, q.r + q.hr, q.z, q.z + q.hz);
@@ -107,7 +107,7 @@ std::vector<PieceSum> sums_over(const Section& s, const Rectangle& q, const Spli
 
 }  // namespace
 
-std::vector<Piece> cut_pieces(const Section& s, const SplineAxis& r_axis, const SplineAxis& z_axis)
+std::vector<Piece> cut_pieces(const CutSection& s, const SplineAxis& r_axis, const SplineAxis& z_axis)
 {
   std::vector<Piece> pieces;
   for (int c = 0; c < r_axis.cells(); ++c)
@@ -127,7 +127,7 @@ std::vector<Piece> cut_pieces(const Section& s, const SplineAxis& r_axis, const 
   return pieces;
 }
 
-Surface section_markers(const Section& s, const SplineAxis& r_axis, int per_column)
+Surface section_markers(const CutSection& s, const SplineAxis& r_axis, int per_column)
 {
   Surface surface;
   const auto add = [&](double r) {
@@ -178,7 +178,7 @@ struct MassNodes
   std::vector<int> id;       ///< its number in the body; -1: it holds none
   int count = 0;
 
-  MassNodes(const Section& s, const std::vector<Piece>& pieces, const SplineAxis& r_axis,
+  MassNodes(const CutSection& s, const std::vector<Piece>& pieces, const SplineAxis& r_axis,
             const SplineAxis& z_axis)
       : columns(z_axis.functions()), mass(std::size_t(r_axis.functions()) * columns, 0.0), id(mass.size(), -1)
   {
@@ -228,7 +228,7 @@ void set_points(Body& b, const MassNodes& nodes, const std::vector<Piece>& piece
 }
 
 /// Places on opposite walls of the pores.
-Surface pore_wall_markers(const Section& s)
+Surface pore_wall_markers(const CutSection& s)
 {
   Surface walls;
   for (const auto& [r, z] : s.pore_walls) walls.r.push_back(r), walls.z.push_back(z);
@@ -237,7 +237,7 @@ Surface pore_wall_markers(const Section& s)
 }
 
 /// Corners of the pieces as they are drawn: all first corners, all second ones, ...
-Surface corner_markers(const Section& s, const std::vector<Piece>& pieces)
+Surface corner_markers(const CutSection& s, const std::vector<Piece>& pieces)
 {
   Surface outline;
   for (int k = 0; k < 4; ++k)
@@ -251,7 +251,7 @@ Surface corner_markers(const Section& s, const std::vector<Piece>& pieces)
 
 }  // namespace
 
-Body rectilinear_body(const Section& s)
+Body rectilinear_body(const CutSection& s)
 {
   const SplineAxis r_axis(graded_lines(0, s.block, s.radius, s.fine, growth, coarsest, s.shift));
   const SplineAxis z_axis(graded_lines(0, s.depth, s.height, s.fine, growth, coarsest));

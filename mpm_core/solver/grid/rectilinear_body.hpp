@@ -18,7 +18,7 @@ namespace granulaw {
 ///     +-+-+-+--+---+-----+--
 ///     +-+-+-+--+---+-----+--   fine over block x depth at the contact pole
 ///     ----------------------   plane
-struct Section
+struct CutSection
 {
   std::vector<Phase> phases;
   /// index of the phase at (r, z), -1: outside, or in a pore
@@ -42,13 +42,13 @@ struct Section
 /// samples where the surface or an interface cuts it. Nodes near the surface keep the little mass that is
 /// really theirs: with lumped masses their stiffness falls with it, so the time step stays, while a least
 /// mass would make them lag behind (a tenth of the full one: 2 % of the energy of an elastic impact lost).
-Body rectilinear_body(const Section& section);
+Body rectilinear_body(const CutSection& section);
 
 /// The surface markers of a section, r, z only: `per_column` in each column of cells, and one at the pole.
 /// A column has about one degree of freedom for the shape of its surface. With more markers the impulses are
 /// not unique, the sweeps converge badly, and the contact feeds vibration (four a column: 24 % of the energy
 /// of an elastic impact pumped in and out; one: 1e-5).
-Surface section_markers(const Section& section, const SplineAxis& r_axis, int per_column);
+Surface section_markers(const CutSection& section, const SplineAxis& r_axis, int per_column);
 
 /// Corner nodes and weights of a surface whose markers stand at r, z.
 void weigh_markers(Surface& surface, const SplineAxis& r_axis, const SplineAxis& z_axis);
@@ -69,6 +69,6 @@ struct Piece
 std::vector<Region> regions_of(const std::vector<Phase>& phases, const std::vector<Piece>& pieces);
 
 /// All pieces of the section on these axes, in the order of their phases.
-std::vector<Piece> cut_pieces(const Section& section, const SplineAxis& r_axis, const SplineAxis& z_axis);
+std::vector<Piece> cut_pieces(const CutSection& section, const SplineAxis& r_axis, const SplineAxis& z_axis);
 
 }  // namespace granulaw

@@ -93,7 +93,7 @@ void updated_grid_to_points(Body& b, double dt)
       fail("solver", "a material point left the grid `updated`; use the grid `mapped` or `rectilinear`");
 }
 
-Body updated_body(const Section& s)
+Body updated_body(const CutSection& s)
 {
   MovingPoints m;
   m.r_axis = SplineAxis(graded_lines(0, s.block, s.radius + margin, s.fine, growth, coarsest, s.shift));

@@ -8,7 +8,7 @@ namespace granulaw {
 /// updated-Lagrangian material point method with affine velocities (APIC: Jiang, Schroeder, Selle, Teran and
 /// Stomakhin 2015), quadratic B-splines and surface markers. The independent check of the other two grids,
 /// and nearest to the method of Li, Pan and Sinka (2009).
-Body updated_body(const Section& section);
+Body updated_body(const CutSection& section);
 
 /// Points to grid: weights at the points' places, nodal masses and velocities, forces of the points'
 /// stresses.

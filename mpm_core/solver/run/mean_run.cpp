@@ -107,8 +107,8 @@ RunSummary summary_of(const std::vector<TraceSample>& trace, const std::vector<R
   if (!treated.valid()) return s;
   s.grid_noise = treated.grid_noise();
   // After an impact the body rings, and the force with it: the fit is 0.6 % (rms) off its peak however many
-  // grids there are, up to 1.6 %. The smoothed peak of the mean is by 0.23, 0.15, 0.13 % with two, three,
-  // four (against twelve grids of 1.4 times the resolution; 20 impacts, E*/Y 20 to 1800).
+  // grids there are, up to 1.6 %. The smoothed peak of the mean is 0.23, 0.15, 0.13 % off with two, three,
+  // four grids (against twelve grids of 1.4 times the resolution; 20 impacts, E*/Y 20 to 1800).
   if (rings && members.size() > 1) {
     if (const double peak = smoothed_peak(trace); peak > 0) s.force_max = peak;
     return s;

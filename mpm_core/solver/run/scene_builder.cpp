@@ -178,6 +178,11 @@ void Collision::check_grid() const
   if (two && support_ == Support::midplane)
     fail("--support", "the midplane is driven against a rigid plane only, not against a second body",
          "midplane", "free");
+  if (options_.grid == GridKind::updated)
+    for (const Material& m : particle_.materials)
+      if (dilates(m))
+        fail("--grid", "'updated' cannot follow plastic flow that changes the volume (yield_surface)",
+             name_of(options_.grid), "mapped, rectilinear");
   if (options_.grid == GridKind::updated && (two || support_ == Support::midplane))
     fail("--grid", "'updated' does one free body against the rigid plane", name_of(options_.grid),
          "mapped, rectilinear");
@@ -263,10 +268,10 @@ Body Collision::thick_wall(const Material& material, double block, int cells, do
 }
 
 /// `p` must outlive the section.
-Section Collision::section_of(const Particle& p, double block, int cells, double shift) const
+CutSection Collision::section_of(const Particle& p, double block, int cells, double shift) const
 {
   const double length = scale_.length;
-  Section s;
+  CutSection s;
   for (const Material& m : p.materials) s.phases.push_back(phase_of(m, scale_));
   s.phase_at = [&p, length](double r, double z) { return p.material_at(r * length, z * length); };
   s.surface_z = [&p, length](double r) { return p.surface_z(r * length) / length; };
@@ -289,7 +294,7 @@ Body Collision::body_of(const Particle& p, double block, int cells, double shift
 {
   const GridKind grid = options_.grid == GridKind::automatic ? choose_grid(p).grid : options_.grid;
   if (grid == GridKind::mapped) return fitted_sphere(p, block, cells, shift);
-  const Section section = section_of(p, block, cells, shift);
+  const CutSection section = section_of(p, block, cells, shift);
   return grid == GridKind::updated ? updated_body(section) : rectilinear_body(section);
 }
 

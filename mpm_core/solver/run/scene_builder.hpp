@@ -42,7 +42,7 @@ class Collision
   Body body_of(const Particle& particle, double block, int cells, double shift) const;
   Body fitted_sphere(const Particle& sphere, double block, int cells, double shift) const;
   Body thick_wall(const Material& material, double block, int cells, double shift) const;
-  Section section_of(const Particle& particle, double block, int cells, double shift) const;
+  CutSection section_of(const Particle& particle, double block, int cells, double shift) const;
 
   Particle particle_;
   Partner partner_;

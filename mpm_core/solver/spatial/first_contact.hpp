@@ -5,9 +5,8 @@
 
 namespace granulaw {
 
-/// A free body until its first contact with the first plane has ended, wherever its centre goes: a body that
-/// is hit off its centre turns over the contact. The overlap is that of the body's point there, in the rigid
-/// motion; it is largest where the contact turns from loading to unloading.
+/// A free body until its first contact with the first plane has ended. Overlap and speed are the contact
+/// point's in the rigid motion: a body hit off its centre turns while its centre still comes nearer.
 class FirstContact : public BasicProgramme<SpatialScene>
 {
  public:

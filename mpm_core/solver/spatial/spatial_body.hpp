@@ -112,9 +112,9 @@ struct SpatialBody : SpatialPoints<double>
   std::vector<SpatialCell> cells;
   std::vector<SpatialRegion> regions;
   int points = 0;  ///< octants that hold material; a cell has eight lanes whatever it holds
-  /// [cut cell][octant]: by how much of its own growth a piece raises the body's highest frequency, 0 to 1. A
-  /// piece adds no more to omega^2 than its stiffness over the masses of its nodes (Weyl's inequality), here
-  /// as a share of what a filled octant has.
+  /// [cut cell][octant]: stiffness of a cut piece over the masses of its nodes, as a share of a filled
+  /// octant's. If the piece's own omega^2 grows by x, the body's highest grows by at most share times x
+  /// (Weyl's inequality).
   AlignedVector<double> step_share_p;
   double elapsed = 0;  ///< time since the plastic state was last updated
 

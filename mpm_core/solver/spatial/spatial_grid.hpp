@@ -27,9 +27,8 @@ struct SpatialSection
   double mass = 0;                 ///< exact, of the part on the grid; 0: as sampled
 };
 
-/// The body at rest. Cells are cut by the surface and by interfaces as Section's are (rectilinear_body.hpp):
-/// whole octants exactly, cut ones by sub-boxes of a quarter of their edge, each with the share of it that
-/// the tangent plane leaves inside.
+/// The body at rest. Cells are cut by the surface and by interfaces as a CutSection's are
+/// (rectilinear_body.hpp). Cut octants fall into tetrahedra, in which the depth is linear (cell_cutter.hpp).
 SpatialBody spatial_body(const SpatialSection& section);
 
 /// Finest edge wanted about a place where planes push, and how far the fine cells reach from it along an

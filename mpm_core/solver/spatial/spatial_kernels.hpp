@@ -14,8 +14,8 @@ struct CellGrowth
   /// Largest omega^2 of filled cells, 1.5 c^2 times that eigenvalue: inside a body quadratic splines with
   /// lumped masses admit |kappa|^2 up to 1.5 along an axis, 1.41 and 1.44 across.
   double filled_omega2;
-  /// Largest 1 + share (ratio - 1) of cut pieces: the eigenvalue over its value at rest and the piece's
-  /// SpatialBody::step_share_p.
+  /// Largest growth of omega^2 of a cut piece: 1 + share (ratio - 1); ratio: the eigenvalue over its value at
+  /// rest; share: SpatialBody::step_share_p.
   double cut;
   double largest;       ///< the same of all cells; of filled ones the ratio
   double least_volume;  ///< smallest det F

@@ -5,10 +5,8 @@
 // The eight octants of a cell are the lanes of a vector.
 #include <type_traits>
 
-#include "solver/kernel_flow.hpp"
-#include "solver/kernel_math.hpp"
+#include "solver/material/spatial_tensor.hpp"
 #include "solver/spatial/spatial_kernels.hpp"
-#include "solver/spatial/symmetric_tensor.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
@@ -36,19 +34,22 @@ using Lanes = typename Vectors<Real>::Lanes;
 template <class Real>
 using HalfLanes = typename Vectors<Real>::HalfLanes;
 
-constexpr int block_cells = block_points / octants;
-
-/// What the stages hand on for the points of one block. [3 i + j]: component i, derivative by x_j.
+/// What one register holds of a cell's octants; nine sums of whole cells in double would spill without AVX-512.
 template <class Real>
-struct alignas(64) Block
+struct Register
 {
-  Real h[9][block_points];  ///< displacement gradient, F = 1 + h; after the stress update first
-                            ///< Piola-Kirchhoff stress times volume
+#ifdef __AVX512F__
+  typedef Lanes<Real> Values;
+#else
+  typedef Real Values __attribute__((vector_size(32), may_alias));
+#endif
+  static constexpr int lanes = int(sizeof(Values) / sizeof(Real));
 };
 
-/// Keeps a quotient by zero finite.
+constexpr int block_cells = block_points / octants;
+
 template <class Real>
-constexpr Real tiny = std::is_same_v<Real, float> ? Real(1e-37) : Real(1e-300);
+using Block = typename Spatial<Real>::Block;
 
 template <class Real>
 GRANULAW_INLINE const Lanes<Real>& lanes(const Real* values)
@@ -315,19 +316,23 @@ __attribute__((noinline)) void gather_cut(const Grid<Real>& grid, const SpatialC
   to_polynomials<3, Real>(c, frame.first[1], frame.last[1]);
   to_polynomials<1, Real>(c, frame.first[2], frame.last[2]);
   const Real* __restrict coefficient = reinterpret_cast<const Real*>(c);
-  Lanes<Real> sums[9]{};
+  using Values = typename Register<Real>::Values;
+  for (int lane = 0; lane < octants; lane += Register<Real>::lanes) {
+    Values sums[9]{};
 #pragma GCC unroll 26
-  for (int k = 0; k < cut_moments_each; ++k) {
-    const Lanes<Real> moment = lanes(moments + k * octants);
-    const int power[3] = {k / 9, k / 3 % 3, k % 3}, step[3] = {9, 3, 1};
+    for (int k = 0; k < cut_moments_each; ++k) {
+      const Values moment = *reinterpret_cast<const Values*>(moments + k * octants + lane);
+      const int power[3] = {k / 9, k / 3 % 3, k % 3}, step[3] = {9, 3, 1};
 #pragma GCC unroll 3
-    for (int d = 0; d < 3; ++d)
-      if (power[d] < 2)
+      for (int d = 0; d < 3; ++d)
+        if (power[d] < 2)
 #pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) sums[3 * i + d] += moment * coefficient[4 * (k + step[d]) + i];
-  }
+          for (int i = 0; i < 3; ++i) sums[3 * i + d] += moment * coefficient[4 * (k + step[d]) + i];
+    }
 #pragma GCC unroll 9
-  for (int m = 0; m < 9; ++m) lanes(h + m * block_points) = sums[m] * frame.per_edge[m % 3];
+    for (int m = 0; m < 9; ++m)
+      *reinterpret_cast<Values*>(h + m * block_points + lane) = sums[m] * frame.per_edge[m % 3];
+  }
 }
 
 /// Forces of a cut cell, the transposed of gather_cut.
@@ -404,224 +409,35 @@ GRANULAW_INLINE void scatter(const Grid<Real>& grid, int first, int end, const B
       });
 }
 
-/// Of the points of a block: the state with all plastic flow of the step undone, and what flows.
 template <class Real>
-struct alignas(64) Trials
+GRANULAW_INLINE PointState<Spatial<Real>> state_of(SpatialBody& body, int first)
 {
-  Real x[6][block_points];         ///< elastic left Cauchy-Green tensor minus identity
-  Real deviator[6][block_points];  ///< of the elastic logarithmic strain
-  Real trace[block_points];        ///< and its trace, ln J
-  Real q[block_points], jacobian[block_points], strain[block_points], stress[block_points];
+  SpatialPoints<Real>& points = points_of<Real>(body);
+  return {{points.c_p[0].data() + first, points.c_p[1].data() + first, points.c_p[2].data() + first,
+           points.c_p[3].data() + first, points.c_p[4].data() + first, points.c_p[5].data() + first},
+          points.plastic_strain_p.data() + first,
+          points.plastic_work_p.data() + first,
+          points.elastic_energy_p.data() + first,
+          points.volume_p.data() + first};
+}
 
-  GRANULAW_MEMBER static Symmetric<Real> read(const Real (&a)[6][block_points], int p)
-  {
-    return {a[0][p], a[1][p], a[2][p], a[3][p], a[4][p], a[5][p]};
-  }
-  GRANULAW_MEMBER static void write(Real (&a)[6][block_points], int p, const Symmetric<Real>& s)
-  {
-    a[0][p] = s.xx, a[1][p] = s.yy, a[2][p] = s.zz, a[3][p] = s.xy, a[4][p] = s.xz, a[5][p] = s.yz;
-  }
-};
-
-/// State of the points of one block, from its first.
+/// Every region, block by block. `frozen`: nothing flows.
 template <class Real>
-struct PointState
-{
-  Real* __restrict c[6];
-  Real* __restrict plastic_strain;
-  Real* __restrict plastic_work;
-  Real* __restrict energy;
-  const Real* __restrict volume;
-
-  GRANULAW_MEMBER PointState(SpatialPoints<Real>& points, int first)
-      : c{points.c_p[0].data() + first, points.c_p[1].data() + first, points.c_p[2].data() + first,
-          points.c_p[3].data() + first, points.c_p[4].data() + first, points.c_p[5].data() + first},
-        plastic_strain(points.plastic_strain_p.data() + first),
-        plastic_work(points.plastic_work_p.data() + first),
-        energy(points.elastic_energy_p.data() + first),
-        volume(points.volume_p.data() + first)
-  {
-  }
-};
-
-/// F = 1 + h, its adjugate F^-1 det F, and its determinant.
-template <class Real>
-struct Deformation
-{
-  Real f[3][3], adjugate[3][3], determinant;
-};
-
-template <class Real>
-GRANULAW_INLINE Deformation<Real> deformation(const Block<Real>& block, int p)
-{
-  Deformation<Real> d;
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i)
-#pragma GCC unroll 3
-    for (int j = 0; j < 3; ++j) d.f[i][j] = block.h[3 * i + j][p] + (i == j ? Real(1) : Real(0));
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i)
-#pragma GCC unroll 3
-    for (int j = 0; j < 3; ++j) {
-      const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, e = (j + 2) % 3;
-      d.adjugate[j][i] = d.f[a][c] * d.f[b][e] - d.f[a][e] * d.f[b][c];
-    }
-  d.determinant = d.f[0][0] * d.adjugate[0][0] + d.f[0][1] * d.adjugate[1][0] + d.f[0][2] * d.adjugate[2][0];
-  return d;
-}
-
-/// a s a^T
-template <class Real>
-GRANULAW_INLINE Symmetric<Real> pushed(const Real (&a)[3][3], const Symmetric<Real>& s)
-{
-  Real t[3][3];
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) {
-    t[i][0] = a[i][0] * s.xx + a[i][1] * s.xy + a[i][2] * s.xz;
-    t[i][1] = a[i][0] * s.xy + a[i][1] * s.yy + a[i][2] * s.yz;
-    t[i][2] = a[i][0] * s.xz + a[i][1] * s.yz + a[i][2] * s.zz;
-  }
-  const auto entry = [&](int i, int j) __attribute__((always_inline))
-  {
-    return t[i][0] * a[j][0] + t[i][1] * a[j][1] + t[i][2] * a[j][2];
-  };
-  return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
-}
-
-/// Trial state of a point: x = F C_p^-1 F^T - 1 = h + h^T + h h^T + F c F^T, and its logarithmic strain.
-template <bool has_state, bool yields, class Real>
-GRANULAW_INLINE void trial_point(const Block<Real>& block, const PointState<Real>& state, int p, Real shear2,
-                                 Trials<Real>& out)
-{
-  const Deformation<Real> d = deformation(block, p);
-  const auto h = [&](int i, int j) __attribute__((always_inline))
-  {
-    return block.h[3 * i + j][p];
-  };
-  const auto entry = [&](int i, int j) __attribute__((always_inline))
-  {
-    return h(i, j) + h(j, i) + h(i, 0) * h(j, 0) + h(i, 1) * h(j, 1) + h(i, 2) * h(j, 2);
-  };
-  Symmetric<Real> x{entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
-  if constexpr (has_state) {
-    const Symmetric<Real> c{state.c[0][p], state.c[1][p], state.c[2][p],
-                            state.c[3][p], state.c[4][p], state.c[5][p]};
-    const Symmetric<Real> y = pushed(d.f, c);
-    x.xx += y.xx, x.yy += y.yy, x.zz += y.zz, x.xy += y.xy, x.xz += y.xz, x.yz += y.yz;
-  }
-  const LogarithmicStrain<Real> e = logarithmic_strain(x);
-  Trials<Real>::write(out.deviator, p, e.deviator);
-  out.trace[p] = e.trace;
-  if constexpr (yields) {
-    Trials<Real>::write(out.x, p, x);
-    out.q[p] = shear2 * root_of(Real(1.5) * square_of(e.deviator));
-    out.jacobian[p] = d.determinant;  // plastic flow keeps the volume
-  }
-}
-
-/// The point after its flow: plastic state, stored energy, first Piola-Kirchhoff stress P = tau F^-T.
-template <bool flows, class Real>
-GRANULAW_INLINE void finish_point(Block<Real>& block, const PointState<Real>& state, int p,
-                                  const Trials<Real>& trials, Real shear2, Real bulk)
-{
-  const Deformation<Real> d = deformation(block, p);
-  const Real per_det = Real(1) / d.determinant, volume = state.volume[p];
-  Symmetric<Real> e = Trials<Real>::read(trials.deviator, p);
-  if constexpr (flows) {
-    const Real shrink = Real(1.5) * shear2 * trials.strain[p] / (trials.q[p] + tiny<Real>);
-    // plastic state: b_new - b_trial = b_trial (exp(-2 shrink e) - 1), carried back through F
-    const Real by = -Real(2) * shrink;
-    const Symmetric<Real> change =
-        exponential_m1<Real>({by * e.xx, by * e.yy, by * e.zz, by * e.xy, by * e.xz, by * e.yz});
-    Symmetric<Real> b = Trials<Real>::read(trials.x, p);
-    b.xx += Real(1), b.yy += Real(1), b.zz += Real(1);
-    const Symmetric<Real> c = pushed(d.adjugate, product(b, change));
-    const Real per_det2 = per_det * per_det;
-    state.c[0][p] += per_det2 * c.xx, state.c[1][p] += per_det2 * c.yy, state.c[2][p] += per_det2 * c.zz;
-    state.c[3][p] += per_det2 * c.xy, state.c[4][p] += per_det2 * c.xz, state.c[5][p] += per_det2 * c.yz;
-    state.plastic_strain[p] += trials.strain[p];
-    state.plastic_work[p] += volume * trials.stress[p] * trials.strain[p];
-    const Real keep = Real(1) - shrink;
-    e.xx *= keep, e.yy *= keep, e.zz *= keep, e.xy *= keep, e.xz *= keep, e.yz *= keep;
-  }
-  const Real trace = trials.trace[p], pressure = bulk * trace;
-  state.energy[p] = volume * Real(0.5) * (shear2 * square_of(e) + bulk * trace * trace);
-  const Real scale = volume * per_det;
-  const Real tau[3][3] = {{shear2 * e.xx + pressure, shear2 * e.xy, shear2 * e.xz},
-                          {shear2 * e.xy, shear2 * e.yy + pressure, shear2 * e.yz},
-                          {shear2 * e.xz, shear2 * e.yz, shear2 * e.zz + pressure}};
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i)
-#pragma GCC unroll 3
-    for (int j = 0; j < 3; ++j)
-      block.h[3 * i + j][p] = scale * (tau[i][0] * d.adjugate[j][0] + tau[i][1] * d.adjugate[j][1] +
-                                       tau[i][2] * d.adjugate[j][2]);
-}
-
-template <bool has_state, bool yields, class Real>
-__attribute__((noinline)) void find_trials(const Block<Real>& block, const PointState<Real> state, int count,
-                                           Real shear2, Trials<Real>& trials)
-{
-#pragma omp simd
-  for (int p = 0; p < count; ++p) trial_point<has_state, yields>(block, state, p, shear2, trials);
-}
-
-template <bool flows, class Real>
-__attribute__((noinline)) void finish(Block<Real>& block, const PointState<Real> state, int count,
-                                      const Trials<Real>& trials, Real shear2, Real bulk)
-{
-#pragma omp simd
-  for (int p = 0; p < count; ++p) finish_point<flows>(block, state, p, trials, shear2, bulk);
-}
-
-/// Stress update of the points of one block: the equations of kernels_isa.cpp in three dimensions.
-/// Multiplicative J2 plasticity with logarithmic elastic strain; yield on the Cauchy stress.
-template <class Real, class Hardening, class Rate>
-GRANULAW_INLINE void stress(SpatialBody& body, const Moduli& moduli, int first, int count, Block<Real>& block,
-                            [[maybe_unused]] const Hardening hardening, [[maybe_unused]] const Rate rate)
-{
-  constexpr bool yields = !std::is_same_v<Hardening, Elastic> && !std::is_same_v<Hardening, ElasticWithState>;
-  constexpr bool has_state = !std::is_same_v<Hardening, Elastic>;
-  const Real shear2 = Real(2.0 * moduli.shear), bulk = Real(moduli.bulk);
-  const PointState<Real> state(points_of<Real>(body), first);
-  Trials<Real> trials;
-  find_trials<has_state, yields>(block, state, count, shear2, trials);
-  bool flows = false;
-  if constexpr (yields)
-    flows = find_flow(trials, count, static_cast<const Real*>(state.plastic_strain), hardening, rate, moduli,
-                      body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0);
-  if (flows)
-    finish<true>(block, state, count, trials, shear2, bulk);
-  else
-    finish<false>(block, state, count, trials, shear2, bulk);
-}
-
-/// One region under one pair of laws, block by block. A function of its own for each pair.
-template <class Real, class Hardening, class Rate>
-__attribute__((noinline)) void update_region(SpatialBody& body, const SpatialRegion& region,
-                                             const Hardening hardening, const Rate rate)
+void update(SpatialBody& body, bool frozen)
 {
   const Grid<Real> grid(body);
+  const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
   Block<Real> block;
-  for (int first = region.begin; first < region.end; first += block_cells) {
-    const int end = first + block_cells < region.end ? first + block_cells : region.end;
-    gather(grid, first, end, block);
-    stress(body, region.moduli, octants * first, octants * (end - first), block, hardening, rate);
-    scatter(grid, first, end, block);
-  }
-}
-
-template <class Real>
-GRANULAW_INLINE void update(SpatialBody& body, bool frozen)
-{
   for (const SpatialRegion& region : body.regions) {
-    if (frozen && region.moduli.yields)
-      update_region<Real>(body, region, ElasticWithState{}, no_rate);
-    else if (!region.moduli.yields)
-      update_region<Real>(body, region, Elastic{}, no_rate);
-    else
-      with_flow_laws(region.moduli,
-                     [&](auto hardening, auto rate) { update_region<Real>(body, region, hardening, rate); });
+    Yielding<Real> yielding = yielding_of<Real>(region.moduli);
+    if (frozen) yielding.find = nullptr;
+    for (int first = region.begin; first < region.end; first += block_cells) {
+      const int end = first + block_cells < region.end ? first + block_cells : region.end;
+      gather<Real>(grid, first, end, block);
+      update_stress<Spatial<Real>>(state_of<Real>(body, octants * first), region.moduli, yielding, per_dt,
+                                   false, octants * (end - first), block);
+      scatter<Real>(grid, first, end, block);
+    }
   }
 }
 
@@ -681,7 +497,7 @@ GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Rea
   Real most = 0, least = 1;
 #pragma omp simd reduction(max : most) reduction(min : least)
   for (int lane = 0; lane < octants; ++lane) {
-    const Deformation<Real> d = deformation(block, first + lane);
+    const Deformation<Real> d = Spatial<Real>::deformation(block, first + lane);
     const Real(&a)[3][3] = d.adjugate;
     const auto entry = [&](int i, int j) __attribute__((always_inline))
     {
@@ -718,7 +534,7 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
     const Real bulk_share = Real(m.bulk / (m.bulk + 4.0 / 3.0 * m.shear));
     for (int first = region.begin; first < region.end; first += block_cells) {
       const int end = first + block_cells < region.end ? first + block_cells : region.end;
-      gather(grid, first, end, block);
+      gather<Real>(grid, first, end, block);
       for (int cell = first; cell < end; ++cell) {
         Real per_edge[3], ratio, volume;
         double finest = 0.0;
@@ -728,7 +544,7 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
         }
         const int cut = grid.cells[cell].cut;
         const double* share = cut >= 0 ? body.step_share_p.data() + octants * std::size_t(cut) : whole;
-        measure_cell(block, octants * (cell - first), per_edge, Real(finest * finest), bulk_share, share,
+        measure_cell<Real>(block, octants * (cell - first), per_edge, Real(finest * finest), bulk_share, share,
                      ratio, volume);
         raise(found.largest, ratio);
         if (cut >= 0)

@@ -34,7 +34,7 @@ class SpatialSetup
   const Vector3& first_contact() const { return touches_.front().place; }
   /// Speeds of the planes that are computed, as given.
   std::vector<double> speeds() const;
-  /// The planes that were given, in their order, from those that were computed.
+  /// Traces of all planes as the caller listed them: mirrored ones are copied from the one computed.
   void give_mirrored_planes(std::vector<PlaneTrace>& planes) const;
 
   /// Grids hold what is needed to draw them.
