@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "solver/kernels.hpp"
 #include "solver/output/state_archive.hpp"
 
 namespace granulaw {
@@ -158,9 +159,7 @@ double Body::kinetic_energy() const
 
 double Body::mean_velocity() const
 {
-  double momentum = 0;
-  for (int i = 0; i < nodes; ++i) momentum += mass_i[i] * vz_i[i];
-  return momentum / mass;
+  return kernels().momentum(*this) / mass;
 }
 
 }  // namespace granulaw

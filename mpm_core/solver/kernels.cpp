@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "solver/contact/rows.hpp"
 #include "solver/spatial/spatial_kernels.hpp"
 
 namespace granulaw {
@@ -49,6 +50,12 @@ const SpatialKernels& spatial_kernels()
 {
   const SpatialKernels* sets[] = {&isa_generic::spatial_kernels, &isa_avx2::spatial_kernels,
                                   &isa_avx512::spatial_kernels};
+  return *sets[static_cast<int>(instruction_set())];
+}
+
+const RowKernels& row_kernels()
+{
+  const RowKernels* sets[] = {&isa_generic::row_kernels, &isa_avx2::row_kernels, &isa_avx512::row_kernels};
   return *sets[static_cast<int>(instruction_set())];
 }
 

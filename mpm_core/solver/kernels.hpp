@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/body.hpp"
+#include "solver/material/cauchy_stress.hpp"
 
 namespace granulaw {
 
@@ -30,6 +31,18 @@ struct Kernels
 
   /// u_i += dt v_i
   void (*move)(Body& body, double dt);
+
+  /// Cauchy stress at every point, from the displacements and the plastic state as they stand, both of the
+  /// same moment: after internal_force and before the next move. In double precision, which is that of a
+  /// body in single precision after fetch_state().
+  void (*stress)(Body& body, CauchyStress* points);
+
+  /// Along +z.
+  double (*momentum)(const Body& body);
+
+  /// Largest over the points of the cell's own bound on omega^2, up to a factor common to all cells: the sum
+  /// of squared gradients over the corners, over the smallest eigenvalue of F^T F in the plane of r and z.
+  double (*growth)(const Body& body);
 };
 
 const Kernels& kernels();

@@ -282,9 +282,80 @@ void move(Body& body, double dt)
   body.elapsed += dt;
 }
 
+/// Kirchhoff stress over J; plastic flow keeps the volume: J^2 = det b, b the elastic left Cauchy-Green
+/// tensor.
+void stress_of_moving_points(const Body& body, CauchyStress* points)
+{
+  const MovingPoints& m = *body.moving;
+  for (int p = 0; p < body.points; ++p) {
+    const double rr = body.crr_p[p], zz = body.czz_p[p], rz = body.crz_p[p], hh = body.chh_p[p];
+    const double per_j = 1 / root_of(((1 + rr) * (1 + zz) - rz * rz) * (1 + hh));
+    points[p] = {m.trr[p] * per_j, m.thh[p] * per_j, m.tzz[p] * per_j, 0.0, m.trz[p] * per_j, 0.0};
+  }
+}
+
+void stress(Body& body, CauchyStress* points)
+{
+  if (body.moving) return stress_of_moving_points(body, points);
+  Block<double> block;
+  for (const Region& region : body.regions)
+    for (int first = region.begin; first < region.end; first += block_points) {
+      const int left = region.end - first, count = left < block_points ? left : block_points;
+      gather_block<double>(body, first, count, block);
+      cauchy_stress<Axisymmetric<double>>(state_of<double>(body, first), region.moduli, count, block,
+                                          points + first);
+    }
+}
+
+double momentum(const Body& body)
+{
+  const int nodes = body.nodes;
+  const double* __restrict mass = body.mass_i.data();
+  const double* __restrict vz = body.vz_i.data();
+  double sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (int i = 0; i < nodes; ++i) sum += mass[i] * vz[i];
+  return sum;
+}
+
+template <int corners>
+GRANULAW_INLINE double growth_of(const Body& body)
+{
+  const int n = body.points;
+  const int* __restrict corner = body.corner_p.data();
+  const double* __restrict br = body.br_p.data();
+  const double* __restrict bz = body.bz_p.data();
+  const double* __restrict ur = body.ur_i.data();
+  const double* __restrict uz = body.uz_i.data();
+  double most = 0;
+#pragma omp simd reduction(max : most)
+  for (int p = 0; p < n; ++p) {
+    double hrr = 0, hrz = 0, hzr = 0, hzz = 0, bound = 0;
+#pragma GCC unroll 16
+    for (int k = 0; k < corners; ++k) {
+      const int at = k * n + p, i = corner[at];
+      hrr += br[at] * ur[i], hrz += bz[at] * ur[i];
+      hzr += br[at] * uz[i], hzz += bz[at] * uz[i];
+      bound += br[at] * br[at] + bz[at] * bz[at];
+    }
+    const double frr = 1.0 + hrr, fzz = 1.0 + hzz;
+    const double a = frr * frr + hzr * hzr, b = hrz * hrz + fzz * fzz, c = frr * hrz + hzr * fzz;
+    const double least = 0.5 * (a + b) - root_of(0.25 * (a - b) * (a - b) + c * c);
+    const double found = bound / (least > 1e-12 ? least : 1e-12);
+    most = found > most ? found : most;
+  }
+  return most;
+}
+
+double growth(const Body& body)
+{
+  return body.corners == 4 ? growth_of<4>(body) : growth_of<9>(body);
+}
+
 }  // namespace
 
-extern const Kernels kernels{GRANULAW_ISA_NAME, internal_force, update_stress_of_points,
-                             force_of_stress,   accelerate,     move};
+extern const Kernels kernels{
+    GRANULAW_ISA_NAME, internal_force, update_stress_of_points, force_of_stress, accelerate, move, stress,
+    momentum,          growth};
 
 }  // namespace granulaw::GRANULAW_ISA_NAMESPACE

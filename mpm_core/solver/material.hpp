@@ -9,8 +9,8 @@
 
 namespace granulaw {
 
-/// A hardening law, rate law or yield surface of solver/flow by its name, with the values of its keys, SI; lists of one for
-/// numbers. An empty name: none.
+/// A hardening law, rate law or yield surface of solver/flow by its name, with the values of its keys, SI;
+/// lists of one for numbers. An empty name: none.
 struct FlowLaw
 {
   std::string name;

@@ -18,14 +18,10 @@ struct BasicScene
   std::unique_ptr<BasicContact<Body>> contact;
 };
 
-class FieldRecorder;
-
 /// Axisymmetric: one body above the rigid plane z = 0, or two against each other, each in its own frame
 /// (contact pole at the origin, body in z >= 0: the second one is mirrored).
 struct Scene : BasicScene<Body>
 {
-  using Recorder = FieldRecorder;
-
   /// Overlap: how far the centres of mass have come towards the plane, or towards each other.
   double overlap() const
   {

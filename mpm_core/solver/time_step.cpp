@@ -78,18 +78,6 @@ template double advance(SpatialScene&, BasicProgramme<SpatialScene>&, double, do
 
 namespace {
 
-/// Sum of squared gradients over the corners: a cell's own bound on omega^2 is c^2 times this, up to a factor
-/// common to all cells.
-double cell_bound(const Body& body, int p)
-{
-  double sum = 0;
-  for (int k = 0; k < body.corners; ++k) {
-    const std::size_t at = std::size_t(k) * body.points + p;
-    sum += body.br_p[at] * body.br_p[at] + body.bz_p[at] * body.bz_p[at];
-  }
-  return sum;
-}
-
 /// Beyond this the step would fall without end: a film of Y/100 on a core lasts 300000 steps, and impacts at
 /// 5000 V_y stay below 45.
 constexpr double squeezed = 50;
@@ -193,29 +181,14 @@ StableStep<Body>::StableStep(Body& body)
   omega_ = 1.01 * std::sqrt(largest_eigenvalue(x, body.mass_i, 1e-7, 80, respond, hold_axis));
   std::fill(body.ur_i.begin(), body.ur_i.end(), 0.0);
   std::fill(body.uz_i.begin(), body.uz_i.end(), 0.0);
-  for (int p = 0; p < body.points; ++p) bound_ = std::max(bound_, cell_bound(body, p));
+  bound_ = kernels().growth(body);
 }
 
 template <>
 double StableStep<Body>::limit(const Body& body) const
 {
   if (body.moving) return 2 / omega_;
-  double worst = bound_;
-  const int n = body.points;
-  for (int p = 0; p < n; ++p) {
-    double hrr = 0, hrz = 0, hzr = 0, hzz = 0;
-    for (int k = 0; k < body.corners; ++k) {
-      const std::size_t at = std::size_t(k) * n + p;
-      const int i = body.corner_p[at];
-      hrr += body.br_p[at] * body.ur_i[i], hrz += body.bz_p[at] * body.ur_i[i];
-      hzr += body.br_p[at] * body.uz_i[i], hzz += body.bz_p[at] * body.uz_i[i];
-    }
-    // largest eigenvalue of F^-1 F^-T = 1/(smallest of F^T F); 2 x 2
-    const double frr = 1 + hrr, fzz = 1 + hzz;
-    const double a = frr * frr + hzr * hzr, b = hrz * hrz + fzz * fzz, c = frr * hrz + hzr * fzz;
-    const double smallest = 0.5 * (a + b) - std::sqrt(0.25 * (a - b) * (a - b) + c * c);
-    worst = std::max(worst, cell_bound(body, p) / std::max(smallest, 1e-12));
-  }
+  const double worst = std::max(bound_, kernels().growth(body));
   if (worst > squeezed * squeezed * bound_) fail_squeezed();
   return 2 / (omega_ * std::sqrt(worst / bound_));
 }

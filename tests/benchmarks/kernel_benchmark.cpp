@@ -1,5 +1,5 @@
-// Force evaluations of the kernels by themselves, M point updates a second on one core, of each instruction set
-// that this processor has: three grids, three materials, two precisions.
+// Force evaluations of the kernels by themselves, M point updates a second on one core, of each instruction
+// set that this processor has: three grids, three materials, two precisions.
 //
 //   kernel_benchmark                 all cases
 //   kernel_benchmark spatial voce    those whose names hold all of these words
@@ -113,8 +113,8 @@ int main(int count, char** words)
     for (const char* grid : {"mapped", "rectilinear", "spatial"})
       for (const char* material : {"elastic", "perfect", "voce"})
         for (const bool single : {false, true}) {
-          const std::string name = std::string(set.flat->name) + " " + grid + " " + material +
-                                   (single ? " single" : " double");
+          const std::string name =
+              std::string(set.flat->name) + " " + grid + " " + material + (single ? " single" : " double");
           if (!wanted(name, count, words)) continue;
           const Precision precision = single ? Precision::single : Precision::full;
           const double rate =

@@ -86,13 +86,13 @@ constexpr const char* head =
     "[particle.grain]\n";                                                               // line 5
 
 constexpr const char* frictional =
-    "[material.m]\ndensity = 1500\nyoungs_modulus = 9e9\npoisson_ratio = 0.3\nyield_stress = 5e7\nyield_surface = ";
+    "[material.m]\ndensity = 1500\nyoungs_modulus = 9e9\npoisson_ratio = 0.3\nyield_stress = "
+    "5e7\nyield_surface = ";
 
 TEST_F(MaterialsFileTest, YieldSurfaces)
 {
-  const MaterialsFile file =
-      read(std::string(frictional) +
-           "{kind = \"drucker-prager\", friction_angle = 30, dilatancy_angle = 10}\n");
+  const MaterialsFile file = read(std::string(frictional) +
+                                  "{kind = \"drucker-prager\", friction_angle = 30, dilatancy_angle = 10}\n");
   const FlowLaw& surface = file.material("m").yield_surface;
   EXPECT_EQ(surface.name, "drucker-prager");
   EXPECT_EQ(surface.values.at("friction_angle"), std::vector<double>{30});
@@ -112,7 +112,8 @@ TEST_F(MaterialsFileTest, YieldSurfacesThatCannotBeUsed)
   const auto has = [](const std::string& text, const char* part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  has(complaint("{kind = \"druker-prager\"}"), ":6: [material.m.yield_surface]: no yield surface 'druker-prager'");
+  has(complaint("{kind = \"druker-prager\"}"),
+      ":6: [material.m.yield_surface]: no yield surface 'druker-prager'");
   has(complaint("{kind = \"drucker-prager\", friction_angle = 30}"), "the key 'dilatancy_angle' is missing");
   has(complaint("{kind = \"drucker-prager\", friction_angle = 30, dilatancy_angle = 10, cohesion = 1}"),
       "unknown key 'cohesion'");

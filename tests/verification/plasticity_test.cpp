@@ -63,8 +63,8 @@ TEST(J2, YieldsOnCauchyStress)
   EXPECT_NEAR(q, jacobian * yield, 1e-10);  // energies of 1e-2 carry 1e-18: q^2 to 1e-18, q to 1e-10 is ample
 }
 
-/// A frozen evaluation keeps the plastic state, and its response is elastic about it: where nothing flows, the
-/// forces are the same.
+/// A frozen evaluation keeps the plastic state, and its response is elastic about it: where nothing flows,
+/// the forces are the same.
 TEST(J2, FrozenResponseIsElasticAboutThePlasticState)
 {
   Body b = ring(hardening);

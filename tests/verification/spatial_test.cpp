@@ -76,6 +76,29 @@ TEST(SpatialPatch, LinearFieldIsExact)
   }
 }
 
+/// Cauchy stress of a uniform F by principal axes, as the kernel finds it without them.
+TEST(SpatialPatch, StressOfALinearField)
+{
+  SpatialBody b = ball(elastic);
+  const Eigen::Matrix3d gradient = 0.2 * stretch;
+  displace(b, gradient);
+  std::vector<CauchyStress> found(b.volume_p.size());
+  spatial_kernels().stress(b, found.data());
+  const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + gradient;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(f * f.transpose());
+  const Eigen::Array3d e = 0.5 * axes.eigenvalues().array().log();
+  const Eigen::Vector3d tau =
+      (2 * elastic.shear * (e - e.sum() / 3) + elastic.bulk * e.sum()).matrix() / f.determinant();
+  const Eigen::Matrix3d expected = axes.eigenvectors() * tau.asDiagonal() * axes.eigenvectors().transpose();
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    if (b.volume_p[p] == 0) continue;
+    const CauchyStress& s = found[p];
+    const double parts[] = {s.xx - expected(0, 0), s.yy - expected(1, 1), s.zz - expected(2, 2),
+                            s.xy - expected(0, 1), s.xz - expected(0, 2), s.yz - expected(1, 2)};
+    for (const double off : parts) ASSERT_LT(std::abs(off), 1e-12);  // stresses of 0.1, gradients rounded
+  }
+}
+
 /// Uniform stress is in equilibrium at every node that only whole cells reach: cut cells too, up to what the
 /// surface itself carries.
 TEST(SpatialPatch, UniformStressIsInEquilibrium)

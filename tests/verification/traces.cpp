@@ -32,7 +32,8 @@ Particle layered()
 
 Particle ellipsoid()
 {
-  Particle p = sphere({"swift", {{"strength", {0.01 / std::pow(0.004, 0.2)}}, {"exponent", {0.2}}, {"offset", {0.004}}}});
+  Particle p = sphere(
+      {"swift", {{"strength", {0.01 / std::pow(0.004, 0.2)}}, {"exponent", {0.2}}, {"offset", {0.004}}}});
   p.solid = std::make_shared<EllipsoidSolid>(Vector3(0.9, 1.0, 1.3));
   p.radius = std::cbrt(p.volume() * 3 / (4 * M_PI));
   return p;
@@ -61,8 +62,7 @@ const std::vector<TracedRun>& traced_runs()
   const FlowLaw rate{"cowper-symonds", {{"reference_rate", {0.02}}, {"exponent", {5}}}};
   const double slow = 0.004, fast = 0.03;
   static const std::vector<TracedRun> runs{
-      {"mapped-perfect", 1e-12,
-       [=] { return run_impact(sphere(), fast, coarse(GridKind::mapped, 10, 2)); }},
+      {"mapped-perfect", 1e-12, [=] { return run_impact(sphere(), fast, coarse(GridKind::mapped, 10, 2)); }},
       {"mapped-elastic", 1e-12,
        [=] { return run_impact(Particle::from(reference::unit_sphere(0)), slow, coarse(GridKind::mapped)); }},
       {"rectilinear-layered", 1e-12,

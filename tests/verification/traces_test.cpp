@@ -33,8 +33,8 @@ class Traces : public testing::TestWithParam<TracedRun>
 };
 
 /// Instruction sets differ by the roundings of fused products, which the contact's markers that close one by
-/// one magnify: TracedRun::rounding. It is ten times the difference of generic and AVX2, measured over the largest
-/// value of a column: 2e-13 in two dimensions, 6e-12 in three, 4e-7 in single precision.
+/// one magnify: TracedRun::rounding. It is ten times the difference of generic and AVX2, measured over the
+/// largest value of a column: 2e-13 in two dimensions, 6e-12 in three, 4e-7 in single precision.
 TEST_P(Traces, AreTheStoredOnes)
 {
   const Lines expected = stored(GetParam().name);

@@ -6,7 +6,6 @@
 #include "solver/flow/flow_laws.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/kernels.hpp"
-#include "solver/output/stress.hpp"
 
 namespace granulaw::verification {
 
@@ -43,7 +42,9 @@ CauchyStress stretch(Body& b, double lateral, double strain, double dt)
     b.ur_i[i] = std::expm1(lateral) * b.r_i[i], b.uz_i[i] = std::expm1(-strain) * b.z_i[i];
   b.elapsed = dt;
   kernels().internal_force(b, false);
-  return cauchy_stress(b)[0];
+  CauchyStress s{};
+  kernels().stress(b, &s);
+  return s;
 }
 
 Material material(const FlowLaw& hardening, const FlowLaw& rate = {})
@@ -71,7 +72,7 @@ std::vector<StressStrain> compress(const Material& m, double last, int steps, do
     const double strain = increment * k;
     const auto side_stress = [&](double trial) {
       Body copy = b;
-      return stretch(copy, trial, strain, dt).rr;
+      return stretch(copy, trial, strain, dt).xx;
     };
     // the side moves out by 0 to 1/2 of the shortening: nu while elastic, 1/2 while plastic
     lateral = root(side_stress, lateral - 0.1 * increment, lateral + 0.7 * increment);

@@ -129,6 +129,15 @@ struct Axisymmetric
     c[1][p] += per_det2 * (-g21 * h.zr + g22 * frr);
     c[3][p] += per_fhh * per_fhh * d3;
   }
+  /// tau/J of tau = shear2 e + pressure.
+  static GRANULAW_MEMBER CauchyStress cauchy_stress(const Gradient h, const Strain& e, Real shear2,
+                                                    Real pressure)
+  {
+    const Real per_j = Real(1) / determinant(h), t3 = shear2 * e.s3 + pressure;
+    const Real tm = Real(0.5) * shear2 * (e.s1 + e.s2) + pressure, td = Real(0.5) * shear2 * (e.s1 - e.s2);
+    return {(tm + td * e.cosine) * per_j, t3 * per_j, (tm - td * e.cosine) * per_j, 0,
+            td * e.sine * per_j,          0};
+  }
   /// First Piola-Kirchhoff stress P = tau F^-T of tau = shear2 e + pressure.
   static GRANULAW_MEMBER void put_stress(Block& block, int p, const Gradient h, const Strain& e, Real shear2,
                                          Real pressure, Real /*volume*/)

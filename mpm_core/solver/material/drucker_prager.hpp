@@ -12,8 +12,8 @@ namespace granulaw::flow {
 /// p: pressure, f: friction angle, s: of the dilatancy angle. sigma_y is the flow stress in uniaxial
 /// compression, ep the equivalent plastic shear. Friction 0 is von Mises.
 ///
-/// On the flank q - t p falls by 3 G + K t s per unit of ep: the scalar equation of von Mises. Where that flow
-/// is more than takes all shear away, the stress returns to the apex p = -J d/t.
+/// On the flank q - t p falls by 3 G + K t s per unit of ep: the scalar equation of von Mises. Where that
+/// flow is more than takes all shear away, the stress returns to the apex p = -J d/t.
 struct DruckerPrager
 {
   static constexpr const char* name = "drucker-prager";
@@ -64,7 +64,10 @@ struct DruckerPrager
 
  private:
   /// 6 sin(a)/(3 - sin a)
-  static GRANULAW_MEMBER double slope(double sine) { return 6.0 * sine / (3.0 - sine); }
+  static GRANULAW_MEMBER double slope(double sine)
+  {
+    return 6.0 * sine / (3.0 - sine);
+  }
 };
 
 }  // namespace granulaw::flow

@@ -69,8 +69,9 @@ static __attribute__((noinline)) void search_lanes(SearchLanes& l, int lanes, co
 /// The flow of the points that `open` marks.
 template <class Real, class Hardening, class Rate>
 GRANULAW_INLINE void search_flow(kernel::FlowTrials<Real>& block, const Real* __restrict trial, int count,
-                                 const int (&open)[kernel::block_points], const Real* __restrict plastic_strain,
-                                 const Hardening hardening, const Rate rate, double stiffness, double per_dt)
+                                 const int (&open)[kernel::block_points],
+                                 const Real* __restrict plastic_strain, const Hardening hardening,
+                                 const Rate rate, double stiffness, double per_dt)
 {
   int point[kernel::block_points + 8], found = 0;
   for (int p = 0; p < count; ++p) {

@@ -188,7 +188,10 @@ struct Spatial
     return g;
   }
   /// det F
-  static GRANULAW_MEMBER Real determinant(const Gradient& g) { return g.d.determinant; }
+  static GRANULAW_MEMBER Real determinant(const Gradient& g)
+  {
+    return g.d.determinant;
+  }
   /// F F^T - 1 = h + h^T + h h^T
   static GRANULAW_MEMBER Symmetric stretched(const Gradient& g)
   {
@@ -205,9 +208,15 @@ struct Spatial
     x.xx += y.xx, x.yy += y.yy, x.zz += y.zz, x.xy += y.xy, x.xz += y.xz, x.yz += y.yz;
   }
   /// Logarithmic strain of 1 + x.
-  static GRANULAW_MEMBER Strain logarithm(const Symmetric& x) { return logarithmic_strain(x); }
+  static GRANULAW_MEMBER Strain logarithm(const Symmetric& x)
+  {
+    return logarithmic_strain(x);
+  }
   /// Deviator : deviator.
-  static GRANULAW_MEMBER Real square(const Strain& e) { return square_of(e.deviator); }
+  static GRANULAW_MEMBER Real square(const Strain& e)
+  {
+    return square_of(e.deviator);
+  }
   /// The deviator less `share` of it.
   static GRANULAW_MEMBER void shrink(Strain& e, Real share)
   {
@@ -237,7 +246,8 @@ struct Spatial
   template <bool dilates>
   static GRANULAW_MEMBER void add_pulled_back_flow(Real* const __restrict (&c)[components], int p,
                                                    const Real (&trial)[kept][block_points], const Gradient& g,
-                                                   const Strain& strain, Real by, [[maybe_unused]] Real volume)
+                                                   const Strain& strain, Real by,
+                                                   [[maybe_unused]] Real volume)
   {
     const Symmetric& e = strain.deviator;
     Symmetric change =
@@ -254,6 +264,14 @@ struct Spatial
     c[0][p] += per_det2 * d.xx, c[1][p] += per_det2 * d.yy, c[2][p] += per_det2 * d.zz;
     c[3][p] += per_det2 * d.xy, c[4][p] += per_det2 * d.xz, c[5][p] += per_det2 * d.yz;
   }
+  /// tau/J of tau = shear2 e + pressure.
+  static GRANULAW_MEMBER CauchyStress cauchy_stress(const Gradient& g, const Strain& strain, Real shear2,
+                                                    Real pressure)
+  {
+    const Symmetric& e = strain.deviator;
+    const Real per_j = Real(1) / g.d.determinant, s = shear2 * per_j, p = pressure * per_j;
+    return {s * e.xx + p, s * e.yy + p, s * e.zz + p, s * e.xy, s * e.xz, s * e.yz};
+  }
   /// First Piola-Kirchhoff stress P = tau F^-T of tau = shear2 e + pressure, times volume.
   static GRANULAW_MEMBER void put_stress(Block& block, int p, const Gradient& g, const Strain& strain,
                                          Real shear2, Real pressure, Real volume)
@@ -267,9 +285,8 @@ struct Spatial
     for (int i = 0; i < 3; ++i)
 #pragma GCC unroll 3
       for (int j = 0; j < 3; ++j)
-        block.h[3 * i + j][p] =
-            scale * (tau[i][0] * g.d.adjugate[j][0] + tau[i][1] * g.d.adjugate[j][1] +
-                     tau[i][2] * g.d.adjugate[j][2]);
+        block.h[3 * i + j][p] = scale * (tau[i][0] * g.d.adjugate[j][0] + tau[i][1] * g.d.adjugate[j][1] +
+                                         tau[i][2] * g.d.adjugate[j][2]);
   }
 };
 

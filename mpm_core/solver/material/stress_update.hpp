@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/kernel_math.hpp"
+#include "solver/material/cauchy_stress.hpp"
 #include "solver/material/yielding.hpp"
 
 // The stress update of material points, the same in all dimensions: multiplicative plasticity with
@@ -63,7 +64,8 @@ GRANULAW_INLINE void finish_point(typename Tensor::Block& block, const PointStat
     const Real flow = trials.flow.strain[p];
     const Real share = Real(1.5) * shear2 * flow / (trials.flow.q[p] + tiny<Real>);
     const Real dilation = dilates ? trials.flow.dilation[p] : Real(0);
-    Tensor::template add_pulled_back_flow<dilates>(state.c, p, trials.strain, h, e, Real(-2) * share, Real(-2.0 / 3.0) * dilation);
+    Tensor::template add_pulled_back_flow<dilates>(state.c, p, trials.strain, h, e, Real(-2) * share,
+                                                   Real(-2.0 / 3.0) * dilation);
     state.plastic_strain[p] += flow;
     state.plastic_work[p] += volume * trials.flow.stress[p] * flow;
     Tensor::shrink(e, share);
@@ -94,6 +96,20 @@ static __attribute__((noinline)) void finish(typename Tensor::Block& block, cons
   for (int p = 0; p < count; ++p) finish_point<flows, dilates>(block, state, p, trials, shear2, bulk);
 }
 
+/// Cauchy stress of points whose plastic state is that of their displacement gradients.
+template <class Tensor>
+static void cauchy_stress(const PointState<Tensor> state, const Moduli& moduli, int count,
+                          const typename Tensor::Block& block, CauchyStress* points)
+{
+  for (int p = 0; p < count; ++p) {
+    const typename Tensor::Gradient h = Tensor::gradient(block, p);
+    typename Tensor::Symmetric x = Tensor::stretched(h);
+    Tensor::add_pushed(x, h, Tensor::state(state.c, p));
+    const typename Tensor::Strain e = Tensor::logarithm(x);
+    points[p] = Tensor::cauchy_stress(h, e, 2.0 * moduli.shear, moduli.bulk * e.trace);
+  }
+}
+
 /// Flow of a region: of its material; frozen and on the `updated` grid the plastic state of a body that does
 /// not flow counts, too.
 template <class Real>
@@ -109,8 +125,9 @@ GRANULAW_INLINE Yielding<Real> yielding_of(const Moduli& moduli)
 /// last update, 0: rate-free. `since_last`: the gradients are those of the last step (`updated`), and J is
 /// that of the elastic strain.
 template <class Tensor, class Real = typename Tensor::Number>
-static void update_stress(const PointState<Tensor> state, const Moduli& moduli, const Yielding<Real>& yielding,
-                          double per_dt, bool since_last, int count, typename Tensor::Block& block)
+static void update_stress(const PointState<Tensor> state, const Moduli& moduli,
+                          const Yielding<Real>& yielding, double per_dt, bool since_last, int count,
+                          typename Tensor::Block& block)
 {
   const Real shear2 = Real(2.0 * moduli.shear), bulk = Real(moduli.bulk);
   Trials<Tensor> trials;

@@ -1,9 +1,8 @@
 // Compiled once for each instruction set, as kernels_isa.cpp, under the same rules: the flow stress of every
 // hardening law with every rate law, and every yield surface, for all dimensions.
-#include "solver/material/yielding.hpp"
-
 #include "solver/flow/laws.hpp"
 #include "solver/material/flow_stress.hpp"
+#include "solver/material/yielding.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
@@ -41,9 +40,8 @@ template <class Real, class Rate, class... Hardening>
 GRANULAW_INLINE void choose_hardening(const Moduli& m, FlowStress<Real>& out, LawList<Hardening...>)
 {
   int k = 0;
-  ((k++ == m.flow.hardening
-        ? void(out = {find<Real, Hardening, Rate>, flow_stress_at<Hardening, Rate>})
-        : void()),
+  ((k++ == m.flow.hardening ? void(out = {find<Real, Hardening, Rate>, flow_stress_at<Hardening, Rate>})
+                            : void()),
    ...);
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <algorithm>
+
 #include "base/scales.hpp"
-#include "solver/output/fields.hpp"
-#include "solver/scene.hpp"
+#include "solver/output/drawing.hpp"
 
 namespace granulaw {
 
@@ -11,19 +12,33 @@ class FieldRecorder
 {
  public:
   /// `duration`: of the run, about, solver units.
-  FieldRecorder(const FieldObserver& observer, const Scales& scale, double duration);
+  FieldRecorder(const FieldObserver& observer, const Scales& scale, double duration)
+      : observer_(observer), scale_(scale), interval_(duration / std::max(1, observer.frames - 1))
+  {
+  }
 
   /// The grids and the bodies at rest, time 0.
-  void begin(const Scene& scene);
+  template <class Scene>
+  void begin(const Scene& scene)
+  {
+    if (!observer_) return;
+    Drawing drawing = draw(scene);
+    const int corners = static_cast<int>(drawing.frame.r.size());
+    if (observer_.begin && !drawing.cells.empty()) observer_.begin(corners, drawing.cells);
+    if (observer_.begin_solid && !drawing.solid_cells.empty())
+      observer_.begin_solid(corners, drawing.solid_cells);
+    record(std::move(drawing.frame), 0, 0, 0);
+  }
   /// To be called at every trace sample, at the end of a step; makes a frame when one is due, or if `last`.
   /// Solver units.
+  template <class Scene>
   void sample(const Scene& scene, double time, double overlap, double force, bool last)
   {
-    if (observer_ && (last || time >= next_)) record(scene, time, overlap, force);
+    if (observer_ && (last || time >= next_)) record(draw(scene).frame, time, overlap, force);
   }
 
  private:
-  void record(const Scene& scene, double time, double overlap, double force);
+  void record(FieldFrame frame, double time, double overlap, double force);
 
   FieldObserver observer_;
   Scales scale_;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/kernels.hpp"
 #include "solver/output/state_archive.hpp"
-#include "solver/output/stress.hpp"
 
 namespace granulaw {
 
@@ -17,9 +17,10 @@ YieldWatch::YieldWatch(std::vector<double> yield_stresses)
   for (const double yield : yield_stresses_) open_ += std::isfinite(yield) ? 1 : 0;
 }
 
-void YieldWatch::look(const Body& body, double overlap)
+void YieldWatch::look(Body& body, double overlap)
 {
-  const std::vector<CauchyStress> stress = cauchy_stress(body);
+  std::vector<CauchyStress> stress(static_cast<std::size_t>(body.points));
+  kernels().stress(body, stress.data());
   std::vector<double> share(yield_stresses_.size(), 0.0);
   for (const Region& region : body.regions) {
     const auto m = static_cast<std::size_t>(region.material);

@@ -19,7 +19,7 @@ class YieldWatch
   /// To be called at samples of a loading, with the body at the end of a step. Looks at the stresses as soon
   /// as the overlap has grown by 10 %: they grow about as its square root, so that a straight line between
   /// two looks is exact to 1e-3 of the overlap.
-  void sample(const Body& body, double overlap)
+  void sample(Body& body, double overlap)
   {
     if (open_ > 0 && overlap >= 1.1 * last_overlap_) look(body, overlap);
   }
@@ -30,7 +30,7 @@ class YieldWatch
   void visit_state(StateArchive& archive);
 
  private:
-  void look(const Body& body, double overlap);
+  void look(Body& body, double overlap);
 
   std::vector<double> yield_stresses_, overlaps_;
   std::vector<double> last_share_;  ///< largest von Mises stress over the yield stress at the last look

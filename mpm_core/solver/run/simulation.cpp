@@ -63,7 +63,7 @@ double Simulation<Scene>::step_limit() const
 }
 
 template <class Scene>
-void Simulation<Scene>::run(Programme& programme, Recorder fields,
+void Simulation<Scene>::run(Programme& programme, FieldRecorder fields,
                             const std::function<void(double)>& progress,
                             const std::function<void(const TraceSample&)>& observe,
                             const CheckpointSlot& checkpoint)

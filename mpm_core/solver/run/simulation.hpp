@@ -9,7 +9,6 @@
 #include "solver/run/loading_programme.hpp"
 #include "solver/runs.hpp"
 #include "solver/scene.hpp"
-#include "solver/spatial/spatial_recorder.hpp"
 #include "solver/spatial/spatial_scene.hpp"
 #include "solver/time_step.hpp"
 
@@ -21,14 +20,13 @@ class Simulation
 {
  public:
   using Programme = BasicProgramme<Scene>;
-  using Recorder = typename Scene::Recorder;
 
   /// `expected`: duration of the run, about, R/c*. `stress`: the solver's unit, Pa.
   Simulation(Scene scene, const RunOptions& options, double expected, double stress);
 
   /// Steps until the loading programme has finished, on from where `checkpoint` stands if that holds a state.
   /// `observe` sees every sample of the trace. Bodies and drive must be as at the start of the run.
-  void run(Programme& programme, Recorder fields, const std::function<void(double)>& progress,
+  void run(Programme& programme, FieldRecorder fields, const std::function<void(double)>& progress,
            const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint = {});
 
   Scene scene;

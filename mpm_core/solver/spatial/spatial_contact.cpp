@@ -23,11 +23,9 @@ constexpr double candidate_edges = 2;
 /// in turns are open by 1 % of that gap at most.
 constexpr double in_contact = 0.02;
 
-double fastest_node(const SpatialBody& body)
+Vector3 vector_at(const double* four)
 {
-  double most = 0;
-  for (const double v : body.v_i) most = std::max(most, std::abs(v));
-  return std::sqrt(3.0) * most;
+  return {four[0], four[1], four[2]};
 }
 
 /// A marker about a contact.
@@ -68,45 +66,33 @@ SpatialContact::SpatialContact(const SpatialBody& body, std::vector<Plane> plane
     : planes_(std::move(planes)),
       markers_(body.surface.count),
       candidates_(planes_.size()),
-      impulse_(planes_.size() * static_cast<std::size_t>(markers_), Vector3::Zero()),
+      impulse_(4 * planes_.size() * static_cast<std::size_t>(markers_), 0.0),
+      rows_(planes_.size() * static_cast<std::size_t>(markers_)),
       pushing_(planes_.size(), 0),
       tallies_(planes_.size())
 {
   const std::array<int, 3> stride = body.strides();
   for (int k = 0; k < cell_nodes; ++k) offsets_[k] = 4 * (k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]);
   for (std::vector<int>& list : candidates_) list.reserve(static_cast<std::size_t>(markers_));
-  rows_.reserve(impulse_.size());  // all that there can be, so that no step allocates
 }
 
-Vector3 SpatialContact::velocity(const SpatialBody& body, int marker) const
+RowNodes SpatialContact::nodes_of(SpatialBody& body) const
 {
-  const double* at = body.v_i.data() + 4 * body.surface.node[marker];
-  const double* weight = body.surface.weight.data() + std::size_t(cell_nodes) * marker;
-  double sum[4]{};
-  for (int k = 0; k < cell_nodes; ++k)
-    for (int c = 0; c < 4; ++c) sum[c] += weight[k] * at[offsets_[k] + c];
-  return {sum[0], sum[1], sum[2]};
+  return {body.u_i.data(), body.v_i.data(), body.f_i.data(), body.inverse_mass_i.data(), offsets_.data()};
+}
+
+Vector3 SpatialContact::carried(const SpatialBody& body, const NodeField& field, int marker) const
+{
+  double sum[4];
+  row_kernels().carry(field.data() + 4 * body.surface.node[marker], offsets_.data(),
+                      body.surface.weight.data() + std::size_t(cell_nodes) * marker, sum);
+  return vector_at(sum);
 }
 
 Vector3 SpatialContact::place(const SpatialBody& body, int marker) const
 {
-  const double* at = body.u_i.data() + 4 * body.surface.node[marker];
-  const double* weight = body.surface.weight.data() + std::size_t(cell_nodes) * marker;
   const std::array<double, 3>& start = body.surface.place[marker];
-  double sum[4]{start[0], start[1], start[2], 0};
-  for (int k = 0; k < cell_nodes; ++k)
-    for (int c = 0; c < 4; ++c) sum[c] += weight[k] * at[offsets_[k] + c];
-  return {sum[0], sum[1], sum[2]};
-}
-
-void SpatialContact::push(SpatialBody& body, int marker, const Vector3& p) const
-{
-  double* at = body.v_i.data() + 4 * body.surface.node[marker];
-  const double* inverse_mass = body.inverse_mass_i.data() + 4 * body.surface.node[marker];
-  const double* weight = body.surface.weight.data() + std::size_t(cell_nodes) * marker;
-  const double impulse[4] = {p[0], p[1], p[2], 0};
-  for (int k = 0; k < cell_nodes; ++k)
-    for (int c = 0; c < 4; ++c) at[offsets_[k] + c] += weight[k] * inverse_mass[offsets_[k] + c] * impulse[c];
+  return Vector3(start[0], start[1], start[2]) + carried(body, body.u_i, marker);
 }
 
 void SpatialContact::choose_candidates(const SpatialBody& body)
@@ -120,78 +106,45 @@ void SpatialContact::choose_candidates(const SpatialBody& body)
   }
 }
 
-void SpatialContact::make_rows(const SpatialBody& body, double kick, double dt)
+void SpatialContact::make_rows(SpatialBody& body, double kick, double dt)
 {
-  rows_.clear();
-  for (int k = 0; k < static_cast<int>(planes_.size()); ++k) {
+  const RowNodes nodes = nodes_of(body);
+  row_count_ = 0;
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
     const Plane& plane = planes_[k];
-    for (const int m : candidates_[k]) {
-      const double gap = plane.normal.dot(place(body, m)) - plane.position;
-      const double approach = plane.normal.dot(velocity(body, m)) - plane.velocity;
-      // a row for each marker that would pass, or might once its neighbours are pushed back
-      const bool pushed = impulse_[std::size_t(k) * markers_ + m] != Vector3::Zero();
-      if (gap + dt * approach > 0 && !pushed && gap > 4 * dt * std::abs(approach)) continue;
-      Row row{
-          m, k, plane.velocity - (gap < 0 ? recovery : 1) * gap / dt, 0, 0, plane.velocity, Vector3::Zero()};
-      Vector3 response = Vector3::Zero();
-      const int lowest = 4 * body.surface.node[m];
-      for (int n = 0; n < cell_nodes; ++n) {
-        const double w = body.surface.weight[std::size_t(cell_nodes) * m + n];
-        for (int c = 0; c < 3; ++c) {
-          const int at = lowest + offsets_[n] + c;
-          response[c] += w * w * body.inverse_mass_i[at];
-          row.before[c] += w * (body.v_i[at] - kick * body.inverse_mass_i[at] * body.f_i[at]);
-        }
-      }
-      row.response = plane.normal.cwiseAbs2().dot(response);
-      row.tangent_response = response.maxCoeff();
-      if (row.response > 0) rows_.push_back(row);
-    }
+    const RowPlane against{{plane.normal[0], plane.normal[1], plane.normal[2], 0.0},
+                           plane.position,
+                           plane.velocity,
+                           plane.friction,
+                           static_cast<int>(k),
+                           body.surface.place.data(),
+                           body.surface.node.data(),
+                           body.surface.weight.data(),
+                           impulse(k, 0)};
+    row_count_ +=
+        row_kernels().make(nodes, against, candidates_[k].data(), static_cast<int>(candidates_[k].size()),
+                           kick, dt, recovery, rows_.data() + row_count_);
   }
-}
-
-/// One sweep; the largest change of an impulse over the largest impulse.
-double SpatialContact::sweep(SpatialBody& body)
-{
-  double change = 0, largest = 0;
-  for (const Row& row : rows_) {
-    const Plane& plane = planes_[row.plane];
-    const Vector3 v = velocity(body, row.marker);
-    Vector3& p = impulse(row);
-    const double normal_velocity = plane.normal.dot(v), normal = plane.normal.dot(p);
-    const double wanted = std::max(0.0, normal + (row.needed - normal_velocity) / row.response);
-    Vector3 next = wanted * plane.normal;
-    if (plane.friction > 0 && wanted > 0) {
-      const Vector3 sliding = v - normal_velocity * plane.normal;
-      Vector3 tangential = p - normal * plane.normal - sliding / row.tangent_response;
-      const double most = plane.friction * wanted, size = tangential.norm();
-      next += size > most ? Vector3(most / size * tangential) : tangential;
-    }
-    const Vector3 step = next - p;
-    if (step != Vector3::Zero()) push(body, row.marker, step);
-    p = next;
-    change = std::max(change, step.lpNorm<Eigen::Infinity>()), largest = std::max(largest, wanted);
-  }
-  return largest > 0 ? change / largest : 0;
 }
 
 double SpatialContact::correct(std::span<SpatialBody> bodies, double kick, double dt)
 {
   SpatialBody& body = bodies.front();
-  double closing = fastest_node(body);
+  const RowKernels& kernels = row_kernels();
+  double closing = std::sqrt(3.0) * kernels.largest(body.v_i.data(), static_cast<int>(body.v_i.size()));
   for (const Plane& plane : planes_) closing += std::abs(plane.velocity);
   room_ -= dt * closing;
   if (room_ < 0) choose_candidates(body), room_ -= dt * closing;
   make_rows(body, kick, dt);
-  for (const Row& row : rows_)
-    if (impulse(row) != Vector3::Zero()) push(body, row.marker, impulse(row));
-  for (int n = 0; n < most_sweeps && sweep(body) > small_change; ++n) {
+  const RowNodes nodes = nodes_of(body);
+  kernels.start(nodes, rows_.data(), row_count_);
+  for (int n = 0; n < most_sweeps && kernels.sweep(nodes, rows_.data(), row_count_) > small_change; ++n) {
   }
   std::fill(pushing_.begin(), pushing_.end(), 0);
   double first = 0;
-  for (const Row& row : rows_) {
+  for (const ContactRow& row : std::span(rows_.data(), static_cast<std::size_t>(row_count_))) {
     const Plane& plane = planes_[row.plane];
-    const Vector3& p = impulse(row);
+    const Vector3 p = vector_at(row.impulse);
     const double normal = plane.normal.dot(p);
     if (normal <= 0) continue;
     pushing_[row.plane] = 1;
@@ -206,11 +159,12 @@ double SpatialContact::correct(std::span<SpatialBody> bodies, double kick, doubl
 
 void SpatialContact::account(std::span<const SpatialBody> bodies)
 {
-  for (const Row& row : rows_) {
-    const Vector3& p = impulse(row);
+  const SpatialBody& body = bodies.front();
+  for (const ContactRow& row : std::span(rows_.data(), static_cast<std::size_t>(row_count_))) {
+    const Vector3 p = vector_at(row.impulse);
     if (p == Vector3::Zero()) continue;
     const double by_plane = row.speed * planes_[row.plane].normal.dot(p);
-    dissipated_ += by_plane - 0.5 * p.dot(row.before + velocity(bodies.front(), row.marker));
+    dissipated_ += by_plane - 0.5 * p.dot(vector_at(row.before) + carried(body, body.v_i, row.marker));
     work_ += by_plane;
   }
 }
@@ -234,7 +188,8 @@ std::array<double, 2> SpatialContact::contact_axes(const SpatialBody& body, int 
   double closed = 0;
   for (const int m : candidates_[k]) {
     const Vector3 x = place(body, m);
-    const bool pushed = planes_[k].normal.dot(impulse_[std::size_t(k) * markers_ + m]) > 0;
+    const bool pushed =
+        planes_[k].normal.dot(vector_at(impulse_.data() + 4 * (std::size_t(k) * markers_ + m))) > 0;
     near.push_back({pushed ? 0.0 : std::max(0.0, planes_[k].normal.dot(x) - planes_[k].position),
                     body.surface.area[m], x});
     if (pushed) closed += body.surface.area[m];
@@ -278,7 +233,7 @@ void SpatialContact::visit_state(StateArchive& a)
     for (int d = 0; d < 3; ++d) a.value(v[d]);
   };
   for (Plane& plane : planes_) a.value(plane.position), a.value(plane.velocity);
-  for (Vector3& p : impulse_) visit(p);
+  a.values(impulse_);
   for (PlaneTally& t : tallies_) visit(t.impulse), visit(t.torque), visit(t.centre);
   for (std::vector<int>& list : candidates_) a.growing(list);
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "solver/contact.hpp"
+#include "solver/contact/rows.hpp"
 #include "solver/spatial/spatial_scene.hpp"
 
 namespace granulaw {
@@ -58,31 +59,21 @@ class SpatialContact : public BasicContact<SpatialBody>
   double work() const { return work_; }
 
  private:
-  /// One marker that may touch one plane.
-  struct Row
-  {
-    int marker, plane;
-    double needed;            // velocity along the normal, at least
-    double response;          // normal velocity gained per unit of impulse
-    double tangent_response;  // the same of a tangential one, at most
-    double speed;             // of the plane along its normal
-    Vector3 before;           // velocity at the start of the step
-  };
+  RowNodes nodes_of(SpatialBody& body) const;
   void choose_candidates(const SpatialBody& body);
-  void make_rows(const SpatialBody& body, double kick, double dt);
-  double sweep(SpatialBody& body);
-  Vector3 velocity(const SpatialBody& body, int marker) const;
+  void make_rows(SpatialBody& body, double kick, double dt);
   Vector3 place(const SpatialBody& body, int marker) const;
-  void push(SpatialBody& body, int marker, const Vector3& impulse) const;
-  Vector3& impulse(const Row& row) { return impulse_[std::size_t(row.plane) * markers_ + row.marker]; }
+  Vector3 carried(const SpatialBody& body, const NodeField& field, int marker) const;
+  double* impulse(std::size_t plane, int marker) { return impulse_.data() + 4 * (plane * markers_ + marker); }
 
   std::vector<Plane> planes_;
   int markers_;
   std::array<int, cell_nodes> offsets_;       // entries from a cell's lowest node to each of its nodes
   std::vector<std::vector<int>> candidates_;  // by plane: markers that might reach it soon
   double room_ = 0;                           // way that markers may go before candidates are chosen anew
-  std::vector<Vector3> impulse_;              // [plane][marker], of the last step
-  std::vector<Row> rows_;
+  AlignedVector<double> impulse_;             // [plane][marker][4], of the last step
+  std::vector<ContactRow> rows_;              // room for all that there can be; the first row_count_ count
+  int row_count_ = 0;
   std::vector<char> pushing_;
   std::vector<PlaneTally> tallies_;
   double work_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/material/cauchy_stress.hpp"
 #include "solver/spatial/spatial_body.hpp"
 
 namespace granulaw {
@@ -37,6 +38,12 @@ struct SpatialKernels
   void (*move)(SpatialBody& body, double dt);
 
   CellGrowth (*growth)(const SpatialBody& body);
+
+  /// Cauchy stress at every lane, as in two dimensions.
+  void (*stress)(SpatialBody& body, CauchyStress* points);
+
+  /// x, y, z and a zero.
+  void (*momentum)(const SpatialBody& body, double* sum);
 };
 
 const SpatialKernels& spatial_kernels();

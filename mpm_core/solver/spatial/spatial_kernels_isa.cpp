@@ -34,7 +34,8 @@ using Lanes = typename Vectors<Real>::Lanes;
 template <class Real>
 using HalfLanes = typename Vectors<Real>::HalfLanes;
 
-/// What one register holds of a cell's octants; nine sums of whole cells in double would spill without AVX-512.
+/// What one register holds of a cell's octants; nine sums of whole cells in double would spill without
+/// AVX-512.
 template <class Real>
 struct Register
 {
@@ -92,8 +93,8 @@ GRANULAW_INLINE Half row_sums(const Half (&v)[4])
   return __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
 }
 
-template <class Real>
-GRANULAW_INLINE SpatialPoints<Real>& points_of(SpatialBody& body)
+template <class Real, class SomeBody>
+GRANULAW_INLINE auto& points_of(SomeBody& body)
 {
   if constexpr (std::is_same_v<Real, float>)
     return body.single;
@@ -106,15 +107,15 @@ template <class Real>
 struct Grid
 {
   const double* u;
-  double* f;
+  double* f;  ///< null: nothing is scattered
   const AxisWeights<Real>* axis[3];
   const SpatialCell* cells;
   const Real* cut_moments;
   long across, up;  ///< strides along y and z, in nodes; along x it is 1
 
-  GRANULAW_MEMBER explicit Grid(SpatialBody& body)
+  GRANULAW_MEMBER explicit Grid(const SpatialBody& body, double* force = nullptr)
       : u(body.u_i.data()),
-        f(body.f_i.data()),
+        f(force),
         axis{points_of<Real>(body).axis_weights[0].data(), points_of<Real>(body).axis_weights[1].data(),
              points_of<Real>(body).axis_weights[2].data()},
         cells(body.cells.data()),
@@ -425,7 +426,7 @@ GRANULAW_INLINE PointState<Spatial<Real>> state_of(SpatialBody& body, int first)
 template <class Real>
 void update(SpatialBody& body, bool frozen)
 {
-  const Grid<Real> grid(body);
+  const Grid<Real> grid(body, body.f_i.data());
   const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
   Block<Real> block;
   for (const SpatialRegion& region : body.regions) {
@@ -521,7 +522,7 @@ GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Rea
 template <class Real>
 GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
 {
-  const Grid<Real> grid(const_cast<SpatialBody&>(body));  // reads only
+  const Grid<Real> grid(body);
   constexpr double whole[octants] = {1, 1, 1, 1, 1, 1, 1, 1};
   CellGrowth found{0.0, 1.0, 1.0, 1.0};
   const auto raise = [](double& most, double value) __attribute__((always_inline))
@@ -544,8 +545,8 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
         }
         const int cut = grid.cells[cell].cut;
         const double* share = cut >= 0 ? body.step_share_p.data() + octants * std::size_t(cut) : whole;
-        measure_cell<Real>(block, octants * (cell - first), per_edge, Real(finest * finest), bulk_share, share,
-                     ratio, volume);
+        measure_cell<Real>(block, octants * (cell - first), per_edge, Real(finest * finest), bulk_share,
+                           share, ratio, volume);
         raise(found.largest, ratio);
         if (cut >= 0)
           raise(found.cut, ratio);
@@ -563,8 +564,37 @@ CellGrowth growth(const SpatialBody& body)
   return body.is_single() ? growth_of<float>(body) : growth_of<double>(body);
 }
 
+void stress(SpatialBody& body, CauchyStress* points)
+{
+  const Grid<double> grid(body);
+  Block<double> block;
+  for (const SpatialRegion& region : body.regions)
+    for (int first = region.begin; first < region.end; first += block_cells) {
+      const int end = first + block_cells < region.end ? first + block_cells : region.end;
+      gather<double>(grid, first, end, block);
+      cauchy_stress<Spatial<double>>(state_of<double>(body, octants * first), region.moduli,
+                                     octants * (end - first), block, points + octants * first);
+    }
+}
+
+void momentum(const SpatialBody& body, double* sum)
+{
+  const double* mass = body.mass_i.data();
+  const double* v = body.v_i.data();
+  HalfLanes<double> sums[2]{};
+  const int even = body.nodes & ~1;
+  for (int i = 0; i < even; i += 2) {
+    sums[0] += mass[i] * half_lanes(v + 4 * i);
+    sums[1] += mass[i + 1] * half_lanes(v + 4 * i + 4);
+  }
+  if (even < body.nodes) sums[0] += mass[even] * half_lanes(v + 4 * even);
+  const HalfLanes<double> all = sums[0] + sums[1];
+  for (int c = 0; c < 4; ++c) sum[c] = all[c];
+}
+
 }  // namespace
 
-extern const SpatialKernels spatial_kernels{GRANULAW_ISA_NAME, internal_force, accelerate, move, growth};
+extern const SpatialKernels spatial_kernels{
+    GRANULAW_ISA_NAME, internal_force, accelerate, move, growth, stress, momentum};
 
 }  // namespace granulaw::GRANULAW_ISA_NAMESPACE

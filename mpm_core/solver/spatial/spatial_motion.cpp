@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "solver/spatial/spatial_kernels.hpp"
+
 namespace granulaw {
 
 namespace {
@@ -35,9 +37,9 @@ void throw_body(SpatialBody& b, const Vector3& velocity, const Vector3& spin, co
 
 Vector3 momentum(const SpatialBody& b)
 {
-  Vector3 sum = Vector3::Zero();
-  for (int i = 0; i < b.nodes; ++i) sum += b.mass_i[i] * at(b.v_i, i);
-  return sum;
+  double sum[4];
+  spatial_kernels().momentum(b, sum);
+  return {sum[0], sum[1], sum[2]};
 }
 
 Vector3 mean_velocity(const SpatialBody& b)

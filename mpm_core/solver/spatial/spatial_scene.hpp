@@ -6,13 +6,9 @@
 
 namespace granulaw {
 
-class SpatialRecorder;
-
 /// One three-dimensional body among rigid planes.
 struct SpatialScene : BasicScene<SpatialBody>
 {
-  using Recorder = SpatialRecorder;
-
   /// Normal of the first plane, away from it.
   Vector3 normal = Vector3::UnitZ();
 
