@@ -62,7 +62,7 @@ inline double contact_mass(const Bodies& bodies,
   double inverse = 0.0;
   if (contact.meff != contact.mj) inverse += bodies.inverse_mass(contact.i, contact.en, contact.mi);
   if (contact.meff != contact.mi) inverse += bodies.inverse_mass(contact.j, contact.en, contact.mj);
-  return inverse > 0.0 ? 1.0 / inverse : contact.meff;
+  return inverse == 0.0 ? contact.meff : 1.0 / inverse;
 }
 
 }  // namespace granulaw::plugin

@@ -125,8 +125,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     // of an undamped contact the law's force itself, to the bit: it is never negative
     sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
     // below the residual overlap of a dent nothing touches, and nothing is damped
+    // (std::max gives its first argument where that is no number, and the runaway fix ends the run)
     const double normal_force =
-        law_force > 0.0 ? std::max(0.0, (law_force + waves_force) - sidata.gamman * sidata.vn) : 0.0;
+        law_force <= 0.0 ? 0.0 : std::max((law_force + waves_force) - sidata.gamman * sidata.vn, 0.0);
     if (pairs_.radiates()) counts_.radiate(sidata, entry, waves_force, normal_force);
     if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
       if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
@@ -200,7 +201,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if constexpr (Radiates<typename Physics::Contact>)
       if (pairs_.radiates()) {
         const auto [force, k] = contact.response(r_eff, delta, delta_max, impact_overlap, reversal);
-        return {force, std::max(-force, -contact.radiation * k * k * vn)};
+        return {force, std::max(-contact.radiation * k * k * vn, -force)};
       }
     return {contact.force(r_eff, delta, delta_max, impact_overlap, reversal)};
   }

@@ -97,9 +97,9 @@ class SizeChoice
     const Range range = shares_of(i, j);
     return lower(k, range) <= upper(k, range);
   }
-  /// The two radii, over their sum, for which law k is resolved: in the middle of the shares for which it
-  /// serves particles of these types, which are their own radii where each type has one size. Where it serves
-  /// none: at the law's own share.
+  /// Two radii, over any length, for which law k is resolved: in the middle of the shares for which it serves
+  /// particles of these types, which are their own radii where each type has one size. Where it serves none:
+  /// at the law's own share, as particles that grow in the run may come to it. Infinity: a thick wall.
   std::pair<double, double> radii_of(std::size_t k, const Radii& i, const Radii& j) const
   {
     double share = shares_[k];
@@ -107,7 +107,12 @@ class SizeChoice
       const Range range = shares_of(i, j);
       share = 0.5 * (lower(k, range) + upper(k, range));
     }
-    return whose_ == ShareOf::j ? std::pair(1 - share, share) : std::pair(share, 1 - share);
+    constexpr double thick_wall = std::numeric_limits<double>::infinity();
+    std::pair radii(share, 1.0 - share);
+    if (share == 0.0) radii = {1.0, thick_wall};
+    if (share == 1.0) radii = {thick_wall, 1.0};
+    if (whose_ == ShareOf::j) std::swap(radii.first, radii.second);
+    return radii;
   }
 
  private:

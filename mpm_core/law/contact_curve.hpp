@@ -125,13 +125,15 @@ class ContactCurve
   {
     const double root = std::sqrt(x), s = std::sqrt(root);
     const double position = s * per_h_;
-    const auto k = std::min(static_cast<std::size_t>(position), intervals_.size() - 1);
+    const std::size_t last = intervals_.size() - 1;  // of no number, too
+    const std::size_t k =
+        position < static_cast<double>(last) ? static_cast<std::size_t>(position) : last;
     return {&intervals_[k], position - static_cast<double>(k), s, root};
   }
   /// Between nodes the cubic of the Hertz share may pass below 0 by rounding.
   static UnloadingShape shape_at(const Position& p)
   {
-    return {cubic(p.interval->n, p.t), std::max(0.0, cubic(p.interval->hertz_share, p.t))};
+    return {cubic(p.interval->n, p.t), std::max(cubic(p.interval->hertz_share, p.t), 0.0)};
   }
   bool corrected(double impact_overlap) const { return axis_ && impact_overlap > VelocityAxis::negligible; }
   Loading quasi_static(double x) const;

@@ -57,11 +57,11 @@ class FastAxis
   // all that lies beyond; so does the last level, whose rise is 0.
   // The column is rounded to the nearest cell's middle by adding 1.5 2^52, whose last bits then count cells:
   // two additions in place of two conversions in the longest chain of a reversal. A whole number may fall to
-  // the cell that ends there.
+  // the cell that ends there. Of no number it is the last column: a cell that exists.
   Place locate(double cells, double impact_overlap) const
   {
     constexpr double counter = 0x1.8p52;
-    const double row = scale_.row(impact_overlap), column = std::min(cells, columns_);
+    const double row = scale_.row(impact_overlap), column = std::min(columns_, cells);
     const double counted = (column - 0.5) + counter;
     const int k = static_cast<int>(row), l = static_cast<int>(std::bit_cast<std::uint64_t>(counted));
     return {cells_.data() + (k * cells_a_level_ + l), row - k, column - (counted - counter)};

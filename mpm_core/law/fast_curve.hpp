@@ -86,8 +86,9 @@ class FastCurve
       return root * ((1.5 * force[0] + root * (2.0 * force[1])) + u * (2.5 * force[2]));
     }
   };
-  /// True if a contact at x follows the reversal at x_max; else it loads, or never yielded.
-  bool unloads(double x, double x_max) const { return x < x_max && x_max > onset_; }
+  /// True if a contact at x follows the reversal at x_max; else it loads, or never yielded. Of no number:
+  /// true, so that its force is none.
+  bool unloads(double x, double x_max) const { return !(x >= x_max) && !(x_max <= onset_); }
   double loading_force(double x, double impact_overlap = 0) const
   {
     if (!in_table(x)) [[unlikely]]
@@ -114,7 +115,7 @@ class FastCurve
     const Place p = at(x_max);
     const Two rest = p.i.reversal.both(p.t);
     double force = p.force(), span = rest[0];
-    UnloadingShape shape{rest[1], std::max(0.0, p.i.rest.first(p.t))};
+    UnloadingShape shape{rest[1], std::max(p.i.rest.first(p.t), 0.0)};
     if (corrected(impact_overlap)) {
       const VelocityAxis::ReversalCorrection c = axis_.reversal(x_max, impact_overlap);
       force *= 1.0 + c.force;

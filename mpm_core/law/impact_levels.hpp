@@ -40,7 +40,7 @@ class ImpactLevels
 
   double row(double x) const
   {
-    if (by_octaves_) return std::min(std::max(1.0, (octaves(x) - origin_) * per_level_), rows_);
+    if (by_octaves_) return std::min(std::max((octaves(x) - origin_) * per_level_, 1.0), rows_);
     const double even = x * per_level_;
     return std::min(std::min(within_first_ * even, even + (within_first_ - 1.0)), rows_);
   }

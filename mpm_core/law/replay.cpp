@@ -12,7 +12,7 @@ namespace {
 /// C K^2 v of the dashpot that stands for waves; a contact never pulls.
 double with_waves(const ContactForce& now, double radiation, double speed)
 {
-  return std::max(0.0, now.force + radiation * now.stiffness * now.stiffness * speed);
+  return std::max(now.force + radiation * now.stiffness * now.stiffness * speed, 0.0);
 }
 
 Replay replay(const NormalForce& law, double radiation, double effective_mass, double velocity,

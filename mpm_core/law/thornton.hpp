@@ -35,7 +35,7 @@ struct ThorntonPair
     const double hertz = 4.0 / 3.0 * e_star;
     const double root = std::sqrt(r_eff * delta);
     const double d_y = yield_overlap(r_eff);
-    const double reached = std::max(delta, delta_max);
+    const double reached = std::max(delta_max, delta);  // no number in either: none in the force
     if (reached <= d_y) return {hertz * root * delta, 2.0 * e_star * root, root, reached};
     const double f_y = hertz * std::sqrt(r_eff * d_y) * d_y;
     const double k_p = M_PI * yield_pressure * r_eff;

@@ -149,11 +149,11 @@ class VelocityAxis
   void lay_out_cells(const std::string& where);
 
   // Without a branch: in a flow x lies within and beyond ratio_end at random. A level's last cell stands for
-  // all that lies beyond.
+  // all that lies beyond, and of no number.
   Place locate(double x, double impact_overlap) const
   {
     const double row = scale_.row(impact_overlap);
-    const double column = std::min(x / impact_overlap * per_spacing_, columns_);
+    const double column = std::min(columns_, x / impact_overlap * per_spacing_);
     const int k = std::min(static_cast<int>(row), last_row_), l = static_cast<int>(column);
     const Cell* const low = cells_.data() + k * cells_a_level_ + l;
     return {low, low + cells_a_level_, row - k, column - l};

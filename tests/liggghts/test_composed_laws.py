@@ -121,8 +121,9 @@ class Sizes(Composed):
     def collision(self, radius2, law_shares, speed=5.0):
         """e and time of spheres of RADIUS and radius2 under the law for the middle of these shares R_powder/(sum)."""
         share = 0.5 * sum(law_shares)
+        radii = (share, 1 - share) if share else (1, "inf")
         mass = effective(sphere_mass(RADIUS, POWDER.density), sphere_mass(radius2, GUM.density))
-        return self.fixture("collision", self.law, "powder", "gum", share, 1 - share, effective(RADIUS, radius2), mass, speed)
+        return self.fixture("collision", self.law, "powder", "gum", *radii, effective(RADIUS, radius2), mass, speed)
 
     def test_sizes_of_one_type_that_follow_two_laws(self):
         """Gum spheres of 1.1 and five times the powder's radius: the former follow the law of ratio 1, the latter that of 3."""
@@ -146,8 +147,12 @@ class Sizes(Composed):
 
     def test_an_unforeseen_size(self):
         """A sphere that grows within a run, beyond what was known when the run began: its contacts follow the nearest law all the same."""
-        speed, radius2 = 5.0, 5.0 * RADIUS
-        law = self.collision(radius2, (0.25, 0.25))  # at the law's own ratio, 3: it served no known particle
+        for radius2, share in ((5.0 * RADIUS, 0.25), (10.0 * RADIUS, 0.0)):  # at the law's own ratio, 3 and a thick wall: it served no known particle
+            with self.subTest(share=share):
+                self.grows(radius2, share)
+
+    def grows(self, radius2, share, speed=5.0):
+        law = self.collision(radius2, (share, share))
         dt = step(RADIUS, radius2, speed)
         steps = int(1.2 * law[1] / dt)
         z = RADIUS + radius2 + (steps + 0.3) * dt * speed  # they meet in the second half of the run

@@ -4,6 +4,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "law_paths.hpp"
@@ -48,6 +50,24 @@ Worst compare(const ContactCurve& curve, double lowest, bool with_axis)
         std::max(worst.radius, std::abs(found.contact_radius - expected.contact_radius) / top.radius);
   }
   return worst;
+}
+
+/// A law that answers what is no number with a force would hide the error that made it.
+TEST(FastCurve, NoNumberInNoForceOut)
+{
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const bool with_axis : {false, true}) {
+    const ContactCurve curve = with_axis ? SyntheticLaw().curve_with_axis() : SyntheticLaw().curve();
+    const FastCurve fast(curve);
+    const double x = 0.5 * curve.x_end(), X = with_axis ? curve.axis()->overlap_end() : 0.0;
+    for (const auto& [now, largest] : {std::pair(none, x), std::pair(none, 0.0), std::pair(x, none)}) {
+      EXPECT_TRUE(std::isnan(fast.force(now, largest, X)));
+      EXPECT_TRUE(std::isnan(fast.evaluate(now, largest, X).force));
+      EXPECT_TRUE(std::isnan(curve.evaluate(unit_pair, 1.0, now, largest, X).force));
+    }
+    EXPECT_TRUE(std::isnan(fast.loading_response(none, X).force));
+    EXPECT_TRUE(std::isnan(fast.reversal(none, X).response_at(x).force));
+  }
 }
 
 TEST(FastCurve, AgreesWithTheCurve)

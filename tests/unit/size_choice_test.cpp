@@ -53,6 +53,19 @@ TEST(SizeChoice, ParticlesMayChangePlaces)
     }
 }
 
+/// A law that serves no known particles, as those may grow into it: no radius of 0, which no body has.
+TEST(SizeChoice, LawThatServesNobodyIsResolvedAtItsOwnShare)
+{
+  constexpr double wall = std::numeric_limits<double>::infinity();
+  const std::vector<double> with_walls{0.0, 0.25, 1.0};  // thick walls of the partner's material and of its own
+  const Radii alike{1e-3, 1e-3};
+  const SizeChoice of_i(ShareOf::i, with_walls), of_j(ShareOf::j, with_walls);
+  EXPECT_EQ(of_i.radii_of(0, alike, alike), std::pair(1.0, wall));
+  EXPECT_EQ(of_i.radii_of(2, alike, alike), std::pair(wall, 1.0));
+  EXPECT_EQ(of_j.radii_of(0, alike, alike), std::pair(wall, 1.0));
+  EXPECT_EQ(of_j.radii_of(2, alike, alike), std::pair(1.0, wall));
+}
+
 TEST(SizeChoice, OneSizeOfEachTypeIsResolvedAtItsOwnRadii)
 {
   const SizeChoice choice(ShareOf::j, shares);
@@ -74,7 +87,7 @@ TEST(SizeChoice, ALawIsResolvedInTheMiddleOfWhatItServes)
   EXPECT_NEAR(share(3), 0.5 * (0.375 + 0.5), 1e-14);
   EXPECT_FALSE(choice.serves(1, i, j));
   EXPECT_EQ(share(1), 0.1);  // none: at its own
-  EXPECT_EQ(choice.radii_of(0, i, j), std::pair(0.0, 1.0));
+  EXPECT_EQ(choice.radii_of(0, i, j), std::pair(1.0, std::numeric_limits<double>::infinity()));
 }
 
 TEST(SizeChoice, UnknownSizesAreServedByNone)
@@ -82,7 +95,8 @@ TEST(SizeChoice, UnknownSizesAreServedByNone)
   const SizeChoice choice(ShareOf::smaller, shares);
   for (std::size_t k = 0; k < choice.count(); ++k) {
     EXPECT_FALSE(choice.serves(k, Radii{}, {1e-3, 1e-3}));
-    EXPECT_EQ(choice.radii_of(k, Radii{}, {1e-3, 1e-3}).first, shares[k]);
+    const auto [own, other] = choice.radii_of(k, Radii{}, {1e-3, 1e-3});
+    EXPECT_EQ(1.0 / (1.0 + other / own), shares[k]);
   }
 }
 

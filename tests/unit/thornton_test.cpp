@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "base/scales.hpp"
 #include "law/replay.hpp"
 #include "synthetic_law.hpp"
@@ -15,6 +18,15 @@ TEST(Thornton, ClosedFormMatchesThePublishedNumbers)
                              {50, .44461}, {100, .37430}, {1000, .21070}};
   for (const auto& [v, e] : table) EXPECT_NEAR(thornton_restitution(v), e, 1e-5);
   EXPECT_EQ(thornton_restitution(0.5), 1.0);
+}
+
+TEST(Thornton, NoNumberInNoForceOut)
+{
+  const ThorntonPair pair{10e9, 1.6e8};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const double delta : {1e-8, 1e-4})  // below yield and beyond
+    for (const auto& [now, largest] : {std::pair(none, delta), std::pair(none, 0.0), std::pair(delta, none)})
+      EXPECT_TRUE(std::isnan(pair.evaluate(2e-3, now, largest).force));
 }
 
 TEST(Thornton, ReplayGivesTheClosedForm)
