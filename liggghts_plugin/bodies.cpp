@@ -99,6 +99,9 @@ void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
   LAMMPS_NS::FixPropertyAtom* values = property(lmp);
   per_atom_ = values ? values->array_atom : nullptr;
   if (!per_atom_) return;
+  mask_ = lmp->atom->mask;
+  const LAMMPS_NS::Fix* freeze = lmp->modify->find_fix_style_strict("freeze", 0);
+  freeze_bit_ = freeze ? freeze->groupbit : 0;
   alone_ = lmp->comm->nprocs == 1 ? lmp : nullptr;
   clear(*lmp->atom);
   const bool rigid_bodies = fill_rigid(lmp);

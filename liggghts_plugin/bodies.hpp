@@ -22,6 +22,8 @@ class Bodies
   /// Before the forces of each step. Collective.
   void update(LAMMPS_NS::LAMMPS* lmp);
 
+  /// True: fix freeze holds sphere `i`, so that the partner's mass alone counts.
+  bool frozen(int i) const { return (mask_[i] & freeze_bit_) != 0; }
   /// False: no sphere is part of a body, as far as contacts must know.
   bool known() const { return per_atom_ != nullptr; }
   /// kg, of the body that sphere `i` is part of; 0: none.
@@ -47,6 +49,8 @@ class Bodies
 
   static constexpr double not_looked_up = -1.0;  // in mass_column
   double** per_atom_ = nullptr;
+  const int* mask_ = nullptr;  // of the atoms
+  int freeze_bit_ = 0;         // of the group that fix freeze holds; 0: there is none
   LAMMPS_NS::LAMMPS* alone_ = nullptr;  // of one rank: it has every clump and looks one up when it is asked
 };
 
@@ -58,10 +62,9 @@ inline double contact_mass(const Bodies& bodies,
   if (!bodies.known()) [[likely]]
     return contact.meff;
   if (contact.is_wall) return 1.0 / bodies.inverse_mass(contact.i, contact.en, contact.mi);
-  // a frozen sphere leaves the other's mass as the effective one
   double inverse = 0.0;
-  if (contact.meff != contact.mj) inverse += bodies.inverse_mass(contact.i, contact.en, contact.mi);
-  if (contact.meff != contact.mi) inverse += bodies.inverse_mass(contact.j, contact.en, contact.mj);
+  if (!bodies.frozen(contact.i)) inverse += bodies.inverse_mass(contact.i, contact.en, contact.mi);
+  if (!bodies.frozen(contact.j)) inverse += bodies.inverse_mass(contact.j, contact.en, contact.mj);
   return inverse == 0.0 ? contact.meff : 1.0 / inverse;
 }
 

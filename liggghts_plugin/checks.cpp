@@ -73,17 +73,21 @@ void check_inherited(const Setup& setup)
          "materials): put it behind");
 }
 
-/// Histories of another combination of models would be read as what they are not, unless their number
-/// differs.
+/// Histories of another meaning would be read as what they are not, unless their number differs.
 void check_restarted(const Setup& setup)
 {
-  std::map<std::string, long>& restarted = setup.session->restarted;
+  std::map<std::string, HistoryMeaning>& restarted = setup.session->restarted;
   const auto found = restarted.find(setup.wall ? setup.wall->id : "pair");
   if (found == restarted.end()) return;
-  if (found->second != setup.combination)
+  HistoryMeaning written = found->second;
+  if (written.stretch == 0.0) {  // a file of a version that kept neither the stretch nor these bits
+    written.stretch = setup.meaning.stretch;
+    written.combination |= setup.meaning.combination & HistoryMeaning::since_stretch;
+  }
+  if (written != setup.meaning)
     fail(setup.where,
-         "the restart file was written with other models, whose contact histories mean something else",
-         describe_combination(setup.combination), describe_combination(found->second));
+         "the restart file was written with other models or words, whose contact histories mean something else",
+         describe(setup.meaning), describe(written));
   restarted.erase(found);
 }
 

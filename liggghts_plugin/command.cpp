@@ -55,12 +55,17 @@ void read_setup(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setu
   setup.contact_map = session.contact_map;
 }
 
-/// The number that restart files keep of the command's models and words.
-void number_combination(const CommandModels& models, Setup& setup)
+/// What restart files keep of the command's models and words.
+void note_meaning(const CommandModels& models, Setup& setup)
 {
-  setup.combination = models.hash | (setup.energy ? combination_energy : 0) |
-                      (setup.contact_map ? combination_contact_map : 0);
-  setup.session->combinations[setup.wall ? setup.wall->id : "pair"] = setup.combination;
+  const Options& options = setup.options;
+  const auto bit = [](bool said, long bit) { return said ? bit : 0l; };
+  setup.meaning = {models.hash | bit(setup.energy, HistoryMeaning::energy) |
+                       bit(setup.contact_map, HistoryMeaning::contact_map) |
+                       bit(options.deformable_wall, HistoryMeaning::deformable_wall) |
+                       bit(options.tangential_computed.value_or(false), HistoryMeaning::computed_stiffness),
+                   options.stretch.value_or(1.0)};
+  setup.session->meanings[setup.wall ? setup.wall->id : "pair"] = setup.meaning;
 }
 
 /// The energy tally counts what happens in contact.
@@ -115,7 +120,7 @@ void read_command(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& se
   if (models.superquadric) of_surface = take_curvature_words(setup.where, pointers);
   read_setup(lmp, models, setup, Words(pointers.begin(), pointers.end()), rest);
   rest.insert(rest.end(), of_surface.begin(), of_surface.end());
-  number_combination(models, setup);
+  note_meaning(models, setup);
   refuse_out_of_reach(models, setup);
   refuse_shape(lmp, setup, models.superquadric);
   refuse_no_friction(models, setup, rest);

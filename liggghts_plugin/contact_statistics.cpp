@@ -20,6 +20,35 @@ void ContactStatistics::Pair::merge(const Pair& other)
   for (std::size_t k = 0; k < map.size(); ++k) map[k] += other.map[k];
 }
 
+void ContactStatistics::Pair::take_back_from(Pair& other)
+{
+  const auto move = [](auto& from, auto& to) {
+    for (std::size_t k = 0; k < std::min(from.size(), to.size()); ++k)
+      if (const double moved = std::min(-to[k], from[k]); moved > 0) from[k] -= moved, to[k] += moved;
+  };
+  move(other.overlap.count, overlap.count);
+  move(other.map, map);
+}
+
+void ContactStatistics::count_ended()
+{
+  const auto less_than_none = [](const Pair& pair) {
+    return std::any_of(pair.overlap.count.begin(), pair.overlap.count.end(), [](double n) { return n < 0; });
+  };
+  for (auto& [key, pair] : pairs) {
+    if (!less_than_none(pair)) continue;
+    for (auto& [other_key, other] : pairs) {
+      // `set type` changes one particle of a pair at a time; a wall keeps its own
+      const bool related = key.kind == PairKey::particles
+                               ? key.i == other_key.i || key.i == other_key.j || key.j == other_key.i ||
+                                     key.j == other_key.j
+                               : key.j == other_key.j;
+      if (key.kind == other_key.kind && related) pair.take_back_from(other);
+    }
+  }
+  for (auto& [key, pair] : pairs) pair.count_ended();
+}
+
 void ContactStatistics::Pair::count_ended()
 {
   ended = 0;

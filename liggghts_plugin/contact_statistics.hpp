@@ -116,6 +116,9 @@ struct ContactStatistics
     }
     /// What follows from the histogram, summed over ranks, once the open contacts are out.
     void count_ended();
+    /// Fills bins of this that hold less than none out of `other`'s: open contacts that began there, before
+    /// `set type` made them this pair's, and were taken out here.
+    void take_back_from(Pair& other);
     void open_map() { map.resize(static_cast<std::size_t>(LogHistogram::bins * LogHistogram::bins)); }
     /// The same in SI; the contact loops count in the deck's units.
     Pair in_si(const DeckUnits& units) const;
@@ -131,6 +134,8 @@ struct ContactStatistics
 
   std::map<PairKey, Pair> pairs;  ///< nodes stay where they are: contact models keep pointers
 
+  /// Pair::count_ended of each pair.
+  void count_ended();
   /// All contacts between particles, all with walls.
   Pair total(bool walls) const;
   Pair total() const;

@@ -55,8 +55,11 @@ void find_energy_properties(LAMMPS_NS::LAMMPS* lmp, EnergyTally& books, bool dis
   books.per_atom = property ? property->array_atom : nullptr;
   LAMMPS_NS::FixPropertyAtom* dissipated = dissipated_energy ? dissipated_property(lmp) : nullptr;
   books.dissipated_energy = dissipated ? dissipated->array_atom : nullptr;
-  if (!property) return;
-  for (int a = 0; a < lmp->atom->nlocal; ++a) books.per_atom[a][EnergyTally::stored] = 0.0;
+}
+
+void clear_stored_energy(LAMMPS_NS::LAMMPS* lmp, EnergyTally& books)
+{
+  for (int a = 0; books.per_atom && a < lmp->atom->nlocal; ++a) books.per_atom[a][EnergyTally::stored] = 0.0;
 }
 
 }  // namespace granulaw::plugin

@@ -8,8 +8,9 @@ namespace granulaw::plugin {
 /// none yet.
 void provide_energy_properties(LAMMPS_NS::LAMMPS* lmp);
 
-/// Tells EnergyTally where the properties of this step lie (they move when particles come in), and clears
-/// what is stored.
+/// Tells EnergyTally where the properties lie: they move when particles come in.
 void find_energy_properties(LAMMPS_NS::LAMMPS* lmp, EnergyTally& books, bool dissipated_energy);
+/// Before the forces of a step: clears what particles hold.
+void clear_stored_energy(LAMMPS_NS::LAMMPS* lmp, EnergyTally& books);
 
 }  // namespace granulaw::plugin

@@ -54,8 +54,21 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
     peratom_flag = 1;
     size_peratom_cols = EnergyTally::columns;
     peratom_freq = 1;
+    atom->add_callback(0);  // behind the property's own, which exists already: grow_arrays() finds it moved
+    grow_arrays(atom->nmax);
   }
   read_keywords(narg, arg);
+}
+
+FixStats::~FixStats()
+{
+  if (peratom_flag) atom->delete_callback(id, 0);
+}
+
+void FixStats::grow_arrays(int)
+{
+  find_energy_properties(lmp, session_->tally, session_->dissipated_energy);
+  array_atom = session_->tally.per_atom;
 }
 
 void FixStats::read_keywords(int narg, char** arg)
@@ -121,13 +134,13 @@ void FixStats::warn_of_clumps() const
 
 void FixStats::warn_of_lost_contacts() const
 {
-  for (const auto& [name, combination] : session_->restarted) {
+  for (const auto& [name, meaning] : session_->restarted) {
     const std::string command = name == "pair" ? "pair_style gran" : fmt::format("fix {} wall/gran", name);
     warn("restarted " + name,
          fmt::format(
              "granulaw: the restart file holds contacts of {} ({}), which this deck has not: their dents are "
              "lost{}",
-             command, describe_combination(combination),
+             command, describe(meaning),
              name == "pair" ? "" : "; give the walls their old ids"));
   }
 }
@@ -168,7 +181,7 @@ void FixStats::pre_force(int)
   step_of_rows_ = -1;
   if (!session_->energy) return;
   find_energy_properties(lmp, session_->tally, session_->dissipated_energy);
-  if (peratom_flag) array_atom = session_->tally.per_atom;
+  clear_stored_energy(lmp, session_->tally);
 }
 
 ContactStatistics FixStats::sum_of_ranks(bool with_open) const
@@ -176,10 +189,8 @@ ContactStatistics FixStats::sum_of_ranks(bool with_open) const
   ContactStatistics sum = session_->statistics;
   if (!with_open)
     for (const auto& [wall, style] : session_->styles) style->take_out_open(sum);
-  for (auto& [key, counts] : sum.pairs) {
-    reduce(counts, world);
-    if (!with_open) counts.count_ended();
-  }
+  for (auto& [key, counts] : sum.pairs) reduce(counts, world);
+  if (!with_open) sum.count_ended();
   return sum;
 }
 
@@ -311,7 +322,7 @@ void FixStats::write_files(const ContactStatistics& sum) const
 void FixStats::write_restart(FILE* file)
 {
   // with the open contacts, which go on after the restart
-  std::vector<double> values = RestartRecord{sum_of_ranks(true).pack(), session_->combinations}.numbers();
+  std::vector<double> values = RestartRecord{sum_of_ranks(true).pack(), session_->meanings}.numbers();
   if (comm->me != 0) return;
   values.insert(values.begin(), static_cast<double>(values.size()));
   const int size = static_cast<int>(values.size() * sizeof(double));
@@ -327,7 +338,7 @@ void FixStats::restart(char* buffer)
   std::vector<double> values(static_cast<std::size_t>(count));
   std::memcpy(values.data(), buffer + sizeof(double), values.size() * sizeof(double));
   const RestartRecord record = RestartRecord::from(values);
-  for (const auto& [command, combination] : record.combinations) session_->restarted[command] = combination;
+  for (const auto& [command, meaning] : record.meanings) session_->restarted[command] = meaning;
   if (!session_->statistics.unpack(record.counts.data(), record.counts.size(), comm->me == 0) &&
       comm->me == 0)
     error->warning(FLERR, fmt::format("fix {} granulaw/stats: the restart file holds the counts of another "

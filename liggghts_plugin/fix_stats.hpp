@@ -43,6 +43,7 @@ class FixStats : public LAMMPS_NS::Fix
   static constexpr int vector_length = 19, array_columns = 8;
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
+  ~FixStats() override;
 
   int setmask() override;
   void setup_pre_force(int) override { pre_force(0); }
@@ -55,6 +56,7 @@ class FixStats : public LAMMPS_NS::Fix
   double compute_array(int row, int column) override;
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
+  void grow_arrays(int nmax) override;
 
  private:
   void read_keywords(int narg, char** arg);

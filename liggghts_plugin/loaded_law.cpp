@@ -29,9 +29,9 @@ std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::str
   loaded->path = path;
   std::string message, image;
   if (lmp->comm->me == 0) try {
+      loaded->law = read_law(path);  // refuses what is no file
       std::ifstream file(path, std::ios::binary);
       image.assign(std::istreambuf_iterator<char>(file), {});
-      loaded->law = read_law(path);
     } catch (const std::exception& error) {
       message = error.what();
     }

@@ -120,6 +120,7 @@ void MpmPhysics::read_keywords(LAMMPS_NS::LAMMPS* lmp, Setup& setup)
 void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup& setup, const Types& types)
 {
   setup_ = &setup;
+  setup.session->one_size.erase(setup_);
   units_ = types.units;
   e_star_.assign(static_cast<std::size_t>(types.count + 1), 0.0);
   for (int t = 1; t <= types.count; ++t)
@@ -165,11 +166,13 @@ void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
 {
   for (const int t : {i, is_wall ? i : j}) {
     const auto at = static_cast<std::size_t>(t);
-    if (material(t) != contact.law.yielding->material.name) continue;
+    if (material(t) != contact.law.yielding->material.name || !(contact.law.only_radius() > 0)) continue;
+    const auto check = [law = contact.law, unit = units_.length,
+                        where = fmt::format("{}: type {}, law file {}", setup_->where, t, setup_->law->path)](
+                           double radius) { check_size(law, radius * unit, where); };
     for (const double radius : {sizes.radius[at], sizes.largest_radius[at]})
-      if (radius > 0 && std::isfinite(radius))
-        check_size(contact.law, radius * units_.length,
-                   fmt::format("{}: type {}, law file {}", setup_->where, t, setup_->law->path));
+      if (radius > 0 && std::isfinite(radius)) check(radius);
+    setup_->session->one_size[setup_][t] = check;
   }
 }
 

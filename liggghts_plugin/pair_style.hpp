@@ -22,6 +22,7 @@ class PairStyle final : public PairLoop<TalliedModel<Style>>, public CountedStyl
   ~PairStyle() override
   {
     if (!setup_.session) return;
+    setup_.session->one_size.erase(&setup_);
     const auto own = setup_.session->styles.find(nullptr);
     if (own != setup_.session->styles.end() && own->second == this) setup_.session->styles.erase(own);
   }

@@ -216,13 +216,22 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return entry.damping * static_cast<double>(returns | elastic);
   }
 
+  /// m/s, for a message.
+  double approach(const SurfacesIntersectData& sidata) const
+  {
+    if (!std::isfinite(sidata.vn))
+      stop_one(lmp, fmt::format("{}: the velocity of particle {} or of what it touches is not a number", setup_->where,
+                                atom->tag[sidata.i]));
+    return 0.0 - sidata.vn * units_.length;  // 0 of two at rest, not -0
+  }
+
   [[gnu::noinline, gnu::cold]] void check_stretched(const SurfacesIntersectData& sidata, double r_eff)
   {
     if (stretch_ > 1.0 && sidata.deltan > stretched_overlap_limit * r_eff)
       stop_one(lmp, fmt::format("{}: 'stretch {:g}' takes the overlap of types {} and {} to {:.4g} R* at "
                                 "{:.4g} m/s; {} R* is the limit: stretch less",
                                 setup_->where, stretch_, sidata.itype, sidata.jtype, sidata.deltan / r_eff,
-                                -sidata.vn * units_.length, stretched_overlap_limit));
+                                approach(sidata), stretched_overlap_limit));
   }
 
   /// Only with `energy on`: what the contact holds now, and the law's force for EnergyTally::account.
@@ -255,8 +264,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
                fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
                            "the law's table, which ends at {:.4g}: build a deeper law, or say "
                            "'beyondRange continue'",
-                           setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype,
-                           -sidata.vn * units_.length, entry.largest_overlap));
+                           setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype, approach(sidata),
+                           entry.largest_overlap));
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.

@@ -141,8 +141,9 @@ std::string model_names()
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
-std::string describe_combination(long combination)
+std::string describe(const HistoryMeaning& meaning)
 {
+  const long combination = meaning.combination;
   // six bits each, as in LIGGGHTS's GranStyle
   const auto part = [&](int place) { return static_cast<int>(combination >> 6 * place & 63); };
   std::string text = "model";
@@ -155,8 +156,11 @@ std::string describe_combination(long combination)
   add("tangential", tangential_names(), part(1));
   add("cohesion", cohesion_names(), part(2));
   add("rolling_friction", rolling_names(), part(3));
-  if (combination & combination_energy) text += ", energy on";
-  if (combination & combination_contact_map) text += ", contactMap on";
+  if (combination & HistoryMeaning::energy) text += ", energy on";
+  if (combination & HistoryMeaning::contact_map) text += ", contactMap on";
+  if (combination & HistoryMeaning::deformable_wall) text += ", wall deformable";
+  if (combination & HistoryMeaning::computed_stiffness) text += ", tangentialStiffness computed";
+  if (meaning.stretch > 1.0) text += fmt::format(", stretch {:g}", meaning.stretch);
   return text;
 }
 

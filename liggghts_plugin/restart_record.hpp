@@ -6,14 +6,32 @@
 
 namespace granulaw::plugin {
 
+/// What gives the numbers of a contact's history their meaning: the models, and every keyword that changes
+/// what they stand for. A restart into another meaning is refused. Law files and the other keywords may
+/// change: they say how a contact goes on, not what it was.
+struct HistoryMeaning
+{
+  /// LIGGGHTS's number of the five models, six bits each, and a bit for each keyword.
+  long combination = 0;
+  static constexpr long energy = 1l << 32,  ///< `energy on`: values of its own
+      contact_map = 1l << 33,               ///< `contactMap on`: a value of its own
+      deformable_wall = 1l << 34,           ///< `wall deformable`: X is over lambda R*, lambda of the pair
+      computed_stiffness = 1l << 35;        ///< `tangentialStiffness computed`: of the spring in the history
+  static constexpr long since_stretch = deformable_wall | computed_stiffness;  ///< kept since stretch is
+  /// `stretch S`: overlaps are S times the real ones. 0: of a file that does not say.
+  double stretch = 1.0;
+
+  bool operator==(const HistoryMeaning&) const = default;
+};
+
 /// What fix granulaw/stats leaves in a restart file.
 struct RestartRecord
 {
-  std::vector<double> counts;                ///< ContactStatistics::pack
-  std::map<std::string, long> combinations;  ///< Session::combinations, by command
+  std::vector<double> counts;                      ///< ContactStatistics::pack
+  std::map<std::string, HistoryMeaning> meanings;  ///< Session::meanings, by command
 
-  /// As numbers: how many counts, the counts, how many commands; then for each its combination, the length of
-  /// its name and the letters.
+  /// As numbers: how many counts, the counts, how many entries; then for each a number, the length of its
+  /// name and the letters. A command has two: its combination under its name, its stretch behind it.
   std::vector<double> numbers() const;
   /// What numbers() gave. Of a record that is cut short, as much as is whole.
   static RestartRecord from(const std::vector<double>& numbers);

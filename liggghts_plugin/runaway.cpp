@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/error.hpp"
 #include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/session.hpp"
 
@@ -46,8 +47,22 @@ int FixRunaway::setmask()
   return LAMMPS_NS::FixConst::PRE_EXCHANGE | LAMMPS_NS::FixConst::END_OF_STEP;
 }
 
+void FixRunaway::check_sizes() const
+{
+  for (const auto& [command, types] : Session::of(lmp)->one_size)
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const auto found = types.find(atom->type[i]);
+      if (found != types.end()) try {
+          found->second(atom->radius[i]);
+        } catch (const Error& failure) {
+          stop_one(lmp, fmt::format("step {}: particle {}: {}", update->ntimestep, atom->tag[i], failure.what()));
+        }
+    }
+}
+
 void FixRunaway::check() const
 {
+  check_sizes();
   const double dt = update->dt;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double *x = atom->x[i], *v = atom->v[i];

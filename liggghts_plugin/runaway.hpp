@@ -6,7 +6,7 @@ namespace granulaw::plugin {
 
 /// `fix granulaw_runaway all granulaw/runaway`: ends the run with one sentence when a particle's position,
 /// velocity or force is not a number, or when it moves further than its own radius in one time step (no
-/// contact law means anything then). LIGGGHTS itself drops such a particle without a word under
+/// contact law means anything then), or when its radius is no longer that of its rate-dependent law. LIGGGHTS itself drops such a particle without a word under
 /// `thermo_modify lost ignore`, and its neighbour search never gives a NaN to a contact model.
 ///
 /// Looks before particles change rank or leave the box (each rebuild of the neighbour lists, the set-up of a
@@ -24,6 +24,7 @@ class FixRunaway : public LAMMPS_NS::Fix
 
  private:
   void check() const;
+  void check_sizes() const;
 };
 
 /// Registers the fix style; adds the fix if the simulation box exists and there is none yet.

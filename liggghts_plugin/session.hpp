@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "liggghts_plugin/energy_tally.hpp"
 #include "liggghts_plugin/loaded_law.hpp"
 #include "liggghts_plugin/options.hpp"
+#include "liggghts_plugin/restart_record.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -68,6 +70,8 @@ class CountedStyle
   virtual const ContactInquiry* contacts() const = 0;
 };
 
+struct Setup;
+
 /// What the pair style, the walls and the statistics fix of one LIGGGHTS instance share.
 class Session
 {
@@ -95,14 +99,18 @@ class Session
     return found == styles.end() ? nullptr : found->second->contacts();
   }
 
+  /// Of atom types whose law holds for one radius, by command and type: throws Error at another one, in the
+  /// deck's units. Radii and types may change in a run.
+  std::map<const Setup*, std::map<int, std::function<void(double radius)>>> one_size;
+
   /// Largest damage number the laws in use answer for; 0 if none says.
   double damage_number_limit = 0;
 
-  /// Which models and words the restart file was written with that this deck continues (Setup::combination),
-  /// by command: "pair" or the wall's id. A command that has been compared is taken out.
-  std::map<std::string, long> restarted;
+  /// The histories of the restart file that this deck continues, by command: "pair" or the wall's id. A
+  /// command that has been compared is taken out.
+  std::map<std::string, HistoryMeaning> restarted;
   /// Those of the commands of this deck.
-  std::map<std::string, long> combinations;
+  std::map<std::string, HistoryMeaning> meanings;
 
   /// True the first time it is asked about `what`: a warning is given once.
   bool first_time(const std::string& what) { return warned_.insert(what).second; }
@@ -110,9 +118,6 @@ class Session
  private:
   std::set<std::string> warned_;
 };
-
-/// Bits of Setup::combination, above those of LIGGGHTS's models.
-inline constexpr long combination_energy = 1l << 32, combination_contact_map = 1l << 33;
 
 /// One command's setup, handed to the contact model: LIGGGHTS builds the model before it reads the words, and
 /// keeps it out of reach. The wrapper (pair_style.hpp, wall_style.hpp) owns the setup and makes it `current`
@@ -126,9 +131,7 @@ struct Setup
   LAMMPS_NS::FixWallGran* wall = nullptr;    ///< null for pairs
   Options own;                               ///< what the command itself says, before a wall inherits
   bool energy = false, contact_map = false;  ///< whether contacts keep what these need
-  /// What the history values of a contact mean: LIGGGHTS's number of the five models, and ours for the words
-  /// that add values. Restart files keep it.
-  long combination = 0;
+  HistoryMeaning meaning;
   mutable const ContactInquiry* contacts = nullptr;  ///< the model, once it has read its words
 
   static const Setup* current;
@@ -145,8 +148,8 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp);
 /// one prints to a stream which MPI_Abort never flushes and other ranks than 0 do not have.
 [[noreturn]] void stop_one(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
 
-/// In words: "model mpm tangential history rolling_friction epsd2, energy on".
-std::string describe_combination(long combination);
+/// In words: "model mpm tangential history rolling_friction epsd2, energy on, stretch 3".
+std::string describe(const HistoryMeaning& meaning);
 
 /// Throws Error where a run would go wrong with what the deck says around the contact models.
 void check_run(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);

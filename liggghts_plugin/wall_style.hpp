@@ -26,7 +26,9 @@ class WallStyle final : public WallLoop<TalliedModel<Style>>, public CountedStyl
   }
   ~WallStyle() override
   {
-    if (setup_.session) setup_.session->styles.erase(parent_);
+    if (!setup_.session) return;
+    setup_.session->one_size.erase(&setup_);
+    setup_.session->styles.erase(parent_);
   }
 
   const ContactInquiry* contacts() const override { return setup_.contacts; }

@@ -176,6 +176,26 @@ class Clumps(Trial):
             expected = self.fixture("impact", self.law, "powder", "wall", RADIUS, mass, speed)[0]
             self.assertAlmostEqual(latched.pop() / expected, 1.0, delta=1e-6)  # the first step's force is not felt yet
 
+    def test_a_frozen_partner_of_the_same_mass(self):
+        """A rigid pair of spheres hits a frozen one beside its centre: the frozen mass does not count, least of all where it equals the body's."""
+        self.fixture("write", self.law, "axis")
+        latched = []
+        for density in (2.0, 1.7):  # twice that of the two spheres of the body: its mass to the last bit
+            deck = (head(half=12 * RADIUS, skin=RADIUS / 2) + properties([POWDER]) +
+                    f"pair_style gran model mpm tangential history {self.words('mpm')}\npair_coeff * *\n"
+                    f"create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single {2 * RADIUS!r} 0 0 units box\ncreate_atoms 1 single 0 0 {-2.001 * RADIUS!r} units box\n"
+                    f"group body id 1 2\ngroup ice id 3\nset group body diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                    f"set group ice diameter {2 * RADIUS!r} density {density * POWDER.density!r}\nvelocity body set 0 0 -2.0\n"
+                    "neigh_modify exclude group body body\nfix rigid body rigid single\nfix hold ice freeze\ntimestep 2e-8\n"
+                    "compute rows all pair/gran/local id history\ndump rows all local 1 rows.dump c_rows[1] c_rows[2] c_rows[3] c_rows[4] c_rows[5]\n"
+                    'dump_modify rows format "%g %g %g %.15g %.15g"\nrun 200\n')
+            self.run_deck(deck)
+            rows = [line.split() for line in (self.folder / "rows.dump").read_text().splitlines() if len(line.split()) == 5 and not line.startswith("ITEM")]
+            found = {float(row[4]) for row in rows if float(row[4]) > 0}
+            self.assertEqual(len(found), 1)
+            latched += found
+        self.assertAlmostEqual(latched[0] / latched[1], 1.0, delta=1e-12)
+
     def test_colliding_clumps_on_1_and_2_ranks(self):
         """Clumps thrown together over the boundary of the ranks, by a law with an axis: from one restart file the same motion."""
         self.fixture("write", self.law, "axis")

@@ -110,6 +110,33 @@ class Outputs(Deck):
             self.assertAlmostEqual(dissipated / statistics, 1.0, delta=1e-9)
             self.assertAlmostEqual(dissipated / lost, 1.0, delta=1e-3)  # 200 steps a contact: the step's error
 
+    def test_energies_of_particles_that_came_since_the_last_run(self):
+        """So many come that all arrays move, and the energies are asked for before the next run."""
+        for model in MODELS:
+            deck = wall_deck(model, self.words(model, "energy on"), POWDER, RADIUS, 1.0, DT)
+            more = ("lattice sc 0.002\nregion some block -0.03 0.03 -0.03 0.03 0.005 0.03 units box\ncreate_atoms 1 region some\n"
+                    f"set region some diameter 0.0015 density {POWDER.density}\nvariable held equal f_granulaw[14]\n"
+                    'print "HELD ${held}"\nwrite_dump all custom new.txt id f_granulaw[1] f_granulaw[2] modify sort id\n')
+            text = self.run_deck(deck.replace("run 120", "run 120\n" + more))
+            rows = [line.split() for line in (self.folder / "new.txt").read_text().splitlines() if len(line.split()) == 3 and line[0].isdigit()]
+            self.assertGreater(len(rows), 10000)
+            self.assertGreater(float(rows[0][1]), 0)  # it is in contact
+            self.assertAlmostEqual(float(rows[0][1]) / self.result(text, "HELD")[0], 1.0, delta=1e-4)  # six digits are written
+            self.assertEqual({(held, lost) for _, held, lost in rows[1:]}, {("0", "0")})
+
+    def test_types_that_change_in_contact(self):
+        """`set type` while two spheres touch: the contact is open, and ends once: in the row of the types with which it last grew."""
+        count = "".join(f"variable b{r} equal f_granulaw[{r}][1]\nvariable e{r} equal f_granulaw[{r}][2]\n" for r in (1, 2, 3))
+        show = 'print "ROWS ${b1} ${e1} ${b2} ${e2} ${b3} ${e3}"\n'
+        for model in MODELS:
+            for ranks in (1, 2):
+                deck = pair_deck(model, self.words(model, "contactMap on", "powder powder"), (POWDER, POWDER), (RADIUS, RADIUS), 2.0, DT)
+                deck = deck.replace("create_box 1", "create_box 2").replace(properties([POWDER]), properties([POWDER, POWDER]))
+                text = self.run_deck(deck.replace("run 120", f"{count}run 120\nset atom 1 type 2\nrun 30\n{show}run 2000\n{show}"), ranks=ranks)
+                touching, parted = self.results(text, "ROWS")
+                self.assertEqual(touching, [1, 0, 0, 0, 0, 0])
+                self.assertEqual((parted[0::2], parted[1] + parted[3], parted[5]), ([1, 0, 0], 1, 0), (model, ranks))
+
     def test_contacts_that_begin_overlapping(self):
         """Two spheres put into each other, and none that moved there: counted, with what they brought; the balance closes with it."""
         for model in MODELS:

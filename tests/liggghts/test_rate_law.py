@@ -28,6 +28,16 @@ class RateLaw(Deck):
         text = self.run_deck(deck, ranks=2, expect_failure=True)
         self.assertEqual(text.count("holds for one size"), 1)
 
+    def test_a_size_outgrown_in_a_run(self):
+        """By fix adapt, on the wall and before it; a type that becomes that of the law; within 5 % it goes on."""
+        for speed in (1.0, 0.0):
+            for factor in (1.3, 0.9, 1.04):
+                deck = wall_deck("mpm", self.words, POWDER, RADIUS, speed, 2e-8)
+                grow = f"variable g equal {2 * RADIUS!r}*(1+{factor - 1!r}*(step-20)/200)\nfix a all adapt 1 atom diameter v_g\nrun 20\nrun 200"
+                text = self.run_deck(deck.replace("run 120", grow), expect_failure=factor != 1.04)
+                if factor != 1.04:
+                    self.assertRegex(text, "step [0-9]+: particle 1: .*type 1.* depends on the strain rate, so it holds for one size: radius: found 0.00[0-9]+ m")
+
     def count(self, deck, ranks=1):
         """Contacts slower than the law's slowest impact: f_granulaw[16]; the file's pair and wall; the line at the end."""
         out = '\nvariable d equal f_granulaw[16]\nvariable f equal f_granulaw[11]\nprint "SLOW ${d} ${f}"\n'
