@@ -7,28 +7,45 @@ namespace granulaw {
 namespace {
 
 template <class Checks, class Of>
-double rms(const Checks& checks, const Of& of)
+double rms_near(const Checks& checks, double stiffness, const Of& of)
 {
-  if (checks.empty()) return 0;
-  double sum = 0;
-  for (const auto& c : checks) sum += of(c) * of(c);
-  return std::sqrt(sum / static_cast<double>(checks.size()));
+  const double width = std::log(2.0);
+  double sum = 0, weights = 0;
+  for (const auto& c : checks) {
+    const double distance = std::log(c.material.stiffness / stiffness) / width;
+    const double weight = std::exp(-0.5 * distance * distance);
+    sum += weight * of(c) * of(c), weights += weight;
+  }
+  return weights > 0 ? std::sqrt(sum / weights) : 0;
+}
+
+AtlasErrors compute(const Atlas& atlas, double stiffness)
+{
+  const auto& impacts = atlas.checks();
+  const auto& presses = atlas.midplane().checks();
+  AtlasErrors e;
+  e.solver = rms_near(impacts, stiffness, [](const AtlasCheck& c) { return c.solver_estimate; });
+  e.restitution = rms_near(impacts, stiffness, [](const AtlasCheck& c) { return c.error_restitution; });
+  e.force =
+      std::hypot(rms_near(impacts, stiffness, [](const AtlasCheck& c) { return c.error_force; }), e.solver);
+  e.midplane_force = std::hypot(
+      rms_near(presses, stiffness, [](const MidplaneCheck& c) { return c.error_force; }), e.solver);
+  e.recovery = std::hypot(
+      rms_near(presses, stiffness, [](const MidplaneCheck& c) { return c.error_recovery; }), 2 * e.solver);
+  return e;
 }
 
 }  // namespace
 
-const AtlasErrors& errors_of(const Atlas& atlas)
+AtlasErrors errors_of(const Atlas& atlas, double asked)
 {
+  // a fit asks for one material many times
   static thread_local const Atlas* known = nullptr;
+  static thread_local double at = 0;
   static thread_local AtlasErrors errors;
-  if (known != &atlas) {
-    known = &atlas;
-    errors.restitution = rms(atlas.checks(), [](const AtlasCheck& c) { return c.error_restitution; });
-    errors.force = rms(atlas.checks(), [](const AtlasCheck& c) { return c.error_force; });
-    const auto& presses = atlas.midplane().checks();
-    errors.midplane_force = rms(presses, [](const MidplaneCheck& c) { return c.error_force; });
-    errors.recovery = rms(presses, [](const MidplaneCheck& c) { return c.error_recovery; });
-  }
+  const double stiffness =
+      std::fmin(std::fmax(asked, atlas.grid().stiffnesses.front()), atlas.grid().stiffnesses.back());
+  if (known != &atlas || at != stiffness) known = &atlas, at = stiffness, errors = compute(atlas, stiffness);
   return errors;
 }
 

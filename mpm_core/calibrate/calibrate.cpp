@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include <cmath>
+#include <limits>
 
 namespace granulaw {
 
@@ -46,14 +47,30 @@ namespace {
 void judge(Calibration& c, const CalibrationProblem& problem)
 {
   constexpr double unlikely = 0.05;
-  c.chi_squared = problem.chi_squared(c.minimum.q);
+  const CalibrationProblem::Scatter scatter = problem.scatter(c.minimum.q);
+  c.chi_squared = scatter.chi_squared;
   c.degrees_of_freedom = static_cast<long>(problem.data_count() + problem.request().priors.size()) -
                          static_cast<long>(problem.fitted_count());
   c.p_value = c.interval_scale = 1;
   if (c.degrees_of_freedom <= 0) return;
   const auto degrees = static_cast<double>(c.degrees_of_freedom);
   c.p_value = gsl_cdf_chisq_Q(c.chi_squared, degrees);
-  if (c.p_value < unlikely) c.interval_scale = c.chi_squared / degrees;
+  // the variance of an estimate by a loss of slope psi is that of psi over psi' (Huber, Ann. Math. Statist.
+  // 35, 1964); the curvature of the summed loss has one psi' of it already
+  if (c.p_value < unlikely) c.interval_scale = c.chi_squared / degrees / scatter.share_within;
+}
+
+/// Values alone, where the fit lies at an end of the method's range.
+void state_bound(Calibration& c, const CalibrationProblem& problem)
+{
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  c.parameters.clear();
+  for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
+    FittedParameter f{problem.request().fit[k], {}, Told::at_bound};
+    f.profile.value = problem.value(k, c.minimum.q[static_cast<Eigen::Index>(k)]);
+    f.profile.within68 = f.profile.within95 = {none, none, false, false};
+    c.parameters.push_back(f);
+  }
 }
 
 /// The profiles of all parameters; where one of them meets a better minimum, only that.
@@ -80,6 +97,11 @@ Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
   c.minimum = std::move(minimum);
   for (int round = 0; round < most_rounds; ++round) {
     judge(c, problem);
+    c.bound = problem.bound_met(c.minimum.q);
+    if (!c.bound.empty()) {
+      state_bound(c, problem);
+      break;
+    }
     const std::optional<Coordinates> better = profile_all(c, problem);
     if (!better) break;
     c.minimum = polished(problem, *better);
@@ -103,6 +125,30 @@ Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
 }
 
 }  // namespace
+
+Band band_of(const CalibrationProblem& problem, const Calibration& c, std::size_t index)
+{
+  if (!c.bound.empty()) return {};
+  const auto fit_at = [&](const Coordinates& q) { return problem.compare(q, index).with_errors; };
+  const std::vector<double> fit = fit_at(c.minimum.q);
+  const auto count = static_cast<Eigen::Index>(c.parameters.size());
+  std::vector<std::vector<double>> low, high;
+  for (const FittedParameter& p : c.parameters)
+    low.push_back(fit_at(p.profile.low95)), high.push_back(fit_at(p.profile.high95));
+  const Eigen::MatrixXd inverse = c.correlation.inverse();
+  Band band;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    Eigen::VectorXd up(count), down(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const double a = low[static_cast<std::size_t>(k)][i] - fit[i],
+                   b = high[static_cast<std::size_t>(k)][i] - fit[i], sign = b >= a ? 1 : -1;
+      up[k] = sign * std::max({a, b, 0.0}), down[k] = sign * std::min({a, b, 0.0});
+    }
+    band.high.push_back(fit[i] + std::sqrt(std::max(0.0, up.dot(inverse * up))));
+    band.low.push_back(fit[i] - std::sqrt(std::max(0.0, down.dot(inverse * down))));
+  }
+  return band;
+}
 
 Calibration calibrate(const CalibrationProblem& problem)
 {

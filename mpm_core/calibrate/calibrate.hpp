@@ -12,7 +12,8 @@ enum class Told {
   value,       ///< an interval
   from_below,  ///< it is larger than the interval's low end; nothing else
   from_above,  ///< it is smaller than the high end; nothing else
-  nothing
+  nothing,
+  at_bound  ///< the fit lies at an end of the method's range: neither value nor interval
 };
 
 struct FittedParameter
@@ -29,6 +30,7 @@ struct Calibration
   CandidateMaterial material;
   std::vector<FittedParameter> parameters;
   Eigen::MatrixXd correlation;  ///< of the parameters, in their order
+  std::string bound;            ///< the end of the method's range at which the fit lies; empty: within
   double chi_squared = 0, p_value = 1;
   long degrees_of_freedom = 0;
   double interval_scale =
@@ -46,6 +48,16 @@ Calibration calibrate(const CalibrationProblem& problem, const Coordinates& star
 /// A parameter is told where its 95 % interval ends on both sides and is narrower than a factor of 1.5
 /// (hardening: of 1 + 2 H/Y); else bounded on the side where it ends.
 Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& profile);
+
+/// The fit's values of one measurement at the ends of the 95 % intervals.
+struct Band
+{
+  std::vector<double> low, high;
+};
+/// Of one parameter: the fits at both ends of its interval. Of several: their departures h from the fit,
+/// over the square root of h' R^-1 h with the correlations R, as an ellipsoid that touches all intervals has.
+/// Empty where the fit lies at an end of the method's range.
+Band band_of(const CalibrationProblem& problem, const Calibration& calibration, std::size_t measurement);
 
 /// What the data tell and what they do not, as sentences; the last of all says whether the model fits.
 std::string verdict(const CalibrationProblem& problem, const Calibration& calibration);

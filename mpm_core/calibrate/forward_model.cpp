@@ -15,6 +15,9 @@ namespace {
 constexpr double radius_error = 0.01, residual_error = 0.005, time_error = 0.01, hardness_error = 0.07,
                  onset_error = 0.02;
 
+/// How far single values depart from the smooth error, over it: half of its variance.
+const double rough_share = std::sqrt(0.5);
+
 /// Legendre's polynomials of degree 0 to 2 at t from -1 to 1, each of mean square 1.
 void legendre(double t, double out[3])
 {
@@ -46,9 +49,10 @@ double impact_value(const Measurement& m, const SphereLaws::Impact& impact, doub
 
 void predict_impacts(const Measurement& m, const LawMaterial& material, const SphereLaws& laws, Prediction& p)
 {
-  const AtlasErrors& atlas = errors_of(*laws.atlas());
-  const double per_speed = std::sqrt(material.density / material.yield_stress);
-  const double slow = std::log(yield_velocity(material.e_star(), material.yield_stress, material.density));
+  const AtlasErrors atlas = errors_of(*laws.atlas(), laws.material().stiffness);
+  const double density = m.sphere_density(material.density),
+               per_speed = std::sqrt(density / material.yield_stress),
+               slow = std::log(yield_velocity(material.e_star(), material.yield_stress, density));
   constexpr double decades = 6.9;  // ln 1000: of V/V_y, over which the errors were measured
   for (const Datum& d : m.data) {
     const double speed = wall_speed(m, d.x), v = speed * per_speed;
@@ -65,12 +69,13 @@ void predict_impacts(const Measurement& m, const LawMaterial& material, const Sp
       p.scatter.push_back(0);
       continue;
     }
-    // half of the variance in the smooth error, half from value to value; none where nothing yields
-    const double error = std::min(atlas.restitution, 1 - impact.restitution) * std::sqrt(0.5);
+    // none where nothing yields
+    const double e = impact.restitution,
+                 error = std::min(std::hypot(atlas.restitution, atlas.solver * e), 1 - e);
     double shape[3];
     legendre(2 * (std::log(speed) - slow) / decades - 1, shape);
     for (int k = 0; k < 3; ++k) p.errors[k].push_back(error / std::sqrt(3.0) * shape[k]);
-    p.scatter.push_back(error);
+    p.scatter.push_back(rough_share * error);
   }
 }
 
@@ -84,7 +89,7 @@ double unloading_force(const ContactCurve::Reversal& top, double share)
 CurveModel curve_model(const Measurement& m, const LawMaterial& material, const SphereLaws& laws)
 {
   const double unit = 4.0 / 3.0 * material.e_star() * m.radius * m.radius;
-  const AtlasErrors& atlas = errors_of(*laws.atlas());
+  const AtlasErrors atlas = errors_of(*laws.atlas(), laws.material().stiffness);
   if (m.kind == MeasurementKind::platens)
     return {&laws.midplane(), m.radius, unit, atlas.midplane_force, atlas.recovery};
   return {&laws.free(), m.radius, unit, atlas.force, atlas.recovery};
@@ -100,18 +105,19 @@ Prediction predict_curve(const Measurement& m, const CurveModel& model, const Ma
   const auto overlap = [&](const Datum& d) {
     return (d.x - machine.offset - machine.compliance * d.y) / m.contacts() / model.length;
   };
-  const std::size_t reversal = m.reversal();
+  const std::size_t loading = m.loading_rows();
   double x_m = 0;
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
+  x_m += std::max(0.0, machine.beyond) / m.contacts() / model.length;
   const ContactCurve::Reversal top = curve.reversal(std::max(x_m, 1e-12));
-  // Half of the variance in the smooth error, half from value to value. Unloading is off by a share of what
-  // it recovers, however far the press went.
-  const double half = std::sqrt(0.5), factor_error = half * model.force_error,
-               recovery_error = half * model.recovery_error, recovery = x_m - top.residual;
+  // The checks' errors are each one curve's: smooth. Unloading is off by a share of what it recovers, however
+  // far the press went.
+  const double factor_error = model.force_error, recovery_error = model.recovery_error,
+               recovery = x_m - top.residual;
   constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured
   for (std::size_t k = 0; k < m.data.size(); ++k) {
     const double x = overlap(m.data[k]);
-    const bool unloads = k > reversal && x_m > curve.onset();
+    const bool unloads = k >= loading && x_m > curve.onset();
     double force = 0, stretched = 0, steep = 0, place = 1;
     if (unloads) {
       const double share = (x - top.residual) / recovery;
@@ -129,7 +135,7 @@ Prediction predict_curve(const Measurement& m, const CurveModel& model, const Ma
     for (int j = 0; j < 3; ++j)
       p.errors[j].push_back(model.force * force * factor_error / std::sqrt(3.0) * shape[j]);
     p.errors[3].push_back(model.force * stretched);
-    p.scatter.push_back(model.force * std::hypot(force * factor_error, steep));
+    p.scatter.push_back(rough_share * model.force * std::hypot(force * factor_error, steep));
   }
   return p;
 }

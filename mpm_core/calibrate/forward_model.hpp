@@ -13,6 +13,7 @@ struct MachineState
 {
   double offset = 0;      ///< m, displacement at first touch
   double compliance = 0;  ///< m/N
+  double beyond = 0;      ///< m, displacement at which the curve turned, less the largest of its data
 };
 
 /// Values that a material would show, and how far the model itself may be off.

@@ -10,10 +10,6 @@ namespace granulaw {
 
 namespace {
 
-// E* of a rigid indenter over the specimen's: one a thousand times as stiff is rigid to 0.01 %
-// (docs/evidence/pairs.md).
-constexpr double rigid = 1e4;
-
 /// Without an indenter's modulus only ratios of the specimen's stresses count.
 std::vector<Parameter> lattice_axes(const Measurement& m, std::vector<Parameter> varied)
 {
@@ -52,7 +48,8 @@ LawMaterial IndenterModel::indenter_on(const LawMaterial& specimen) const
   if (indenter_) return *indenter_;
   LawMaterial m;
   m.name = "rigid indenter";
-  m.density = specimen.density, m.youngs_modulus = rigid * specimen.youngs_modulus, m.poisson_ratio = 0.3;
+  m.density = specimen.density, m.youngs_modulus = most_unlike * specimen.youngs_modulus,
+  m.poisson_ratio = 0.3;
   return m;
 }
 
@@ -90,8 +87,9 @@ IndenterModel::Law IndenterModel::make(const LawMaterial& specimen) const
           composed_error(indenter.e_star() / specimen.e_star()).force / stated};
 }
 
-const IndenterModel::Law& IndenterModel::law(const LawMaterial& specimen) const
+const IndenterModel::Law& IndenterModel::law(const LawMaterial& asked) const
 {
+  const LawMaterial specimen = indenter_ ? within_reach(within_atlas(*atlas_, asked), *indenter_) : asked;
   constexpr std::size_t most = 32;
   const auto same = [&](const Law& l) {
     return l.specimen.youngs_modulus == specimen.youngs_modulus &&

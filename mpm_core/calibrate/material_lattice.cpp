@@ -29,6 +29,14 @@ LawMaterial within_atlas(const Atlas& atlas, LawMaterial m)
   return m;
 }
 
+LawMaterial within_reach(LawMaterial m, const LawMaterial& partner)
+{
+  const double ratio = m.e_star() / partner.e_star(),
+               factor = std::clamp(ratio, 1 / most_unlike, most_unlike) / ratio;
+  m.youngs_modulus *= factor, m.yield_stress *= factor, m.hardening_modulus *= factor;
+  return m;
+}
+
 double MaterialLattice::nearest(double modulus)
 {
   return std::exp(spacing * std::round(std::log(modulus) / spacing));

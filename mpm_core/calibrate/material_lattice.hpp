@@ -41,5 +41,10 @@ class MaterialLattice
 
 /// A material brought into the atlas, its yield stress as it is.
 LawMaterial within_atlas(const Atlas& atlas, LawMaterial material);
+/// Largest ratio of two partners' E*, either way, that composed laws are made for: the stiffer one is rigid
+/// to 0.01 % (docs/evidence/pairs.md).
+inline constexpr double most_unlike = 1e4;
+/// A material with all its stresses brought to at most that ratio: a search tries what no solid has.
+LawMaterial within_reach(LawMaterial material, const LawMaterial& partner);
 
 }  // namespace granulaw

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,10 +34,14 @@ enum class ImpactPartner {
 /// One measured value. SI.
 struct Datum
 {
-  double x = 0;   ///< impact speed or displacement; 0 where the kind has neither
-  double y = 0;   ///< what was measured
-  double sd = 0;  ///< its standard deviation; 0: not stated
-  int line = 0;   ///< of the file
+  double x = 0;            ///< impact speed or displacement; 0 where the kind has neither
+  double y = 0;            ///< what was measured
+  double sd = 0;           ///< its standard deviation; 0: not stated
+  int line = 0;            ///< of the file
+  double relative_sd = 0;  ///< over 0: none was stated, and it is this share of the true value
+
+  /// Of a true value that is assumed: what is far too low has no smaller noise for that.
+  double sd_at(double value) const { return relative_sd > 0 ? relative_sd * std::abs(value) : sd; }
 };
 
 /// The values of one file.
@@ -50,11 +55,20 @@ struct Measurement
   std::optional<LawMaterial> indenter;  ///< its material; none: rigid
   ImpactPartner partner = ImpactPartner::rigid_wall;
   std::optional<LawMaterial> wall;  ///< restitution: a thick wall of this material in place of the rigid one
+  std::optional<LawMaterial> ball;  ///< restitution: the sphere's; what is fitted is the thick wall's
   bool fit_offset = false;          ///< curves: the displacement of first touch is unknown
   bool fit_compliance = false;      ///< curves: the machine gives way in proportion to the force
 
+  /// Impacts: density of the sphere, kg/m^3, where what is fitted is of this density.
+  double sphere_density(double fitted_density) const { return ball ? ball->density : fitted_density; }
   /// Curves: index of the datum of largest displacement; what follows is unloading.
   std::size_t reversal() const;
+  /// Curves: number of data on loading. Where the curve turned between two rows, the datum of largest
+  /// displacement may be the first on unloading: its force is below that of the datum before.
+  std::size_t loading_rows() const;
+  /// Curves with unloading: how far beyond the largest displacement, m, the curve may have turned: the
+  /// spacing of the rows there. 0: no datum is on unloading.
+  double turn_gap() const;
   /// Curves: contacts that share the displacement.
   double contacts() const { return kind == MeasurementKind::platens ? 2 : 1; }
   /// Curves: R* of a contact.

@@ -130,13 +130,39 @@ void check(const Datum& d, const Columns& c, const std::string& where)
 {
   const Header& h = *c.header;
   if (is_impact(h.kind)) require(d.x > 0, where, h.x, d.x, "over 0 m/s");
-  if (h.kind == MeasurementKind::restitution)
-    require(d.y > 0 && d.y <= 1, where, h.y, d.y, "over 0, up to 1");
-  else if (is_curve(h.kind))
+  if (is_curve(h.kind))
     require(d.y > -1e9, where, h.y, d.y, "a force, pushing is positive");
   else
     require(d.y > 0, where, h.y, d.y, "over 0");
   if (c.sd) require(d.sd > 0, where, "the standard deviation", d.sd, "over 0");
+}
+
+/// Work of some rows of a curve between two displacements, by trapezes.
+double work_of(const std::vector<Datum>& rows, double low, double high)
+{
+  double work = 0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const Datum &a = rows[k - 1], &b = rows[k];
+    if (a.x == b.x) continue;
+    const auto force = [&](double x) { return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x); };
+    const double from = std::clamp(a.x, low, high), to = std::clamp(b.x, low, high);
+    work += 0.5 * (force(from) + force(to)) * (to - from);
+  }
+  return std::abs(work);
+}
+
+/// No contact gives back more work than it took: rows that say so stand in the wrong order.
+void check_order(const Measurement& m)
+{
+  constexpr double noise = 0.1;  // of the work: trapezes of few rows, and their noise
+  const auto top = m.data.begin() + static_cast<std::ptrdiff_t>(m.reversal());
+  const std::vector<Datum> loading(m.data.begin(), top + 1), unloading(top, m.data.end());
+  if (unloading.size() < 3) return;
+  const double low = std::max(loading.front().x, unloading.back().x), high = top->x;
+  const double taken = work_of(loading, low, high), given = work_of(unloading, low, high);
+  if (given > (1 + noise) * taken)
+    fail(m.source, "unloading gives back more work than loading took, as if the rows stood in reverse order",
+         fmt::format("{:.3g} J of {:.3g} J", given, taken), "loading rows first, then unloading rows");
 }
 
 /// What the rows together must be.
@@ -155,6 +181,7 @@ void check_all(const Measurement& m)
   if (m.reversal() < 4)
     fail(m.source, "loading rows come first, then unloading rows: the largest displacement stands in row",
          std::to_string(m.reversal() + 1), "the fifth or a later one");
+  check_order(m);
 }
 
 }  // namespace

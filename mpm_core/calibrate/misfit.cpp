@@ -94,7 +94,7 @@ class Inspection
   {
     double sum = 0, weights = 0;
     const bool curve = is_curve(measurement_.kind);
-    const std::size_t count = curve ? measurement_.reversal() + 1 : measurement_.data.size();
+    const std::size_t count = curve ? measurement_.loading_rows() : measurement_.data.size();
     for (std::size_t k = 0; k < count; ++k) {
       const double predicted = comparison_.predicted[k];
       if (!(predicted > 0) || (!curve && predicted > 0.9995)) continue;
@@ -114,6 +114,7 @@ class Inspection
     if (measurement_.kind == MeasurementKind::restitution) look_at_restitution();
     if (is_curve(measurement_.kind)) look_at_curve();
     if (is_curve(measurement_.kind) && found_.empty()) look_at_model_errors();
+    if (is_curve(measurement_.kind) && found_.empty()) look_for_long_runs();
     look_for_outliers();
     return std::move(found_);
   }
@@ -132,10 +133,12 @@ class Inspection
   /// of e, absolute, or of the force, relative.
   double model_error() const
   {
-    const AtlasErrors& atlas = errors_of(problem_.laws().atlas());
-    const double error = measurement_.kind == MeasurementKind::restitution ? atlas.restitution
-                         : measurement_.kind == MeasurementKind::platens   ? atlas.midplane_force
-                                                                           : atlas.force;
+    const AtlasErrors atlas =
+        errors_of(problem_.laws().atlas(), MaterialRatios::of(problem_.material(minimum_.q)).stiffness);
+    const double error = measurement_.kind == MeasurementKind::restitution
+                             ? std::hypot(atlas.restitution, atlas.solver)
+                         : measurement_.kind == MeasurementKind::platens ? atlas.midplane_force
+                                                                         : atlas.force;
     const bool by_runs = !problem_.request().known.hardens_linearly();
     return std::hypot(error, by_runs ? by_runs_error : 0.0, composed_error_of()) / std::sqrt(3.0);
   }
@@ -143,9 +146,11 @@ class Inspection
   double composed_error_of() const
   {
     constexpr double stated = 2;  // standard deviations
-    const std::optional<LawMaterial>& partner =
-        measurement_.kind == MeasurementKind::indenter ? measurement_.indenter : measurement_.wall;
-    const bool composed = measurement_.kind == MeasurementKind::indenter || measurement_.wall;
+    const std::optional<LawMaterial>& partner = measurement_.kind == MeasurementKind::indenter
+                                                    ? measurement_.indenter
+                                                : measurement_.ball ? measurement_.ball
+                                                                    : measurement_.wall;
+    const bool composed = measurement_.kind == MeasurementKind::indenter || partner;
     if (!composed) return 0;
     const double ratio = partner ? partner->e_star() / problem_.material(minimum_.q).e_star() : rigid_partner;
     const ComposedError error = composed_error(ratio);
@@ -205,18 +210,16 @@ class Inspection
   void look_at_curve()
   {
     look_for_a_drop();
-    const std::size_t reversal = measurement_.reversal();
+    const std::size_t loading = measurement_.loading_rows();
     double largest = 0;
-    for (std::size_t k = 0; k <= reversal; ++k) largest = std::max(largest, comparison_.predicted[k]);
+    for (std::size_t k = 0; k < loading; ++k) largest = std::max(largest, comparison_.predicted[k]);
     Differences d;
-    std::vector<double> left;  // what neither the fit nor the model's own error explains, relative
-    for (std::size_t k = 0; k <= reversal; ++k) {
+    for (std::size_t k = 0; k < loading; ++k) {
       const double predicted = comparison_.predicted[k];
       if (predicted < 0.1 * largest) continue;
       d.place.push_back(1 + 2 * std::log(predicted / largest) / std::log(10.0));
       d.relative.push_back(measurement_.data[k].y / predicted - 1);
       d.sd.push_back(comparison_.sd[k] / predicted);
-      left.push_back((measurement_.data[k].y - comparison_.with_errors[k]) / predicted);
     }
     if (d.place.size() < 8) return;
     const Factors f = legendre_factors(d);
@@ -233,13 +236,24 @@ class Inspection
           fmt::format("the force grows {} on loading than the fit's ({:+.1f} % from a tenth to all of it): "
                       "another flow law, or a particle that is no sphere",
                       f.value[1] > 0 ? "faster" : "slower", 200 * f.value[1]));
-    else if (missing_runs(left) > clear && rms(left) > model)
-      say("long runs",
-          fmt::format(
-              "the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
-              "systematic, though of no known pattern",
-              100 * rms(left)));
     look_at_unloading();
+  }
+
+  /// What neither the fit nor the model's own error explains, and no other name fits.
+  void look_for_long_runs()
+  {
+    double largest = 0;
+    for (const double predicted : comparison_.predicted) largest = std::max(largest, predicted);
+    std::vector<double> left;
+    for (std::size_t k = 0; k < measurement_.loading_rows(); ++k)
+      if (const double predicted = comparison_.predicted[k]; predicted >= 0.1 * largest)
+        left.push_back((measurement_.data[k].y - comparison_.with_errors[k]) / predicted);
+    if (left.size() < 8 || !(missing_runs(left) > clear && rms(left) > model_error())) return;
+    say("long runs",
+        fmt::format(
+            "the differences from the fit keep their sign over long stretches (rms {:.2g} % of the force): "
+            "systematic, though of no known pattern",
+            100 * rms(left)));
   }
 
   static double rms(const std::vector<double>& values)
@@ -289,9 +303,9 @@ class Inspection
 
   void look_at_unloading()
   {
-    const std::size_t reversal = measurement_.reversal();
-    double difference = 0, weights = 0, largest = measurement_.data[reversal].y;
-    for (std::size_t k = reversal + 1; k < measurement_.data.size(); ++k) {
+    const std::size_t loading = measurement_.loading_rows();
+    double difference = 0, weights = 0, largest = measurement_.data[loading - 1].y;
+    for (std::size_t k = loading; k < measurement_.data.size(); ++k) {
       difference += measurement_.data[k].y - comparison_.with_errors[k];
       weights += 1;
     }
@@ -308,12 +322,12 @@ class Inspection
   void look_for_a_drop()
   {
     constexpr double least_drop = 0.03;  // of the largest force so far
-    const std::size_t reversal = measurement_.reversal();
+    const std::size_t loading = measurement_.loading_rows();
     double peak = 0, peak_at = 0, sd = 0;
-    for (std::size_t k = 0; k <= reversal; ++k) {
+    for (std::size_t k = 0; k < loading; ++k) {
       const Datum& d = measurement_.data[k];
       if (d.y > peak) peak = d.y, peak_at = d.x, sd = d.sd;
-      const bool stays = k + 1 > reversal || measurement_.data[k + 1].y < peak - clear * sd;
+      const bool stays = k + 1 >= loading || measurement_.data[k + 1].y < peak - clear * sd;
       if (peak - d.y > least_drop * peak + clear * std::hypot(sd, d.sd) && stays) {
         say("fracture",
             fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, as by "

@@ -1,8 +1,12 @@
 #include "calibrate/noise.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/error.hpp"
 
 namespace granulaw {
 
@@ -17,10 +21,10 @@ struct PseudoResidual
 std::vector<PseudoResidual> pseudo_residuals(const Measurement& m)
 {
   constexpr double most_gain = 20;  // of the scatter: neighbours too unevenly spaced
-  const std::size_t reversal = m.reversal();
+  const std::size_t loading = m.loading_rows();
   std::vector<PseudoResidual> found;
   for (std::size_t k = 2; k + 2 < m.data.size(); ++k) {
-    if ((k - 2 < reversal) != (k + 2 <= reversal)) continue;  // on one branch
+    if ((k - 2 < loading) != (k + 2 < loading)) continue;  // on one branch
     const std::size_t neighbours[] = {k - 2, k - 1, k + 1, k + 2};
     double cubic = 0, gain = 1;
     for (const std::size_t i : neighbours) {
@@ -72,7 +76,9 @@ ForceScatter scatter_of(const Measurement& curve)
   return best;
 }
 
-void complete_standard_deviations(Measurement& m, double relative_sd)
+namespace {
+
+void fill_in_standard_deviations(Measurement& m, double relative_sd)
 {
   if (std::all_of(m.data.begin(), m.data.end(), [](const Datum& d) { return d.sd > 0; })) return;
   if (is_curve(m.kind)) {
@@ -82,7 +88,26 @@ void complete_standard_deviations(Measurement& m, double relative_sd)
     return;
   }
   for (Datum& d : m.data)
-    if (d.sd == 0) d.sd = relative_sd * d.y;
+    if (d.sd == 0) d.sd = relative_sd * d.y, d.relative_sd = relative_sd;
+}
+
+/// Noise may lift an e near 1 over it: one value in thirty thousand by more than four standard deviations.
+void check_restitution(const Measurement& m)
+{
+  constexpr double beyond_noise = 4;
+  for (const Datum& d : m.data)
+    if (d.y > 1 + beyond_noise * d.sd)
+      fail(fmt::format("{}:{}", m.source, d.line), "'restitution' is over 1 by more than its noise",
+           fmt::format("{:g}, standard deviation {:.2g}", d.y, d.sd),
+           fmt::format("over 0, up to 1 and {:g} standard deviations", beyond_noise));
+}
+
+}  // namespace
+
+void complete_standard_deviations(Measurement& m, double relative_sd)
+{
+  fill_in_standard_deviations(m, relative_sd);
+  if (m.kind == MeasurementKind::restitution) check_restitution(m);
 }
 
 }  // namespace granulaw

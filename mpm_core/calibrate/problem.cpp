@@ -16,7 +16,9 @@ using Unknown = CalibrationProblem::Unknown;
 
 constexpr double wall_steepness = 100;  // residual for a factor e beyond what is allowed
 constexpr double robust_from = 3;       // sd from which a datum counts in proportion
-constexpr double normal95 = 1.959964;   // sd on either side of the mean that hold 95 %
+constexpr double furthest_log = 100;    // of a modulus: a search tries anything, and its ratios stay finite
+constexpr Range solid_modulus{1e3, 1e13};  // Pa; gels, and eight times diamond
+constexpr double normal95 = 1.959964;      // sd on either side of the mean that hold 95 %
 
 double largest_displacement(const Measurement& m)
 {
@@ -68,9 +70,35 @@ void check_hardening(const CalibrationRequest& r)
     if (!has(r.fit, p) && !(value_of(r.known, p) > 0))
       fail("calibrate", fmt::format("{} is neither to be fitted nor given", name_of(p)));
   for (const Measurement& m : r.measurements)
-    if (m.wall || m.kind == MeasurementKind::indenter)
-      fail(m.source, "a wall that gives way or an indenter goes with linear hardening only",
+    if (m.wall || m.ball || m.kind == MeasurementKind::indenter)
+      fail(m.source, "a wall that gives way, a ball or an indenter goes with linear hardening only",
            r.known.hardening);
+}
+
+/// Impacts faster than the atlas goes for the hardest material of this modulus, or of this yield stress.
+void check_speeds(const CalibrationRequest& r, const Atlas& atlas)
+{
+  const auto fits = [&](Parameter p) { return std::find(r.fit.begin(), r.fit.end(), p) != r.fit.end(); };
+  const bool fits_yield = fits(Parameter::yield_stress);
+  if (fits_yield && fits(Parameter::youngs_modulus)) return;
+  const double least_stiffness = atlas.grid().stiffnesses.front();
+  const double hardest = fits_yield ? r.known.e_star() / least_stiffness : r.known.yield_stress;
+  for (const Measurement& m : r.measurements) {
+    if (!is_impact(m.kind)) continue;
+    const double share = m.partner == ImpactPartner::like_sphere ? 0.5 : 1.0;
+    const double fastest =
+        SphereLaws::fastest * std::sqrt(hardest / m.sphere_density(r.known.density)) / share;
+    constexpr double some_noise = 1.02;
+    for (const Datum& d : m.data)
+      if (d.x > some_noise * fastest)
+        fail(fmt::format("{}:{}", m.source, d.line),
+             "the impact is faster than the method goes for any material of this " +
+                 std::string(fits_yield ? "youngs_modulus" : "yield_stress"),
+             fmt::format("{:g} m/s", d.x),
+             fmt::format("up to {:.3g} m/s, where rho V^2/Y is {:g}{}: is a value in another unit than SI?",
+                         fastest, SphereLaws::fastest * SphereLaws::fastest,
+                         fits_yield ? fmt::format(" and E*/Y {:g}", least_stiffness) : ""));
+  }
 }
 
 void check(const CalibrationRequest& r, const Atlas& atlas)
@@ -97,6 +125,7 @@ void check(const CalibrationRequest& r, const Atlas& atlas)
            "the curve goes deeper than the atlas knows: overlap of one contact over its effective radius",
            fmt::format("{:.3g}", deepest), fmt::format("up to {:g}", end));
   }
+  check_speeds(r, atlas);
 }
 
 }  // namespace
@@ -128,6 +157,9 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
                            0.01 * largest_displacement(m) / largest_force(m),
                            1e-2,
                            fmt::format("compliance of {}", m.source)});
+    if (is_curve(m.kind) && m.turn_gap() > 0)
+      unknowns_.push_back(
+          {Unknown::Kind::turn, {}, k, m.turn_gap(), 1e-2, fmt::format("turn of {}", m.source)});
   }
   const std::size_t wanted = std::max<std::size_t>(2, fitted_count());
   if (data_ + request_.priors.size() < wanted)
@@ -140,7 +172,7 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
     indenters_.push_back(m.kind == MeasurementKind::indenter
                              ? std::make_unique<IndenterModel>(atlas, m, request_.fit)
                              : nullptr);
-    walls_.push_back(m.wall ? std::make_unique<WallModel>(atlas, m, request_.fit) : nullptr);
+    walls_.push_back(m.wall || m.ball ? std::make_unique<WallModel>(atlas, m, request_.fit) : nullptr);
   }
   // the hardening's reference is a yield stress: the one given, else of the middle of what is likely
   for (Unknown& u : unknowns_)
@@ -169,7 +201,7 @@ double CalibrationProblem::value(std::size_t unknown, double q) const
   const Unknown& u = unknowns_[unknown];
   switch (u.kind) {
     case Unknown::Kind::modulus:
-      return std::exp(q);
+      return std::exp(std::clamp(q, -furthest_log, furthest_log));
     case Unknown::Kind::hardening:
       return u.scale * std::max(0.0, std::expm1(q));
     default:
@@ -206,6 +238,7 @@ MachineState CalibrationProblem::machine(const Coordinates& q, std::size_t measu
     const double here = value(k, q[static_cast<Eigen::Index>(k)]);
     if (unknowns_[k].kind == Unknown::Kind::offset) state.offset = here;
     if (unknowns_[k].kind == Unknown::Kind::compliance) state.compliance = here;
+    if (unknowns_[k].kind == Unknown::Kind::turn) state.beyond = here;
   }
   return state;
 }
@@ -221,8 +254,10 @@ Prediction CalibrationProblem::prediction(const Coordinates& q, std::size_t k,
   const Measurement& m = request_.measurements[k];
   if (indenters_[k]) {
     const IndenterModel::Law& law = indenters_[k]->law(material);
+    const AtlasErrors errors = errors_of(laws_.atlas(), MaterialRatios::of(material).stiffness);
+    // composed laws were held against runs, whose own error comes on top
     Prediction p = predict_curve(
-        m, {&law.curve, law.length, law.force, law.force_error, errors_of(laws_.atlas()).recovery},
+        m, {&law.curve, law.length, law.force, std::hypot(law.force_error, errors.solver), errors.recovery},
         machine(q, k));
     p.beyond = std::log(largest_displacement(m) / (law.length * law.curve.x_end()));
     return p;
@@ -260,44 +295,78 @@ CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q,
       ++error;
     }
   for (std::size_t i = 0; i < p.values.size(); ++i)
-    c.sd.push_back(std::hypot(request_.measurements[k].data[i].sd, p.scatter[i]));
+    c.sd.push_back(std::hypot(request_.measurements[k].data[i].sd_at(p.values[i]), p.scatter[i]));
   return c;
 }
 
-void CalibrationProblem::add_walls(std::vector<double>& all, const CandidateMaterial& m, double beyond) const
+std::vector<CalibrationProblem::Limit> CalibrationProblem::limits(const CandidateMaterial& m,
+                                                                  double beyond) const
 {
+  using Kind = Limit::Kind;
   const AtlasGrid& grid = laws_.atlas().grid();
   const MaterialRatios r = MaterialRatios::of(m);
-  const auto wall = [&](double outside) { all.push_back(wall_steepness * std::max(0.0, outside)); };
-  wall(std::log(r.stiffness / grid.stiffnesses.back()));
-  wall(std::log(grid.stiffnesses.front() / r.stiffness));
-  wall(std::log(std::max(r.hardening, 1e-12) / grid.hardenings.back()));
-  wall(beyond);
-  if (!m.hardens_linearly())
-    for (const Parameter p : parameters_of(m.hardening)) {
-      const Range range = p == Parameter::saturation_stress
-                              ? Range{m.yield_stress, std::numeric_limits<double>::infinity()}
-                              : range_of(p);
-      if (range.low > 0) wall(std::log(range.low / value_of(m, p)));
-      wall(std::log(value_of(m, p) / range.high));
-    }
-  for (const ParameterRange& b : request_.bounds) {
-    const double here = std::max(value_of(m, b.parameter), 1e-300);
-    wall(std::log(here / b.range.high));
-    wall(b.range.low > 0 ? std::log(b.range.low / here) : 0.0);
+  std::vector<Limit> all{{Kind::stiffest, std::log(r.stiffness / grid.stiffnesses.back())},
+                         {Kind::softest, std::log(grid.stiffnesses.front() / r.stiffness)},
+                         {Kind::hardest, std::log(std::max(r.hardening, 1e-12) / grid.hardenings.back())},
+                         {Kind::deepest, beyond},
+                         {Kind::modulus, std::log(solid_modulus.low / m.youngs_modulus)},
+                         {Kind::modulus, std::log(m.youngs_modulus / solid_modulus.high)}};
+  if (m.hardens_linearly()) return all;
+  for (const Parameter p : parameters_of(m.hardening)) {
+    const Range range = p == Parameter::saturation_stress
+                            ? Range{m.yield_stress, std::numeric_limits<double>::infinity()}
+                            : range_of(p);
+    if (range.low > 0) all.push_back({Kind::parameter_low, std::log(range.low / value_of(m, p)), p});
+    all.push_back({Kind::parameter_high, std::log(value_of(m, p) / range.high), p});
+  }
+  return all;
+}
+
+std::string CalibrationProblem::sentence(const Limit& limit) const
+{
+  using Kind = Limit::Kind;
+  const AtlasGrid& grid = laws_.atlas().grid();
+  switch (limit.kind) {
+    case Kind::stiffest:
+      return fmt::format("E*/Y = {:g}, the largest in the atlas", grid.stiffnesses.back());
+    case Kind::softest:
+      return fmt::format("E*/Y = {:g}, the smallest in the atlas", grid.stiffnesses.front());
+    case Kind::hardest:
+      return fmt::format("H/E = {:g}, the largest in the atlas", grid.hardenings.back());
+    case Kind::deepest:
+      return "the fastest impact or the deepest overlap in the atlas";
+    case Kind::modulus:
+      return fmt::format("a Young's modulus of {:g} to {:g} Pa, as solids have", solid_modulus.low,
+                         solid_modulus.high);
+    case Kind::parameter_low:
+      return fmt::format("the smallest {} that the solver takes", name_of(limit.parameter));
+    default:
+      return fmt::format("the largest {} that the solver takes", name_of(limit.parameter));
   }
 }
 
-Eigen::VectorXd CalibrationProblem::all_residuals(const Coordinates& q, bool robust, bool walls) const
+std::string CalibrationProblem::bound_met(const Coordinates& q) const
 {
+  // chi^2 falls by 2 wall_steepness r for each unit that the logarithm goes on beyond a wall of residual r:
+  // by 3.8, what a 95 % interval takes, within a fifth
+  constexpr double pushed = 0.1;
   const CandidateMaterial m = material(q);
+  for (const Limit& limit : limits(m, misses(q, m).beyond))
+    if (wall_steepness * limit.outside > pushed) return sentence(limit);
+  return {};
+}
+
+CalibrationProblem::Misses CalibrationProblem::misses(const Coordinates& q, const CandidateMaterial& m) const
+{
   const SphereLaws& laws = laws_of(m);
-  std::vector<double> all;
-  double beyond = 0;
+  Misses found;
   for (std::size_t k = 0; k < request_.measurements.size(); ++k) {
     const Measurement& measurement = request_.measurements[k];
     Prediction p = prediction(q, k, m, laws);
-    beyond = std::max(beyond, p.beyond);
+    found.beyond = std::max(found.beyond, p.beyond);
+    std::vector<double> sd;
+    for (std::size_t i = 0; i < p.values.size(); ++i)
+      sd.push_back(std::hypot(measurement.data[i].sd_at(p.values[i]), p.scatter[i]));
     std::size_t error = 0;
     for (std::size_t u = 0; u < unknowns_.size(); ++u)
       if (unknowns_[u].kind == Unknown::Kind::model_error && unknowns_[u].measurement == k) {
@@ -305,12 +374,16 @@ Eigen::VectorXd CalibrationProblem::all_residuals(const Coordinates& q, bool rob
           p.values[i] += q[static_cast<Eigen::Index>(u)] * p.errors[error][i];
         ++error;
       }
-    for (std::size_t i = 0; i < p.values.size(); ++i) {
-      const Datum& d = measurement.data[i];
-      const double r = (d.y - p.values[i]) / std::hypot(d.sd, p.scatter[i]);
-      all.push_back(robust ? tempered(r) : r);
-    }
+    for (std::size_t i = 0; i < p.values.size(); ++i)
+      found.data.push_back((measurement.data[i].y - p.values[i]) / sd[i]);
   }
+  return found;
+}
+
+std::vector<double> CalibrationProblem::informed_residuals(const Coordinates& q,
+                                                           const CandidateMaterial& m) const
+{
+  std::vector<double> all;
   for (const ParameterRange& prior : request_.priors) {
     const double middle = 0.5 * std::log(prior.range.low * prior.range.high),
                  sd = std::log(prior.range.high / prior.range.low) / (2 * normal95);
@@ -318,23 +391,47 @@ Eigen::VectorXd CalibrationProblem::all_residuals(const Coordinates& q, bool rob
   }
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
     if (unknowns_[u].kind == Unknown::Kind::model_error) all.push_back(q[static_cast<Eigen::Index>(u)]);
-  if (walls) {
-    add_walls(all, m, beyond);
-    for (std::size_t u = 0; u < unknowns_.size(); ++u)
-      if (unknowns_[u].kind == Unknown::Kind::hardening || unknowns_[u].kind == Unknown::Kind::compliance)
-        all.push_back(wall_steepness * std::max(0.0, -q[static_cast<Eigen::Index>(u)]));
-  }
-  return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  return all;
 }
 
 Eigen::VectorXd CalibrationProblem::residuals(const Coordinates& q) const
 {
-  return all_residuals(q, request_.robust, true);
+  const CandidateMaterial m = material(q);
+  const Misses found = misses(q, m);
+  std::vector<double> all;
+  for (const double r : found.data) all.push_back(request_.robust ? tempered(r) : r);
+  for (const double r : informed_residuals(q, m)) all.push_back(r);
+  const auto wall = [&](double outside) { all.push_back(wall_steepness * std::max(0.0, outside)); };
+  for (const Limit& limit : limits(m, found.beyond)) wall(limit.outside);
+  for (const ParameterRange& b : request_.bounds) {
+    const double here = std::max(value_of(m, b.parameter), 1e-300);
+    wall(std::log(here / b.range.high));
+    wall(b.range.low > 0 ? std::log(b.range.low / here) : 0.0);
+  }
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    using Kind = Unknown::Kind;
+    const Kind kind = unknowns_[u].kind;
+    const double here = q[static_cast<Eigen::Index>(u)];
+    if (kind == Kind::hardening || kind == Kind::compliance || kind == Kind::turn) wall(-here);
+    if (kind == Kind::turn) wall(here - 1);
+  }
+  return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-double CalibrationProblem::chi_squared(const Coordinates& q) const
+CalibrationProblem::Scatter CalibrationProblem::scatter(const Coordinates& q) const
 {
-  return all_residuals(q, false, false).squaredNorm();
+  const CandidateMaterial m = material(q);
+  const Misses found = misses(q, m);
+  Scatter s;
+  double within = 0;
+  for (const double r : found.data) {
+    const bool outlier = request_.robust && std::abs(r) > robust_from;
+    s.chi_squared += outlier ? robust_from * robust_from : r * r;
+    within += outlier ? 0 : 1;
+  }
+  s.share_within = std::max(within, 1.0) / static_cast<double>(found.data.size());
+  for (const double r : informed_residuals(q, m)) s.chi_squared += r * r;
+  return s;
 }
 
 Range CalibrationProblem::allowed(std::size_t unknown, const Coordinates& q) const
@@ -397,7 +494,7 @@ std::vector<double> CalibrationProblem::likely_yield_stresses() const
       double fastest = 0;
       for (const Datum& d : m.data) fastest = std::max(fastest, d.x);
       for (const double v : {0.28, 0.14, 0.07, 0.035, 0.017, 0.008, 0.004, 0.002, 0.001})
-        likely.push_back(request_.known.density * fastest * fastest / (v * v));
+        likely.push_back(m.sphere_density(request_.known.density) * fastest * fastest / (v * v));
     } else {
       for (double y = 1e6; y < 1e10; y *= 3) likely.push_back(y);
     }

@@ -44,7 +44,7 @@ class CalibrationProblem
   /// A place of the unknowns.
   struct Unknown
   {
-    enum class Kind { modulus, hardening, offset, compliance, model_error };
+    enum class Kind { modulus, hardening, offset, compliance, turn, model_error };
     Kind kind;
     Parameter parameter{};        ///< modulus, hardening
     std::size_t measurement = 0;  ///< the others
@@ -74,8 +74,15 @@ class CalibrationProblem
     std::vector<double> predicted, with_errors, sd;
   };
   Comparison compare(const Coordinates& q, std::size_t measurement) const;
-  /// chi^2 of data, priors and model errors, every datum in full.
-  double chi_squared(const Coordinates& q) const;
+  /// How far data, priors and model errors scatter about the fit, as the loss counts them.
+  struct Scatter
+  {
+    double chi_squared = 0;   ///< a robust fit counts an outlier as a value at its limit of three sd
+    double share_within = 1;  ///< of the data: no outliers
+  };
+  Scatter scatter(const Coordinates& q) const;
+  /// Sentence on the end of the method's range that the data push against; empty: none.
+  std::string bound_met(const Coordinates& q) const;
 
   /// Places from which a search may begin, the most promising first.
   std::vector<Coordinates> starts() const;
@@ -85,8 +92,25 @@ class CalibrationProblem
                         const SphereLaws& laws) const;
   const SphereLaws& laws_of(const CandidateMaterial& material) const;
   std::vector<double> likely_yield_stresses() const;
-  void add_walls(std::vector<double>& residuals, const CandidateMaterial& material, double beyond) const;
-  Eigen::VectorXd all_residuals(const Coordinates& q, bool robust, bool walls) const;
+  /// An end of the method's range, and the logarithm of how far beyond it a material lies.
+  struct Limit
+  {
+    enum class Kind { stiffest, softest, hardest, deepest, modulus, parameter_low, parameter_high };
+    Kind kind;
+    double outside;
+    Parameter parameter{};
+  };
+  std::vector<Limit> limits(const CandidateMaterial& material, double beyond) const;
+  std::string sentence(const Limit& limit) const;
+  /// Of the data, in their order: no loss has tempered them yet.
+  struct Misses
+  {
+    std::vector<double> data;
+    double beyond = 0;  ///< Prediction::beyond, the largest
+  };
+  Misses misses(const Coordinates& q, const CandidateMaterial& material) const;
+  /// Priors and the model's own errors.
+  std::vector<double> informed_residuals(const Coordinates& q, const CandidateMaterial& material) const;
 
   CalibrationRequest request_;
   mutable SphereLawsCache laws_;

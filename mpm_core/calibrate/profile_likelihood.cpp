@@ -35,6 +35,7 @@ class Side
   {
     double q;
     bool told;
+    Coordinates all;  ///< the other unknowns as they fit there
   };
   const std::optional<Coordinates>& better() const { return better_; }
   /// Where the square root of the rise reaches `wanted`.
@@ -49,7 +50,7 @@ class Side
     for (int k = 0; k < most_places; ++k) {
       double next = 0;
       if (high < 0) {
-        if (low >= length) return {end_, false};
+        if (low >= length) return {end_, false, places_[low].q};
         const double here = places_[low].root_rise;
         // the root of the rise goes in proportion to the distance near a minimum
         const double straight =
@@ -61,9 +62,9 @@ class Side
       }
       const double root = rise_at(next);
       (root <= wanted ? low : high) = next;
-      if (std::abs(root - wanted) < tolerance * wanted) return {at(next), true};
+      if (std::abs(root - wanted) < tolerance * wanted) return {at(next), true, places_[next].q};
     }
-    return {at(high < 0 ? low : 0.5 * (low + high)), high >= 0};
+    return {at(high < 0 ? low : 0.5 * (low + high)), high >= 0, places_[low].q};
   }
 
  private:
@@ -124,6 +125,7 @@ ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Min
   const auto fill = [&](Interval& interval, double rise) {
     const Side::End low = below.reach(std::sqrt(rise * scale)), high = above.reach(std::sqrt(rise * scale));
     interval = {problem.value(unknown, low.q), problem.value(unknown, high.q), low.told, high.told};
+    profile.low95 = low.all, profile.high95 = high.all;
   };
   fill(profile.within68, rise68);
   fill(profile.within95, rise95);

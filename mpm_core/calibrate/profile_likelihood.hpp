@@ -16,6 +16,7 @@ struct ParameterProfile
 {
   double value = 0;
   Interval within68, within95;
+  Coordinates low95, high95;  ///< all unknowns at the ends of the 95 % interval
   std::optional<Coordinates>
       better;  ///< a place with a smaller sum of squares than the minimum's, if one was met
 };

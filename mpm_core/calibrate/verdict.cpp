@@ -34,11 +34,13 @@ double onset_on(const LawMaterial& specimen, const LawMaterial& indenter)
 std::string span_of(const CalibrationProblem& problem, const Calibration& c)
 {
   double slowest = 1e300, fastest = 0, deepest = 0;
-  const double slow = yield_velocity(c.material.e_star(), c.material.yield_stress, c.material.density);
   const double onset = onset_overlap(c.material.e_star(), c.material.yield_stress, c.material.poisson_ratio);
   for (std::size_t k = 0; k < problem.request().measurements.size(); ++k) {
     const Measurement& m = problem.request().measurements[k];
     const double share = m.partner == ImpactPartner::like_sphere ? 0.5 : 1.0;
+    const double e_star = c.material.e_star(),
+                 slow = yield_velocity(m.ball ? 1 / (1 / e_star + 1 / m.ball->e_star()) : e_star,
+                                       c.material.yield_stress, m.sphere_density(c.material.density));
     for (const Datum& d : m.data) {
       if (is_impact(m.kind))
         slowest = std::min(slowest, share * d.x / slow), fastest = std::max(fastest, share * d.x / slow);
@@ -79,6 +81,17 @@ std::string clause(const FittedParameter& p)
   }
 }
 
+std::string bound_clause(const Calibration& c)
+{
+  std::string names;
+  for (const FittedParameter& p : c.parameters)
+    names += (names.empty() ? "" : ", ") + std::string(name_of(p.parameter));
+  return fmt::format(
+      "the fit lies at an end of the method's range, {}: neither value nor interval of {}. A value may be in "
+      "another unit than SI, what is held fixed may be wrong, or the material lies outside.",
+      c.bound, names);
+}
+
 std::string correlation_clause(const Calibration& c)
 {
   constexpr double strong = 0.95;
@@ -115,6 +128,7 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& c)
 {
   constexpr double unlikely = 0.01;
   std::string text = span_of(problem, c) + ": ";
+  if (!c.bound.empty()) return text + bound_clause(c);
   for (std::size_t k = 0; k < c.parameters.size(); ++k)
     text.append(k > 0 ? "; " : "").append(clause(c.parameters[k]));
   text += "." + correlation_clause(c);

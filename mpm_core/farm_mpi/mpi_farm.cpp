@@ -85,8 +85,11 @@ std::string sentence_of(const std::exception_ptr& error)
     std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     return "not enough memory";
-  } catch (const std::exception& e) {
+  } catch (const Error& e) {
     return e.what();
+  } catch (const std::exception&) {
+    return "a defect of this program has ended the runs on one rank: please report the command with its "
+           "files";
   } catch (...) {
     return "stopped";
   }

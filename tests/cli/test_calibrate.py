@@ -6,6 +6,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+SOURCE = Path(__file__).resolve().parents[2]
 KNOWN = ["--radius", "1e-3", "--density", "1540", "--poisson-ratio", "0.25"]
 MATERIAL = """
 [material.stone]
@@ -89,7 +90,7 @@ def errors():
         ("a,b\n1,2\n", "names no kind"),
         (header + "1\n2,0.5\n", "another number of columns"),
         (header + "-1,0.5\n2,0.4\n", "out of range"),
-        (header + "1,1.5\n2,0.4\n", "out of range"),
+        (header + "1,1.5\n2,0.4\n", "over 1 by more than its noise"),
         (header + "1,0.5\n", "too few values"),
         (header + "1,nan\n2,0.4\n", "not finite"),
         (header, "no row"),
@@ -125,9 +126,158 @@ def errors():
         assert done.returncode == 1 and wanted in done.stderr and done.stderr.count("\n") == 1, (words, done.stderr)
 
 
+def noisy_drops():
+    """Eight drops of the stone, 1 % noise."""
+    rows = Path(drops([0.2, 0.4, 0.8, 1.2, 1.6, 2.4, 3.2, 6])).read_text().splitlines()
+    noise = [0.3, -0.9, 0.6, 1.2, -0.4, -1.1, 0.8, -0.2]
+    return [rows[0]] + [f"{v},{float(e) * (1 + 0.01 * n)}" for (v, e), n in zip((row.split(",") for row in rows[1:]), noise)]
+
+
+def range_end():
+    """A fit at an end of the method's range has neither value nor interval; units that no solid has are asked about or refused."""
+    fit = ["--fit", "youngs_modulus", "yield_stress"]
+    Path("fast.csv").write_text("velocity_m_per_s,restitution\n30,0.97\n60,0.96\n120,0.955\n240,0.95\n")
+    done = run("calibrate", "fast.csv", *KNOWN, *fit, "--bounds", "youngs_modulus = 1e8..3e9", "--json")
+    found = json.loads(done.stdout)
+    for p in found["parameters"].values():
+        assert p["low95"] is None and p["high95"] is None and not p["identifiable"] and p["told"] == "at a bound", p
+    assert "end of the method's range" in found["verdict"] and found["bound"], found["verdict"]
+    assert "mpm: warning: fast.csv:5: 'velocity_m_per_s' is 240 m/s" in done.stderr, done.stderr
+    done = run("calibrate", "fast.csv", *KNOWN, *fit, "--bounds", "youngs_modulus = 1e8..3e9", "-o", "fast.toml")
+    assert done.returncode == 1 and "fast.toml: is not written" in done.stderr and not Path("fast.toml").exists(), done.stderr
+    assert "no interval" in done.stdout, done.stdout
+    # mm/s for m/s
+    Path("mm.csv").write_text("\n".join(row if k == 0 else f"{1000 * float(row.split(',')[0])},{row.split(',')[1]}"
+                                       for k, row in enumerate(noisy_drops())) + "\n")
+    done = run("calibrate", "mm.csv", *KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress")
+    assert done.returncode == 1 and "mm.csv:2: the impact is faster than the method goes" in done.stderr, done.stderr
+    # GPa for Pa
+    Path("good.csv").write_text("\n".join(noisy_drops()) + "\n")
+    done = run("calibrate", "good.csv", *KNOWN, "--youngs-modulus", "3.2", "--fit", "yield_stress")
+    assert done.returncode == 1 and "--youngs-modulus: 'youngs_modulus' is that of no solid" in done.stderr, done.stderr
+    for old, new, code, wanted in [
+        ("3.2e9", "3.2", 1, "strange.toml:4: [material.stone]: 'youngs_modulus' is that of no solid"),
+        ("3.2e9", "0.9e6", 0, "warning: strange.toml:4: [material.stone]: 'youngs_modulus' is 900000 Pa"),
+        ("= 1540", "= 1.54", 0, "warning: strange.toml:3: [material.stone]: 'density' is 1.54 kg/m^3"),
+        ("= 41e6", "= 0.05", 1, "strange.toml:6: [material.stone]: 'yield_stress' is that of no solid"),
+        ("= 41e6", "= 41", 0, "warning: strange.toml:6: [material.stone]: 'yield_stress' is 41 Pa"),
+    ]:
+        text = MATERIAL.replace(old, new)
+        if new == "0.9e6":
+            text = text.replace("41e6", "2e4")
+        Path("strange.toml").write_text(text + "[particle.p]\nradius = 1e-3\nmaterial = \"stone\"\n")
+        for words in (["impact", "strange.toml", "--particle", "p", "--velocity", "1e-6", "--resolution", "8", "--no-estimate"],
+                      ["calibrate", "good.csv", *KNOWN, "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--wall", "stone",
+                       "--materials", "strange.toml"]):
+            if code == 0 and words[0] == "impact":
+                continue
+            done = run(*words)
+            assert wanted in done.stderr and (code == 0 or done.returncode == code), (words, new, done.stderr)
+    # no laboratory drops from 32 km
+    words = ["design", "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN, "--places", 4]
+    done = run(*words, "--speeds", "0.1..800")
+    assert done.returncode == 0 and "left out beyond 14 m/s, a drop from 10 m" in done.stderr, done.stderr
+    heights = [float(x.split("from ")[1].split(" m)")[0]) for x in done.stdout.splitlines() if "(from" in x]
+    assert max(heights) <= 10.01, done.stdout
+    done = run(*words, "--speeds", "100..800")
+    assert done.returncode == 1 and "none of these measurements can be made" in done.stderr, done.stderr
+    done = run(*words, "--speeds", "0.001..0.002")
+    assert "none of these measurements tells" in done.stdout, done.stdout
+
+
+def outlier():
+    """Value and interval are of one robust loss, and the picture's band is that interval."""
+    fit = [*KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress", "--json"]
+    rows = noisy_drops()
+    Path("clean.csv").write_text("\n".join(rows) + "\n")
+    Path("bad.csv").write_text("\n".join([*rows, "2,0.1"]) + "\n")
+    clean, bad = (answer("calibrate", name, *fit) for name in ("clean.csv", "bad.csv"))
+    width = [p["high95"] / p["low95"] - 1 for p in (r["parameters"]["yield_stress"] for r in (clean, bad))]
+    # of nine values one counts as three sd: psi^2 sums to 9 and eight of 1, over 8 degrees and the eight ninths that are within
+    assert width[1] < 2 * width[0], width
+    assert bad["parameters"]["yield_stress"]["low95"] < 41e6 < bad["parameters"]["yield_stress"]["high95"], bad["parameters"]
+    assert any(m["name"] == "outliers" for m in bad["misfits"]), bad["misfits"]
+    for found in (clean, bad):
+        p, m = found["parameters"]["yield_stress"], found["measurements"][0]
+        # ln e goes as a quarter to a half of ln Y where e is well below 1, and the widths with it
+        for low, fitted, high in zip(m["fit_low95"], m["fit"], m["fit_high95"]):
+            assert low < fitted < high, (low, fitted, high)
+            assert fitted > 0.9 or 0.15 < (high - low) / fitted / (p["high95"] / p["low95"] - 1) < 0.7, (low, fitted, high)
+
+
+def near_one():
+    """Noise lifts an e near 1 over it."""
+    rows = ["velocity_m_per_s,restitution,restitution_sd", "0.002,1.004,0.03"]
+    for row in noisy_drops()[1:]:
+        rows.append(row + ",0.03")
+    Path("one.csv").write_text("\n".join(rows) + "\n")
+    found = answer("calibrate", "one.csv", *KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress", "--json")
+    assert found["parameters"]["yield_stress"]["identifiable"] and not found["misfits"], found["verdict"]
+
+
+def walls():
+    """Walls of any strength are answered: a search tries what no solid has."""
+    Path("walls.toml").write_text("".join(f"[material.w{y}]\ndensity = 7850\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\n"
+                                          f"yield_stress = {y}e6\n" for y in (400, 900)))
+    for wall, rows in [("w900", "0.1,0.99\n0.3,0.97\n1,0.92\n3,0.85\n"), ("w400", "1,0.8\n5,0.7\n20,0.6\n60,0.5\n")]:
+        Path("steel.csv").write_text("velocity_m_per_s,restitution\n" + rows)
+        done = run("calibrate", "steel.csv", "--radius", "5e-3", "--density", 7850, "--fit", "youngs_modulus", "yield_stress",
+                   "--wall", wall, "--materials", "walls.toml", "--json")
+        assert done.returncode == 0 and not done.stderr, done.stderr
+
+
+def platens():
+    """The finite-element curve of the page: (header, rows, index of the peak); E = 3.185 GPa, Y = 35 MPa."""
+    lines = [x for x in (SOURCE / "examples/calibrate/platens.csv").read_text().splitlines() if not x.startswith("#")]
+    rows = [tuple(map(float, x.split(","))) for x in lines[1:]]
+    return lines[0], rows, max(range(len(rows)), key=lambda k: rows[k][0])
+
+
+def write_rows(name, header, rows):
+    Path(name).write_text(header + "\n" + "".join(f"{x!r},{y!r}\n" for x, y in rows))
+
+
+def holds(found, **truth):
+    for name, value in truth.items():
+        p = found["parameters"][name]
+        assert p["identifiable"] and p["low95"] <= value <= p["high95"], (name, p)
+
+
+def curves():
+    """Thinned curves, curves of a machine that gives way, curves whose rows run backwards."""
+    header, rows, peak = platens()
+    bead = ["--radius", "1e-3", "--density", 1500, "--poisson-ratio", "0.3", "--fit", "youngs_modulus", "yield_stress", "--json"]
+    for every, first in [(5, 0), (5, 2), (8, 3)]:
+        write_rows("thin.csv", header, [row for k, row in enumerate(rows) if k % every == first and k != peak])
+        found = answer("calibrate", "thin.csv", *bead)
+        holds(found, youngs_modulus=3.185e9, yield_stress=35e6)
+    write_rows("backwards.csv", header, rows[::-1])
+    done = run("calibrate", "backwards.csv", *bead)
+    assert done.returncode == 1 and "as if the rows stood in reverse order" in done.stderr, done.stderr
+    for compliance in (2e-8, 1e-7):
+        write_rows("soft.csv", header, [(x + compliance * force, force) for x, force in rows])
+        found = answer("calibrate", "soft.csv", *bead, "--compliance")
+        holds(found, youngs_modulus=3.185e9, yield_stress=35e6)
+
+
+def block():
+    """A steel ball on a yielding block: the solver's own drops with noise lead back to the block's yield stress, 200 MPa."""
+    example = SOURCE / "examples/calibrate"
+    found = answer("calibrate", example / "block.csv", "--ball", "steel", "--materials", example / "steel.toml", "--radius", "2e-3",
+                   "--density", 8500, "--poisson-ratio", "0.33", "--youngs-modulus", "100e9", "--fit", "yield_stress", "--json", "-o", "b.toml")
+    holds(found, yield_stress=200e6)
+    p = found["parameters"]["yield_stress"]
+    assert p["high95"] / p["low95"] < 1.2 and not found["misfits"], found["verdict"]
+    assert "density = 8500" in Path("b.toml").read_text()
+    done = run("calibrate", example / "block.csv", "--ball", "steel", "--wall", "steel", "--materials", example / "steel.toml", "--radius",
+               "2e-3", "--density", 8500, "--youngs-modulus", "100e9", "--fit", "yield_stress")
+    assert done.returncode == 1 and "--ball: is given beside --wall" in done.stderr, done.stderr
+
+
 if __name__ == "__main__":
     MPM, case = Path(sys.argv[1]).resolve(), sys.argv[2]
     import os
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        {"material": material, "verdicts": verdicts, "design": design, "errors": errors}[case]()
+        {"material": material, "verdicts": verdicts, "design": design, "errors": errors, "range_end": range_end, "outlier": outlier,
+         "near_one": near_one, "walls": walls, "curves": curves, "block": block}[case]()

@@ -14,6 +14,7 @@
 #include "farm_options.hpp"
 #include "json_output.hpp"
 #include "option_checks.hpp"
+#include "plausible.hpp"
 #include "python_script.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
@@ -96,6 +97,20 @@ Calibration fit_by_runs(const CalibrateRequest& r, CalibrationProblem& problem, 
   return std::move(fit.calibration);
 }
 
+/// Of a fit at an end of the method's range no material is written.
+void state_bound(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& result,
+                 const nlohmann::ordered_json& json)
+{
+  if (r.json)
+    print_json(json, 2);
+  else
+    print_calibration(problem, result);
+  if (!r.output.empty())
+    fail(r.output, "is not written: the fit lies at an end of the method's range, " + result.bound);
+  if (!r.plot.empty())
+    fail(r.plot, "is not drawn: the fit lies at an end of the method's range, " + result.bound);
+}
+
 void run(const CalibrateRequest& r)
 {
   check_outputs(r);
@@ -109,6 +124,10 @@ void run(const CalibrateRequest& r)
       request.known.hardens_linearly() ? calibrate(problem) : fit_by_runs(r, problem, runs);
   nlohmann::ordered_json json = calibration_json(problem, result);
   if (!runs.empty()) json["runs"] = runs;
+  if (!result.bound.empty()) return state_bound(r, problem, result, json);
+  for (const FittedParameter& p : result.parameters)
+    if (p.identifiable() && p.parameter <= Parameter::yield_stress)
+      check_plausible("the fit", name_of(p.parameter), name_of(p.parameter), p.profile.value);
   if (!r.output.empty())
     write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" +
                                                                        interval_comments(problem, result)));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -10,6 +11,7 @@
 #include "characterise/law_material.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
+#include "plausible.hpp"
 
 namespace granulaw {
 
@@ -112,12 +114,17 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
       ->check(CLI::IsMember({"wall", "like"}))
       ->capture_default_str();
   CLI::Option* materials_file = command.add_option(
-      "--materials", materials, "TOML file that holds the material of the wall or the indenter");
+      "--materials", materials, "TOML file that holds the material of the wall, the indenter or the ball");
   command.add_option("--indenter", indenter, "name of the indenter's material (default: rigid)")
       ->needs(materials_file);
   command
       .add_option("--wall", wall,
                   "restitution: name of the material of a thick deformable wall (default: rigid)")
+      ->needs(materials_file);
+  command
+      .add_option("--ball", ball,
+                  "restitution: name of the material of the ball that drops, which is known; --radius is its "
+                  "own, all else, and what is fitted, of the thick specimen that it drops on")
       ->needs(materials_file);
   command.add_option(
       "--offset", offset,
@@ -153,15 +160,18 @@ LawMaterial partner_material(const std::string& path, const std::string& name, c
 
 }  // namespace
 
-/// Puts the wall to all drops.
-void CalibrationOptions::set_wall(CalibrationRequest& r) const
+/// Puts the wall, or the ball, to all drops.
+void CalibrationOptions::set_partner(CalibrationRequest& r) const
 {
-  const LawMaterial material = partner_material(materials, wall, "--wall");
+  if (!wall.empty() && !ball.empty()) fail("--ball", "is given beside --wall: the one or the other is known");
+  const bool of_ball = !ball.empty();
+  const char* option = of_ball ? "--ball" : "--wall";
+  const LawMaterial material = partner_material(materials, of_ball ? ball : wall, option);
   for (Measurement& measurement : r.measurements) {
     if (!is_impact(measurement.kind)) continue;
     if (measurement.kind != MeasurementKind::restitution || measurement.partner != ImpactPartner::rigid_wall)
-      fail(measurement.source, "only restitution of drops can be against --wall");
-    measurement.wall = material;
+      fail(measurement.source, fmt::format("only restitution of drops goes with {}", option));
+    (of_ball ? measurement.ball : measurement.wall) = material;
   }
 }
 
@@ -212,6 +222,28 @@ Measurement CalibrationOptions::measurement(const std::string& path) const
   return m;
 }
 
+void CalibrationOptions::check_plausible_numbers(const CalibrationRequest& r) const
+{
+  check_plausible("--radius", "radius", "radius", *radius);
+  if (density) check_plausible("--density", "density", "density", *density);
+  if (youngs_modulus)
+    check_plausible("--youngs-modulus", "youngs_modulus", "youngs_modulus", *youngs_modulus);
+  if (yield_stress) check_plausible("--yield-stress", "yield_stress", "yield_stress", *yield_stress);
+  for (const Measurement& m : r.measurements) {
+    const bool impacts = is_impact(m.kind);
+    if (!impacts && m.kind != MeasurementKind::hardness) continue;
+    // one line for a file: of its fastest impact, or its softest value
+    const Datum& d = *std::max_element(m.data.begin(), m.data.end(), [&](const Datum& a, const Datum& b) {
+      return impacts ? a.x < b.x : a.y > b.y;
+    });
+    const std::string where = fmt::format("{}:{}", m.source, d.line);
+    if (impacts)
+      check_plausible(where, "velocity", "velocity_m_per_s", d.x);
+    else
+      check_plausible(where, "hardness", "hardness_Pa", d.y);
+  }
+}
+
 CalibrationRequest CalibrationOptions::request() const
 {
   CalibrationRequest r;
@@ -239,7 +271,8 @@ CalibrationRequest CalibrationOptions::request() const
   r.priors = ranges_of(priors, "--prior", &r.hardness_ratio);
   r.bounds = ranges_of(bounds, "--bounds", nullptr);
   for (const std::string& path : data) r.measurements.push_back(measurement(path));
-  if (!wall.empty()) set_wall(r);
+  if (!wall.empty() || !ball.empty()) set_partner(r);
+  check_plausible_numbers(r);
   r.known.density = density.value_or(1000);  // no curve of force depends on it
   return r;
 }

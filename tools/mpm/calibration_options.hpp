@@ -17,8 +17,8 @@ struct CalibrationOptions
       indenter_radius;
   double poisson_ratio = 0.3, relative_sd = 0.01;
   std::string kind = "platens", partner = "wall", name = "material", hardening = "linear";
-  std::string materials;       ///< a file that holds the materials of wall and indenter
-  std::string wall, indenter;  ///< names there; empty: rigid
+  std::string materials;             ///< a file that holds the materials of wall, indenter and ball
+  std::string wall, indenter, ball;  ///< names there; empty: rigid, and the ball is what is fitted
   bool compliance = false, plain = false;
 
   void add_to(CLI::App& command, bool needs_data);
@@ -29,7 +29,8 @@ struct CalibrationOptions
   Measurement measurement(const std::string& path) const;
   void set_hardening(CalibrationRequest& request) const;
   void set_indenter(Measurement& measurement) const;
-  void set_wall(CalibrationRequest& request) const;
+  void set_partner(CalibrationRequest& request) const;
+  void check_plausible_numbers(const CalibrationRequest& request) const;
 };
 
 /// "NAME = A..B" of a prior or a bound; NAME may hold a '/'. `option` leads the sentence of what cannot be

@@ -8,6 +8,8 @@ namespace granulaw {
 
 namespace {
 
+constexpr double normal95 = 1.959964;
+
 const char* word_of(Told told)
 {
   switch (told) {
@@ -17,6 +19,8 @@ const char* word_of(Told told)
       return "from below";
     case Told::from_above:
       return "from above";
+    case Told::at_bound:
+      return "at a bound";
     default:
       return "cannot be told";
   }
@@ -46,22 +50,6 @@ const char* name_of_kind(MeasurementKind kind)
   }
 }
 
-/// Sd of the fit's values of one measurement, from what the fit does not know.
-std::vector<double> band_of(const CalibrationProblem& problem, const Calibration& c, std::size_t index,
-                            const std::vector<double>& sd)
-{
-  Eigen::Index row = 0;
-  for (std::size_t k = 0; k < index; ++k)
-    row += static_cast<Eigen::Index>(problem.request().measurements[k].data.size());
-  const Eigen::MatrixXd cov = covariance(c.minimum);
-  std::vector<double> band;
-  for (std::size_t k = 0; k < sd.size(); ++k) {
-    const Eigen::RowVectorXd slope = c.minimum.jacobian.row(row + static_cast<Eigen::Index>(k));
-    band.push_back(sd[k] * std::sqrt(std::max(0.0, (slope * cov * slope.transpose())(0, 0))));
-  }
-  return band;
-}
-
 nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const Calibration& c,
                                         std::size_t k)
 {
@@ -75,7 +63,11 @@ nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const
   std::vector<double> x, y;
   for (const Datum& d : m.data) x.push_back(d.x), y.push_back(d.y);
   out["x"] = x, out["measured"] = y, out["sd"] = compared.sd, out["fit"] = compared.with_errors;
-  out["fit_sd"] = band_of(problem, c, k, compared.sd);
+  const Band band = band_of(problem, c, k);
+  std::vector<double> sd;
+  for (std::size_t i = 0; i < band.low.size(); ++i)
+    sd.push_back((band.high[i] - band.low[i]) / (2 * normal95));
+  out["fit_sd"] = sd, out["fit_low95"] = band.low, out["fit_high95"] = band.high;
   return out;
 }
 
@@ -86,13 +78,11 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   nlohmann::ordered_json out;
   for (const FittedParameter& p : c.parameters) {
     const Interval &a = p.profile.within68, &b = p.profile.within95;
-    out["parameters"][name_of(p.parameter)] = {{"value", json_number(p.profile.value)},
-                                               {"low68", json_number(a.low)},
-                                               {"high68", json_number(a.high)},
-                                               {"low95", json_number(b.low)},
-                                               {"high95", json_number(b.high)},
-                                               {"identifiable", p.identifiable()},
-                                               {"told", word_of(p.told)}};
+    out["parameters"][name_of(p.parameter)] = {
+        {"value", json_number(p.profile.value)}, {"low68", json_number(a.low)},
+        {"high68", json_number(a.high)},         {"low95", json_number(b.low)},
+        {"high95", json_number(b.high)},         {"unit", is_stress(p.parameter) ? "Pa" : ""},
+        {"identifiable", p.identifiable()},      {"told", word_of(p.told)}};
   }
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (Eigen::Index a = 0; a < c.correlation.rows(); ++a) {
@@ -106,6 +96,7 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   out["p_value"] = json_number(c.p_value);
   out["interval_scale"] = c.interval_scale;
   out["verdict"] = verdict(problem, c);
+  out["bound"] = c.bound;
   out["misfits"] = nlohmann::ordered_json::array();
   for (const Misfit& m : c.misfits)
     out["misfits"].push_back({{"source", m.source}, {"name", m.name}, {"sentence", m.sentence}});
@@ -128,12 +119,14 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
 std::string interval_comments(const CalibrationProblem& problem, const Calibration& c)
 {
   std::string text;
-  for (const FittedParameter& p : c.parameters)
+  for (const FittedParameter& p : c.parameters) {
+    if (p.told == Told::at_bound) continue;
     text +=
         fmt::format("# {}: {:.4g}{}, 68 %: {:.4g} to {:.4g}, 95 %: {:.4g} to {:.4g}{}\n",
                     name_of(p.parameter), p.profile.value, is_stress(p.parameter) ? " Pa" : "",
                     p.profile.within68.low, p.profile.within68.high, p.profile.within95.low,
                     p.profile.within95.high, p.identifiable() ? "" : fmt::format(" ({})", word_of(p.told)));
+  }
   return text + fmt::format("# {}\n", verdict(problem, c));
 }
 
@@ -159,6 +152,11 @@ void print_calibration(const CalibrationProblem& problem, const Calibration& c)
   fmt::print("{:<20}{:>12}{:>26}{:>26}\n", "", "SI", "68 %", "95 %");
   for (const FittedParameter& p : c.parameters) {
     const Interval &a = p.profile.within68, &b = p.profile.within95;
+    if (p.told == Told::at_bound) {
+      fmt::print("{:<20}{:>12.4g}{:>26}{:>26}\n", name_of(p.parameter), p.profile.value, "no interval",
+                 word_of(p.told));
+      continue;
+    }
     fmt::print("{:<20}{:>12.4g}{:>12.4g} to {:<10.4g}{:>12.4g} to {:<10.4g}{}\n", name_of(p.parameter),
                p.profile.value, a.low, a.high, b.low, b.high, p.identifiable() ? "" : word_of(p.told));
   }

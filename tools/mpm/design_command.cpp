@@ -1,4 +1,6 @@
 // mpm design: which measurement would narrow what is wanted most.
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "atlas_path.hpp"
@@ -19,15 +21,26 @@ struct DesignRequest
   std::string speeds, displacements;
   std::vector<std::string> guess;
   int count = 8, places = 13;
+  double highest = 10;
   bool json = false;
 };
 
-/// Evenly in the logarithm.
+constexpr double gravity = 9.81;
+
+double drop_height(double speed)
+{
+  return speed * speed / (2 * gravity);
+}
+
+/// Evenly in the logarithm, up to `most`, whose reason is `why`.
 void add_candidates(std::vector<DesignCandidate>& all, MeasurementKind kind, const std::string& range,
-                    const char* option, int places)
+                    const char* option, int places, double most, const std::string& why)
 {
   if (range.empty()) return;
-  const Range r = parse_named_range("x = " + range, option).range;
+  Range r = parse_named_range("x = " + range, option).range;
+  if (r.low >= most) fail(option, "none of these measurements can be made", range, why);
+  if (r.high > most) fmt::print(stderr, "mpm: {} {}: left out beyond {}\n", option, range, why);
+  r.high = std::min(r.high, most);
   for (int k = 0; k < places; ++k)
     all.push_back({kind, r.low * std::pow(r.high / r.low, static_cast<double>(k) / (places - 1))});
 }
@@ -40,7 +53,11 @@ CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequ
     if (request.measurements.empty())
       fail("--guess",
            "is missing: without data the design needs a material to go by, such as yield_stress=50e6");
-    return calibrate(CalibrationProblem(atlas, request)).material;
+    const Calibration c = calibrate(CalibrationProblem(atlas, request));
+    if (!c.bound.empty())
+      fail("mpm design", "the fit of DATA lies at an end of the method's range, " + c.bound +
+                             ": give a --guess without these data");
+    return c.material;
   }
   CandidateMaterial m = request.known;
   for (const std::string& word : r.guess) {
@@ -58,10 +75,9 @@ CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequ
 
 std::string label(const DesignCandidate& c)
 {
-  constexpr double gravity = 9.81;
-  return is_curve(c.kind) ? fmt::format("platens to {:.3g} m", c.place)
-                          : fmt::format("impact at {:.3g} m/s (from {:.3g} m)", c.place,
-                                        c.place * c.place / (2 * gravity));
+  return is_curve(c.kind)
+             ? fmt::format("platens to {:.3g} m", c.place)
+             : fmt::format("impact at {:.3g} m/s (from {:.3g} m)", c.place, drop_height(c.place));
 }
 
 std::string cells(const ExpectedIntervals& widths)
@@ -85,11 +101,16 @@ void print(const DesignRequest& r, const Design& design, const std::vector<std::
                fmt::format("{} {}", curve ? "1" : std::to_string(r.count), label(design.candidates()[k])),
                cells(design.expected(copies)));
   }
+  const ExpectedIntervals best = design.expected(plan);
+  if (std::all_of(best.begin(), best.end(), [](double width) { return width >= 1; })) {
+    fmt::print("none of these measurements tells what is wanted, {} of them neither\n", plan.size());
+    return;
+  }
   fmt::print("best {} measurements:\n", plan.size());
   for (std::size_t k = 0; k < design.candidates().size(); ++k)
     if (const auto n = std::count(plan.begin(), plan.end(), k); n > 0)
       fmt::print("  {} {}\n", n, label(design.candidates()[k]));
-  fmt::print("{:<48}{}\n", "  together", cells(design.expected(plan)));
+  fmt::print("{:<48}{}\n", "  together", cells(best));
 }
 
 nlohmann::ordered_json widths_json(const DesignRequest& r, const ExpectedIntervals& widths)
@@ -117,18 +138,32 @@ void print_as_json(const DesignRequest& r, const Design& design, const std::vect
   print_json(out, 2);
 }
 
+/// As fast as a drop from the highest place, and as the atlas goes for the material.
+void add_speeds(std::vector<DesignCandidate>& all, const DesignRequest& r, const CandidateMaterial& assumed)
+{
+  const double drop = std::sqrt(2 * gravity * r.highest),
+               end = SphereLaws::fastest * std::sqrt(assumed.yield_stress / assumed.density);
+  add_candidates(all, MeasurementKind::restitution, r.speeds, "--speeds", r.places, std::min(drop, end),
+                 drop < end
+                     ? fmt::format("{:.3g} m/s, a drop from {:g} m (--highest)", drop, r.highest)
+                     : fmt::format("{:.3g} m/s, where the atlas ends for this material (rho V^2/Y = {:g})",
+                                   end, SphereLaws::fastest * SphereLaws::fastest));
+}
+
 void run(const DesignRequest& r)
 {
   const CalibrationRequest request = r.options.request();
-  std::vector<DesignCandidate> candidates;
-  add_candidates(candidates, MeasurementKind::restitution, r.speeds, "--speeds", r.places);
-  add_candidates(candidates, MeasurementKind::platens, r.displacements, "--displacements", r.places);
   if (!r.speeds.empty() && !r.options.density) fail("--density", "is missing: impacts depend on it");
-  if (candidates.empty())
+  if (r.speeds.empty() && r.displacements.empty())
     fail("mpm design", "nothing to choose from: give --speeds, --displacements or both");
   const std::optional<Atlas> atlas = own_atlas();
   if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/evidence/atlas.md)");
   const CandidateMaterial assumed = assumed_material(r, request, *atlas);
+  std::vector<DesignCandidate> candidates;
+  add_speeds(candidates, r, assumed);
+  const double deepest = 2 * MidplaneShapes::depth * *r.options.radius;
+  add_candidates(candidates, MeasurementKind::platens, r.displacements, "--displacements", r.places, deepest,
+                 fmt::format("{:.3g} m, where the atlas ends", deepest));
   const Design design(*atlas, request, assumed, candidates, *r.options.radius, r.options.relative_sd);
   const std::vector<std::size_t> plan = design.best(static_cast<std::size_t>(r.count));
   if (r.json)
@@ -144,6 +179,10 @@ void define(CLI::App& command)
   command.add_option("--guess", r->guess,
                      "NAME=VALUE of what is fitted, Pa: the material to go by (default: what DATA say)");
   command.add_option("--speeds", r->speeds, "LOW..HIGH, m/s: impacts that could be made");
+  command
+      .add_option("--highest", r->highest, "m: highest drop that can be made; faster impacts are left out")
+      ->check(above_zero_to(1e3))
+      ->capture_default_str();
   command.add_option("--displacements", r->displacements,
                      "LOW..HIGH, m: largest displacements of curves between platens that could be made");
   command.add_option("--count", r->count, "measurements to be made")

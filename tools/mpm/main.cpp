@@ -5,6 +5,7 @@
 // understood; 130 stopped by Ctrl-C. Under mpirun all ranks end with the largest of theirs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gsl/gsl_errno.h>
 #include <hdf5.h>
 
 #include <algorithm>
@@ -148,8 +149,13 @@ Outcome run(int argc, char** argv)
     return {130, "stopped"};
   } catch (const std::bad_alloc&) {
     return {1, "not enough memory"};
-  } catch (const std::exception& error) {
+  } catch (const Error& error) {
     return {1, error.what()};
+  } catch (const std::exception&) {
+    // a library's words mean nothing to who gave the command; a debugger that stops at throws shows them
+    return {1,
+            fmt::format("a defect of this program has ended the command: please report '{}' with its files",
+                        printable(command_line))};
   }
 }
 
@@ -157,6 +163,7 @@ Outcome run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  gsl_set_error_handler_off();  // its own prints and aborts
   // HDF5 prints at exit after it was fed a damaged file; every file is closed by its owner anyway.
   H5dont_atexit();
   for (int k = 0; k < argc; ++k) command_line += (k ? " " : "") + std::string(k ? argv[k] : "mpm");

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "law/law.hpp"
+#include "plausible.hpp"
 #include "shape_reader.hpp"
 #include "solver/flow/flow_laws.hpp"
 #include "solver/particle/shapes.hpp"
@@ -77,14 +78,19 @@ Material read_material(const Section& s)
   s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate",
                 "yield_surface"});
   Material m;
-  m.density = s.positive("density", "kg/m^3");
-  m.youngs_modulus = s.positive("youngs_modulus", "Pa");
+  const auto plausible = [&](const char* key, const char* unit) {
+    const double value = s.positive(key, unit);
+    check_plausible(s.where(s.node(key)), key, key, value);
+    return value;
+  };
+  m.density = plausible("density", "kg/m^3");
+  m.youngs_modulus = plausible("youngs_modulus", "Pa");
   m.poisson_ratio = s.number("poisson_ratio", "");
   if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.4999))
     fail(s.where(s.node("poisson_ratio")), "'poisson_ratio' is out of range",
          fmt::format("{:g}", m.poisson_ratio),
          "0 to below 0.4999 (0.5 is incompressible: the solver needs a finite bulk modulus; 0.49 works)");
-  if (s.has("yield_stress")) m.yield_stress = s.positive("yield_stress", "Pa");
+  if (s.has("yield_stress")) m.yield_stress = plausible("yield_stress", "Pa");
   if (m.yields() && m.yield_stress > 0.1 * m.e_star())
     fail(s.where(s.node("yield_stress")), "'yield_stress' is out of range",
          fmt::format("{:g} Pa", m.yield_stress),
@@ -239,6 +245,7 @@ Particle read_particle(const Section& s, const std::map<std::string, Material>& 
     for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]"))
       particle.inclusions.push_back(read_inclusion(i, particle, places));
   validate(particle, s.where());
+  check_plausible(s.where(), "radius", "radius", particle.radius);
   return particle;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "plausible.hpp"
 #ifdef GRANULAW_HAS_MPI
 #include "farm_mpi/mpi_farm.hpp"
 #endif
@@ -62,6 +63,7 @@ void join_ranks(const std::string& command, bool shares_runs)
          fmt::format("{} processes", ranks()), "1");
 #ifdef GRANULAW_HAS_MPI
   session.emplace();
+  if (session->rank() != 0) ask_nothing_of_units();
   if (session->rank() != 0 && !std::freopen("/dev/null", "w", stdout)) fail("/dev/null", "cannot be opened");
 #else
   fail(fmt::format("mpm {}", command),
