@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A bare Debian 12 (debootstrap, minbase): the package of FOLDER is installed by apt, makes a law, runs a small hopper, and goes
+"""A bare Debian 12 (debootstrap, minbase): the package of FOLDER is installed by apt, by the words of
+the container's recipe (tools/package/Containerfile), makes a law, runs a small hopper, and goes
 without a trace. Needs root, debootstrap and a Debian mirror; skipped (77) where one of them is missing.
 
     test_bare_debian.py FOLDER [--root DIR]
@@ -73,6 +74,12 @@ def require(condition, what):
         raise SystemExit(f"failed: {what}")
 
 
+def last_stage():
+    """The commands by which the container gets the package."""
+    recipe = (pathlib.Path(__file__).resolve().parents[2] / "tools/package/Containerfile").read_text()
+    return re.findall(r"^RUN (.*)$", recipe[recipe.rindex("\nFROM "):], re.MULTILINE)
+
+
 def examine(root, package):
     for name in ("resolv.conf", "hosts"):
         shutil.copy(f"/etc/{name}", root / "etc" / name)
@@ -80,8 +87,10 @@ def examine(root, package):
     # Of what it recommends, not of what those recommend in turn: half a gigabyte less. dpkg need not survive a power cut here.
     (root / "etc/dpkg/dpkg.cfg.d/unsafe").write_text("force-unsafe-io\n")
     recommended = subprocess.run(["dpkg-deb", "--field", package, "Recommends"], capture_output=True, text=True, check=True).stdout
-    inside(root, "apt-get -q update")
-    inside(root, f"apt-get -q -y --no-install-recommends install /tmp/{package.name} {recommended.strip().replace(',', ' ')}")
+    for line in last_stage():
+        inside(root, line)
+    missing = [name for name in recommended.replace(",", " ").split() if not inside(root, f"dpkg-query -W {name}").strip()]
+    require(not missing, f"the recipe leaves out {missing}, which the package recommends")
     installed = files(root)
     owned = set(inside(root, "dpkg-query -L granulaw").splitlines())
     say(f"installed by apt with what it needs; {len(owned)} paths of its own")

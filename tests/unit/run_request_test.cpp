@@ -41,8 +41,10 @@ TEST_F(RunRequestTest, WhatCannotBeUsedIsSaidFirst)
 TEST_F(RunRequestTest, BecomesTheSolversOptions)
 {
   RunRequest r;
-  EXPECT_EQ(r.options().resolution, 0);
-  EXPECT_TRUE(r.options().estimate_error);
+  EXPECT_EQ(r.options(false).resolution, 0);
+  EXPECT_TRUE(r.options(false).estimate_error);
+  EXPECT_EQ(r.options(false).shifted_grids, 4);
+  EXPECT_EQ(r.options(true).shifted_grids, 1);  // a certificate over orientations has one, too
   r.resolution = 12;
   r.grid = "rectilinear";
   r.precision = "single";
@@ -50,7 +52,7 @@ TEST_F(RunRequestTest, BecomesTheSolversOptions)
   r.jobs = 3;
   r.shifted_grids = 2;
   r.courant = 0.5;
-  const RunOptions options = r.options();
+  const RunOptions options = r.options(false);
   EXPECT_EQ(options.resolution, 12);
   EXPECT_EQ(options.grid, GridKind::rectilinear);
   EXPECT_EQ(options.precision, Precision::single);

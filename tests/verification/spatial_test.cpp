@@ -470,6 +470,16 @@ TEST(SpatialPress, SixPlanes)
     EXPECT_NEAR(force_at_depth(r, k) / force_at_depth(r, 0), 1, 2e-3);
 }
 
+/// The walls of a die keep pressing on the body when the pistons have left it: the run ends with the pistons' last
+/// touch, within a fifth of their way for what follows it (it went on to half the depth on the other side).
+TEST(SpatialPress, ADieEndsWhenThePistonsLeave)
+{
+  const RunResult r = press("die", 0.2, 6);
+  EXPECT_GT(r.trace.back().delta, 0.8 * r.summary.delta_residual);
+  EXPECT_GT(r.planes[2].samples.back().force, 0);  // a wall
+  EXPECT_EQ(r.planes[0].samples.back().force, 0);  // a piston
+}
+
 /// The cube of planes turned by 45 degrees about z against the grid.
 TEST(SpatialPress, PlanesTurnedAgainstTheGrid)
 {

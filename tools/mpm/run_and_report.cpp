@@ -23,23 +23,24 @@ void print_not_reached(double tolerance, const ToleranceResult& found)
 
 /// Runs at the resolution asked for, or to the tolerance.
 RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, bool has_ramp,
-                         const ToleranceRange& range, const Run& run)
+                         bool three_dimensions, const Run& run)
 {
   ProgressBar bar;
-  RunOptions options = r.options();
+  RunOptions options = r.options(three_dimensions);
   options.fields = fields;
   options.progress = [&](double done) { bar.update(done, ""); };
   if (!r.tolerance) return run(options);
-  const ToleranceResult found = run_to_tolerance(*r.tolerance, has_ramp, options, run, range);
+  const ToleranceResult found = run_to_tolerance(*r.tolerance, has_ramp, options, run,
+                                                 three_dimensions ? spatial_range : flat_range);
   if (!found.reached) print_not_reached(*r.tolerance, found);
   return found.result;
 }
 
-RunResult run_as_asked(const RunRequest& r, bool has_ramp, const ToleranceRange& range, const Run& run)
+RunResult run_as_asked(const RunRequest& r, bool has_ramp, bool three_dimensions, const Run& run)
 {
-  if (r.fields.empty()) return run_to_request(r, {}, has_ramp, range, run);
+  if (r.fields.empty()) return run_to_request(r, {}, has_ramp, three_dimensions, run);
   return run_with_fields(r.fields, r.frames, [&](const FieldObserver& fields) {
-    return run_to_request(r, fields, has_ramp, range, run);
+    return run_to_request(r, fields, has_ramp, three_dimensions, run);
   });
 }
 
@@ -68,8 +69,7 @@ void run_and_report(const RunRequest& r, const Meeting& m, const RunIdentity& as
     if (checkpoint) options.checkpoints = checkpoint->store();
     return run(options);
   };
-  const ToleranceRange& range = in_three_dimensions(r, m.particle) ? spatial_range : flat_range;
-  report(r, m.particle, run_as_asked(r, has_ramp, range, run_on));
+  report(r, m.particle, run_as_asked(r, has_ramp, in_three_dimensions(r, m.particle), run_on));
   if (checkpoint) checkpoint->remove();
 }
 

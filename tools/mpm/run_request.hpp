@@ -18,14 +18,15 @@ struct RunRequest
   double courant = RunOptions{}.courant;
   std::optional<double> tolerance;
   std::optional<int> resolution;
-  int jobs = 1, frames = 40, shifted_grids = RunOptions{}.shifted_grids;
+  std::optional<int> shifted_grids;
+  int jobs = 1, frames = 40;
   bool json = false, no_estimate = false;
 
   void add_to(CLI::App& command);
   /// Throws Error where an option, or two together, cannot be used: before anything is read or computed.
   void check() const;
   /// For the solver, but for what watches the run.
-  RunOptions options() const;
+  RunOptions options(bool three_dimensions) const;
 };
 
 /// A particle and what it meets.

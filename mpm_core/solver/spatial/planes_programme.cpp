@@ -35,6 +35,14 @@ double PlanesProgramme::target_velocity(double time) const
   return -speed_ * s * s * (3 - 2 * s);
 }
 
+/// A plane that stands still may hold the body for good: the walls of a die do.
+bool PlanesProgramme::moving_planes_push(const SpatialContact& contact) const
+{
+  for (std::size_t k = 0; k < plan_.speeds.size(); ++k)
+    if (plan_.speeds[k] != 0 && contact.pushes(static_cast<int>(k))) return true;
+  return false;
+}
+
 /// Takes `share` of every velocity relative to the centre of mass out of the body.
 void PlanesProgramme::damp(SpatialScene& scene, double share)
 {
@@ -52,7 +60,7 @@ void PlanesProgramme::apply(SpatialScene& scene, double time, double dt, bool)
   auto& contact = static_cast<SpatialContact&>(*scene.contact);
   delta_ += dt * velocity_;  // the planes moved with it in this step's contact
   now_ = time + dt;
-  if (contact.pushes()) last_touch_ = now_;
+  if (moving_planes_push(contact)) last_touch_ = now_;
   switch (phase_) {
     case Phase::load: {
       const double t = (now_ - start_) / plan_.ramp;

@@ -8,7 +8,7 @@
 namespace granulaw {
 
 /// Planes that move in together, delta(t) as sin^2 (velocity zero at both ends, so also at first touch), are
-/// held, and go back at a speed that grows smoothly to a constant until none pushes any more.
+/// held, and go back at a speed that grows smoothly to a constant until none that moves pushes any more.
 class PlanesProgramme : public BasicProgramme<SpatialScene>
 {
  public:
@@ -36,6 +36,7 @@ class PlanesProgramme : public BasicProgramme<SpatialScene>
  private:
   enum class Phase { load, hold, unload };
   double target_velocity(double time) const;
+  bool moving_planes_push(const SpatialContact& contact) const;
   void damp(SpatialScene& scene, double share);
 
   Plan plan_;

@@ -21,7 +21,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr int default_cells = 10;
+constexpr int default_cells = 8;  ///< as a certificate over orientations (characterise/shape_certificate.cpp)
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 void check(const RunOptions& options)

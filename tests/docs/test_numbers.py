@@ -1,0 +1,121 @@
+"""Numbers that several pages state agree with the table that one of them holds; what a page says of a table, the table holds."""
+import os
+import re
+import statistics
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def page(name):
+    return (ROOT / name).read_text()
+
+
+def tables(text):
+    """[[cells of a row, ...], ...] of each table, without its head."""
+    found = re.findall(r"^\|.*\|\n\|[-| ]+\|\n((?:\|.*\|\n)+)", text + "\n", re.MULTILINE)
+    return [[[c.strip() for c in re.split(r"(?<!\\)\|", row)[1:-1]] for row in table.splitlines()] for table in found]
+
+
+def table_with(text, head):
+    """Rows of the table whose head begins so."""
+    after = text[text.index(head):]
+    return tables(after)[0]
+
+
+class Accuracy(unittest.TestCase):
+    PAGE = page("docs/evidence/solver-accuracy-3d.md")
+
+    def count(self, rows, errors, stated):
+        """(rows that hold, rows, true over stated) of a table: `errors`: columns of true errors."""
+        held, ratios = 0, []
+        numbers = lambda cell: [float(x.strip("* +").replace("+", "")) for x in cell.split(",")]
+        for row in rows:
+            for k, claim in enumerate(numbers(row[stated])):
+                true = max(abs(numbers(row[c])[k]) for c in errors)
+                held += true <= claim + 0.05  # both are rounded to 0.1
+                ratios.append(true / claim)
+        return held, len(ratios), ratios
+
+    def test_four_grids(self):
+        seen = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | cells | e % | F % | stated % |"), (3, 4), 5)
+        fresh = self.count(table_with(self.PAGE, "| job | cells | e % | F % | stated % |"), (2, 3), 4)
+        self.assertIn(f"It held in all {seen[0]}, but", self.PAGE)
+        self.assertEqual(seen[0], seen[1])
+        self.assertIn(f"It held in {fresh[0]} of {fresh[1]}. Over all {seen[1] + fresh[1]} the true error is "
+                      f"{statistics.median(seen[2] + fresh[2]):.1f} of what is stated", self.PAGE)
+        self.assertIn(f"it held in {seen[0] + fresh[0]} of {seen[1] + fresh[1]} runs on four grids", self.PAGE)
+
+    def test_one_grid(self):
+        held, count, ratios = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | e % | F % | stated % | CPU s |"), (2, 3), 4)
+        self.assertIn(f"It held in all {held}. The true error is {statistics.median(ratios):.1f} of what is stated", self.PAGE)
+        self.assertEqual(held, count)
+        self.assertIn(f"in {held} of {count} on one", self.PAGE)
+
+
+class Times(unittest.TestCase):
+    def test_laws_by_runs(self):
+        """The times of the pages of the guide span those of the table, within a tenth."""
+        seconds = [float(re.match(r"\d+", row[2])[0]) for row in table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s")]
+        for name in ("docs/guide/when-it-stops.md", "docs/guide/questions.md"):
+            for low, high in re.findall(r"(\d+) to (\d+) CPU seconds (?:a law|by runs)", page(name)):
+                self.assertTrue(0.9 * min(seconds) <= float(low) <= min(seconds) and max(seconds) <= float(high) <= 1.1 * max(seconds), (name, low, high))
+
+    def test_three_dimensions(self):
+        fast, slow, die = table_with(page("docs/guide/shapes.md"), "| run | CPU s | stated error |")
+        told = re.search(r"three dimensions \| (\d+) to (\d+) CPU seconds at 100 V_y, (\d+) to (\d+) at 15 V_y", page("docs/guide/when-it-stops.md"))
+        for row, low, high in ((fast, told[1], told[2]), (slow, told[3], told[4])):
+            for seconds in row[1].split(","):
+                self.assertTrue(float(low) <= float(seconds) <= float(high), row)
+
+    def test_loop_time(self):
+        rows = {row[0]: row[1] for row in table_with(page("docs/evidence/loop-time.md"), "| scene | mpm |")}
+        stated = re.search(r"loop time ([\d.]+) of it in a chute, ([\d.]+) in a full hopper", page("README.md"))
+        if stated:  # each beside its row
+            chute = next(v for k, v in rows.items() if k.startswith("dense chute"))
+            hopper = next(v for k, v in rows.items() if k.startswith("conical hopper"))
+            self.assertEqual(stated.groups(), (chute.split()[0], hopper.split()[0]))
+
+
+class Examples(unittest.TestCase):
+    def test_thornton_below_the_law(self):
+        """The page of model thornton against the drops of the examples."""
+        rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[1].startswith("e on the wall at ")]
+        low = [round(100 * (1 - float(row[3].split()[0]) / float(row[4].split()[0]))) for row in rows[:3]]
+        self.assertIn(": {}, {}, {} % at".format(*low), page("docs/reference/pair_gran_model_thornton.md"))
+
+    def test_heap(self):
+        """The verdicts of the pile: the page's answer is no stronger than the table of all decks."""
+        rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[0].startswith("heap") and "angle" in row[1]]
+        self.assertTrue(all("**yes**" not in cell for cell in rows[0]))
+        self.assertIn("**Answer.** Perhaps: 16 degrees", page("examples/heap/README.md"))
+
+
+class Matlab(unittest.TestCase):
+    def test_names(self):
+        """The columns, groups and attributes that the Matlab lines name are in the files."""
+        import h5py
+        block = re.search(r"```matlab\n(.*?)```", page("docs/reference/law-format.md"), re.DOTALL)[1]
+        with tempfile.TemporaryDirectory() as folder:
+            run = lambda *words: subprocess.run([os.environ["GRANULAW_MPM"], *words], cwd=folder, check=True, capture_output=True)
+            (Path(folder) / "m.toml").write_text(re.search(r"```toml\n(.*?)```", page("docs/guide/first-flow.md"), re.DOTALL)[1])
+            run("table", "m.toml", "-o", "law.h5")
+            run(*re.search(r"system\('mpm (.*?)'\)", block)[1].split())
+            lines = (Path(folder) / "law.csv").read_text().splitlines()
+            columns = next(line for line in lines if not line.startswith("#")).split(",")
+            named = set(re.findall(r"law\.(\w+)[,)]", block))
+            self.assertGreaterEqual(named, {"pair", "overlap_m", "force_N"})
+            self.assertLessEqual(named - {"h5"}, set(columns))
+            self.assertIn("wax:wall", {line.split(",")[0] for line in lines})
+            with h5py.File(Path(folder) / "law.h5") as file:
+                for place in re.findall(r"h5read\('law.h5', '(\S+?)'\)", block):
+                    self.assertIn(place, file)
+                for place, name in re.findall(r"h5readatt\('law.h5', '(\S+?)', '(\w+)'\)", block):
+                    self.assertIn(name, file[place].attrs)
+
+
+if __name__ == "__main__":
+    unittest.main()
