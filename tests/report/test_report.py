@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -313,6 +314,22 @@ class OwnDecks(unittest.TestCase):
             self.write(folder)
             status, told, text = self.page(folder)
             self.assertRegex(told, r"^tools/report: \S+/results\.json: its law 'mpm mine\.h5' is not there any more\n$")
+
+
+class Installed(unittest.TestCase):
+    def test_it_needs_of_the_sources_what_the_package_holds(self):
+        """In a folder as /usr/share/granulaw: tools/report, tools/reporting, examples/common."""
+        with tempfile.TemporaryDirectory() as name:
+            share, folder = pathlib.Path(name, "share"), pathlib.Path(name, "runs")
+            for part in ("tools/reporting", "examples/common"):
+                shutil.copytree(ROOT / part, share / part, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copy(ROOT / "tools/report", share / "tools")
+            OwnDecks().write(folder)
+            run_files.hertz_law(folder / "mine.h5")
+            done = subprocess.run([share / "tools/report", "--from", folder, "-o", folder / "page"], capture_output=True, text=True, cwd=name)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("contacts: results.json", done.stdout)
+            self.assertTrue((folder / "page/run-1.png").exists())
 
 
 class Damaged(unittest.TestCase):

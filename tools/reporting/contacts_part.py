@@ -151,14 +151,14 @@ class Contacts:
 
 
 def law_of(run, entry):
-    """The law file that a run used: named by its `command` or by stats.json, else the one in or beside its folder."""
+    """The law file that a run used: named by its `command` or by stats.json; where it was, else of the same name in or beside the run's folder."""
     names = []
     if (run / "command").is_file():
         names += re.findall(r"-var law (\S+)", (run / "command").read_text(errors="replace"))
     names += re.findall(r"\S+\.h5", str(entry.get("law", "")))
     root = pathlib.Path(__file__).resolve().parents[2]
     candidates = [base / name for name in names for base in (run, pathlib.Path("."), root, run.parent)]
-    candidates += [base / pathlib.Path(name).name for base in (run, run.parent) for name in names] + sorted(run.parent.glob("*.h5"))
+    candidates += [base / pathlib.Path(name).name for base in (run, run.parent) for name in names]
     return next((p for p in candidates if p.is_file()), None)
 
 

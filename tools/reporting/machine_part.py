@@ -70,7 +70,7 @@ def liggghts(decks):
 def write(page, root, mpm, decks):
     page.table(["what", "found when this page was written"], [
         ["processor", processor()], ["memory", memory()], ["system", system()], ["tree", f"commit {commit(root)}"],
-        ["mpm", (_output([str(mpm), "--version"]) if mpm.exists() else None) or f"not built ({mpm})"], ["LIGGGHTS, of the runs", liggghts(decks)],
+        ["mpm", _output([str(mpm) if mpm.exists() else "mpm", "--version"]) or f"neither on the PATH nor built ({mpm})"], ["LIGGGHTS, of the runs", liggghts(decks)],
         ["page", f"Python {sys.version.split()[0]}, numpy {numpy.__version__}, matplotlib {matplotlib.__version__}, h5py {h5py.__version__}"]])
     page.text("Each part names the files it is from, and what these say of the commit and the machine that made them. Wall-clock is of a machine "
               "that may have had other work; CPU seconds depend on that less.")
