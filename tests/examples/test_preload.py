@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A stretched contact under a static load P answers as if under s P (DESIGN.md: plan and soften).
+"""A stretched contact under a static load P answers as if under s P (docs/guide/plan.md).
 
     test_preload.py FOLDER_OF_mpm FOLDER_OF_liggghts-mpm
 
@@ -59,7 +59,7 @@ fix push all addforce 0.0 0.0 -{rest}
 run {steps}
 print "RELIEVED ${{d}}"
 """
-# Of the deflection: the law is the free, finite sphere's, at d/R < 5e-4 up to 1 + 1.3 % stiffer than Hertz's (DESIGN.md: the solver).
+# Of the deflection: the law is the free, finite sphere's, at d/R < 5e-4 up to 1 + 1.3 % stiffer than Hertz's (free support).
 CURVE = 0.02
 REST = 0.02  # of the load, left on: a sphere with none would creep to its residual overlap for ever
 

@@ -185,7 +185,7 @@ class Formulas(unittest.TestCase):
         for v, x in list(zip(speed, overlap))[::500]:
             if x > 0.1 * run_files.ONSET:
                 self.assertAlmostEqual(v * law.yield_per_onset / (x / run_files.ONSET)**1.25, 1, delta=1e-4)
-        # DESIGN: rho V_y^2/Y = 25.5 (Y/E*)^4, so I = 25.5e-8 is V_y; 25.5 has three digits
+        # docs/theory/damage-number.md: rho V_y^2/Y = 25.5 (Y/E*)^4, so I = 25.5e-8 is V_y; 25.5 has three digits
         self.assertAlmostEqual(law.fastest(25.5e-8), 1, delta=2e-3)
 
     def test_cheapest_run_stays_within(self):

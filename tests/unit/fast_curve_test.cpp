@@ -197,7 +197,7 @@ TEST(FastCurve, ATableThatEndsBelowTheFirstOctaveIsLeftToTheCurve)
 TEST(FastCurve, IsSmall)
 {
   const ContactCurve curve = SyntheticLaw{}.curve_with_axis();
-  EXPECT_LT(FastCurve(curve).bytes(), 256u << 10);  // DESIGN section 4
+  EXPECT_LT(FastCurve(curve).bytes(), 256u << 10);  // of a processor's second cache
 }
 
 }  // namespace

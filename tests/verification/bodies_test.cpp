@@ -155,7 +155,7 @@ class FiniteHertz
 TEST(Hertz, HoldsForUnlikeSpheresAndForWalls)
 {
   const FiniteHertz hertz;
-  EXPECT_NEAR(hertz.k(), 0.45, 0.05);  // 0.45 sqrt(delta/R) and 1.3 % of free support more: DESIGN, section 3
+  EXPECT_NEAR(hertz.k(), 0.45, 0.05);  // 0.45 sqrt(delta/R) and 1.3 % of free support more
   struct Case
   {
     double stiffness, radius;

@@ -44,10 +44,10 @@ void print(const char* what, const Order& order)
   std::printf("%s: order %.2f +- %.2f\n", what, order.p, order.standard_error);
 }
 
-/// E*/Y = 100, V/V_y = 100. What one grid's e is off is the contact edge's grid noise, of the order h^1.65 in
-/// the force at an overlap (DESIGN.md section 3); e samples it at the reversal, so its order scatters: about
-/// one must remain. The overlap is an integral, free of grid noise: towards second order, as bilinear cells
-/// promise.
+/// E*/Y = 100, V/V_y = 100. The error of one grid's e is the contact edge's grid noise, of the order h^1.65 in
+/// the force at an overlap (docs/evidence/solver-accuracy.md); e samples it at the reversal, so its order
+/// scatters: about one must remain. The overlap is an integral, free of grid noise: towards second order, as
+/// bilinear cells promise.
 TEST(Convergence, PlasticImpact)
 {
   const Study s = study(plastic_impact(), {8, 10, 12, 14, 16, 20, 24, 28});

@@ -14,7 +14,7 @@ namespace {
 
 struct Case
 {
-  double nu, depth, pressure_ratio;  // DESIGN.md section 2; three decimals
+  double nu, depth, pressure_ratio;  // docs/evidence/verification.md, the onset of yield; three decimals
 };
 std::ostream& operator<<(std::ostream& out, const Case& c)
 {
