@@ -21,7 +21,8 @@ def tables(text):
 
 
 def table_with(text, head):
-    """Rows of the table whose head begins so."""
+    """Rows of the one table whose head begins so."""
+    assert text.count(head) == 1, f"{text.count(head)} tables begin with {head}"
     after = text[text.index(head):]
     return tables(after)[0]
 
