@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "liggghts_plugin/fix_style.hpp"
+#include "liggghts_plugin/session.hpp"
 
 namespace granulaw::plugin {
 
@@ -41,6 +42,15 @@ PairHistory::PairHistory(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
 int PairHistory::setmask()
 {
   return FixContactHistory::setmask() | LAMMPS_NS::FixConst::PRE_NEIGHBOR;
+}
+
+void PairHistory::init()
+{
+  if (!force->pair_match("gran", 1))
+    stop_all(lmp,
+             "pair_style hybrid: LIGGGHTS keeps the contact histories of one sub-style gran alone, and this deck has "
+             "several: use one");
+  FixContactHistory::init();
 }
 
 void PairHistory::save()

@@ -78,6 +78,7 @@ class PairHistory final : public LastingPages<LAMMPS_NS::FixContactHistory>
   PairHistory(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 
   int setmask() override;
+  void init() override;
   void setup_pre_exchange() override;
   void setup_pre_neighbor() override { follow_numbers(); }
   void pre_neighbor() override { follow_numbers(); }

@@ -35,7 +35,7 @@ To try one: `python3 tests/liggghts/matrix.py WORDS` with the environment of the
 # outcome of a cell: title, what it says
 KINDS = {
     "DEFECT": ("Defects", "Anything else than the outcomes below."),
-    "refused": ("Refused", "These work with stock Hertz. The models refuse them, with the sentence of mpm; thornton's differs in the model's name."),
+    "refused": ("Refused", "The models refuse these, with the sentence of mpm; thornton's differs in the model's name. With stock Hertz they work, or crash."),
     "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these with every model, or crashes."),
     "runs": ("Runs, with other numbers than hertz", "These work. Their numbers differ from Hertz's by nature (history values, for instance), so they are not compared."),
     "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),

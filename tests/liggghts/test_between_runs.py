@@ -3,6 +3,7 @@
 test_between_runs.py Commands   every command on one rank, those that touch lists and particles on two
 test_between_runs.py Thorough   every command on two ranks; a restart file after each, read on the other number of ranks"""
 import math
+import re
 import unittest
 
 import matrix_between as between
@@ -87,6 +88,43 @@ class Commands(Between):
         for model in MODELS:
             for ranks in (1, 2):
                 self.check(model, ranks, rows, mesh=False)
+
+    def test_hybrid(self):
+        """One gran within a hybrid is as one alone; two are refused, with stock models, too: LIGGGHTS ends in signal 11 there."""
+        for model in MODELS:
+            hybrid = lambda lines, file: re.sub(r"pair_style gran (.*)\npair_coeff \* \*", r"pair_style hybrid gran \1\npair_coeff * * gran", self.deck(model, lines, file))
+            self.run_deck(self.deck(model, SPLIT.format(""), "alone.txt"))
+            self.run_deck(hybrid(SPLIT.format("neigh_modify page 200000\ncompute n all coord/atom 0.0036"), "hybrid.txt"))
+            self.assertLess(self.apart("hybrid.txt", "alone.txt"), ROUNDING, model)
+        for model in (*MODELS, "hertz"):
+            two = ("fix v1 all property/global characteristicVelocity scalar 2.0\npair_style hybrid gran \\1 gran model hooke tangential off\n"
+                   "pair_coeff 1 1 gran 1\npair_coeff 2 2 gran 1\npair_coeff 1 2 gran 2")
+            text = self.run_deck(re.sub(r"pair_style gran (.*)\npair_coeff \* \*", two, self.deck(model, "run 1\n", "two.txt")), expect_failure=True)
+            self.assertIn("ERROR: pair_style hybrid: LIGGGHTS keeps the contact histories of one sub-style gran alone", text)
+
+    def test_a_servo_lid_and_a_box_that_shrinks(self):
+        """The lid is pressed on by a controller; the box shrinks (fix deform stands behind the first run, which makes the histories)."""
+        controlled = f"mesh/surface/stress/servo file lid.stl type 2 com 0.0 0.0 {between.TOP!r} ctrlPV force axis 0.0 0.0 1.0 target_val -1000.0 vel_max 1.0 kp 5.0"
+        shrink = "run 0\nfix shrink all deform 10 x vel -0.05 y vel -0.05 remap none\n"
+        for first, old, new in (("", "mesh/surface file lid.stl type 2", controlled), (shrink, "boundary f f f", "boundary p p p")):
+            for ranks in (1, 2):
+                change = lambda lines, file: self.deck("mpm", first + lines, file).replace(old, new)
+                self.run_deck(change(f"run {between.BEFORE + between.AFTER}\n", "whole.txt"), ranks=ranks)
+                self.run_deck(change(SPLIT.format("neigh_modify page 200000\ncompute n all coord/atom 0.0036"), "split.txt"), ranks=ranks)
+                self.assertLess(self.apart("split.txt", "whole.txt"), ROUNDING, (new, ranks))
+
+    def test_growth_and_change_of_type(self):
+        """Radii that grow and types that change while spheres touch: the run that foresaw them and runs that begin on the way see one bed."""
+        steps = between.BEFORE + between.AFTER
+        grow = f"variable d equal {2 * between.RADIUS!r}*(1+0.004*step/{steps})\nfix grow all adapt 1 atom diameter v_d\n"
+        cases = {"growth": (grow + f"run {steps}\n", grow + "run 60\nrun 60\nneigh_modify page 200000\nrun 130\n"),
+                 "type": ("run 100\nset group low type 2\nrun 150\n", "run 100\nset group low type 2\nwrite_restart type.restart\nneigh_modify page 200000\nrun 70\nrun 80\n")}
+        for name, (whole, split) in cases.items():
+            for model in MODELS:
+                self.run_deck(self.deck(model, whole, "whole.txt"))
+                for ranks in (1,) if name == "growth" else (1, 2):  # other ranks learn of new radii when lists are made, with every model
+                    self.run_deck(self.deck(model, split, "split.txt"), ranks=ranks)
+                    self.assertLess(self.apart("split.txt", "whole.txt"), ROUNDING, (name, model, ranks))
 
     def test_stock_models(self):
         """Decks of Hertz alone, and with walls of ours, keep their springs under liggghts-mpm as well."""
