@@ -33,13 +33,20 @@ def variables(command):
     return deck, {k: " ".join(v) for k, v in found.items()}
 
 
-def planned(folder):
-    """{"pair": m/s, "wall": m/s} by `mpm plan`, paths from the folder where the runs were started."""
-    deck, words = variables((folder / "command").read_text())
-    command = [sweep.program("mpm"), "plan", deck, "--json"]
-    for name, value in words.items():
+def words_of(folder):
+    """The deck of a run, and the words that give `mpm plan` its variables; paths from the folder where the runs were started."""
+    deck, given = variables((folder / "command").read_text())
+    words = []
+    for name, value in given.items():
         path = pathlib.Path(value)
-        command += ["--var", name, str(path.resolve()) if path.exists() else value or " "]
+        words += ["--var", name, str(path.resolve()) if path.exists() else value or " "]
+    return deck, words
+
+
+def planned(folder):
+    """{"pair": m/s, "wall": m/s} by `mpm plan`."""
+    deck, words = words_of(folder)
+    command = [sweep.program("mpm"), "plan", deck, "--json", *words]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         raise SystemExit(f"{' '.join(command)}\n{done.stderr}")

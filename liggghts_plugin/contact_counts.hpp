@@ -59,8 +59,10 @@ class ContactCounts
     // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
     if (r_eff * delta > counts.hardest * contact.meff * contact.meff) [[unlikely]] {
       counts.hardest = r_eff * delta / (contact.meff * contact.meff);
-      counts.frequency2 = std::max(counts.frequency2, entry.contact.stiffness(r_eff, delta, impact_overlap) /
-                                                          contact_mass(*bodies_, contact));
+      counts.run_frequency2 =
+          std::max(counts.run_frequency2,
+                   entry.contact.stiffness(r_eff, delta, impact_overlap) / contact_mass(*bodies_, contact));
+      counts.frequency2 = std::max(counts.frequency2, counts.run_frequency2);
     }
     move_in_histogram(counts, contact.contact_history, delta_max, delta, r_eff, weight);
     if (sudden) [[unlikely]] {  // no motion paid for what it holds

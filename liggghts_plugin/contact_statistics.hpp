@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "law/contact_step.hpp"
 #include "liggghts_plugin/deck_units.hpp"
 #include "liggghts_plugin/log_histogram.hpp"
 
@@ -48,12 +49,10 @@ struct PairInfo
   double overlap_limit = 0;        ///< overlap/R* where the table ends; infinity: nowhere
   double damage_number_limit = 0;  ///< I up to which the law holds; 0: not stated
   double onset_speed = 0;          ///< m/s, of first yield between the smallest particles; infinity: never
-  double dt_limit = 0;             ///< s, dt_fraction of the stiffest contact's period; 0: no limit known
+  double dt_limit = 0;  ///< s, largest_step (law/contact_step.hpp) to the end of the law; 0: no limit known
+  double dt_overlap = 0;  ///< overlap/R* up to which the time step in use is short enough; 0: not known
 };
 
-/// A step may take this part of the period 2 pi sqrt(m*/k) of the stiffest contact. Ten steps or more for a
-/// contact: docs/reference/fix_granulaw_stats.md, "Time step".
-inline constexpr double dt_fraction = 1.0 / 20.0;
 /// Part of the table's overlap range from which a contact counts as near its edge.
 inline constexpr double near_edge = 0.9;
 
@@ -91,7 +90,8 @@ struct ContactStatistics
     LogHistogram overlap{1e-10};
     /// Each contact by both, at [bin of speed * bins + bin of overlap]; empty: `contactMap off`.
     std::vector<double> map;
-    double hardest = 0;  ///< R* delta/m*^2 of the contact that frequency2 is of (this rank's; not reduced)
+    double hardest = 0;  ///< R* delta/m*^2 of the contact that run_frequency2 is of (this rank's)
+    double run_frequency2 = 0;  ///< frequency2 of this run alone (this rank's; not kept in restarts)
     PairInfo info;
 
     static constexpr int sums = 12, maxima = 4, minima = 2;
@@ -124,12 +124,8 @@ struct ContactStatistics
     Pair in_si(const DeckUnits& units) const;
     /// Adds `other`: sums, largest and least values, histograms.
     void merge(const Pair& other);
-    /// s, dt_fraction of the period of the stiffest contact so far; infinity: none yet.
-    double dt_allowed() const
-    {
-      return frequency2 > 0 ? dt_fraction * 2.0 * M_PI / std::sqrt(frequency2)
-                            : std::numeric_limits<double>::infinity();
-    }
+    /// s, largest_step of the stiffest contact so far; infinity: none yet.
+    double dt_allowed() const { return largest_step(1.0, frequency2); }
   };
 
   std::map<PairKey, Pair> pairs;  ///< nodes stay where they are: contact models keep pointers

@@ -96,7 +96,8 @@ void FixStats::read_keywords(int narg, char** arg)
 
 int FixStats::setmask()
 {
-  return LAMMPS_NS::FixConst::PRE_FORCE | LAMMPS_NS::FixConst::END_OF_STEP;
+  using namespace LAMMPS_NS::FixConst;
+  return PRE_EXCHANGE | PRE_FORCE | END_OF_STEP;
 }
 
 bool FixStats::speaks() const
@@ -147,18 +148,32 @@ void FixStats::warn_of_lost_contacts() const
 
 void FixStats::warn_of_long_steps() const
 {
+  const double dt = update->dt;
+  if (!speaks()) return;
+  double frequency2 = 0;
+  const PairKey* stiffest = nullptr;
+  for (const auto& [key, counts] : session_->statistics.pairs)
+    if (counts.run_frequency2 > frequency2) frequency2 = counts.run_frequency2, stiffest = &key;
+  struct
+  {
+    double value;
+    int rank;
+  } largest{frequency2, comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  const double allowed = largest_step(1.0, largest.value);
+  if (dt <= allowed || !session_->first_time(fmt::format("time step {:g}", dt))) return;
+  int types[3] = {};
+  if (stiffest && comm->me == largest.rank)
+    types[0] = stiffest->kind, types[1] = stiffest->i, types[2] = stiffest->j;
+  MPI_Bcast(types, 3, MPI_INT, largest.rank, world);
   if (comm->me != 0) return;
-  for (const auto& [key, counts] : session_->statistics.pairs) {
-    const PairInfo& info = counts.info;
-    if (!info.needed || !(info.dt_limit > 0) || update->dt <= info.dt_limit) continue;
-    error->warning(
-        FLERR, fmt::format("granulaw: the time step {:.4g} s is over {:.4g} s, 1/{:.0f} of the period of the "
-                           "stiffest contact that the law knows for the smallest particles of type {} "
-                           "against {} {}",
-                           update->dt, info.dt_limit, 1.0 / dt_fraction, key.i,
-                           key.kind == PairKey::particles ? "type" : "a wall of type", key.j)
-                   .c_str());
-  }
+  error->warning(FLERR,
+                 fmt::format("granulaw: by step {} a contact of type {} with {} {} was so deep that its time step "
+                             "is {:.4g} s, 1/{:.0f} of its period: the deck's {:.4g} s is longer",
+                             update->ntimestep, types[1],
+                             types[0] == PairKey::particles ? "type" : "a wall of type", types[2], allowed,
+                             1.0 / step_fraction, dt)
+                     .c_str());
 }
 
 void FixStats::setup(int)
@@ -172,7 +187,13 @@ void FixStats::setup(int)
   if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
   last_table_ = table;
   print(table);
-  warn_of_long_steps();
+}
+
+void FixStats::setup_pre_force(int)
+{
+  if (speaks())
+    for (auto& [key, counts] : session_->statistics.pairs) counts.hardest = counts.run_frequency2 = 0;
+  pre_force(0);
 }
 
 void FixStats::pre_force(int)
@@ -273,7 +294,7 @@ double FixStats::compute_vector(int n)
   const bool is_sum = !((n >= 4 && n <= 7) || n == 9 || n == 12);
   double result = 0;
   MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
-  if (n == 12) return result > 0 ? dt_fraction * 2.0 * M_PI / std::sqrt(result) : 0.0;
+  if (n == 12) return result > 0 ? largest_step(1.0, result) : 0.0;
   return result;
 }
 
@@ -304,6 +325,7 @@ void FixStats::end_of_step()
 void FixStats::post_run()
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
+  warn_of_long_steps();
   if (writes_stats()) add_energies();
   const ContactStatistics sum = total();
   if (comm->me != 0) return;

@@ -46,9 +46,10 @@ class FixStats : public LAMMPS_NS::Fix
   ~FixStats() override;
 
   int setmask() override;
-  void setup_pre_force(int) override { pre_force(0); }
+  void setup_pre_force(int) override;
   void setup(int vflag) override;
   void pre_force(int vflag) override;
+  void pre_exchange() override { warn_of_long_steps(); }
   void end_of_step() override;
   void post_run() override;
   double compute_scalar() override;
@@ -75,6 +76,7 @@ class FixStats : public LAMMPS_NS::Fix
   void warn(const std::string& what, const std::string& text) const;
   void warn_of_clumps() const;
   void warn_of_lost_contacts() const;
+  /// Where a contact of this run was stiffer than the time step allows, once for each step. Collective.
   void warn_of_long_steps() const;
   /// True in the one fix that speaks, if a deck has several.
   bool speaks() const;

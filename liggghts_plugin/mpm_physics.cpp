@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "law/contact_step.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/loaded_law.hpp"
 #include "liggghts_plugin/session.hpp"
@@ -251,15 +252,17 @@ double MpmContact::stored_energy(double r_eff, double delta, double delta_max, d
   return u > 0.0 ? unit * top.force * span * top.shape.work(u) : 0.0;
 }
 
+double MpmContact::planned_stiffness(double r_eff, double delta) const
+{
+  const double length = r_eff / per_lambda;
+  return force_scale * r_eff * r_eff / length * granulaw::planned_stiffness(curve->curve(), delta / length);
+}
+
 double MpmContact::stiffness(double r_eff, double delta, double impact_overlap) const
 {
   const double length = r_eff / per_lambda;
-  const double unit = force_scale * r_eff * r_eff / length;
-  const ContactCurve& exact = curve->curve();
-  const double x = delta / length;
-  if (x <= exact.onset()) return unit * exact.loading(x, impact_overlap).stiffness;
-  const ContactCurve::Reversal top = exact.reversal(x, impact_overlap);
-  return unit * std::max(top.stiffness, top.shape.exponent * top.force / (x - top.residual));
+  return force_scale * r_eff * r_eff / length *
+         reversal_stiffness(curve->curve(), delta / length, impact_overlap);
 }
 
 }  // namespace granulaw::plugin

@@ -96,6 +96,7 @@ struct MpmContact
   }
   double stored_energy(double r_eff, double delta, double delta_max, double impact_overlap) const;
   double stiffness(double r_eff, double delta, double impact_overlap) const;
+  double planned_stiffness(double r_eff, double delta) const;
   double largest_overlap() const { return curve->curve().x_end() / per_lambda; }
   double stiffness_range() const { return largest_overlap(); }
   double damage_number_per_speed2() const

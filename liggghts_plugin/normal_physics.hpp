@@ -56,7 +56,7 @@ concept ContactLaw =
   { law.stored_energy(r_eff, delta, delta_max, impact_overlap) } -> std::same_as<double>;
   /// N/m, > 0: the stiffest that a contact is which has just reached `delta`, on the way in or back out.
   { law.stiffness(r_eff, delta, impact_overlap) } -> std::same_as<double>;
-  /// Overlap/R*, finite: the time step is checked against the stiffest contact up to there.
+  /// Overlap/R*, finite: up to there the start-up table says what the time step is short enough for.
   { law.stiffness_range() } -> std::same_as<double>;
 
   /// m/s, largest and least approach speed that the law knows; infinity and 0 without limits.

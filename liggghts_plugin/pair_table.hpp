@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "law/contact_step.hpp"
 #include "law/pair.hpp"
 #include "liggghts_plugin/normal_physics.hpp"
 #include "liggghts_plugin/session.hpp"
@@ -116,7 +117,7 @@ class PairTable
         each_entry_in_use(i, j, sizes, [&](const Entry& entry) {
           info.overlap_limit =
               std::min(info.overlap_limit, physics.describe(entry.contact, key).overlap_limit);
-          add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j));
+          add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j), lmp->update->dt);
           if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
           if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
         });
@@ -215,8 +216,9 @@ class PairTable
     return std::isfinite(found.r_eff) && std::isfinite(found.m_eff) ? found : Smallest{};
   }
 
-  /// Lowers the speed of first yield and the largest time step to what this law allows.
-  static void add_limits(PairInfo& info, const Contact& contact, const Smallest& spheres)
+  /// Lowers the speed of first yield, the largest time step, and the overlap that the step `dt` is short enough
+  /// for, to what this law allows.
+  static void add_limits(PairInfo& info, const Contact& contact, const Smallest& spheres, double dt)
   {
     const auto [r_eff, m_eff] = spheres;
     if (!(r_eff > 0)) return;
@@ -224,13 +226,18 @@ class PairTable
     if (contact.yield_overlap() < contact.largest_overlap())
       info.onset_speed = std::min(info.onset_speed,
                                   std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff));
-    double hardest = 0;
-    constexpr int samples = 64;  // the stiffness varies slowly: it need not be largest at the end
-    for (int k = 1; k <= samples; ++k)
-      hardest =
-          std::max(hardest, contact.stiffness(r_eff, contact.stiffness_range() * r_eff * k / samples, 0.0));
-    const double dt_limit = dt_fraction * 2.0 * M_PI * std::sqrt(m_eff / hardest);
-    if (info.dt_limit == 0 || dt_limit < info.dt_limit) info.dt_limit = dt_limit;
+    const auto stiffness = [&](double delta) {
+      if constexpr (requires { contact.planned_stiffness(r_eff, delta); })
+        return contact.planned_stiffness(r_eff, delta);
+      else
+        return contact.stiffness(r_eff, delta, 0.0);
+    };
+    const double deepest = contact.stiffness_range() * r_eff;
+    const double dt_limit = largest_step_to(deepest, m_eff, stiffness);
+    const double dt_overlap = overlap_of_step(dt, m_eff, deepest, stiffness) / r_eff;
+    const bool is_first = info.dt_limit == 0;
+    info.dt_limit = is_first ? dt_limit : std::min(info.dt_limit, dt_limit);
+    info.dt_overlap = is_first ? dt_overlap : std::min(info.dt_overlap, dt_overlap);
   }
 
   /// Pa, 8 G* of Mindlin's tangential stiffness.

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "liggghts_plugin/size_choice.hpp"
 
 namespace LAMMPS_NS {
+class FixTemplateSphere;
 class LAMMPS;
 }
 
@@ -23,6 +25,10 @@ struct ParticleSizes
     return {radius[at], largest_radius[at]};
   }
 };
+
+/// Each particle template of the deck, with its mean density, in the deck's units.
+void each_template(LAMMPS_NS::LAMMPS* lmp,
+                   const std::function<void(LAMMPS_NS::FixTemplateSphere&, double density)>& visit);
 
 /// Collective. A template's density is its mean one.
 ParticleSizes particle_sizes(LAMMPS_NS::LAMMPS* lmp);

@@ -23,12 +23,12 @@ std::string start_table(const ContactStatistics& statistics, const DeckUnits& un
         info.rule, or_none(info.stiffness_ratio > 0, info.stiffness_ratio),
         or_none(std::isfinite(info.overlap_limit), info.overlap_limit),
         or_none(info.damage_number_limit > 0, info.damage_number_limit),
-        or_none(std::isfinite(info.onset_speed), info.onset_speed), or_none(info.dt_limit > 0, info.dt_limit),
+        or_none(std::isfinite(info.onset_speed), info.onset_speed), or_none(info.dt_overlap > 0, info.dt_overlap),
         info.law, info.error);
   }
   if (lines.empty()) return lines;
   return fmt::format("granulaw contact laws\n  {:<24} {:<18} {:>9} {:>9} {:>9} {:>11} {:>10}  {}\n{}",
-                     "types", "pair rule", "E*/Y", "max d/R*", "max I", "yields m/s", "max dt s",
+                     "types", "pair rule", "E*/Y", "max d/R*", "max I", "yields m/s", "dt to d/R*",
                      "law; error", lines);
 }
 

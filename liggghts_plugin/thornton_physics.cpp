@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "law/contact_step.hpp"
 #include "law/law.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
@@ -56,7 +57,7 @@ PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) c
                 .b = key.kind == PairKey::rigid_wall ? wall_name : "-",
                 .law = name,
                 .rule = "closed form",
-                .error = fmt::format("time step at d/R* = {:.2g}", FormulaContact::stiffness_range())};
+                .error = "not stated"};
   info.stiffness_ratio = 1.6 * contact.law.e_star / contact.law.yield_pressure;
   info.overlap_limit = std::numeric_limits<double>::infinity();
   return info;
@@ -69,9 +70,7 @@ double ThorntonContact::stored_energy(double r_eff, double delta, double delta_m
 
 double ThorntonContact::stiffness(double r_eff, double delta, double) const
 {
-  const double real = per_stretch * delta;
-  return per_stretch * per_stretch *
-         std::max(law.evaluate(r_eff, real, real).stiffness, law.unloading_stiffness(r_eff, real));
+  return per_stretch * per_stretch * granulaw::planned_stiffness(law, r_eff, per_stretch * delta);
 }
 
 }  // namespace granulaw::plugin

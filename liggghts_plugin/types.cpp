@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "fix_template_sphere.h"
 #include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/particle_sizes.hpp"
 #include "liggghts_plugin/session.hpp"
 
 namespace granulaw::plugin {
@@ -16,14 +18,19 @@ namespace {
 void find_particle_types(LAMMPS_NS::LAMMPS* lmp, Types& types)
 {
   const LAMMPS_NS::Atom& atom = *lmp->atom;
+  const auto include_density = [&](int t, double in_deck_units) {
+    const double density = in_deck_units * types.units.density();
+    types.density_low[t] = std::min(types.density_low[t], density);
+    types.density_high[t] = std::max(types.density_high[t], density);
+  };
   for (int a = 0; a < atom.nlocal; ++a) {
     const int t = atom.type[a];
     types.of_particles[t] = 1;
-    if (!atom.density) continue;
-    const double density = atom.density[a] * types.units.density();
-    types.density_low[t] = std::min(types.density_low[t], density);
-    types.density_high[t] = std::max(types.density_high[t], density);
+    if (atom.density) include_density(t, atom.density[a]);
   }
+  each_template(lmp, [&](LAMMPS_NS::FixTemplateSphere& particle, double density) {
+    for (int t = particle.mintype(); t <= particle.maxtype(); ++t) include_density(t, density);
+  });
   for (int f = 0; f < lmp->modify->nfix; ++f)
     for (int t = 1; t <= types.count; ++t)
       if (lmp->modify->fix[f]->max_rad(t) > 0.0) types.of_particles[t] = 1;

@@ -21,7 +21,7 @@ struct Types
   std::vector<double> youngs_modulus, poisson_ratio;  ///< Pa, -; NaN where no particle or wall has the type
   std::vector<int> of_particles;                      ///< type of a particle that exists or can be inserted
   std::vector<int> of_wall;                           ///< type of this wall (walls only)
-  std::vector<double> density_low, density_high;      ///< kg/m^3 of existing particles; low > high: none
+  std::vector<double> density_low, density_high;      ///< kg/m^3, templates included; low > high: none
 
   /// Whether a contact of types i and j can happen; at a wall j is the wall's.
   bool can_meet(int i, int j, bool is_wall) const

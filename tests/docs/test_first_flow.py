@@ -1,13 +1,18 @@
 """The first page of the guide works as it stands: its materials file, its command, its deck."""
+import json
 import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/examples"))
+import steps  # noqa: E402
+
 PAGE = (ROOT / "docs/guide/first-flow.md").read_text()
 
 
@@ -53,6 +58,8 @@ class FirstFlow(unittest.TestCase):
                 self.assertIn(f"]({name})", page)
                 self.assertTrue((Path(folder) / "page" / name).exists())
             self.assertNotIn("no energies over time", page)
+            stats = json.loads((Path(folder) / "stats.json").read_text())
+            steps.check(self, os.environ["GRANULAW_MPM"], [Path(folder) / "in.first"], stats, log)
 
 
 if __name__ == "__main__":

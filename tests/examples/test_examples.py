@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The examples in small.   test_examples.py CLASS FOLDER_OF_mpm FOLDER_OF_liggghts-mpm"""
 import importlib.util
+import json
 import math
 import os
 import pathlib
@@ -14,6 +15,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "examples" / "common"))
 import readings  # noqa: E402
 import spread  # noqa: E402
+import sweep  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import steps  # noqa: E402
 
 
 def example(name):
@@ -52,6 +56,15 @@ class Run(unittest.TestCase):
         self.assertIn("mpm", largest)
         self.assertTrue(1 / math.sqrt(2) < largest["mpm"] < 3.5, largest)
         self.assertGreater(bound_over_visited(0.999)["mpm"], 1 - 1e-9)  # what both print: ten digits
+
+    def test_one_rule_for_the_time_step(self):
+        planned, checked = example("planned.py"), 0
+        for folder in sorted(f for f in self.folder.glob("*-1") if (f / "stats.json").exists()):
+            deck, words = planned.words_of(folder)
+            steps.check(self, sweep.program("mpm"), [deck, *words], json.loads((folder / "stats.json").read_text()),
+                        (folder / "screen").read_text(errors="replace"))
+            checked += 1
+        self.assertGreaterEqual(checked, 2)  # mpm and thornton
 
     def mean(self, model, quantity):
         return self.result[model][quantity].mean

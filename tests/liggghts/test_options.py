@@ -44,6 +44,12 @@ class Options(Deck):
         text = self.run_deck(self.deck().replace("density 1500.0", "density 1600.0"))
         self.assertEqual(text.count("have density 1600 to 1600 kg/m^3"), 1)
 
+    def test_density_of_a_template(self):
+        """Said in the first run, ahead of the first particle that it makes."""
+        template = "fix pt all particletemplate/sphere 15485863 atom_type 1 density constant 15000 radius constant 0.001\nrun 120"
+        text = self.run_deck(self.deck().replace("run 120", template))
+        self.assertEqual(text.count("have density 1500 to 15000 kg/m^3"), 1)
+
     def test_own_statistics_fix(self):
         """`fix ID all granulaw/stats` by the user takes the place of the automatic one."""
         deck = self.deck().replace("run 120", "fix s all granulaw/stats file s.json\nvariable d equal f_s\nrun 120")

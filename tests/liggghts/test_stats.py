@@ -82,7 +82,7 @@ class Stats(Deck):
             numbers = [float(w) for w in law.split()[-6:-1]]  # then `mpm` and the path
             # four digits
             for value, exact in zip(numbers, (POWDER.e_star / POWDER.yield_stress, info["overlap_over_radius_limit"], 0.002,
-                                              info["onset_speed_m_per_s"], info["time_step_limit_of_law_s"])):
+                                              info["onset_speed_m_per_s"], info["overlap_over_radius_limit_of_time_step"])):
                 self.assertAlmostEqual(value / exact, 1.0, delta=5.1e-4, msg=rows[0])
 
     def test_edge_of_the_table(self):

@@ -25,9 +25,9 @@ void set_material(AtomType& t, const Scene& scene, const PlanOptions& options)
   t.material.name = fmt::format("type{}", t.type);
   t.material.density = t.density;
   const auto given = scene.materials.find(t.type);
-  if (given == scene.materials.end()) return;
-  t.material.youngs_modulus = given->second.youngs_modulus.value_or(0);
-  t.material.poisson_ratio = given->second.poisson_ratio.value_or(0);
+  if (given == scene.materials.end() || !given->second.has_moduli()) return;
+  t.material.youngs_modulus = *given->second.youngs_modulus;
+  t.material.poisson_ratio = *given->second.poisson_ratio;
   t.material.yield_stress = given->second.yield_stress.value_or(t.material.yield_stress);
   t.known_yield = given->second.yield_stress.has_value();
 }

@@ -6,6 +6,7 @@
 #include "deck/geometry.hpp"
 #include "deck/hertz.hpp"
 #include "deck/plan_options.hpp"
+#include "law/contact_step.hpp"
 
 namespace granulaw::deck {
 
@@ -17,9 +18,10 @@ struct Effective
   double radius, mass;
 };
 
+/// Of the deck's own density: the materials file may have another one.
 double mass_of(const AtomType& t, double radius)
 {
-  return t.material.density * ball_volume(radius);
+  return t.density * ball_volume(radius);
 }
 
 /// At the extremes of both sizes.
@@ -77,7 +79,7 @@ void include_collision(PairPlan& p, const Effective& size, const PlanOptions& op
   if (options.collide && m.known_yield) collision = options.collide(m, size.radius, size.mass, p.speed);
   const double depth =
       collision ? collision->depth : hertz_overlap(e_star, size.radius, size.mass, p.speed) / length;
-  p.overlap_basis = collision ? "law" : "Hertz";
+  p.overlap_basis = collision ? collision->basis : "Hertz";
   p.depth = std::max(p.depth, depth);
   p.overlap = std::max(p.overlap, depth * length / size.radius);
 }
@@ -92,6 +94,19 @@ void include_visited_overlap(PairPlan& p, double overlap)
   p.overlap_basis = "visited";
 }
 
+/// The step that the planned overlap allows, by the law where there is one, else by Hertz.
+void include_time_step(PairPlan& p, const Effective& size, const PlanOptions& options)
+{
+  if (!(p.overlap > 0)) return;
+  const Meeting& m = p.meeting;
+  const auto stiffness = [&](double overlap) {
+    std::optional<double> by_law;
+    if (options.stiffness && m.known_yield) by_law = options.stiffness(m, size.radius, overlap);
+    return by_law.value_or(hertz_stiffness(m.mapping.e_star_pair(), size.radius, overlap));
+  };
+  p.time_step = std::min(p.time_step, largest_step_to(p.overlap * size.radius, size.mass, stiffness));
+}
+
 }  // namespace
 
 PairPlan plan_pair(const Encounter& e, const PlanOptions& options, double stretch, const Visited* visited)
@@ -101,13 +116,14 @@ PairPlan plan_pair(const Encounter& e, const PlanOptions& options, double stretc
   PairPlan p;
   p.meeting = e.meeting;
   set_speed(p, e, options, range);
-  p.onset = p.yield_velocity = p.contact_time = Box::infinity;
+  p.onset = p.yield_velocity = p.contact_time = p.time_step = Box::infinity;
   for (const Effective& size : sizes(e)) {
     include_yield(p, size);
     include_collision(p, size, options);
   }
   p.needs_table = p.meeting.known_yield && p.speed > p.onset;
   if (range) include_visited_overlap(p, visited_margin * range->overlap / stretch);
+  for (const Effective& size : sizes(e)) include_time_step(p, size, options);
   return p;
 }
 

@@ -22,8 +22,9 @@ struct PairPlan
   double damage_number = 0;   ///< largest I = rho V^2/Y of the pair's one body
   double overlap = 0;         ///< largest, over R*, of the real contact: the deck's over its stretch
   double depth = 0;           ///< largest, over lambda R*: the table's own coordinate
-  std::string overlap_basis;  ///< "law", "Hertz" or "visited"
+  std::string overlap_basis;  ///< "law", "Thornton", "Hertz" or "visited"
   double contact_time = 0;    ///< s, shortest: Hertz at the largest speed, smallest particles
+  double time_step = 0;  ///< s, largest_step (law/contact_step.hpp) to `overlap`, unstretched; infinity: any
   bool needs_table = false;   ///< it yields; false: Hertz suffices
   bool visited = true;        ///< false: a run did not meet it
 };

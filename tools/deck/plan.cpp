@@ -125,9 +125,7 @@ void set_axes(Plan& plan)
 
 void set_time_step(Plan& plan, double stretch)
 {
-  double shortest = Box::infinity;
-  for (const PairPlan& p : plan.pairs) shortest = std::min(shortest, p.contact_time);
-  if (std::isfinite(shortest)) plan.time_step = stretch * shortest / steps_per_contact;
+  if (const PairPlan* pair = plan.stiffest()) plan.time_step = stretch * pair->time_step;
 }
 
 void set_cost(Plan& plan, const Scene& scene, const PlanOptions& options)
@@ -166,6 +164,14 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   set_time_step(plan, scene.stretch);
   set_cost(plan, scene, options);
   return plan;
+}
+
+const PairPlan* Plan::stiffest() const
+{
+  const auto found =
+      std::min_element(pairs.begin(), pairs.end(),
+                       [](const PairPlan& a, const PairPlan& b) { return a.time_step < b.time_step; });
+  return found != pairs.end() && std::isfinite(found->time_step) ? &*found : nullptr;
 }
 
 PairSizes pair_sizes(const Plan& plan)

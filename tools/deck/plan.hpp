@@ -18,7 +18,9 @@ struct Plan
   double fall = 0;                        ///< m, largest height a particle may fall
   double radius_min = 0, radius_max = 0;  ///< m
   double mass_min = 0, mass_max = 0;      ///< kg
-  double time_step = 0;  ///< s, that resolves the shortest contact, stretched as the deck says
+  /// s, the largest that the planned overlaps of all pairs allow, stretched as the deck says; 0: none meets.
+  double time_step = 0;
+  const PairPlan* stiffest() const;  ///< the pair that asks for it; null: none meets
   double particle_steps = 0, hours = 0;
   double depth = 0, damage_number = 0;  ///< that the table needs, margins included; 0: no table
   bool axis_matters = false;            ///< the velocity axis
@@ -28,8 +30,6 @@ struct Plan
 /// Below this I inertia takes less than 1 % of e: the law needs no velocity axis
 /// (docs/theory/damage-number.md).
 inline constexpr double negligible_damage_number = 0.002;
-/// Time steps in the shortest contact.
-inline constexpr double steps_per_contact = 25;
 
 /// Plans a scene: which bodies meet, how fast (deck/speeds.hpp), and what that needs of a law.
 Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* visited = nullptr);

@@ -12,12 +12,16 @@ namespace granulaw::deck {
 /// A collision as a law computes it.
 struct Collision
 {
-  double depth = 0;        ///< largest overlap/(lambda R*)
-  double restitution = 1;  ///< e
+  double depth = 0;            ///< largest overlap/(lambda R*)
+  double restitution = 1;      ///< e
+  const char* basis = "law";  ///< or "Thornton": the deck's own model
 };
 /// The collision of two bodies at the relative speed `speed` (m/s); empty: no law at hand.
 using Collide =
     std::function<std::optional<Collision>(const Meeting&, double r_eff, double m_eff, double speed)>;
+/// Stiffness, N/m, of the stiffest that a contact is which has just reached `overlap` (m), on the way in or back
+/// out; empty: no law at hand.
+using Stiffness = std::function<std::optional<double>(const Meeting&, double r_eff, double overlap)>;
 
 /// What the deck does not say, or says otherwise; SI units.
 struct PlanOptions
@@ -29,6 +33,7 @@ struct PlanOptions
   double rate = 2e6;                                      ///< particle-steps a second
   std::map<int, LawMaterial> materials;                   ///< by atom type, where a name is known for it
   Collide collide;
+  Stiffness stiffness;
 };
 
 }  // namespace granulaw::deck

@@ -17,6 +17,7 @@ struct TypeMaterial
   std::optional<double> youngs_modulus;  ///< Pa
   std::optional<double> poisson_ratio;
   std::optional<double> yield_stress;  ///< Pa, of `fix property/global yieldStress`
+  bool has_moduli() const { return youngs_modulus && poisson_ratio; }
 };
 
 /// Particles that the deck brings in at one place.

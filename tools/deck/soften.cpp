@@ -147,8 +147,10 @@ double restitution(const PlanOptions& options, const Meeting& m, const Effective
                    std::string& basis)
 {
   if (options.collide)
-    if (const auto collision = options.collide(m, size.radius, size.mass, speed))
+    if (const auto collision = options.collide(m, size.radius, size.mass, speed)) {
+      basis = collision->basis;
       return collision->restitution;
+    }
   basis = "Thornton";
   if (!m.yields.yields()) return 1;
   const double density = m.one_body_density(size.radius, size.mass);
@@ -183,9 +185,7 @@ Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& option
     if (p.visited && p.speed > 0)
       result.pairs.push_back(stretch_of(p, plan, result, norm(scene.gravity), limits));
   set_stretch(result);
-  // the deck's own stretch is in both; the new one takes its place
-  result.time_step =
-      result.stretch / scene.stretch * (scene.time_step > 0 ? scene.time_step : plan.time_step);
+  result.time_step = result.stretch / scene.stretch * plan.time_step;  // the deck's own stretch is in it
   result.modulus_factor = std::pow(result.stretch, -2.5);  // Hertz: t ~ E^-0.4
   for (const PairStretch& q : result.pairs) {
     const Meeting& m = q.pair->meeting;

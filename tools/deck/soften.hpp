@@ -35,7 +35,7 @@ struct Softening
   std::string bound;        ///< which limit binds, and where
   double flow_time = 0;     ///< s: the fall through one radius, or the walls' time over a diameter
   double fill_height = 0;   ///< m
-  double time_step = 0;     ///< s, s times the deck's
+  double time_step = 0;     ///< s, the plan's under this stretch
   double static_ratio = 0;  ///< largest s P_static/F_y
   double extra_set = 0;     ///< its plastic overlap over R*, by Thornton's p_y = 1.6 Y; 0: below yield
   double overlap = 0;       ///< s delta_max/R*

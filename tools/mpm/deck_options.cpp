@@ -1,16 +1,21 @@
 #include "deck_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "characterise/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
+#include "deck/hertz.hpp"
+#include "law/contact_step.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
+#include "liggghts_plugin/deck_keywords.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
 
@@ -20,96 +25,218 @@ namespace {
 
 using KnownMaterials = std::map<std::string, LawMaterial>;
 
-/// Throws Error for a name of --materials that the file lacks, unless the deck itself describes its type.
-void check_given(const DeckOptions& o, const deck::Scene& scene, const MaterialsFile& file)
+/// What the law of a plan leaves out of this material; empty: nothing.
+std::string left_out(const Material& m)
 {
-  for (std::size_t k = 0; k < o.materials.size(); ++k)
-    if (!scene.materials.contains(static_cast<int>(k) + 1)) file.material(o.materials[k]);
+  std::string what;
+  if (!m.hardening.name.empty()) what = fmt::format("its hardening '{}'", m.hardening.name);
+  if (!m.rate.name.empty())
+    what += fmt::format("{}its rate dependence '{}'", what.empty() ? "" : " and ", m.rate.name);
+  return what;
 }
 
-/// The materials of the materials file, else of the deck's law file; none if there is neither.
-KnownMaterials known_materials(const DeckOptions& o, const deck::Scene& scene)
+/// Materials, and particles as spheres of the material of their body. Adds to the notes what a plan leaves out.
+KnownMaterials materials_of(const MaterialsFile& file, const std::vector<std::string>& names,
+                            std::vector<std::string>& notes)
 {
   KnownMaterials known;
-  if (!o.materials_file.empty()) {
-    const MaterialsFile file = read_materials(o.materials_file);
-    check_given(o, scene, file);
-    for (const auto& [name, m] : file.materials) known[name] = law_material(name, m);
-  } else if (!scene.law_file.empty() && std::ifstream(scene.law_file)) {
-    const Law law = read_law(scene.law_file);
-    for (const auto& [name, body] : law.bodies) known[name] = body.material;
-  } else if (!o.materials.empty()) {
-    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
+  for (const auto& [name, particle] : file.particles) known[name] = law_material(name, particle.materials[0]);
+  for (const auto& [name, m] : file.materials) known[name] = law_material(name, m);
+  for (const std::string& name : names) {
+    const bool is_particle = file.means_particle(name);
+    if (is_particle && !file.particle(name).is_homogeneous_sphere())
+      notes.push_back(fmt::format("{}: '{}' is planned as a homogeneous sphere of its body's material", file.source,
+                                  name));
+    if (!known.contains(name)) continue;
+    const Material& m = is_particle ? file.particle(name).materials[0] : file.material(name);
+    if (const std::string what = left_out(m); !what.empty())
+      notes.push_back(fmt::format("{}: '{}' is planned without {}: overlaps are upper bounds", file.source, name,
+                                  what));
   }
   return known;
+}
+
+/// The atom types whose bodies deform: particles, and walls that the deck calls deformable.
+std::set<int> deforming_types(const deck::Scene& scene)
+{
+  std::set<int> types;
+  for (const deck::Source& s : scene.sources) types.insert(s.type);
+  if (types.empty()) types.insert(1);  // the plan's particles where the deck shows none
+  for (const deck::Wall& w : scene.walls)
+    if (w.deformable) types.insert(w.type);
+  return types;
 }
 
 /// The material of an atom type as the deck describes it, elastic; none if it does not.
 std::optional<LawMaterial> material_by_deck(const std::string& name, int type, const deck::Scene& scene)
 {
   const auto found = scene.materials.find(type);
-  if (found == scene.materials.end() || !found->second.youngs_modulus) return std::nullopt;
+  if (found == scene.materials.end() || !found->second.has_moduli()) return std::nullopt;
   LawMaterial m;
   m.name = name;
   m.youngs_modulus = *found->second.youngs_modulus;
-  m.poisson_ratio = found->second.poisson_ratio.value_or(0);
+  m.poisson_ratio = *found->second.poisson_ratio;
   for (const deck::Source& s : scene.sources)
     if (s.type == type) m.density = s.density;
   return m;
 }
 
+/// A file that names materials, and they.
+struct NamedMaterials
+{
+  std::string path;
+  KnownMaterials known;
+};
+
+/// The materials of the materials file, else of the deck's law; none if there is neither.
+NamedMaterials known_materials(const DeckOptions& o, const std::vector<std::string>& names, const Law* law,
+                               deck::Scene& scene)
+{
+  if (!o.materials_file.empty())
+    return {o.materials_file, materials_of(read_materials(o.materials_file), names, scene.notes)};
+  if (law) {
+    NamedMaterials of_law{scene.law_file, {}};
+    for (const auto& [name, body] : law->bodies) of_law.known[name] = body.material;
+    return of_law;
+  }
+  if (!o.materials.empty())
+    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
+  return {};
+}
+
 /// Materials of the atom types by the names that --materials or the deck's pair_style gives them. A name that
-/// the file does not hold stays as the deck describes it, elastic: a wall's, or an elastic partner's.
-void name_materials(deck::PlanOptions& into, const deck::Scene& scene, const DeckOptions& o)
+/// the file lacks stays as the deck describes it where its type has walls only, which are rigid, and where it
+/// is the plug-in's own `elastic`. Throws Error for any other.
+void name_materials(deck::PlanOptions& into, deck::Scene& scene, const DeckOptions& o, const Law* law)
 {
   const bool given = !o.materials.empty();
   const std::vector<std::string>& names = given ? o.materials : scene.material_names;
-  const KnownMaterials known = known_materials(o, scene);
+  const auto [path, known] = known_materials(o, names, law, scene);
   // one material, one type: there is nothing to name
   if (!o.materials_file.empty() && names.empty() && known.size() == 1 && scene.types <= 1)
     into.materials[1] = known.begin()->second;
-  bool any = false;
+  if (known.empty()) return;
+  const std::string who = given ? "--materials" : fmt::format("{}: 'materials' of pair_style", scene.deck);
+  if (scene.types > 0 && names.size() > static_cast<std::size_t>(scene.types))
+    fail(who, fmt::format("more names than the deck's {} atom types", scene.types),
+         fmt::format("{}", fmt::join(names, " ")));
+  const std::set<int> deforming = deforming_types(scene);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const int type = static_cast<int>(k) + 1;
     if (const auto m = known.find(names[k]); m != known.end()) {
       into.materials[type] = m->second;
-      any = true;
-    } else if (!known.empty()) {
-      if (const auto by_deck = material_by_deck(names[k], type, scene)) into.materials[type] = *by_deck;
+      continue;
     }
+    const auto by_deck = material_by_deck(names[k], type, scene);
+    if (names[k] != plugin::elastic_name && deforming.contains(type))
+      fail_unknown(who, fmt::format("{} has no material for atom type {}", path, type), names[k], names_of(known));
+    if (by_deck) into.materials[type] = *by_deck;
   }
-  if (given && !any)
-    fail("--materials", fmt::format("none of them is in {}", o.materials_file),
-         fmt::format("'{}'", names[0]));
 }
 
-/// Collisions by the atlas's laws; each law is made once.
-deck::Collide collide_by_atlas()
+/// Whether a law that was made for `a` is the law of `b`.
+bool is_same_material(const LawMaterial& a, const LawMaterial& b)
 {
-  const auto atlas = std::make_shared<const std::optional<Atlas>>(own_atlas());
-  if (!*atlas) return {};
-  const auto laws = std::make_shared<std::map<std::string, std::optional<BodyLaw>>>();
-  return [atlas, laws](const deck::Meeting& m, double r_eff, double m_eff,
-                       double speed) -> std::optional<deck::Collision> {
+  return a.youngs_modulus == b.youngs_modulus && a.poisson_ratio == b.poisson_ratio &&
+         a.yield_stress == b.yield_stress && a.hardening_modulus == b.hardening_modulus;
+}
+
+/// The laws at hand for a plan: the deck's own, if it is of the body that yields, else the atlas's.
+class LawsAtHand
+{
+ public:
+  LawsAtHand(std::optional<Law> deck_law, std::optional<Atlas> atlas)
+      : deck_law_(std::move(deck_law)), atlas_(std::move(atlas))
+  {
+  }
+
+  std::optional<deck::Collision> collide(const deck::Meeting& m, double r_eff, double m_eff, double speed)
+  {
+    for (const bool own : {true, false})
+      if (const auto pair = own ? by_deck(m) : by_atlas(m)) {
+        const Replay replay = replay_collision(*pair, r_eff, m_eff, speed, 2000);
+        if (own && replay.left_range) continue;
+        // past the table the force is extrapolated: still an answer about depth, capped by whoever builds
+        return deck::Collision{replay.delta_max / m.mapping.length(r_eff), replay.restitution};
+      }
+    return {};
+  }
+
+  std::optional<double> stiffness(const deck::Meeting& m, double r_eff, double overlap)
+  {
+    for (const bool own : {true, false})
+      if (const auto pair = own ? by_deck(m) : by_atlas(m)) {
+        if (own && overlap > pair->max_overlap(r_eff)) continue;
+        return planned_stiffness(*pair, r_eff, overlap);
+      }
+    return {};
+  }
+
+ private:
+  std::optional<PairLaw> by_deck(const deck::Meeting& m) const
+  {
+    if (!deck_law_) return {};
+    const auto yielding = deck_law_->bodies.find(m.yields.name);
+    if (yielding == deck_law_->bodies.end() || !is_same_material(yielding->second.material, m.yields)) return {};
+    const bool rigid = m.wall && !m.deformable;
+    if (deck_law_->find_pair(m.name_a, rigid ? wall_name : m.name_b))
+      return resolve_pair(*deck_law_, m.name_a, rigid ? wall_name : m.name_b, "the deck's law", 1,
+                          m.wall ? deck::Box::infinity : 1);
+    return PairLaw{&yielding->second.curve, m.mapping, &yielding->second};
+  }
+
+  /// Each law is made once.
+  std::optional<PairLaw> by_atlas(const deck::Meeting& m)
+  {
+    if (!atlas_) return {};
     const LawMaterial& material = m.yields;
     const std::string key =
         fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}", material.youngs_modulus, material.poisson_ratio,
                     material.yield_stress, material.hardening_modulus);
-    if (!laws->contains(key)) {
-      std::optional<BodyLaw>& law = (*laws)[key];
-      if (!material.yields() || (*atlas)->why_not(MaterialRatios::of(material)).empty()) {
-        BuildOptions options;
-        options.depth = 0.5, options.fastest = 0.3;
-        law = law_from(**atlas, material, options);
-      }
+    const auto [found, is_new] = made_.try_emplace(key);
+    if (is_new && (!material.yields() || atlas_->why_not(MaterialRatios::of(material)).empty())) {
+      BuildOptions options;
+      options.depth = 0.5, options.fastest = 0.3;
+      found->second = law_from(*atlas_, material, options);
     }
-    const std::optional<BodyLaw>& law = laws->at(key);
-    if (!law) return {};
-    const PairLaw pair{&law->curve, m.mapping, &*law};
-    const Replay replay = replay_collision(pair, r_eff, m_eff, speed, 2000);
-    // past the table the force is extrapolated: still an answer about depth, capped by whoever builds
-    return deck::Collision{replay.delta_max / m.mapping.length(r_eff), replay.restitution};
-  };
+    if (!found->second) return {};
+    return PairLaw{&found->second->curve, m.mapping, &*found->second};
+  }
+
+  std::optional<Law> deck_law_;
+  std::optional<Atlas> atlas_;
+  std::map<std::string, std::optional<BodyLaw>> made_;  // by numbers of the material
+};
+
+/// Thornton's closed form, as model thornton has it.
+ThorntonPair thornton_of(const deck::Meeting& m)
+{
+  return {m.mapping.e_star_pair(), 1.6 * m.yields.yield_stress};
+}
+
+std::optional<deck::Collision> collide_by_thornton(const deck::Meeting& m, double r_eff, double m_eff, double speed)
+{
+  const ThorntonPair law = thornton_of(m);
+  const double duration = deck::hertz_time(law.e_star, r_eff, m_eff, speed);
+  const Replay replay = replay_collision(
+      [&](double delta, double delta_max) { return law.evaluate(r_eff, delta, delta_max); }, m_eff, speed, duration,
+      2000);
+  return deck::Collision{replay.delta_max / m.mapping.length(r_eff), replay.restitution, "Thornton"};
+}
+
+/// The law that the deck's contacts follow.
+void set_contact_law(deck::PlanOptions& into, const deck::Scene& scene, std::optional<Law> deck_law)
+{
+  if (scene.model == "thornton") {
+    into.collide = collide_by_thornton;
+    into.stiffness = [](const deck::Meeting& m, double r_eff, double overlap) {
+      return std::optional(planned_stiffness(thornton_of(m), r_eff, overlap));
+    };
+    return;
+  }
+  const auto laws = std::make_shared<LawsAtHand>(std::move(deck_law), own_atlas());
+  into.collide = [laws](const auto&... what) { return laws->collide(what...); };
+  into.stiffness = [laws](const auto&... what) { return laws->stiffness(what...); };
 }
 
 }  // namespace
@@ -165,8 +292,11 @@ PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)
     if (*p.radius_min > *p.radius_max) std::swap(*p.radius_min, *p.radius_max);
   }
   p.rate = o.rate;
-  name_materials(p, result.scene, o);
-  p.collide = collide_by_atlas();
+  std::optional<Law> law;  // a materials file goes before it: it may be of other materials by now
+  if (o.materials_file.empty() && !result.scene.law_file.empty() && std::ifstream(result.scene.law_file))
+    law = read_law(result.scene.law_file);
+  name_materials(p, result.scene, o, law ? &*law : nullptr);
+  set_contact_law(p, result.scene, std::move(law));
   std::optional<deck::Visited> visited;
   if (!o.visited.empty()) visited = deck::read_visited(o.visited);
   result.plan = deck::make_plan(result.scene, p, visited ? &*visited : nullptr);
@@ -186,6 +316,12 @@ void require_answers(const deck::Plan& plan, const std::string& deck)
   for (const deck::Question& q : plan.questions)
     if (q.option != "--particles N")
       fail(deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
+}
+
+std::string step_text(double time_step)
+{
+  const double unit = std::pow(10.0, std::floor(std::log10(time_step)) - 2);
+  return fmt::format("{:.3g}", std::floor(time_step / unit * (1 + 1e-12)) * unit);
 }
 
 std::string types_text(const deck::Meeting& meeting)

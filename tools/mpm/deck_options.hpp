@@ -41,6 +41,9 @@ std::string questions_text(const deck::Plan& plan);
 /// Throws Error with the first question that is left, unless it only matters for the cost.
 void require_answers(const deck::Plan& plan, const std::string& deck);
 
+/// A largest time step, s, to three digits, rounded down: it is to be pasted.
+std::string step_text(double time_step);
+
 /// The atom types of two bodies that meet: "1:2", "1:wall 2".
 std::string types_text(const deck::Meeting& meeting);
 

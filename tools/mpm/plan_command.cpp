@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "json_output.hpp"
+#include "law/contact_step.hpp"
 
 namespace granulaw {
 
@@ -101,6 +102,7 @@ ordered_json pair_json(const deck::PairPlan& p)
           {"overlap_over_radius_max", json_number(p.overlap)},
           {"overlap_by", p.overlap_basis},
           {"contact_time_min_s", json_number(p.contact_time)},
+          {"time_step_s", json_number(p.time_step)},
           {"needs_table", p.needs_table},
           {"law_error", error},
           {"verdict", verdict(p)}};
@@ -138,7 +140,21 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
   return root;
 }
 
-void print_type(int type, const deck::TypeMaterial& m, const LawMaterial* named)
+/// kg/m^3, the largest of the deck's particles of this type; 0: it shows none.
+double deck_density(const deck::Scene& scene, int type)
+{
+  double density = 0;
+  for (const deck::Source& s : scene.sources)
+    if (s.type == type) density = std::max(density, s.density);
+  return density;
+}
+
+bool differ(double a, double b)
+{
+  return std::abs(a / b - 1) > 1e-3;  // decks round to four figures
+}
+
+void print_type(const deck::Scene& scene, int type, const deck::TypeMaterial& m, const LawMaterial* named)
 {
   const double stress = named ? named->yield_stress : m.yield_stress.value_or(-1);
   std::string yield = "yield stress not known";
@@ -146,8 +162,13 @@ void print_type(int type, const deck::TypeMaterial& m, const LawMaterial* named)
   fmt::print("  type {}{}: E {:.4g} Pa, nu {:.3g}, {}\n", type,
              named ? " (" + printable(named->name) + ")" : "", *m.youngs_modulus, m.poisson_ratio.value_or(0),
              yield);
-  if (named && std::abs(named->youngs_modulus / *m.youngs_modulus - 1) > 1e-3)
+  if (!named) return;
+  if (differ(named->youngs_modulus, *m.youngs_modulus))
     fmt::print("    the materials file says E {:.4g} Pa: that is used\n", named->youngs_modulus);
+  const double density = deck_density(scene, type);
+  if (density > 0 && named->density > 0 && differ(named->density, density))
+    fmt::print("    the materials file says {:.4g} kg/m^3, the deck's particles have {:.4g}: theirs is used\n",
+               named->density, density);
 }
 
 void print_scene(const PlannedDeck& d)
@@ -162,7 +183,7 @@ void print_scene(const PlannedDeck& d)
         d.plan.radius_min, d.plan.radius_max, d.plan.mass_min, d.plan.mass_max, d.plan.fall,
         deck::norm(d.scene.gravity));
   for (const auto& [type, m] : d.scene.materials)
-    if (m.youngs_modulus) print_type(type, m, named_material(d, type));
+    if (m.has_moduli()) print_type(d.scene, type, m, named_material(d, type));
 }
 
 constexpr const char* pair_row = "  {:<9} {:<18} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}  {}\n";
@@ -218,9 +239,10 @@ void print_needs(const PlannedDeck& d)
                plan.axis_matters
                    ? fmt::format("(I up to {:.2g})", plan.damage_number)
                    : fmt::format("not needed (I stays below {:g})", deck::negligible_damage_number));
-  if (plan.time_step > 0)
-    fmt::print("time step: {:.3g} s ({:g} in the shortest contact); the deck has {:.3g} s\n", plan.time_step,
-               deck::steps_per_contact, d.scene.time_step);
+  if (const deck::PairPlan* pair = plan.stiffest())
+    fmt::print("time step: up to {} s (1/{:g} of the period of types {} at d/R* {:.3g}); the deck has {:.3g} s\n",
+               step_text(plan.time_step), 1 / step_fraction, types_text(pair->meeting), pair->overlap,
+               d.scene.time_step);
   if (d.scene.stretch > 1)
     fmt::print("stretch {:g}: in it; the deck's overlaps are {:g} times the d/R* above\n", d.scene.stretch,
                d.scene.stretch);

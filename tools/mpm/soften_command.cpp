@@ -38,7 +38,7 @@ struct Paste
 
 Paste paste_of(const deck::Softening& s)
 {
-  return {fmt::format("stretch {:.3g}", s.stretch), fmt::format("timestep {:.3g}", s.time_step)};
+  return {fmt::format("stretch {:.3g}", s.stretch), fmt::format("timestep {}", step_text(s.time_step))};
 }
 
 ordered_json pairs_json(const deck::Softening& s)
@@ -99,7 +99,7 @@ void print_lowered_modulus(const deck::Softening& s)
   for (const auto& n : s.naive)
     fmt::print("instead E times {:.3g}: e of {} at {:.3g} m/s would be {:.3f}, not {:.3f} (by {})\n",
                s.modulus_factor, printable(n.pair), n.speed, n.e_naive, n.e,
-               n.basis == "law" ? "the atlas" : "Thornton's closed form");
+               n.basis == "law" ? "the law" : "Thornton's closed form");
 }
 
 void print(const deck::SoftenLimits& limits, const deck::Softening& s)

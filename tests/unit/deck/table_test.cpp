@@ -69,6 +69,14 @@ TEST_F(DeckTable, FixesThatHideParticlesOrSpeedsAreNamed)
         holds(scene(std::string("units si\nfix i all ") + style).unknown_speeds, {"in.deck:2", style}));
 }
 
+TEST_F(DeckTable, AnUnknownFixIsNamedWithTheNearest)
+{
+  const Scene s = scene("units si\nfix i all nve/spheer\nfix j all deform 1 x erate 1\nfix k all nve/sphere\n");
+  EXPECT_EQ(s.notes.size(), 2u);
+  EXPECT_TRUE(holds(s.notes, {"in.deck:2", "'fix nve/spheer'", "not known", "nve/sphere"}));
+  EXPECT_TRUE(holds(s.notes, {"in.deck:3", "'fix deform'", "not known"}));
+}
+
 TEST_F(DeckTable, UnfixEndsAnInsertion)
 {
   const std::string all = falling("run 1000", "nparticles 5000 particlerate 1000 region bc");

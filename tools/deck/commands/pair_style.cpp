@@ -22,7 +22,7 @@ void set_law(Scene& scene, Words& w)
 
 void set_stretch(Scene& scene, Words& w)
 {
-  scene.stretch = number(w.word()).value_or(scene.stretch);
+  scene.stretch = w.value();
 }
 
 void set_materials(Scene& scene, Words& w)

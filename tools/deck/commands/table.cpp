@@ -116,12 +116,15 @@ struct FixEntry
 };
 
 /// The styles of `fix` that bear on a plan; of two that match, the first. To follow a new one: a line here,
-/// and its handler in the file of its concept. Every other fix measures, prints or integrates.
+/// and its handler in the file of its concept.
 constexpr std::array fixes{
     FixEntry{"adapt", follow_adapt},
     FixEntry{"addforce", follow_force},
+    FixEntry{"aveforce", follow_force},
     FixEntry{"couple/*", follow_force},
     FixEntry{"drag", follow_force},
+    FixEntry{"efield", follow_force},
+    FixEntry{"external", follow_force},
     FixEntry{"gravity", follow_gravity},
     FixEntry{"insert/*", follow_insertion},
     FixEntry{"mesh/surface*", follow_mesh},
@@ -135,9 +138,62 @@ constexpr std::array fixes{
     FixEntry{"rigid", follow_clumps},
     FixEntry{"rigid/*", follow_clumps},
     FixEntry{"setforce", follow_force},
+    FixEntry{"spring", follow_force},
+    FixEntry{"spring/*", follow_force},
     FixEntry{"wall/gran", follow_wall},
     FixEntry{"wall/gran/*", follow_wall},
     FixEntry{"wall/*", refuse_wall},
+};
+
+/// The styles that measure, print, integrate, or only slow particles down.
+constexpr std::string_view fixes_without_bearing[] = {
+    "ave/atom",
+    "ave/correlate",
+    "ave/euler",
+    "ave/euler/stress",
+    "ave/histo",
+    "ave/spatial",
+    "ave/time",
+    "buoyancy",
+    "check/timestep/gran",
+    "contacthistory",
+    "contacthistory/mesh",
+    "contactproperty/atom",
+    "contactproperty/atom/wall",
+    "continuum/weighted",
+    "custom_property/global",
+    "diam/max",
+    "enforce2d",
+    "freeze",
+    "granulaw/runaway",
+    "granulaw/stats",
+    "heat/gran",
+    "heat/gran/conduction",
+    "lineforce",
+    "massflow/mesh",
+    "massflow/mesh/sieve",
+    "multicontact/halfspace",
+    "neighlist/mesh",
+    "nve",
+    "nve/asphere",
+    "nve/asphere/noforce",
+    "nve/noforce",
+    "nve/sphere",
+    "nve/superquadric",
+    "planeforce",
+    "print",
+    "property/atom",
+    "property/atom/regiontracer/time",
+    "property/atom/timetracer",
+    "property/atom/tracer",
+    "property/atom/tracer/stream",
+    "property/atomtype",
+    "property/atomtypepair",
+    "region/variable",
+    "store/force",
+    "store/state",
+    "transportequation/scalar",
+    "viscous",
 };
 
 bool matches(std::string_view pattern, std::string_view style)
@@ -153,6 +209,13 @@ void follow_fix(Reading& reading, Words w)
   fix.style = w.word();
   for (const FixEntry& entry : fixes)
     if (matches(entry.style, fix.style)) return entry.follow(reading, fix, w);
+  if (std::find(std::begin(fixes_without_bearing), std::end(fixes_without_bearing), fix.style) !=
+      std::end(fixes_without_bearing))
+    return;
+  std::vector<std::string> known(std::begin(fixes_without_bearing), std::end(fixes_without_bearing));
+  for (const FixEntry& entry : fixes)
+    if (!entry.style.ends_with('*')) known.emplace_back(entry.style);
+  misread("it is not known to mpm plan", fix.style, known);
 }
 
 void follow_unfix(Reading& reading, Words w)

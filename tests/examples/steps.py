@@ -1,0 +1,59 @@
+"""One rule for the time step (mpm_core/law/contact_step.hpp): what `mpm plan`, `mpm soften` and the plug-in say of one deck is one number."""
+import json
+import pathlib
+import subprocess
+import tempfile
+
+MARGIN = 1.25  # of `mpm plan --from` (tools/deck/visited.hpp)
+
+
+def ask(mpm, command, words, *more):
+    done = subprocess.run([mpm, command, *map(str, words), *more, "--json"], capture_output=True, text=True)
+    assert done.returncode == 0, (command, words, more, done.stderr)
+    return json.loads(done.stdout)
+
+
+def key(pair):
+    """Of an entry of the plan or of the statistics."""
+    return (pair["wall"] if "wall" in pair else pair["kind"] != "particles", *pair["types"])
+
+
+def steps_at(mpm, words, stats, quantity):
+    """{pair: s} that `mpm plan` allows where contacts reach the overlaps that `quantity` of the statistics names."""
+    seen = [{"kind": p["kind"], "types": p["types"], "contacts_begun": 1, "impact_speed_max_m_per_s": 1e-6,
+             "overlap_over_radius_max": p[quantity] / MARGIN} for p in stats["pairs"] if p[quantity]]
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "seen.json"
+        path.write_text(json.dumps({"pairs": seen}))
+        plan = ask(mpm, "plan", words, "--from", str(path))
+    stretch = plan["time_step_s"]["advised"] / min(p["time_step_s"] for p in plan["pairs"] if p["time_step_s"])
+    return {key(p): stretch * p["time_step_s"] for p in plan["pairs"] if p["time_step_s"]}
+
+
+def check(test, mpm, words, stats, screen):
+    """`words`: the deck and its variables; `stats`: JSON of the plug-in after a run of it; `screen`: what the run printed."""
+    plan = ask(mpm, "plan", words)
+    test.assertTrue(plan["complete"], plan["asks_for"])
+    advised = plan["time_step_s"]["advised"]
+    test.assertAlmostEqual(advised / min(p["time_step_s"] for p in plan["pairs"] if p["time_step_s"]), 1, delta=1e-12)
+    soft = ask(mpm, "soften", words)
+    test.assertAlmostEqual(soft["time_step_s"] / soft["stretch"] / advised, 1, delta=1e-12)
+
+    # What the plug-in says that the step in use is short enough for, the plan says of that overlap.
+    used = stats["time_step_used_s"]
+    at_limit = steps_at(mpm, words, stats, "overlap_over_radius_limit_of_time_step")
+    at_visited = steps_at(mpm, words, stats, "overlap_over_radius_max")
+    for pair in stats["pairs"]:
+        if pair["overlap_over_radius_limit_of_time_step"] is None or key(pair) not in at_limit:
+            continue
+        deepest = pair["overlap_over_radius_limit"] or 0.1  # of thornton, which has no table
+        if pair["overlap_over_radius_limit_of_time_step"] < 0.999 * deepest:
+            # 1e-5: the plug-in finds the overlap to 1e-6 of the deepest, ten digits are written
+            test.assertAlmostEqual(at_limit[key(pair)] / used, 1, delta=1e-3, msg=pair["types"])
+        else:
+            test.assertGreater(at_limit[key(pair)], 0.999 * used, pair["types"])
+        # The plan takes the smallest particles, and the stiffest up to the overlap, pressed or hit.
+        if pair["overlap_over_radius_max"]:
+            test.assertLess(at_visited[key(pair)], 1.001 * pair["time_step_allowed_s"], pair["types"])
+    # a run that visited what its step is short enough for is not warned of
+    test.assertNotIn("was so deep that its time step", screen)
