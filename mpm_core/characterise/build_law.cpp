@@ -55,6 +55,8 @@ class Build
   void elastic();
   void plastic();
   BuiltLaw take();
+  void require_reachable() const;
+  ExpectedRuns expected() const;
 
  private:
   void require_lawful() const;
@@ -67,6 +69,7 @@ class Build
   void find_onset();
   void note_solver_error(const ResolutionChoice& choice);
 
+  double first_overlap(const SamplingPlan& plan) const;
   std::optional<OnsetSimilarity> onset_similarity(double first) const;
   void certify(const Sampled& sampled);
   void verify_impacts(const ContactRecords& records);
@@ -259,13 +262,37 @@ void Build::verify_impacts(const ContactRecords& records)
   built_.sampling_error = std::max(built_.sampling_error, error);
 }
 
+/// Overlap of the shallowest run planned.
+double Build::first_overlap(const SamplingPlan& plan) const
+{
+  return plan.slow_impacts.empty() ? plan.presses.front().stops.front()
+                                   : expected_depth(plan.slow_impacts.front(), slow_);
+}
+
+void Build::require_reachable() const
+{
+  if (!body_.yields() || !body_.is_uniform()) return;  // else a press tells the onset
+  require_lawful();
+  onset_similarity(first_overlap(first_plan()));
+}
+
+ExpectedRuns Build::expected() const
+{
+  if (!body_.yields()) return {2, 2, 2 * press_job(body_, {options_.depth, {}, press_cells_, 2}, source_).cost};
+  SamplingPlan plan = first_plan();
+  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
+  ExpectedRuns expected{plan.runs(), most_runs({}), 0};
+  for (const RunJob& job : sampling_jobs(slow_, plan, source_)) expected.first_cpu_s += job.cost;
+  return expected;
+}
+
 void Build::plastic()
 {
   find_onset();
   require_lawful();
   SamplingPlan plan = first_plan();
-  const double first = plan.slow_impacts.empty() ? plan.presses.front().stops.front()
-                                                 : expected_depth(plan.slow_impacts.front(), slow_);
+  const double first = first_overlap(plan);
+  onset_similarity(first);  // refuses, before the runs, an onset that it does not reach
   if (known_) plan.presses.clear(), plan.slow_impacts.clear();
   resolve(plan);
   for (SamplingPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
@@ -313,6 +340,19 @@ void Build::elastic()
 }
 
 }  // namespace
+
+void require_reachable(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options)
+{
+  const RunSource source;
+  Build(material, body, options, source).require_reachable();
+}
+
+ExpectedRuns expected_runs(const LawMaterial& material, const CharacterisedBody& body,
+                           const BuildOptions& options)
+{
+  const RunSource source;
+  return Build(material, body, options, source).expected();
+}
 
 BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
                    const RunSource& source)

@@ -20,6 +20,19 @@ struct BuiltLaw
   std::size_t runs_full = 0;         ///< that the densest one would have
 };
 
+/// Throws Error, before anything is run, where the law of a body of one material cannot be made: it yields too
+/// late for the law's depth, or so early that no law reaches from the onset to the shallowest run.
+void require_reachable(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options);
+
+/// What the sampling begins with, and how far it may be refined.
+struct ExpectedRuns
+{
+  std::size_t first = 0, most = 0;
+  double first_cpu_s = 0;  ///< CPU seconds, about, of the first ones
+};
+ExpectedRuns expected_runs(const LawMaterial& material, const CharacterisedBody& body,
+                           const BuildOptions& options);
+
 /// The law of one body on a rigid wall, by the material point method.
 ///
 /// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-free law; fast

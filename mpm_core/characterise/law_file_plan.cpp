@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "characterise/build_law.hpp"
 #include "characterise/composed_law.hpp"
 #include "characterise/law_material.hpp"
 
@@ -204,6 +205,16 @@ bool LawFilePlan::needs_runs() const
          std::any_of(pairs.begin(), pairs.end(), [](const Pair& p) { return p.own_law; });
 }
 
+BuildOptions LawFilePlan::build_options() const
+{
+  BuildOptions options;
+  options.depth = request.depth;
+  options.fastest = std::sqrt(request.damage_number);
+  options.tolerance = request.tolerance;
+  options.atlas = request.atlas;
+  return options;
+}
+
 LawFilePlan plan_law_file(LawFileRequest request)
 {
   check_numbers(request);
@@ -213,6 +224,9 @@ LawFilePlan plan_law_file(LawFileRequest request)
   plan.bodies = bodies_of(pairs, plan.request);
   check_pairs(pairs, plan.bodies, plan.request.words.pair);
   check_slowest(plan.request, plan.bodies);
+  for (const auto& [name, body] : plan.bodies)
+    if (!body.from_atlas())
+      require_reachable(body.body.material, body.body.characterised, plan.build_options());
   for (const Names& names : pairs) plan.pairs.push_back(plan_pair(names, plan));
   return plan;
 }

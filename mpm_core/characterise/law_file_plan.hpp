@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "characterise/atlas.hpp"
+#include "characterise/build_options.hpp"
 #include "characterise/law_body.hpp"
 #include "characterise/reduction_error.hpp"
 #include "characterise/shape_certificate.hpp"
@@ -74,6 +75,8 @@ struct LawFilePlan
   std::map<std::string, Body> bodies;  ///< by name
   std::vector<Pair> pairs;
 
+  /// How the laws that need runs are made.
+  BuildOptions build_options() const;
   bool needs_runs() const;  ///< of the solver, which takes from seconds to minutes of CPU for each law
 };
 

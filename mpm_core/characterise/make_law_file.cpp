@@ -93,10 +93,7 @@ class Maker
   Maker(const LawFilePlan& plan, Farm& farm, const Progress& progress)
       : plan_(plan), farm_(farm), progress_(progress)
   {
-    options_.depth = plan.request.depth;
-    options_.fastest = std::sqrt(plan.request.damage_number);
-    options_.tolerance = plan.request.tolerance;
-    options_.atlas = plan.request.atlas;
+    options_ = plan.build_options();
     options_.farm = &farm;
     laws_ = plan.bodies.size();
     for (const auto& [name, planned] : plan.bodies) laws_ += planned.body.shape ? 1 : 0;

@@ -101,14 +101,26 @@ OnsetSimilarity::OnsetSimilarity(const CharacterisedBody& body, const Needs& nee
     ratios.stiffness = std::min(k, atlas->grid().stiffnesses.back());
     return atlas->why_not(ratios).empty();
   };
+  const auto require_reach = [&](double k) {
+    // where the stiffest law at hand ends: delta/delta_onset, at which laws are alike, goes as (E*/Y)^2
+    const double stiffest = k * std::sqrt(Atlas::depth / needs.first);
+    if (stiffness > stiffest)
+      fail("contact law",
+           fmt::format("yields at overlaps too small to be run, and no law of a sphere of E*/Y = {:g} reaches from "
+                       "there to the shallowest run, {:.2g} R",
+                       k, needs.first),
+           fmt::format("E*/Y = {:.4g}", stiffness), fmt::format("up to {:.3g}", stiffest));
+  };
   how_ = fmt::format("below delta/R = {:.2g}: ", needs.first);
 
   constexpr double nearly = 0.003;  // of the yield stress: a third of the tolerance of most laws
   if (known(stiffness) && line.missed < nearly) {
+    require_reach(atlas->grid().stiffnesses.back());
     how_ += fmt::format("atlas, at linear hardening H/E = {:.3g}", ratios_.hardening);
     return;
   }
   knows_term_ = known(stiffness) && known(less_stiff);
+  require_reach(less_stiff);
   how_ += fmt::format("at the same delta/delta_onset of a sphere of E*/Y = {:g}, ", less_stiff);
   how_ += knows_term_ ? "its difference from the atlas"
                       : fmt::format("its difference by one of {:g}", least_stiff);

@@ -124,6 +124,14 @@ def errors():
     ]:
         done = run("calibrate", *words)
         assert done.returncode == 1 and wanted in done.stderr and done.stderr.count("\n") == 1, (words, done.stderr)
+    for words, wanted in [
+        (["--speeds", "8..0.1"], "--speeds: the range runs downwards: found '8..0.1', allowed is '0.1..8'"),
+        (["--speeds", "2..2"], "--speeds: the range is empty: found '2..2'"),
+        (["--speeds", "0..2"], "--speeds: cannot be understood: found '0..2', allowed is 'LOW..HIGH', SI, both over 0"),
+        (["--displacements", "1e-6"], "--displacements: cannot be understood: found '1e-6', allowed is 'LOW..HIGH'"),
+    ]:
+        done = run("design", *words, "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN)
+        assert done.returncode == 1 and wanted in done.stderr and done.stderr.count("\n") == 1, (words, done.stderr)
 
 
 def noisy_drops():

@@ -335,7 +335,7 @@ def case_usage():
     time.sleep(0.5)
     stopped.send_signal(signal.SIGINT)
     err = stopped.communicate(timeout=60)[1]
-    assert stopped.returncode == 130 and err == "mpm: stopped\n", (stopped.returncode, err)
+    assert stopped.returncode == 130 and err.endswith("mpm: stopped\n"), (stopped.returncode, err)
     assert not list(Path().glob("late.csv*"))
     # a run that does not come to look (its samples are far apart) is ended by the second Ctrl-C
     deaf = subprocess.Popen([MPM, "impact", name, "--particle", "grain", "--velocity", "1e-6", "--resolution", "200"],
@@ -801,7 +801,8 @@ def case_soften():
     assert result["overlap_over_radius"] <= 0.2 and result["stretch"] >= 1
     loose = Run("soften", *words, "--max-overlap", "0.5", "--static-limit", "100", "--json").json()
     assert loose["stretch"] > result["stretch"] and loose["extra_plastic_set_over_radius"] >= 0
-    assert abs(loose["time_step_s"] / (6e-6 * loose["stretch"]) - 1) < 1e-12  # the deck's, times s
+    advised = Run("plan", *words, "--json").json()["time_step_s"]["advised"]
+    assert abs(loose["time_step_s"] / (advised * loose["stretch"]) - 1) < 1e-12  # the plan's, times s, whatever the deck has
     for e in loose["modulus_lowered"]["restitution"]:
         assert e["e_modulus_lowered"] > e["e_stretched"] + 0.05  # softer spheres yield less: e is not kept
     human = Run("soften", *words)

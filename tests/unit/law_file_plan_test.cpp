@@ -55,8 +55,22 @@ TEST(LawFilePlan, SaysWhyABodyNeedsRuns)
   for (const auto& [name, planned] : plan_law_file(r).bodies) EXPECT_EQ(planned.why_runs, "it was lost");
 
   r = request({{"powder", "wall"}});
-  r.materials.materials["powder"].yield_stress = 250e6;
-  EXPECT_NE(plan_law_file(r).bodies.at("powder").why_runs.find("E*/Y = 12 lies outside"), std::string::npos);
+  r.materials.materials["powder"].yield_stress = 200e6;
+  EXPECT_NE(plan_law_file(r).bodies.at("powder").why_runs.find("E*/Y = 15 lies outside"), std::string::npos);
+}
+
+/// Before anything is run: both ends of what runs reach.
+TEST(LawFilePlan, RefusesARangeThatRunsDoNotReach)
+{
+  LawFileRequest r = request({{"powder", "wall"}});
+  Material& powder = r.materials.materials["powder"];
+  const double e_star = powder.e_star();
+  powder.yield_stress = e_star / 1e6;
+  expect_error("found E*/Y = 1e+06, allowed is up to ", [&] { plan_law_file(r); });
+  powder.yield_stress = e_star / 2e4;
+  EXPECT_FALSE(plan_law_file(r).bodies.at("powder").from_atlas());
+  powder.yield_stress = e_star / 11;
+  expect_error("yields too late", [&] { plan_law_file(r); });
 }
 
 TEST(LawFilePlan, UnlikePairsOfTheAtlasAreComposed)

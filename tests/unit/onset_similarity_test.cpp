@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
+
 namespace granulaw {
 namespace {
 
@@ -42,6 +44,9 @@ TEST(OnsetSimilarity, SparesNoRunThatItsSpheresCannotTell)
   EXPECT_TRUE(OnsetSimilarity(characterised_body_of(500, 0.3, 0.01), needs, nullptr).spares_first());
   EXPECT_FALSE(OnsetSimilarity(characterised_body_of(1500, 0.3, 0.01), needs, nullptr).spares_first());
   EXPECT_FALSE(OnsetSimilarity(characterised_body_of(5000, 0.3, 0.01), needs, nullptr).spares_first());
+  // the law of E*/Y = 170 ends at 0.5 R, which is 2e-4 R at sqrt(0.5/2e-4) = 50 times the stiffness
+  EXPECT_THROW(OnsetSimilarity(characterised_body_of(8600, 0.3, 0.01), needs, nullptr), Error);
+  EXPECT_NO_THROW(OnsetSimilarity(characterised_body_of(8400, 0.3, 0.01), needs, nullptr));
   needs.tolerance = 0.005;
   EXPECT_FALSE(OnsetSimilarity(characterised_body_of(500, 0.3, 0.01), needs, nullptr).spares_first());
 }

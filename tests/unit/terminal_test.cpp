@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <regex>
 
 namespace granulaw {
 namespace {
@@ -52,6 +53,21 @@ TEST(Terminal, ABarThatIsNotWantedPrintsNothing)
     bar.update(0.5, "half");
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// A captured stderr is no terminal: a line each time the interval is over, and none before.
+TEST(Terminal, WithoutATerminalProgressIsLines)
+{
+  testing::internal::CaptureStderr();
+  {
+    ProgressBar often(true, ProgressBar::Clock::duration::zero());
+    often.update(0.25, "lead: press to 0.02 R");
+    often.update(0.5, "");
+    ProgressBar seldom(true, ProgressBar::Clock::duration::max());
+    seldom.update(0.5, "half");
+  }
+  const std::regex lines("mpm: 25 % after \\d+ s: lead: press to 0.02 R\nmpm: 50 % after \\d+ s\n");
+  EXPECT_TRUE(std::regex_match(testing::internal::GetCapturedStderr(), lines));
 }
 
 }  // namespace

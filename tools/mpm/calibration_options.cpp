@@ -49,16 +49,23 @@ std::vector<ParameterRange> ranges_of(const std::vector<std::string>& words, con
 
 NamedRange parse_named_range(const std::string& word, const std::string& option)
 {
-  const auto equals = word.find('='), dots = word.find("..");
-  const auto complain = [&] {
-    fail(option, "cannot be understood", fmt::format("'{}'", cut(word)),
-         "'NAME = LOW..HIGH', SI, both over 0");
-  };
-  if (equals == std::string::npos || dots == std::string::npos || dots < equals) complain();
-  const NamedRange r{
-      without_blanks(word.substr(0, equals)),
-      {number_or_nan(word.substr(equals + 1, dots - equals - 1)), number_or_nan(word.substr(dots + 2))}};
-  if (!(r.range.low > 0 && r.range.high > r.range.low && std::isfinite(r.range.high))) complain();
+  const auto equals = word.find('=');
+  const char* form = "'NAME = LOW..HIGH', SI, both over 0";
+  if (equals == std::string::npos) fail(option, "cannot be understood", fmt::format("'{}'", cut(word)), form);
+  return {without_blanks(word.substr(0, equals)), parse_range(word.substr(equals + 1), option, form)};
+}
+
+Range parse_range(const std::string& word, const std::string& option, const std::string& form)
+{
+  const auto dots = word.find("..");
+  const std::string found = fmt::format("'{}'", cut(without_blanks(word)));
+  if (dots == std::string::npos) fail(option, "cannot be understood", found, form);
+  const Range r{number_or_nan(word.substr(0, dots)), number_or_nan(word.substr(dots + 2))};
+  if (!(r.low > 0 && r.high > 0 && std::isfinite(r.low) && std::isfinite(r.high)))
+    fail(option, "cannot be understood", found, form);
+  if (!(r.high > r.low))
+    fail(option, r.high < r.low ? "the range runs downwards" : "the range is empty", found,
+         r.high < r.low ? fmt::format("'{:g}..{:g}'", r.high, r.low) : form);
   return r;
 }
 

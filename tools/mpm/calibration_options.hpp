@@ -41,5 +41,8 @@ struct NamedRange
   Range range;
 };
 NamedRange parse_named_range(const std::string& word, const std::string& option);
+/// "A..B", both over 0, A below B. `form`: what is allowed, for the sentence.
+Range parse_range(const std::string& word, const std::string& option,
+                  const std::string& form = "'LOW..HIGH', SI, both over 0");
 
 }  // namespace granulaw

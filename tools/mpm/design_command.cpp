@@ -37,7 +37,7 @@ void add_candidates(std::vector<DesignCandidate>& all, MeasurementKind kind, con
                     const char* option, int places, double most, const std::string& why)
 {
   if (range.empty()) return;
-  Range r = parse_named_range("x = " + range, option).range;
+  Range r = parse_range(range, option);
   if (r.low >= most) fail(option, "none of these measurements can be made", range, why);
   if (r.high > most) fmt::print(stderr, "mpm: {} {}: left out beyond {}\n", option, range, why);
   r.high = std::min(r.high, most);

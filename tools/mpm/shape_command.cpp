@@ -129,7 +129,7 @@ void define(CLI::App& command)
       ->required()
       ->check(above_zero());
   command
-      .add_option("--directions", r->question.directions,
+      .add_option("--directions,--orientations", r->question.directions,
                   "directions over the whole sphere; the body's mirror planes leave a part of them")
       ->check(whole_from_to(4, 10000))
       ->capture_default_str();

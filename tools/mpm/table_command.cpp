@@ -10,6 +10,7 @@
 
 #include "atlas_path.hpp"
 #include "base/error.hpp"
+#include "characterise/build_law.hpp"
 #include "characterise/make_law_file.hpp"
 #include "claim.hpp"
 #include "command.hpp"
@@ -81,6 +82,19 @@ MadeLawFile make(const LawFilePlan& plan, Farm* farm)
   file.law.provenance["command"] = command_line;
   if (farm) file.law.provenance["ranks"] = fmt::format("{}", ranks());
   return file;
+}
+
+/// Before the runs: why they are needed, and what they cost. At once, as a batch job's log shows it.
+void print_expected(const LawFilePlan& plan)
+{
+  for (const auto& [name, body] : plan.bodies) {
+    if (body.from_atlas()) continue;
+    const ExpectedRuns runs =
+        expected_runs(body.body.material, body.body.characterised, plan.build_options());
+    fmt::print("{}: by the solver ({}): {} runs to begin with, about {:.0f} s of CPU, and up to {}\n", name,
+               body.why_runs, runs.first, std::max(1.0, runs.first_cpu_s), runs.most);
+  }
+  std::fflush(stdout);
 }
 
 void print_body(const std::string& name, const LawFilePlan::Body& planned, const MadeLawFile& file)
@@ -176,6 +190,7 @@ void make_table(const TableRequest& r)
   r.farm.check();
   const std::optional<Atlas> atlas = r.no_atlas ? std::nullopt : own_atlas();
   const LawFilePlan plan = plan_law_file(law_file_request(r, atlas ? &*atlas : nullptr));
+  if (rank() == 0) print_expected(plan);
   const std::unique_ptr<Farm> farm = plan.needs_runs() ? r.farm.farm() : nullptr;
   const MadeLawFile file = make(plan, farm.get());
   if (rank() != 0) return;
@@ -236,7 +251,7 @@ void add_range_options(CLI::App& command, LawFileRequest& file)
 void add_shape_options(CLI::App& command, ShapeQuestion& shapes)
 {
   command
-      .add_option("--orientations", shapes.directions,
+      .add_option("--directions,--orientations", shapes.directions,
                   "of a particle with a shape: directions of its certificate, over all that its mirror "
                   "planes leave")
       ->check(whole_from_to(4, 10000))

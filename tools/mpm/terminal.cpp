@@ -38,24 +38,31 @@ void stop_if_interrupted()
   if (interrupted) throw Interrupted{};
 }
 
-ProgressBar::ProgressBar(bool visible)
-    : visible_(visible && isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now())
+ProgressBar::ProgressBar(bool visible, Clock::duration every)
+    : visible_(visible),
+      is_terminal_(isatty(STDERR_FILENO) != 0),
+      every_(is_terminal_ ? std::chrono::milliseconds(100) : every),
+      start_(Clock::now()),
+      last_(is_terminal_ ? Clock::time_point{} : start_)
 {
 }
 
 void ProgressBar::clear()
 {
-  if (visible_) fmt::print(stderr, "\r{:79}\r", "");
+  if (visible_ && is_terminal_) fmt::print(stderr, "\r{:79}\r", "");
 }
 
 void ProgressBar::update(double done, const std::string& what)
 {
   stop_if_interrupted();
-  const auto now = std::chrono::steady_clock::now();
-  if (!visible_ || now - last_ < std::chrono::milliseconds(100)) return;
+  const auto now = Clock::now();
+  if (!visible_ || now - last_ < every_) return;
   last_ = now;
-  const auto width = static_cast<int>(30 * std::clamp(done, 0.0, 1.0));
   const double seconds = std::chrono::duration<double>(now - start_).count();
+  if (!is_terminal_)
+    return fmt::print(stderr, "mpm: {:.0f} % after {:.0f} s{}{}\n", 100 * done, seconds, what.empty() ? "" : ": ",
+                      what);
+  const auto width = static_cast<int>(30 * std::clamp(done, 0.0, 1.0));
   fmt::print(stderr, "\r[{:30}] {:3.0f} % {:4.0f} s  {:30.30}",
              std::string(static_cast<std::size_t>(width), '='), 100 * done, seconds, what);
   std::fflush(stderr);

@@ -16,19 +16,22 @@ bool is_interrupted();
 /// Throws Interrupted once the flag is set.
 void stop_if_interrupted();
 
-/// A bar on stderr, drawn only when it is asked to be visible and stderr is a terminal; every update also
-/// looks for Ctrl-C.
+/// Progress on stderr, only when it is asked to be visible: a bar on a terminal, elsewhere (a batch job's log)
+/// a line every half minute. Every update also looks for Ctrl-C.
 class ProgressBar
 {
  public:
-  explicit ProgressBar(bool visible = true);
+  using Clock = std::chrono::steady_clock;
+  /// `every`: between two lines where stderr is no terminal.
+  explicit ProgressBar(bool visible = true, Clock::duration every = std::chrono::seconds(30));
   ~ProgressBar() { clear(); }
   void update(double done, const std::string& what);
   void clear();  ///< wipes the bar's line, before something else is printed
 
  private:
-  bool visible_;
-  std::chrono::steady_clock::time_point start_, last_{};
+  bool visible_, is_terminal_;
+  Clock::duration every_;
+  Clock::time_point start_, last_;
 };
 
 }  // namespace granulaw
