@@ -856,8 +856,10 @@ def case_tutorials():
             ("meshGran/in.meshGran", None, 1.0, [0.005, 0.005]),
             ("movingMeshGran/in.movingMeshGran", None, 0.8, [0.04, 0.04]),
             ("conveyor/in.conveyor", None, 1.0, [0.015, 0.025])):
-        plan = Run("plan", TUTORIALS / deck, "--materials-file", known["yields"], "--materials", "powder", "--json").json()
+        words = [TUTORIALS / deck, "--materials-file", known["yields"], "--materials", "powder"]
+        plan, soft = Run("plan", *words, "--json").json(), Run("soften", *words, "--json").json()
         assert plan["complete"], (deck, plan["asks_for"])
+        assert abs(soft["time_step_s"] / soft["stretch"] / plan["time_step_s"]["advised"] - 1) < 1e-12, deck  # one rule
         assert plan["radius_m"] == radii, (deck, plan["radius_m"])
         pair, wall = plan["pairs"]
         assert pair["needs_table"] and pair["speed_max_m_per_s"] >= wall["speed_max_m_per_s"] > start
