@@ -80,7 +80,9 @@ TEST_F(DeckOptionsTest, ParticlesNeedTheirMaterial)
                    " has no material for atom type 1 'powdr' (did you mean 'powder'?): allowed is powder",
                [&] { planned(with_names("powdr steel")); });
   // the plug-in's own word for a type without yield
-  EXPECT_FALSE(planned(with_names("elastic steel")).options.materials.at(1).yields());
+  const PlannedDeck elastic = planned(with_names("elastic steel"));
+  EXPECT_FALSE(elastic.options.materials.at(1).yields());
+  EXPECT_EQ(elastic.plan.pairs.back().overlap_basis, "Hertz");
   // a wall that gives way has a material, too
   std::string soft = deck_text;
   soft.replace(soft.find("primitive type 2"), 16, "wall deformable primitive type 2");

@@ -152,6 +152,7 @@ class LawsAtHand
 
   std::optional<deck::Collision> collide(const deck::Meeting& m, double r_eff, double m_eff, double speed)
   {
+    if (follows_hertz(m)) return {};
     for (const bool own : {true, false})
       if (const auto pair = own ? by_deck(m) : by_atlas(m)) {
         const Replay replay = replay_collision(*pair, r_eff, m_eff, speed, 2000);
@@ -164,6 +165,7 @@ class LawsAtHand
 
   std::optional<double> stiffness(const deck::Meeting& m, double r_eff, double overlap)
   {
+    if (follows_hertz(m)) return {};
     for (const bool own : {true, false})
       if (const auto pair = own ? by_deck(m) : by_atlas(m)) {
         if (own && overlap > pair->max_overlap(r_eff)) continue;
@@ -173,6 +175,12 @@ class LawsAtHand
   }
 
  private:
+  /// As the plug-in does for types that the deck calls `elastic`.
+  static bool follows_hertz(const deck::Meeting& m)
+  {
+    return m.yields.name == plugin::elastic_name && !m.yields.yields();
+  }
+
   std::optional<PairLaw> by_deck(const deck::Meeting& m) const
   {
     if (!deck_law_) return {};
