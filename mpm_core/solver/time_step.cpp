@@ -66,6 +66,7 @@ double advance(Scene& scene, BasicProgramme<Scene>& programme, double time, doub
     points_to_grid(body);     // stresses become forces on the nodes
     update_grid(body, kick);  // forces become velocities
   }
+  programme.lead(scene, time, dt);                                        // what pushes from outside
   const double impulse = scene.contact->correct(scene.bodies, kick, dt);  // nothing passes the other side
   programme.apply(scene, time, dt, impulse > 0);                          // what holds or throws the bodies
   scene.contact->account(scene.bodies);

@@ -26,7 +26,6 @@ class TreatedLoading
   double force(double delta) const;
   /// Largest treated force up to the overlap `until`: there, unless the force falls before the reversal.
   double largest_force(double until) const;
-  double from() const { return from_; }
   /// rms of raw/treated - 1 over 0.25 to 1 of the largest delta.
   double grid_noise() const { return grid_noise_; }
 

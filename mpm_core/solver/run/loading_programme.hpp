@@ -14,6 +14,8 @@ class BasicProgramme
 {
  public:
   virtual ~BasicProgramme() = default;
+  /// To be called before the contact of that step: velocities of planes that the programme moves.
+  virtual void lead(Scene& /*scene*/, double /*time*/, double /*dt*/) {}
   /// Velocities for the step from `time` to `time + dt`; `touching`: the contact pushed in this step.
   virtual void apply(Scene& scene, double time, double dt, bool touching) = 0;
   virtual bool finished() const = 0;

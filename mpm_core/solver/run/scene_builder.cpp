@@ -9,6 +9,7 @@
 #include "solver/flow/flow_laws.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/grid/updated_body.hpp"
+#include "solver/run/estimates.hpp"
 
 namespace granulaw {
 
@@ -190,13 +191,12 @@ void Collision::check_grid() const
 
 double Collision::expected_overlap(double v) const
 {
-  // Hertz, and a mean pressure of 2.8 Y on the geometric area 2 pi R* delta
-  const double hertz = std::pow(15.0 / 16.0 * reduced_mass_ * v * v / (e_star_ * std::sqrt(length_)), 0.4);
+  const double hertz = hertz_overlap(reduced_mass_, e_star_, length_, v);
   const auto plastic = [&](const Material& m) {
     if (!m.yields()) return 0.0;
     const double rate = v * scale_.velocity() / scale_.length;
     const double yield = m.yield_stress / scale_.stress * rate_factor(m, rate);
-    return v * std::sqrt(reduced_mass_ / (5.6 * M_PI * length_ * yield));
+    return plastic_overlap(reduced_mass_, length_, yield, v);
   };
   double bodies = std::max(hertz, plastic(particle_.materials.front()));
   if (partner_.particle) bodies = std::max(bodies, plastic(partner_.particle->materials.front()));
@@ -214,19 +214,17 @@ double Collision::expected_overlap(double v) const
     for (const Particle::Inclusion& ball : p->inclusions)
       if (ball.material >= 0) softer(p->materials[ball.material], 2 * ball.radius);
   }
-  return std::min(0.9, deepest);
+  return std::min(deepest_overlap, deepest);
 }
 
-/// sqrt(x) while elastic, growing towards sqrt(2 x) (the geometric intersection) when fully plastic, of a
-/// sphere of radius 1 on a plane; in general where both surfaces are half to all of x apart.
+/// sqrt(x) while elastic, growing towards sqrt(2 x) when fully plastic, of a sphere of radius 1 on a plane;
+/// in general where both surfaces are gap_at_edge() apart.
 double Collision::contact_radius(const Particle& p, double x) const
 {
-  double share = 0;
-  if (std::isfinite(yield_)) {
-    const double onset = onset_overlap(e_star_ * scale_.stress, yield_, p.materials.front().poisson_ratio);
-    share = std::clamp(std::log10(std::max(1.0, x / (length_ * onset))) / 2.0, 0.0, 1.0);
-  }
-  const double gap = 0.5 * x * (1 + share);
+  const double onset = std::isfinite(yield_) ? length_ * onset_overlap(e_star_ * scale_.stress, yield_,
+                                                                       p.materials.front().poisson_ratio)
+                                             : yield_;
+  const double gap = gap_at_edge(x, onset);
   if (particle_.is_sphere() && !partner_.particle && !partner_.wall) return std::sqrt(2 * gap);
   const auto apart = [&](double r) {
     double sum = particle_.surface_z(r * scale_.length);
@@ -243,12 +241,11 @@ double Collision::contact_radius(const Particle& p, double x) const
   return high;
 }
 
-/// Half width of the block of fine cells under a particle, R. Beyond 0.85 R grids of 8 and 10 cells fold; and
-/// a contact covers no more than 0.7 R of the reference surface: at V/V_y = 3000 it is 1.2 R wide, stretched
-/// from 0.63 R.
+/// Half width of the block of fine cells under a particle, R.
 double Collision::block_for(const Particle& p, double deepest) const
 {
-  return std::clamp(1.3 * contact_radius(p, deepest), 1e-4, 0.85 * p.radius / scale_.length);
+  return std::clamp(block_over_contact * contact_radius(p, deepest), 1e-4,
+                    widest_block * p.radius / scale_.length);
 }
 
 Body Collision::fitted_sphere(const Particle& p, double block, int cells, double shift) const

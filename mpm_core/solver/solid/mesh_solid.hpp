@@ -16,14 +16,10 @@ class MeshSolid : public Solid
   double depth(const Vector3& x) const override;  ///< the distance itself, everywhere
   Vector3 outward_normal(const Vector3& x) const override;
   double support(const Vector3& direction, Vector3* where) const override;
-  /// Of a paraboloid fitted to the vertices within patch_size() of the support point: what a contact of about
-  /// that size sees. Wider where fewer than 12 vertices lie there; 0 and 0 of a mesh with fewer than 6 around
-  /// the point.
+  /// Of a paraboloid fitted to the vertices within a tenth of the radius of the sphere of the body's volume
+  /// about the support point: the curvature that a contact of about that size has. Wider where fewer than 12
+  /// vertices lie there; 0 and 0 of a mesh with fewer than 6 around the point.
   PrincipalRadii principal_radii(const Vector3& direction) const override;
-  double patch_size() const
-  {
-    return patch_;
-  }  ///< m: a tenth of the radius of the sphere of the body's volume
   /// Of paraboloids fitted to two rings of neighbours about each vertex: of a sharp edge about the size of
   /// its triangles.
   double finest_radius() const override { return finest_; }

@@ -55,6 +55,13 @@ void PlanesProgramme::damp(SpatialScene& scene, double share)
   damping_ += body.kinetic_energy() - before;
 }
 
+void PlanesProgramme::lead(SpatialScene& scene, double time, double dt)
+{
+  velocity_ = target_velocity(time + 0.5 * dt);
+  auto& planes = static_cast<SpatialContact&>(*scene.contact).planes();
+  for (std::size_t k = 0; k < planes.size(); ++k) planes[k].velocity = velocity_ * plan_.speeds[k];
+}
+
 void PlanesProgramme::apply(SpatialScene& scene, double time, double dt, bool)
 {
   auto& contact = static_cast<SpatialContact&>(*scene.contact);
@@ -84,9 +91,6 @@ void PlanesProgramme::apply(SpatialScene& scene, double time, double dt, bool)
       finished_ = now_ - last_touch_ > leaving_time || delta_ < -0.5 * plan_.depth;
       break;
   }
-  velocity_ = target_velocity(now_ + 0.5 * dt);
-  for (std::size_t k = 0; k < contact.planes().size(); ++k)
-    contact.planes()[k].velocity = velocity_ * plan_.speeds[k];
   work_ = contact.work() + damping_;
 }
 

@@ -18,6 +18,7 @@ class PlanesProgramme : public BasicProgramme<SpatialScene>
     std::vector<double> speeds;  ///< of each plane, over that of the programme
   };
   explicit PlanesProgramme(Plan plan) : plan_(std::move(plan)) {}
+  void lead(SpatialScene& scene, double time, double dt) override;
   void apply(SpatialScene& scene, double time, double dt, bool touching) override;
   bool finished() const override { return finished_; }
   Branch branch() const override { return phase_ == Phase::unload ? Branch::unload : Branch::load; }

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "solver/flow/flow_laws.hpp"
+#include "solver/run/estimates.hpp"
 #include "solver/run/scene_builder.hpp"
 #include "solver/solid/body_frame.hpp"
 #include "solver/spatial/spatial_grid.hpp"
@@ -154,35 +155,32 @@ SpatialSetup::Touch SpatialSetup::touch_of(const Plane& plane) const
   return touch;
 }
 
-/// Hertz, and a mean pressure of 2.8 Y on the geometric area 2 pi R delta.
 double SpatialSetup::expected_overlap(double v) const
 {
   const double radius = std::sqrt(touches_.front().sharper * touches_.front().flatter);
-  double deepest = std::pow(15.0 / 16.0 * mass_ * v * v / std::sqrt(radius), 0.4);
+  double deepest = hertz_overlap(mass_, 1.0, radius, v);
   for (const Material& m : particle_.materials) {
     if (!m.yields()) continue;
     const double rate = v * scale_.velocity() / scale_.length;
     const double yield = m.yield_stress / scale_.stress * rate_factor(m, rate);
-    deepest = std::max(deepest, v * std::sqrt(mass_ / (5.6 * M_PI * radius * yield)));
+    deepest = std::max(deepest, plastic_overlap(mass_, radius, yield, v));
   }
-  return std::min(0.9, deepest);
+  return std::min(deepest_overlap, deepest);
 }
 
 /// Half widths of the fine block across and along the sharper direction: as Collision::block_for, with the
 /// principal radii.
 std::array<double, 2> SpatialSetup::block_of(const Touch& touch, double deepest) const
 {
-  double share = 0;
-  if (std::isfinite(yield_)) {
-    const Material& m = particle_.materials.front();
-    const double onset = onset_overlap(scale_.stress, yield_, m.poisson_ratio);
-    const double radius = std::sqrt(touch.sharper * touch.flatter);
-    share = std::clamp(std::log10(std::max(1.0, deepest / (radius * onset))) / 2.0, 0.0, 1.0);
-  }
-  const double gap = 0.5 * deepest * (1 + share), widest = 0.85 * (high_ - low_).maxCoeff() / 2;
-  const auto half_width = [&](double radius) {
-    return std::clamp(1.3 * std::sqrt(2 * gap * radius), 1e-4,
-                      std::min(widest, 0.85 * std::max(1.0, radius)));
+  const double radius = std::sqrt(touch.sharper * touch.flatter);
+  const double onset =
+      std::isfinite(yield_)
+          ? radius * onset_overlap(scale_.stress, yield_, particle_.materials.front().poisson_ratio)
+          : yield_;
+  const double gap = gap_at_edge(deepest, onset), widest = widest_block * (high_ - low_).maxCoeff() / 2;
+  const auto half_width = [&](double r) {
+    return std::clamp(block_over_contact * std::sqrt(2 * gap * r), 1e-4,
+                      std::min(widest, widest_block * std::max(1.0, r)));
   };
   return {half_width(touch.sharper), half_width(touch.flatter)};
 }
