@@ -13,9 +13,9 @@
 #include "law/replay.hpp"
 #include "solver/output/state_archive.hpp"
 #include "solver/run/accuracy.hpp"
+#include "solver/runs.hpp"
 #include "solver/solid/body_frame.hpp"
 #include "solver/solver_id.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 
 namespace granulaw {
 
@@ -89,7 +89,7 @@ RunJob job_of(const Particle& particle, const std::string& body, const Certified
     options.resolution = impact.cells;
     options.shifted_grids = 1;
     options.precision = Precision::single;
-    BodyThrow thrown;
+    Approach thrown;
     thrown.velocity = impact.check.velocity;
     thrown.orientation = impact.check.direction;
     thrown.turn = impact.turn;

@@ -77,6 +77,49 @@ RunResult run_impact(const Particle& particle, double velocity, const RunOptions
       });
 }
 
+namespace {
+
+/// Whether a run is one of three dimensions; `needed`: the reason beside shape and grid, null for none.
+bool in_three_dimensions(const Particle& particle, const Partner& partner, const RunOptions& options,
+                         const char* needed)
+{
+  const char* reason = particle.solid ? "a body of any shape" : needed;
+  if (!reason && options.grid != GridKind::spatial) return false;
+  if (options.grid != GridKind::spatial && options.grid != GridKind::automatic)
+    fail("--grid", fmt::format("{} needs three dimensions", reason), name_of(options.grid),
+         name_of(GridKind::spatial));
+  if (partner.particle || partner.wall)
+    fail("partner", "three dimensions have rigid planes only", partner.particle ? "a particle" : "a wall");
+  return true;
+}
+
+}  // namespace
+
+RunResult impact(const Particle& particle, const Approach& approach, const Partner& partner,
+                 const RunOptions& options)
+{
+  const bool oblique = approach.tangential_velocity != 0 || approach.spin != 0 || approach.friction != 0 ||
+                       approach.orientation != Approach{}.orientation || approach.turn != 0 ||
+                       approach.first_contact_only;
+  if (in_three_dimensions(particle, partner, options, oblique ? "an approach that is not head-on" : nullptr))
+    return run_body_impact(particle, approach, options);
+  return run_impact(particle, approach.velocity, options, partner);
+}
+
+RunResult press(const Particle& particle, const PressPlan& plan, const Partner& partner,
+                const RunOptions& options)
+{
+  if (!in_three_dimensions(particle, partner, options, plan.planes.empty() ? nullptr : "a press by planes"))
+    return run_press(particle, plan, options, partner);
+  if (plan.support != Support::free)
+    fail("--support", "cannot go with three dimensions: planes hold the body", "midplane");
+  if (!plan.partial_unloads.empty())
+    fail("partial unloads", "cannot go with three dimensions: planes unload once");
+  PressPlan by_planes = plan;
+  if (plan.planes.empty()) by_planes.planes = named_planes("pair");
+  return run_planes_press(particle, by_planes, options);
+}
+
 RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& options)
 {
   return run_impact(Particle::from(sphere), velocity, options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -25,7 +26,7 @@ enum class GridKind {
   mapped,       ///< fitted to the sphere: fastest and most exact
   rectilinear,  ///< graded Cartesian reference grid: any body of revolution, layers, inclusions
   updated,      ///< the points move through a fixed grid: the independent check
-  spatial       ///< graded rectilinear in three dimensions: any shape, side, friction (spatial_runs.hpp)
+  spatial       ///< graded rectilinear in three dimensions: any shape, side, friction
 };
 
 /// "auto", "mapped", "rectilinear", "updated" or "rectilinear-3d", as the command line has it.
@@ -65,30 +66,81 @@ struct RunOptions
   CheckpointStore checkpoints{};  ///< where the runs keep their state (checkpoint.hpp); not with `fields`
 };
 
-/// A particle thrown along its axis at a partner, with the relative `velocity` (m/s, > 0); runs until they
-/// have parted. Overlap: approach of the centres of mass.
-RunResult run_impact(const Particle& particle, double velocity, const RunOptions& options = {},
-                     const Partner& partner = {});
-RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& options = {});
+/// How a particle comes in. All but `velocity` as left out: head-on along its axis, for which two dimensions
+/// do. Anything else is computed in three, against the rigid plane.
+struct Approach
+{
+  double velocity = 0;             ///< m/s, over 0: towards the plane or the partner
+  double tangential_velocity = 0;  ///< m/s, along the plane
+  double spin = 0;                 ///< rad/s: forward, as of a body that rolls in the direction it slides in
+  double friction = 0;             ///< Coulomb's coefficient of the plane, 0 to 10
+  /// Direction in the body's frame that points at the plane. The body's axis nearest to it leans towards +x,
+  /// along which the tangential velocity is.
+  std::array<double, 3> orientation{0, 0, -1};
+  double turn = 0;  ///< rad, by which the body is turned about the plane's normal
+  /// The run ends with the first contact, and overlaps are those of the point there. Otherwise it ends when
+  /// the centre of mass leaves: an eccentric body may turn over its first contact and hit again elsewhere.
+  bool first_contact_only = false;
+};
+
+/// A rigid plane that a body is pressed with.
+struct PressPlane
+{
+  std::array<double, 3> direction{0, 0, 1};  ///< from the body to the plane, in the body's frame
+  std::optional<double> distance{};          ///< m, from the origin of that frame; none: it touches the body
+  double speed = 1;  ///< over that of the programme: 1 moves in by the depth, 0 stands
+  double friction = 0;
+};
+
+/// The planes of a named arrangement: pair, cube, die (a pair moves in, four planes stand), bcc (8), fcc
+/// (12). Empty: no such name.
+std::vector<PressPlane> named_planes(const std::string& name);
 
 struct PressPlan
 {
-  double depth = 0;  ///< m, deepest overlap
-  Support support = Support::free;
-  std::vector<double>
-      partial_unloads;  ///< m, ascending overlaps < depth at which the press unloads until the
-                        ///< force ends, then reloads; each makes an unload and a reload segment
-  double ramp = 0;      ///< loading time in R/c*; 0: the default of the run
+  double depth = 0;  ///< m, deepest overlap; with planes: way of those of speed 1. Over 0, up to 0.8 R
+  Support support = Support::free;        ///< two dimensions
+  std::vector<double> partial_unloads{};  ///< m, two dimensions: ascending overlaps < depth at which the
+                                          ///< press unloads until the force ends, then reloads; each makes an
+                                          ///< unload and a reload segment
+  double ramp = 0;                   ///< loading time in R/c*; 0: the default of the run
+  std::vector<PressPlane> planes{};  ///< planes that press the body in three dimensions; none: its partner
 };
+
+/// A particle thrown at a partner; runs until they have parted. Overlap: approach of the centres of mass. The
+/// dimension is the one that particle, approach and `options.grid` need. Throws Error (base/error.hpp), one
+/// sentence, where something cannot be used, or where the run fails. In three dimensions `planes` and
+/// `rebound` of the result are filled. Method and accuracy: docs/theory/method.md,
+/// docs/evidence/solver-accuracy.md.
+RunResult impact(const Particle& particle, const Approach& approach, const Partner& partner = {},
+                 const RunOptions& options = {});
+
+/// A particle pressed slowly onto its partner, or by planes, to plan.depth and taken off completely.
+/// Dimension and errors as of impact(). With planes the trace follows the first, and restitution is sqrt(work
+/// given back/work put in) of all; a body of any shape that names none is pressed by a pair.
+RunResult press(const Particle& particle, const PressPlan& plan, const Partner& partner = {},
+                const RunOptions& options = {});
+
+/// Force of each plane at its largest way, N: the mean of the loading's last percent.
+double force_at_depth(const RunResult& press, std::size_t plane);
 
 /// Loading time, R/c*, that a press to `depth` (over R) takes where its plan names none: slow enough for the
 /// rate-free law. `yield_over_e_star`: Y/E* of the weakest body; infinity: elastic.
 double default_press_ramp(double depth, double yield_over_e_star);
 
-/// A particle pressed slowly along its axis onto its partner to plan.depth and taken off completely.
+// The same in one of the dimensions, whatever the scene would need.
+
+/// A body of revolution along its axis.
+RunResult run_impact(const Particle& particle, double velocity, const RunOptions& options = {},
+                     const Partner& partner = {});
+RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& options = {});
 RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options = {},
                     const Partner& partner = {});
 RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOptions& options = {});
+
+/// A body of any shape among rigid planes.
+RunResult run_body_impact(const Particle& particle, const Approach& approach, const RunOptions& options = {});
+RunResult run_planes_press(const Particle& particle, const PressPlan& plan, const RunOptions& options = {});
 
 /// The grid that `GridKind::automatic` takes for a particle, and why, as the end of a sentence.
 struct GridChoice

@@ -31,7 +31,6 @@
 #include "base/version.hpp"
 #include "solver/run/grid_noise.hpp"
 #include "solver/runs.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 
 namespace {
 

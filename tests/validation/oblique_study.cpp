@@ -21,8 +21,8 @@
 #include "characterise/law_material.hpp"
 #include "farm/farm.hpp"
 #include "oblique_replay.hpp"
+#include "solver/runs.hpp"
 #include "solver/solver_id.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 
 namespace {
 
@@ -70,7 +70,7 @@ std::vector<Case> cases(const Setting& s)
 
 RunJob job_of(const Particle& particle, const Case& c, double velocity, const Setting& s)
 {
-  BodyThrow thrown;
+  Approach thrown;
   thrown.velocity = velocity, thrown.friction = c.friction;
   thrown.tangential_velocity = velocity * std::tan(c.angle * M_PI / 180);
   RunJob job;

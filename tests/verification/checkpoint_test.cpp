@@ -11,7 +11,6 @@
 #include "references.hpp"
 #include "solver/run/accuracy.hpp"
 #include "solver/runs.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 
 namespace granulaw {
 namespace {
@@ -131,14 +130,14 @@ Run press(Support support, const Partner& partner = {})
 /// Three dimensions, with all that they keep: friction, spin, impulses at the markers.
 Run oblique_impact()
 {
-  BodyThrow thrown{0.1};
+  Approach thrown{0.1};
   thrown.friction = 0.2, thrown.tangential_velocity = 0.1;
   return [=](const RunOptions& o) { return run_body_impact(Particle::from(soft()), thrown, o); };
 }
 
 Run cube_press()
 {
-  PlanesPlan plan;
+  PressPlan plan;
   plan.planes = named_planes("cube"), plan.depth = 0.08, plan.ramp = 10;
   return [=](const RunOptions& o) { return run_planes_press(Particle::from(soft()), plan, o); };
 }

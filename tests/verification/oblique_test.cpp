@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "solver/spatial/spatial_runs.hpp"
+#include "solver/runs.hpp"
 
 namespace granulaw {
 namespace {
@@ -23,7 +23,7 @@ Particle ball()
 
 RunResult thrown(double friction, double angle_tangent, double spin = 0)
 {
-  BodyThrow t;
+  Approach t;
   t.velocity = velocity, t.tangential_velocity = angle_tangent * velocity;
   t.friction = friction, t.spin = spin;
   RunOptions options;

@@ -9,13 +9,13 @@
 
 #include "law/elliptic_contact.hpp"
 #include "solver/particle/shapes.hpp"
+#include "solver/runs.hpp"
 #include "solver/solid/body_frame.hpp"
 #include "solver/solid/box_solid.hpp"
 #include "solver/solid/clump_solid.hpp"
 #include "solver/solid/ellipsoid_solid.hpp"
 #include "solver/solid/mesh_solid.hpp"
 #include "solver/solid/superquadric_solid.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 
 namespace granulaw {
 namespace {
@@ -61,7 +61,7 @@ RunOptions coarse(int cells, int grids = 1)
 RunResult thrown(const Particle& p, double velocity, const std::array<double, 3>& direction,
                  const RunOptions& options)
 {
-  BodyThrow t{velocity};
+  Approach t{velocity};
   t.orientation = direction;
   return run_body_impact(p, t, options);
 }
@@ -218,7 +218,7 @@ TEST(SpatialShapesSlow, EllipsoidEndOnAgreesWithTheAxisymmetricSolver)
 TEST(SpatialShapes, ObliqueImpactKeepsMomentumAndEnergy)
 {
   const Particle egg = particle(std::make_shared<EllipsoidSolid>(Vector3(1.2, 1, 0.8) * mm), 100);
-  BodyThrow t{100 * customary_velocity(100)};
+  Approach t{100 * customary_velocity(100)};
   t.orientation = {0.4, 0, 1}, t.friction = 0.3, t.tangential_velocity = 0.7 * t.velocity;
   const RunResult r = run_body_impact(egg, t, coarse(6));
   Vector3 impulse = Vector3::Zero(), torque = Vector3::Zero();
@@ -254,7 +254,7 @@ double impulse_until(const RunResult& r, double end)
 TEST(SpatialShapes, FirstContactOnlyEndsBeforeTheBodyHitsAgain)
 {
   const Particle rod = particle(std::make_shared<EllipsoidSolid>(Vector3(1, 1, 3) * mm), 100);
-  BodyThrow t{400 * customary_velocity(100)};
+  Approach t{400 * customary_velocity(100)};
   t.orientation = {std::sin(M_PI / 3), 0, -std::cos(M_PI / 3)};
   const RunResult whole = run_body_impact(rod, t, coarse(6));
   t.first_contact_only = true;
@@ -270,7 +270,7 @@ TEST(SpatialShapes, FirstContactOnlyEndsBeforeTheBodyHitsAgain)
 TEST(SpatialShapesSlow, TurningTheBodyAgainstTheGridChangesLittle)
 {
   const Particle egg = particle(std::make_shared<EllipsoidSolid>(Vector3(1.25, 1, 0.8) * mm), 100);
-  BodyThrow t{100 * customary_velocity(100)};
+  Approach t{100 * customary_velocity(100)};
   RunOptions options = coarse(8, 4);
   options.estimate_error = true;
   const RunSummary straight = run_body_impact(egg, t, options).summary;

@@ -6,11 +6,11 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "solver/runs.hpp"
 #include "solver/spatial/planes_programme.hpp"
 #include "solver/spatial/spatial_contact.hpp"
 #include "solver/spatial/spatial_grid.hpp"
 #include "solver/spatial/spatial_kernels.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 #include "solver/time_step.hpp"
 
 namespace granulaw {
@@ -418,7 +418,7 @@ TEST(SpatialImpact, ElasticSphereAgreesWithTheAxisymmetricSolver)
 /// two degrees: 0.1 %. The impulses also turn the body: I w = torque of both, with the lever R - delta.
 TEST(SpatialImpact, SlidingLosesFrictionTimesTheNormalImpulse)
 {
-  BodyThrow thrown{100 * customary_velocity(100)};
+  Approach thrown{100 * customary_velocity(100)};
   thrown.tangential_velocity = 3 * thrown.velocity, thrown.friction = 0.1;
   const RunResult r = run_body_impact(sphere(100), thrown, coarse(6));
   const Rebound& rebound = *r.rebound;
@@ -433,7 +433,7 @@ TEST(SpatialImpact, SlidingLosesFrictionTimesTheNormalImpulse)
 
 RunResult press(const std::string& planes, double depth, int cells, int grids = 1)
 {
-  PlanesPlan plan;
+  PressPlan plan;
   plan.planes = named_planes(planes), plan.depth = depth * radius;
   return run_planes_press(sphere(100), plan, coarse(cells, grids));
 }
@@ -484,7 +484,7 @@ TEST(SpatialPress, ADieEndsWhenThePistonsLeave)
 /// The cube of planes turned by 45 degrees about z against the grid.
 TEST(SpatialPress, PlanesTurnedAgainstTheGrid)
 {
-  PlanesPlan plan;
+  PressPlan plan;
   plan.planes = named_planes("pair"), plan.depth = 0.11 * radius;
   const double s = std::sqrt(0.5);
   for (const double a : {s, -s})

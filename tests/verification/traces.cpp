@@ -6,7 +6,6 @@
 #include "solver/particle/shapes.hpp"
 #include "solver/runs.hpp"
 #include "solver/solid/ellipsoid_solid.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 
 namespace granulaw::verification {
 
@@ -48,7 +47,7 @@ RunOptions coarse(GridKind grid, int resolution = 8, int grids = 1)
 
 RunResult planes(const char* arrangement, double depth, double friction = 0)
 {
-  PlanesPlan plan;
+  PressPlan plan;
   plan.planes = named_planes(arrangement), plan.depth = depth, plan.ramp = 30;
   for (PressPlane& plane : plan.planes) plane.friction = friction;
   return run_planes_press(sphere(), plan, coarse(GridKind::spatial, 6));
@@ -93,13 +92,13 @@ const std::vector<TracedRun>& traced_runs()
        [=] { return run_body_impact(sphere(), {fast}, coarse(GridKind::spatial, 6)); }},
       {"spatial-friction", 5e-11,
        [=] {
-         BodyThrow thrown{fast};
+         Approach thrown{fast};
          thrown.tangential_velocity = fast, thrown.spin = 0.01, thrown.friction = 0.3;
          return run_body_impact(sphere(voce, rate), thrown, coarse(GridKind::spatial, 6));
        }},
       {"spatial-first-contact", 5e-11,
        [=] {
-         BodyThrow thrown{fast};
+         Approach thrown{fast};
          thrown.orientation = {0.3, 0.2, -0.9}, thrown.turn = 0.4, thrown.first_contact_only = true;
          return run_body_impact(ellipsoid(), thrown, coarse(GridKind::spatial, 6));
        }},

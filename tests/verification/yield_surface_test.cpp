@@ -13,7 +13,6 @@
 #include "solver/runs.hpp"
 #include "solver/spatial/spatial_grid.hpp"
 #include "solver/spatial/spatial_kernels.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 
 namespace granulaw {
 namespace {

@@ -13,7 +13,7 @@
 #include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/run/scene_builder.hpp"
-#include "solver/spatial/spatial_runs.hpp"
+#include "solver/runs.hpp"
 
 namespace granulaw {
 
@@ -36,9 +36,9 @@ void check_oblique(ImpactRequest& r)
   if (r.spin) require_three_dimensions(r.run, "--spin");
 }
 
-BodyThrow throw_of(const ImpactRequest& r)
+Approach throw_of(const ImpactRequest& r)
 {
-  BodyThrow thrown;
+  Approach thrown;
   thrown.velocity = r.velocity;
   thrown.friction = r.friction.value_or(0);
   thrown.tangential_velocity = r.tangential_velocity.value_or(0);
@@ -75,20 +75,19 @@ void impact(ImpactRequest r)
   check_velocity(r.velocity, scales_of(m.particle).velocity());
   print_setting(r.run, m.particle, r.velocity);
   const RunIdentity asked{{"command", "impact"}, {"--velocity", fmt::format("{}", r.velocity)}};
+  const Approach thrown = throw_of(r);
+  const auto run = [&](const RunOptions& options) {
+    return granulaw::impact(m.particle, thrown, m.partner, options);
+  };
   if (in_three_dimensions(r.run, m.particle)) {
-    const BodyThrow thrown = throw_of(r);
     RunIdentity oblique = asked;
     oblique.emplace_back("--friction", fmt::format("{}", thrown.friction));
     oblique.emplace_back("--tangential-velocity", fmt::format("{}", thrown.tangential_velocity));
     oblique.emplace_back("--spin", fmt::format("{}", thrown.spin));
     oblique.emplace_back("--orientation", fmt::format("{}", fmt::join(thrown.orientation, ",")));
-    return run_and_report(r.run, m, oblique, false, [&](const RunOptions& options) {
-      return run_body_impact(m.particle, thrown, options);
-    });
+    return run_and_report(r.run, m, oblique, false, run);
   }
-  run_and_report(r.run, m, asked, false, [&](const RunOptions& options) {
-    return run_impact(m.particle, r.velocity, options, m.partner);
-  });
+  run_and_report(r.run, m, asked, false, run);
 }
 
 void define(CLI::App& command)

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/spatial/spatial_runs.hpp"
+#include "solver/runs.hpp"
 
 namespace granulaw {
 

@@ -12,7 +12,7 @@
 #include "planes_file.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
-#include "solver/spatial/spatial_runs.hpp"
+#include "solver/runs.hpp"
 
 namespace granulaw {
 
@@ -60,14 +60,14 @@ void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentit
 {
   if (r.support != "free")
     fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
-  PlanesPlan plan;
+  PressPlan plan;
   plan.planes = read_planes(r.planes.empty() ? "pair" : r.planes);
   plan.depth = r.depth * particle.radius;
   plan.ramp = r.ramp.value_or(0);
   for (const PressPlane& p : plan.planes)
     asked.emplace_back("--planes", fmt::format("{} {} {} {}", fmt::join(p.direction, " "),
                                                p.distance.value_or(-1), p.speed, p.friction));
-  run(asked, [&](const RunOptions& options) { return run_planes_press(particle, plan, options); });
+  run(asked, [&](const RunOptions& options) { return granulaw::press(particle, plan, {}, options); });
 }
 
 void press(PressRequest r)
@@ -86,8 +86,9 @@ void press(PressRequest r)
     return press_by_planes(r, m.particle, asked, [&](const RunIdentity& identity, const Run& run) {
       run_and_report(r.run, m, identity, true, run);
     });
-  run_and_report(r.run, m, asked, true,
-                 [&](const RunOptions& options) { return run_press(m.particle, plan, options, m.partner); });
+  run_and_report(r.run, m, asked, true, [&](const RunOptions& options) {
+    return granulaw::press(m.particle, plan, m.partner, options);
+  });
 }
 
 void define(CLI::App& command)

@@ -9,8 +9,8 @@
 #include "collision_report.hpp"
 #include "json_output.hpp"
 #include "solver/run/scene_builder.hpp"
+#include "solver/runs.hpp"
 #include "solver/solid/solid.hpp"
-#include "solver/spatial/spatial_runs.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {

@@ -169,7 +169,7 @@ void Collision::check_grid() const
 {
   const bool two = partner_.particle || partner_.wall;
   if (options_.grid == GridKind::spatial)
-    fail("--grid", "three dimensions know rigid planes only, and have their own runs (spatial_runs.hpp)",
+    fail("--grid", "three dimensions have runs of their own, which impact() and press() choose",
          name_of(options_.grid), "mapped, rectilinear, updated");
   if (options_.grid == GridKind::mapped)
     for (const Particle* p : {&particle_, partner_.particle ? &*partner_.particle : nullptr})

@@ -1,5 +1,3 @@
-#include "solver/spatial/spatial_runs.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -12,6 +10,7 @@
 #include "solver/run/accuracy.hpp"
 #include "solver/run/mean_run.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/runs.hpp"
 #include "solver/solid/body_frame.hpp"
 #include "solver/spatial/first_contact.hpp"
 #include "solver/spatial/planes_programme.hpp"
@@ -108,7 +107,7 @@ class ReboundMeter
 
 }  // namespace
 
-RunResult run_body_impact(const Particle& particle, const BodyThrow& thrown, const RunOptions& options)
+RunResult run_body_impact(const Particle& particle, const Approach& thrown, const RunOptions& options)
 {
   check(options);
   if (options.estimate_error)
@@ -176,7 +175,7 @@ Plane plane_of(const PressPlane& p, const Scales& scale)
 
 }  // namespace
 
-RunResult run_planes_press(const Particle& particle, const PlanesPlan& plan, const RunOptions& options)
+RunResult run_planes_press(const Particle& particle, const PressPlan& plan, const RunOptions& options)
 {
   check(options);
   if (options.estimate_error)
