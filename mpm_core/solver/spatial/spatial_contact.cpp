@@ -169,11 +169,6 @@ void SpatialContact::account(std::span<const SpatialBody> bodies)
   }
 }
 
-bool SpatialContact::pushes() const
-{
-  return std::any_of(pushing_.begin(), pushing_.end(), [](char p) { return p != 0; });
-}
-
 std::vector<PlaneTally> SpatialContact::take_tallies()
 {
   std::vector<PlaneTally> taken(planes_.size());
