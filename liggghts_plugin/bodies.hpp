@@ -61,10 +61,11 @@ inline double contact_mass(const Bodies& bodies,
 {
   if (!bodies.known()) [[likely]]
     return contact.meff;
-  if (contact.is_wall) return 1.0 / bodies.inverse_mass(contact.i, contact.en, contact.mi);
+  const double n[3] = {contact.en[0], contact.en[1], contact.en[2]};  // contact may live in registers
+  if (contact.is_wall) return 1.0 / bodies.inverse_mass(contact.i, n, contact.mi);
   double inverse = 0.0;
-  if (!bodies.frozen(contact.i)) inverse += bodies.inverse_mass(contact.i, contact.en, contact.mi);
-  if (!bodies.frozen(contact.j)) inverse += bodies.inverse_mass(contact.j, contact.en, contact.mj);
+  if (!bodies.frozen(contact.i)) inverse += bodies.inverse_mass(contact.i, n, contact.mi);
+  if (!bodies.frozen(contact.j)) inverse += bodies.inverse_mass(contact.j, n, contact.mj);
   return inverse == 0.0 ? contact.meff : 1.0 / inverse;
 }
 

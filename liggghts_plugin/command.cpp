@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/error.hpp"
 #include "liggghts_plugin/contact_history.hpp"
 #include "liggghts_plugin/contact_list.hpp"
 #include "liggghts_plugin/heat_conduction.hpp"
+#include "liggghts_plugin/private_members.hpp"
 #include "liggghts_plugin/runaway.hpp"
 
 namespace granulaw::plugin {
+
+GRANULAW_EXPOSE(RestartIds, LAMMPS_NS::Modify, id_restart_global);
+GRANULAW_EXPOSE(RestartStates, LAMMPS_NS::Modify, state_restart_global);
 
 namespace {
 
@@ -98,6 +103,26 @@ void warn_stretched_cohesion(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models
           .c_str());
 }
 
+/// A restart file whose contacts keep another number of values. LIGGGHTS refuses it, too, but names no cause.
+/// Contacts with meshes it refuses alone.
+void refuse_other_histories(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+{
+  auto* pair = dynamic_cast<PairGran*>(lmp->force->pair);
+  if (!setup.wall && !pair) return;  // pair_style hybrid
+  const std::string history = setup.wall ? std::string("history_") + setup.wall->id : "contacthistory";
+  const int values = setup.wall ? setup.wall->dnum() : pair->dnum_pair();
+  for (int k = 0; k < lmp->modify->nfix_restart_global; ++k) {
+    if (history != (lmp->modify->*exposed(RestartIds{}))[k]) continue;
+    double written = 0.0;  // both kinds of fixes write the number first
+    std::memcpy(&written, (lmp->modify->*exposed(RestartStates{}))[k], sizeof written);
+    if (static_cast<int>(written) != values)
+      fail(setup.where,
+           "the restart file has another number of values for each contact: it is of other models or words, "
+           "or of a version of the plug-in that kept others; go on with those",
+           std::to_string(static_cast<int>(written)), std::to_string(values));
+  }
+}
+
 /// Calls LIGGGHTS's own settings() with `words`, our setup being current for the model's postSettings.
 void with_setup(const Setup& setup, Words words, const std::function<void(int, char**)>& call)
 {
@@ -126,6 +151,7 @@ void read_command(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& se
   refuse_no_friction(models, setup, rest);
   warn_stretched_cohesion(lmp, models, setup);
   with_setup(setup, rest, call);
+  refuse_other_histories(lmp, setup);
 }
 
 void provide_fixes(LAMMPS_NS::LAMMPS* lmp)

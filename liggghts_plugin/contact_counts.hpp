@@ -5,6 +5,7 @@
 
 #include "liggghts_plugin/bodies.hpp"
 #include "liggghts_plugin/energy_tally.hpp"
+#include "liggghts_plugin/normal_physics.hpp"
 #include "liggghts_plugin/session.hpp"
 #include "liggghts_plugin/shapes.hpp"
 
@@ -14,6 +15,23 @@ namespace granulaw::plugin {
 /// motion: particles were inserted into each other, or an edge of a mesh handed a pressed sphere over. Walls
 /// may move at another point of the step than spheres, so that twice the motion is possible.
 inline constexpr double sudden_start = 2.0;
+
+/// Force and dissipation of a contact that goes deeper than it ever was, by the law's shorter way if it has
+/// one.
+template <class Law>
+double loading_of(const Law& law, double r_eff, double delta, double delta_max, double impact_overlap,
+                  double* kept)
+{
+  if constexpr (HasLoading<Law>) return law.loading(r_eff, delta, impact_overlap);
+  return law.force(r_eff, delta, delta_max, impact_overlap, kept);
+}
+template <class Law>
+double dissipation_of(const Law& law, double r_eff, double from, double to, double impact_overlap,
+                      double* kept)
+{
+  if constexpr (HasLoading<Law>) return law.grow(r_eff, from, to, impact_overlap, kept);
+  return law.dissipated(r_eff, from, to, impact_overlap);
+}
 
 /// Counts what contacts do in the statistics, in the steps that take them deeper than they were. `Entry`: of
 /// a PairTable.
@@ -42,14 +60,16 @@ class ContactCounts
     return 0.5 + 0.5 * static_cast<double>(whole);
   }
 
-  /// A step that takes the contact deeper than it ever was: from `delta_max`, which is 0 if it begins.
+  /// A step that takes the contact deeper than it ever was: from `delta_max`, which is 0 if it begins. `kept`:
+  /// of the law.
   void deepen(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
-              double delta_max) const
+              double delta_max, double* kept) const
   {
     ContactStatistics::Pair& counts = *entry.counts;
     const double weight = this->weight(contact), delta = contact.deltan;
     bool sudden = false;
-    if (delta_max == 0.0) sudden = begin(counts, contact, entry, r_eff, weight);
+    if (delta_max == 0.0) [[unlikely]]
+      sudden = begin(counts, contact, entry, r_eff, weight);
     if (delta > counts.overlap_max * r_eff) counts.overlap_max = delta / r_eff;
     if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
       if (delta_max <= near_edge * entry.largest_overlap * r_eff) counts.near += weight;
@@ -69,7 +89,8 @@ class ContactCounts
       counts.sudden += weight;
       counts.brought += weight * entry.contact.stored_energy(r_eff, delta, delta, impact_overlap);
     } else {
-      const double dissipated = entry.contact.dissipated(r_eff, delta_max, delta, impact_overlap);
+      const double dissipated =
+          dissipation_of(entry.contact, r_eff, delta_max, delta, impact_overlap, kept);
       counts.dissipated += weight * dissipated;
       if (energy_) [[unlikely]]
         energy_->share(contact, EnergyTally::dissipated, dissipated, lmp_->atom->nlocal);
@@ -108,8 +129,8 @@ class ContactCounts
 
  private:
   /// Counts a contact in its first step. True if it began deeper than motion can bring it.
-  bool begin(ContactStatistics::Pair& counts, const SurfacesIntersectData& contact, const Entry& entry,
-             double r_eff, double weight) const
+  [[gnu::noinline]] bool begin(ContactStatistics::Pair& counts, SurfacesIntersectData contact,
+                               const Entry& entry, double r_eff, double weight) const
   {
     const double speed = std::max(0.0, -contact.vn);
     counts.touches += weight;
@@ -153,10 +174,18 @@ class ContactCounts
                          double r_eff, double weight) const
   {
     // most steps stay within a bin; R* of superquadrics may change
-    const bool stays = !superquadrics_built && from > 0.0 &&
-                       counts.overlap.ends_above(counts.overlap.bin(from / r_eff), to / r_eff);
+    const double per_edge = per_lowest_edge(counts, r_eff);
+    const bool stays =
+        !superquadrics_built && from > 0.0 &&
+        LogHistogram::ends_above_ratio(LogHistogram::bin_of_ratio(from * per_edge), to * per_edge);
     if (!stays) [[unlikely]]
       change_bin(counts, history, from, to, r_eff, weight);
+  }
+  /// 1/m: 1 over R* times the lowest edge of the histogram of overlap/R*. A contact leaves the bin that it
+  /// entered, as every overlap is multiplied by this.
+  static double per_lowest_edge(const ContactStatistics::Pair& counts, double r_eff)
+  {
+    return 1.0 / (r_eff * counts.overlap.first);
   }
 
   [[gnu::noinline]] void change_bin(ContactStatistics::Pair& counts, double* history, double from, double to,
@@ -171,8 +200,8 @@ class ContactCounts
   void count(ContactStatistics::Pair& counts, const double* history, double delta, double r_eff,
              double weight) const
   {
-    counts.count(counts.overlap.bin(delta / r_eff), speed_offset_ >= 0 ? history[speed_offset_] : -1.0,
-                 weight);
+    counts.count(LogHistogram::bin_of_ratio(delta * per_lowest_edge(counts, r_eff)),
+                 speed_offset_ >= 0 ? history[speed_offset_] : -1.0, weight);
   }
 
   LAMMPS_NS::LAMMPS* lmp_ = nullptr;

@@ -1,10 +1,14 @@
 #include "liggghts_plugin/log_histogram.hpp"
 
+#include <limits>
+
 namespace granulaw::plugin {
 
-const std::array<double, LogHistogram::bins> LogHistogram::upper_ratio = [] {
-  std::array<double, bins> ratio{};
-  for (int b = 0; b < bins; ++b) ratio[static_cast<std::size_t>(b)] = std::pow(10.0, (b + 1.0) / per_decade);
+const std::array<double, LogHistogram::bins + 2> LogHistogram::upper_ratio = [] {
+  std::array<double, bins + 2> ratio{};
+  ratio.fill(std::numeric_limits<double>::infinity());
+  for (int b = 0; b + 1 < bins; ++b)
+    ratio[static_cast<std::size_t>(b)] = std::pow(10.0, (b + 1.0) / per_decade);
   return ratio;
 }();
 

@@ -19,6 +19,7 @@ struct MpmContact
 {
   const FastCurve* curve = nullptr;
   double per_lambda = 0;   // 1/(lambda S), lambda of PairMapping
+  double lambda = 0;       // lambda S
   double force_scale = 0;  // Hertz force at x = 1 over R*^2 S
   double radiation = 0;    // C S^3 of the dashpot that stands for waves (law/radiation.hpp), s^3/kg; 0: none
   PairLaw law;             // SI, unstretched: for first touches
@@ -32,6 +33,7 @@ struct MpmContact
   MpmContact(const PairLaw& pair, const FastCurve& fast_curve, double stretch, const DeckUnits& deck_units)
       : curve(&fast_curve),
         per_lambda(1.0 / (pair.mapping.length(1.0) * stretch)),
+        lambda(pair.mapping.length(1.0) * stretch),
         force_scale(pair.mapping.force(1.0) / (deck_units.pressure() * stretch)),
         radiation(pair.radiation * deck_units.mass * stretch * stretch * stretch),
         law(pair),
@@ -68,6 +70,16 @@ struct MpmContact
     const double scale = force_scale * r_eff * r_eff;
     if (!curve->unloads(x, x_max)) return scale * curve->loading_force(x, impact_overlap);
     return scale * reversal(x_max, impact_overlap, kept).force_at(x);
+  }
+  double loading(double r_eff, double delta, double impact_overlap) const
+  {
+    return force_scale * r_eff * r_eff * curve->loading_force(delta * (per_lambda / r_eff), impact_overlap);
+  }
+  double grow(double r_eff, double from, double to, double impact_overlap, double*) const
+  {
+    const double per_length = per_lambda / r_eff;
+    return force_scale * r_eff * r_eff * (r_eff * lambda) *
+           curve->dissipated(from * per_length, to * per_length, impact_overlap);
   }
   /// force(), to the bit, and dF/d(delta) of the branch.
   Response response(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const

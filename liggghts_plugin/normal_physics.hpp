@@ -81,6 +81,15 @@ struct Response
   double force = 0, stiffness = 0;  ///< N, N/m
 };
 
+/// A law with a shorter way for a contact that goes deeper than it ever was (delta >= delta_max).
+template <class Law>
+concept HasLoading = requires(const Law law, double r_eff, double delta, double from, double impact_overlap, double* kept) {
+  /// force(), to the bit.
+  { law.loading(r_eff, delta, impact_overlap) } -> std::same_as<double>;
+  /// dissipated() but for rounding. `kept` is as after force() at `from`, and may be left as it helps force() below `delta`.
+  { law.grow(r_eff, from, delta, impact_overlap, kept) } -> std::same_as<double>;
+};
+
 /// A law that lets waves take a part: they act as a dashpot F_waves = C K^2 v, v the approach speed, K the law's own
 /// stiffness (law/radiation.hpp).
 template <class Law>

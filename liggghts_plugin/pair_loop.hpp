@@ -76,7 +76,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     copy_predefined_histories(pair);
     const bool observed = pair->evflag || (pair->cpl() && addflag) || pair->storeContactForces() ||
                           pair->storeContactForcesStress() || pair->store_sum_normal_force();
-    walk(pair, observed, addflag);
+    run_walk(pair, observed, addflag);
     if (pair->cpl() && addflag) pair->cpl_pair_finalize();
     if (pair->storeContactForces()) pair->fix_contact_forces()->do_forward_comm();
     if (pair->storeContactForcesStress()) pair->fix_contact_forces_stress()->do_forward_comm();
@@ -106,7 +106,44 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   /// A neighbour that touches, or did one step ago.
   struct Candidate
   {
-    int i, jj;  // index of the sphere; place in its list of neighbours
+    int i, j;         // indices of the spheres
+    int* flags;       // which models hold history
+    double* history;  // of the contact
+  };
+
+  /// LIGGGHTS's arrays of particles. Each is one block: row k begins at 3 k.
+  struct Particles
+  {
+    const double *x, *radius, *rmass, *mass;  // rmass null: mass, by type
+    double *v, *omega, *f, *torque;
+    const int *type, *mask;
+    int count;  // of this rank, without ghosts
+
+    explicit Particles(const LAMMPS_NS::Atom& atom)
+        : x(atom.x[0]),
+          radius(atom.radius),
+          rmass(atom.rmass),
+          mass(atom.mass),
+          v(atom.v[0]),
+          omega(atom.omega[0]),
+          f(atom.f[0]),
+          torque(atom.torque[0]),
+          type(atom.type),
+          mask(atom.mask),
+          count(atom.nlocal)
+    {
+    }
+  };
+
+  /// What is alike for all contacts of a step.
+  struct Pass
+  {
+    PairGran* pair;
+    int computeflag, shearupdate, addflag;
+    int frozen;    // bit of the frozen group, 0: none
+    bool rigid;    // spheres may be part of fix rigid's bodies
+    bool newton;   // forces on ghosts count
+    bool observed; // tell_observers
   };
   /// Whether spheres that do not touch may feel each other (liquid bridges): all within LIGGGHTS's contact
   /// distance are visited then.
@@ -121,83 +158,114 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   /// it was wrong once for each contact. In collect() it is none.
   [[gnu::flatten]] void walk(PairGran* pair, bool observed, int addflag)
   {
+    walk_body(pair, observed, addflag);
+  }
+#ifdef __x86_64__
+  /// The same for processors with AVX2, to the bit: without fused products. Instructions with three operands
+  /// save a twentieth of the time.
+  [[gnu::flatten, gnu::target("avx2")]] void walk_avx2(PairGran* pair, bool observed, int addflag)
+  {
+    walk_body(pair, observed, addflag);
+  }
+#endif
+  void run_walk(PairGran* pair, bool observed, int addflag)
+  {
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2")) return walk_avx2(pair, observed, addflag);
+#endif
+    walk(pair, observed, addflag);
+  }
+  [[gnu::always_inline]] inline void walk_body(PairGran* pair, bool observed, int addflag)
+  {
     const LAMMPS_NS::NeighList& list = *pair->list;
+    const Pass pass{.pair = pair,
+                    .computeflag = pair->computeflag(),
+                    .shearupdate = pair->shearupdate(),
+                    .addflag = addflag,
+                    .frozen = pair->freeze_group_bit(),
+                    .rigid = pair->fr_pair() && bodies_ && bodies_->known(),
+                    .newton = lmp_->force->newton_pair != 0,
+                    .observed = observed};
+    SurfacesIntersectData of_pass;
+    ForceData on_i, on_j;
+    of_pass.is_wall = false;
+    of_pass.area_ratio = 1.0;
+    of_pass.computeflag = pass.computeflag;
+    of_pass.shearupdate = pass.shearupdate;
+    model_.beginPass(of_pass, on_i, on_j);
+    if (list.inum > 0) {
+      const Particles particles(*lmp_->atom);
+      std::size_t found = 0;
+      for (int ii = 0; ii < list.inum; ++ii) {
+        found += collect(*pair, particles, list.ilist[ii], found);
+        if (found < batch && ii + 1 < list.inum) continue;
+        for (std::size_t k = 0; k < found; ++k) visit(pass, particles, candidates_[k]);
+        found = 0;
+      }
+    }
+    model_.endPass(of_pass, on_i, on_j);
+  }
+
+  /// Writes the candidates of sphere i to candidates_[at] and on. Returns how many there are.
+  std::size_t collect(PairGran& pair, const Particles& particles, int i, std::size_t at)
+  {
+    const int* neighbours = pair.list->firstneigh[i];
+    int* flags = pair.listgranhistory->firstneigh[i];
+    double* history = pair.listgranhistory->firstdouble[i];
+    const int count = pair.list->numneigh[i], values = pair.dnum();
+    if (candidates_.size() < at + static_cast<std::size_t>(count)) [[unlikely]]
+      candidates_.resize(2 * (at + static_cast<std::size_t>(count)));
+    const double *const x = particles.x, *const radius = particles.radius;
+    const double xi = x[3 * i], yi = x[3 * i + 1], zi = x[3 * i + 2], ri = radius[i];
+    Candidate* out = candidates_.data() + at;
+    double reach2 = 1.0;  // of the squared sum of radii
+    if constexpr (acts_at_distance)
+      reach2 = lmp_->neighbor->contactDistanceFactor * lmp_->neighbor->contactDistanceFactor;
+    for (int jj = 0; jj < count; ++jj) {
+      const int j = neighbours[jj] & NEIGHMASK;
+      const double *const xj = x + 3 * j;
+      const double dx = xi - xj[0], dy = yi - xj[1], dz = zi - xj[2];
+      const double rsq = dx * dx + dy * dy + dz * dz, radsum = ri + radius[j];
+      *out = {i, j, flags + jj, history};
+      history += values;
+      out += static_cast<std::size_t>((rsq < reach2 * (radsum * radsum)) | (flags[jj] != 0));
+    }
+    return static_cast<std::size_t>(out - (candidates_.data() + at));
+  }
+
+  /// One contact. Its numbers live in registers: no function that is not inlined is given their address. One
+  /// that needs them takes a copy, made in a block that is seldom entered.
+  void visit(const Pass& pass, const Particles& particles, const Candidate& candidate)
+  {
+    const int i = candidate.i, j = candidate.j;
+    const double *const xi = particles.x + 3 * i, *const xj = particles.x + 3 * j;
     SurfacesIntersectData contact;
     ForceData on_i, on_j;
     contact.is_wall = false;
     contact.area_ratio = 1.0;
-    contact.computeflag = pair->computeflag();
-    contact.shearupdate = pair->shearupdate();
-    model_.beginPass(contact, on_i, on_j);
-
-    std::size_t found = 0;
-    for (int ii = 0; ii < list.inum; ++ii) {
-      found += collect(*pair, list.ilist[ii], found);
-      if (found < batch && ii + 1 < list.inum) continue;
-      for (std::size_t k = 0; k < found; ++k)
-        visit(pair, candidates_[k], contact, on_i, on_j, observed, addflag);
-      found = 0;
-    }
-    model_.endPass(contact, on_i, on_j);
-  }
-
-  /// Writes the candidates of sphere i to candidates_[at] and on. Returns how many there are.
-  std::size_t collect(const PairGran& pair, int i, std::size_t at)
-  {
-    const LAMMPS_NS::Atom& atom = *lmp_->atom;
-    const int* neighbours = pair.list->firstneigh[i];
-    const int* flags = pair.listgranhistory->firstneigh[i];
-    const int count = pair.list->numneigh[i];
-    if (candidates_.size() < at + static_cast<std::size_t>(count)) [[unlikely]]
-      candidates_.resize(2 * (at + static_cast<std::size_t>(count)));
-    const double *const *x = atom.x, *radius = atom.radius;
-    const double xi = x[i][0], yi = x[i][1], zi = x[i][2], ri = radius[i];
-    Candidate* const out = candidates_.data() + at;
-    double reach2 = 1.0;  // of the squared sum of radii
-    if constexpr (acts_at_distance)
-      reach2 = lmp_->neighbor->contactDistanceFactor * lmp_->neighbor->contactDistanceFactor;
-    std::size_t found = 0;
-    for (int jj = 0; jj < count; ++jj) {
-      const int j = neighbours[jj] & NEIGHMASK;
-      const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
-      const double rsq = dx * dx + dy * dy + dz * dz, radsum = ri + radius[j];
-      out[found] = {i, jj};
-      found += static_cast<std::size_t>((rsq < reach2 * (radsum * radsum)) | (flags[jj] != 0));
-    }
-    return found;
-  }
-
-  void visit(PairGran* pair, const Candidate& candidate, SurfacesIntersectData& contact, ForceData& on_i,
-             ForceData& on_j, bool observed, int addflag)
-  {
-    const LAMMPS_NS::Atom& atom = *lmp_->atom;
-    const LAMMPS_NS::NeighList& history = *pair->listgranhistory;
-    const int i = candidate.i, jj = candidate.jj, j = pair->list->firstneigh[i][jj] & NEIGHMASK;
+    contact.computeflag = pass.computeflag;
+    contact.shearupdate = pass.shearupdate;
     contact.i = i;
-    contact.itype = atom.type[i];
-    contact.radi = atom.radius[i];
-    contact.v_i = atom.v[i];
-    contact.omega_i = atom.omega[i];
+    contact.itype = particles.type[i];
+    contact.radi = particles.radius[i];
+    contact.v_i = particles.v + 3 * i;
+    contact.omega_i = particles.omega + 3 * i;
     contact.j = j;
-    contact.jtype = atom.type[j];
-    contact.radj = atom.radius[j];
-    contact.v_j = atom.v[j];
-    contact.omega_j = atom.omega[j];
-    for (int c = 0; c < 3; ++c) contact.delta[c] = atom.x[i][c] - atom.x[j][c];
+    contact.jtype = particles.type[j];
+    contact.radj = particles.radius[j];
+    contact.v_j = particles.v + 3 * j;
+    contact.omega_j = particles.omega + 3 * j;
+    for (int c = 0; c < 3; ++c) contact.delta[c] = xi[c] - xj[c];
     contact.rsq = contact.delta[0] * contact.delta[0] + contact.delta[1] * contact.delta[1] +
                   contact.delta[2] * contact.delta[2];
     contact.radsum = contact.radi + contact.radj;
-    contact.contact_flags = &history.firstneigh[i][jj];
-    contact.contact_history = &history.firstdouble[i][pair->dnum() * jj];
-    if constexpr (acts_at_distance) {
-      on_i.reset();
-      on_j.reset();
-    }
-    if (!(contact.rsq < contact.radsum * contact.radsum) || !surfaces_meet(pair, contact)) {
+    contact.contact_flags = candidate.flags;
+    contact.contact_history = candidate.history;
+    if (!(contact.rsq < contact.radsum * contact.radsum) || !surfaces_meet(pass, particles, contact)) {
       contact.has_force_update = false;
       model_.surfacesClose(contact, on_i, on_j);
       if constexpr (acts_at_distance)
-        if (contact.has_force_update) apply(pair, contact, on_i, on_j, observed, addflag);
+        if (contact.has_force_update) apply(pass, particles, contact, on_i, on_j);
       return;
     }
     if (contact.rsq == 0.0) [[unlikely]]
@@ -206,36 +274,34 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     contact.rinv = 1.0 / contact.r;
     if constexpr (!is_superquadric<ContactModel>)
       for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
-    set_masses(pair, contact);
-    on_i.reset();
-    on_j.reset();
+    set_masses(pass, particles, contact);
     model_.surfacesIntersect(contact, on_i, on_j);
     model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
     contact.has_force_update = true;
-    apply(pair, contact, on_i, on_j, observed, addflag);
+    apply(pass, particles, contact, on_i, on_j);
   }
 
-  void apply(PairGran* pair, SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j, bool observed,
-             int addflag)
+  void apply(const Pass& pass, const Particles& particles, const SurfacesIntersectData& contact,
+             const ForceData& on_i, const ForceData& on_j)
   {
-    const LAMMPS_NS::Atom& atom = *lmp_->atom;
     const int i = contact.i, j = contact.j;
-    if (contact.computeflag) {
-      add(pair->relax(i), on_i, atom.f[i], atom.torque[i]);
-      if (lmp_->force->newton_pair || j < atom.nlocal) add(pair->relax(j), on_j, atom.f[j], atom.torque[j]);
+    if (pass.computeflag) {
+      add(pass.pair->relax(i), on_i, particles.f + 3 * i, particles.torque + 3 * i);
+      if (pass.newton || j < particles.count)
+        add(pass.pair->relax(j), on_j, particles.f + 3 * j, particles.torque + 3 * j);
     }
-    if (observed) [[unlikely]]
-      tell_observers(pair, contact, on_i, on_j, addflag);
+    if (pass.observed) [[unlikely]]
+      tell_observers(pass, contact, on_i, on_j);
   }
 
   /// Narrow phase. The bounding spheres meet; the surface model of superquadrics says whether the surfaces
   /// do, and finds contact point, normal, overlap and R*.
-  bool surfaces_meet(PairGran* pair, SurfacesIntersectData& contact)
+  bool surfaces_meet(const Pass& pass, const Particles& particles, SurfacesIntersectData& contact)
   {
     if constexpr (is_superquadric<ContactModel>) {
       contact.radi = volume_radius(*lmp_->atom, contact.i);
       contact.radj = volume_radius(*lmp_->atom, contact.j);
-      set_masses(pair, contact);
+      set_masses(pass, particles, contact);
       return model_.checkSurfaceIntersect(contact);
     }
     return true;
@@ -243,21 +309,22 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
 
   /// The body's mass where a sphere is part of one: fix multisphere has it in rmass; that of fix rigid is
   /// with Bodies, for ghosts, too. A frozen sphere leaves the other its own.
-  void set_masses(PairGran* pair, SurfacesIntersectData& contact) const
+  void set_masses(const Pass& pass, const Particles& particles, SurfacesIntersectData& contact) const
   {
-    const LAMMPS_NS::Atom& atom = *lmp_->atom;
     const int i = contact.i, j = contact.j;
-    double mass_i = atom.rmass ? atom.rmass[i] : atom.mass[contact.itype];
-    double mass_j = atom.rmass ? atom.rmass[j] : atom.mass[contact.jtype];
-    if (pair->fr_pair() && bodies_ && bodies_->known()) [[unlikely]] {  // fix rigid
+    double mass_i = particles.rmass ? particles.rmass[i] : particles.mass[contact.itype];
+    double mass_j = particles.rmass ? particles.rmass[j] : particles.mass[contact.jtype];
+    if (pass.rigid) [[unlikely]] {
       if (bodies_->mass(i) > 0.0) mass_i = bodies_->mass(i);
       if (bodies_->mass(j) > 0.0) mass_j = bodies_->mass(j);
     }
     contact.mi = mass_i;
     contact.mj = mass_j;
     contact.meff = mass_i * mass_j / (mass_i + mass_j);
-    if (atom.mask[i] & pair->freeze_group_bit()) contact.meff = mass_j;
-    if (atom.mask[j] & pair->freeze_group_bit()) contact.meff = mass_i;
+    if (pass.frozen) [[unlikely]] {
+      if (particles.mask[i] & pass.frozen) contact.meff = mass_j;
+      if (particles.mask[j] & pass.frozen) contact.meff = mass_i;
+    }
   }
 
   static void add(double share, const ForceData& part, double* force, double* torque)
@@ -278,18 +345,19 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
                          atom.x[i][2]));
   }
 
-  [[gnu::noinline, gnu::cold]] void tell_observers(PairGran* pair, SurfacesIntersectData& contact,
-                                                   ForceData& on_i, ForceData& on_j, int addflag)
+  [[gnu::noinline, gnu::cold]] void tell_observers(const Pass pass, SurfacesIntersectData contact,
+                                                   ForceData on_i, ForceData on_j)
   {
+    PairGran* const pair = pass.pair;
     const int i = contact.i, j = contact.j, nlocal = lmp_->atom->nlocal;
-    const bool newton = lmp_->force->newton_pair;
+    const bool newton = pass.newton;
     const double* force = on_i.delta_F;
     if (contact.computeflag && pair->store_sum_normal_force()) {
       const double normal = force[0] * contact.en[0] + force[1] * contact.en[1] + force[2] * contact.en[2];
       *pair->get_sum_normal_force_ptr(i) += normal;
       if (newton || j < nlocal) *pair->get_sum_normal_force_ptr(j) += normal;
     }
-    if (pair->cpl() && addflag) pair->cpl_add_pair(contact, on_i);
+    if (pair->cpl() && pass.addflag) pair->cpl_add_pair(contact, on_i);
     if (pair->evflag) {  // not contact.delta, in which the narrow phase leaves the overlap
       const double *xi = lmp_->atom->x[i], *xj = lmp_->atom->x[j];
       pair->ev_tally_xyz(i, j, nlocal, newton, 0.0, 0.0, force[0], force[1], force[2], xi[0] - xj[0],

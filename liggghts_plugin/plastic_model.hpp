@@ -97,27 +97,36 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = effective_radius(sidata);
     const Entry& entry = pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
-    const double delta = sidata.deltan;
-    double& delta_max = sidata.contact_history[history_offset_];
+    const double delta = sidata.deltan, delta_max = sidata.contact_history[history_offset_];
+    double* const reversal = sidata.contact_history + reversal_offset_;
     if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
       check_stretched(sidata, r_eff);
       beyond_table(sidata, entry, r_eff);
     }
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
-
-    double impact_overlap = 0.0;
-    if constexpr (Physics::latches_impact)
-      impact_overlap =
-          delta_max == 0.0
-              ? entry.contact.impact_overlap(r_eff, contact_mass(setup_->session->bodies, sidata), -sidata.vn)
-              : sidata.contact_history[impact_offset_];
-    double* const reversal = sidata.contact_history + reversal_offset_;
     if constexpr (keeps_reversals)
       if (update->ntimestep == first_step_) [[unlikely]]
         reversal[0] = 0.0;  // what a restart brings may be of another law
-    const auto [law_force, waves_force] =
-        normal_forces(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
+
+    double impact_overlap = 0.0, reached = delta_max;
+    NormalForces forces;
+    // one branch for force and books: in a bed that is pressed no processor can foresee which contacts grow
+    if (delta > delta_max) {
+      if constexpr (Physics::latches_impact)
+        impact_overlap = delta_max == 0.0 ? first_impact_overlap(entry, r_eff, sidata)
+                                          : sidata.contact_history[impact_offset_];
+      forces = normal_forces<true>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
+      if (sidata.computeflag && sidata.shearupdate) {
+        if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
+        counts_.deepen(sidata, entry, r_eff, impact_overlap, delta_max, reversal);
+        sidata.contact_history[history_offset_] = reached = delta;
+      }
+    } else {
+      if constexpr (Physics::latches_impact) impact_overlap = sidata.contact_history[impact_offset_];
+      forces = normal_forces<false>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
+    }
+    const auto [law_force, waves_force] = forces;
     const double root = std::sqrt(r_eff * delta);
     const double radius =
         tangential_.computed ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
@@ -129,13 +138,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double normal_force =
         law_force <= 0.0 ? 0.0 : std::max((law_force + waves_force) - sidata.gamman * sidata.vn, 0.0);
     if (pairs_.radiates()) counts_.radiate(sidata, entry, waves_force, normal_force);
-    if (delta > delta_max && sidata.computeflag && sidata.shearupdate) {
-      if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
-      counts_.deepen(sidata, entry, r_eff, impact_overlap, delta_max);
-      delta_max = delta;
-    }
     if (energy_) [[unlikely]]
-      store_energy(sidata, entry, r_eff, delta_max, impact_overlap, law_force);
+      store_energy(sidata, entry, r_eff, reached, impact_overlap, law_force);
 
     sidata.Fn = normal_force;
     sidata.kn =
@@ -192,9 +196,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
 
   struct NormalForces
   {
-    double law, waves = 0.0;  ///< N
+    double law = 0.0, waves = 0.0;  ///< N
   };
-  /// The law's force, and that of waves: it only brakes, and never makes a contact pull.
+  /// The law's force, and that of waves: it only brakes, and never makes a contact pull. `deeper`: than ever.
+  template <bool deeper>
   NormalForces normal_forces(const typename Physics::Contact& contact, double r_eff, double delta,
                              double delta_max, double impact_overlap, double* reversal, double vn) const
   {
@@ -203,7 +208,15 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
         const auto [force, k] = contact.response(r_eff, delta, delta_max, impact_overlap, reversal);
         return {force, std::max(-contact.radiation * k * k * vn, -force)};
       }
+    if constexpr (deeper) return {loading_of(contact, r_eff, delta, delta_max, impact_overlap, reversal)};
     return {contact.force(r_eff, delta, delta_max, impact_overlap, reversal)};
+  }
+
+  /// X of a contact that begins.
+  [[gnu::noinline]] double first_impact_overlap(const Entry& entry, double r_eff,
+                                                SurfacesIntersectData sidata) const
+  {
+    return entry.contact.impact_overlap(r_eff, contact_mass(setup_->session->bodies, sidata), -sidata.vn);
   }
 
   // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
@@ -225,7 +238,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return 0.0 - sidata.vn * units_.length;  // 0 of two at rest, not -0
   }
 
-  [[gnu::noinline, gnu::cold]] void check_stretched(const SurfacesIntersectData& sidata, double r_eff)
+  [[gnu::noinline, gnu::cold]] void check_stretched(SurfacesIntersectData sidata, double r_eff)
   {
     if (stretch_ > 1.0 && sidata.deltan > stretched_overlap_limit * r_eff)
       stop_one(lmp, fmt::format("{}: 'stretch {:g}' takes the overlap of types {} and {} to {:.4g} R* at "
@@ -235,7 +248,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   }
 
   /// Only with `energy on`: what the contact holds now, and the law's force for EnergyTally::account.
-  [[gnu::noinline, gnu::cold]] void store_energy(const SurfacesIntersectData& sidata, const Entry& entry,
+  [[gnu::noinline, gnu::cold]] void store_energy(SurfacesIntersectData sidata, const Entry& entry,
                                                  double r_eff, double delta_max, double impact_overlap,
                                                  double law_force)
   {
@@ -247,7 +260,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
                      atom->nlocal);
   }
 
-  [[gnu::noinline, gnu::cold]] void beyond_table(const SurfacesIntersectData& sidata, const Entry& entry,
+  [[gnu::noinline, gnu::cold]] void beyond_table(SurfacesIntersectData sidata, const Entry& entry,
                                                  double r_eff)
   {
     if (entry.largest_overlap < 0)
@@ -269,7 +282,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.
-  [[gnu::noinline, gnu::cold]] void check_layout(const SurfacesIntersectData& sidata)
+  [[gnu::noinline, gnu::cold]] void check_layout(SurfacesIntersectData sidata)
   {
     if (sidata.is_non_spherical) return;
     const double distance = std::sqrt(sidata.delta[0] * sidata.delta[0] + sidata.delta[1] * sidata.delta[1] +

@@ -29,7 +29,7 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
   const double* yield_stress = registry.getVectorProperty("yieldStress", setup.where.c_str())->data;
   e_star_.assign(static_cast<std::size_t>(types.count + 1), 0.0);
   yield_stress_ = e_star_;
-  per_stretch_ = 1.0 / setup.options.stretch.value_or(1.0);
+  stretch_ = setup.options.stretch.value_or(1.0);
   for (int t = 1; t <= types.count; ++t) {
     if (std::isnan(types.youngs_modulus[t])) continue;
     if (!(yield_stress[t] > 0))
@@ -43,12 +43,10 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
 
 ThorntonContact ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
 {
-  ThorntonContact contact;
-  contact.per_stretch = per_stretch_;
-  contact.law = rigid ? ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}
-                      : ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
-                                     1.6 * std::min(yield_stress_[i], yield_stress_[j])};
-  return contact;
+  const ThorntonPair law = rigid ? ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}
+                                 : ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
+                                                1.6 * std::min(yield_stress_[i], yield_stress_[j])};
+  return {law, stretch_};
 }
 
 PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) const

@@ -82,9 +82,8 @@ double FastCurve::loading_work(double x, double impact_overlap) const
   return x * work;
 }
 
-double FastCurve::dissipated(double from, double to, double impact_overlap) const
+double FastCurve::dissipated_fast(double from, double to, double impact_overlap) const
 {
-  if (!corrected(impact_overlap)) return dissipated(to) - dissipated(from);
   if (to <= onset_) return 0.0;
   const Reversal after = reversal(to, impact_overlap);
   if (from <= onset_) return loading_work(to, impact_overlap) - after.work();

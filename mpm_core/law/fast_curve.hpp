@@ -160,7 +160,12 @@ class FastCurve
   /// Work spent on plastic strain while the largest overlap grew from `from` to `to`. With X > 0 the loading
   /// work between is Simpson's rule, exact to 1e-4 of itself for steps of up to a quarter; longer ones, and
   /// the one across the onset, are integrated.
-  double dissipated(double from, double to, double impact_overlap) const;
+  double dissipated(double from, double to, double impact_overlap) const
+  {
+    if (corrected(impact_overlap)) [[unlikely]]
+      return dissipated_fast(from, to, impact_overlap);
+    return dissipated(to) - dissipated(from);
+  }
 
  private:
   static constexpr int bits_per_octave = 3, lowest_exponent = -40;
@@ -219,6 +224,8 @@ class FastCurve
   {
     return {x_max, 1.0 / range, {force * shape.hertz_share, force * shape.second(), force * shape.third()}};
   }
+  /// dissipated() with X > 0.
+  double dissipated_fast(double from, double to, double impact_overlap) const;
   /// Loading work with an axis, to 1e-4 of itself.
   double loading_work(double x, double impact_overlap) const;
   // Beyond the table, out of line: the loop stays small.

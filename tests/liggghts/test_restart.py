@@ -36,6 +36,15 @@ class Restart(Deck):
                              f"fix i all nve/sphere\ntimestep {DT}\nrun 1\n", expect_failure=True)
         self.assertIn("repeat pair_style and pair_coeff after read_restart", text)
 
+    def test_another_number_of_values(self):
+        """`energy on` on one side alone: the sentence names both numbers."""
+        data_file(self.folder / "bed.data")
+        words = f"law {self.law} materials powder"
+        self.run_deck(start() + model(words, "history", 0.3) + "run 10\nwrite_restart half.restart\n")
+        text = self.run_deck(start("read_restart half.restart") + model(words + " energy on", "history", 0.3) + "run 1\n", expect_failure=True)
+        self.assertIn("the restart file has another number of values for each contact", text)
+        self.assertRegex(text, "found 10, .*16")
+
 
 if __name__ == "__main__":
     unittest.main()

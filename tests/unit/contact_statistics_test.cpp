@@ -24,6 +24,29 @@ TEST(LogHistogram, BinsAreThoseOfTheLogarithm)
   }
 }
 
+TEST(LogHistogram, EveryEdgeBelongsToTheBinAbove)
+{
+  // edges as the histogram has them; an octave holds two or three
+  for (std::size_t b = 0; b + 1 < LogHistogram::bins; ++b) {
+    const double edge = std::pow(10.0, (static_cast<double>(b) + 1.0) / LogHistogram::per_decade);
+    const double below = std::nextafter(edge, 0.0), above = std::nextafter(edge, 2.0 * edge);
+    EXPECT_EQ(LogHistogram::bin_of_ratio(below), b);
+    EXPECT_EQ(LogHistogram::bin_of_ratio(edge), b + 1);
+    EXPECT_EQ(LogHistogram::bin_of_ratio(above), b + 1);
+    EXPECT_TRUE(LogHistogram::ends_above_ratio(b, below));
+    EXPECT_FALSE(LogHistogram::ends_above_ratio(b, edge));
+  }
+  // where the octaves meet, against the logarithm: no edge is near but that of 1
+  for (int k = 1; k < 40; ++k)
+    for (const double ratio : {std::nextafter(std::ldexp(1.0, k), 0.0), std::ldexp(1.0, k)}) {
+      const double position = std::floor(LogHistogram::per_decade * std::log10(ratio));
+      EXPECT_EQ(LogHistogram::bin_of_ratio(ratio),
+                static_cast<std::size_t>(std::min(position, LogHistogram::bins - 1.0)));
+    }
+  EXPECT_TRUE(LogHistogram::ends_above_ratio(LogHistogram::bins - 1, 1e300));
+  EXPECT_EQ(LogHistogram::bin_of_ratio(std::numeric_limits<double>::quiet_NaN()), 0u);
+}
+
 TEST(LogHistogram, OuterBinsCatchTheRest)
 {
   const LogHistogram speed{1e-6};

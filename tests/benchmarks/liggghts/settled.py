@@ -1,0 +1,298 @@
+"""User CPU and loop time of LIGGGHTS under each normal model where everything touches, as a ratio to stock Hertz.
+
+    rest        1728 spheres on a floor, periodic in x and y, 60,000 steps after they were let fall; each model from its own restart file
+    frozen      their positions under Hertz read anew, with a time step of 2e-9 s: every contact is new, half of them grow at every step
+    frozen_off  the same with `tangential off`
+    hopper      the hopper of tools/demo with 1500 spheres and mesh walls, filled under each model, then open
+    chute       loop.py's dense flow, 3000 spheres
+    N x C       N spheres of a periodic packing with C contacts a sphere, pressed together: 6 (cubic) and 3 (honeycombs)
+
+The law yields early (E*/Y = 1000), so that every contact has a dent: the worst case for both models. Every model and plug-in runs the same
+deck in turn, --rounds times; each round's numbers are divided by those of stock Hertz in the same round. User CPU is that of all processes
+without what `run 0` takes. On one line with them stand the error of the force that the loop computes (against the functions the law was
+sampled from) and, with --before FOLDER, the largest relative difference that kinetic and rotational energy have at the end from those of
+the plug-in in FOLDER, which runs in turn with this one. Standard library only, but for the hopper, whose scene needs numpy.
+
+    ninja benchmark_settled          (or: settled.py [--rounds 10] [--scenes rest frozen] [--sizes 3000 100000] [--before FOLDER])
+"""
+import argparse
+import math
+import os
+import pathlib
+import random
+import re
+import resource
+import statistics
+import subprocess
+import tempfile
+
+import loop
+
+MPIRUN = os.environ.get("GRANULAW_MPIRUN", "mpirun")
+HOPPER = pathlib.Path(__file__).resolve().parents[3] / "examples" / "hopper"
+R, DENSITY, MODULUS = loop.RADIUS, loop.DENSITY, loop.E
+YIELD_STRESS = 2 * MODULUS / (1 - loop.NU**2) / math.pi / 1.6 * loop.ONSETS["mpm_soft"]**0.5  # thornton's onset is the law's
+
+
+class Program:
+    """A plug-in and its launcher, in one folder."""
+
+    def __init__(self, folder, label):
+        self.launcher, self.label = pathlib.Path(folder).resolve() / "liggghts-mpm", label
+
+    def run(self, folder, deck, ranks=1):
+        """Text and user CPU of a run."""
+        path = folder / f"in.{self.label}"
+        path.write_text(deck)
+        command = [str(self.launcher), "-in", str(path), "-log", "none"]
+        if ranks > 1:
+            command = [MPIRUN, "--oversubscribe", "-np", str(ranks)] + command
+        environment = dict(os.environ, LD_LIBRARY_PATH=str(self.launcher.parent))
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=folder, env=environment)
+        if done.returncode:
+            raise SystemExit(f"settled.py: LIGGGHTS stopped:\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
+        return done.stdout, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def model_words(name, tangential="history"):
+    """LIGGGHTS's own words of a model, and ours, which stand last."""
+    return f"model {name} tangential {tangential}", "law mpm.h5 materials powder beyondRange continue" if name == "mpm" else ""
+
+
+class Scene:
+    """A deck for each model. `prepare` writes the files that it reads."""
+
+    def __init__(self, name, steps, ranks=1):
+        self.name, self.steps, self.ranks = name, steps, ranks
+
+    def prepare(self, folder, program, model):
+        pass
+
+    def deck(self, program, model, steps):
+        raise NotImplementedError
+
+    def end(self, steps):
+        return ("compute end_ke all ke\ncompute end_spin all erotate/sphere\nvariable end_ke equal c_end_ke\n"
+                "variable end_spin equal c_end_spin\nthermo_style custom step c_end_ke c_end_spin\nthermo 1000000\n"
+                f"thermo_modify norm no lost ignore\nrun {steps}\n"
+                'print "ENERGY $(v_end_ke) $(v_end_spin)"\n')
+
+
+def properties(model):
+    """Restitution follows from our laws: the deck of stock Hertz alone states one."""
+    lines = loop.properties(MODULUS, YIELD_STRESS).splitlines(True)
+    return "".join(line for line in lines if model == "hertz" or "coefficientRestitution" not in line)
+
+
+def bed(model, tangential="history", dt=loop.DT):
+    stock, ours = model_words(model, tangential)
+    return (properties(model) + f"pair_style gran {stock} {ours}\npair_coeff * *\n"
+            f"fix w all wall/gran {stock} primitive type 1 zplane 0.0\n"
+            f"fix g all gravity {loop.GRAVITY} vector 0.0 0.0 -1.0\nfix i all nve/sphere\ntimestep {dt}\n")
+
+
+class Bed(Scene):
+    side = 12
+
+    def head(self, read):
+        return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary p p f\nnewton off\n"
+                f"communicate single vel yes\n{read}neighbor 0.0008 bin\nneigh_modify delay 0\n")
+
+    def fall(self, folder, program, model, after):
+        """The bed at rest under the model."""
+        spacing = 2.06 * R
+        atoms = []
+        rng = random.Random(5)
+        for k in range(self.side**3):
+            cell = (k % self.side, k // self.side % self.side, k // self.side**2)
+            x = [(c + 0.5) * spacing + rng.uniform(-0.02, 0.02) * R for c in cell]
+            atoms.append([repr(w) for w in x] + [repr(rng.uniform(-0.2, 0.2)) for _ in range(3)] + ["0"] * 3)
+        box = (self.side * spacing, self.side * spacing, 1.5 * self.side * spacing)
+        loop.write_data(folder / "bed.data", atoms, box)
+        program.run(folder, self.head("read_data bed.data\n") + bed(model) + f"thermo 1000000\nrun {60000}\n" + after)
+
+
+class Rest(Bed):
+    def prepare(self, folder, program, model):
+        if not (folder / f"rest.{program.label}.{model}").exists():
+            self.fall(folder, program, model, f"write_restart rest.{program.label}.{model}\n")
+
+    def deck(self, program, model, steps):
+        return self.head(f"read_restart rest.{program.label}.{model}\n") + bed(model) + self.end(steps)
+
+
+class Frozen(Bed):
+    def __init__(self, name, steps, tangential):
+        super().__init__(name, steps)
+        self.tangential = tangential
+
+    def prepare(self, folder, program, model):
+        if model == "hertz" and not (folder / "frozen.data").exists():
+            self.fall(folder, program, model,
+                      "dump d all custom 1 frozen.dump id xu yu z vx vy vz omegax omegay omegaz\n"
+                      'dump_modify d format "%d %.15g %.15g %.15g %.9g %.9g %.9g %.9g %.9g %.9g"\nrun 0\n')
+            rows = loop.read_dump(folder / "frozen.dump")
+            spacing = 2.06 * R
+            for row in rows:
+                for axis in (0, 1):
+                    row[axis] = repr(float(row[axis]) % (self.side * spacing))
+            loop.write_data(folder / "frozen.data", rows, (self.side * spacing, self.side * spacing, 1.5 * self.side * spacing))
+
+    def deck(self, program, model, steps):
+        return self.head("read_data frozen.data\n") + bed(model, self.tangential, 2e-9) + self.end(steps)
+
+
+class Chute(Scene):
+    def prepare(self, folder, program, model):
+        if model == "hertz" and not (folder / "dense.data").exists():
+            loop.prepare(folder, 3000)
+
+    def deck(self, program, model, steps):
+        words = model_words(model)[1]
+        text = loop.head(data="dense.data") + properties(model) + loop.flow(model, words)
+        return text[:text.index("thermo 1000000")] + self.end(steps)
+
+
+class Packing(Scene):
+    """Spheres on a lattice in a periodic box, with a few per cent of random motion about it: every contact stays closed."""
+
+    def __init__(self, size, contacts, ranks):
+        self.contacts_a_sphere = contacts
+        self.cells, self.size = self.lattice(size)
+        super().__init__(f"{self.size} x {contacts}, {ranks} rank{'s' * (ranks > 1)}", max(60, 12_000_000 // (self.size * contacts)), ranks)
+
+    def lattice(self, size):
+        if self.contacts_a_sphere == 6:
+            n = round(size**(1 / 3))
+            return (n, n, n), n**3
+        # a honeycomb of nx by ny cells with four spheres each, nz layers
+        nx = max(3, round((size / 4)**(1 / 3)))
+        ny = nx
+        nz = max(3, round(size / (4 * nx * ny)))
+        return (nx, ny, nz), 4 * nx * ny * nz
+
+    def prepare(self, folder, program, model):
+        if (folder / self.data).exists():
+            return
+        rng = random.Random(7)
+        overlap = 0.004 * R  # beyond the law's onset
+        d = 2 * R - overlap
+        nx, ny, nz = self.cells
+        if self.contacts_a_sphere == 6:
+            box = (nx * d, ny * d, nz * d)
+            places = [((i + 0.5) * d, (j + 0.5) * d, (k + 0.5) * d) for k in range(nz) for j in range(ny) for i in range(nx)]
+        else:
+            a, b, h = math.sqrt(3) * d, 3 * d, 2.06 * R
+            box = (nx * a, ny * b, nz * h)
+            cell = ((0.25 * a, 0.25 * d), (0.75 * a, 0.75 * d), (0.75 * a, 1.75 * d), (0.25 * a, 2.25 * d))
+            places = [(i * a + x, j * b + y, (k + 0.5) * h) for k in range(nz) for j in range(ny) for i in range(nx) for x, y in cell]
+        rows = []
+        for x in places:
+            jitter = [repr(c + rng.uniform(-0.05, 0.05) * overlap) for c in x]
+            rows.append(jitter + [repr(rng.uniform(-1, 1) * 1e-3) for _ in range(3)] + ["0"] * 3)
+        loop.write_data(folder / self.data, rows, box)
+
+    @property
+    def data(self):
+        return f"packing.{self.size}.{self.contacts_a_sphere}.data"
+
+    def deck(self, program, model, steps):
+        return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary p p p\nnewton off\n"
+                f"communicate single vel yes\nread_data {self.data}\nneighbor 0.0008 bin\nneigh_modify delay 0\n" + properties(model) +
+                f"pair_style gran {' '.join(model_words(model))}\npair_coeff * *\nfix i all nve/sphere\ntimestep {loop.DT}\n" + self.end(steps))
+
+
+class Hopper(Scene):
+    def command(self, program, model, **more):
+        text = ""
+        for key, value in {"model": model, "scene": "scene", "out": f"hopper.{program.label}.{model}", "law": "mpm.h5",
+                           "material": "powder", **more}.items():
+            text += f"variable {key} index {value}\n"
+        return text + (HOPPER / "in.hopper").read_text()
+
+    def prepare(self, folder, program, model):
+        if not (folder / "scene").exists():
+            subprocess.run(["/usr/bin/python3", str(HOPPER / "make_scene.py"), "-o", str(folder / "scene"), "--particles", "1500"], check=True,
+                           capture_output=True)
+        if (folder / f"hopper.{program.label}.{model}" / "filled.restart").exists():
+            return
+        (folder / f"hopper.{program.label}.{model}").mkdir(exist_ok=True)
+        program.run(folder, self.command(program, model, fill=50000, flow=0, every=1000000000, pictures=1000000000))
+
+    def deck(self, program, model, steps):
+        return self.command(program, model, refill=0, flow=steps, every=1000000000, pictures=1000000000) + self.end(0)
+
+
+def scene_run(folder, scene, program, model, steps):
+    """User CPU, loop time, time of pairs (s) and the energies at the end."""
+    text, cpu = program.run(folder, scene.deck(program, model, steps), scene.ranks)
+    seconds = max([float(w) for w in re.findall(r"^Loop time of (\S+)", text, re.M)] or [0.0])
+    pair = max([float(w) for w in re.findall(r"^Pair  time \(%\) = (\S+)", text, re.M)] or [0.0])
+    energies = [float(w) for w in re.findall(r"^ENERGY (\S+) (\S+)", text, re.M)[-1]]
+    return cpu, seconds, pair, energies
+
+
+def measure(folder, scene, programs, models, rounds, error):
+    """Runs one scene and prints its lines; the last program's Hertz is the base."""
+    base = (programs[-1], "hertz")
+    runs = [base] + [(p, m) for m in models if m != "hertz" for p in programs]
+    for run in runs:
+        scene.prepare(folder, *run)
+    start = {run: min(scene_run(folder, scene, *run, 0)[0] for _ in range(2)) for run in runs}
+    found = {run: [] for run in runs}
+    for _ in range(rounds):
+        for run in runs:
+            cpu, *rest = scene_run(folder, scene, *run, scene.steps)
+            found[run].append((cpu - start[run], *rest))
+
+    def ratio(run, k):
+        ratios = [a[k] / b[k] for a, b in zip(found[run], found[base])]
+        return f"{statistics.median(ratios):.3f} [{min(ratios):.3f}, {max(ratios):.3f}]"
+
+    for run in runs:
+        program, model = run
+        motion = ""
+        if program is programs[-1] and len(programs) > 1 and model != "hertz":
+            pairs = zip(found[run][0][3], found[programs[0], model][0][3])
+            motion = f"  motion {max(abs(a / b - 1) if b else abs(a) for a, b in pairs):.2g} from {programs[0].label}"
+        print(f"{scene.name:20s} {model:9s} {program.label:7s} CPU ratio {ratio(run, 0)}  loop ratio {ratio(run, 1)}  "
+              f"pair-time ratio {ratio(run, 2)}  {statistics.median(a[0] for a in found[run]):.2f} s  "
+              f"force error {error.get(model, 'none (closed form)')}{motion}", flush=True)
+
+
+def scenes(options):
+    found = {"rest": Rest("rest", 2000), "frozen": Frozen("frozen", 2000, "history"), "frozen_off": Frozen("frozen_off", 2000, "off"),
+             "hopper": Hopper("hopper", 2000), "chute": Chute("chute", 1000)}
+    for name in options.scenes:
+        yield found[name]
+    for size in options.sizes:
+        for contacts in options.contacts:
+            for ranks in options.ranks:
+                yield Packing(size, contacts, ranks)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--rounds", type=int, default=10)
+    parser.add_argument("--scenes", nargs="*", default=["rest", "frozen", "frozen_off", "hopper", "chute"])
+    parser.add_argument("--sizes", nargs="*", type=int, default=[3000, 27000, 100000])
+    parser.add_argument("--contacts", nargs="+", type=int, default=[3, 6])
+    parser.add_argument("--ranks", nargs="+", type=int, default=[1, 2])
+    parser.add_argument("--models", nargs="+", default=["hertz", "mpm", "thornton"])
+    parser.add_argument("--before", action="append", default=[], help="folder of another plug-in and its launcher")
+    parser.add_argument("--folder", help="where scenes are kept; default: a folder that is removed")
+    options = parser.parse_args()
+    programs = [Program(folder, pathlib.Path(folder).name) for folder in options.before] + [
+        Program(pathlib.Path(loop.LAUNCHER).parent, "now")]
+    with tempfile.TemporaryDirectory(prefix="granulaw-settled-") as name:
+        folder = pathlib.Path(options.folder or name)
+        folder.mkdir(exist_ok=True)
+        error = {"mpm": subprocess.run([loop.LAW_MAKER, "one", str(folder / "mpm.h5"), str(loop.ONSETS["mpm_soft"])], check=True,
+                                       capture_output=True, text=True).stdout.strip()}
+        for scene in scenes(options):
+            measure(folder, scene, programs, options.models, options.rounds, error)
+
+
+if __name__ == "__main__":
+    main()
