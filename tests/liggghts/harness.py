@@ -45,6 +45,12 @@ def head(types=1, half=0.05, units="si", boundary="f f f", skin=None, extra="", 
             f"neighbor {skin if skin else half / 20} bin\nneigh_modify delay 0\n")
 
 
+def worst(values):
+    """The largest; not a number where one of them is none: max() passes over it unless it comes first."""
+    values = list(values)
+    return math.nan if any(v != v for v in values) else max(values)
+
+
 class Deck(unittest.TestCase):
     """A test with a folder of its own."""
 

@@ -14,6 +14,7 @@ import matrix_contacts
 import matrix_fixes
 import matrix_page
 import matrix_runs
+from harness import worst
 from matrix_compare import difference, run_all
 from matrix_known import KNOWN
 from matrix_scene import Variant
@@ -120,7 +121,7 @@ class Row:
         if not run.energies or not self.feature.conserved:
             return None
         held, lost, _ = run.energies[0]
-        drift = max(abs(a + b - held - lost) for a, b, _ in run.energies) / abs(held)
+        drift = worst(abs(a + b - held - lost) for a, b, _ in run.energies) / abs(held)
         return f"DEFECT: energy drifts by {drift:.2g} of its start" if not drift <= ENERGY else None
 
     def note(self, model, said, where):

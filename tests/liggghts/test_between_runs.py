@@ -7,7 +7,7 @@ import re
 import unittest
 
 import matrix_between as between
-from harness import Deck
+from harness import Deck, worst
 
 # A rank's sums are in another order than one rank's, and lists that are made anew list neighbours in another one: 1e-16 a step, amplified by 250 steps.
 ROUNDING = 1e-9
@@ -44,7 +44,7 @@ class Between(Deck):
         common = ours.keys() & theirs.keys()
         self.assertGreater(len(common), 50)
         scale = [max(map(abs, column)) for column in zip(*theirs.values())]
-        return max(abs(a - b) / s for k in common for a, b, s in zip(ours[k], theirs[k], scale))
+        return worst(abs(a - b) / s for k in common for a, b, s in zip(ours[k], theirs[k], scale))
 
     def check(self, model, ranks, rows, whole=f"run {between.BEFORE + between.AFTER}\n", one_process=True, **more):
         """Each row's bed against the unbroken run, or against its own twin."""

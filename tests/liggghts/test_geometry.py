@@ -3,7 +3,7 @@ inserted while running, of many sizes; multispheres as LIGGGHTS has them. Stock 
 import math
 import unittest
 
-from harness import POWDER, head, properties, sphere_mass
+from harness import POWDER, head, properties, sphere_mass, worst
 from trials import Trial, dump
 
 RADIUS = 1.7e-3
@@ -94,9 +94,9 @@ class Flat(Geometry):
             self.assertGreater(mesh[-1][0], -x[0])  # crossed all of it
             biggest = max(abs(row[2] + 2.0) for row in plane)
             self.assertGreater(biggest, 1.0)
-            apart = max(abs(a[c] - b[c]) for a, b in zip(mesh, plane) for c in (1, 2)) / biggest
-            jump = max(abs(b[2] - a[2]) for a, b in zip(mesh, mesh[1:])) / biggest
-            smooth = max(abs(b[2] - a[2]) for a, b in zip(plane, plane[1:])) / biggest
+            apart = worst(abs(a[c] - b[c]) for a, b in zip(mesh, plane) for c in (1, 2)) / biggest
+            jump = worst(abs(b[2] - a[2]) for a, b in zip(mesh, mesh[1:])) / biggest
+            smooth = worst(abs(b[2] - a[2]) for a, b in zip(plane, plane[1:])) / biggest
             self.record("flat", case=table, model=model, difference=apart, jump=jump, jump_plane=smooth)
             if model != "hertz":
                 # vertices are read at 9 digits and z = 0 exactly: only rounding of the distance is left, 1e-16 R against
@@ -134,7 +134,7 @@ class Flat(Geometry):
             # the lid has come down by `down`; the sphere sits in the middle but for its own oscillation
             force = [row[1] for row in rows]
             biggest = max(map(abs, force))
-            jump = max(abs(b - a) for a, b in zip(force, force[1:]))
+            jump = worst(abs(b - a) for a, b in zip(force, force[1:]))
             # 2 sqrt(R d) E* is the most that dF/dd can be; both walls move against the sphere by at most 2 speeds a step
             limit = 2 * 2 * POWDER.e_star * math.sqrt(RADIUS * down / 2) * 2 * speed * DT
             self.record("squeezed", model=model, force=biggest, jump=jump, limit=limit, moved=moved / down)
@@ -374,7 +374,7 @@ class Particles(Geometry):
         loss = first[0] + first[1] - last[0] - last[1]
         # some 50 steps a contact: 3e-4 of e (test_hard_cases.py, TimeStep), twice that of the energy
         self.assertAlmostEqual(loss / last[2], 1.0, delta=1e-3)
-        self.assertLess(max(abs(v) for row in rows for v in row), 3 * abs(before))
+        self.assertLess(worst(abs(v) for row in rows for v in row), 3 * abs(before))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import random
 import sys
 import unittest
 
-from harness import POWDER, properties
+from harness import POWDER, properties, worst
 from trials import Trial, dump
 
 RADIUS = 1.7e-3
@@ -84,7 +84,7 @@ class Invariance(Trial):
 def difference(a, b, columns):
     """Largest difference of the columns over particles."""
     assert a.keys() == b.keys()
-    return max(abs(a[i][c] - b[i][c]) for i in a for c in columns)
+    return worst(abs(a[i][c] - b[i][c]) for i in a for c in columns)
 
 
 class Forces(Invariance):
