@@ -1,6 +1,7 @@
 """One rule for the time step (mpm_core/law/contact_step.hpp): what `mpm plan`, `mpm soften` and the plug-in say of one deck is one number."""
 import json
 import pathlib
+import re
 import subprocess
 import tempfile
 
@@ -18,6 +19,11 @@ def key(pair):
     return (pair["wall"] if "wall" in pair else pair["kind"] != "particles", *pair["types"])
 
 
+def shortest(plan):
+    """s, unstretched, of the pair that asks for the shortest step."""
+    return min(p["time_step_s"] for p in plan["pairs"] if p["time_step_s"])
+
+
 def steps_at(mpm, words, stats, quantity):
     """{pair: s} that `mpm plan` allows where contacts reach the overlaps that `quantity` of the statistics names."""
     seen = [{"kind": p["kind"], "types": p["types"], "contacts_begun": 1, "impact_speed_max_m_per_s": 1e-6,
@@ -26,18 +32,19 @@ def steps_at(mpm, words, stats, quantity):
         path = pathlib.Path(folder) / "seen.json"
         path.write_text(json.dumps({"pairs": seen}))
         plan = ask(mpm, "plan", words, "--from", str(path))
-    stretch = plan["time_step_s"]["advised"] / min(p["time_step_s"] for p in plan["pairs"] if p["time_step_s"])
+    stretch = plan["time_step_s"]["advised"] / shortest(plan)
     return {key(p): stretch * p["time_step_s"] for p in plan["pairs"] if p["time_step_s"]}
 
 
 def check(test, mpm, words, stats, screen):
     """`words`: the deck and its variables; `stats`: JSON of the plug-in after a run of it; `screen`: what the run printed."""
+    said = re.search(r"stretch ([\d.]+)", " ".join(map(str, words)))
+    stretch = float(said[1]) if said else 1.0
     plan = ask(mpm, "plan", words)
     test.assertTrue(plan["complete"], plan["asks_for"])
-    advised = plan["time_step_s"]["advised"]
-    test.assertAlmostEqual(advised / min(p["time_step_s"] for p in plan["pairs"] if p["time_step_s"]), 1, delta=1e-12)
+    test.assertAlmostEqual(plan["time_step_s"]["advised"] / (stretch * shortest(plan)), 1, delta=1e-12)
     soft = ask(mpm, "soften", words)
-    test.assertAlmostEqual(soft["time_step_s"] / soft["stretch"] / advised, 1, delta=1e-12)
+    test.assertAlmostEqual(soft["time_step_s"] / (soft["stretch"] * shortest(plan)), 1, delta=1e-12)
 
     # What the plug-in says that the step in use is short enough for, the plan says of that overlap.
     used = stats["time_step_used_s"]
@@ -48,12 +55,15 @@ def check(test, mpm, words, stats, screen):
             continue
         deepest = pair["overlap_over_radius_limit"] or 0.1  # of thornton, which has no table
         if pair["overlap_over_radius_limit_of_time_step"] < 0.999 * deepest:
-            # 1e-5: the plug-in finds the overlap to 1e-6 of the deepest, ten digits are written
-            test.assertAlmostEqual(at_limit[key(pair)] / used, 1, delta=1e-3, msg=pair["types"])
+            # 1e-3: the plug-in finds the overlap to 1e-6 of the deepest, which may be a thousand times this one
+            # 1 %: of a composed law the plan takes that of like radii, the plug-in that of the particles' own (0.5 % in examples/mixture)
+            composed = len(set(pair["types"])) == 2 and pair["kind"] == "particles"
+            test.assertAlmostEqual(at_limit[key(pair)] / used, 1, delta=1e-2 if composed else 1e-3, msg=pair["types"])
         else:
             test.assertGreater(at_limit[key(pair)], 0.999 * used, pair["types"])
-        # The plan takes the smallest particles, and the stiffest up to the overlap, pressed or hit.
+        # The plan takes the smallest particles, and the stiffest up to the overlap, pressed or hit. 0.5 %: a contact that others turn back
+        # latched a higher speed than its overlap tells of, and is stiffer (0.14 % of the step in examples/packing).
         if pair["overlap_over_radius_max"]:
-            test.assertLess(at_visited[key(pair)], 1.001 * pair["time_step_allowed_s"], pair["types"])
+            test.assertLess(at_visited[key(pair)], 1.005 * pair["time_step_allowed_s"], pair["types"])
     # a run that visited what its step is short enough for is not warned of
     test.assertNotIn("was so deep that its time step", screen)
