@@ -60,8 +60,8 @@ class ContactCounts
     return 0.5 + 0.5 * static_cast<double>(whole);
   }
 
-  /// A step that takes the contact deeper than it ever was: from `delta_max`, which is 0 if it begins. `kept`:
-  /// of the law.
+  /// A step that takes the contact deeper than it ever was: from `delta_max`, which is 0 if it begins.
+  /// `kept`: of the law.
   void deepen(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
               double delta_max, double* kept) const
   {
@@ -89,8 +89,7 @@ class ContactCounts
       counts.sudden += weight;
       counts.brought += weight * entry.contact.stored_energy(r_eff, delta, delta, impact_overlap);
     } else {
-      const double dissipated =
-          dissipation_of(entry.contact, r_eff, delta_max, delta, impact_overlap, kept);
+      const double dissipated = dissipation_of(entry.contact, r_eff, delta_max, delta, impact_overlap, kept);
       counts.dissipated += weight * dissipated;
       if (energy_) [[unlikely]]
         energy_->share(contact, EnergyTally::dissipated, dissipated, lmp_->atom->nlocal);

@@ -140,10 +140,10 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   {
     PairGran* pair;
     int computeflag, shearupdate, addflag;
-    int frozen;    // bit of the frozen group, 0: none
-    bool rigid;    // spheres may be part of fix rigid's bodies
-    bool newton;   // forces on ghosts count
-    bool observed; // tell_observers
+    int frozen;     // bit of the frozen group, 0: none
+    bool rigid;     // spheres may be part of fix rigid's bodies
+    bool newton;    // forces on ghosts count
+    bool observed;  // tell_observers
   };
   /// Whether spheres that do not touch may feel each other (liquid bridges): all within LIGGGHTS's contact
   /// distance are visited then.
@@ -223,7 +223,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
       reach2 = lmp_->neighbor->contactDistanceFactor * lmp_->neighbor->contactDistanceFactor;
     for (int jj = 0; jj < count; ++jj) {
       const int j = neighbours[jj] & NEIGHMASK;
-      const double *const xj = x + 3 * j;
+      const double* const xj = x + 3 * j;
       const double dx = xi - xj[0], dy = yi - xj[1], dz = zi - xj[2];
       const double rsq = dx * dx + dy * dy + dz * dz, radsum = ri + radius[j];
       *out = {i, j, flags + jj, history};

@@ -116,7 +116,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       if constexpr (Physics::latches_impact)
         impact_overlap = delta_max == 0.0 ? first_impact_overlap(entry, r_eff, sidata)
                                           : sidata.contact_history[impact_offset_];
-      forces = normal_forces<true>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
+      forces =
+          normal_forces<true>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
       if (sidata.computeflag && sidata.shearupdate) {
         if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
         counts_.deepen(sidata, entry, r_eff, impact_overlap, delta_max, reversal);
@@ -124,7 +125,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       }
     } else {
       if constexpr (Physics::latches_impact) impact_overlap = sidata.contact_history[impact_offset_];
-      forces = normal_forces<false>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
+      forces =
+          normal_forces<false>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
     }
     const auto [law_force, waves_force] = forces;
     const double root = std::sqrt(r_eff * delta);
@@ -233,8 +235,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   double approach(const SurfacesIntersectData& sidata) const
   {
     if (!std::isfinite(sidata.vn))
-      stop_one(lmp, fmt::format("{}: the velocity of particle {} or of what it touches is not a number", setup_->where,
-                                atom->tag[sidata.i]));
+      stop_one(lmp, fmt::format("{}: the velocity of particle {} or of what it touches is not a number",
+                                setup_->where, atom->tag[sidata.i]));
     return 0.0 - sidata.vn * units_.length;  // 0 of two at rest, not -0
   }
 

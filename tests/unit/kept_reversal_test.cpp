@@ -1,4 +1,5 @@
-// A contact that keeps its reversal: the force with it and without it, and the shorter way of a contact that loads.
+// A contact that keeps its reversal: the force with it and without it, and the shorter way of a contact that
+// loads.
 #include <gtest/gtest.h>
 
 #include <cmath>
