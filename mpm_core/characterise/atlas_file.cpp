@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "characterise/atlas.hpp"
 #include "law/h5.hpp"
+#include "law/h5_checksum.hpp"
 #include "law/h5_names.hpp"
 
 namespace granulaw {
@@ -14,8 +15,9 @@ namespace granulaw {
 namespace {
 
 constexpr const char* format_value = "granulaw-atlas";
-constexpr int major = 3;
-constexpr std::size_t most = 1u << 20;  // numbers in one dataset
+constexpr int major = 3, minor = 1;
+constexpr int first_minor_with_checksum = 1;  // files without the attribute version_minor are of minor 0
+constexpr std::size_t most = 1u << 20;        // numbers in one dataset
 
 using h5::Field;
 constexpr Field main_poisson_ratio{"main_poisson_ratio", "1", "Poisson's ratio of the main plane"};
@@ -160,78 +162,8 @@ MidplaneShapes read_midplane(hid_t file, double main_ratio, const std::string& p
   return {std::move(grid), std::move(elastic_terms), std::move(nodes), std::move(made)};
 }
 
-}  // namespace
-
-void write_atlas(const Atlas& atlas, const std::string& path)
+Atlas read_open(hid_t file, const std::string& path)
 {
-  const h5::Silence silence;
-  write_atomically(path, [&](const std::string& temporary) {
-    h5::Handle file(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-    if (!file.ok()) fail(path, "cannot write here (no such folder, or no permission)");
-    h5::write_text_attribute(file, h5::format, format_value, path);
-    h5::write_int_attribute(file, h5::version_major, major, path);
-    const AtlasGrid& grid = atlas.grid();
-    h5::write_scalar(file, main_poisson_ratio, grid.main_poisson_ratio, path);
-    h5::write_vector(file, stiffnesses, grid.stiffnesses, path);
-    h5::write_vector(file, hardenings, grid.hardenings, path);
-    h5::write_vector(file, block_stiffnesses, grid.block_stiffnesses, path);
-    h5::write_vector(file, block_hardenings, grid.block_hardenings, path);
-    h5::write_vector(file, block_poisson_ratios, grid.block_poisson_ratios, path);
-
-    const auto gather = [&](const Field& field, auto&& append) {
-      std::vector<double> values;
-      for (const Atlas::Node& node : atlas.nodes()) append(node, values);
-      h5::write_vector(file, field, values, path);
-    };
-    gather(stiffness, [](const auto& node, auto& v) { v.push_back(node.material.stiffness); });
-    gather(poisson_ratio, [](const auto& node, auto& v) { v.push_back(node.material.poisson_ratio); });
-    gather(hardening, [](const auto& node, auto& v) { v.push_back(node.material.hardening); });
-    gather(elastic, [](const auto& node, auto& v) {
-      for (const double c : {node.shape.elastic.c1, node.shape.elastic.c2, node.shape.elastic.d1})
-        v.push_back(c);
-    });
-    for (const Curve& c : curves)
-      gather(c.field, [&](const auto& node, auto& v) {
-        v.insert(v.end(), (node.shape.*c.values).begin(), (node.shape.*c.values).end());
-      });
-    for (const ImpactNumber& n : impact_numbers)
-      gather(n.field, [&](const auto& node, auto& v) {
-        for (const LawShape::VelocityEffect& i : node.shape.velocity_effects) v.push_back(i.*n.value);
-      });
-    gather(impact_force, [](const auto& node, auto& v) {
-      for (const LawShape::VelocityEffect& i : node.shape.velocity_effects)
-        v.insert(v.end(), i.force.begin(), i.force.end());
-    });
-    std::vector<double> spheres;
-    for (const auto& [nu, fit, solver_error] : atlas.elastic_spheres())
-      for (const double v : {nu, fit.correction.c1, fit.correction.c2, fit.correction.c3, fit.correction.d1,
-                             fit.error, solver_error})
-        spheres.push_back(v);
-    h5::write_vector(file, elastic_spheres, spheres, path);
-    std::vector<double> rows;
-    for (const AtlasCheck& c : atlas.checks())
-      for (const double v : {c.material.stiffness, c.material.poisson_ratio, c.material.hardening, c.speed,
-                             c.error_force, c.error_restitution, c.solver_estimate})
-        rows.push_back(v);
-    if (!rows.empty()) h5::write_vector(file, checks, rows, path);
-    if (!atlas.midplane().empty()) write_midplane(file, atlas.midplane(), path);
-    if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
-  });
-}
-
-Atlas read_atlas(const std::string& path)
-{
-  const h5::Silence silence;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) fail(path, "no such file");
-  h5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.ok()) fail(path, "is not an HDF5 file, so not an atlas (or it was cut off)");
-  if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != format_value)
-    fail(path, "is an HDF5 file but not an atlas of granulaw");
-  if (const int found = h5::read_int_attribute(file, h5::version_major, path); found != major)
-    fail(path, "the atlas's major version is not the one this program reads", std::to_string(found),
-         std::to_string(major));
-
   AtlasGrid grid;
   grid.main_poisson_ratio = h5::read_scalar(file, main_poisson_ratio, path);
   grid.stiffnesses = h5::read_vector(file, stiffnesses, most, path);
@@ -280,6 +212,89 @@ Atlas read_atlas(const std::string& path)
   }
   MidplaneShapes midplane = read_midplane(file, grid.main_poisson_ratio, path);
   return Atlas(std::move(grid), std::move(nodes), std::move(spheres), std::move(made), std::move(midplane));
+}
+
+}  // namespace
+
+void write_atlas(const Atlas& atlas, const std::string& path)
+{
+  const h5::Silence silence;
+  write_atomically(path, [&](const std::string& temporary) {
+    h5::Handle file(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+    if (!file.ok()) fail(path, "cannot write here (no such folder, or no permission)");
+    h5::write_text_attribute(file, h5::format, format_value, path);
+    h5::write_int_attribute(file, h5::version_major, major, path);
+    h5::write_int_attribute(file, h5::version_minor, minor, path);
+    const AtlasGrid& grid = atlas.grid();
+    h5::write_scalar(file, main_poisson_ratio, grid.main_poisson_ratio, path);
+    h5::write_vector(file, stiffnesses, grid.stiffnesses, path);
+    h5::write_vector(file, hardenings, grid.hardenings, path);
+    h5::write_vector(file, block_stiffnesses, grid.block_stiffnesses, path);
+    h5::write_vector(file, block_hardenings, grid.block_hardenings, path);
+    h5::write_vector(file, block_poisson_ratios, grid.block_poisson_ratios, path);
+
+    const auto gather = [&](const Field& field, auto&& append) {
+      std::vector<double> values;
+      for (const Atlas::Node& node : atlas.nodes()) append(node, values);
+      h5::write_vector(file, field, values, path);
+    };
+    gather(stiffness, [](const auto& node, auto& v) { v.push_back(node.material.stiffness); });
+    gather(poisson_ratio, [](const auto& node, auto& v) { v.push_back(node.material.poisson_ratio); });
+    gather(hardening, [](const auto& node, auto& v) { v.push_back(node.material.hardening); });
+    gather(elastic, [](const auto& node, auto& v) {
+      for (const double c : {node.shape.elastic.c1, node.shape.elastic.c2, node.shape.elastic.d1})
+        v.push_back(c);
+    });
+    for (const Curve& c : curves)
+      gather(c.field, [&](const auto& node, auto& v) {
+        v.insert(v.end(), (node.shape.*c.values).begin(), (node.shape.*c.values).end());
+      });
+    for (const ImpactNumber& n : impact_numbers)
+      gather(n.field, [&](const auto& node, auto& v) {
+        for (const LawShape::VelocityEffect& i : node.shape.velocity_effects) v.push_back(i.*n.value);
+      });
+    gather(impact_force, [](const auto& node, auto& v) {
+      for (const LawShape::VelocityEffect& i : node.shape.velocity_effects)
+        v.insert(v.end(), i.force.begin(), i.force.end());
+    });
+    std::vector<double> spheres;
+    for (const auto& [nu, fit, solver_error] : atlas.elastic_spheres())
+      for (const double v : {nu, fit.correction.c1, fit.correction.c2, fit.correction.c3, fit.correction.d1,
+                             fit.error, solver_error})
+        spheres.push_back(v);
+    h5::write_vector(file, elastic_spheres, spheres, path);
+    std::vector<double> rows;
+    for (const AtlasCheck& c : atlas.checks())
+      for (const double v : {c.material.stiffness, c.material.poisson_ratio, c.material.hardening, c.speed,
+                             c.error_force, c.error_restitution, c.solver_estimate})
+        rows.push_back(v);
+    if (!rows.empty()) h5::write_vector(file, checks, rows, path);
+    if (!atlas.midplane().empty()) write_midplane(file, atlas.midplane(), path);
+    h5::Checksum written;
+    read_open(file, path);
+    h5::write(file, written, path);
+    if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
+  });
+}
+
+Atlas read_atlas(const std::string& path)
+{
+  const h5::Silence silence;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) fail(path, "no such file");
+  h5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (!file.ok()) fail(path, "is not an HDF5 file, so not an atlas (or it was cut off)");
+  if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != format_value)
+    fail(path, "is an HDF5 file but not an atlas of granulaw");
+  if (const int found = h5::read_int_attribute(file, h5::version_major, path); found != major)
+    fail(path, "the atlas's major version is not the one this program reads", std::to_string(found),
+         std::to_string(major));
+  const bool has_minor = H5Aexists(file, h5::version_minor) > 0;
+  const int found_minor = has_minor ? h5::read_int_attribute(file, h5::version_minor, path) : 0;
+  h5::Checksum found;
+  Atlas atlas = read_open(file, path);
+  h5::verify(file, found, found_minor >= first_minor_with_checksum, path);
+  return atlas;
 }
 
 }  // namespace granulaw

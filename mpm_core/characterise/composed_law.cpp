@@ -324,22 +324,8 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
   return shape;
 }
 
-/// sqrt(I) of the pair, in the rule's coordinates, over that of the yielding body: its density, its share of
-/// the approach. 1 for like spheres and for a rigid wall.
-double damage_speed_ratio(const LawMaterial& yielding, const LawMaterial& partner, double radius_ratio)
-{
-  const PairMapping mapping = UnlikePair{yielding, partner, radius_ratio}.mapping();
-  // the rule's one body: lambda m* = 4/3 pi density (lambda R*)^3
-  double density = std::pow(mapping.sqrt_lambda, -4);
-  if (radius_ratio == 0)
-    density *= partner.density / yielding.density;
-  else
-    density = UnlikePair{yielding, partner, radius_ratio}.one_body_density();
-  return std::sqrt(density) * mapping.sqrt_lambda;
-}
-
 /// Those of the yielding body at its own damage number: an impact reaches so much less than by the slow law
-/// as that body's own does. `speed_ratio`: damage_speed_ratio().
+/// as that body's own does. `speed_ratio`: UnlikePair::axis_speed_ratio().
 std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const ContactCurve& own_slow,
                                                        const ContactCurve& pair_slow,
                                                        const CharacterisedBody& body, double speed_ratio)
@@ -399,22 +385,22 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
   return result;
 }
 
-/// Damage number, in the law's coordinate, up to which impacts of two bodies have shown that a composed law
-/// keeps its error: 0.003 of spheres. Of a thick wall the waves that leave while the force rises are not
-/// modelled, and its own damage number, by its share of the approach, tells them: 0.003, too; a stiff wall's
-/// stays small at any speed.
-double measured_damage_number(const LawMaterial& yielding, const LawMaterial& partner, double radius_ratio)
+/// Damage number up to which impacts of two bodies have shown that a composed law keeps its error. Of spheres
+/// v^2 = 0.003, v of the velocity axis. Of a thick wall the waves that leave while the force rises are not
+/// modelled, and the wall's own damage number, by its share of the approach, measures them: 0.003, too; a
+/// stiff wall's stays small at any speed.
+double measured_damage_number(const LawMaterial& yielding, const LawMaterial& partner, double radius_ratio,
+                              double speed_ratio)
 {
   constexpr double measured = 0.003;
   const bool partner_is_wall = std::isinf(radius_ratio), yielding_is_wall = radius_ratio == 0;
-  if (!partner_is_wall && !yielding_is_wall) return measured;
-  const double ratio = damage_speed_ratio(yielding, partner, radius_ratio);
+  if (!partner_is_wall && !yielding_is_wall) return measured / (speed_ratio * speed_ratio);
   const double yielding_share =
       1 / PairMapping::deformable_partner(yielding.e_star(), partner.e_star()).sqrt_lambda;
   const double of_wall = partner_is_wall ? (1 / yielding_share - 1) * (1 / yielding_share - 1) *
                                                partner.density / yielding.density
                                          : 1.0;
-  return measured * ratio * ratio / of_wall;
+  return measured / of_wall;
 }
 
 }  // namespace
@@ -436,19 +422,22 @@ ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const 
   const ElasticCorrection elastic =
       elastic_correction(yielding, partner, radius_ratio, rule, elastic_depth, 2);
   const MaterialRatios ratios = yielding.ratios();
-  ComposedShape composed{yielding.material(),
-                         radius_ratio,
-                         shape_of(samples, elastic, end),
-                         characterised_body_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening),
-                         end,
-                         error_of(yielding, partner),
-                         measured_damage_number(yielding.material(), partner.material(), radius_ratio)};
+  const double speed_ratio =
+      UnlikePair{yielding.material(), partner.material(), radius_ratio}.axis_speed_ratio();
+  ComposedShape composed{
+      yielding.material(),
+      radius_ratio,
+      shape_of(samples, elastic, end),
+      characterised_body_of(ratios.stiffness, ratios.poisson_ratio, ratios.hardening),
+      end,
+      error_of(yielding, partner),
+      measured_damage_number(yielding.material(), partner.material(), radius_ratio, speed_ratio),
+      speed_ratio};
   if (options.fastest > 0) {
     const LawShape own = atlas.shape(ratios);
     composed.shape.velocity_effects =
         velocity_effects(own, tabulate(own, composed.body.onset, Atlas::depth, Atlas::depth),
-                         tabulate(composed.shape, onset, end, end), composed.body,
-                         damage_speed_ratio(yielding.material(), partner.material(), radius_ratio));
+                         tabulate(composed.shape, onset, end, end), composed.body, speed_ratio);
   }
   composed.body.onset = onset;
   return composed;
@@ -465,11 +454,13 @@ TwoBodyLaw law_of(const ComposedShape& composed, const BuildOptions& options)
   law.certificate.atlas_error_restitution = composed.stated.restitution;
   BuildOptions of_pair = options;
   of_pair.depth = composed.end;
+  of_pair.fastest = options.fastest * composed.speed_ratio;
   if (!composed.shape.velocity_effects.empty())
-    of_pair.fastest = std::min(options.fastest, composed.shape.velocity_effects.back().speed);
+    of_pair.fastest = std::min(of_pair.fastest, composed.shape.velocity_effects.back().speed);
   law.certificate.interpolation_error =
       finish_where_admissible(law, composed.shape, composed.body, of_pair, composed.end);
-  law.certificate.damage_number_max = std::min(law.certificate.damage_number_max, composed.damage_number_max);
+  double& limit = law.certificate.damage_number_max;  // so far v^2 of the axis
+  limit = std::min(limit / (composed.speed_ratio * composed.speed_ratio), composed.damage_number_max);
   return result;
 }
 

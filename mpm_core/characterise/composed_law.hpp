@@ -78,6 +78,7 @@ struct ComposedShape
   double end;              ///< overlap where the shape ends
   ComposedError stated;
   double damage_number_max;  ///< up to which impacts have shown that error to hold
+  double speed_ratio;        ///< UnlikePair::axis_speed_ratio()
 };
 
 /// The shape of a pair that yields at this ratio of the partner's radius to the yielding body's; infinity:

@@ -408,7 +408,8 @@ CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, c
   for (const double ratio : ratios) {
     ComposedShape composed = compose_shape(*options.atlas, yielding, partner, ratio, options);
     correct(composed, correction);
-    composed.damage_number_max = std::max(composed.damage_number_max, ringing * ringing);
+    const double fastest = ringing / composed.speed_ratio;  // of the impacts; ringing: v of the velocity axis
+    composed.damage_number_max = std::max(composed.damage_number_max, fastest * fastest);
     made.laws.push_back(law_of(composed, options));
     certify(made.laws.back().law.certificate, correction.neighbours(1 / (1 + ratio)));
   }

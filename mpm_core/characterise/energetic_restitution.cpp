@@ -23,21 +23,48 @@ double interval(const std::vector<TraceSample>& trace, std::size_t k)
 
 }  // namespace
 
-double energetic_restitution(const RunResult& run, const RigidBody& body, double velocity)
+double ContactWork::restitution() const
+{
+  return taken > 0 ? std::sqrt(given_back / taken) : 0;
+}
+
+ContactWork contact_work(const RunResult& run, const RigidBody& body, const RigidMotion& before)
 {
   const std::vector<PlaneSample>& samples = run.planes.front().samples;
   const Eigen::Matrix3d compliance = body.inertia.inverse();
-  Vector3 motion(0, 0, -velocity), angular = Vector3::Zero();
-  const double before = 0.5 * body.mass * velocity * velocity;
-  double least = before, energy = before;
+  Vector3 motion = before.velocity, spin = before.spin;
+  double work = 0, most = 0, first_touch = -1, last_touch = 0, duration = 0;
+  ContactWork found;
+  bool ended = false;
+  // a contact has ended where the body stays free for this part of the first one's duration
+  constexpr double gap = 0.1;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const double time = interval(run.trace, k);
+    const double time = interval(run.trace, k), at = run.trace[k].time;
+    const Vector3 place = vector_of(samples[k].centre);
+    const auto approach = [&] { return -(motion + spin.cross(place)).z(); };
+    const double before_step = approach();
     motion += time / body.mass * vector_of(samples[k].vector);
-    angular += time * vector_of(samples[k].torque);
-    energy = 0.5 * body.mass * motion.squaredNorm() + 0.5 * angular.dot(compliance * angular);
-    least = std::min(least, energy);
+    spin += time * (compliance * vector_of(samples[k].torque));
+    if (!(samples[k].force > 0)) continue;
+    if (first_touch < 0) first_touch = last_touch = at;
+    if (work < most && at - last_touch > gap * duration) {
+      ended = true;
+      ++found.contacts;
+    }
+    last_touch = at;
+    if (ended) continue;
+    duration = at - first_touch;
+    work += samples[k].force * time * 0.5 * (before_step + approach());
+    most = std::max(most, work);
+    found.taken = most, found.given_back = most - work;
   }
-  return before > least ? std::sqrt((energy - least) / (before - least)) : 0;
+  found.velocity_after = motion;
+  return found;
+}
+
+double energetic_restitution(const RunResult& run, const RigidBody& body, double velocity)
+{
+  return contact_work(run, body, {Vector3(0, 0, -velocity), Vector3::Zero()}).restitution();
 }
 
 }  // namespace granulaw

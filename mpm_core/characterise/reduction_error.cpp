@@ -140,10 +140,18 @@ RunSummary press_two_bodies(const UnlikePair& pair, double depth, double ramp, c
   return run_press(bodies.first, plan, options, bodies.partner).summary;
 }
 
-double fastest_of_law(const UnlikePair& pair, double damage_number)
+double UnlikePair::axis_speed_ratio() const
+{
+  const double sqrt_lambda = mapping().sqrt_lambda;
+  const double density =
+      radius_ratio == 0 ? partner.density / yielding.density * std::pow(sqrt_lambda, -4) : one_body_density();
+  return std::sqrt(density) * sqrt_lambda;
+}
+
+double fastest_of_law(const UnlikePair& pair, double axis_speed2)
 {
   const double density = pair.yielding.density * pair.one_body_density();
-  return std::sqrt(damage_number * pair.yielding.yield_stress / density);
+  return std::sqrt(axis_speed2 * pair.yielding.yield_stress / density);
 }
 
 namespace {

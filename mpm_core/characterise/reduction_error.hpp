@@ -21,6 +21,9 @@ struct UnlikePair
   double m_eff() const;
   /// Density, over the yielding body's, of the one sphere that stands for the pair: see `as_one_body`.
   double one_body_density() const;
+  /// v of the velocity axis in the rule's coordinates (law/velocity_axis.hpp) over the square root of the
+  /// damage number (law/law.hpp), at one relative speed. 1 between like spheres and on a rigid wall.
+  double axis_speed_ratio() const;
   /// Customary V_y of that sphere, m/s: the relative velocity that V/V_y of a pair is counted from.
   double yield_velocity() const;
 };
@@ -54,8 +57,9 @@ ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
 /// with the radii; 0 at its own ratio. What that law's certificate states comes on top.
 ReductionError estimate_remaining_error(const UnlikePair& pair, double law_radius_ratio, double velocity);
 
-/// Relative velocity, m/s, at which the pair's one body has I = rho V^2/Y = `damage_number`.
-double fastest_of_law(const UnlikePair& pair, double damage_number);
+/// Relative velocity, m/s, at which v^2 of the velocity axis, rho V^2/Y of the pair's one body, is
+/// `axis_speed2`.
+double fastest_of_law(const UnlikePair& pair, double axis_speed2);
 
 /// The same measured: two collisions, as two bodies and as one, at two resolutions; about a second of CPU at
 /// E*/Y = 100 and V/V_y = 20, ten times that at E*/Y = 1000. Signed: rule over two bodies, less 1.

@@ -21,7 +21,11 @@ BuiltLaw build_two_body_law(const UnlikePair& pair, const BuildOptions& options)
   BuildOptions own = options;
   own.farm = &farm;
   own.depth = std::min(options.depth, deepest_of_two_bodies(pair));
-  return build_law(s, yielding_body(pair), own, two_body_runs(pair));
+  const double speed_ratio = pair.axis_speed_ratio();
+  own.fastest = options.fastest * speed_ratio;
+  BuiltLaw built = build_law(s, yielding_body(pair), own, two_body_runs(pair));
+  built.law.certificate.damage_number_max /= speed_ratio * speed_ratio;  // so far v^2 of the axis
+  return built;
 }
 
 }  // namespace granulaw

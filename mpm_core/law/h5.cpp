@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "law/h5_checksum.hpp"
 #include "law/h5_names.hpp"
 
 namespace granulaw::h5 {
@@ -82,6 +83,14 @@ void require_stored(hid_t set, const std::string& file, const char* name)
   H5D_space_status_t status{};
   require(H5Dget_space_status(set, &status) >= 0 && status == H5D_SPACE_STATUS_ALLOCATED, file,
           "values are declared but not stored in", name);
+}
+
+/// Of a list of texts, each with its end.
+void add_texts(const char* name, const std::vector<std::string>& texts)
+{
+  std::string all;
+  for (const std::string& text : texts) all.append(text.c_str(), text.size() + 1);
+  Checksum::add(name, all.data(), all.size());
 }
 
 /// Opens a dataset of numbers and checks its type.
@@ -198,7 +207,9 @@ std::string read_text_attribute(hid_t object, const char* name, const std::strin
   require(H5Sget_simple_extent_npoints(space) == 1, file, "one text expected in", name);
   std::string text(size, '\0');
   require(H5Aread(attribute, type, text.data()) >= 0, file, "cannot read the attribute", name);
-  return trimmed(text.data(), size);
+  text = trimmed(text.data(), size);
+  Checksum::add(name, text.data(), text.size());
+  return text;
 }
 
 int read_int_attribute(hid_t object, const char* name, const std::string& file)
@@ -224,6 +235,7 @@ double read_scalar(hid_t group, const Field& field, const std::string& file)
   require_stored(set, file, field.name);
   require(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0, file, "cannot read",
           field.name);
+  Checksum::add(field.name, &value, sizeof value);
   return value;
 }
 
@@ -241,6 +253,7 @@ std::vector<double> read_vector(hid_t group, const Field& field, std::size_t mos
   require(
       values.empty() || H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
       file, "cannot read", field.name);
+  Checksum::add(field.name, values.data(), values.size() * sizeof(double));
   return values;
 }
 
@@ -261,6 +274,7 @@ std::vector<std::string> read_texts(hid_t group, const char* name, std::size_t m
   std::vector<std::string> texts;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
     texts.push_back(trimmed(block.data() + k * size, size));
+  add_texts(name, texts);
   return texts;
 }
 
@@ -278,6 +292,7 @@ std::vector<std::string> read_names(hsize_t count, const std::string& file, cons
     if (size <= 0 || size >= static_cast<ssize_t>(sizeof name)) fail(file, unusable);
     names.emplace_back(name);
   }
+  add_texts("", names);
   return names;
 }
 

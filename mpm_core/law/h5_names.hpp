@@ -17,8 +17,9 @@ inline constexpr const char* format = "format";
 inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
-inline constexpr int major = 3;  ///< counts up where an old reader would misread the file
-inline constexpr int minor = 1;  ///< counts up where something is only added
+inline constexpr int major = 3;                      ///< counts up where an old reader would misread the file
+inline constexpr int minor = 2;                      ///< counts up where something is only added
+inline constexpr int first_minor_with_checksum = 2;  ///< older files of this major version have none
 
 // Attributes of every dataset.
 inline constexpr const char* unit = "unit";

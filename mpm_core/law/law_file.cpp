@@ -10,6 +10,7 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "law/h5.hpp"
+#include "law/h5_checksum.hpp"
 #include "law/h5_names.hpp"
 #include "law/h5_structure.hpp"
 #include "law/shape_certificate_file.hpp"
@@ -500,12 +501,22 @@ Law read_open(const h5::Handle& file, const std::string& path)
   return law;
 }
 
+/// read_open(), and compares the checksum.
+Law read_verified(const h5::Handle& file, const std::string& path)
+{
+  const int minor = h5::read_int_attribute(file, h5::version_minor, path);
+  h5::Checksum found;
+  Law law = read_open(file, path);
+  law.checksum = h5::verify(file, found, minor >= h5::first_minor_with_checksum, path);
+  return law;
+}
+
 }  // namespace
 
 Law read_law(const std::string& path)
 {
   const h5::Silence silence;
-  return read_open(open_law(path), path);
+  return read_verified(open_law(path), path);
 }
 
 Law read_law_image(std::span<const char> image, const std::string& path)
@@ -518,7 +529,7 @@ Law read_law_image(std::span<const char> image, const std::string& path)
   // HDF5 gives an image a name and refuses that of a file that exists
   const h5::Handle file(H5Fopen((path + "/image in memory").c_str(), H5F_ACC_RDONLY, access));
   if (!file.ok()) fail(path, "the bytes that rank 0 read are no law file");
-  return read_open(file, path);
+  return read_verified(file, path);
 }
 
 void write_law(const Law& law, const std::string& path)
@@ -562,6 +573,9 @@ void write_law(const Law& law, const std::string& path)
         write_pair_laws(h5::create_group(own_laws, name.c_str(), path), laws, path);
     }
 
+    h5::Checksum written;
+    read_open(file, path);
+    h5::write(file, written, path);
     if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) fail(path, "cannot write (disk full?)");
   });
 }

@@ -52,11 +52,45 @@ TEST(EnergeticRestitution, StaysBelowOneWhereTheContactMoves)
       run_of([&](double t) { return 1.6 * mass * velocity * 6 * t * (1 - t); }, Vector3(0.6, 0, -1));
   for (std::size_t k = 0; k < run.trace.size(); ++k) {
     PlaneSample& s = run.planes[0].samples[k];
-    s.torque[1] *= std::max(0.0, 1 - 5 * run.trace[k].time);
+    const double moves = std::max(0.0, 1 - 5 * run.trace[k].time);
+    s.torque[1] *= moves, s.centre[0] *= moves;
   }
   const double e = energetic_restitution(run, body, velocity);
   EXPECT_GT(e, 0.3);
   EXPECT_LT(e, 1);
+}
+
+/// Friction takes energy, too: e of the contact is that of the normal force alone.
+TEST(EnergeticRestitution, IsThatOfTheNormalForce)
+{
+  constexpr double e = 0.6, friction = 0.3;
+  RunResult run =
+      run_of([&](double t) { return mass * velocity * (1 + e) * 6 * t * (1 - t); }, Vector3(0, 0, -1));
+  for (PlaneSample& s : run.planes[0].samples) {
+    s.vector[0] = -friction * s.force;
+    s.torque[1] = friction * s.force;  // arm (0, 0, -1)
+  }
+  const RigidMotion before{Vector3(5, 0, -velocity), Vector3(0, 2, 0)};
+  const ContactWork work = contact_work(run, body, before);
+  EXPECT_NEAR(work.restitution(), e, 1e-3);
+  EXPECT_NEAR(work.taken / (0.5 * mass * velocity * velocity), 1, 1e-3);
+  EXPECT_EQ(work.contacts, 1);
+}
+
+/// A body that turns over its first contact and hits again: e is that of the first.
+TEST(EnergeticRestitution, IsThatOfTheFirstContact)
+{
+  constexpr double e = 0.5;
+  const auto pulse = [](double t, double begin, double end) {
+    const double x = (t - begin) / (end - begin);
+    return x > 0 && x < 1 ? 6 * x * (1 - x) / (end - begin) : 0;
+  };
+  const RunResult run = run_of(
+      [&](double t) { return mass * velocity * ((1 + e) * pulse(t, 0, 0.4) + 0.2 * pulse(t, 0.7, 0.9)); },
+      Vector3(0, 0, -1));
+  const ContactWork work = contact_work(run, body, {Vector3(0, 0, -velocity), Vector3::Zero()});
+  EXPECT_NEAR(work.restitution(), e, 2e-3);
+  EXPECT_EQ(work.contacts, 2);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "synthetic_law.hpp"
+#include "without_checksum.hpp"
 
 namespace granulaw {
 namespace {
@@ -139,6 +140,71 @@ TEST_F(LawFile, RoundTripIsBitExact)
                 same_bits(a.radius_ratio_slope, b.radius_ratio_slope));
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "a temporary file was left";
+}
+
+/// Every number of a law that a collision depends on, by its text to all digits.
+std::string contents(const Law& law)
+{
+  std::string text;
+  const auto add = [&](double value) { text += std::to_string(std::bit_cast<std::uint64_t>(value)) + " "; };
+  for (const auto& [name, body] : law.bodies) {
+    text += name + " ";
+    for (const double value :
+         {body.material.density, body.material.youngs_modulus, body.material.poisson_ratio,
+          body.material.yield_stress, body.certificate.damage_number_max, body.certificate.atlas_error_force,
+          body.mass_ratio})
+      add(value);
+    const ContactCurve::Table& t = body.curve.table();
+    for (const auto* values :
+         {&t.force_ratio, &t.force_ratio_slope, &t.residual_ratio, &t.residual_ratio_slope, &t.exponent,
+          &t.exponent_slope, &t.hertz_share, &t.radius_ratio, &t.radius_ratio_slope})
+      for (const double value : *values) add(value);
+    if (const VelocityAxis* axis = body.curve.axis())
+      for (const double value : axis->table().force_correction) add(value);
+  }
+  for (const LawPair& pair : law.pairs) text += pair.a + ":" + pair.b + " ";
+  return text;
+}
+
+/// One flipped bit in each of 1500 places: the file is refused, or the law is the same.
+TEST_F(LawFile, AFlippedBitIsRefusedOrChangesNothing)
+{
+  write_law(SyntheticLaw{}.law_with_axis(), path_);
+  const std::string good = bytes(), expected = contents(read_law(path_));
+  EXPECT_FALSE(read_law(path_).checksum.empty());
+  unsigned state = 20261124;
+  int refused = 0;
+  for (int k = 0; k < 1500; ++k) {
+    state = state * 1664525u + 1013904223u;
+    const std::size_t place = (state >> 4) % good.size();
+    std::string bad = good;
+    bad[place] = static_cast<char>(bad[place] ^ (1 << (state >> 1) % 8));
+    std::ofstream(path_, std::ios::binary) << bad;
+    try {
+      EXPECT_EQ(contents(read_law(path_)), expected) << "byte " << place;
+    } catch (const Error&) {
+      ++refused;
+    }
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(refused, 700);  // most bytes are numbers
+}
+
+TEST_F(LawFile, ChangedDataAreRefusedWithASentence)
+{
+  const auto change = [](hid_t file) {
+    overwrite(file, "bodies/powder/curve/exponent", [](std::vector<double>& v) { v[60] *= 1.001; });
+  };
+  EXPECT_NE(after(change).find("its data do not have its checksum"), std::string::npos) << after(change);
+  EXPECT_NE(after([](hid_t file) { H5Adelete(file, "checksum"); }).find("its checksum is missing"),
+            std::string::npos);
+}
+
+/// Files of minor version 1 have no checksum: they are read, and the law says so.
+TEST_F(LawFile, AFileOfAnOlderMinorVersionHasNoChecksum)
+{
+  EXPECT_EQ(after(testing::without_checksum), "");
+  EXPECT_EQ(read_law(path_).checksum, "");
 }
 
 TEST_F(LawFile, TheAxisTheBodyAndThePairErrorsComeBackBitExact)

@@ -56,7 +56,7 @@ void set_speed(PairPlan& p, const Encounter& e, const PlanOptions& options,
   }
 }
 
-/// Onset, V_y and I of the sphere that stands for the pair.
+/// Onset and V_y of the sphere that stands for the pair, and the damage numbers.
 void include_yield(PairPlan& p, const Effective& size)
 {
   const Meeting& m = p.meeting;
@@ -65,7 +65,8 @@ void include_yield(PairPlan& p, const Effective& size)
                yield = m.yields.yield_stress;
   p.onset = std::min(p.onset, onset_velocity(e_star, yield, density, m.yields.poisson_ratio));
   p.yield_velocity = std::min(p.yield_velocity, granulaw::yield_velocity(e_star, yield, density));
-  p.damage_number = std::max(p.damage_number, density * p.speed * p.speed / yield);
+  p.damage_number = granulaw::damage_number(m.yields, m.mapping, p.speed);
+  p.axis_number = std::max(p.axis_number, density * p.speed * p.speed / yield);
 }
 
 /// Contact time and overlap of the fastest collision: by the law where there is one, else by Hertz.

@@ -116,7 +116,8 @@ void set_axes(Plan& plan)
   for (const PairPlan& p : plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     depth = std::max(depth, p.depth);
-    damage_number = std::max(damage_number, p.damage_number);
+    damage_number =
+        std::max({damage_number, p.damage_number, p.axis_number});  // the pair rule's axis is the latter
   }
   plan.axis_matters = damage_number > negligible_damage_number;
   plan.depth = std::min(deepest_table, rounded_up(margin * depth));

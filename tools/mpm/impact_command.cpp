@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -9,11 +10,15 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "characterise/energetic_restitution.hpp"
+#include "characterise/law_material.hpp"
+#include "characterise/orientations.hpp"
 #include "command.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/run/scene_builder.hpp"
 #include "solver/runs.hpp"
+#include "solver/solid/body_frame.hpp"
 
 namespace granulaw {
 
@@ -67,13 +72,71 @@ void check_velocity(double velocity, double wave_speed)
                      slowest * wave_speed));
 }
 
+/// Of the body that yields first; 0: neither does.
+double damage_number_of(const Meeting& m, double velocity)
+{
+  const LawMaterial own = law_material("particle", m.particle.materials.front());
+  const Material* other = m.partner.particle ? &m.partner.particle->materials.front()
+                          : m.partner.wall   ? &*m.partner.wall
+                                             : nullptr;
+  if (!other)
+    return own.yields() ? damage_number(own, PairMapping::rigid_partner(own.e_star()), velocity) : 0.0;
+  const LawMaterial partner = law_material("partner", *other);
+  const bool own_yields = yields_first(own, partner);
+  const LawMaterial &yielding = own_yields ? own : partner, &second = own_yields ? partner : own;
+  if (!yielding.yields()) return 0.0;
+  return damage_number(yielding, PairMapping::deformable_partner(yielding.e_star(), second.e_star()),
+                       velocity);
+}
+
+/// The mass by its impulse; the tensor of inertia is that of a homogeneous body of this mass.
+RigidBody rigid_body(const Particle& particle, const Approach& thrown, const Rebound& rebound)
+{
+  const MassProperties of_one = solid_of(particle)->mass_properties();
+  const double mass = rebound.impulse_normal / (thrown.velocity * (1 + rebound.normal));
+  const auto& [x, y, z] = thrown.orientation;
+  const Eigen::Matrix3d turned = rotation_to_plane(Vector3(x, y, z).normalized(), thrown.turn);
+  return {mass, mass / of_one.volume * turned * of_one.inertia * turned.transpose()};
+}
+
+/// True where the normal of the first contact passes through the centre of mass.
+bool is_central(const Particle& particle, const Approach& thrown)
+{
+  const auto& [x, y, z] = thrown.orientation;
+  const Vector3 direction = Vector3(x, y, z).normalized();
+  const std::shared_ptr<const Solid> solid = solid_of(particle);
+  Vector3 contact;
+  solid->support(direction, &contact);
+  constexpr double rounding = 1e-6;
+  return effective_mass_share(solid->mass_properties(), contact, direction) > 1 - rounding;
+}
+
+/// Thrown at the wall. Where the body is eccentric e and the works of the summary are those of the contact:
+/// the velocities of its centre do not give them.
+RunResult body_impact(const Meeting& m, const Approach& thrown, const RunOptions& options,
+                      CentreMotion& centre)
+{
+  RunResult result = granulaw::impact(m.particle, thrown, m.partner, options);
+  if (!result.rebound) return result;
+  const RigidMotion before{Vector3(thrown.tangential_velocity, 0, -thrown.velocity),
+                           Vector3(0, thrown.spin, 0)};
+  const ContactWork work = contact_work(result, rigid_body(m.particle, thrown, *result.rebound), before);
+  if (!is_central(m.particle, thrown)) {
+    result.summary.restitution = work.restitution();
+    result.summary.work_load = work.taken, result.summary.work_unload = work.given_back;
+  }
+  centre.tangential_after = work.velocity_after.x();
+  centre.contacts = work.contacts;
+  return result;
+}
+
 void impact(ImpactRequest r)
 {
   check_oblique(r);
   r.run.check();
   const Meeting m = read_meeting(r.run);
   check_velocity(r.velocity, scales_of(m.particle).velocity());
-  print_setting(r.run, m.particle, r.velocity);
+  print_setting(r.run, m.particle, r.velocity, damage_number_of(m, r.velocity));
   const RunIdentity asked{{"command", "impact"}, {"--velocity", fmt::format("{}", r.velocity)}};
   const Approach thrown = throw_of(r);
   const auto run = [&](const RunOptions& options) {
@@ -85,7 +148,10 @@ void impact(ImpactRequest r)
     oblique.emplace_back("--tangential-velocity", fmt::format("{}", thrown.tangential_velocity));
     oblique.emplace_back("--spin", fmt::format("{}", thrown.spin));
     oblique.emplace_back("--orientation", fmt::format("{}", fmt::join(thrown.orientation, ",")));
-    return run_and_report(r.run, m, oblique, false, run);
+    CentreMotion centre{thrown.velocity, thrown.tangential_velocity};
+    return run_and_report(
+        r.run, m, oblique, false,
+        [&](const RunOptions& options) { return body_impact(m, thrown, options, centre); }, centre);
   }
   run_and_report(r.run, m, asked, false, run);
 }

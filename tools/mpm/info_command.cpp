@@ -1,4 +1,4 @@
-// mpm info: what a law file says about itself.
+// mpm info: contents of a law file.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,9 +9,10 @@
 #include "base/error.hpp"
 #include "characterise/law_material.hpp"
 #include "characterise/support_ratio.hpp"
-#include "claim.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
+#include "pair_lines.hpp"
+#include "percent.hpp"
 #include "shape_output.hpp"
 
 namespace granulaw {
@@ -51,20 +52,21 @@ void print_axis(const VelocityAxis& axis, const LawMaterial& m, const Certificat
 void print_origin(const Certificate& c)
 {
   fmt::print("  origin               {}", printable(c.origin));
-  if (c.atlas_error_force > 0 || c.atlas_error_restitution > 0)
-    fmt::print(" ({}{})", c.origin == "atlas" ? "" : "at no rate the atlas: ", atlas_errors_text(c));
+  if (c.origin != "atlas" && (c.atlas_error_force > 0 || c.atlas_error_restitution > 0))
+    fmt::print(" (without speed from the atlas: {})",
+               ErrorBound{c.atlas_error_force, c.atlas_error_restitution}.text());
   fmt::print("\n  support              {}\n", printable(c.support));
 }
 
-void print_errors(const Certificate& c)
+void print_errors(const BodyLaw& body)
 {
-  const Claim claim = claim_of(c, 1.0);
-  fmt::print("  stated error         F_max {}, e {}{} (95 % of impacts lie within); of it:\n",
-             percent(claim.force),
-             c.origin == "atlas" ? fmt::format("{:.2g}", claim.restitution) : percent(claim.restitution),
-             c.origin == "atlas" ? "" : " of itself");
-  fmt::print("  solver error         force {}, e {} (two resolutions)\n", percent(c.solver_error_force),
-             percent(c.solver_error_restitution));
+  const Certificate& c = body.certificate;
+  fmt::print("  error bound          {} (95 % of {}, against new computations)\n", bound_of(body).text(),
+             body.shape ? "orientations" : "impacts");
+  if (body.shape) fmt::print("  of spheres           {} (the same law, of a sphere)\n", bound_of(c).text());
+  fmt::print("  solver error         force {}, e {} (of a computation, by two resolutions; {} the bound)\n",
+             percent(c.solver_error_force), percent(c.solver_error_restitution),
+             c.origin == "atlas" ? "not in" : "included in");
   fmt::print("  interpolation error  {}", percent(c.interpolation_error));
   if (c.origin == "runs")
     fmt::print(";  held-out e {};  scatter of the runs {}\n  reload loop          {} of the loading work",
@@ -94,9 +96,9 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
              body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());
   if (const VelocityAxis* axis = body.curve.axis()) print_axis(*axis, m, c);
   print_origin(c);
-  print_errors(c);
+  print_errors(body);
   if (std::isfinite(c.damage_number_max))
-    fmt::print("  holds up to          I = rho V^2/Y = {:.3g}\n", c.damage_number_max);
+    fmt::print("  bound holds up to    I = rho V^2/Y = {:.3g}\n", c.damage_number_max);
   if (body.shape) {
     fmt::print("  shape                {}\n", printable(body.shape->shape.substr(0, 100)));
     print_shape("  orientations", *body.shape);
@@ -106,35 +108,12 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
                support_ratio(body.curve.x_end()));
 }
 
-std::string radii_text(const TwoBodyLaw& own)
+void print_pair(const Law& law, const LawPair& pair)
 {
-  if (own.radius_ratio == 0) return "a thick wall : 1";
-  return std::isinf(own.radius_ratio) ? "1 : a thick wall" : fmt::format("1 : {:.4g}", own.radius_ratio);
-}
-
-const char* origin_text(const Certificate& c)
-{
-  if (c.origin != composed_origin) return "made";
-  return c.verification_impacts > 0 ? "composed of the two bodies' laws and corrected by their impacts,"
-                                    : "composed of the two bodies' laws";
-}
-
-void print_pair(const LawPair& pair, const std::vector<TwoBodyLaw>* own)
-{
-  if (own) {
-    std::vector<std::string> radii;
-    for (const TwoBodyLaw& law : *own) radii.push_back(radii_text(law));
-    const bool composed = own->front().law.certificate.origin == composed_origin;
-    fmt::print("  pair {}:{} by its own law, {} at radii {} (yielding body : partner)\n", pair.a, pair.b,
-               origin_text(own->front().law.certificate), fmt::join(radii, ", "));
-    if (composed) {
-      fmt::print("  pair {}:{} stated error: {} in 95 % of collisions\n", pair.a, pair.b,
-                 composed_errors_text(own->front().law.certificate));
-      return;
-    }
-  }
+  for (const PairLine& line : pair_lines(law, pair))
+    fmt::print("  pair {}:{}  {}\n", pair.a, pair.b, line.text());
   if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
-    fmt::print("  pair {}:{} {}: {}\n", pair.a, pair.b, own ? "at other radii" : "by the pair rule",
+    fmt::print("  pair {}:{}  the pair rule for other radii: {}\n", pair.a, pair.b,
                errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
 }
 
@@ -143,12 +122,13 @@ void info(const std::string& path)
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
   for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
-  for (const LawPair& pair : law.pairs) print_pair(pair, law.find_pair_laws(pair.a, pair.b));
+  fmt::print("  checksum = {}\n", law.checksum.empty() ? "none (file of an older version)" : law.checksum);
+  for (const LawPair& pair : law.pairs) print_pair(law, pair);
   for (const auto& entry : law.bodies) print_body(entry.second, law.provenance);
   for (const auto& [name, laws] : law.pair_laws)
     for (const TwoBodyLaw& own : laws) {
       if (own.law.certificate.origin == composed_origin) continue;  // its errors are the pair's
-      fmt::print("pair {}, its own law; yielding ", name);
+      fmt::print("pair {}, its two-body law; yielding ", name);
       print_body(own.law, law.provenance);
     }
 }
@@ -163,6 +143,7 @@ void define(CLI::App& command)
 }  // namespace
 
 extern const Command info_command{
-    "info", "What a law holds: materials, pairs, errors, range, origin.\nExample: mpm info law.h5", define};
+    "info", "Contents of a law file: materials, pairs, errors, range, origin.\nExample: mpm info law.h5",
+    define};
 
 }  // namespace granulaw

@@ -7,11 +7,11 @@
 
 #include "base/error.hpp"
 #include "characterise/composed_law.hpp"
-#include "claim.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "json_output.hpp"
 #include "law/contact_step.hpp"
+#include "law/error_bound.hpp"
 
 namespace granulaw {
 
@@ -206,11 +206,12 @@ void print_law_errors(const std::vector<deck::PairPlan>& pairs)
   for (const deck::PairPlan& p : pairs) {
     if (!is_unlike(p)) continue;
     const ComposedError stated = law_error(p);
-    fmt::print(
-        "  {}:{}{}: composed of both bodies' laws, F within {}, e within {:.2g} in 95 % of collisions{}\n",
-        printable(p.meeting.name_a), printable(p.meeting.name_b), p.meeting.wall ? " (deformable wall)" : "",
-        percent(stated.force), stated.restitution,
-        stated.restitution > worth_runs && !p.meeting.wall ? "; mpm table --own-law corrects it by impacts" : "");
+    fmt::print("  {}:{}{}: composed law: {} (95 % of collisions){}\n", printable(p.meeting.name_a),
+               printable(p.meeting.name_b), p.meeting.wall ? " (deformable wall)" : "",
+               ErrorBound{stated.force, stated.restitution}.text(),
+               stated.restitution > worth_runs && !p.meeting.wall
+                   ? "; mpm table --own-law corrects it by impacts"
+                   : "");
   }
 }
 

@@ -58,7 +58,7 @@ RunIdentity identity(RunIdentity asked, const RunRequest& r, const Meeting& m, c
 }  // namespace
 
 void run_and_report(const RunRequest& r, const Meeting& m, const RunIdentity& asked, bool has_ramp,
-                    const Run& run)
+                    const Run& run, const CentreMotion& centre)
 {
   std::optional<CheckpointFile> checkpoint;
   const auto run_on = [&](RunOptions options) {
@@ -69,7 +69,7 @@ void run_and_report(const RunRequest& r, const Meeting& m, const RunIdentity& as
     if (checkpoint) options.checkpoints = checkpoint->store();
     return run(options);
   };
-  report(r, m.particle, run_as_asked(r, has_ramp, in_three_dimensions(r, m.particle), run_on));
+  report(r, m.particle, run_as_asked(r, has_ramp, in_three_dimensions(r, m.particle), run_on), centre);
   if (checkpoint) checkpoint->remove();
 }
 

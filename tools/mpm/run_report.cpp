@@ -17,13 +17,11 @@ namespace granulaw {
 
 namespace {
 
-void print_yield(const Material& m, double velocity)
+void print_yield(const Material& m, double velocity, double damage_number)
 {
   const double v_y = yield_velocity(m.e_star(), m.yield_stress, m.density);
   fmt::print(", E*/Y = {:.4g}, yield velocity V_y = {:.4g} m/s", m.e_star() / m.yield_stress, v_y);
-  if (velocity > 0)
-    fmt::print(", V/V_y = {:.4g}, I = rho V^2/Y = {:.3g}", velocity / v_y,
-               m.density * velocity * velocity / m.yield_stress);
+  if (velocity > 0) fmt::print(", V/V_y = {:.4g}, I = rho V^2/Y = {:.3g}", velocity / v_y, damage_number);
 }
 
 nlohmann::ordered_json plane_json(const RunResult& result, std::size_t k)
@@ -40,28 +38,38 @@ nlohmann::ordered_json plane_json(const RunResult& result, std::size_t k)
   return out;
 }
 
-/// What three-dimensional runs know besides.
-void put_three_dimensions(nlohmann::ordered_json& out, const RunResult& result)
+/// Of three-dimensional runs.
+void put_three_dimensions(nlohmann::ordered_json& out, const RunResult& result, const CentreMotion& centre)
 {
   if (result.rebound) {
     const Rebound& rebound = *result.rebound;
     out["e_tangential"] = json_number(rebound.tangential);
+    out["velocity_ratio_normal"] = rebound.normal;
+    out["velocity_after_normal_m_per_s"] = rebound.normal * centre.approach;
+    out["velocity_after_tangential_m_per_s"] = centre.tangential_after;
     out["spin_after_rad_s"] = rebound.spin[1];
     out["spin_after_xyz_rad_s"] = rebound.spin;
     out["impulse_normal_Ns"] = rebound.impulse_normal;
     out["impulse_tangential_Ns"] = rebound.impulse_tangential;
+    out["contacts"] = centre.contacts;
     return;
   }
   for (std::size_t k = 0; k < result.planes.size(); ++k) out["planes"].push_back(plane_json(result, k));
 }
 
-void print_three_dimensions(const RunResult& result)
+void print_three_dimensions(const RunResult& result, const CentreMotion& centre)
 {
   if (result.rebound) {
     const Rebound& rebound = *result.rebound;
-    if (std::isfinite(rebound.tangential))
-      fmt::print("tangential restitution         {:.4f}\n", rebound.tangential);
-    fmt::print("spin after                     {:.5g} rad/s\n", rebound.spin[1]);
+    fmt::print("centre after, normal           {:.5g} m/s, away from the wall ({:.4f} of its approach)\n",
+               rebound.normal * centre.approach, rebound.normal);
+    fmt::print("centre after, tangential       {:.5g} m/s, along +x (before: {:.5g})\n",
+               centre.tangential_after, centre.tangential);
+    fmt::print("spin after, about x, y, z      {:.5g}, {:.5g}, {:.5g} rad/s\n", rebound.spin[0],
+               rebound.spin[1], rebound.spin[2]);
+    if (centre.contacts > 1)
+      fmt::print("contacts                       {}, of which e and the works are of the first\n",
+                 centre.contacts);
     fmt::print("impulse, normal, tangential    {:.5g} N s, {:.5g} N s\n", rebound.impulse_normal,
                rebound.impulse_tangential);
     return;
@@ -72,7 +80,8 @@ void print_three_dimensions(const RunResult& result)
                force_at_depth(result, k));
 }
 
-void print_as_json(const RunRequest& r, const Particle& particle, const RunResult& result)
+void print_as_json(const RunRequest& r, const Particle& particle, const RunResult& result,
+                   const CentreMotion& centre)
 {
   const RunSummary& s = result.summary;
   nlohmann::ordered_json out = collision_json(s);
@@ -86,7 +95,7 @@ void print_as_json(const RunRequest& r, const Particle& particle, const RunResul
   out["plastic_strain_max"] = s.plastic_strain_max;
   out["contact_loss"] = s.contact_loss;
   out["hourglass"] = s.hourglass;
-  put_three_dimensions(out, result);
+  put_three_dimensions(out, result, centre);
   print_json(out, 2);
 }
 
@@ -98,13 +107,13 @@ const char* body_name(const Particle& particle)
 
 }  // namespace
 
-void print_setting(const RunRequest& r, const Particle& particle, double velocity)
+void print_setting(const RunRequest& r, const Particle& particle, double velocity, double damage_number)
 {
   if (r.json) return;
   const Material& m = particle.materials.front();
   fmt::print("{} of {:.4g} m radius, E* = {:.4g} Pa", body_name(particle), particle.radius, m.e_star());
   if (m.yields())
-    print_yield(m, velocity);
+    print_yield(m, velocity, damage_number);
   else
     fmt::print(", elastic");
   if (r.grid == "auto") {
@@ -114,13 +123,14 @@ void print_setting(const RunRequest& r, const Particle& particle, double velocit
   }
 }
 
-void report(const RunRequest& r, const Particle& particle, const RunResult& result)
+void report(const RunRequest& r, const Particle& particle, const RunResult& result,
+            const CentreMotion& centre)
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
-  if (r.json) return print_as_json(r, particle, result);
+  if (r.json) return print_as_json(r, particle, result, centre);
   print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
-  print_three_dimensions(result);
+  print_three_dimensions(result, centre);
   if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
              s.cpu_s, 1e-6 * s.point_updates_per_s);

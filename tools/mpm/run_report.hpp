@@ -6,9 +6,20 @@
 namespace granulaw {
 
 /// Before the run, for people: body, grid, yield velocity. `velocity`: m/s of an impact; 0: a press.
-void print_setting(const RunRequest& request, const Particle& particle, double velocity);
+/// `damage_number`: of the impact (law/law.hpp).
+void print_setting(const RunRequest& request, const Particle& particle, double velocity,
+                   double damage_number = 0);
+
+/// The centre of mass at an impact in three dimensions, m/s.
+struct CentreMotion
+{
+  double approach = 0;                          ///< towards the wall, before
+  double tangential = 0, tangential_after = 0;  ///< along +x of the wall
+  int contacts = 1;  ///< that follow each other (characterise/energetic_restitution.hpp)
+};
 
 /// After it: writes the trace if one is asked for, and prints the summary or its JSON.
-void report(const RunRequest& request, const Particle& particle, const RunResult& result);
+void report(const RunRequest& request, const Particle& particle, const RunResult& result,
+            const CentreMotion& centre = {});
 
 }  // namespace granulaw

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -12,14 +13,15 @@
 #include "base/error.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/make_law_file.hpp"
-#include "claim.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "farm_options.hpp"
 #include "law/law_file.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
+#include "pair_lines.hpp"
 #include "pair_names.hpp"
+#include "percent.hpp"
 #include "ranks.hpp"
 #include "shape_output.hpp"
 #include "terminal.hpp"
@@ -39,10 +41,11 @@ struct TableRequest
   DeckOptions scene;  ///< of --deck
 };
 
-/// What the scene of --deck can reach: of pairs, depth, damage number and radius ratio each that was not
-/// given itself. False: no pair of the scene yields.
-bool take_from_deck(TableRequest& r, const CLI::App& command)
+/// Takes from the deck what was not given itself: pairs, depth, damage number and radius ratio. Returns the
+/// pairs of the deck that yield.
+std::vector<deck::PairPlan> take_from_deck(TableRequest& r, const CLI::App& command)
 {
+  std::vector<deck::PairPlan> yielding;
   r.scene.materials_file = r.materials;
   const PlannedDeck d = plan_deck(r.deck, r.scene);
   require_answers(d.plan, r.deck);
@@ -50,8 +53,9 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   for (const deck::PairPlan& p : d.plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     pairs.insert(p.meeting.name_a + ":" + p.meeting.name_b);
+    yielding.push_back(p);
   }
-  if (pairs.empty()) return false;
+  if (pairs.empty()) return yielding;
   if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
   if (command.count("--depth") == 0) r.file.depth = d.plan.depth;
   if (command.count("--damage-number") == 0) r.file.damage_number = d.plan.damage_number;
@@ -59,7 +63,7 @@ bool take_from_deck(TableRequest& r, const CLI::App& command)
   if (command.count("--radius-ratio") == 0) r.file.radius_ratio = sizes.radius_ratio;
   if (command.count("--thick-walls") == 0) r.file.thick_walls = sizes.thick_walls;
   if (sizes.thick_walls) r.file.rule_radius_ratio = deck::largest_radius_ratio;
-  return true;
+  return yielding;
 }
 
 /// The request as the library takes it; `atlas` may be null.
@@ -112,25 +116,23 @@ bool has_own_laws(const LawFilePlan::Pair& pair, const Law& law)
   return law.pair_laws.contains(pair.name());
 }
 
-void print_pair(const LawFilePlan::Pair& pair, const MadeLawFile& file)
+/// How the pair's laws came about, where that is worth a line.
+void print_origin(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
-  const std::string by_rule = errors_text(pair.by_rule.force, pair.by_rule.restitution);
   if (!has_own_laws(pair, file.law)) {
     if (pair.worth_own_law)
-      fmt::print("{}: by the pair rule, {}; --own-law computes the pair's own law\n", pair.name(), by_rule);
+      fmt::print("{}: follows the pair rule; --own-law computes a two-body law\n", pair.name());
     return;
   }
-  if (pair.a == pair.b) return;
+  if (pair.a == pair.b || !pair.own_law) return;
   const Certificate& c = file.law.pair_laws.at(pair.name()).front().law.certificate;
-  if (!pair.own_law || (c.origin == composed_origin && c.verification_impacts == 0))
-    fmt::print("{}: composed of both bodies' laws{}: {}\n", pair.name(),
-               pair.own_law ? " (impacts of the two failed: mpm info says why)" : "", atlas_errors_text(c));
-  else if (c.origin == composed_origin)
-    fmt::print("{}: composed of both bodies' laws, corrected by {} impacts of the two: {}\n", pair.name(),
-               file.runs.at(pair.name()).made, composed_errors_text(c));
+  if (c.origin != composed_origin)
+    fmt::print("{}: by {} runs of two bodies of equal radii\n", pair.name(), file.runs.at(pair.name()).made);
+  else if (c.verification_impacts > 0)
+    fmt::print("{}: corrected by {} impacts of the two bodies\n", pair.name(),
+               file.runs.at(pair.name()).made);
   else
-    fmt::print("{}: its own law by {} runs of two bodies of equal radii (pair rule: {})\n", pair.name(),
-               file.runs.at(pair.name()).made, by_rule);
+    fmt::print("{}: not corrected, as impacts of the two bodies failed: mpm info says why\n", pair.name());
 }
 
 void print_certificate(const std::string& name, const BodyLaw& body)
@@ -138,11 +140,9 @@ void print_certificate(const std::string& name, const BodyLaw& body)
   const Certificate& c = body.certificate;
   fmt::print("{}: to delta/R = {:.3g}", name, body.curve.x_end());
   if (body.curve.axis()) fmt::print(" and I = rho V^2/Y = {:.3g}", c.damage_number_max);
-  if (c.origin == "atlas")
-    fmt::print("; from the atlas: {}", atlas_errors_text(c));
-  else
+  if (c.origin != "atlas")
     fmt::print("; held-out e {}, scatter {}", percent(c.held_out_error), percent(c.residual_scatter));
-  fmt::print("; solver error {}", percent(c.solver_error_force));
+  fmt::print("; solver error of a computation {}", percent(c.solver_error_force));
   if (c.verification_impacts > 0)
     fmt::print("; {:.0f} impacts not sampled: {}", c.verification_impacts,
                errors_text(c.verification_error_force, c.verification_error_restitution));
@@ -172,7 +172,7 @@ void report(const TableRequest& r, const LawFilePlan& plan, const MadeLawFile& f
 {
   fmt::print("wrote {}: pairs {}\n", r.output, file.law.pair_list());
   for (const auto& [name, planned] : plan.bodies) print_body(name, planned, file);
-  for (const LawFilePlan::Pair& pair : plan.pairs) print_pair(pair, file);
+  for (const LawFilePlan::Pair& pair : plan.pairs) print_origin(pair, file);
   for (const auto& [name, body] : file.law.bodies) {
     print_certificate(name, body);
     if (body.shape) print_shape(name, *body.shape);
@@ -180,11 +180,34 @@ void report(const TableRequest& r, const LawFilePlan& plan, const MadeLawFile& f
   for (const auto& [name, laws] : file.law.pair_laws)
     for (const TwoBodyLaw& own : laws)
       if (own.law.certificate.origin != composed_origin) print_certificate(name, own.law);
+  fmt::print("error bounds: 95 % of head-on impacts lie within\n");
+  for (const LawPair& pair : file.law.pairs)
+    for (const PairLine& line : pair_lines(file.law, pair))
+      fmt::print("{}:{}  {}\n", pair.a, pair.b, line.text());
   if (farm) print_count(farm->count());
   print_warnings(plan, file);
 }
 
-void make_table(const TableRequest& r)
+/// The pairs of the deck that are faster than the error bound of their law.
+void warn_of_fast_pairs(const Law& law, const std::vector<deck::PairPlan>& pairs)
+{
+  for (const deck::PairPlan& p : pairs) {
+    const auto &a = p.meeting.name_a, &b = p.meeting.name_b;
+    const LawPair* pair = law.find_pair(a, b);
+    if (!pair) continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (const PairLine& line : pair_lines(law, *pair)) least = std::min(least, line.least_damage_number_max);
+    if (p.damage_number > least * (1 + 1e-9))
+      fmt::print(stderr,
+                 "mpm: {}:{} reaches I = {:.3g} in the deck, and the error bound of its law holds to {:.3g}: "
+                 "beyond, "
+                 "no bound is stated{}\n",
+                 printable(a), printable(b), p.damage_number, least,
+                 a != b && b != wall_name ? " (--own-law may raise it)" : "");
+  }
+}
+
+void make_table(const TableRequest& r, const std::vector<deck::PairPlan>& of_deck = {})
 {
   check_output(r.output, ".h5");
   r.farm.check();
@@ -196,19 +219,20 @@ void make_table(const TableRequest& r)
   if (rank() != 0) return;
   write_law(file.law, r.output);
   report(r, plan, file, farm.get());
+  warn_of_fast_pairs(file.law, of_deck);
 }
 
 /// Of --deck: only what its scene needs.
 void make_table_for_deck(TableRequest& r, const CLI::App& command)
 {
-  const bool yields = take_from_deck(r, command);
-  if (rank() == 0 && !yields)
+  const std::vector<deck::PairPlan> yielding = take_from_deck(r, command);
+  if (rank() == 0 && yielding.empty())
     fmt::print("{}: no pair of the scene yields: Hertz suffices, no law is written\n", printable(r.deck));
-  if (!yields) return;
+  if (yielding.empty()) return;
   if (rank() == 0)
     fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
                fmt::join(r.pairs, ", "), r.file.depth, r.file.damage_number);
-  make_table(r);
+  make_table(r, yielding);
 }
 
 void add_range_options(CLI::App& command, LawFileRequest& file)

@@ -1,0 +1,137 @@
+#include "law/error_bound.hpp"
+
+#include <fmt/format.h>
+
+namespace granulaw {
+
+namespace {
+
+constexpr double like_sizes = 0.5;
+
+/// The pair's law among those of its own; null: a body's.
+const TwoBodyLaw* pair_law(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
+{
+  if (const std::vector<TwoBodyLaw>* laws = law.find_pair_laws(a, b))
+    for (const TwoBodyLaw& one : *laws)
+      if (&one.law == pair.yielding) return &one;
+  return nullptr;
+}
+
+LawKind kind_of(const TwoBodyLaw* of_pair, const std::string& a, const std::string& b)
+{
+  if (!of_pair) return a == b || a == wall_name || b == wall_name ? LawKind::single : LawKind::reduced;
+  const Certificate& c = of_pair->law.certificate;
+  if (c.origin != composed_origin) return LawKind::two_body;
+  return c.verification_impacts > 0 ? LawKind::corrected : LawKind::composed;
+}
+
+/// I of like spheres over the square of the velocity axis's v there. The bound of the pair rule is known up
+/// to v^2 = 0.002 (docs/evidence/pairs.md).
+double damage_number_of_rule(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
+{
+  constexpr double measured = 0.002, radius = 1e-3;
+  const auto mass = [&](const std::string& name) {
+    const BodyLaw& body = law.bodies.at(name);
+    return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
+  };
+  const double v = pair.axis_speed(radius / 2, effective_mass(mass(a), mass(b)), 1.0);
+  return measured * pair.damage_number(1.0) / (v * v);
+}
+
+}  // namespace
+
+std::string ErrorBound::text() const
+{
+  if (!stated()) return "not stated";
+  std::string e = fmt::format("{:.2g}", restitution);
+  if (relative_restitution > 0)
+    e = (restitution > 0 ? e + " and " : "") + fmt::format("{:.2g} %", 100 * relative_restitution);
+  return fmt::format("F_max {:.2g} %, e {}", 100 * force, e);
+}
+
+ErrorBound bound_of(const Certificate& c)
+{
+  const bool elastic = std::isinf(c.damage_number_max);
+  const ErrorBound atlas{c.atlas_error_force, c.atlas_error_restitution, 0};
+  const bool composed = c.origin == composed_origin && c.verification_impacts == 0;
+  if ((c.origin == "atlas" && !elastic) || composed) return atlas;
+  const ErrorBound fitted = c.verification_impacts > 0
+                                ? ErrorBound{c.verification_error_force, 0, c.verification_error_restitution}
+                                : atlas.with({c.interpolation_error, 0, c.held_out_error});
+  return fitted.with({c.solver_error_force, 0, c.solver_error_restitution});
+}
+
+ErrorBound bound_of(const BodyLaw& body)
+{
+  if (!body.shape) return bound_of(body.certificate);
+  return {body.shape->force().largest, body.shape->restitution().largest, 0};
+}
+
+ErrorBound size_error(double off)
+{
+  constexpr double force = 0.004 / size_share_step, restitution = 0.002 / size_share_step;
+  if (off <= size_share_step * (1 + 1e-9)) return {};
+  return {force * off, restitution * off, 0};
+}
+
+const char* name_of(LawKind kind)
+{
+  switch (kind) {
+    case LawKind::single:
+      return "single";
+    case LawKind::two_body:
+      return "two-body";
+    case LawKind::composed:
+      return "composed";
+    case LawKind::corrected:
+      return "corrected";
+    case LawKind::reduced:
+      return "reduced";
+  }
+  return "";
+}
+
+PairStatement PairStatement::at_distance(double off) const
+{
+  PairStatement at = *this;
+  at.size_off = off;
+  if (at.covers_size()) return at;
+  if (rule.stated())
+    at.size_off = 0;
+  else
+    at.bound = bound.with(size_error(off));
+  if (kind == LawKind::reduced) return at;
+  if (rule.stated()) at.bound = bound.with(rule);
+  if (kind == LawKind::single) at.kind = LawKind::reduced;
+  return at;
+}
+
+PairStatement statement_of(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
+{
+  PairStatement s;
+  const BodyLaw& body = *pair.yielding;
+  s.kind = kind_of(pair_law(law, pair, a, b), a, b);
+  s.bound = bound_of(body);
+  s.damage_number_max = body.certificate.damage_number_max;
+  if (body.shape) s.covered = body.shape->covered();
+  if (const LawPair* entry = law.find_pair(a, b))
+    s.rule = {entry->reduction_error_force, 0, entry->reduction_error_restitution};
+  if (s.kind != LawKind::reduced) return s;
+  s.bound = s.bound.with(s.rule);
+  if (law.bodies.contains(a) && law.bodies.contains(b))
+    s.damage_number_max = std::min(s.damage_number_max, damage_number_of_rule(law, pair, a, b));
+  return s;
+}
+
+double distance_in_size(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b,
+                        double radius_a, double radius_b)
+{
+  if (a == wall_name || b == wall_name) return 0;
+  if (a == b && radius_a > radius_b) std::swap(radius_a, radius_b);
+  const bool a_yields = a == b || yields_first(law.bodies.at(a).material, law.bodies.at(b).material);
+  const double ratio = a_yields ? radius_b / radius_a : radius_a / radius_b;
+  const TwoBodyLaw* own = pair_law(law, pair, a, b);
+  return std::abs(1 / (1 + ratio) - (own ? own->size_share() : like_sizes));
+}
+
+}  // namespace granulaw

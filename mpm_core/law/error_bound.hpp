@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "law/law.hpp"
+
+namespace granulaw {
+
+/// Error bound of a law against a fresh computation of the same impact: 95 % of impacts lie within. 0 0 0:
+/// not stated.
+struct ErrorBound
+{
+  double force = 0;                 ///< of F_max, relative
+  double restitution = 0;           ///< of e, absolute
+  double relative_restitution = 0;  ///< of e, relative: laws by runs and the pair rule state it so
+
+  bool stated() const { return force > 0 || restitution > 0 || relative_restitution > 0; }
+  /// Of an impact whose coefficient of restitution is `e`, absolute.
+  double restitution_at(double e) const { return std::hypot(restitution, relative_restitution * e); }
+  /// With an error of another cause: independent ones add as squares.
+  ErrorBound with(const ErrorBound& other) const
+  {
+    return {std::hypot(force, other.force), std::hypot(restitution, other.restitution),
+            std::hypot(relative_restitution, other.relative_restitution)};
+  }
+  /// The larger of each.
+  ErrorBound worst(const ErrorBound& other) const
+  {
+    return {std::max(force, other.force), std::max(restitution, other.restitution),
+            std::max(relative_restitution, other.relative_restitution)};
+  }
+  /// "F_max 0.72 %, e 0.0028"; a relative error of e has its per cent sign. "not stated".
+  std::string text() const;
+};
+
+/// Bound of a law used for what it was made for.
+/// - Of the atlas: the bound of its checks (docs/evidence/atlas.md). These are fresh impacts, so it includes
+/// the
+///   atlas's own runs, fit, interpolation and table.
+/// - Composed of the two bodies' laws: the bound of two-body impacts that took no part
+/// (docs/evidence/pairs.md).
+/// - By runs, or corrected by impacts: the largest error of its verification, impacts that took no part in
+/// the
+///   fit at the cells of those that did, and the error of these cells (grid_convergence.hpp). Without
+///   impacts, the errors of fit and table.
+ErrorBound bound_of(const Certificate& certificate);
+/// The same of a body's law. Of a particle with a shape: that of its orientations, each compared with a fresh
+/// impact.
+ErrorBound bound_of(const BodyLaw& body);
+
+/// Largest distance in R_s/(R_s + R_h) between a contact and its law for which bound_of() holds: half a step
+/// of the laws that are made (characterise/law_file_plan.cpp).
+inline constexpr double size_share_step = 0.025;
+/// Further error of a law used at a distance `off` in R_s/(R_s + R_h). Within size_share_step none; that far
+/// F changes by 0.4 % and e by 0.002 at most, and beyond in proportion.
+ErrorBound size_error(double off);
+
+/// How a pair's law came about.
+enum class LawKind {
+  single,     ///< of one body: a rigid wall, like bodies of like size
+  two_body,   ///< from runs of the two bodies
+  composed,   ///< of the two bodies' laws
+  corrected,  ///< composed, then corrected by impacts of the two bodies
+  reduced     ///< of the yielding body, by the pair rule (law/pair.hpp)
+};
+/// "single", "two-body", "composed", "corrected", "reduced".
+const char* name_of(LawKind kind);
+
+/// The statement of a law file about one pair: one function for `mpm table`, `mpm law`, `mpm info` and the
+/// plug-in.
+struct PairStatement
+{
+  LawKind kind = LawKind::single;
+  ErrorBound bound;
+  ErrorBound
+      rule;  ///< stated for other sizes than the law's: up to the ratio of radii that the file was made for
+  double covered = 1;   ///< of a particle with a shape: part of the orientations that the bound is of
+  double size_off = 0;  ///< distance of the contact from its law in R_s/(R_s + R_h)
+  /// Largest damage number (PairLaw::damage_number) for which the bound holds.
+  double damage_number_max = std::numeric_limits<double>::infinity();
+
+  bool covers_size() const { return size_off <= size_share_step * (1 + 1e-9); }
+  /// The same law at a distance in R_s/(R_s + R_h).
+  PairStatement at_distance(double off) const;
+};
+
+/// Of a law that resolve_pair() gave for `a` and `b`, at its own ratio of radii.
+PairStatement statement_of(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b);
+/// Distance in R_s/(R_s + R_h) of bodies of these radii (m, or both in another unit; infinity: a thick
+/// deformable wall) from that law; 0 at a rigid wall.
+double distance_in_size(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b,
+                        double radius_a, double radius_b);
+
+}  // namespace granulaw
