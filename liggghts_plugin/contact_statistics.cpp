@@ -4,6 +4,44 @@
 
 namespace granulaw::plugin {
 
+namespace {
+
+/// The lesser; 0: none.
+double least_known(double a, double b)
+{
+  if (a == 0 || b == 0) return std::max(a, b);
+  return std::min(a, b);
+}
+
+}  // namespace
+
+void PairInfo::include(const PairInfo& other)
+{
+  if (kind.find(other.kind) == std::string::npos) kind += "/" + other.kind;
+  overlap_limit = std::min(overlap_limit, other.overlap_limit);
+  deep_overlap = std::min(deep_overlap, other.deep_overlap);
+  damage_number_limit = least_known(damage_number_limit, other.damage_number_limit);
+  stated.bound = stated.bound.worst(other.stated.bound);
+  stated.size_off = std::max(stated.size_off, other.stated.size_off);
+}
+
+double ContactStatistics::Pair::deep() const
+{
+  double sum = 0;
+  for (int b = 0; b < LogHistogram::bins; ++b)
+    if (overlap.lower_edge(b) * (1 + 1e-9) >= info.deep_overlap)
+      sum += std::max(0.0, overlap.count[static_cast<std::size_t>(b)]);
+  return sum;
+}
+
+double ContactStatistics::damage_number_limit() const
+{
+  double limit = 0;
+  for (const auto& [key, counts] : pairs)
+    if (counts.info.needed) limit = least_known(limit, counts.info.damage_number_limit);
+  return limit;
+}
+
 void ContactStatistics::Pair::merge(const Pair& other)
 {
   Pair copy = other;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "law/contact_step.hpp"
+#include "law/error_bound.hpp"
 #include "liggghts_plugin/deck_units.hpp"
 #include "liggghts_plugin/log_histogram.hpp"
 
@@ -43,14 +44,21 @@ struct PairInfo
 {
   bool needed = false;             ///< particles (or templates) and walls of these types exist
   std::string a, b, law;           ///< material names, "mpm" or "thornton" and the law file
-  std::string rule;                ///< "own": the pair rule is exact; "reduced (e 1%)": what it costs
-  std::string error;               ///< what the law states about itself
+  std::string kind;                ///< of the law: name_of(LawKind), "Hertz", "closed form"
+  std::string note;                ///< about the law, where it is no tabulated one
+  PairStatement stated;            ///< of a tabulated law, the worst over the sizes that can meet
   double stiffness_ratio = 0;      ///< E*/Y of the yielding body; 0: it does not yield
   double overlap_limit = 0;        ///< overlap/R* where the table ends; infinity: nowhere
-  double damage_number_limit = 0;  ///< I up to which the law holds; 0: not stated
+  double damage_number_limit = 0;  ///< I up to which the error bound holds; 0: not stated
   double onset_speed = 0;          ///< m/s, of first yield between the smallest particles; infinity: never
   double dt_limit = 0;  ///< s, largest_step (law/contact_step.hpp) to the end of the law; 0: no limit known
   double dt_overlap = 0;  ///< overlap/R* up to which the time step in use is short enough; 0: not known
+  /// Overlap/R* at which the yielding body is flattened by a tenth of its radius: beyond, its contacts act on
+  /// each other and no law of one contact holds. Infinity: not counted.
+  double deep_overlap = std::numeric_limits<double>::infinity();
+
+  /// Takes in the law that other sizes of the same pair of types follow.
+  void include(const PairInfo& other);
 };
 
 /// Part of the table's overlap range from which a contact counts as near its edge.
@@ -119,6 +127,9 @@ struct ContactStatistics
     /// Fills bins of this that hold less than none out of `other`'s: open contacts that began there, before
     /// `set type` made them this pair's, and were taken out here.
     void take_back_from(Pair& other);
+    /// Contacts, ended and open, that came deeper than PairInfo::deep_overlap, by the bins of the histogram
+    /// (open ones included) that lie beyond it: at least so many.
+    double deep() const;
     void open_map() { map.resize(static_cast<std::size_t>(LogHistogram::bins * LogHistogram::bins)); }
     /// The same in SI; the contact loops count in the deck's units.
     Pair in_si(const DeckUnits& units) const;
@@ -132,6 +143,9 @@ struct ContactStatistics
 
   /// Pair::count_ended of each pair.
   void count_ended();
+  /// Least damage number of the pairs of types that can meet up to which the error bound holds; 0: not
+  /// stated.
+  double damage_number_limit() const;
   /// All contacts between particles, all with walls.
   Pair total(bool walls) const;
   Pair total() const;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -10,6 +12,7 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "law/law_file.hpp"
 #include "liggghts_plugin/energy_properties.hpp"
 #include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/rank_sums.hpp"
@@ -141,8 +144,7 @@ void FixStats::warn_of_lost_contacts() const
          fmt::format(
              "granulaw: the restart file holds contacts of {} ({}), which this deck has not: their dents are "
              "lost{}",
-             command, describe(meaning),
-             name == "pair" ? "" : "; give the walls their old ids"));
+             command, describe(meaning), name == "pair" ? "" : "; give the walls their old ids"));
   }
 }
 
@@ -176,9 +178,86 @@ void FixStats::warn_of_long_steps() const
                      .c_str());
 }
 
+void FixStats::warn_of_sizes() const
+{
+  if (comm->me != 0) return;
+  for (const auto& [key, counts] : session_->statistics.pairs) {
+    const PairStatement& stated = counts.info.stated;
+    if (!counts.info.needed || stated.covers_size()) continue;
+    error->warning(
+        FLERR,
+        fmt::format(
+            "granulaw: R_i/(R_i + R_j) of types {} and {}{} is up to {:.3g} off the nearest law of the "
+            "pair: the error bound is larger by that ({}); mpm table --radius-ratio makes laws for "
+            "more ratios",
+            key.i, key.kind == PairKey::particles ? "" : "a wall of type ", key.j, stated.size_off,
+            stated.bound.text())
+            .c_str());
+  }
+}
+
+void FixStats::warn_of_laws_without_checksum() const
+{
+  const LoadedLaw* law = session_->pair_law.get();
+  if (law && !law->law.provenance.contains(checksum_note))
+    warn("no checksum " + law->path,
+         fmt::format(
+             "granulaw: {} has no checksum, so damage to it may pass unseen; a newer `mpm table` writes one",
+             law->path));
+}
+
+void FixStats::check_files() const
+{
+  std::string message;
+  if (comm->me == 0) try {
+      const std::string where = fmt::format("fix {} granulaw/stats", id);
+      if (!path_.empty()) require_writable(path_, where + ": file");
+      if (speaks() && session_->pair_options && !session_->pair_options->stats_path.empty())
+        require_writable(session_->pair_options->stats_path, "pair_style gran: stats");
+    } catch (const std::exception& error) {
+      message = error.what();
+    }
+  int length = static_cast<int>(message.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  if (length == 0) return;
+  message.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(message.data(), length, MPI_CHAR, 0, world);
+  stop_all(lmp, message);
+}
+
+double FixStats::crowded_particles() const
+{
+  std::vector<int> deep(static_cast<std::size_t>(atom->nlocal), 0);
+  for (const auto& [wall, style] : session_->styles)
+    style->each_open([&, inquiry = style->contacts()](const OpenContact& open) {
+      const auto counts = session_->statistics.pairs.find(open.key);
+      if (counts == session_->statistics.pairs.end() || !std::isfinite(counts->second.info.deep_overlap))
+        return;
+      const double limit = counts->second.info.deep_overlap * open.place.r_eff();
+      if (!(inquiry->state(open.place).largest_overlap > limit)) return;
+      for (const int k : {open.i, open.j})
+        if (k >= 0 && k < atom->nlocal) ++deep[static_cast<std::size_t>(k)];
+    });
+  double several = static_cast<double>(std::count_if(deep.begin(), deep.end(), [](int n) { return n > 1; }));
+  MPI_Allreduce(MPI_IN_PLACE, &several, 1, MPI_DOUBLE, MPI_SUM, world);
+  return several;
+}
+
+DeepContacts FixStats::deep_contacts() const
+{
+  DeepContacts found;
+  found.particles = crowded_;
+  for (const auto& [key, counts] : sum_of_ranks(true).pairs) {
+    found.contacts += counts.deep();
+    if (counts.overlap_max > counts.info.deep_overlap) found.contacts = std::max(found.contacts, 1.0);
+  }
+  return found;
+}
+
 void FixStats::setup(int)
 {
   largest_dt_ = std::max(largest_dt_, update->dt);
+  check_files();
   if (writes_stats()) add_energies();
   if (!speaks()) return;
   warn_of_clumps();
@@ -187,6 +266,8 @@ void FixStats::setup(int)
   if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
   last_table_ = table;
   print(table);
+  warn_of_sizes();
+  warn_of_laws_without_checksum();
 }
 
 void FixStats::setup_pre_force(int)
@@ -244,9 +325,8 @@ void FixStats::add_energies()
     row[EnergySeries::particles] += 1;
     row[EnergySeries::kinetic] += 0.5 * atom->rmass[a] * v2;
     if (omega && atom->radius)
-      row[EnergySeries::rotational] +=
-          0.2 * atom->rmass[a] * atom->radius[a] * atom->radius[a] *
-          (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]);
+      row[EnergySeries::rotational] += 0.2 * atom->rmass[a] * atom->radius[a] * atom->radius[a] *
+                                       (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]);
     fastest2 = std::max(fastest2, v2);
   }
   const ContactStatistics::Pair counts = session_->statistics.total();
@@ -318,8 +398,10 @@ void FixStats::end_of_step()
   largest_dt_ = std::max(largest_dt_, update->dt);
   if (energies_.due(update->ntimestep) && writes_stats()) add_energies();
   if (!every_ || update->ntimestep % every_ != 0) return;
+  crowded_ = std::max(crowded_, crowded_particles());
+  const DeepContacts deep = deep_contacts();
   const ContactStatistics sum = total();
-  if (comm->me == 0) write_files(sum);
+  if (comm->me == 0) write_files(sum, deep);
 }
 
 void FixStats::post_run()
@@ -327,17 +409,24 @@ void FixStats::post_run()
   largest_dt_ = std::max(largest_dt_, update->dt);
   warn_of_long_steps();
   if (writes_stats()) add_energies();
+  crowded_ = std::max(crowded_, crowded_particles());
+  const DeepContacts deep = deep_contacts();
   const ContactStatistics sum = total();
   if (comm->me != 0) return;
-  write_files(sum);
-  if (speaks()) print(end_line(sum, deck_units(), session_->damage_number_limit, largest_dt_));
+  write_files(sum, deep);
+  if (!speaks()) return;
+  print(end_table(sum, deck_units(), deep, largest_dt_));
+  if (deep.contacts > 0)
+    warn("deep contacts",
+         "granulaw: contacts left what a law of one contact covers (a tenth of the radius): read the table "
+         "above");
 }
 
-void FixStats::write_files(const ContactStatistics& sum) const
+void FixStats::write_files(const ContactStatistics& sum, const DeepContacts& deep) const
 {
-  if (!path_.empty()) write_json(sum, path_);
+  if (!path_.empty()) write_json(sum, deep, path_);
   if (speaks() && session_->pair_options && !session_->pair_options->stats_path.empty())
-    write_json(sum, session_->pair_options->stats_path);
+    write_json(sum, deep, session_->pair_options->stats_path);
 }
 
 // Restart files keep the sums of all ranks: rank 0 takes them up again, the others start at zero.
@@ -369,14 +458,19 @@ void FixStats::restart(char* buffer)
                               .c_str());
 }
 
-void FixStats::write_json(const ContactStatistics& sum, const std::string& path) const
+void FixStats::write_json(const ContactStatistics& sum, const DeepContacts& deep,
+                          const std::string& path) const
 {
-  const std::string header = fmt::format(
-      "  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": {:.10g},\n"
-      "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"damage_number_limit_of_law\": {:.6g},\n"
-      "  \"inertia_number_limit_of_law\": {:.6g},\n",
-      version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_,
-      session_->damage_number_limit, session_->damage_number_limit) +
+  const double limit = sum.damage_number_limit();
+  const std::string header =
+      fmt::format(
+          "  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": "
+          "{:.10g},\n"
+          "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"damage_number_limit_of_law\": {:.6g},\n"
+          "  \"inertia_number_limit_of_law\": {:.6g},\n  \"contacts_over_a_tenth_of_radius\": {:.10g},\n"
+          "  \"particles_with_several_of_them\": {:.10g},\n",
+          version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_, limit,
+          limit, deep.contacts, deep.particles) +
       fmt::format("  \"series\": {{\n{}\n  }},\n",
                   energies_.json(deck_units(), session_->energy != nullptr, "    "));
   try {

@@ -6,6 +6,7 @@
 #include "liggghts_plugin/energy_series.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
+#include "liggghts_plugin/stats_text.hpp"
 
 namespace granulaw::plugin {
 
@@ -69,8 +70,8 @@ class FixStats : public LAMMPS_NS::Fix
   bool writes_stats() const;
   /// A row of the energies over time. Collective.
   void add_energies();
-  void write_json(const ContactStatistics& sum, const std::string& path) const;
-  void write_files(const ContactStatistics& sum) const;
+  void write_json(const ContactStatistics& sum, const DeepContacts& deep, const std::string& path) const;
+  void write_files(const ContactStatistics& sum, const DeepContacts& deep) const;
   void print(const std::string& text) const;
   /// Once for each `what`.
   void warn(const std::string& what, const std::string& text) const;
@@ -78,6 +79,13 @@ class FixStats : public LAMMPS_NS::Fix
   void warn_of_lost_contacts() const;
   /// Where a contact of this run was stiffer than the time step allows, once for each step. Collective.
   void warn_of_long_steps() const;
+  void warn_of_sizes() const;
+  void warn_of_laws_without_checksum() const;
+  /// Stops where a file that is to be written later cannot be. Collective.
+  void check_files() const;
+  /// Particles that have several contacts deeper than PairInfo::deep_overlap now. Collective.
+  double crowded_particles() const;
+  DeepContacts deep_contacts() const;
   /// True in the one fix that speaks, if a deck has several.
   bool speaks() const;
   DeckUnits deck_units() const;
@@ -87,6 +95,7 @@ class FixStats : public LAMMPS_NS::Fix
   double largest_dt_ = 0;
   int every_ = 0;  ///< steps between two files; 0: at the end of a run alone
   EnergySeries energies_;
+  double crowded_ = 0;  ///< largest of crowded_particles() where it was asked: every N steps and at the end
   ContactStatistics rows_;  // of compute_array: total() of step_of_rows_
   LAMMPS_NS::bigint step_of_rows_ = -1;
 };

@@ -79,17 +79,8 @@ struct HertzBody
   }
 };
 
-std::string error_text(const Certificate& c)
-{
-  if (c.verification_impacts > 0)
-    return fmt::format("F {:.2g} %, e {:.2g} %{}", 100 * c.verification_error_force,
-                       100 * c.verification_error_restitution,
-                       c.origin == "atlas" ? " (atlas)" : " against fresh impacts");
-  if (c.origin == "atlas" || c.origin == composed_origin)
-    return fmt::format("F {:.2g} %, e {:.2g} ({})", 100 * c.atlas_error_force, c.atlas_error_restitution,
-                       c.origin);
-  return "not stated";
-}
+/// Overlap/(lambda R*) beyond which no law of one contact holds: on a rigid wall a tenth of the radius.
+constexpr double deep_flattening = 0.1;
 
 /// Names end where the next keyword begins, so a misspelt keyword looks like one more material.
 std::string misspelt_keyword(const std::vector<std::string>& materials, std::size_t types, bool is_wall)
@@ -133,21 +124,12 @@ void MpmPhysics::prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry&, const Setup&
     fail(setup.where, fmt::format("'materials' needs one name for each of the {} atom types, found {}: {}{}",
                                   count, materials.size(), fmt::join(materials, " "),
                                   misspelt_keyword(materials, count, setup.wall != nullptr)));
-  double& limit = setup.session->damage_number_limit;
-  const auto lower_limit = [&](const Certificate& certificate) {
-    const double own = certificate.damage_number_max;
-    if (own > 0 && (limit == 0 || own < limit)) limit = own;
-  };
   const Law& law = setup.law->law;
   for (int t = 1; t <= types.count; ++t) {
     const std::string& name = materials[static_cast<std::size_t>(t - 1)];
     const auto found = law.bodies.find(name);
     if (found == law.bodies.end() || std::isnan(types.youngs_modulus[t])) continue;
     check_material(lmp, setup, types, t, found->second.material);
-    lower_limit(found->second.certificate);
-    for (int other = 1; other < t; ++other)
-      if (const auto* laws = law.find_pair_laws(name, materials[static_cast<std::size_t>(other - 1)]))
-        for (const TwoBodyLaw& own : *laws) lower_limit(own.law.certificate);
   }
 }
 
@@ -223,20 +205,28 @@ PairInfo MpmPhysics::describe(const Contact& contact, const PairKey& key) const
   info.a = material(key.i);
   info.b = key.kind == PairKey::rigid_wall ? wall_name : material(key.j);
   info.law = fmt::format("mpm {}", setup_->law->path);
-  const LawPair* pair = setup_->law->law.find_pair(info.a, info.b);
-  const bool exact = info.a == info.b || key.kind == PairKey::rigid_wall;
   const BodyLaw& body = *contact.law.yielding;
-  const auto of_body = setup_->law->law.bodies.find(body.material.name);
-  const bool of_pair =
-      of_body != setup_->law->law.bodies.end() && contact.law.curve != &of_body->second.curve;
-  info.rule = exact || of_pair ? "own"
-              : pair && pair->reduction_error_restitution > 0
-                  ? fmt::format("reduced (e {:.2g} %)", 100 * pair->reduction_error_restitution)
-                  : "reduced";
-  info.error = error_text(body.certificate);
-  if (body.material.yields()) info.stiffness_ratio = body.material.e_star() / body.material.yield_stress;
+  const Law& law = setup_->law->law;
+  const bool hertz = &body == &HertzBody::instance().body;
+  const bool elastic_partner = !law.find_pair(info.a, info.b);
+  if (hertz || elastic_partner) {
+    info.kind = hertz ? "Hertz" : name_of(LawKind::reduced);
+    if (!hertz) info.note = "error bound not stated: one body is elastic by the deck";
+    info.stated.damage_number_max = body.certificate.damage_number_max;
+  } else {
+    const double flat_partner = std::numeric_limits<double>::infinity();
+    info.stated = statement_of(law, contact.law, info.a, info.b);
+    if (key.kind == PairKey::deformable_wall)
+      info.stated =
+          info.stated.at_distance(distance_in_size(law, contact.law, info.a, info.b, 1.0, flat_partner));
+    info.kind = name_of(info.stated.kind);
+  }
+  if (body.material.yields()) {
+    info.stiffness_ratio = body.material.e_star() / body.material.yield_stress;
+    info.deep_overlap = deep_flattening / contact.per_lambda;
+  }
   info.overlap_limit = contact.largest_overlap();
-  info.damage_number_limit = body.certificate.damage_number_max;
+  if (std::isfinite(info.stated.damage_number_max)) info.damage_number_limit = info.stated.damage_number_max;
   return info;
 }
 

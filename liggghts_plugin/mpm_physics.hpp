@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "law/damage_number.hpp"
 #include "law/fast_curve.hpp"
 #include "law/law.hpp"
 #include "liggghts_plugin/normal_physics.hpp"
@@ -111,12 +112,7 @@ struct MpmContact
   double planned_stiffness(double r_eff, double delta) const;
   double largest_overlap() const { return curve->curve().x_end() / per_lambda; }
   double stiffness_range() const { return largest_overlap(); }
-  double damage_number_per_speed2() const
-  {
-    // the yielding body's share of the approach is V/sqrt(lambda): all on a rigid wall, half in a like pair
-    return law.yielding->material.density / law.yielding->material.yield_stress / law.mapping.length(1.0) *
-           units.length * units.length;
-  }
+  double damage_number_per_speed2() const { return damage_number(law, units.length); }
 
  private:
   /// The reversal at x_max, out of `kept` where that holds it, and kept there else.

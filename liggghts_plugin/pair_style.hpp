@@ -4,6 +4,7 @@
 
 #include "liggghts_plugin/command_models.hpp"
 #include "liggghts_plugin/pair_loop.hpp"
+#include "liggghts_plugin/pair_table.hpp"
 #include "liggghts_plugin/superquadric.hpp"
 #include "liggghts_plugin/tallied_model.hpp"
 
@@ -28,12 +29,16 @@ class PairStyle final : public PairLoop<TalliedModel<Style>>, public CountedStyl
   }
 
   const ContactInquiry* contacts() const override { return setup_.contacts; }
-  void take_out_open(ContactStatistics& statistics) const override
+  void each_open(const std::function<void(const OpenContact&)>& visit) const override
   {
     this->each_open_contact(*parent_, [&](int i, int j, double weight, const double* history) {
       const LAMMPS_NS::Atom& atom = *lmp_->atom;
-      setup_.contacts->take_out(
-          statistics, {atom.type[i], atom.type[j], atom.radius[i], atom.radius[j], 0.0, history}, weight);
+      const int itype = atom.type[i], jtype = atom.type[j];
+      visit({pair_key(setup_, itype, jtype),
+             i,
+             j,
+             weight,
+             {itype, jtype, atom.radius[i], atom.radius[j], 0.0, history}});
     });
   }
 

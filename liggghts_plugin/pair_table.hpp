@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -111,12 +112,18 @@ class PairTable
         ContactStatistics::Pair& counts = setup.session->statistics.pairs[key];
         each_entry(i, j, [&](Entry& entry) { entry.counts = &counts; });
         if (!is_wall && j < i) continue;  // described as i, j
-        PairInfo info = physics.describe(usual.contact, key);
+        std::optional<PairInfo> all;
+        each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t k) {
+          const PairInfo one = describe(physics, entry.contact, key, is_wall, k, sizes);
+          if (all)
+            all->include(one);
+          else
+            all = one;
+        });
+        PairInfo& info = *all;
         info.needed = types.can_meet(i, j, is_wall);
         info.onset_speed = std::numeric_limits<double>::infinity();
-        each_entry_in_use(i, j, sizes, [&](const Entry& entry) {
-          info.overlap_limit =
-              std::min(info.overlap_limit, physics.describe(entry.contact, key).overlap_limit);
+        each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t) {
           add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j), lmp->update->dt);
           if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
           if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
@@ -126,6 +133,20 @@ class PairTable
   }
 
  private:
+  /// Of law `k` of the pair, with the error of the sizes that follow it.
+  PairInfo describe(const Physics& physics, const Contact& contact, const PairKey& key, bool is_wall,
+                    std::size_t k, const ParticleSizes& sizes) const
+  {
+    PairInfo info = physics.describe(contact, key);
+    if constexpr (HasLawsBySize<Physics>)
+      if (!is_wall && info.kind == name_of(info.stated.kind)) {  // no elastic types
+        const SizeChoice& choice = choices_[pair_of(key.i, key.j)];
+        info.stated = info.stated.at_distance(choice.distance(k, sizes.of_type(key.i), sizes.of_type(key.j)));
+        info.kind = name_of(info.stated.kind);
+      }
+    return info;
+  }
+
   /// How contacts of each pair of types choose among its laws.
   void find_choices(const Physics& physics, const Setup& setup, int count, const ParticleSizes& sizes)
   {
@@ -196,7 +217,7 @@ class PairTable
     const SizeChoice& choice = choices_[pair_of(i, j)];
     for (std::size_t k = 0; k < choice.count(); ++k) {
       const Entry& entry = first_entry(i, j)[k];
-      if (&entry == &usual || choice.serves(k, sizes.of_type(i), sizes.of_type(j))) visit(entry);
+      if (&entry == &usual || choice.serves(k, sizes.of_type(i), sizes.of_type(j))) visit(entry, k);
     }
   }
 

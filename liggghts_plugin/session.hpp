@@ -60,14 +60,28 @@ class ContactInquiry
   virtual void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const = 0;
 };
 
+/// A contact that is open on this rank.
+struct OpenContact
+{
+  PairKey key;
+  int i = 0, j = -1;  ///< indices of the particles; j -1: a wall
+  double weight = 1;  ///< in sums over ranks (ContactStatistics)
+  ContactPlace place;
+};
+
 /// A pair style or wall of ours.
 class CountedStyle
 {
  public:
   virtual ~CountedStyle() = default;
-  /// Takes the contacts that are open on this rank out of the contact statistics' histograms.
-  virtual void take_out_open(ContactStatistics& statistics) const = 0;
+  virtual void each_open(const std::function<void(const OpenContact&)>& visit) const = 0;
   virtual const ContactInquiry* contacts() const = 0;
+
+  /// Takes the contacts that are open on this rank out of the contact statistics' histograms.
+  void take_out_open(ContactStatistics& statistics) const
+  {
+    each_open([&](const OpenContact& open) { contacts()->take_out(statistics, open.place, open.weight); });
+  }
 };
 
 struct Setup;
@@ -102,9 +116,6 @@ class Session
   /// Of atom types whose law holds for one radius, by command and type: throws Error at another one, in the
   /// deck's units. Radii and types may change in a run.
   std::map<const Setup*, std::map<int, std::function<void(double radius)>>> one_size;
-
-  /// Largest damage number the laws in use answer for; 0 if none says.
-  double damage_number_limit = 0;
 
   /// The histories of the restart file that this deck continues, by command: "pair" or the wall's id. A
   /// command that has been compared is taken out.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -96,6 +97,13 @@ class SizeChoice
     if (!i.known() || !j.known()) return false;
     const Range range = shares_of(i, j);
     return lower(k, range) <= upper(k, range);
+  }
+  /// Largest distance in the share between law k and particles of these types that follow it; 0: none do.
+  double distance(std::size_t k, const Radii& i, const Radii& j) const
+  {
+    if (!serves(k, i, j)) return 0.0;
+    const Range range = shares_of(i, j);
+    return std::max(std::abs(lower(k, range) - shares_[k]), std::abs(upper(k, range) - shares_[k]));
   }
   /// Two radii, over any length, for which law k is resolved: in the middle of the shares for which it serves
   /// particles of these types, which are their own radii where each type has one size. Where it serves none:

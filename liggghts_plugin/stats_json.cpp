@@ -120,7 +120,7 @@ std::string pair_json(const PairKey& key, const ContactStatistics::Pair& s)
       "      \"damage_number_limit\": {},\n      \"inertia_number_limit\": {},\n      "
       "\"onset_speed_m_per_s\": {},\n"
       "      \"time_step_limit_of_law_s\": {},\n      \"overlap_over_radius_limit_of_time_step\": {},\n{}\n    }}",
-      kind_name(key.kind), key.i, key.j, quoted(info.a), quoted(info.b), quoted(info.law), quoted(info.rule),
+      kind_name(key.kind), key.i, key.j, quoted(info.a), quoted(info.b), quoted(info.law), quoted(info.kind),
       number(info.overlap_limit), damage_number_limit, damage_number_limit, number(info.onset_speed),
       info.dt_limit > 0 ? number(info.dt_limit) : "null",
       info.dt_limit > 0 ? number(info.dt_overlap) : "null", counts_json(s, "      "));

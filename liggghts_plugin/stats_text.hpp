@@ -9,9 +9,16 @@ namespace granulaw::plugin {
 /// The start-up table: one line for each pair of types that can meet. In SI. Empty if there is none.
 std::string start_table(const ContactStatistics& statistics, const DeckUnits& units);
 
-/// The line at the end of a run, from the sums of all ranks, in SI. `damage_number_limit`: largest rho V^2/Y
-/// that the laws answer for, 0: not stated; `largest_dt`: s, of the steps that were taken.
-std::string end_line(const ContactStatistics& sum, const DeckUnits& units, double damage_number_limit,
-                     double largest_dt);
+/// Contacts of a run that were deeper than PairInfo::deep_overlap.
+struct DeepContacts
+{
+  double contacts = 0;   ///< ended and open
+  double particles = 0;  ///< with two or more of them at once
+};
+
+/// The table at the end of a run, from the sums of all ranks, in SI. `largest_dt`: s, of the steps that were
+/// taken.
+std::string end_table(const ContactStatistics& sum, const DeckUnits& units, const DeepContacts& deep,
+                      double largest_dt);
 
 }  // namespace granulaw::plugin

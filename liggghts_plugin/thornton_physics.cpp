@@ -54,8 +54,8 @@ PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) c
   PairInfo info{.a = "-",
                 .b = key.kind == PairKey::rigid_wall ? wall_name : "-",
                 .law = name,
-                .rule = "closed form",
-                .error = "not stated"};
+                .kind = "closed form",
+                .note = "error bound not stated"};
   info.stiffness_ratio = 1.6 * contact.law.e_star / contact.law.yield_pressure;
   info.overlap_limit = std::numeric_limits<double>::infinity();
   return info;

@@ -7,6 +7,7 @@
 
 #include "liggghts_plugin/command_models.hpp"
 #include "liggghts_plugin/fix_style.hpp"
+#include "liggghts_plugin/pair_table.hpp"
 #include "liggghts_plugin/superquadric.hpp"
 #include "liggghts_plugin/tallied_model.hpp"
 #include "liggghts_plugin/wall_loop.hpp"
@@ -33,11 +34,15 @@ class WallStyle final : public WallLoop<TalliedModel<Style>>, public CountedStyl
 
   const ContactInquiry* contacts() const override { return setup_.contacts; }
 
-  void take_out_open(ContactStatistics& statistics) const override
+  void each_open(const std::function<void(const OpenContact&)>& visit) const override
   {
     this->each_open_contact([&](int i, int wall_type, const double* history) {
-      setup_.contacts->take_out(
-          statistics, {lmp_->atom->type[i], wall_type, lmp_->atom->radius[i], flat, 0.0, history}, 1.0);
+      const int type = lmp_->atom->type[i];
+      visit({pair_key(setup_, type, wall_type),
+             i,
+             -1,
+             1.0,
+             {type, wall_type, lmp_->atom->radius[i], flat, 0.0, history}});
     });
   }
 

@@ -61,8 +61,10 @@ void require_writable(const std::string& path, const std::string& where)
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (fs::is_directory(target)) fail(where, fmt::format("'{}' is a folder, not a file", path));
   if (!fs::is_directory(folder)) fail(where, fmt::format("the folder '{}' does not exist", folder.string()));
-  if (access(folder.c_str(), W_OK) != 0)
-    fail(where, fmt::format("the folder '{}' cannot be written to", folder.string()));
+  const std::string probe = temporary_name(path);  // permissions alone do not show it: /proc, a full disk
+  const bool written = static_cast<bool>(std::ofstream(probe));
+  std::remove(probe.c_str());
+  if (!written) fail(where, fmt::format("the folder '{}' cannot be written to", folder.string()));
 }
 
 }  // namespace granulaw

@@ -22,7 +22,7 @@ struct UnlikePair
   /// Density, over the yielding body's, of the one sphere that stands for the pair: see `as_one_body`.
   double one_body_density() const;
   /// v of the velocity axis in the rule's coordinates (law/velocity_axis.hpp) over the square root of the
-  /// damage number (law/law.hpp), at one relative speed. 1 between like spheres and on a rigid wall.
+  /// damage number (law/damage_number.hpp), at one relative speed. 1 between like spheres and on a rigid wall.
   double axis_speed_ratio() const;
   /// Customary V_y of that sphere, m/s: the relative velocity that V/V_y of a pair is counted from.
   double yield_velocity() const;

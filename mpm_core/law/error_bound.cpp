@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "law/damage_number.hpp"
+
 namespace granulaw {
 
 namespace {
@@ -35,7 +37,7 @@ double damage_number_of_rule(const Law& law, const PairLaw& pair, const std::str
     return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
   };
   const double v = pair.axis_speed(radius / 2, effective_mass(mass(a), mass(b)), 1.0);
-  return measured * pair.damage_number(1.0) / (v * v);
+  return measured * damage_number(pair, 1.0) / (v * v);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ struct PairStatement
       rule;  ///< stated for other sizes than the law's: up to the ratio of radii that the file was made for
   double covered = 1;   ///< of a particle with a shape: part of the orientations that the bound is of
   double size_off = 0;  ///< distance of the contact from its law in R_s/(R_s + R_h)
-  /// Largest damage number (PairLaw::damage_number) for which the bound holds.
+  /// Largest damage number (damage_number.hpp) for which the bound holds.
   double damage_number_max = std::numeric_limits<double>::infinity();
 
   bool covers_size() const { return size_off <= size_share_step * (1 + 1e-9); }

@@ -29,12 +29,11 @@ struct Certificate
   double verification_error_force = 0;  ///< largest error of F_max, replay of this law against fresh impacts
   double verification_error_restitution = 0;  ///< the same of e
   double verification_impacts = 0;            ///< how many impacts were compared
-  double damage_number_max =
-      0;  ///< largest damage number (damage_number() below) for which the errors were shown to hold
+  double damage_number_max = 0;  ///< I = rho V^2/Y up to which the law, with its axis, holds within its error
   double axis_cost_force =
       0;  ///< F_max without the velocity axis over F_max with it, less 1, at its end; 0: none
   double axis_cost_restitution = 0;    ///< the same of e (both signed)
-  double atlas_error_force = 0;        ///< of a law of the atlas or a composed one, relative; 0: by runs
+  double atlas_error_force = 0;        ///< of what the atlas tells, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
   std::string support = "free";        ///< how the characterising press held the body
   std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas; or ...
@@ -97,7 +96,6 @@ struct Law
   /// follow the pair rule.
   std::map<std::string, std::vector<TwoBodyLaw>> pair_laws;
   std::map<std::string, std::string> provenance;  ///< version, git_hash, created, command, material_hash, ...
-  std::string checksum;  ///< of the file that it was read from (h5_checksum.hpp); empty: the file has none
 
   /// The file's entry for this pair, in either order; null: it was not built for it.
   const LawPair* find_pair(const std::string& a, const std::string& b) const;
@@ -118,15 +116,6 @@ void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where
 /// ones the softer, then the first by name.
 bool yields_first(const LawMaterial& a, const LawMaterial& b);
 
-/// Damage number I = rho V^2/Y of a pair at the relative normal speed `speed`, m/s: density and yield stress
-/// are those of the yielding body, V = speed/sqrt(lambda) is its share of the approach (all on a rigid wall,
-/// half between like bodies).
-inline double damage_number(const LawMaterial& yielding, const PairMapping& mapping, double speed)
-{
-  const double share = speed / mapping.sqrt_lambda;
-  return yielding.density * share * share / yielding.yield_stress;
-}
-
 /// A pair's law, resolved: which curve, which mapping. What a particle code keeps for each pair of types.
 struct PairLaw
 {
@@ -143,13 +132,8 @@ struct PairLaw
   /// Largest overlap the table answers for, m.
   double max_overlap(double r_eff) const { return curve->x_end() * mapping.length(r_eff); }
 
-  /// Damage number of a collision at this relative normal speed, m/s. 0: the bodies are elastic.
-  double damage_number(double speed) const
-  {
-    return yielding->material.yields() ? granulaw::damage_number(yielding->material, mapping, speed) : 0.0;
-  }
-  /// v of the velocity axis (velocity_axis.hpp) at this relative normal speed, m/s. On a rigid wall and for
-  /// like spheres v^2 is the damage number. The yielding body yields.
+  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see velocity_axis.hpp. The yielding body
+  /// yields.
   double axis_speed(double r_eff, double m_eff, double speed) const;
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without a velocity axis or approach, clamped beyond max_speed().

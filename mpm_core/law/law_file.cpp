@@ -507,7 +507,9 @@ Law read_verified(const h5::Handle& file, const std::string& path)
   const int minor = h5::read_int_attribute(file, h5::version_minor, path);
   h5::Checksum found;
   Law law = read_open(file, path);
-  law.checksum = h5::verify(file, found, minor >= h5::first_minor_with_checksum, path);
+  const std::string checksum = h5::verify(file, found, minor >= h5::first_minor_with_checksum, path);
+  law.provenance.erase(checksum_note);
+  if (!checksum.empty()) law.provenance[checksum_note] = checksum;
   return law;
 }
 
@@ -552,7 +554,8 @@ void write_law(const Law& law, const std::string& path)
     h5::write_int_attribute(file, h5::version_minor, h5::minor, path);
 
     const h5::Handle notes = h5::create_group(file, h5::provenance, path);
-    for (const auto& [name, text] : law.provenance) h5::write_text_attribute(notes, name.c_str(), text, path);
+    for (const auto& [name, text] : law.provenance)
+      if (name != checksum_note) h5::write_text_attribute(notes, name.c_str(), text, path);
 
     std::vector<std::string> pairs;
     for (const LawPair& pair : law.pairs) pairs.push_back(pair.a + ":" + pair.b);

@@ -144,9 +144,9 @@ class Combinations(Deck):
             # rounding: 1e-16 R in overlaps of 1e-2 R, 50 steps
             self.assertAlmostEqual(self.result(cgs, "SPEED")[0] / self.result(si, "SPEED")[0], 100, delta=1e-8)
             self.assertAlmostEqual(self.result(cgs, "LOSS")[0] / self.result(si, "LOSS")[0], 1e7, delta=1)
-            said = [[line for line in text.splitlines() if line.startswith("granulaw: 0 contacts")] for text in (si, cgs)]
+            said = [text[text.index("granulaw contacts"):text.index("Loop time")] for text in (si, cgs)]
             self.assertEqual(said[0], said[1])  # the log is in SI
-            self.assertEqual(len(said[0]), 1)
+            self.assertGreater(len(said[0].splitlines()), 4)
 
     def test_radii_1_to_10(self):
         masses = sphere_mass(RADIUS, POWDER.density), sphere_mass(10 * RADIUS, POWDER.density)

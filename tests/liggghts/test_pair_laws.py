@@ -57,7 +57,7 @@ class Synthetic(Drops, Deck):
             text = self.run_deck(self.deck(POWDER, GLASS, 5.0, law["contact_time_s"], steps=50))
             line, = [line for line in text.splitlines() if line.startswith("  1 powder -  2 glass")]
             rules.append(line.split()[5])
-        self.assertEqual(rules, ["reduced", "own"])
+        self.assertEqual(rules, ["reduced", "two-body"])
 
 
 class Computed(Drops, Deck):
@@ -71,7 +71,7 @@ class Computed(Drops, Deck):
         pairs = [word for pair in ("powder:glass", "powder:powder", "glass:glass") for word in ("--pair", pair)]
         done = subprocess.run([os.environ["GRANULAW_MPM"], "table", materials, *pairs, "--own-law", "-o", self.law], check=True,
                               capture_output=True, text=True)
-        self.assertIn("powder:glass: its own law by", done.stdout + done.stderr)
+        self.assertIn("powder:glass: by ", done.stdout + done.stderr)
 
 
 if __name__ == "__main__":

@@ -68,7 +68,7 @@ def contact_map(speeds, overlaps):
 
 
 def stats(speeds, overlaps):
-    entry = {"kind": "particles", "types": [1, 1], "materials": ["wax", "wax"], "law": "mpm law.h5", "rule": "own", "overlap_over_radius_limit": 0.4,
+    entry = {"kind": "particles", "types": [1, 1], "materials": ["wax", "wax"], "law": "mpm law.h5", "rule": "single", "overlap_over_radius_limit": 0.4,
              "inertia_number_limit": 0.002, "onset_speed_m_per_s": 0.03, "contacts_begun": sum(n for _, n in speeds),
              "contact_steps_beyond_table": 3, "impact_speed_max_m_per_s": max(v for v, _ in speeds),
              "overlap_over_radius_max": max(d for d, _ in overlaps), "impact_speed": histogram(speeds),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "law/damage_number.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
@@ -128,10 +129,10 @@ TEST_F(PairStatements, TheDamageNumberIsThatOfTheYieldingBodysShare)
   const LawMaterial& m = law_.bodies.at("powder").material;
   const double on_wall = m.density * 9.0 / m.yield_stress;
   const PairLaw wall = resolve_pair(law_, "powder", "wall", "here");
-  EXPECT_DOUBLE_EQ(wall.damage_number(3), on_wall);
+  EXPECT_DOUBLE_EQ(damage_number(wall, 3), on_wall);
   for (const double ratio : {1.0, 5.0}) {
     const PairLaw like = resolve_pair(law_, "powder", "powder", "here", 1, ratio);
-    EXPECT_DOUBLE_EQ(like.damage_number(6), on_wall) << ratio;
+    EXPECT_DOUBLE_EQ(damage_number(like, 6), on_wall) << ratio;
   }
 }
 

@@ -7,6 +7,7 @@
 #include "deck/hertz.hpp"
 #include "deck/plan_options.hpp"
 #include "law/contact_step.hpp"
+#include "law/damage_number.hpp"
 
 namespace granulaw::deck {
 

@@ -14,6 +14,7 @@
 #include "characterise/law_material.hpp"
 #include "characterise/orientations.hpp"
 #include "command.hpp"
+#include "law/damage_number.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/run/scene_builder.hpp"

@@ -122,7 +122,7 @@ void info(const std::string& path)
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
   for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
-  fmt::print("  checksum = {}\n", law.checksum.empty() ? "none (file of an older version)" : law.checksum);
+  if (!law.provenance.contains(checksum_note)) fmt::print("  checksum = none (file of an older version)\n");
   for (const LawPair& pair : law.pairs) print_pair(law, pair);
   for (const auto& entry : law.bodies) print_body(entry.second, law.provenance);
   for (const auto& [name, laws] : law.pair_laws)

@@ -9,6 +9,7 @@
 #include "collision_report.hpp"
 #include "command.hpp"
 #include "json_output.hpp"
+#include "law/damage_number.hpp"
 #include "law/error_bound.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
@@ -54,7 +55,7 @@ void check_depth(const LawRequest& r, const Collision& c, const Replay& result)
 /// The collision's speed, and the statement of the law file about it.
 struct Assessment
 {
-  double damage_number;     ///< PairLaw::damage_number
+  double damage_number;     ///< of damage_number.hpp
   PairStatement statement;  ///< for these sizes
   bool beyond_bound;        ///< the damage number is above that up to which the error bound holds
   bool needs_axis;          ///< ... and the law has no velocity axis
@@ -66,7 +67,7 @@ struct Assessment
 Assessment assess(const Law& law, const Collision& c)
 {
   const auto& [a, b] = c.names;
-  const double damage_number = c.law.damage_number(c.velocity);
+  const double damage_number = granulaw::damage_number(c.law, c.velocity);
   const PairStatement statement =
       statement_of(law, c.law, a, b).at_distance(distance_in_size(law, c.law, a, b, c.radius, c.radius2));
   constexpr double rounding = 1e-9;

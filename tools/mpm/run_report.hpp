@@ -6,7 +6,7 @@
 namespace granulaw {
 
 /// Before the run, for people: body, grid, yield velocity. `velocity`: m/s of an impact; 0: a press.
-/// `damage_number`: of the impact (law/law.hpp).
+/// `damage_number`: of the impact (law/damage_number.hpp).
 void print_setting(const RunRequest& request, const Particle& particle, double velocity,
                    double damage_number = 0);
 

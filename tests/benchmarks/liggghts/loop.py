@@ -159,7 +159,7 @@ def loop(folder, scene, name, steps):
                f"run {WARM_UP}\nrun {steps}\n", preload)
     seconds = float(re.findall(r"^Loop time of (\S+)", text, re.M)[-1])
     pair = float(re.findall(r"^Pair  time \(%\) = (\S+)", text, re.M)[-1])
-    if name in RADIATING and "waves took" not in text:
+    if name in RADIATING and "taken by waves" not in text:
         raise SystemExit(f"loop.py: no waves under {name}")
     return seconds, pair, contacts(text), cpu
 

@@ -27,7 +27,7 @@ PlainHertzContact PlainHertzPhysics::resolve(int i, int j, bool rigid, const std
 
 PairInfo PlainHertzPhysics::describe(const Contact&, const PairKey&) const
 {
-  return {.a = "-", .b = "-", .law = name, .rule = "closed form", .error = "none: elastic"};
+  return {.a = "-", .b = "-", .law = name, .kind = "closed form", .note = "none: elastic"};
 }
 
 }  // namespace granulaw::plugin
