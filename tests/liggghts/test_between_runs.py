@@ -156,7 +156,7 @@ class Thorough(Between):
                 self.run_deck("clear\n".join(decks), ranks=ranks)
                 decks = [between.again(model, f"{k}.restart") + f"run {between.AFTER}\n" + between.state(f"{k}.rest.txt") for k in range(len(rows))]
                 self.run_deck("clear\n".join(decks), ranks=3 - ranks)
-                found = {lines: apart for k, (_, lines, _) in enumerate(rows) if not (apart := self.apart(f"{k}.rest.txt", f"{k}.txt")) <= ROUNDING}
+                found = {lines: apart for k, (_, lines, _) in enumerate(rows) if not (apart := self.apart(f"{k}.txt", f"{k}.rest.txt", "compress_tags" in lines)) <= ROUNDING}
                 self.assertEqual(found, {}, (model, ranks))
 
 
