@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_cdf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -90,6 +91,50 @@ std::optional<Coordinates> profile_all(Calibration& c, const CalibrationProblem&
 
 namespace {
 
+void add_compliances(Calibration& c, const CalibrationProblem& problem)
+{
+  c.compliances.assign(problem.request().measurements.size(), std::nullopt);
+  for (std::size_t u = 0; u < problem.count(); ++u)
+    if (problem.unknowns()[u].kind == CalibrationProblem::Unknown::Kind::compliance && c.bound.empty())
+      c.compliances[problem.unknowns()[u].measurement] =
+          profile_likelihood(problem, c.minimum, u, c.interval_scale).within95;
+}
+
+/// Of the problem in which all curves' machines give way, at the minimum of the one in which none does.
+double machine_shift_of(const CalibrationProblem& problem, const Calibration& c)
+{
+  using Kind = CalibrationProblem::Unknown::Kind;
+  CalibrationRequest request = problem.request();
+  const auto modulus = std::find(request.fit.begin(), request.fit.end(), Parameter::youngs_modulus);
+  bool curves = false;
+  for (Measurement& m : request.measurements) {
+    curves = curves || (is_curve(m.kind) && !m.fit_compliance);
+    m.fit_compliance = m.fit_compliance || is_curve(m.kind);
+  }
+  if (!curves || modulus == request.fit.end() || !request.known.hardens_linearly() || !c.bound.empty())
+    return 0;
+  const CalibrationProblem gives_way(problem.laws().atlas(), request);
+  const auto count = static_cast<Eigen::Index>(gives_way.count());
+  // the unknowns in their order, and the compliances that only this problem has
+  Coordinates q(count), direction = Coordinates::Zero(count);
+  std::vector<Eigen::Index> kept;
+  Eigen::Index next = 0;
+  for (Eigen::Index u = 0; u < count; ++u) {
+    const CalibrationProblem::Unknown& unknown = gives_way.unknowns()[static_cast<std::size_t>(u)];
+    if (unknown.kind == Kind::compliance &&
+        !problem.request().measurements[unknown.measurement].fit_compliance)
+      q[u] = 0, direction[u] = stiff_machine / unknown.scale;
+    else
+      q[u] = c.minimum.q[next++], kept.push_back(u);
+  }
+  const Eigen::MatrixXd jacobian = jacobian_at(gives_way, q);
+  const Eigen::MatrixXd free = jacobian(Eigen::all, kept);
+  Eigen::MatrixXd information = free.transpose() * free;
+  information.diagonal().array() += 1e-6;  // what nothing tells
+  const Eigen::VectorXd shift = -information.ldlt().solve(free.transpose() * (jacobian * direction));
+  return std::expm1(shift[modulus - request.fit.begin()]);
+}
+
 Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
 {
   constexpr int most_rounds = 4;
@@ -121,6 +166,8 @@ Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
     c.machines.push_back(problem.machine(c.minimum.q, k));
   c.correlation = correlation_of(c.minimum, problem.request().fit.size());
   c.misfits = name_misfits(problem, c.minimum);
+  add_compliances(c, problem);
+  c.machine_shift = machine_shift_of(problem, c);
   return c;
 }
 

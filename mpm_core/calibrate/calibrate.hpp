@@ -36,9 +36,17 @@ struct Calibration
   double interval_scale =
       1;  ///< of chi^2 in the intervals: over 1 where the data scatter more than was stated
   std::vector<MachineState> machines;  ///< by measurement
+  /// By measurement: of the machine's compliance, m/N, 95 %; none where it is not fitted.
+  std::vector<std::optional<Interval>> compliances;
+  /// Of Young's modulus, where it is fitted to curves of machines that are taken as rigid: relative change by
+  /// a compliance of stiff_machine, to first order.
+  double machine_shift = 0;
   std::vector<Misfit> misfits;
   Minimum minimum;
 };
+
+/// m/N: a stiff laboratory frame gives way by 1 mm at 100 kN.
+inline constexpr double stiff_machine = 1e-8;
 
 /// Fits, profiles, looks for misfits.
 Calibration calibrate(const CalibrationProblem& problem);

@@ -468,6 +468,8 @@ Range CalibrationProblem::allowed(std::size_t unknown, const Coordinates& q) con
     case Unknown::Kind::hardening:
       r = {0, grid.hardenings.back() * (fits(Parameter::youngs_modulus) ? 100 : 1) * m.youngs_modulus};
       break;
+    case Unknown::Kind::compliance:
+      return {0, 1e9};
     default:
       return {-1e9, 1e9};
   }

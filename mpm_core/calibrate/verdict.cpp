@@ -106,6 +106,21 @@ std::string correlation_clause(const Calibration& c)
   return said;
 }
 
+/// What a machine that gives way would change, where it is more than a tenth of the interval's half.
+std::string machine_clause(const Calibration& c)
+{
+  for (const FittedParameter& p : c.parameters) {
+    const Interval& i = p.profile.within95;
+    if (p.parameter != Parameter::youngs_modulus || !p.identifiable()) continue;
+    if (std::abs(c.machine_shift) < 0.1 * 0.5 * std::log(i.high / i.low)) return "";
+    return fmt::format(
+        " The machine is taken as rigid: if it gave way by {:g} m/N, youngs_modulus would be {:.2g} % {} "
+        "(--compliance fits it).",
+        stiff_machine, 100 * std::abs(c.machine_shift), c.machine_shift > 0 ? "higher" : "lower");
+  }
+  return "";
+}
+
 /// Hardening and rate both make fast impacts bounce more.
 std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
 {
@@ -135,7 +150,7 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& c)
   for (const Misfit& m : c.misfits)
     text += m.source.empty() ? fmt::format(" Misfit: {}.", m.sentence)
                              : fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
-  text += rate_clause(problem, c);
+  text += rate_clause(problem, c) + machine_clause(c);
   if (c.misfits.empty())
     text += c.degrees_of_freedom > 0 && c.p_value < unlikely
                 ? fmt::format(

@@ -266,6 +266,16 @@ def curves():
         write_rows("soft.csv", header, [(x + compliance * force, force) for x, force in rows])
         found = answer("calibrate", "soft.csv", *bead, "--compliance")
         holds(found, youngs_modulus=3.185e9, yield_stress=35e6)
+        assert found["measurements"][0]["compliance_low95"] <= compliance <= found["measurements"][0]["compliance_high95"], found["measurements"]
+    # a machine that is taken as rigid is named, with what it would change
+    write_rows("rigid.csv", header, rows)
+    rigid = answer("calibrate", "rigid.csv", *bead)
+    said = rigid["verdict"].split("youngs_modulus would be ")[1].split(" % higher")[0]
+    write_rows("soft.csv", header, [(x + 1e-8 * force, force) for x, force in rows])
+    soft = answer("calibrate", "soft.csv", *bead)
+    change = rigid["parameters"]["youngs_modulus"]["value"] / soft["parameters"]["youngs_modulus"]["value"] - 1
+    # to first order, printed with two digits
+    assert abs(float(said) / 100 / change - 1) < 0.3, (said, change)
 
 
 def block():

@@ -59,7 +59,11 @@ nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const
   out["source"] = m.source;
   out["kind"] = name_of_kind(m.kind);
   if (m.fit_offset) out["offset_m"] = c.machines[k].offset;
-  if (m.fit_compliance) out["compliance_m_per_N"] = c.machines[k].compliance;
+  if (m.fit_compliance) {
+    out["compliance_m_per_N"] = c.machines[k].compliance;
+    if (c.compliances[k])
+      out["compliance_low95"] = c.compliances[k]->low, out["compliance_high95"] = c.compliances[k]->high;
+  }
   std::vector<double> x, y;
   for (const Datum& d : m.data) x.push_back(d.x), y.push_back(d.y);
   out["x"] = x, out["measured"] = y, out["sd"] = compared.sd, out["fit"] = compared.with_errors;
@@ -163,7 +167,11 @@ void print_calibration(const CalibrationProblem& problem, const Calibration& c)
   for (std::size_t k = 0; k < c.machines.size(); ++k) {
     const Measurement& m = problem.request().measurements[k];
     if (m.fit_offset) fmt::print("first touch of {}: {:.4g} m\n", m.source, c.machines[k].offset);
-    if (m.fit_compliance) fmt::print("compliance of {}: {:.4g} m/N\n", m.source, c.machines[k].compliance);
+    if (m.fit_compliance)
+      fmt::print("compliance of {}: {:.4g} m/N{}\n", m.source, c.machines[k].compliance,
+                 c.compliances[k]
+                     ? fmt::format(", 95 %: {:.4g} to {:.4g}", c.compliances[k]->low, c.compliances[k]->high)
+                     : "");
   }
   fmt::print("chi^2 {:.4g} of {} degrees of freedom, p = {:.2g}\n{}\n", c.chi_squared, c.degrees_of_freedom,
              c.p_value, verdict(problem, c));

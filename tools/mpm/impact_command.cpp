@@ -15,6 +15,7 @@
 #include "characterise/orientations.hpp"
 #include "command.hpp"
 #include "law/damage_number.hpp"
+#include "plausible.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/run/scene_builder.hpp"
@@ -71,6 +72,7 @@ void check_velocity(double velocity, double wave_speed)
          fmt::format("{:g} m/s", velocity),
          fmt::format("{:g} times the wave speed sqrt(E*/rho) or more, {:.4g} m/s", slowest,
                      slowest * wave_speed));
+  check_plausible("mpm impact", "velocity", "--velocity", velocity);
 }
 
 /// Of the body that yields first; 0: neither does.

@@ -9,6 +9,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <new>
 #include <vector>
 
@@ -151,6 +152,8 @@ Outcome run(int argc, char** argv)
     return {1, "not enough memory"};
   } catch (const Error& error) {
     return {1, error.what()};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {1, fmt::format("{}: cannot be read or written", printable(error.path1().string()))};
   } catch (const std::exception&) {
     // a library's words mean nothing to who gave the command; a debugger that stops at throws shows them
     return {1,
