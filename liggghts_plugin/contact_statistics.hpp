@@ -46,7 +46,7 @@ struct PairInfo
   std::string a, b, law;           ///< material names, "mpm" or "thornton" and the law file
   std::string kind;                ///< of the law: name_of(LawKind), "Hertz", "closed form"
   std::string note;                ///< about the law, where it is no tabulated one
-  PairStatement stated;            ///< of a tabulated law, the worst over the sizes that can meet
+  PairStatement stated{};          ///< of a tabulated law, the worst over the sizes that can meet
   double stiffness_ratio = 0;      ///< E*/Y of the yielding body; 0: it does not yield
   double overlap_limit = 0;        ///< overlap/R* where the table ends; infinity: nowhere
   double damage_number_limit = 0;  ///< I up to which the error bound holds; 0: not stated
