@@ -319,7 +319,7 @@ def case_wrong_words():
     for words in (["none.toml", "no such file"], ["folder", "cannot be read as a file"], ["other.toml", "powder"]):
         refused(["check", "law.h5", "--impacts", "1", "--materials", words[0]], *words)
     refused(["check", "law.h5", "--impacts", "1.5"], "--impacts", "whole number", code=2)
-    refused(["plot", "law.h5", "-o", "/proc/x.png"], "/proc/x.png", "cannot be drawn")
+    refused(["plot", "law.h5", "-o", "/proc/x.png"], "/proc/x.png", "cannot be written to")
     refused(["plan", "in.deck", "--speed", "inf"], "--speed", "found 'inf'", "over 0", code=2)
     refused(["soften", "in.deck", "--max-overlap", "nan"], "--max-overlap", "0.001 to 0.5", code=2)
     # Python as the environment has it first does not matter: the plot's modules are Debian's
