@@ -56,9 +56,7 @@ def check(test, mpm, words, stats, screen):
         deepest = pair["overlap_over_radius_limit"] or 0.1  # of thornton, which has no table
         if pair["overlap_over_radius_limit_of_time_step"] < 0.999 * deepest:
             # 1e-3: the plug-in finds the overlap to 1e-6 of the deepest, which may be a thousand times this one
-            # 1 %: of a composed law the plan takes that of like radii, the plug-in that of the particles' own (0.5 % in examples/mixture)
-            composed = len(set(pair["types"])) == 2 and pair["kind"] == "particles"
-            test.assertAlmostEqual(at_limit[key(pair)] / used, 1, delta=1e-2 if composed else 1e-3, msg=pair["types"])
+            test.assertAlmostEqual(at_limit[key(pair)] / used, 1, delta=1e-3, msg=pair["types"])
         else:
             test.assertGreater(at_limit[key(pair)], 0.999 * used, pair["types"])
         # The plan takes the smallest particles, and the stiffest up to the overlap, pressed or hit. 0.5 %: a contact that others turn back

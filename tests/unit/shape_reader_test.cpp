@@ -84,7 +84,7 @@ TEST_F(ShapeReader, DocumentedExamplesAreWhatTheySay)
 TEST_F(ShapeReader, TheClumpOfTheExampleIsItsMesh)
 {
   const MaterialsFile file = read(
-      "[material.a]\ndensity = 1\nyoungs_modulus = 1\npoisson_ratio = 0\n[particle.mesh]\nmaterial = "
+      "[material.a]\ndensity = 1000\nyoungs_modulus = 1e9\npoisson_ratio = 0\n[particle.mesh]\nmaterial = "
       "\"a\"\nshape = {kind = "
       "\"mesh\", file = \"grain.stl\"}\n[particle.clump]\nmaterial = \"a\"\nshape = {kind = \"clump\", file "
       "= \"grain.clump\"}\n");

@@ -13,10 +13,10 @@ namespace granulaw::deck {
 
 namespace {
 
-/// R*, m, and m*, kg, of two particles.
+/// Radii, R*, m, and m*, kg, of two particles; of a wall the radius is infinite.
 struct Effective
 {
-  double radius, mass;
+  double radius_a, radius_b, radius, mass;
 };
 
 /// Of the deck's own density: the materials file may have another one.
@@ -32,11 +32,11 @@ std::vector<Effective> sizes(const Encounter& e)
   for (const double ra : {e.a->radius_min, e.a->radius_max}) {
     const double ma = mass_of(*e.a, ra);
     if (!e.b) {
-      result.push_back({ra, ma});
+      result.push_back({ra, Box::infinity, ra, ma});
       continue;
     }
     for (const double rb : {e.b->radius_min, e.b->radius_max})
-      result.push_back({effective_radius(ra, rb), effective_mass(ma, mass_of(*e.b, rb))});
+      result.push_back({ra, rb, effective_radius(ra, rb), effective_mass(ma, mass_of(*e.b, rb))});
   }
   return result;
 }
@@ -103,7 +103,8 @@ void include_time_step(PairPlan& p, const Effective& size, const PlanOptions& op
   const Meeting& m = p.meeting;
   const auto stiffness = [&](double overlap) {
     std::optional<double> by_law;
-    if (options.stiffness && m.known_yield) by_law = options.stiffness(m, size.radius, overlap);
+    if (options.stiffness && m.known_yield)
+      by_law = options.stiffness(m, size.radius_a, size.radius_b, size.radius, overlap);
     return by_law.value_or(hertz_stiffness(m.mapping.e_star_pair(), size.radius, overlap));
   };
   p.time_step = std::min(p.time_step, largest_step_to(p.overlap * size.radius, size.mass, stiffness));

@@ -26,8 +26,8 @@ struct PairPlan
   std::string overlap_basis;  ///< "law", "Thornton", "Hertz" or "visited"
   double contact_time = 0;    ///< s, shortest: Hertz at the largest speed, smallest particles
   double time_step = 0;  ///< s, largest_step (law/contact_step.hpp) to `overlap`, unstretched; infinity: any
-  bool needs_table = false;   ///< it yields; false: Hertz suffices
-  bool visited = true;        ///< false: a run did not meet it
+  bool needs_table = false;  ///< it yields; false: Hertz suffices
+  bool visited = true;       ///< false: a run did not meet it
 };
 
 /// Two types that may meet, and how fast. `b`: null for a wall.

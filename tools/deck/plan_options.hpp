@@ -12,16 +12,17 @@ namespace granulaw::deck {
 /// A collision as a law computes it.
 struct Collision
 {
-  double depth = 0;            ///< largest overlap/(lambda R*)
-  double restitution = 1;      ///< e
+  double depth = 0;           ///< largest overlap/(lambda R*)
+  double restitution = 1;     ///< e
   const char* basis = "law";  ///< or "Thornton": the deck's own model
 };
 /// The collision of two bodies at the relative speed `speed` (m/s); empty: no law at hand.
 using Collide =
     std::function<std::optional<Collision>(const Meeting&, double r_eff, double m_eff, double speed)>;
-/// Stiffness, N/m, of the stiffest that a contact is which has just reached `overlap` (m), on the way in or back
-/// out; empty: no law at hand.
-using Stiffness = std::function<std::optional<double>(const Meeting&, double r_eff, double overlap)>;
+/// Stiffness, N/m, of the stiffest that a contact is which has just reached `overlap` (m), on the way in or
+/// back out, by the law of these radii (m; of a wall infinite); empty: no law at hand.
+using Stiffness = std::function<std::optional<double>(const Meeting&, double radius_a, double radius_b,
+                                                      double r_eff, double overlap)>;
 
 /// What the deck does not say, or says otherwise; SI units.
 struct PlanOptions

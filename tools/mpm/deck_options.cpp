@@ -35,7 +35,8 @@ std::string left_out(const Material& m)
   return what;
 }
 
-/// Materials, and particles as spheres of the material of their body. Adds to the notes what a plan leaves out.
+/// Materials, and particles as spheres of the material of their body. Adds to the notes what a plan leaves
+/// out.
 KnownMaterials materials_of(const MaterialsFile& file, const std::vector<std::string>& names,
                             std::vector<std::string>& notes)
 {
@@ -45,13 +46,13 @@ KnownMaterials materials_of(const MaterialsFile& file, const std::vector<std::st
   for (const std::string& name : names) {
     const bool is_particle = file.means_particle(name);
     if (is_particle && !file.particle(name).is_homogeneous_sphere())
-      notes.push_back(fmt::format("{}: '{}' is planned as a homogeneous sphere of its body's material", file.source,
-                                  name));
+      notes.push_back(fmt::format("{}: '{}' is planned as a homogeneous sphere of its body's material",
+                                  file.source, name));
     if (!known.contains(name)) continue;
     const Material& m = is_particle ? file.particle(name).materials[0] : file.material(name);
     if (const std::string what = left_out(m); !what.empty())
-      notes.push_back(fmt::format("{}: '{}' is planned without {}: overlaps are upper bounds", file.source, name,
-                                  what));
+      notes.push_back(
+          fmt::format("{}: '{}' is planned without {}: overlaps are upper bounds", file.source, name, what));
   }
   return known;
 }
@@ -129,7 +130,8 @@ void name_materials(deck::PlanOptions& into, deck::Scene& scene, const DeckOptio
     }
     const auto by_deck = material_by_deck(names[k], type, scene);
     if (names[k] != plugin::elastic_name && deforming.contains(type))
-      fail_unknown(who, fmt::format("{} has no material for atom type {}", path, type), names[k], names_of(known));
+      fail_unknown(who, fmt::format("{} has no material for atom type {}", path, type), names[k],
+                   names_of(known));
     if (by_deck) into.materials[type] = *by_deck;
   }
 }
@@ -154,7 +156,7 @@ class LawsAtHand
   {
     if (follows_hertz(m)) return {};
     for (const bool own : {true, false})
-      if (const auto pair = own ? by_deck(m) : by_atlas(m)) {
+      if (const auto pair = own ? by_deck(m, 1, m.wall ? deck::Box::infinity : 1) : by_atlas(m)) {
         const Replay replay = replay_collision(*pair, r_eff, m_eff, speed, 2000);
         if (own && replay.left_range) continue;
         // past the table the force is extrapolated: still an answer about depth, capped by whoever builds
@@ -163,11 +165,12 @@ class LawsAtHand
     return {};
   }
 
-  std::optional<double> stiffness(const deck::Meeting& m, double r_eff, double overlap)
+  std::optional<double> stiffness(const deck::Meeting& m, double radius_a, double radius_b, double r_eff,
+                                  double overlap)
   {
     if (follows_hertz(m)) return {};
     for (const bool own : {true, false})
-      if (const auto pair = own ? by_deck(m) : by_atlas(m)) {
+      if (const auto pair = own ? by_deck(m, radius_a, radius_b) : by_atlas(m)) {
         if (own && overlap > pair->max_overlap(r_eff)) continue;
         return planned_stiffness(*pair, r_eff, overlap);
       }
@@ -181,15 +184,17 @@ class LawsAtHand
     return m.yields.name == plugin::elastic_name && !m.yields.yields();
   }
 
-  std::optional<PairLaw> by_deck(const deck::Meeting& m) const
+  /// The law of these radii (m; of a wall infinite), or of their ratio.
+  std::optional<PairLaw> by_deck(const deck::Meeting& m, double radius_a, double radius_b) const
   {
     if (!deck_law_) return {};
     const auto yielding = deck_law_->bodies.find(m.yields.name);
-    if (yielding == deck_law_->bodies.end() || !is_same_material(yielding->second.material, m.yields)) return {};
+    if (yielding == deck_law_->bodies.end() || !is_same_material(yielding->second.material, m.yields))
+      return {};
     const bool rigid = m.wall && !m.deformable;
     if (deck_law_->find_pair(m.name_a, rigid ? wall_name : m.name_b))
-      return resolve_pair(*deck_law_, m.name_a, rigid ? wall_name : m.name_b, "the deck's law", 1,
-                          m.wall ? deck::Box::infinity : 1);
+      return resolve_pair(*deck_law_, m.name_a, rigid ? wall_name : m.name_b, "the deck's law", radius_a,
+                          radius_b);
     return PairLaw{&yielding->second.curve, m.mapping, &yielding->second};
   }
 
@@ -222,13 +227,14 @@ ThorntonPair thornton_of(const deck::Meeting& m)
   return {m.mapping.e_star_pair(), 1.6 * m.yields.yield_stress};
 }
 
-std::optional<deck::Collision> collide_by_thornton(const deck::Meeting& m, double r_eff, double m_eff, double speed)
+std::optional<deck::Collision> collide_by_thornton(const deck::Meeting& m, double r_eff, double m_eff,
+                                                   double speed)
 {
   const ThorntonPair law = thornton_of(m);
   const double duration = deck::hertz_time(law.e_star, r_eff, m_eff, speed);
-  const Replay replay = replay_collision(
-      [&](double delta, double delta_max) { return law.evaluate(r_eff, delta, delta_max); }, m_eff, speed, duration,
-      2000);
+  const Replay replay =
+      replay_collision([&](double delta, double delta_max) { return law.evaluate(r_eff, delta, delta_max); },
+                       m_eff, speed, duration, 2000);
   return deck::Collision{replay.delta_max / m.mapping.length(r_eff), replay.restitution, "Thornton"};
 }
 
@@ -237,7 +243,7 @@ void set_contact_law(deck::PlanOptions& into, const deck::Scene& scene, std::opt
 {
   if (scene.model == "thornton") {
     into.collide = collide_by_thornton;
-    into.stiffness = [](const deck::Meeting& m, double r_eff, double overlap) {
+    into.stiffness = [](const deck::Meeting& m, double, double, double r_eff, double overlap) {
       return std::optional(planned_stiffness(thornton_of(m), r_eff, overlap));
     };
     return;
