@@ -473,6 +473,7 @@ def case_law():
     assert not fast.json()["needs_velocity_axis"] and not fast.json()["beyond_velocity_axis"] and fast.err == ""
     fast = Run("law", LAW, "--pair", "powder:wall", "--velocity", "46", "--json")  # I = 0.032: just past its axis
     assert fast.json()["beyond_velocity_axis"] and "velocity axis" in fast.err and fast.json()["inertia"] > 0.03
+    assert fast.json()["error_estimate"] is None  # nothing was shown there
     refused(["law", LAW, "--pair", "powder:wall", "--velocity", "200"], "range of overlaps", "5 %")
     refused(["law", LAW, "--velocity", "1"], "--pair", "powder:wall")
     refused(["law", LAW, "--pair", "powdr:wall", "--velocity", "1"], "did you mean 'powder'")
