@@ -60,7 +60,7 @@ void read_setup(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setu
   setup.contact_map = session.contact_map;
 }
 
-/// What restart files keep of the command's models and words.
+/// Notes the command's models and words, as restart files keep them.
 void note_meaning(const CommandModels& models, Setup& setup)
 {
   const Options& options = setup.options;

@@ -34,7 +34,7 @@ struct LogHistogram
     return std::min<std::size_t>(lowest + above, bins - 1);
   }
   void add(double value, double weight) { count[bin(value)] += weight; }
-  /// Whether the bin's upper edge is above `ratio` times the lower edge of bin 0.
+  /// True if the bin's upper edge is above `ratio` times the lower edge of bin 0.
   static bool ends_above_ratio(std::size_t bin, double ratio) { return ratio < upper_ratio[bin]; }
   double lower_edge(int bin) const { return first * std::pow(10.0, static_cast<double>(bin) / per_decade); }
 

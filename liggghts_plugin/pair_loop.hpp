@@ -135,7 +135,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     }
   };
 
-  /// What is alike for all contacts of a step.
+  /// The values that all contacts of a step share.
   struct Pass
   {
     PairGran* pair;

@@ -6,7 +6,7 @@
 
 namespace granulaw::plugin {
 
-/// What gives the numbers of a contact's history their meaning: the models, and every keyword that changes
+/// Meaning of the numbers of a contact's history: the models, and every keyword that changes
 /// what they stand for. A restart into another meaning is refused. Law files and the other keywords may
 /// change: they say how a contact goes on, not what it was.
 struct HistoryMeaning

@@ -239,7 +239,7 @@ class Inspection
     look_at_unloading();
   }
 
-  /// What neither the fit nor the model's own error explains, and no other name fits.
+  /// A misfit that neither the fit nor the model's own error explains, and that no other name fits.
   void look_for_long_runs()
   {
     double largest = 0;

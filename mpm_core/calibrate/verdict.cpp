@@ -106,7 +106,7 @@ std::string correlation_clause(const Calibration& c)
   return said;
 }
 
-/// What a machine that gives way would change, where it is more than a tenth of the interval's half.
+/// The change by a machine that gives way, where it is more than a tenth of the interval's half.
 std::string machine_clause(const Calibration& c)
 {
   for (const FittedParameter& p : c.parameters) {

@@ -24,7 +24,7 @@ struct BuiltLaw
 /// late for the law's depth, or so early that no law reaches from the onset to the shallowest run.
 void require_reachable(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options);
 
-/// What the sampling begins with, and how far it may be refined.
+/// The first runs of the sampling, and how far it may be refined.
 struct ExpectedRuns
 {
   std::size_t first = 0, most = 0;

@@ -37,15 +37,13 @@ struct ErrorBound
 };
 
 /// Bound of a law used for what it was made for.
-/// - Of the atlas: the bound of its checks (docs/evidence/atlas.md). These are fresh impacts, so it includes
-/// the
+/// - Atlas: the bound of its checks (docs/evidence/atlas.md). These are fresh impacts, so it includes the
 ///   atlas's own runs, fit, interpolation and table.
-/// - Composed of the two bodies' laws: the bound of two-body impacts that took no part
-/// (docs/evidence/pairs.md).
+/// - Composed of the two bodies' laws: the bound of two-body impacts that took no part in the rule
+///   (docs/evidence/pairs.md).
 /// - By runs, or corrected by impacts: the largest error of its verification, impacts that took no part in
-/// the
-///   fit at the cells of those that did, and the error of these cells (grid_convergence.hpp). Without
-///   impacts, the errors of fit and table.
+///   the fit, and the error of their cells (grid_convergence.hpp). Without impacts, the errors of fit and
+///   table.
 ErrorBound bound_of(const Certificate& certificate);
 /// The same of a body's law. Of a particle with a shape: that of its orientations, each compared with a fresh
 /// impact.
@@ -75,8 +73,8 @@ struct PairStatement
 {
   LawKind kind = LawKind::single;
   ErrorBound bound;
-  ErrorBound
-      rule;  ///< stated for other sizes than the law's: up to the ratio of radii that the file was made for
+  /// Stated for other sizes than the law's: up to the ratio of radii that the file was made for.
+  ErrorBound rule;
   double covered = 1;   ///< of a particle with a shape: part of the orientations that the bound is of
   double size_off = 0;  ///< distance of the contact from its law in R_s/(R_s + R_h)
   /// Largest damage number (damage_number.hpp) for which the bound holds.

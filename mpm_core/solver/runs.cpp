@@ -79,7 +79,7 @@ RunResult run_impact(const Particle& particle, double velocity, const RunOptions
 
 namespace {
 
-/// Whether a run is one of three dimensions; `needed`: the reason beside shape and grid, null for none.
+/// True if a run is one of three dimensions; `needed`: the reason beside shape and grid, null for none.
 bool in_three_dimensions(const Particle& particle, const Partner& partner, const RunOptions& options,
                          const char* needed)
 {

@@ -19,7 +19,7 @@ struct TracedRun
 };
 const std::vector<TracedRun>& traced_runs();
 
-/// What is stored of a run: lines of numbers, each with its name.
+/// The stored numbers of a run, each with its name.
 struct TraceLine
 {
   std::string name;

@@ -25,7 +25,7 @@ namespace {
 
 using KnownMaterials = std::map<std::string, LawMaterial>;
 
-/// What the law of a plan leaves out of this material; empty: nothing.
+/// Properties of this material that the law of a plan leaves out; empty: none.
 std::string left_out(const Material& m)
 {
   std::string what;
@@ -136,7 +136,7 @@ void name_materials(deck::PlanOptions& into, deck::Scene& scene, const DeckOptio
   }
 }
 
-/// Whether a law that was made for `a` is the law of `b`.
+/// True if a law that was made for `a` is the law of `b`.
 bool is_same_material(const LawMaterial& a, const LawMaterial& b)
 {
   return a.youngs_modulus == b.youngs_modulus && a.poisson_ratio == b.poisson_ratio &&

@@ -48,7 +48,7 @@ class SpatialContact : public BasicContact<SpatialBody>
   const std::vector<Plane>& planes() const { return planes_; }
   /// Tallies of all planes, which start anew.
   std::vector<PlaneTally> take_tallies();
-  /// Whether a plane pushed in the last step.
+  /// True if a plane pushed in the last step.
   bool pushes(int plane) const { return pushing_[plane]; }
   /// Half axes of the contact with a plane, larger first; 0, 0 without contact. Where the gap ends that opens
   /// behind the edge: between the ellipses of the markers in contact, and with one and two rings of patches

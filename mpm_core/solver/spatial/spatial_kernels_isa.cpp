@@ -34,7 +34,7 @@ using Lanes = typename Vectors<Real>::Lanes;
 template <class Real>
 using HalfLanes = typename Vectors<Real>::HalfLanes;
 
-/// What one register holds of a cell's octants; nine sums of whole cells in double would spill without
+/// The part of a cell's octants that one register holds; nine sums of whole cells in double would spill without
 /// AVX-512.
 template <class Real>
 struct Register
