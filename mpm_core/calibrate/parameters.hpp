@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "law/law_material.hpp"
-#include "solver/material.hpp"
+#include "solver/material/material.hpp"
 
 namespace granulaw {
 

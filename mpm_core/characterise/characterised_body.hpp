@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/scales.hpp"
-#include "solver/particle/particle.hpp"
+#include "solver/shape/particle.hpp"
 
 namespace granulaw {
 

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "characterise/law_material.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

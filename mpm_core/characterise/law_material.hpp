@@ -4,7 +4,7 @@
 #include <string>
 
 #include "law/law.hpp"
-#include "solver/material.hpp"
+#include "solver/material/material.hpp"
 
 namespace granulaw {
 

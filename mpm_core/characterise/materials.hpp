@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/particle/particle.hpp"
+#include "solver/shape/particle.hpp"
 
 namespace granulaw {
 

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "characterise/fit_curve.hpp"
-#include "solver/flow/flow_laws.hpp"
+#include "solver/material/law_table.hpp"
 
 namespace granulaw {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/solid/solid.hpp"
+#include "solver/shape/solid.hpp"
 
 namespace granulaw {
 

@@ -11,10 +11,10 @@
 #include "characterise/law_material.hpp"
 #include "characterise/orientations.hpp"
 #include "law/replay.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 #include "solver/run/accuracy.hpp"
 #include "solver/runs.hpp"
-#include "solver/solid/body_frame.hpp"
+#include "solver/shape/body_frame.hpp"
 #include "solver/solver_id.hpp"
 
 namespace granulaw {

@@ -4,8 +4,8 @@
 
 #include "farm/farm.hpp"
 #include "law/law.hpp"
-#include "solver/particle/particle.hpp"
-#include "solver/solid/solid.hpp"
+#include "solver/shape/particle.hpp"
+#include "solver/shape/solid.hpp"
 
 namespace granulaw {
 

@@ -9,7 +9,7 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

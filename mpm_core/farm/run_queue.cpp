@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "farm/run_cache.hpp"
 #include "solver/output/checkpoint.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "farm/worker_pool.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "solver/material.hpp"
+#include "solver/material/material.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/fields.hpp"
 #include "solver/output/trace.hpp"
-#include "solver/particle/particle.hpp"
+#include "solver/shape/particle.hpp"
 
 namespace granulaw {
 

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/kernels.hpp"
-#include "solver/run/scene_builder.hpp"
-#include "solver/spatial/spatial_kernels.hpp"
-#include "solver/spatial/spatial_setup.hpp"
+#include "solver/body/kernels.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
+#include "solver/body/spatial_kernels.hpp"
+#include "solver/run/spatial_setup.hpp"
 
 namespace {
 

@@ -28,7 +28,7 @@
 
 #include "base/error.hpp"
 #include "farm_mpi/mpi_farm.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 #include "solver/solver_id.hpp"
 
 namespace {

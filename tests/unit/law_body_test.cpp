@@ -2,7 +2,7 @@
 
 #include "characterise/law_material.hpp"
 #include "scratch_folder.hpp"
-#include "solver/solid/ellipsoid_solid.hpp"
+#include "solver/shape/ellipsoid_solid.hpp"
 #include "some_materials.hpp"
 
 namespace granulaw {

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "solver/particle/shapes.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw {
 namespace {

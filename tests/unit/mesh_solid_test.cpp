@@ -1,5 +1,5 @@
 // Bodies inside triangle meshes: against the sphere and the box, and what is refused.
-#include "solver/solid/mesh_solid.hpp"
+#include "solver/shape/mesh_solid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 
 #include "base/error.hpp"
 #include "solid_checks.hpp"
-#include "solver/solid/box_solid.hpp"
-#include "solver/solid/ellipsoid_solid.hpp"
-#include "solver/solid/polyhedron_solid.hpp"
+#include "solver/shape/box_solid.hpp"
+#include "solver/shape/ellipsoid_solid.hpp"
+#include "solver/shape/polyhedron_solid.hpp"
 
 namespace granulaw {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <numbers>
 
-#include "solver/solid/box_solid.hpp"
-#include "solver/solid/clump_solid.hpp"
-#include "solver/solid/ellipsoid_solid.hpp"
-#include "solver/solid/sphere_solid.hpp"
+#include "solver/shape/box_solid.hpp"
+#include "solver/shape/clump_solid.hpp"
+#include "solver/shape/ellipsoid_solid.hpp"
+#include "solver/shape/sphere_solid.hpp"
 
 namespace granulaw {
 namespace {

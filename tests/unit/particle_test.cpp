@@ -1,5 +1,5 @@
 // Geometry of particles against closed forms, and every sentence of validate.
-#include "solver/particle/particle.hpp"
+#include "solver/shape/particle.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "solver/particle/shapes.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw {
 namespace {

@@ -9,8 +9,8 @@
 #include "characterise/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "own_atlas.hpp"
-#include "solver/solid/box_solid.hpp"
-#include "solver/solid/sphere_solid.hpp"
+#include "solver/shape/box_solid.hpp"
+#include "solver/shape/sphere_solid.hpp"
 
 namespace granulaw {
 namespace {

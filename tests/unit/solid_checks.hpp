@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "solver/solid/solid.hpp"
+#include "solver/shape/solid.hpp"
 
 namespace granulaw {
 

@@ -1,5 +1,5 @@
 // Three-dimensional bodies against closed forms and against each other.
-#include "solver/solid/solid.hpp"
+#include "solver/shape/solid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 
 #include "base/error.hpp"
 #include "solid_checks.hpp"
-#include "solver/particle/shapes.hpp"
-#include "solver/solid/body_frame.hpp"
-#include "solver/solid/box_solid.hpp"
-#include "solver/solid/clump_solid.hpp"
-#include "solver/solid/ellipsoid_solid.hpp"
-#include "solver/solid/revolved_solid.hpp"
-#include "solver/solid/sphere_solid.hpp"
-#include "solver/solid/superquadric_solid.hpp"
+#include "solver/shape/shapes.hpp"
+#include "solver/shape/body_frame.hpp"
+#include "solver/shape/box_solid.hpp"
+#include "solver/shape/clump_solid.hpp"
+#include "solver/shape/ellipsoid_solid.hpp"
+#include "solver/shape/revolved_solid.hpp"
+#include "solver/shape/sphere_solid.hpp"
+#include "solver/shape/superquadric_solid.hpp"
 
 namespace granulaw {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "farm/run_queue.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

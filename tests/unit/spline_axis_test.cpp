@@ -1,4 +1,4 @@
-#include "solver/grid/spline_axis.hpp"
+#include "solver/body/spline_axis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What goes into an archive comes out, to the last bit; what does not fit is one sentence.
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 #include <gtest/gtest.h>
 

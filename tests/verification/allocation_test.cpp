@@ -7,10 +7,10 @@
 #include <new>
 
 #include "references.hpp"
-#include "solver/run/loading_programme.hpp"
-#include "solver/run/scene_builder.hpp"
-#include "solver/spatial/spatial_setup.hpp"
-#include "solver/time_step.hpp"
+#include "solver/loading/loading_programme.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
+#include "solver/run/spatial_setup.hpp"
+#include "solver/run/time_step.hpp"
 
 namespace {
 

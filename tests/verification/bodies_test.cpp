@@ -8,11 +8,11 @@
 #include "references.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/run/grid_noise.hpp"
-#include "solver/run/loading_programme.hpp"
-#include "solver/run/scene_builder.hpp"
+#include "solver/loading/loading_programme.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/runs.hpp"
-#include "solver/time_step.hpp"
+#include "solver/run/time_step.hpp"
 
 namespace granulaw {
 namespace {

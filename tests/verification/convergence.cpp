@@ -5,8 +5,8 @@
 #include "base/scales.hpp"
 #include "references.hpp"
 #include "solver/grid/mapped_body.hpp"
-#include "solver/kernels.hpp"
-#include "solver/time_step.hpp"
+#include "solver/body/kernels.hpp"
+#include "solver/run/time_step.hpp"
 
 namespace granulaw::verification {
 

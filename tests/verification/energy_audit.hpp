@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/material.hpp"
+#include "solver/material/material.hpp"
 #include "solver/output/trace.hpp"
 
 /// Where the energy of an impact is, computed from outside: from what `--fields` writes, by none of the

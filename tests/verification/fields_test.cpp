@@ -5,7 +5,7 @@
 #include <random>
 
 #include "solver/grid/mapped_body.hpp"
-#include "solver/kernels.hpp"
+#include "solver/body/kernels.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {

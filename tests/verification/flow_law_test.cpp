@@ -10,11 +10,11 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "solver/flow/flow_laws.hpp"
-#include "solver/flow/plastic_increment.hpp"
-#include "solver/flow/vector_math.hpp"
+#include "solver/material/law_table.hpp"
+#include "solver/material/plastic_increment.hpp"
+#include "solver/material/vector_math.hpp"
 #include "solver/grid/mapped_body.hpp"
-#include "solver/kernels.hpp"
+#include "solver/body/kernels.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {

@@ -9,11 +9,11 @@
 #include "references.hpp"
 #include "solver/grid/rectilinear_body.hpp"
 #include "solver/grid/updated_body.hpp"
-#include "solver/kernels.hpp"
+#include "solver/body/kernels.hpp"
 #include "solver/run/grid_noise.hpp"
-#include "solver/run/loading_programme.hpp"
+#include "solver/loading/loading_programme.hpp"
 #include "solver/runs.hpp"
-#include "solver/time_step.hpp"
+#include "solver/run/time_step.hpp"
 
 namespace granulaw {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "references.hpp"
 #include "solver/grid/mapped_body.hpp"
-#include "solver/kernels.hpp"
+#include "solver/body/kernels.hpp"
 
 namespace granulaw {
 namespace {

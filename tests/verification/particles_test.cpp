@@ -12,11 +12,11 @@
 #include "base/scales.hpp"
 #include "references.hpp"
 #include "solver/grid/rectilinear_body.hpp"
-#include "solver/kernels.hpp"
-#include "solver/particle/shapes.hpp"
+#include "solver/body/kernels.hpp"
+#include "solver/shape/shapes.hpp"
 #include "solver/run/grid_noise.hpp"
 #include "solver/runs.hpp"
-#include "solver/time_step.hpp"
+#include "solver/run/time_step.hpp"
 
 namespace granulaw {
 namespace {

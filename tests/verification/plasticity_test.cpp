@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/grid/mapped_body.hpp"
-#include "solver/kernels.hpp"
+#include "solver/body/kernels.hpp"
 
 namespace granulaw {
 namespace {

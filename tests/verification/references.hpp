@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "solver/material.hpp"
+#include "solver/material/material.hpp"
 
 /// Numbers the solver is held against. Units R = rho = E* = 1 unless said.
 namespace granulaw::reference {

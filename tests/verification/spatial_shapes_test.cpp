@@ -8,14 +8,14 @@
 #include <memory>
 
 #include "law/elliptic_contact.hpp"
-#include "solver/particle/shapes.hpp"
+#include "solver/shape/shapes.hpp"
 #include "solver/runs.hpp"
-#include "solver/solid/body_frame.hpp"
-#include "solver/solid/box_solid.hpp"
-#include "solver/solid/clump_solid.hpp"
-#include "solver/solid/ellipsoid_solid.hpp"
-#include "solver/solid/mesh_solid.hpp"
-#include "solver/solid/superquadric_solid.hpp"
+#include "solver/shape/body_frame.hpp"
+#include "solver/shape/box_solid.hpp"
+#include "solver/shape/clump_solid.hpp"
+#include "solver/shape/ellipsoid_solid.hpp"
+#include "solver/shape/mesh_solid.hpp"
+#include "solver/shape/superquadric_solid.hpp"
 
 namespace granulaw {
 namespace {

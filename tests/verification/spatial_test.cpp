@@ -7,11 +7,11 @@
 
 #include "base/error.hpp"
 #include "solver/runs.hpp"
-#include "solver/spatial/planes_programme.hpp"
-#include "solver/spatial/spatial_contact.hpp"
-#include "solver/spatial/spatial_grid.hpp"
-#include "solver/spatial/spatial_kernels.hpp"
-#include "solver/time_step.hpp"
+#include "solver/loading/planes_programme.hpp"
+#include "solver/contact/spatial_contact.hpp"
+#include "solver/grid/spatial_grid.hpp"
+#include "solver/body/spatial_kernels.hpp"
+#include "solver/run/time_step.hpp"
 
 namespace granulaw {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "references.hpp"
-#include "solver/particle/shapes.hpp"
+#include "solver/shape/shapes.hpp"
 #include "solver/runs.hpp"
-#include "solver/solid/ellipsoid_solid.hpp"
+#include "solver/shape/ellipsoid_solid.hpp"
 
 namespace granulaw::verification {
 

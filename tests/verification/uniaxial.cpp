@@ -3,9 +3,9 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
-#include "solver/flow/flow_laws.hpp"
+#include "solver/material/law_table.hpp"
 #include "solver/grid/mapped_body.hpp"
-#include "solver/kernels.hpp"
+#include "solver/body/kernels.hpp"
 
 namespace granulaw::verification {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/material.hpp"
+#include "solver/material/material.hpp"
 
 /// One material point in uniaxial compression, as in a testing machine: a cylinder squeezed along its axis,
 /// its side free of stress. True (Cauchy) stress against true (logarithmic) strain, compression positive, E*

@@ -6,13 +6,13 @@
 
 #include "base/error.hpp"
 #include "references.hpp"
-#include "solver/flow/flow_laws.hpp"
+#include "solver/material/law_table.hpp"
 #include "solver/grid/mapped_body.hpp"
-#include "solver/kernels.hpp"
-#include "solver/run/scene_builder.hpp"
+#include "solver/body/kernels.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/spatial/spatial_grid.hpp"
-#include "solver/spatial/spatial_kernels.hpp"
+#include "solver/grid/spatial_grid.hpp"
+#include "solver/body/spatial_kernels.hpp"
 
 namespace granulaw {
 namespace {

@@ -23,7 +23,7 @@
 #include "percent.hpp"
 #include "shape_output.hpp"
 #include "solver/runs.hpp"
-#include "solver/solid/body_frame.hpp"
+#include "solver/shape/body_frame.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {

@@ -9,9 +9,9 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
-#include "solver/kernels.hpp"
-#include "solver/output/state_archive.hpp"
-#include "solver/solid/solid.hpp"
+#include "solver/body/kernels.hpp"
+#include "base/state_archive.hpp"
+#include "solver/shape/solid.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {

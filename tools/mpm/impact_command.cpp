@@ -18,9 +18,9 @@
 #include "plausible.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
-#include "solver/run/scene_builder.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/solid/body_frame.hpp"
+#include "solver/shape/body_frame.hpp"
 
 namespace granulaw {
 

@@ -14,8 +14,8 @@
 #include "law/law.hpp"
 #include "plausible.hpp"
 #include "shape_reader.hpp"
-#include "solver/flow/flow_laws.hpp"
-#include "solver/particle/shapes.hpp"
+#include "solver/material/law_table.hpp"
+#include "solver/shape/shapes.hpp"
 #include "toml_section.hpp"
 
 namespace granulaw {

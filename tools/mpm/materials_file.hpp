@@ -39,7 +39,7 @@ namespace granulaw {
 ///     # balls on the axis, centre z above the contact pole; with r from the axis: rings; m
 ///     inclusions = [{material = "hard", radius = 0.2e-3, z = 1e-3},
 ///                   {pore = true, radius = 0.1e-3, z = 1e-3, r = 0.5e-3}]
-///     # a body of revolution that hits along its axis; shapes and their keys: solver/particle/shapes.hpp
+///     # a body of revolution that hits along its axis; shapes and their keys: solver/shape/shapes.hpp
 ///     profile = {shape = "ellipsoid", aspect = 1.5}; or
 ///         # [r, z] from the contact pole to the far pole; m
 ///         {points = [[0, 0], [1e-3, 0.2e-3], [0, 2e-3]]}

@@ -8,9 +8,9 @@
 #include "base/scales.hpp"
 #include "collision_report.hpp"
 #include "json_output.hpp"
-#include "solver/run/scene_builder.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/solid/solid.hpp"
+#include "solver/shape/solid.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {

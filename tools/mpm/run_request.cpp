@@ -9,7 +9,7 @@
 #include "field_file.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
-#include "solver/run/scene_builder.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "solver/solid/box_solid.hpp"
-#include "solver/solid/clump_solid.hpp"
-#include "solver/solid/ellipsoid_solid.hpp"
-#include "solver/solid/mesh_solid.hpp"
-#include "solver/solid/polyhedron_solid.hpp"
-#include "solver/solid/sphere_solid.hpp"
-#include "solver/solid/superquadric_solid.hpp"
+#include "solver/shape/box_solid.hpp"
+#include "solver/shape/clump_solid.hpp"
+#include "solver/shape/ellipsoid_solid.hpp"
+#include "solver/shape/mesh_solid.hpp"
+#include "solver/shape/polyhedron_solid.hpp"
+#include "solver/shape/sphere_solid.hpp"
+#include "solver/shape/superquadric_solid.hpp"
 
 namespace granulaw {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "solver/solid/solid.hpp"
+#include "solver/shape/solid.hpp"
 #include "toml_section.hpp"
 
 namespace granulaw {

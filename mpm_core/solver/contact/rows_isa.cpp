@@ -1,7 +1,7 @@
-// Compiled once for each instruction set, as kernels_isa.cpp, under the same rules. A node's four entries are
+// Compiled once for each instruction set, as body/axisymmetric_isa.cpp, under the same rules. A node's four entries are
 // the lanes of a vector.
 #include "solver/contact/rows.hpp"
-#include "solver/flow/parts.hpp"
+#include "solver/material/parameter.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 

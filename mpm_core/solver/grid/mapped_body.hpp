@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/body.hpp"
+#include "solver/body/body.hpp"
 #include "solver/grid/mapped_grid.hpp"
 
 namespace granulaw {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/body.hpp"
+#include "solver/body/body.hpp"
 #include "solver/grid/mapped_body.hpp"
 
 namespace granulaw {

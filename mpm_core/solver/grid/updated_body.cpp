@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "solver/kernels.hpp"
+#include "solver/body/kernels.hpp"
 
 namespace granulaw {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/flow/parts.hpp"
+#include "solver/material/parameter.hpp"
 #include "solver/material/flow_trials.hpp"
 
 namespace granulaw::flow {

@@ -2,9 +2,9 @@
 
 #include <type_traits>
 
-#include "solver/flow/linear.hpp"
-#include "solver/flow/plastic_increment.hpp"
-#include "solver/flow/rate_independent.hpp"
+#include "solver/material/linear.hpp"
+#include "solver/material/plastic_increment.hpp"
+#include "solver/material/rate_independent.hpp"
 #include "solver/material/flow_trials.hpp"
 
 // The flow that brings points back to their flow stress, one scalar equation for each: the part of the stress

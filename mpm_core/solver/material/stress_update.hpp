@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/kernel_math.hpp"
+#include "solver/material/kernel_math.hpp"
 #include "solver/material/cauchy_stress.hpp"
 #include "solver/material/yielding.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "solver/flow/parts.hpp"
+#include "solver/material/parameter.hpp"
 #include "solver/material/flow_trials.hpp"
 
 namespace granulaw::flow {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/material/flow_trials.hpp"
-#include "solver/moduli.hpp"
+#include "solver/material/moduli.hpp"
 
 namespace granulaw::kernel {
 

@@ -1,6 +1,6 @@
-// Compiled once for each instruction set, as kernels_isa.cpp, under the same rules: the flow stress of every
+// Compiled once for each instruction set, as body/axisymmetric_isa.cpp, under the same rules: the flow stress of every
 // hardening law with every rate law, and every yield surface, for all dimensions.
-#include "solver/flow/laws.hpp"
+#include "solver/material/laws.hpp"
 #include "solver/material/flow_stress.hpp"
 #include "solver/material/yielding.hpp"
 

@@ -1,6 +1,6 @@
 #include "solver/output/checkpoint.hpp"
 
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

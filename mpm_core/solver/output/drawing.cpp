@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/kernels.hpp"
-#include "solver/spatial/spatial_kernels.hpp"
-#include "solver/spatial/spatial_scene.hpp"
+#include "solver/body/kernels.hpp"
+#include "solver/body/spatial_kernels.hpp"
+#include "solver/contact/spatial_scene.hpp"
 
 namespace granulaw {
 

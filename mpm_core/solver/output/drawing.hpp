@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/output/fields.hpp"
-#include "solver/scene.hpp"
+#include "solver/contact/scene.hpp"
 
 namespace granulaw {
 

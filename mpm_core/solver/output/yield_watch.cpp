@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/kernels.hpp"
-#include "solver/output/state_archive.hpp"
+#include "solver/body/kernels.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/body.hpp"
+#include "solver/body/body.hpp"
 
 namespace granulaw {
 

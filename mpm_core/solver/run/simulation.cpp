@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "base/error.hpp"
-#include "solver/output/state_archive.hpp"
+#include "base/state_archive.hpp"
 
 namespace granulaw {
 

@@ -6,11 +6,11 @@
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/field_recorder.hpp"
 #include "solver/output/yield_watch.hpp"
-#include "solver/run/loading_programme.hpp"
+#include "solver/loading/loading_programme.hpp"
 #include "solver/runs.hpp"
-#include "solver/scene.hpp"
-#include "solver/spatial/spatial_scene.hpp"
-#include "solver/time_step.hpp"
+#include "solver/contact/scene.hpp"
+#include "solver/contact/spatial_scene.hpp"
+#include "solver/run/time_step.hpp"
 
 namespace granulaw {
 

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/contact.hpp"
+#include "solver/contact/rows.hpp"
+#include "solver/contact/spatial_scene.hpp"
+
+namespace granulaw {
+
+/// A rigid plane; the body lies where normal.x > position.
+struct Plane
+{
+  Vector3 normal;  ///< unit vector away from the plane, into the body
+  double position;
+  double start = position;  ///< where it stood at first
+  double velocity = 0;      ///< of the plane along its normal
+  double friction = 0;      ///< Coulomb's coefficient
+  /// Planes that the mirrored parts of the body meet where this part meets this one, itself included.
+  int copies = 1;
+};
+
+/// What a plane has done since it was last read; of the part of the body that is computed.
+struct PlaneTally
+{
+  Vector3 impulse = Vector3::Zero();  ///< on the body
+  Vector3 torque = Vector3::Zero();   ///< angular impulse about the origin
+  Vector3 centre = Vector3::Zero();   ///< sum of normal impulse times place
+};
+
+/// The surface of one body against rigid planes with Coulomb friction: impulses at the surface's markers,
+/// found by Gauss-Seidel sweeps that start from those of the last step. After a step no marker may have
+/// passed a plane (normal impulse p_n >= 0), and it slides only where the friction is spent:
+///
+///     n.v >= V - gap/dt,  p_n >= 0;    |p_t| <= mu p_n,  p_t opposite to the sliding where equal.
+class SpatialContact : public BasicContact<SpatialBody>
+{
+ public:
+  SpatialContact(const SpatialBody& body, std::vector<Plane> planes);
+
+  double correct(std::span<SpatialBody> bodies, double kick, double dt) override;
+  void account(std::span<const SpatialBody> bodies) override;
+  /// Of the first plane: root of the product of contact_axes().
+  double edge_radius(std::span<const SpatialBody> bodies) const override;
+  void visit_state(StateArchive& archive) override;
+
+  std::vector<Plane>& planes() { return planes_; }
+  const std::vector<Plane>& planes() const { return planes_; }
+  /// Tallies of all planes, which start anew.
+  std::vector<PlaneTally> take_tallies();
+  /// True if a plane pushed in the last step.
+  bool pushes(int plane) const { return pushing_[plane]; }
+  /// Half axes of the contact with a plane, larger first; 0, 0 without contact. Where the gap ends that opens
+  /// behind the edge: between the ellipses of the markers in contact, and with one and two rings of patches
+  /// more, by edge_between().
+  std::array<double, 2> contact_axes(const SpatialBody& body, int plane) const;
+  /// Work that the planes have done on the body.
+  double work() const { return work_; }
+
+ private:
+  RowNodes nodes_of(SpatialBody& body) const;
+  void choose_candidates(const SpatialBody& body);
+  void make_rows(SpatialBody& body, double kick, double dt);
+  Vector3 place(const SpatialBody& body, int marker) const;
+  Vector3 carried(const SpatialBody& body, const NodeField& field, int marker) const;
+  double* impulse(std::size_t plane, int marker) { return impulse_.data() + 4 * (plane * markers_ + marker); }
+
+  std::vector<Plane> planes_;
+  int markers_;
+  std::array<int, cell_nodes> offsets_;       // entries from a cell's lowest node to each of its nodes
+  std::vector<std::vector<int>> candidates_;  // by plane: markers that might reach it soon
+  double room_ = 0;                           // way that markers may go before candidates are chosen anew
+  AlignedVector<double> impulse_;             // [plane][marker][4], of the last step
+  std::vector<ContactRow> rows_;              // room for all that there can be; the first row_count_ count
+  int row_count_ = 0;
+  std::vector<char> pushing_;
+  std::vector<PlaneTally> tallies_;
+  double work_ = 0;
+};
+
+}  // namespace granulaw

@@ -1,0 +1,267 @@
+#include "solver/run/spatial_setup.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "solver/material/law_table.hpp"
+#include "solver/run/estimates.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
+#include "solver/shape/body_frame.hpp"
+#include "solver/grid/spatial_grid.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double same = 1e-9;  ///< directions closer than this are one
+/// Radii of curvature between these count for the size of a contact, in R.
+constexpr double sharpest = 1e-3, flattest = 5;
+/// A cell at the distance d from the block, of half width b, has an edge of (b + growth d)/cells, at most
+/// this share of the body's smallest half width over cells. So all edges shrink as one: two resolutions tell
+/// the error of every part.
+constexpr double growth = 3, coarsest_share = 1.5;
+/// Cells in a rounded edge that touches: with fewer the force creeps.
+constexpr double cells_in_edge = 4;
+
+bool equal(const Vector3& a, const Vector3& b)
+{
+  return (a - b).lpNorm<Eigen::Infinity>() < same;
+}
+
+}  // namespace
+
+SpatialSetup::SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation,
+                           std::vector<Plane> planes, const std::array<bool, 3>& may_mirror)
+    : particle_(particle),
+      solid_(solid_of(particle)),
+      rotation_(particle.is_sphere() && particle.inclusions.empty() ? Eigen::Matrix3d::Identity() : rotation),
+      scale_(scales_of(particle)),
+      planes_(std::move(planes))
+{
+  for (const Material& m : particle.materials) validate(m, "particle");
+  validate(particle, "particle");
+  yield_ = std::numeric_limits<double>::infinity();
+  for (const Material& m : particle.materials) yield_ = std::min(yield_, m.yield_stress);
+  mass_ = particle.volume() * particle.materials.front().density / scale_.mass();
+  for (int d = 0; d < 3; ++d) {
+    const Vector3 axis = Vector3::Unit(d), own = rotation_.transpose() * axis;
+    high_[d] = solid_->support(own, nullptr) / scale_.length;
+    low_[d] = -solid_->support(-own, nullptr) / scale_.length;
+  }
+  for (Plane& plane : planes_)
+    if (std::isnan(plane.position)) {
+      plane.position = -solid_->support(rotation_.transpose() * -plane.normal, nullptr) / scale_.length;
+      plane.start = plane.position;
+    }
+  find_mirrors(may_mirror);
+  drop_mirrored_planes();
+  for (const Plane& plane : planes_) touches_.push_back(touch_of(plane));
+}
+
+void SpatialSetup::find_mirrors(const std::array<bool, 3>& may_mirror)
+{
+  const std::array<bool, 3> own = solid_->symmetric();
+  for (int d = 0; d < 3; ++d) {
+    if (!may_mirror[d]) continue;
+    bool symmetric = false;
+    const Vector3 axis = rotation_.transpose() * Vector3::Unit(d);
+    for (int e = 0; e < 3; ++e) symmetric = symmetric || (own[e] && std::abs(std::abs(axis[e]) - 1) < same);
+    for (const Particle::Inclusion& i : particle_.inclusions)
+      symmetric = symmetric && std::abs(axis.dot(Vector3(i.x, i.y, i.z))) < same * particle_.radius &&
+                  particle_.solid != nullptr;
+    for (const Plane& plane : planes_) {
+      Vector3 image = plane.normal;
+      image[d] = -image[d];
+      symmetric = symmetric && std::any_of(planes_.begin(), planes_.end(), [&](const Plane& other) {
+                    return equal(other.normal, image) && std::abs(other.position - plane.position) < same &&
+                           other.velocity == plane.velocity && other.friction == plane.friction;
+                  });
+    }
+    mirrored_[d] = symmetric;
+  }
+}
+
+/// Of mirrored bodies the part on the upper side is computed, with the planes that meet it.
+void SpatialSetup::drop_mirrored_planes()
+{
+  given_ = planes_;
+  std::vector<Plane> kept;
+  std::vector<Vector3> normals;
+  for (const Plane& plane : given_) {
+    Vector3 met = plane.normal;  // of its image at the part that is computed
+    int copies = 1;
+    for (int d = 0; d < 3; ++d)
+      if (mirrored_[d]) {
+        if (std::abs(met[d]) < same) copies *= 2;
+        met[d] = -std::abs(met[d]);
+      }
+    const auto found =
+        std::find_if(normals.begin(), normals.end(), [&](const Vector3& n) { return equal(n, met); });
+    computed_.push_back(static_cast<int>(found - normals.begin()));
+    if (found != normals.end()) continue;
+    normals.push_back(met);
+    kept.push_back(plane);
+    kept.back().normal = met, kept.back().copies = copies;
+  }
+  planes_ = kept;
+}
+
+Eigen::Matrix3d SpatialSetup::inertia() const
+{
+  return rotation_ * solid_->mass_properties().inertia * rotation_.transpose() / std::pow(scale_.length, 5);
+}
+
+std::vector<double> SpatialSetup::speeds() const
+{
+  std::vector<double> speeds;
+  for (const Plane& plane : planes_) speeds.push_back(plane.velocity);
+  return speeds;
+}
+
+void SpatialSetup::give_mirrored_planes(std::vector<PlaneTrace>& planes) const
+{
+  std::vector<PlaneTrace> all;
+  for (std::size_t k = 0; k < given_.size(); ++k) {
+    PlaneTrace trace = planes[computed_[k]];
+    for (int d = 0; d < 3; ++d) {
+      if (given_[k].normal[d] * trace.normal[d] >= 0) continue;
+      for (PlaneSample& s : trace.samples) {
+        s.vector[d] = -s.vector[d], s.centre[d] = -s.centre[d];
+        for (int e = 0; e < 3; ++e)
+          if (e != d) s.torque[e] = -s.torque[e];
+      }
+    }
+    trace.normal = {given_[k].normal[0], given_[k].normal[1], given_[k].normal[2]};
+    all.push_back(std::move(trace));
+  }
+  planes = std::move(all);
+}
+
+SpatialSetup::Touch SpatialSetup::touch_of(const Plane& plane) const
+{
+  const Vector3 own = rotation_.transpose() * -plane.normal;
+  Touch touch;
+  solid_->support(own, &touch.place);
+  const PrincipalRadii radii = solid_->principal_radii(own);
+  touch.place = rotation_ * touch.place / scale_.length;
+  touch.sharper_direction = (rotation_ * radii.sharper_direction).normalized();
+  touch.flatter_direction = plane.normal.cross(touch.sharper_direction).normalized();
+  const double finest = std::isfinite(solid_->finest_radius()) ? solid_->finest_radius() / scale_.length : 0;
+  touch.sharper = std::clamp(std::max(finest, radii.sharper / scale_.length), sharpest, flattest);
+  touch.flatter = std::clamp(std::max(finest, radii.flatter / scale_.length), sharpest, flattest);
+  return touch;
+}
+
+double SpatialSetup::expected_overlap(double v) const
+{
+  const double radius = std::sqrt(touches_.front().sharper * touches_.front().flatter);
+  double deepest = hertz_overlap(mass_, 1.0, radius, v);
+  for (const Material& m : particle_.materials) {
+    if (!m.yields()) continue;
+    const double rate = v * scale_.velocity() / scale_.length;
+    const double yield = m.yield_stress / scale_.stress * rate_factor(m, rate);
+    deepest = std::max(deepest, plastic_overlap(mass_, radius, yield, v));
+  }
+  return std::min(deepest_overlap, deepest);
+}
+
+/// Half widths of the fine block across and along the sharper direction: as Collision::block_for, with the
+/// principal radii.
+std::array<double, 2> SpatialSetup::block_of(const Touch& touch, double deepest) const
+{
+  const double radius = std::sqrt(touch.sharper * touch.flatter);
+  const double onset =
+      std::isfinite(yield_)
+          ? radius * onset_overlap(scale_.stress, yield_, particle_.materials.front().poisson_ratio)
+          : yield_;
+  const double gap = gap_at_edge(deepest, onset), widest = widest_block * (high_ - low_).maxCoeff() / 2;
+  const auto half_width = [&](double r) {
+    return std::clamp(block_over_contact * std::sqrt(2 * gap * r), 1e-4,
+                      std::min(widest, widest_block * std::max(1.0, r)));
+  };
+  return {half_width(touch.sharper), half_width(touch.flatter)};
+}
+
+/// `cells` to each half width of the block, across and along: in the metric in which the block is a circle a
+/// cell's edge has the length 1/cells.
+Vector3 SpatialSetup::edges_of(const Touch& touch, const Vector3& normal, double deepest, int cells) const
+{
+  const std::array<double, 2> block = block_of(touch, deepest);
+  const auto edge = [&](double half_width, double radius) {
+    return std::min(half_width / cells, std::max(radius / cells_in_edge, 0.1 * half_width / cells));
+  };
+  const double across = edge(block[0], touch.sharper), along = edge(block[1], touch.flatter);
+  const Vector3 metric = (touch.sharper_direction.cwiseAbs2() + normal.cwiseAbs2()) / (across * across) +
+                         touch.flatter_direction.cwiseAbs2() / (along * along);
+  return metric.cwiseSqrt().cwiseInverse();
+}
+
+SpatialSection SpatialSetup::section(double deepest, int cells, double shift) const
+{
+  SpatialSection s;
+  for (const Material& m : particle_.materials) s.phases.push_back(phase_of(m, scale_));
+  const double length = scale_.length;
+  s.depth = [this, length](const Vector3& x) { return solid_->depth(to_body(x)) / length; };
+  s.normal = [this](const Vector3& x) { return Vector3(rotation_ * solid_->outward_normal(to_body(x))); };
+  const Particle& p = particle_;
+  if (!p.layers.empty() || !p.inclusions.empty()) {
+    s.phase_at = [this](const Vector3& x) {
+      const Vector3 own = to_body(x);
+      return material_at(particle_, own, std::max(0.0, solid_->depth(own)));
+    };
+    s.interface_distance = [this, length](const Vector3& x) {
+      const Vector3 own = to_body(x);
+      const double depth = solid_->depth(own);
+      double least = std::numeric_limits<double>::infinity(), at = 0;
+      for (const Particle::Layer& layer : particle_.layers) {
+        at += layer.thickness;
+        least = std::min(least, std::abs(depth - at));
+      }
+      for (const Particle::Inclusion& i : particle_.inclusions)
+        least = std::min(least, std::abs((own - Vector3(i.x, i.y, i.z)).norm() - i.radius));
+      return least / length;
+    };
+  }
+  s.mirrored = mirrored_, s.drawn = drawn_;
+  int copies = 1;
+  for (int d = 0; d < 3; ++d) copies *= mirrored_[d] ? 2 : 1;
+  if (!s.phase_at) s.mass = mass_ / copies;
+  for (int d = 0; d < 3; ++d) {
+    std::vector<FineZone> zones;
+    double finest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+      const Touch& t = touches_[k];
+      const std::array<double, 2> block = block_of(t, deepest);
+      const double depth = 0.8 * block[1] * planes_[k].normal[d];  // into the body
+      const double reach =
+          std::abs(t.sharper_direction[d]) * block[0] + std::abs(t.flatter_direction[d]) * block[1];
+      const double edge = edges_of(t, planes_[k].normal, deepest, cells)[d];
+      finest = std::min(finest, edge);
+      zones.push_back({t.place[d] - reach + std::min(0.0, depth), t.place[d] + reach + std::max(0.0, depth),
+                       edge, growth / cells});
+    }
+    const double low = mirrored_[d] ? 0.0 : low_[d];
+    const double coarsest = coarsest_share / cells * std::min(1.0, (high_ - low_).minCoeff() / 2);
+    s.lines[d] = graded_axis(low, high_[d], zones, std::max(coarsest, finest), shift, mirrored_[d]);
+  }
+  return s;
+}
+
+SpatialScene SpatialSetup::build(double deepest, int cells, double shift, Precision precision) const
+{
+  SpatialScene scene;
+  scene.bodies.push_back(spatial_body(section(deepest, cells, shift)));
+  SpatialBody& body = scene.bodies.front();
+  if (precision == Precision::single) body.use_single();
+  scene.contact = std::make_unique<SpatialContact>(body, planes_);
+  scene.normal = planes_.front().normal;
+  for (int i = 0; i < body.nodes; ++i) scene.centre += body.mass_i[i] / body.mass * reference_place(body, i);
+  for (int d = 0; d < 3; ++d)
+    if (mirrored_[d]) scene.centre[d] = 0;
+  return scene;
+}
+
+}  // namespace granulaw

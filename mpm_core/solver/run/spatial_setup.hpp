@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "base/scales.hpp"
+#include "solver/runs.hpp"
+#include "solver/shape/solid.hpp"
+#include "solver/contact/spatial_contact.hpp"
+#include "solver/grid/spatial_grid.hpp"
+
+namespace granulaw {
+
+/// A particle among planes, before its grid is chosen; solver units. The frame of the scene: origin in the
+/// solid's own, turned by `rotation`.
+class SpatialSetup
+{
+ public:
+  /// `planes`: positions that are not a number become those where they touch. `may_mirror`: axes along which
+  /// the motion is the same on both sides.
+  SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation, std::vector<Plane> planes,
+               const std::array<bool, 3>& may_mirror);
+
+  const Scales& scale() const { return scale_; }
+  double yield_stress() const { return yield_; }
+  double mass() const { return mass_; }  ///< of the whole body
+  /// Largest overlap with the first plane that an impact can be expected to reach, about.
+  double expected_overlap(double velocity) const;
+  /// Tensor of inertia of the whole body about its centre of mass, as if all of it were of the first
+  /// material.
+  Eigen::Matrix3d inertia() const;
+  /// Point of the body that touches the first plane.
+  const Vector3& first_contact() const { return touches_.front().place; }
+  /// Speeds of the planes that are computed, as given.
+  std::vector<double> speeds() const;
+  /// Traces of all planes as the caller listed them: mirrored ones are copied from the one computed.
+  void give_mirrored_planes(std::vector<PlaneTrace>& planes) const;
+
+  /// Grids hold what is needed to draw them.
+  void draw() { drawn_ = true; }
+
+  /// The body at rest for overlaps up to `deepest`, with `cells` across the contact block.
+  SpatialScene build(double deepest, int cells, double shift, Precision precision) const;
+
+ private:
+  /// Where a plane touches, and what the surface is like there.
+  struct Touch
+  {
+    Vector3 place;
+    double sharper, flatter;  ///< principal radii
+    Vector3 sharper_direction, flatter_direction;
+  };
+  Vector3 to_body(const Vector3& x) const { return scale_.length * (rotation_.transpose() * x); }
+  Touch touch_of(const Plane& plane) const;
+  void find_mirrors(const std::array<bool, 3>& may_mirror);
+  void drop_mirrored_planes();
+  std::array<double, 2> block_of(const Touch& touch, double deepest) const;
+  /// Edges of the cells along x, y and z at a contact; rounded edges that touch a plane need a quarter of
+  /// their radius.
+  Vector3 edges_of(const Touch& touch, const Vector3& normal, double deepest, int cells) const;
+  SpatialSection section(double deepest, int cells, double shift) const;
+
+  Particle particle_;
+  std::shared_ptr<const Solid> solid_;
+  Eigen::Matrix3d rotation_;
+  Scales scale_;
+  std::vector<Plane> planes_;
+  std::vector<Touch> touches_;
+  std::vector<Plane> given_;
+  std::vector<int> computed_;  ///< of each given plane the one that is computed: itself or its mirror image
+  std::array<bool, 3> mirrored_{};
+  bool drawn_ = false;
+  double yield_ = 0, mass_ = 0;
+  Vector3 low_, high_;  ///< box of the body
+};
+
+}  // namespace granulaw

@@ -1,0 +1,34 @@
+#include "solver/shape/implicit_curvature.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace granulaw {
+
+Eigen::Matrix<double, 3, 2> tangents(const Vector3& normal)
+{
+  Eigen::Matrix<double, 3, 2> frame;
+  frame.col(0) = normal.unitOrthogonal();
+  frame.col(1) = normal.cross(frame.col(0));
+  return frame;
+}
+
+PrincipalRadii radii_of_curvatures(const Eigen::Matrix2d& curvature, const Eigen::Matrix<double, 3, 2>& frame)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(curvature);
+  const auto radius = [&](int k) {
+    const double value = principal.eigenvalues()[k];
+    return value == 0 ? std::numeric_limits<double>::infinity() : 1 / value;
+  };
+  return {radius(1), radius(0), frame * principal.eigenvectors().col(1)};
+}
+
+PrincipalRadii radii_of_level_set(const Vector3& gradient, const Eigen::Matrix3d& hessian)
+{
+  const double slope = gradient.norm();
+  const Eigen::Matrix<double, 3, 2> frame = tangents(gradient / slope);
+  return radii_of_curvatures(frame.transpose() * hessian * frame / slope, frame);
+}
+
+}  // namespace granulaw
