@@ -96,29 +96,30 @@ bool Bodies::overlap_themselves(LAMMPS_NS::LAMMPS* lmp)
 
 void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
 {
-  LAMMPS_NS::FixPropertyAtom* values = property(lmp);
-  per_atom_ = values ? values->array_atom : nullptr;
-  if (!per_atom_) return;
-  mask_ = lmp->atom->mask;
+  values_ = property(lmp);
+  if (!values_) return;
+  atom_ = lmp->atom;
   const LAMMPS_NS::Fix* freeze = lmp->modify->find_fix_style_strict("freeze", 0);
   freeze_bit_ = freeze ? freeze->groupbit : 0;
   alone_ = lmp->comm->nprocs == 1 ? lmp : nullptr;
-  clear(*lmp->atom);
+  clear();
   const bool rigid_bodies = fill_rigid(lmp);
   if (alone_) {
-    if (rigid_bodies) values->do_forward_comm();
+    if (rigid_bodies) values_->do_forward_comm();
     return;
   }
   fill_clumps(lmp);
-  values->do_reverse_comm();  // sums: each sphere was filled once, on the rank of its body
-  values->do_forward_comm();
+  values_->do_reverse_comm();  // sums: each sphere was filled once, on the rank of its body
+  values_->do_forward_comm();
 }
 
-void Bodies::clear(const LAMMPS_NS::Atom& atom) const
+double* Bodies::row(int i) const { return values_->array_atom[i]; }
+
+void Bodies::clear() const
 {
-  for (int i = 0; i < atom.nlocal + atom.nghost; ++i) {
-    if (!alone_) std::fill_n(per_atom_[i], static_cast<int>(columns), 0.0);
-    per_atom_[i][mass_column] = alone_ ? not_looked_up : 0.0;
+  for (int i = 0; i < atom_->nlocal + atom_->nghost; ++i) {
+    if (!alone_) std::fill_n(row(i), static_cast<int>(columns), 0.0);
+    row(i)[mass_column] = alone_ ? not_looked_up : 0.0;
   }
 }
 
@@ -161,7 +162,7 @@ void Bodies::fill_clumps(LAMMPS_NS::LAMMPS* lmp) const
 
 void Bodies::find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const
 {
-  per_atom_[i][mass_column] = 0.0;
+  row(i)[mass_column] = 0.0;
   int f = 0;
   while (LAMMPS_NS::FixMultisphere* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
     LAMMPS_NS::Multisphere& bodies = clumps->data();
@@ -176,15 +177,15 @@ void Bodies::find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const
 void Bodies::fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre,
                   const double* moments, const double* ex, const double* ey, const double* ez) const
 {
-  double* row = per_atom_[i];
-  std::fill_n(row, static_cast<int>(columns), 0.0);
-  row[mass_column] = body_mass;
-  double* r = row + arm;
+  double* values = row(i);
+  std::fill_n(values, static_cast<int>(columns), 0.0);
+  values[mass_column] = body_mass;
+  double* r = values + arm;
   for (int c = 0; c < 3; ++c) r[c] = lmp->atom->x[i][c] - centre[c];
   lmp->domain->minimum_image(r[0], r[1], r[2]);
   // I^-1 = sum of e e^T/I over the principal axes; a moment of zero (a body on a line) does not turn about it
   const double* axes[3] = {ex, ey, ez};
-  double* inverse = row + inverse_inertia;
+  double* inverse = values + inverse_inertia;
   for (int k = 0; k < 3; ++k) {
     if (!(moments[k] > 0.0)) continue;
     const double* e = axes[k];
@@ -199,13 +200,13 @@ void Bodies::fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double*
 
 double Bodies::inverse_mass(int i, const double* n, double sphere_mass) const
 {
-  const double* row = per_atom_[i];
-  if (alone_ && row[mass_column] == not_looked_up) find_clump(alone_, i);
-  if (!(row[mass_column] > 0.0)) return 1.0 / sphere_mass;
-  const double *r = row + arm, *v = row + inverse_inertia;
+  const double* values = row(i);
+  if (alone_ && values[mass_column] == not_looked_up) find_clump(alone_, i);
+  if (!(values[mass_column] > 0.0)) return 1.0 / sphere_mass;
+  const double *r = values + arm, *v = values + inverse_inertia;
   const double t[3] = {r[1] * n[2] - r[2] * n[1], r[2] * n[0] - r[0] * n[2], r[0] * n[1] - r[1] * n[0]};
   // n.[(I^-1 t) x r] = t.(I^-1 t)
-  return 1.0 / row[mass_column] + v[0] * t[0] * t[0] + v[1] * t[1] * t[1] + v[2] * t[2] * t[2] +
+  return 1.0 / values[mass_column] + v[0] * t[0] * t[0] + v[1] * t[1] * t[1] + v[2] * t[2] * t[2] +
          2.0 * (v[3] * t[0] * t[1] + v[4] * t[0] * t[2] + v[5] * t[1] * t[2]);
 }
 

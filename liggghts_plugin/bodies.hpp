@@ -23,11 +23,11 @@ class Bodies
   void update(LAMMPS_NS::LAMMPS* lmp);
 
   /// True: fix freeze holds sphere `i`, so that the partner's mass alone counts.
-  bool frozen(int i) const { return (mask_[i] & freeze_bit_) != 0; }
+  bool frozen(int i) const { return (atom_->mask[i] & freeze_bit_) != 0; }
   /// False: no sphere is part of a body, as far as contacts must know.
-  bool known() const { return per_atom_ != nullptr; }
+  bool known() const { return values_ != nullptr; }
   /// kg, of the body that sphere `i` is part of; 0: none.
-  double mass(int i) const { return per_atom_[i][mass_column]; }
+  double mass(int i) const { return row(i)[mass_column]; }
   /// 1/kg at a point of contact on sphere `i` with unit normal n: 1/m + n.[I^-1 (r x n) x r], r from the
   /// body's centre of mass to the sphere's centre. What an impulse along n changes the normal velocity there
   /// by. `sphere_mass` counts where the sphere is no part of a body.
@@ -36,8 +36,10 @@ class Bodies
  private:
   enum Column : int { mass_column, arm, inverse_inertia = 4, columns = 10 };  // xx yy zz xy xz yz
 
+  /// The numbers of sphere `i`. The array is asked for anew: commands between runs may move it.
+  double* row(int i) const;
   /// Before a step's numbers come in.
-  void clear(const LAMMPS_NS::Atom& atom) const;
+  void clear() const;
   /// The spheres of bodies that this rank holds. The first is false where the deck has no fix rigid.
   bool fill_rigid(LAMMPS_NS::LAMMPS* lmp) const;
   void fill_clumps(LAMMPS_NS::LAMMPS* lmp) const;
@@ -48,9 +50,9 @@ class Bodies
   void find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const;
 
   static constexpr double not_looked_up = -1.0;  // in mass_column
-  double** per_atom_ = nullptr;
-  const int* mask_ = nullptr;  // of the atoms
-  int freeze_bit_ = 0;         // of the group that fix freeze holds; 0: there is none
+  LAMMPS_NS::FixPropertyAtom* values_ = nullptr;
+  const LAMMPS_NS::Atom* atom_ = nullptr;
+  int freeze_bit_ = 0;  // of the group that fix freeze holds; 0: there is none
   LAMMPS_NS::LAMMPS* alone_ = nullptr;  // of one rank: it has every clump and looks one up when it is asked
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "base/scales.hpp"
 #include "calibrate/flow_shape.hpp"
 #include "characterise/build_law.hpp"
@@ -57,8 +58,8 @@ Miss miss_of(const ContactCurve& fitted, const ContactCurve& own, double depth)
   for (int k = 0; k <= places; ++k) {
     const double x = first * std::pow(last / first, static_cast<double>(k) / places);
     const auto e = [x](const ContactCurve& c) { return std::sqrt(c.work_unloading(x) / c.work_loading(x)); };
-    miss.force = std::max(miss.force, std::abs(fitted.loading(x).force / own.loading(x).force - 1));
-    miss.restitution = std::max(miss.restitution, std::abs(e(fitted) - e(own)));
+    miss.force = larger(miss.force, std::abs(fitted.loading(x).force / own.loading(x).force - 1));
+    miss.restitution = larger(miss.restitution, std::abs(e(fitted) - e(own)));
   }
   return miss;
 }

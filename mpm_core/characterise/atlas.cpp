@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/confident_bound.hpp"
 #include "characterise/interpolation.hpp"
 
@@ -135,8 +136,8 @@ ElasticSphere Atlas::elastic(double poisson_ratio) const
   mean.poisson_ratio = poisson_ratio;
   for (std::size_t k = 0; k < elastic_.size(); ++k) {
     mean.fit.correction.add(weights[k], elastic_[k].fit.correction);
-    mean.fit.error = std::max(mean.fit.error, elastic_[k].fit.error);
-    mean.solver_error = std::max(mean.solver_error, elastic_[k].solver_error);
+    mean.fit.error = larger(mean.fit.error, elastic_[k].fit.error);
+    mean.solver_error = larger(mean.solver_error, elastic_[k].solver_error);
   }
   return mean;
 }

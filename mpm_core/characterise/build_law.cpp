@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/adaptive_sampling.hpp"
 #include "characterise/finish_curve.hpp"
 #include "characterise/fit_curve.hpp"
@@ -259,7 +260,7 @@ void Build::verify_impacts(const ContactRecords& records)
   const std::vector<double> speeds = verification_speeds(records.fast, fastest, axis_kind_of(body_),
                                                          body_.rate_dependent() ? of_rate : of_inertia);
   const double error = verify(law_, body_, speeds, impact_cells_, source_, runs_);
-  built_.sampling_error = std::max(built_.sampling_error, error);
+  built_.sampling_error = larger(built_.sampling_error, error);
 }
 
 /// Overlap of the shallowest run planned.

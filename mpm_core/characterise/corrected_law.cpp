@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/build_runs.hpp"
 #include "characterise/grid_convergence.hpp"
 #include "characterise/overlap_at_work.hpp"
@@ -350,7 +351,7 @@ std::vector<double> sampled_ratios(std::span<const double> ratios)
   for (const double ratio : ratios) {
     if (ratio == 0 || std::isinf(ratio)) continue;
     smallest = std::min(smallest, ratio);
-    largest = std::max(largest, ratio);
+    largest = larger(largest, ratio);
   }
   if (largest > 0) chosen = {smallest, std::clamp(1.0, smallest, largest), largest};
   for (const double ratio : ratios)
@@ -375,11 +376,11 @@ void certify(Certificate& c, const std::vector<const PairImpacts*>& neighbours)
 {
   for (const PairImpacts* impacts : neighbours) {
     const PairImpacts::Miss miss = impacts->largest_miss();
-    c.verification_error_force = std::max(c.verification_error_force, miss.force);
-    c.verification_error_restitution = std::max(c.verification_error_restitution, miss.restitution);
+    c.verification_error_force = larger(c.verification_error_force, miss.force);
+    c.verification_error_restitution = larger(c.verification_error_restitution, miss.restitution);
     c.verification_impacts += static_cast<double>(impacts->departures().size()) - 1;
-    c.solver_error_force = std::max(c.solver_error_force, impacts->solver_error().force);
-    c.solver_error_restitution = std::max(c.solver_error_restitution, impacts->solver_error().restitution);
+    c.solver_error_force = larger(c.solver_error_force, impacts->solver_error().force);
+    c.solver_error_restitution = larger(c.solver_error_restitution, impacts->solver_error().restitution);
   }
 }
 
@@ -402,7 +403,7 @@ CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, c
     impacts.back().sample();
     made.runs += impacts.back().count();
     made.holes.insert(made.holes.end(), impacts.back().holes().begin(), impacts.back().holes().end());
-    made.sampling_error = std::max(made.sampling_error, impacts.back().largest_miss().counted);
+    made.sampling_error = larger(made.sampling_error, impacts.back().largest_miss().counted);
   }
   const Correction correction(impacts);
   for (const double ratio : ratios) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/shape_function.hpp"
 #include "characterise/smooth_spline.hpp"
 
@@ -194,7 +195,7 @@ ElasticFit fit_elastic(std::span<const ContactRecord> presses)
       ++count[part];
     }
     for (int part = 0; part < parts; ++part)
-      if (count[part] > 0) fit.error = std::max(fit.error, std::abs(sum[part] / count[part]));
+      if (count[part] > 0) fit.error = larger(fit.error, std::abs(sum[part] / count[part]));
   }
   return fit;
 }
@@ -335,7 +336,7 @@ FitQuality ShapeFit::quality() const
   const SmoothSpline fitted = dissipation(reversals);
   for (const ContactRecord& p : reversals) {
     const double missed = fitted.value(q_of(p.depth, onset)) - dissipation_measure(p);
-    quality.reversal_error = std::max(quality.reversal_error, std::abs(std::expm1(-0.5 * missed)));
+    quality.reversal_error = larger(quality.reversal_error, std::abs(std::expm1(-0.5 * missed)));
   }
   return quality;
 }

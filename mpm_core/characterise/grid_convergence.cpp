@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "solver/run/grid_noise.hpp"
 
 namespace granulaw {
@@ -20,7 +21,7 @@ double change_of_loading(const RunResult& fine, const RunResult& coarse)
   double most = 0;
   for (const double share : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
     const double x = share * fine.summary.delta_max;
-    most = std::max(most, std::abs(b.force(x) / a.force(x) - 1));
+    most = larger(most, std::abs(b.force(x) / a.force(x) - 1));
   }
   return most;
 }
@@ -37,7 +38,7 @@ DiscretisationError grid_convergence(const RunResult& fine, const RunResult& coa
   const double ratio = static_cast<double>(fine.summary.resolution) / coarse.summary.resolution;
   const double force = change_of_loading(fine, coarse);
   const double e = std::abs(coarse.summary.restitution / fine.summary.restitution - 1);
-  return {convergence_index(force, ratio), convergence_index(std::max(force, e), ratio)};
+  return {convergence_index(force, ratio), convergence_index(larger(force, e), ratio)};
 }
 
 }  // namespace granulaw

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/composed_law.hpp"
 #include "characterise/law_material.hpp"
@@ -169,7 +170,7 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   if (one_material || !a.is_plain_sphere() || !b.is_plain_sphere()) return pair;
   const UnlikePair bodies = unlike_pair(a.material, b.material);
   const ComposedError composed = composed_error(bodies.partner.e_star() / bodies.yielding.e_star());
-  const double by_rule = std::max(pair.by_rule.force, pair.by_rule.restitution);
+  const double by_rule = larger(pair.by_rule.force, pair.by_rule.restitution);
   const double stated = pair.composed_at.empty() ? by_rule : std::max(composed.force, composed.restitution);
   pair.worth_own_law = bodies.yielding.yields() && stated > r.tolerance;
   pair.own_law = r.own_laws && bodies.yielding.yields() && by_rule > r.tolerance;
@@ -189,8 +190,8 @@ ReductionError either_way(const LawMaterial& a, const LawMaterial& b, double rad
     const UnlikePair pair = unlike_pair(a, b, ratio);
     if (!pair.yielding.yields()) return worst;
     const ReductionError one = estimate(pair, fastest_of_law(pair, measured_to));
-    worst.force = std::max(worst.force, one.force);
-    worst.restitution = std::max(worst.restitution, one.restitution);
+    worst.force = larger(worst.force, one.force);
+    worst.restitution = larger(worst.restitution, one.restitution);
     worst.within_measured = worst.within_measured && one.within_measured;
   }
   return worst;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "characterise/shape_function.hpp"
 #include "characterise/speed_interpolation.hpp"
 
@@ -82,14 +83,14 @@ double miss(const LeftOutRun& run)
 double largest_miss(std::span<const LeftOutRun> runs)
 {
   double largest = 0;
-  for (const LeftOutRun& run : runs) largest = std::max(largest, miss(run));
+  for (const LeftOutRun& run : runs) largest = larger(largest, miss(run));
   return largest;
 }
 
 double largest_miss_of_restitution(std::span<const LeftOutRun> runs)
 {
   double largest = 0;
-  for (const LeftOutRun& run : runs) largest = std::max(largest, restitution_error(run));
+  for (const LeftOutRun& run : runs) largest = larger(largest, restitution_error(run));
   return largest;
 }
 

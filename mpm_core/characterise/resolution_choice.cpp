@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/refinement.hpp"
 #include "solver/run/accuracy.hpp"
 
@@ -43,8 +44,8 @@ ResolutionChoice choose_resolutions(std::vector<Probe> probes, const std::vector
     for (std::size_t k = 0; k < probes.size(); ++k) {
       const RunResult &fine = outcomes[2 * k].result, &coarse = outcomes[2 * k + 1].result;
       const DiscretisationError found = grid_convergence(fine, coarse);
-      const double error = std::max(found.force, counted(found.restitution, fine.summary.restitution));
-      if (error > tolerance) {
+      const double error = larger(found.force, counted(found.restitution, fine.summary.restitution));
+      if (!(error <= tolerance)) {  // an error that is no number is not met
         open.push_back(probes[k]);
         reached = error;
         continue;

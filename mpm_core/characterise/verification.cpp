@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "characterise/refinement.hpp"
 #include "law/replay.hpp"
 
@@ -45,10 +46,10 @@ double verify(BodyLaw& law, const CharacterisedBody& body, const std::vector<dou
         replay_on_wall(law, unit.length, body.mass * unit.mass(), speeds[k] * unit_speed * unit.velocity());
     const double force = std::abs(replay.force_max / unit.force() / run.force_max - 1);
     const double e = std::abs(replay.restitution / run.restitution - 1);
-    c.verification_error_force = std::max(c.verification_error_force, force);
-    c.verification_error_restitution = std::max(c.verification_error_restitution, e);
+    c.verification_error_force = larger(c.verification_error_force, force);
+    c.verification_error_restitution = larger(c.verification_error_restitution, e);
     c.verification_impacts += 1;
-    largest = std::max({largest, force, counted(e, run.restitution)});
+    largest = larger(larger(largest, force), counted(e, run.restitution));
   }
   return largest;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/larger.hpp"
 #include "law/contact_curve.hpp"
 #include "law/law.hpp"
 #include "law/thornton.hpp"
@@ -31,7 +32,7 @@ double largest_step_to(double overlap, double m_eff, const auto& stiffness)
 {
   constexpr int samples = 64;
   double hardest = 0;
-  for (int k = 1; k <= samples; ++k) hardest = std::max(hardest, stiffness(overlap * k / samples));
+  for (int k = 1; k <= samples; ++k) hardest = larger(hardest, stiffness(overlap * k / samples));
   return largest_step(m_eff, hardest);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 
 namespace granulaw {
 
@@ -42,7 +43,7 @@ Replay replay(const NormalForce& law, double radiation, double effective_mass, d
     const double work = 0.5 * (force_before + total) * (delta - before);
     (work > 0 ? result.work_load : result.work_unload) += std::abs(work);
     result.work_waves += work - 0.5 * (law_before + now.force) * (delta - before);
-    result.force_max = std::max(result.force_max, total);
+    result.force_max = larger(result.force_max, total);
     if (v < 0 && total <= 0) {
       result.restitution = -v / velocity;
       result.delta_max = delta_max;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/larger.hpp"
 #include "solver/body/kernels.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/body/spatial_kernels.hpp"
@@ -45,7 +46,7 @@ double rate_of(long points, Step step)
     double seconds = 0;
     long done = 0;
     for (; seconds < 0.25; seconds = cpu_seconds() - start) step(), done += points;
-    best = std::max(best, static_cast<double>(done) / seconds);
+    best = larger(best, static_cast<double>(done) / seconds);
   }
   return best;
 }

@@ -19,6 +19,7 @@
 #include <random>
 #include <vector>
 
+#include "base/larger.hpp"
 #include "law/fast_curve.hpp"
 
 namespace {
@@ -174,9 +175,9 @@ void compare(benchmark::State& state, const std::vector<Contact>& all, bool axis
     const ContactForce expected = (axis ? with_axis : quasi_static)
                                       .evaluate(pair_mapping, c.r_eff, c.x, c.x_max, c.impact_overlap),
                        f = found(evaluate(c));
-    force = std::max(force, off(f.force, expected.force));
-    stiffness = std::max(stiffness, off(f.stiffness, expected.stiffness));
-    radius = std::max(radius, off(f.contact_radius, expected.contact_radius));
+    force = larger(force, off(f.force, expected.force));
+    stiffness = larger(stiffness, off(f.stiffness, expected.stiffness));
+    radius = larger(radius, off(f.contact_radius, expected.contact_radius));
   }
   time(state, all, evaluate);
   state.counters["error_F"] = force;
@@ -230,7 +231,7 @@ void force(benchmark::State& state, bool unloading, bool axis)
   const auto evaluate = [&](const Contact& c) { return table.force(c.x, c.x_max, c.impact_overlap); };
   double error = 0;
   for (const Contact& c : all)
-    error = std::max(
+    error = larger(
         error, off(evaluate(c), curve.evaluate(pair_mapping, c.r_eff, c.x, c.x_max, c.impact_overlap).force));
   time(state, all, evaluate);
   state.counters["error_F"] = error;
@@ -243,7 +244,7 @@ void reference(benchmark::State& state, bool unloading)
   const std::vector<Contact> all = flow(unloading, false);
   double error = 0;
   for (const Contact& c : all)
-    error = std::max(
+    error = larger(
         error, off(quasi_static.evaluate(pair_mapping, c.r_eff, c.x, c.x_max).force, exact(c.x, c.x_max)));
   time(state, all,
        [&](const Contact& c) { return quasi_static.evaluate(pair_mapping, c.r_eff, c.x, c.x_max); });

@@ -26,6 +26,7 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "base/version.hpp"
 #include "law/fast_curve.hpp"
 #include "law/law_file.hpp"
@@ -190,7 +191,7 @@ json measured(const BodyLaw& body, const Evaluate& evaluate, std::size_t bytes)
     const std::vector<Contact> contacts = contacts_of_a_flow(body.curve, unloading);
     for (const Contact& c : contacts) {
       const double top = body.curve.loading(std::max(c.x, c.x_max), c.impact_overlap).force;
-      force = std::max(force, std::abs(evaluate(c).force - full(c).force) / top);
+      force = larger(force, std::abs(evaluate(c).force - full(c).force) / top);
     }
     const auto [low, median, high] = time_of(contacts, evaluate);
     const std::string name = unloading ? "ns_unload" : "ns_load";

@@ -53,8 +53,8 @@ class Run:
         return [name for name, lines in self.tables.items() if any(NOT_A_NUMBER.search(" ".join(line)) for line in lines)]
 
 
-def run_all(feature, variants):
-    """{variant: Run} of variants on equally many ranks and of one program. One process, `clear` between the decks; where one ends it, the rest in another.
+def run_all(feature, variants, program=None):
+    """{variant: Run} of variants on equally many ranks and of one program (left out: that of the model). One process, `clear` between the decks; where one ends it, the rest in another.
     Where the first deck of a model ends it, the model's others are left out."""
     result, left = {}, list(variants)
     with tempfile.TemporaryDirectory(prefix="granulaw-matrix-") as name:
@@ -71,7 +71,7 @@ def run_all(feature, variants):
         while left:
             numbers = [variants.index(v) for v in left][:1 if feature.alone else None]
             (top / "in.all").write_text("clear\n".join(f"print \"DECK {k}\"\nshell cd {k}\ninclude in.deck\nlog none\nshell cd ..\n" for k in numbers))
-            status, text, last_words = process(top, variants[0])
+            status, text, last_words = process(top, variants[0], program or (STOCK if variants[0].model == "hertz" else LAUNCHER))
             shown = re.split(r"^DECK (\d+)$", text, flags=re.M)
             shown = dict(zip(map(int, shown[1::2]), shown[2::2]))
             ended = max(shown, default=numbers[0]) if status != 0 else None
@@ -86,8 +86,7 @@ def run_all(feature, variants):
     return result
 
 
-def process(top, variant):
-    program = STOCK if variant.model == "hertz" else LAUNCHER
+def process(top, variant, program):
     command = ["stdbuf", "-oL", program, "-in", "in.all", "-log", "none"]  # by lines: else the last ones are lost with MPI_Abort
     if variant.ranks > 1:
         command = [MPIRUN, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-np", str(variant.ranks)] + command

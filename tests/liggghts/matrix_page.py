@@ -37,6 +37,8 @@ KINDS = {
     "DEFECT": ("Defects", "Anything else than the outcomes below."),
     "refused": ("Refused", "The models refuse these, with the sentence of mpm; thornton's differs in the model's name. With stock Hertz they work, or crash."),
     "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these with every model, or crashes."),
+    "kept": ("Works where stock hertz loses histories", "Stock LIGGGHTS gives the histories of contacts to other pairs here, or writes them one step old. `liggghts-mpm` mends this, for hertz as well. "
+             "All comparisons of the [last section](#how-they-are-tried) hold, with hertz in `liggghts-mpm`."),
     "runs": ("Runs, with other numbers than hertz", "These work. Their numbers differ from Hertz's by nature (history values, for instance), so they are not compared."),
     "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),
 }
@@ -115,7 +117,7 @@ def write(path, rows, limits):
             continue
         text += [f"## {title}", "", what, ""]
         groups = dict.fromkeys(row["group"] for row in own)
-        if kind in ("runs", "same"):
+        if kind in ("kept", "runs", "same"):
             for group in groups:
                 text += [f"**{plain(group)}.** " + "; ".join(plain(row["name"]) for row in own if row["group"] == group) + ".", ""]
         else:

@@ -43,17 +43,18 @@ class Feature:
     models: the models behind `model NAME`. columns, dump: further thermo values and columns of the dump of particles. files: what the deck
     reads, {name: text}. twin: compare with Hertz number by number; "plain": not with `stretch`. conserved: energy is conserved but for the contacts' losses. alike: one rank
     and two give the same trajectory. refused: part of the sentence that refuses it. damped: the twin has e = 0.5. skip: files not compared.
+    kept: stock LIGGGHTS loses or shifts the contacts' histories here; the reference is Hertz in liggghts-mpm, which keeps them.
     both: words behind the pair style and behind each wall. own: words behind the pair style of
     mpm and thornton alone. alone: each deck in a process of its own. tolerance: at least this one. ranks: on which it runs."""
 
     def __init__(self, group, name, models=MODELS, columns="", dump="", files=None, twin=True, conserved=True, alike=True, refused=None,
-                 damped=False, skip=(), both="", own="", alone=False, tolerance=0.0, ranks=(1, 2), **parts):
+                 damped=False, skip=(), both="", own="", alone=False, kept=False, tolerance=0.0, ranks=(1, 2), **parts):
         unknown = set(parts) - set(PARTS)
         assert not unknown, f"{name}: no such part: {unknown}"
         self.group, self.name, self.models, self.columns, self.dump = group, name, models, columns, dump
         self.files, self.twin, self.conserved, self.alike, self.refused = files or {}, twin, conserved, alike, refused
-        self.damped, self.skip, self.both, self.own, self.alone, self.tolerance, self.ranks, self.parts = \
-            damped, tuple(skip), both, own, alone, tolerance, ranks, parts
+        self.damped, self.skip, self.both, self.own, self.alone, self.kept, self.tolerance, self.ranks, self.parts = \
+            damped, tuple(skip), both, own, alone, kept, tolerance, ranks, parts
 
 
 def sphere_lines(length=1.0, density=1.0):

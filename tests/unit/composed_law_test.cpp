@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "characterise/composed_law.hpp"
 
 #include <gtest/gtest.h>
@@ -56,8 +57,8 @@ Difference difference(const ContactCurve& a, const ContactCurve& b)
   Difference most;
   for (double x = 1e-4; x < 0.99 * std::min(a.x_end(), b.x_end()); x *= 1.1) {
     const auto e = [&](const ContactCurve& c) { return std::sqrt(c.work_unloading(x) / c.work_loading(x)); };
-    most.force = std::max(most.force, std::abs(a.loading(x).force / b.loading(x).force - 1));
-    most.restitution = std::max(most.restitution, std::abs(e(a) - e(b)));
+    most.force = larger(most.force, std::abs(a.loading(x).force / b.loading(x).force - 1));
+    most.restitution = larger(most.restitution, std::abs(e(a) - e(b)));
   }
   return most;
 }

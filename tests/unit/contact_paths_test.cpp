@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "base/larger.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
@@ -138,7 +139,7 @@ void follow_a_path(const ContactCurve& curve)
       RC_ASSERT(f.force >= 0 && std::isfinite(f.force));
       RC_ASSERT(f.contact_radius >= 0 && f.stiffness >= 0);
       RC_ASSERT(f.delta_max == contact.reached());
-      deepest = std::max(deepest, next);
+      deepest = larger(deepest, next);
     }
     at = next;
     // Closed here by complete unloading: what comes back is not more than was put in. 1e-9 a move: rounding

@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "law/contact_step.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ double error_of_e(const auto& force, double m_eff, double speed, double dt, doub
 {
   double largest = 0;
   for (double phase = 0.05; phase < 1; phase += 0.1)
-    largest = std::max(largest, std::abs(restitution(force, m_eff, speed, dt, phase) - e));
+    largest = larger(largest, std::abs(restitution(force, m_eff, speed, dt, phase) - e));
   return largest;
 }
 
@@ -57,10 +58,19 @@ double worst_error(double share)
         const auto force = [&](double d, double d_max) { return pair.evaluate(r_eff, d, d_max, latched).force; };
         const double step = largest_step_to(
             replay.delta_max, m_eff, [&](double d) { return planned_stiffness(pair, r_eff, d); });
-        worst = std::max(worst, error_of_e(force, m_eff, speed, share * step, replay.restitution));
+        worst = larger(worst, error_of_e(force, m_eff, speed, share * step, replay.restitution));
       }
   }
   return worst;
+}
+
+/// Neither the stiffness at the end nor one on the way may be passed over if it is no number: no step follows.
+TEST(ContactStep, AStiffnessThatIsNoNumberGivesNoStep)
+{
+  for (const double bad : {0.3, 1.0})
+    EXPECT_TRUE(std::isnan(largest_step_to(
+        1.0, 1.0, [&](double d) { return std::abs(d - bad) < 0.02 ? std::nan("") : 1.0; })))
+        << bad;
 }
 
 /// The table of the reference page, rounded up: at the largest step e is right to 0.0032.

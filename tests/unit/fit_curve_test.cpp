@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "characterise/fit_curve.hpp"
 
 #include <gtest/gtest.h>
@@ -55,13 +56,13 @@ Errors compare(const ContactCurve& fitted, const ContactCurve& truth)
   Errors errors;
   for (int k = 1; k <= 400; ++k) {
     const double x = std::pow(0.562 * k / 400, 4);
-    errors.force = std::max(errors.force, std::abs(fitted.loading(x).force / truth.loading(x).force - 1));
+    errors.force = larger(errors.force, std::abs(fitted.loading(x).force / truth.loading(x).force - 1));
     if (x < 1.05 * truth.onset()) continue;
     const double e = std::sqrt(fitted.work_unloading(x) / fitted.work_loading(x));
     const double exact = std::sqrt(truth.work_unloading(x) / truth.work_loading(x));
-    errors.e = std::max(errors.e, std::abs(e / exact - 1));
+    errors.e = larger(errors.e, std::abs(e / exact - 1));
     errors.residual =
-        std::max(errors.residual, std::abs(fitted.reversal(x).residual - truth.reversal(x).residual) / x);
+        larger(errors.residual, std::abs(fitted.reversal(x).residual - truth.reversal(x).residual) / x);
   }
   return errors;
 }
@@ -88,7 +89,7 @@ TEST(FitCurve, DoesNotFollowTheContactEdgeNoise)
   double largest = 0;
   for (int k = 160; k <= 400; ++k) {
     const double x = std::pow(0.562 * k / 400, 4);
-    largest = std::max(largest, std::abs(b.loading(x).force / a.loading(x).force - 1));
+    largest = larger(largest, std::abs(b.loading(x).force / a.loading(x).force - 1));
   }
   // 1 % at the reversal of every press, more before it; the issue asks for 0.5 % in F after treatment
   EXPECT_LT(largest, 5e-3);

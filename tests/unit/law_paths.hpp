@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "law/contact_curve.hpp"
 
 // What tests of ContactCurve, of its axis and of FastCurve ask alike of a law on a path of one contact.
@@ -43,7 +44,7 @@ class Path
     if ((force(x_) > 0) != (force(std::min(to, x_m_)) > 0)) piece(end_of_force(x_, std::min(to, x_m_)));
     if (x_ < x_m_ && to > x_m_) piece(x_m_);
     piece(to);
-    x_m_ = std::max(x_m_, to);
+    x_m_ = larger(x_m_, to);
   }
   double x() const { return x_; }
   double x_m() const { return x_m_; }
@@ -75,7 +76,7 @@ class Path
     const auto integrand = [&](double s) {
       const double x = s * s * s * s;
       const double f = force(x);
-      top_ = std::max(top_, f);
+      top_ = larger(top_, f);
       return 4 * s * s * s * f;
     };
     double fine = 0, coarse = 0, first = integrand(a);

@@ -1,4 +1,5 @@
 // Geometry of particles against closed forms, and every sentence of validate.
+#include "base/larger.hpp"
 #include "solver/shape/particle.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +103,7 @@ void expect_surface(const Particle& p, const Distance& distance, const char* nam
                   0, t == 0 ? 1e-14 * p.height() : 1e-6 * p.radius)
           << name << " " << k;
   double widest = 0;
-  for (const ProfilePoint& point : p.profile) widest = std::max(widest, point.r);
+  for (const ProfilePoint& point : p.profile) widest = larger(widest, point.r);
   EXPECT_DOUBLE_EQ(widest, p.radius) << name;
   // and depth agrees with it in a layer about the surface
   for (int k = 0; k <= 2000; ++k) {
@@ -376,9 +377,9 @@ RC_GTEST_PROP(Particle, RandomBodies, ())
   }
   star.points.front() = {0, 0};
   star.points.back().r = 0;
-  for (ProfilePoint& p : star.points) p.z = std::max(p.z, 0.0);
+  for (ProfilePoint& p : star.points) p.z = larger(p.z, 0.0);
   double radius = 0;
-  for (const ProfilePoint& p : star.points) radius = std::max(radius, p.r);
+  for (const ProfilePoint& p : star.points) radius = larger(radius, p.r);
   Particle p = body(radius, star.points);
   validate(p, "star");
   const double room = p.largest_depth(), first = number(0.05, 0.4) * room, second = number(0.05, 0.4) * room;

@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "characterise/shape_prior.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ double largest_difference(const ShapePrior& a, const ShapePrior& b)
   double largest = 0;
   for (std::size_t k = 0; k < LawShape::nodes; ++k)
     if (std::isfinite(a.error[k]))
-      largest = std::max(largest, std::abs(a.shape.dissipation[k] - b.shape.dissipation[k]));
+      largest = larger(largest, std::abs(a.shape.dissipation[k] - b.shape.dissipation[k]));
   return largest;
 }
 

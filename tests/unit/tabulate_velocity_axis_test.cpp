@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "characterise/tabulate_velocity_axis.hpp"
 
 #include <gtest/gtest.h>
@@ -67,7 +68,7 @@ TEST(TabulateRate, RisesToThePeakOfImpactsWhoseForceFallsBeforeTheyReverse)
         const double share = n / (LawShape::VelocityEffect::shares - 1.0);
         const double fall = std::max(0.0, (share - 0.8) / 0.2), factor = 1 + more * (1 - 0.7 * fall * fall);
         impact.force.push_back(std::log(factor));
-        peak = std::max(peak, factor * slow.loading(share * x).force);
+        peak = larger(peak, factor * slow.loading(share * x).force);
       }
       impact.force.back() = std::log(peak / slow.loading(x).force);  // as impact_force_ratios() has it
       shape.velocity_effects.push_back(impact);

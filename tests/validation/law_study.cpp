@@ -18,6 +18,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "base/scales.hpp"
 #include "characterise/atlas.hpp"
 #include "characterise/law_from_atlas.hpp"
@@ -58,10 +59,10 @@ PathErrors path_errors(const PairLaw& law, const RunResult& run)
   double deepest = 0, largest = 0;
   PathErrors errors;
   for (const TraceSample& s : run.trace) {
-    deepest = std::max(deepest, s.delta);
-    largest = std::max(largest, s.force);
+    deepest = larger(deepest, s.delta);
+    largest = larger(largest, s.force);
     double& error = s.branch == Branch::load ? errors.loading : errors.unloading;
-    error = std::max(error, std::abs(law.evaluate(1, s.delta, deepest).force - s.force));
+    error = larger(error, std::abs(law.evaluate(1, s.delta, deepest).force - s.force));
   }
   return {errors.loading / largest, errors.unloading / largest};
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/larger.hpp"
+
 namespace granulaw {
 
 double YieldingContact::shear_strength(double a) const
@@ -70,7 +72,7 @@ ContactForces YieldingContact::move(double delta, double slide, double)
   const double stretched = k * std::abs(stretch_), from = depth_;
   double pull = std::min(stretched, strength);
   if (pull < 1e-9 * strength)  // the normal force alone
-    depth_ = std::max(depth_, delta);
+    depth_ = larger(depth_, delta);
   else if (overloaded(delta, depth_, std::min(pull, friction_ * elastic.force) / strength))
     pull = flow(delta, k, stretched, strength);
   const bool slides = pull > friction_ * law(delta, depth_).force;

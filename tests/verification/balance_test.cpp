@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "convergence.hpp"
 #include "energy_audit.hpp"
 
@@ -32,7 +33,7 @@ TEST(Balance, EnergyAddsUpFromTheFields)
   const auto largest_gap = [&](int cells) {
     double gap = 0;
     for (const EnergyShares& s : energy_audit(job.sphere, job.velocity, cells, 200))
-      gap = std::max(gap, std::abs(s.total() - 1));
+      gap = larger(gap, std::abs(s.total() - 1));
     return gap;
   };
   const double coarse = largest_gap(8), fine = largest_gap(16);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "base/scales.hpp"
 #include "references.hpp"
 #include "solver/grid/mapped_body.hpp"
@@ -46,7 +47,7 @@ double energy_swing(double courant)
       before.vr_i[i] = 0.5 * (before.vr_i[i] + b.vr_i[i]);
       before.vz_i[i] = 0.5 * (before.vz_i[i] + b.vz_i[i]);
     }
-    swing = std::max(swing, std::abs((before.kinetic_energy() + b.strain_energy()) / start - 1));
+    swing = larger(swing, std::abs((before.kinetic_energy() + b.strain_energy()) / start - 1));
     kernels().move(b, dt);
   }
   return swing;

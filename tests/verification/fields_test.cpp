@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/larger.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/body/kernels.hpp"
 #include "solver/runs.hpp"
@@ -119,14 +120,14 @@ TEST(Fields, LookingChangesNothing)
     ASSERT_EQ(int(f.pressure.size()), cells);
     double lowest = 1, hardest = 0;
     for (const double z : f.z) lowest = std::min(lowest, z);
-    for (const double q : f.von_mises) hardest = std::max(hardest, q);
+    for (const double q : f.von_mises) hardest = larger(hardest, q);
     EXPECT_GT(lowest, -1e-15);               // m: nothing below the plane, to rounding of a radius of 1e-3
     EXPECT_LT(hardest, 100e6 * (1 + 1e-8));  // perfectly plastic: nowhere above the yield stress
   }
   EXPECT_DOUBLE_EQ(frames.front().vz.front(), -2.6);  // to solver units and back: rounding
   double deepest = 0, strain = 0;
-  for (const FieldFrame& f : frames) deepest = std::max(deepest, f.delta);
-  for (const double e : frames.back().plastic_strain) strain = std::max(strain, e);
+  for (const FieldFrame& f : frames) deepest = larger(deepest, f.delta);
+  for (const double e : frames.back().plastic_strain) strain = larger(strain, e);
   EXPECT_NEAR(deepest, seen.summary.delta_max,
               0.03 * seen.summary.delta_max);  // parabola, 1/20 of its width off
   EXPECT_GT(strain, 0.01);
@@ -164,9 +165,9 @@ TEST_P(Motion, IsTheIntegralOfTheVelocity)
     const double half = 0.5 * (b.time - a.time);
     for (std::size_t i = 0; i < nodes; ++i) {
       r[i] += half * (a.vr[i] + b.vr[i]), z[i] += half * (a.vz[i] + b.vz[i]);
-      largest = std::max(largest, std::abs(b.uz[i])), spread = std::max(spread, std::abs(b.ur[i]));
-      worst_r = std::max(worst_r, std::abs(b.ur[i] - r[i]));
-      worst_z = std::max(worst_z, std::abs(b.uz[i] - z[i]));
+      largest = larger(largest, std::abs(b.uz[i])), spread = larger(spread, std::abs(b.ur[i]));
+      worst_r = larger(worst_r, std::abs(b.ur[i] - r[i]));
+      worst_z = larger(worst_z, std::abs(b.uz[i] - z[i]));
       EXPECT_NEAR(b.r[i], first.r[i] + b.ur[i], 1e-17);
       EXPECT_NEAR(b.z[i], first.z[i] + b.uz[i], 1e-17);
     }

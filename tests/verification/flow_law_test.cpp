@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "base/scales.hpp"
 #include "solver/material/law_table.hpp"
 #include "solver/material/plastic_increment.hpp"
@@ -257,12 +258,12 @@ double worst_residual(MakeHardening hardening, MakeRate rate, std::pair<double, 
       if (flow::newton_step(search, h, r, shear3, per_dt)) break;
     const double x = search.strain;
     const double left = shear3 * x + jacobian * h(ep + x).value * r(x * per_dt).value - trial;
-    worst = std::max(worst, std::isfinite(left) ? std::abs(left) / trial : 1.0);
+    worst = larger(worst, std::isfinite(left) ? std::abs(left) / trial : 1.0);
     if (!tangent) continue;
     const flow::TangentIncrement quick = flow::tangent_increment(h, trial, jacobian, shear3, ep);
     if (!quick.converged) continue;
     const double rest = shear3 * quick.strain + jacobian * h(ep + quick.strain).value - trial;
-    tangent->first = std::max(tangent->first, std::isfinite(rest) ? std::abs(rest) / trial : 1.0);
+    tangent->first = larger(tangent->first, std::isfinite(rest) ? std::abs(rest) / trial : 1.0);
     tangent->second += 1.0 / 40000;
     EXPECT_GE(quick.stress, jacobian * h(ep).value * (1 - 1e-12));
     EXPECT_LE(quick.stress, jacobian * h(ep + quick.strain).value * (1 + 1e-9));

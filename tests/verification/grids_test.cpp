@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/larger.hpp"
 #include "base/scales.hpp"
 #include "references.hpp"
 #include "solver/grid/rectilinear_body.hpp"
@@ -73,7 +74,7 @@ TEST(RectilinearPatch, UniformPressureIsInEquilibrium)
       for (const double dz : {-0.32, 0.0, 0.32})
         if (s.phase_at(std::max(0.0, b.r_i[i] + dr), b.z_i[i] + dz) < 0) inside = false;
     if (!inside) {
-      outer = std::max(outer, std::hypot(b.fr_i[i], b.fz_i[i]));
+      outer = larger(outer, std::hypot(b.fr_i[i], b.fz_i[i]));
       continue;
     }
     ++inner;

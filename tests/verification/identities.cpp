@@ -1,9 +1,9 @@
 #include "identities.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "base/larger.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/body/kernels.hpp"
 
@@ -24,7 +24,7 @@ Identities identities(int cells_across)
   const double deviator2 = 2 * std::pow(lr - trace / 3, 2) + std::pow(lz - trace / 3, 2);
   const double energy = elastic.shear * deviator2 + 0.5 * elastic.bulk * trace * trace;
   for (int p = 0; p < b.points; ++p)
-    left.patch = std::max(left.patch, std::abs(b.elastic_energy_p[p] / b.volume_p[p] / energy - 1));
+    left.patch = larger(left.patch, std::abs(b.elastic_energy_p[p] / b.volume_p[p] / energy - 1));
 
   b = undeformed;
   for (int i = 0; i < b.nodes; ++i) b.ur_i[i] = -0.01 * b.r_i[i], b.uz_i[i] = -0.01 * b.z_i[i];
@@ -32,8 +32,8 @@ Identities identities(int cells_across)
   double inside = 0, outside = 0;
   for (int i = 0; i < b.nodes; ++i) {
     double& largest = std::hypot(b.r_i[i], b.z_i[i] - 1) > 1 - 1e-9 ? outside : inside;
-    largest = std::max(largest, std::abs(b.fz_i[i]));
-    if (b.r_i[i] > 0) largest = std::max(largest, std::abs(b.fr_i[i]));  // the axis carries hoop force
+    largest = larger(largest, std::abs(b.fz_i[i]));
+    if (b.r_i[i] > 0) largest = larger(largest, std::abs(b.fr_i[i]));  // the axis carries hoop force
   }
   left.equilibrium = inside / outside;
 

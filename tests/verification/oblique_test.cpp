@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {
@@ -81,8 +82,8 @@ TEST(Oblique, TheLeverIsTheCentresHeight)
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const PlaneSample& s = samples[k];
     const double by_lever = -(radius - run.trace[k].delta) * s.vector[0] - s.centre[0] * s.vector[2];
-    largest = std::max(largest, std::abs(s.torque[1]));
-    off = std::max(off, std::abs(s.torque[1] - by_lever));
+    largest = larger(largest, std::abs(s.torque[1]));
+    off = larger(off, std::abs(s.torque[1] - by_lever));
   }
   // markers go through the plane by less than a twentieth of a cell (spatial_contact): 1e-3 R here
   EXPECT_LT(off, 5e-3 * largest);

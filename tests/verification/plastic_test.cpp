@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "base/scales.hpp"
 #include "references.hpp"
 #include "solver/runs.hpp"
@@ -103,9 +104,9 @@ TEST(Similarity, DimensionlessTracesAgree)
   ASSERT_EQ(a.trace.size(), b.trace.size());
   double largest = 0, difference = 0, other = 0;
   for (std::size_t k = 0; k < a.trace.size(); ++k) {
-    largest = std::max(largest, a.trace[k].force);
-    difference = std::max(difference, std::abs(a.trace[k].force - b.trace[k].force));
-    if (k < c.trace.size()) other = std::max(other, std::abs(a.trace[k].force - c.trace[k].force));
+    largest = larger(largest, a.trace[k].force);
+    difference = larger(difference, std::abs(a.trace[k].force - b.trace[k].force));
+    if (k < c.trace.size()) other = larger(other, std::abs(a.trace[k].force - c.trace[k].force));
   }
   EXPECT_LT(difference, 1e-6 * largest);  // rounding of the inputs, amplified by contact events
   EXPECT_GT(other, 1e-3 * largest);       // another E*/Y is another law

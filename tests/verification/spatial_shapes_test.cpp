@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "base/larger.hpp"
 #include "law/elliptic_contact.hpp"
 #include "solver/shape/shapes.hpp"
 #include "solver/runs.hpp"
@@ -291,8 +292,8 @@ TEST(SpatialFields, PerfectPlasticityStaysAtYield)
   options.fields.frames = 4;
   options.fields.begin_solid = [](int, const std::vector<std::array<int, 8>>&) {};
   options.fields.frame = [&](const FieldFrame& f) {
-    for (const double s : f.von_mises) largest = std::max(largest, s);
-    for (const double e : f.plastic_strain) strain = std::max(strain, e);
+    for (const double s : f.von_mises) largest = larger(largest, s);
+    for (const double e : f.plastic_strain) strain = larger(strain, e);
   };
   thrown(sphere(100), 100 * customary_velocity(100), {0, 0, -1}, options);
   EXPECT_GT(strain, 0.05);

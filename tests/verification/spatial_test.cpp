@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "solver/runs.hpp"
 #include "solver/loading/planes_programme.hpp"
 #include "solver/contact/spatial_contact.hpp"
@@ -72,7 +73,7 @@ TEST(SpatialPatch, LinearFieldIsExact)
     double worst = 0;
     for (std::size_t p = 0; p < b.volume_p.size(); ++p)
       if (b.volume_p[p] > 0)
-        worst = std::max(worst, std::abs(b.elastic_energy_p[p] / b.volume_p[p] / expected - 1));
+        worst = larger(worst, std::abs(b.elastic_energy_p[p] / b.volume_p[p] / expected - 1));
     EXPECT_LT(worst, left);
   }
 }
@@ -140,7 +141,7 @@ TEST(SpatialPatch, PressureOnTheSurfaceBalancesUniformStress)
   for (int i = 0; i < b.nodes; ++i) {
     if (size[i] < 1e-12) continue;  // rounding
     const double left = (push[i] + force_at(b, i)).norm();
-    worst = std::max(worst, left / size[i]);
+    worst = larger(worst, left / size[i]);
     off += left, sum += size[i];
   }
   EXPECT_LT(worst, 0.2);
@@ -222,7 +223,7 @@ double highest_frequency(SpatialBody b)
     for (std::size_t k = 0; k < x.size(); ++k) norm2 += b.mass_i[k / 4] * x[k] * x[k];
     for (double& value : x) {
       value /= std::sqrt(norm2);
-      largest = std::max(largest, std::abs(value));
+      largest = larger(largest, std::abs(value));
     }
     const double step = 1e-8 / largest;
     for (std::size_t k = 0; k < x.size(); ++k) b.u_i[k] = at[k] + step * x[k];
@@ -277,7 +278,7 @@ NodeField forces_of_stretched_ball(const SpatialKernels& kernels, bool single, c
 double largest_difference(const NodeField& a, const NodeField& b)
 {
   double worst = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) worst = larger(worst, std::abs(a[i] - b[i]));
   return worst;
 }
 
@@ -319,7 +320,7 @@ TEST(SpatialSinglePrecision, LightNodesAccelerateAsInDouble)
   f.use_single();
   double lightest = 1, heaviest = 0;
   for (const double m : b.mass_i)
-    if (m > 0) lightest = std::min(lightest, m), heaviest = std::max(heaviest, m);
+    if (m > 0) lightest = std::min(lightest, m), heaviest = larger(heaviest, m);
   EXPECT_LT(lightest, 1e-3 * heaviest);  // no node weighs less than a thousandth of a finest cell
   for (SpatialBody* body : {&b, &f}) {
     displace(*body, 0.05 * stretch, {0.4, -0.2, 0.1});
@@ -327,8 +328,8 @@ TEST(SpatialSinglePrecision, LightNodesAccelerateAsInDouble)
   }
   double worst = 0, largest = 0;
   for (std::size_t i = 0; i < b.f_i.size(); ++i) {
-    worst = std::max(worst, b.inverse_mass_i[i] * std::abs(b.f_i[i] - f.f_i[i]));
-    largest = std::max(largest, b.inverse_mass_i[i] * std::abs(b.f_i[i]));
+    worst = larger(worst, b.inverse_mass_i[i] * std::abs(b.f_i[i] - f.f_i[i]));
+    largest = larger(largest, b.inverse_mass_i[i] * std::abs(b.f_i[i]));
   }
   EXPECT_LT(worst, 1e-6 * largest);
 }

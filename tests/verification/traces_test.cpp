@@ -1,5 +1,6 @@
 // The solver's numbers against stored ones. A change that moves one of them says so: print them anew with
 // solver_traces, and give the difference with its cause where the change is described.
+#include "base/larger.hpp"
 #include "traces.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ TEST_P(Traces, AreTheStoredOnes)
     ASSERT_EQ(line.values.size(), values.size()) << line.name;
     // rounding itself, where a column is zero by symmetry; errors of the energy are shares of it
     double largest = line.name == "energy" ? 1 : 1e-12;
-    for (const double value : values) largest = std::max(largest, std::abs(value));
+    for (const double value : values) largest = larger(largest, std::abs(value));
     const double allowed = line.name == "counts" ? 0 : GetParam().rounding * largest;
     for (std::size_t k = 0; k < values.size(); ++k)
       EXPECT_NEAR(line.values[k], values[k], allowed) << line.name << " " << k;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "solver/run/grid_noise.hpp"
 
 namespace granulaw {
@@ -67,7 +68,7 @@ double error_between(const RunResult& fine, const RunResult& coarse)
 {
   const RunSummary& s = fine.summary;
   const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
-  const double largest = std::max(difference(fine, coarse), peak);
+  const double largest = larger(difference(fine, coarse), peak);
   const bool spatial = !fine.planes.empty();  // such runs tell of their planes
   return spatial ? spatial_error(largest, s, coarse.summary) : flat_error(largest, s);
 }

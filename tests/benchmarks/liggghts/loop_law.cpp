@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/larger.hpp"
 #include "law/fast_curve.hpp"
 #include "law/law_file.hpp"
 #include "synthetic_law.hpp"
@@ -32,7 +33,7 @@ double worst_error(const granulaw::ContactCurve& curve, const auto& exact)
     const double x_max = std::exp(log_x(random)), x = std::min(x_max * part(random), curve.x_end());
     const double X = curve.axis() ? std::min(x_max / part(random), curve.axis()->overlap_end()) : 0.0;
     const double top = std::max(x, x_max);
-    worst = std::max(worst, std::abs(table.force(x, x_max, X) - exact(x, x_max, X)) / exact(top, top, X));
+    worst = larger(worst, std::abs(table.force(x, x_max, X) - exact(x, x_max, X)) / exact(top, top, X));
   }
   return worst;
 }
@@ -99,7 +100,7 @@ double four(const char* file, const std::vector<double>& ratios, bool pair_laws 
     result.material.youngs_modulus = youngs_modulus;
     // of four materials the first yields against the others
     result.material.yield_stress = result.material.e_star() / modulus_over_yield * std::sqrt(onset / 3e-4);
-    worst = std::max(worst, worst_error(shape, result.curve));
+    worst = larger(worst, worst_error(shape, result.curve));
     return result;
   };
   for (const std::string& name : names) {

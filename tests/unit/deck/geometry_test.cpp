@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "deck/geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,7 @@ TEST(Box, TopAndBottomAreThoseOfItsCorners)
   for (const Vec3& axis : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.6, 0, 0.8}, Vec3{-0.48, 0.6, -0.64}}) {
     double top = -Box::infinity, bottom = Box::infinity;
     for (const Vec3& p : wide.corners())
-      top = std::max(top, dot(p, axis)), bottom = std::min(bottom, dot(p, axis));
+      top = larger(top, dot(p, axis)), bottom = std::min(bottom, dot(p, axis));
     EXPECT_NEAR(wide.top(axis), top, 1e-14);  // sums of three, rounded
     EXPECT_NEAR(wide.bottom(axis), bottom, 1e-14);
   }

@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "deck/plan.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ TEST_F(DeckPlan, TheTableReachesAFifthBeyondInTwoDigits)
     const Plan plan = plan_of(s, speed);
     double depth = 0, damage_number = 0;
     for (const PairPlan& p : plan.pairs)
-      depth = std::max(depth, p.depth), damage_number = std::max(damage_number, p.damage_number);
+      depth = larger(depth, p.depth), damage_number = larger(damage_number, p.damage_number);
     ASSERT_GT(depth, 0);
     const double largest_depth = std::min(0.5, 1.2 * depth),
                  largest_inertia = std::min(0.09, 1.2 * damage_number);

@@ -1,3 +1,4 @@
+#include "base/larger.hpp"
 #include "deck/soften.hpp"
 
 #include <gtest/gtest.h>
@@ -93,8 +94,8 @@ TEST_F(DeckSoften, SoftenStatesItsNumbers)
   double ratio = 0, set = 0;
   for (const PairStretch& q : high.pairs) {
     const double r_eff = q.pair->meeting.wall ? r : r / 2, load = high.stretch * q.static_load;
-    ratio = std::max(ratio, load / q.yield_load);
-    set = std::max(set, high.stretch * (load - q.yield_load) / (M_PI * 1.6 * 1e6 * r_eff * r_eff));
+    ratio = larger(ratio, load / q.yield_load);
+    set = larger(set, high.stretch * (load - q.yield_load) / (M_PI * 1.6 * 1e6 * r_eff * r_eff));
   }
   ASSERT_GT(ratio, 1);
   EXPECT_NEAR(high.static_ratio / ratio, 1, rounding);
