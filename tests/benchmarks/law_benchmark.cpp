@@ -28,6 +28,7 @@ using granulaw::ContactCurve;
 using granulaw::ContactForce;
 using granulaw::FastCurve;
 using granulaw::ImpactLevels;
+using granulaw::larger;
 using granulaw::PairMapping;
 using granulaw::VelocityAxis;
 

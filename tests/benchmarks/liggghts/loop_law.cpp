@@ -20,6 +20,7 @@
 
 namespace {
 
+using granulaw::larger;
 using granulaw::testing::SyntheticLaw;
 
 /// `exact`: force at x, x_max and X.
