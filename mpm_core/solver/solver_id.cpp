@@ -7,7 +7,7 @@ namespace granulaw {
 
 const std::string& solver_id()
 {
-  static const std::string id = std::string(solver_sources) + "-" + kernels().name;
+  static const std::string id = std::string(solver_sources) + "-" + name_of(instruction_set());
   return id;
 }
 

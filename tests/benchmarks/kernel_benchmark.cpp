@@ -15,7 +15,6 @@
 #include "base/larger.hpp"
 #include "solver/body/kernels.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
-#include "solver/body/spatial_kernels.hpp"
 #include "solver/run/spatial_setup.hpp"
 
 namespace {
@@ -51,41 +50,37 @@ double rate_of(long points, Step step)
   return best;
 }
 
-double rate_of_flat(const Kernels& kernels, GridKind grid, const std::string& material, Precision precision)
+/// Squeezed under the contact: along z by `size` times a share that falls with the depth.
+double rate_of_body(Body body, InstructionSet set, double pole)
 {
-  RunOptions options;
-  options.grid = grid, options.precision = precision;
-  const Collision collision(sphere(material), {}, options, Support::free);
-  Body body = std::move(collision.build(0.05, 20, 0.0).bodies.front());
+  const Kernels& k = kernels(body, set);
   int phase = 0;
-  return rate_of(body.points, [&] {
+  return rate_of(body.reference().filled, [&] {
     const double size = ++phase % 2 ? 0.01 : 0.012;
-    for (int i = 0; i < body.nodes; ++i) {
-      body.ur_i[i] = size * body.r_i[i] * std::max(0.0, 1 - body.z_i[i]);
-      body.uz_i[i] = -size * body.z_i[i] * std::max(0.0, 1 - body.z_i[i]);
+    const int last = body.u_i.components - 1;
+    for (int i = 0; i < body.nodes(); ++i) {
+      const NodeField& place = body.reference().place_i;
+      const double height = place(i, last) - pole, way = size * std::max(0.0, 1 - height);
+      for (int c = 0; c < last; ++c) body.u_i(i, c) = way * place(i, c);
+      body.u_i(i, last) = -way * height;
     }
-    kernels.internal_force(body, false);
+    k.points_to_grid(body);
   });
 }
 
-double rate_of_spatial(const SpatialKernels& kernels, const std::string& material, Precision precision)
+Body flat_body(GridKind grid, const std::string& material, Precision precision)
+{
+  RunOptions options;
+  options.grid = grid, options.precision = precision;
+  return std::move(
+      Collision(sphere(material), {}, options, Support::free).build(0.05, 20, 0.0).bodies.front());
+}
+
+Body spatial_body(const std::string& material, Precision precision)
 {
   Plane wall{Vector3::UnitZ(), std::nan("")};
   const SpatialSetup setup(sphere(material), Eigen::Matrix3d::Identity(), {wall}, {true, true, false});
-  SpatialScene scene = setup.build(0.05, 8, 0.0, precision);
-  SpatialBody& body = scene.bodies.front();
-  std::vector<Vector3> place;
-  for (int i = 0; i < body.nodes; ++i) place.push_back(reference_place(body, i));
-  int phase = 0;
-  return rate_of(body.points, [&] {
-    const double size = ++phase % 2 ? 0.01 : 0.012;
-    for (int i = 0; i < body.nodes; ++i) {
-      const double way = size * std::max(0.0, -place[i][2]);
-      body.u_i[4 * i] = way * place[i][0], body.u_i[4 * i + 1] = way * place[i][1];
-      body.u_i[4 * i + 2] = -way * (1 + place[i][2]);
-    }
-    kernels.internal_force(body, false);
-  });
+  return std::move(setup.build(0.05, 8, 0.0, precision).bodies.front());
 }
 
 bool wanted(const std::string& name, int count, char** words)
@@ -99,31 +94,24 @@ bool wanted(const std::string& name, int count, char** words)
 
 int main(int count, char** words)
 {
-  struct Set
-  {
-    const Kernels* flat;
-    const SpatialKernels* spatial;
-  };
-  std::vector<Set> sets{{&isa_generic::kernels, &isa_generic::spatial_kernels}};
+  std::vector<InstructionSet> sets{InstructionSet::generic};
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2) sets.push_back({&isa_avx2::kernels, &isa_avx2::spatial_kernels});
+  if (avx2) sets.push_back(InstructionSet::avx2);
   if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl"))
-    sets.push_back({&isa_avx512::kernels, &isa_avx512::spatial_kernels});
-  for (const Set& set : sets)
+    sets.push_back(InstructionSet::avx512);
+  for (const InstructionSet set : sets)
     for (const char* grid : {"mapped", "rectilinear", "spatial"})
       for (const char* material : {"elastic", "perfect", "voce"})
         for (const bool single : {false, true}) {
           const std::string name =
-              std::string(set.flat->name) + " " + grid + " " + material + (single ? " single" : " double");
+              std::string(name_of(set)) + " " + grid + " " + material + (single ? " single" : " double");
           if (!wanted(name, count, words)) continue;
           const Precision precision = single ? Precision::single : Precision::full;
-          const double rate =
-              grid == std::string("spatial")
-                  ? rate_of_spatial(*set.spatial, material, precision)
-                  : rate_of_flat(*set.flat,
-                                 grid == std::string("mapped") ? GridKind::mapped : GridKind::rectilinear,
-                                 material, precision);
+          const bool spatial = grid == std::string("spatial");
+          const GridKind kind = grid == std::string("mapped") ? GridKind::mapped : GridKind::rectilinear;
+          const double rate = spatial ? rate_of_body(spatial_body(material, precision), set, -1)
+                                      : rate_of_body(flat_body(kind, material, precision), set, 0);
           std::printf("%-36s %7.2f M/s\n", name.c_str(), rate / 1e6);
           std::fflush(stdout);
         }

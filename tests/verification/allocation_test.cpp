@@ -8,7 +8,9 @@
 
 #include "base/larger.hpp"
 #include "references.hpp"
-#include "solver/loading/loading_programme.hpp"
+#include "solver/body/stable_step.hpp"
+#include "solver/loading/flight.hpp"
+#include "solver/loading/press.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/run/spatial_setup.hpp"
 #include "solver/run/time_step.hpp"
@@ -85,14 +87,14 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
   const Collision collision(particle, partner, options, Support::free);
   Scene scene = collision.build(pressed ? depth : collision.expected_overlap(velocity), 8, 0.0);
   const double reduced = scene.reduced_mass();
-  std::vector<StableStep<Body>> stable;
+  std::vector<StableStep> stable;
   for (Body& body : scene.bodies) {
     stable.emplace_back(body);
-    if (!pressed) body.throw_along(-velocity * reduced / body.mass);
+    if (!pressed) throw_body(body, {0, 0, -velocity * reduced / body.mass()});
   }
-  ImpactProgramme impact(20);
-  PressProgramme press({{0.5 * depth, depth}, 10, 4, Support::free}, collision.e_star());
-  LoadingProgramme& programme = pressed ? static_cast<LoadingProgramme&>(press) : impact;
+  Flight impact(20);
+  Press press({{0.5 * depth, depth}, 10, 4}, collision.e_star(), std::make_unique<BodyForce>());
+  Programme& programme = pressed ? static_cast<Programme&>(press) : impact;
 
   long first = 0, steps = 0, touching = 0;
   double time = 0, widest = 0;
@@ -102,7 +104,7 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
       dt = std::min(dt, 0.85 * stable[b].limit(scene.bodies[b]));
     const double impulse = advance(scene, programme, time, dt, dt);
     const double radius = scene.contact->edge_radius(scene.bodies);
-    press.observe(impulse / dt, radius);
+    programme.observe({time, 0, impulse / dt, radius, Branch::load, 0});
     touching += impulse > 0;
     widest = larger(widest, radius);
     time += dt;
@@ -126,11 +128,11 @@ TEST_P(SpatialAllocations, NoneAfterTheFirstStep)
   const SpatialSetup setup(Particle::from(reference::unit_sphere(100)), Eigen::Matrix3d::Identity(), {wall},
                            {false, true, false});
   constexpr double velocity = 0.1;
-  SpatialScene scene = setup.build(setup.expected_overlap(velocity), 6, 0.0, GetParam());
-  SpatialBody& body = scene.bodies.front();
-  const StableStep<SpatialBody> stable(body);
+  Scene scene = setup.build(setup.expected_overlap(velocity), 6, 0.0, GetParam());
+  Body& body = scene.bodies.front();
+  const StableStep stable(body);
   throw_body(body, {velocity, 0, -velocity}, Vector3::Zero(), scene.centre);
-  FreeFlight<SpatialScene> programme(20);
+  Flight programme(20);
   long first = 0, steps = 0, touching = 0;
   double time = 0;
   while (!programme.finished()) {

@@ -11,12 +11,13 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "references.hpp"
-#include "solver/grid/rectilinear_body.hpp"
 #include "solver/body/kernels.hpp"
-#include "solver/shape/shapes.hpp"
+#include "solver/body/stable_step.hpp"
+#include "solver/grid/rectilinear_body.hpp"
 #include "solver/run/grid_noise.hpp"
-#include "solver/runs.hpp"
 #include "solver/run/time_step.hpp"
+#include "solver/runs.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw {
 namespace {
@@ -98,34 +99,35 @@ double apparent_bulk_modulus(const Moduli& shell, const Moduli* core, double cor
   const Body full = rectilinear_body(whole);
   const double pressure = 1e-6;
   const auto key = [](const Body& body, int i) {
-    return std::pair(std::lround(1e6 * body.r_i[i]), std::lround(1e6 * body.z_i[i]));
+    return std::pair(std::lround(1e6 * body.reference().place_i(i, 0)),
+                     std::lround(1e6 * body.reference().place_i(i, 1)));
   };
   std::map<std::pair<long, long>, std::array<double, 2>> load;
   double volume = 0;
-  for (int p = 0; p < full.points; ++p) {
-    volume += full.volume_p[p];
+  for (int p = 0; p < full.points(); ++p) {
+    volume += full.reference().volume_p[p];
     for (int k = 0; k < 9; ++k) {
-      const std::size_t at = std::size_t(k) * full.points + p;
-      auto& f = load[key(full, full.corner_p[at])];
-      f[0] -= pressure * full.volume_p[p] * (full.br_p[at] + full.bh_p[at]);
-      f[1] -= pressure * full.volume_p[p] * full.bz_p[at];
+      const std::size_t at = std::size_t(k) * full.points() + p;
+      auto& f = load[key(full, full.reference().corners.node[at])];
+      f[0] -= pressure * full.reference().volume_p[p] *
+              (full.reference().corners.full.br[at] + full.reference().corners.full.bh[at]);
+      f[1] -= pressure * full.reference().volume_p[p] * full.reference().corners.full.bz[at];
     }
   }
-  std::vector<double> pr(b.nodes), pz(b.nodes);
-  for (int i = 0; i < b.nodes; ++i) pr[i] = load[key(b, i)][0], pz[i] = load[key(b, i)][1];
+  std::vector<double> pr(b.nodes()), pz(b.nodes());
+  for (int i = 0; i < b.nodes(); ++i) pr[i] = load[key(b, i)][0], pz[i] = load[key(b, i)][1];
 
   const double dt = 0.85 * StableStep(b).limit(b), damping = 1.5;  // slowest radial mode: period about 2.5
   double before = 0, work = 0;
   for (int n = 0; n * dt < 60; ++n) {
-    kernels().internal_force(b, false);
-    for (int i = 0; i < b.nodes; ++i) b.fr_i[i] += pr[i], b.fz_i[i] += pz[i];
-    kernels().accelerate(b, dt);
-    for (const int i : b.axis) b.vr_i[i] = 0;
-    for (int i = 0; i < b.nodes; ++i) b.vr_i[i] *= 1 - damping * dt, b.vz_i[i] *= 1 - damping * dt;
-    kernels().move(b, dt);
+    kernels(b).points_to_grid(b);
+    for (int i = 0; i < b.nodes(); ++i) b.f_i(i, 0) += pr[i], b.f_i(i, 1) += pz[i];
+    kernels(b).accelerate(b, dt);
+    for (int i = 0; i < b.nodes(); ++i) b.v_i(i, 0) *= 1 - damping * dt, b.v_i(i, 1) *= 1 - damping * dt;
+    kernels(b).grid_to_points(b, dt);
     before = work;
     work = 0;
-    for (int i = 0; i < b.nodes; ++i) work += pr[i] * b.ur_i[i] + pz[i] * b.uz_i[i];
+    for (int i = 0; i < b.nodes(); ++i) work += pr[i] * b.u_i(i, 0) + pz[i] * b.u_i(i, 1);
   }
   EXPECT_NEAR(before, work, 1e-8 * work);  // at rest
   return pressure * pressure * volume / work;

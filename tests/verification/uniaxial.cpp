@@ -3,9 +3,9 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
-#include "solver/material/law_table.hpp"
-#include "solver/grid/mapped_body.hpp"
 #include "solver/body/kernels.hpp"
+#include "solver/grid/mapped_body.hpp"
+#include "solver/material/law_table.hpp"
 
 namespace granulaw::verification {
 
@@ -38,12 +38,13 @@ Body ring(const Material& m)
 /// Stretches to exp(lateral) and exp(-strain), `dt` after the last time.
 CauchyStress stretch(Body& b, double lateral, double strain, double dt)
 {
-  for (int i = 0; i < b.nodes; ++i)
-    b.ur_i[i] = std::expm1(lateral) * b.r_i[i], b.uz_i[i] = std::expm1(-strain) * b.z_i[i];
+  for (int i = 0; i < b.nodes(); ++i)
+    b.u_i(i, 0) = std::expm1(lateral) * b.reference().place_i(i, 0),
+             b.u_i(i, 1) = std::expm1(-strain) * b.reference().place_i(i, 1);
   b.elapsed = dt;
-  kernels().internal_force(b, false);
+  kernels(b).points_to_grid(b);
   CauchyStress s{};
-  kernels().stress(b, &s);
+  kernels(b).stress(b, &s);
   return s;
 }
 
@@ -77,7 +78,7 @@ std::vector<StressStrain> compress(const Material& m, double last, int steps, do
     // the side moves out by 0 to 1/2 of the shortening: nu while elastic, 1/2 while plastic
     lateral = root(side_stress, lateral - 0.1 * increment, lateral + 0.7 * increment);
     const CauchyStress s = stretch(b, lateral, strain, dt);
-    curve.push_back({strain, -s.zz, b.plastic_strain_p[0]});
+    curve.push_back({strain, -s.zz, b.state.plastic_strain_p[0]});
   }
   return curve;
 }

@@ -8,9 +8,9 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
+#include "base/state_archive.hpp"
 #include "base/version.hpp"
 #include "solver/body/kernels.hpp"
-#include "base/state_archive.hpp"
 #include "solver/shape/solid.hpp"
 #include "terminal.hpp"
 
@@ -90,7 +90,7 @@ RunIdentity identity_of(RunIdentity asked, const Particle& particle, const Partn
   RunIdentity& identity = asked;
   identity.emplace_back("version", version());
   identity.emplace_back("commit", git_hash());
-  identity.emplace_back("instruction set", kernels().name);
+  identity.emplace_back("instruction set", name_of(instruction_set()));
   add(identity, "particle's", particle);
   identity.emplace_back("partner", partner.particle ? "particle" : partner.wall ? "wall" : "rigid plane");
   if (partner.particle) add(identity, "partner's", *partner.particle);

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "solver/body/kernels.hpp"
+#include "solver/body/node_loops.hpp"
 #include "solver/material/axisymmetric_tensor.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
@@ -19,28 +20,45 @@ template <class Real>
 using Block = typename Axisymmetric<Real>::Block;
 
 template <class Real>
-GRANULAW_INLINE PointArrays<Real>& arrays(Body& body)
+GRANULAW_INLINE auto& state_in(Body& body)
 {
   if constexpr (std::is_same_v<Real, float>)
     return body.single;
   else
-    return body;
+    return body.state;
+}
+template <class Real>
+GRANULAW_INLINE const CornerWeights<Real>& weights_in(const Reference& reference)
+{
+  if constexpr (std::is_same_v<Real, float>)
+    return reference.corners.single;
+  else
+    return reference.corners.full;
+}
+template <class Real>
+GRANULAW_INLINE const Real* volumes_in(const Reference& reference)
+{
+  if constexpr (std::is_same_v<Real, float>)
+    return reference.single_volume_p.data();
+  else
+    return reference.volume_p.data();
 }
 
 /// Displacement gradients of `count` points from the `corners` nodes of each. Differences to the first node
 /// are taken in double, so that float loses nothing to a common displacement.
 template <int corners, class Real>
-__attribute__((noinline)) void gather(Body& body, int first, int count, Block<Real>& out)
+__attribute__((noinline)) void gather(const Body& body, int first, int count, Block<Real>& out)
 {
-  const PointArrays<Real>& points = arrays<Real>(body);
-  const int n = body.points;
-  const int* __restrict corner = body.corner_p.data() + first;
-  const Real* __restrict br = points.br_p.data() + first;
-  const Real* __restrict bz = points.bz_p.data() + first;
-  const Real* __restrict bh = points.bh_p.data() + first;
-  const Real* __restrict gamma = corners == 4 ? points.hourglass_p.data() + first : nullptr;
-  const double* __restrict ur = body.ur_i.data();
-  const double* __restrict uz = body.uz_i.data();
+  const Reference& reference = body.reference();
+  const CornerWeights<Real>& weights = weights_in<Real>(reference);
+  const int n = reference.points;
+  const int* __restrict corner = reference.corners.node.data() + first;
+  const Real* __restrict br = weights.br.data() + first;
+  const Real* __restrict bz = weights.bz.data() + first;
+  const Real* __restrict bh = weights.bh.data() + first;
+  const Real* __restrict gamma = corners == 4 ? weights.hourglass.data() + first : nullptr;
+  const double* __restrict ur = body.u_i.values.data();
+  const double* __restrict uz = ur + body.u_i.nodes;
 #pragma omp simd
   for (int p = 0; p < count; ++p) {
     const double from_r = ur[corner[p]], from_z = uz[corner[p]];
@@ -64,17 +82,19 @@ __attribute__((noinline)) void gather(Body& body, int first, int count, Block<Re
 template <int corners, class Real>
 __attribute__((noinline)) void corner_forces(Body& body, int first, int count, const Block<Real>& in)
 {
-  PointArrays<Real>& points = arrays<Real>(body);
-  const int n = body.points;
-  const Real* __restrict br = points.br_p.data() + first;
-  const Real* __restrict bz = points.bz_p.data() + first;
-  const Real* __restrict bh = points.bh_p.data() + first;
-  const Real* __restrict gamma = corners == 4 ? points.hourglass_p.data() + first : nullptr;
-  const Real* __restrict stiffness = corners == 4 ? points.stiffness_p.data() + first : nullptr;
-  const Real* __restrict volume = points.volume_p.data() + first;
-  Real* __restrict energy = points.elastic_energy_p.data() + first;
-  Real* __restrict corner_fr = points.corner_fr.data() + first;
-  Real* __restrict corner_fz = points.corner_fz.data() + first;
+  const Reference& reference = body.reference();
+  const CornerWeights<Real>& weights = weights_in<Real>(reference);
+  PointState<Real>& state = state_in<Real>(body);
+  const int n = reference.points;
+  const Real* __restrict br = weights.br.data() + first;
+  const Real* __restrict bz = weights.bz.data() + first;
+  const Real* __restrict bh = weights.bh.data() + first;
+  const Real* __restrict gamma = corners == 4 ? weights.hourglass.data() + first : nullptr;
+  const Real* __restrict stiffness = corners == 4 ? weights.stiffness.data() + first : nullptr;
+  const Real* __restrict volume = volumes_in<Real>(reference) + first;
+  Real* __restrict energy = state.elastic_energy_p.data() + first;
+  Real* __restrict corner_fr = state.corner_fr.data() + first;
+  Real* __restrict corner_fz = state.corner_fz.data() + first;
 #pragma omp simd
   for (int p = 0; p < count; ++p) {
     const Real v = volume[p];
@@ -97,15 +117,15 @@ __attribute__((noinline)) void corner_forces(Body& body, int first, int count, c
 }
 
 template <class Real>
-GRANULAW_INLINE PointState<Axisymmetric<Real>> state_of(Body& body, int first)
+GRANULAW_INLINE BlockState<Axisymmetric<Real>> state_of(Body& body, int first)
 {
-  PointArrays<Real>& points = arrays<Real>(body);
-  return {{points.crr_p.data() + first, points.czz_p.data() + first, points.crz_p.data() + first,
-           points.chh_p.data() + first},
-          points.plastic_strain_p.data() + first,
-          points.plastic_work_p.data() + first,
-          points.elastic_energy_p.data() + first,
-          points.volume_p.data() + first};
+  PointState<Real>& state = state_in<Real>(body);
+  AlignedVector<Real>* c = state.c_p.data();
+  return {{c[0].data() + first, c[1].data() + first, c[2].data() + first, c[3].data() + first},
+          state.plastic_strain_p.data() + first,
+          state.plastic_work_p.data() + first,
+          state.elastic_energy_p.data() + first,
+          volumes_in<Real>(body.reference()) + first};
 }
 
 /// `updated` grid: what the stages found for the displacements of one step becomes the points' own: elastic
@@ -113,10 +133,11 @@ GRANULAW_INLINE PointState<Axisymmetric<Real>> state_of(Body& body, int first)
 __attribute__((noinline)) void push_forward(Body& body, int first, int count, const Block<double>& block)
 {
   MovingPoints& m = *body.moving;
-  double* __restrict crr = body.crr_p.data() + first;
-  double* __restrict czz = body.czz_p.data() + first;
-  double* __restrict crz = body.crz_p.data() + first;
-  double* __restrict chh = body.chh_p.data() + first;
+  AlignedVector<double>* c = body.state.c_p.data();
+  double* __restrict crr = c[0].data() + first;
+  double* __restrict czz = c[1].data() + first;
+  double* __restrict crz = c[2].data() + first;
+  double* __restrict chh = c[3].data() + first;
   double* __restrict trr = m.trr.data() + first;
   double* __restrict tzz = m.tzz.data() + first;
   double* __restrict trz = m.trz.data() + first;
@@ -142,13 +163,14 @@ __attribute__((noinline)) void push_forward(Body& body, int first, int count, co
 template <class Real>
 GRANULAW_INLINE void sum_to_nodes(Body& body)
 {
-  const PointArrays<Real>& points = arrays<Real>(body);
-  const int nodes = body.nodes, slots = body.slots;
-  const int* __restrict slot = body.node_slots.data();
-  const Real* __restrict corner_fr = points.corner_fr.data();
-  const Real* __restrict corner_fz = points.corner_fz.data();
-  double* __restrict fr = body.fr_i.data();
-  double* __restrict fz = body.fz_i.data();
+  const Reference& reference = body.reference();
+  const PointState<Real>& state = state_in<Real>(body);
+  const int nodes = reference.nodes, slots = reference.corners.slots;
+  const int* __restrict slot = reference.corners.node_slots.data();
+  const Real* __restrict corner_fr = state.corner_fr.data();
+  const Real* __restrict corner_fz = state.corner_fz.data();
+  double* __restrict fr = body.f_i.values.data();
+  double* __restrict fz = fr + nodes;
   // blocks of nodes keep their sums in the first-level cache while the slots go by
   constexpr int stride = 256;
   for (int from = 0; from < nodes; from += stride) {
@@ -172,9 +194,9 @@ GRANULAW_INLINE void sum_to_nodes(Body& body)
 enum class Then { forces, push_forward };
 
 template <class Real>
-void gather_block(Body& body, int first, int count, Block<Real>& block)
+void gather_block(const Body& body, int first, int count, Block<Real>& block)
 {
-  if (body.corners == 4)
+  if (body.reference().corners.each == 4)
     gather<4, Real>(body, first, count, block);
   else
     gather<9, Real>(body, first, count, block);
@@ -185,7 +207,7 @@ void pass_on(Body& body, int first, int count, const Block<Real>& block, Then th
 {
   if constexpr (std::is_same_v<Real, double>)
     if (then == Then::push_forward) return push_forward(body, first, count, block);
-  if (body.corners == 4)
+  if (body.reference().corners.each == 4)
     corner_forces<4, Real>(body, first, count, block);
   else
     corner_forces<9, Real>(body, first, count, block);
@@ -198,7 +220,7 @@ void update(Body& body, Then then, bool frozen)
   const bool moves = then == Then::push_forward;
   const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
   Block<Real> block;
-  for (const Region& region : body.regions) {
+  for (const Region& region : body.reference().regions) {
     Yielding<Real> yielding = yielding_of<Real>(region.moduli);
     if (frozen) yielding.find = nullptr;
     if (moves) yielding.has_state = true;
@@ -213,16 +235,22 @@ void update(Body& body, Then then, bool frozen)
   if (!frozen) body.elapsed = 0.0;
 }
 
-void internal_force(Body& body, bool frozen)
+void points_to_grid(Body& body)
 {
-  if (frozen) body.fetch_state();
-  if (body.is_single() && !frozen) {
+  if (body.is_single()) {
     update<float>(body, Then::forces, false);
     sum_to_nodes<float>(body);
   } else {
-    update<double>(body, Then::forces, frozen);
+    update<double>(body, Then::forces, false);
     sum_to_nodes<double>(body);
   }
+}
+
+void elastic_response(Body& body)
+{
+  body.fetch_state();
+  update<double>(body, Then::forces, true);
+  sum_to_nodes<double>(body);
 }
 
 void update_stress_of_points(Body& body)
@@ -235,8 +263,9 @@ void force_of_stress(Body& body)
   const MovingPoints& m = *body.moving;
   const double *trr = m.trr.data(), *tzz = m.tzz.data(), *trz = m.trz.data(), *thh = m.thh.data();
   Block<double> block;
-  for (int first = 0; first < body.points; first += block_points) {
-    const int left = body.points - first, count = left < block_points ? left : block_points;
+  const Reference& own = m.own;
+  for (int first = 0; first < own.points; first += block_points) {
+    const int left = own.points - first, count = left < block_points ? left : block_points;
     for (int p = 0; p < count; ++p) {
       const int at = first + p;
       block.prr[p] = trr[at], block.prz[p] = block.pzr[p] = trz[at];
@@ -245,41 +274,12 @@ void force_of_stress(Body& body)
     corner_forces<9, double>(body, first, count, block);
   }
   // corners change from step to step: no list of them by node
-  const int nodes = body.nodes, corners = 9 * body.points;
-  const int* corner = body.corner_p.data();
-  double *fr = body.fr_i.data(), *fz = body.fz_i.data();
+  const int nodes = own.nodes, corners = 9 * own.points;
+  const int* corner = own.corners.node.data();
+  const double *corner_fr = body.state.corner_fr.data(), *corner_fz = body.state.corner_fz.data();
+  double *fr = body.f_i.values.data(), *fz = fr + nodes;
   for (int i = 0; i < nodes; ++i) fr[i] = fz[i] = 0.0;
-  for (int k = 0; k < corners; ++k) fr[corner[k]] += body.corner_fr[k], fz[corner[k]] += body.corner_fz[k];
-}
-
-void accelerate(Body& body, double dt)
-{
-  const int nodes = body.nodes;
-  const double* __restrict w = body.inverse_mass_i.data();
-  const double* __restrict fr = body.fr_i.data();
-  const double* __restrict fz = body.fz_i.data();
-  double* __restrict vr = body.vr_i.data();
-  double* __restrict vz = body.vz_i.data();
-#pragma omp simd
-  for (int i = 0; i < nodes; ++i) {
-    vr[i] += dt * w[i] * fr[i];
-    vz[i] += dt * w[i] * fz[i];
-  }
-}
-
-void move(Body& body, double dt)
-{
-  const int nodes = body.nodes;
-  const double* __restrict vr = body.vr_i.data();
-  const double* __restrict vz = body.vz_i.data();
-  double* __restrict ur = body.ur_i.data();
-  double* __restrict uz = body.uz_i.data();
-#pragma omp simd
-  for (int i = 0; i < nodes; ++i) {
-    ur[i] += dt * vr[i];
-    uz[i] += dt * vz[i];
-  }
-  body.elapsed += dt;
+  for (int k = 0; k < corners; ++k) fr[corner[k]] += corner_fr[k], fz[corner[k]] += corner_fz[k];
 }
 
 /// Kirchhoff stress over J; plastic flow keeps the volume: J^2 = det b, b the elastic left Cauchy-Green
@@ -287,8 +287,9 @@ void move(Body& body, double dt)
 void stress_of_moving_points(const Body& body, CauchyStress* points)
 {
   const MovingPoints& m = *body.moving;
-  for (int p = 0; p < body.points; ++p) {
-    const double rr = body.crr_p[p], zz = body.czz_p[p], rz = body.crz_p[p], hh = body.chh_p[p];
+  const AlignedVector<double>* c = body.state.c_p.data();
+  for (int p = 0; p < m.own.points; ++p) {
+    const double rr = c[0][p], zz = c[1][p], rz = c[2][p], hh = c[3][p];
     const double per_j = 1 / root_of(((1 + rr) * (1 + zz) - rz * rz) * (1 + hh));
     points[p] = {m.trr[p] * per_j, m.thh[p] * per_j, m.tzz[p] * per_j, 0.0, m.trz[p] * per_j, 0.0};
   }
@@ -298,7 +299,7 @@ void stress(Body& body, CauchyStress* points)
 {
   if (body.moving) return stress_of_moving_points(body, points);
   Block<double> block;
-  for (const Region& region : body.regions)
+  for (const Region& region : body.reference().regions)
     for (int first = region.begin; first < region.end; first += block_points) {
       const int left = region.end - first, count = left < block_points ? left : block_points;
       gather_block<double>(body, first, count, block);
@@ -307,26 +308,27 @@ void stress(Body& body, CauchyStress* points)
     }
 }
 
-double momentum(const Body& body)
+void momentum(const Body& body, double* of_body)
 {
-  const int nodes = body.nodes;
-  const double* __restrict mass = body.mass_i.data();
-  const double* __restrict vz = body.vz_i.data();
+  const int nodes = body.v_i.nodes;
+  const double* __restrict mass = body.reference().mass_i.data();
+  const double* __restrict vz = body.v_i.values.data() + nodes;
   double sum = 0;
 #pragma omp simd reduction(+ : sum)
   for (int i = 0; i < nodes; ++i) sum += mass[i] * vz[i];
-  return sum;
+  of_body[0] = of_body[1] = of_body[3] = 0.0, of_body[2] = sum;
 }
 
 template <int corners>
 GRANULAW_INLINE double growth_of(const Body& body)
 {
-  const int n = body.points;
-  const int* __restrict corner = body.corner_p.data();
-  const double* __restrict br = body.br_p.data();
-  const double* __restrict bz = body.bz_p.data();
-  const double* __restrict ur = body.ur_i.data();
-  const double* __restrict uz = body.uz_i.data();
+  const Reference& reference = body.reference();
+  const int n = reference.points;
+  const int* __restrict corner = reference.corners.node.data();
+  const double* __restrict br = reference.corners.full.br.data();
+  const double* __restrict bz = reference.corners.full.bz.data();
+  const double* __restrict ur = body.u_i.values.data();
+  const double* __restrict uz = ur + reference.nodes;
   double most = 0;
 #pragma omp simd reduction(max : most)
   for (int p = 0; p < n; ++p) {
@@ -347,15 +349,19 @@ GRANULAW_INLINE double growth_of(const Body& body)
   return most;
 }
 
-double growth(const Body& body)
+Growth growth(const Body& body)
 {
-  return body.corners == 4 ? growth_of<4>(body) : growth_of<9>(body);
+  const Corners& corners = body.reference().corners;
+  const double found = corners.each == 4 ? growth_of<4>(body) : growth_of<9>(body);
+  const double at_rest = corners.bound_at_rest > 0.0 ? corners.bound_at_rest : 1.0;
+  const double grown = found > at_rest || corners.bound_at_rest == 0.0 ? found / at_rest : 1.0;
+  return {0.0, grown, grown, 1.0};
 }
 
 }  // namespace
 
-extern const Kernels kernels{
-    GRANULAW_ISA_NAME, internal_force, update_stress_of_points, force_of_stress, accelerate, move, stress,
-    momentum,          growth};
+extern const Kernels corner_kernels{points_to_grid, accelerate, move,    elastic_response,
+                                    growth,         stress,     momentum};
+extern const PointKernels point_kernels{update_stress_of_points, force_of_stress};
 
 }  // namespace granulaw::GRANULAW_ISA_NAMESPACE

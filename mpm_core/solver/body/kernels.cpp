@@ -4,14 +4,11 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "solver/contact/rows.hpp"
-#include "solver/body/spatial_kernels.hpp"
+#include "solver/body/updated_points.hpp"
 
 namespace granulaw {
 
 namespace {
-
-enum class InstructionSet { generic, avx2, avx512 };
 
 InstructionSet choose()
 {
@@ -32,31 +29,69 @@ InstructionSet choose()
   return InstructionSet::generic;
 }
 
+struct Tables
+{
+  const Kernels *corners, *cells;
+  const PointKernels* points;
+};
+const Tables& tables(InstructionSet set)
+{
+  static const Tables all[] = {
+      {&isa_generic::corner_kernels, &isa_generic::cell_kernels, &isa_generic::point_kernels},
+      {&isa_avx2::corner_kernels, &isa_avx2::cell_kernels, &isa_avx2::point_kernels},
+      {&isa_avx512::corner_kernels, &isa_avx512::cell_kernels, &isa_avx512::point_kernels}};
+  return all[static_cast<int>(set)];
+}
+
+/// The points come and go among the nodes of an `updated` grid, whose limit does not follow their
+/// deformation.
+Growth no_growth(const Body&)
+{
+  return {0, 1, 1, 1};
+}
+
+void move_with_points(Body& body, double dt)
+{
+  tables(instruction_set()).corners->grid_to_points(body, dt);
+  updated_grid_to_points(body, dt);
+}
+
+Kernels updated_kernels()
+{
+  Kernels k = *tables(instruction_set()).corners;
+  k.points_to_grid = updated_points_to_grid, k.grid_to_points = move_with_points, k.growth = no_growth;
+  return k;
+}
+
+}  // namespace
+
 InstructionSet instruction_set()
 {
   static const InstructionSet chosen = choose();
   return chosen;
 }
 
-}  // namespace
-
-const Kernels& kernels()
+const char* name_of(InstructionSet set)
 {
-  const Kernels* sets[] = {&isa_generic::kernels, &isa_avx2::kernels, &isa_avx512::kernels};
-  return *sets[static_cast<int>(instruction_set())];
+  constexpr const char* names[] = {"generic", "avx2", "avx512"};
+  return names[static_cast<int>(set)];
 }
 
-const SpatialKernels& spatial_kernels()
+const Kernels& kernels(const Body& body, InstructionSet set)
 {
-  const SpatialKernels* sets[] = {&isa_generic::spatial_kernels, &isa_avx2::spatial_kernels,
-                                  &isa_avx512::spatial_kernels};
-  return *sets[static_cast<int>(instruction_set())];
+  static const Kernels updated = updated_kernels();
+  if (body.moving) return updated;
+  return body.reference().is_spatial() ? *tables(set).cells : *tables(set).corners;
 }
 
-const RowKernels& row_kernels()
+const Kernels& kernels(const Body& body)
 {
-  const RowKernels* sets[] = {&isa_generic::row_kernels, &isa_avx2::row_kernels, &isa_avx512::row_kernels};
-  return *sets[static_cast<int>(instruction_set())];
+  return kernels(body, instruction_set());
+}
+
+const PointKernels& point_kernels()
+{
+  return *tables(instruction_set()).points;
 }
 
 }  // namespace granulaw

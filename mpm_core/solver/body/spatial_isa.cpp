@@ -5,8 +5,9 @@
 // The eight octants of a cell are the lanes of a vector.
 #include <type_traits>
 
+#include "solver/body/kernels.hpp"
+#include "solver/body/node_loops.hpp"
 #include "solver/material/spatial_tensor.hpp"
-#include "solver/body/spatial_kernels.hpp"
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
@@ -34,8 +35,8 @@ using Lanes = typename Vectors<Real>::Lanes;
 template <class Real>
 using HalfLanes = typename Vectors<Real>::HalfLanes;
 
-/// The part of a cell's octants that one register holds; nine sums of whole cells in double would spill without
-/// AVX-512.
+/// The part of a cell's octants that one register holds; nine sums of whole cells in double would spill
+/// without AVX-512.
 template <class Real>
 struct Register
 {
@@ -93,13 +94,13 @@ GRANULAW_INLINE Half row_sums(const Half (&v)[4])
   return __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
 }
 
-template <class Real, class SomeBody>
-GRANULAW_INLINE auto& points_of(SomeBody& body)
+template <class Real>
+GRANULAW_INLINE const CellWeights<Real>& weights_in(const SplineCells& cells)
 {
   if constexpr (std::is_same_v<Real, float>)
-    return body.single;
+    return cells.single;
   else
-    return body;
+    return cells.full;
 }
 
 /// Raw pointers to the grid of a body.
@@ -113,15 +114,19 @@ struct Grid
   const Real* cut_moments;
   long across, up;  ///< strides along y and z, in nodes; along x it is 1
 
-  GRANULAW_MEMBER explicit Grid(const SpatialBody& body, double* force = nullptr)
-      : u(body.u_i.data()),
+  GRANULAW_MEMBER explicit Grid(const Body& body, double* force = nullptr)
+      : Grid(body.u_i.values.data(), force, body.reference().cells)
+  {
+  }
+  GRANULAW_MEMBER Grid(const double* displacement, double* force, const SplineCells& grid)
+      : u(displacement),
         f(force),
-        axis{points_of<Real>(body).axis_weights[0].data(), points_of<Real>(body).axis_weights[1].data(),
-             points_of<Real>(body).axis_weights[2].data()},
-        cells(body.cells.data()),
-        cut_moments(points_of<Real>(body).cut_moments.data()),
-        across(body.count[0]),
-        up(long(body.count[0]) * body.count[1])
+        axis{weights_in<Real>(grid).axis[0].data(), weights_in<Real>(grid).axis[1].data(),
+             weights_in<Real>(grid).axis[2].data()},
+        cells(grid.cells.data()),
+        cut_moments(weights_in<Real>(grid).cut_moments.data()),
+        across(grid.count[0]),
+        up(long(grid.count[0]) * grid.count[1])
   {
   }
   GRANULAW_MEMBER const Real* moments_of(const SpatialCell& cell) const
@@ -411,29 +416,38 @@ GRANULAW_INLINE void scatter(const Grid<Real>& grid, int first, int end, const B
 }
 
 template <class Real>
-GRANULAW_INLINE PointState<Spatial<Real>> state_of(SpatialBody& body, int first)
+GRANULAW_INLINE BlockState<Spatial<Real>> state_from(PointState<Real>& state, const Real* volume, int first)
 {
-  SpatialPoints<Real>& points = points_of<Real>(body);
-  return {{points.c_p[0].data() + first, points.c_p[1].data() + first, points.c_p[2].data() + first,
-           points.c_p[3].data() + first, points.c_p[4].data() + first, points.c_p[5].data() + first},
-          points.plastic_strain_p.data() + first,
-          points.plastic_work_p.data() + first,
-          points.elastic_energy_p.data() + first,
-          points.volume_p.data() + first};
+  AlignedVector<Real>* c = state.c_p.data();
+  return {{c[0].data() + first, c[1].data() + first, c[2].data() + first, c[3].data() + first,
+           c[4].data() + first, c[5].data() + first},
+          state.plastic_strain_p.data() + first,
+          state.plastic_work_p.data() + first,
+          state.elastic_energy_p.data() + first,
+          volume + first};
+}
+template <class Real>
+GRANULAW_INLINE BlockState<Spatial<Real>> state_of(Body& body, int first)
+{
+  if constexpr (std::is_same_v<Real, float>)
+    return state_from(body.single, body.reference().single_volume_p.data(), first);
+  else
+    return state_from(body.state, body.reference().volume_p.data(), first);
 }
 
 /// Every region, block by block. `frozen`: nothing flows.
 template <class Real>
-void update(SpatialBody& body, bool frozen)
+void update(Body& body, bool frozen)
 {
-  const Grid<Real> grid(body, body.f_i.data());
+  const Grid<Real> grid(body, body.f_i.values.data());
   const double per_dt = body.elapsed > 0.0 ? 1.0 / body.elapsed : 0.0;
   Block<Real> block;
-  for (const SpatialRegion& region : body.regions) {
+  for (const Region& region : body.reference().regions) {
     Yielding<Real> yielding = yielding_of<Real>(region.moduli);
     if (frozen) yielding.find = nullptr;
-    for (int first = region.begin; first < region.end; first += block_cells) {
-      const int end = first + block_cells < region.end ? first + block_cells : region.end;
+    for (int first = region.begin / octants, last = region.end / octants; first < last;
+         first += block_cells) {
+      const int end = first + block_cells < last ? first + block_cells : last;
       gather<Real>(grid, first, end, block);
       update_stress<Spatial<Real>>(state_of<Real>(body, octants * first), region.moduli, yielding, per_dt,
                                    false, octants * (end - first), block);
@@ -442,33 +456,25 @@ void update(SpatialBody& body, bool frozen)
   }
 }
 
-void internal_force(SpatialBody& body, bool frozen)
+void points_to_grid(Body& body)
 {
-  double* __restrict f = body.f_i.data();
-  for (int i = 0; i < 4 * body.nodes; ++i) f[i] = 0.0;
+  double* __restrict f = body.f_i.values.data();
+  for (int i = 0; i < 4 * body.f_i.nodes; ++i) f[i] = 0.0;
   if (body.is_single())
-    update<float>(body, frozen);
+    update<float>(body, false);
   else
-    update<double>(body, frozen);
-  if (!frozen) body.elapsed = 0.0;
+    update<double>(body, false);
+  body.elapsed = 0.0;
 }
 
-void accelerate(SpatialBody& body, double dt)
+void elastic_response(Body& body)
 {
-  const double* __restrict w = body.inverse_mass_i.data();
-  const double* __restrict f = body.f_i.data();
-  double* __restrict v = body.v_i.data();
-#pragma omp simd
-  for (int i = 0; i < 4 * body.nodes; ++i) v[i] += dt * w[i] * f[i];
-}
-
-void move(SpatialBody& body, double dt)
-{
-  const double* __restrict v = body.v_i.data();
-  double* __restrict u = body.u_i.data();
-#pragma omp simd
-  for (int i = 0; i < 4 * body.nodes; ++i) u[i] += dt * v[i];
-  body.elapsed += dt;
+  body.fetch_state();
+  double* __restrict f = body.f_i.values.data();
+  const double* __restrict inverse_mass = body.reference().inverse_mass_i.values.data();
+  for (int i = 0; i < 4 * body.f_i.nodes; ++i) f[i] = 0.0;
+  update<double>(body, true);
+  for (int i = 0; i < 4 * body.f_i.nodes; ++i) f[i] = inverse_mass[i] > 0.0 ? f[i] : 0.0;
 }
 
 /// Largest eigenvalue of a positive tensor, from above by less than 1 %: with equal smaller ones the first
@@ -489,7 +495,7 @@ GRANULAW_INLINE Real largest_eigenvalue(const Symmetric<Real>& a)
 }
 
 /// Largest 1 + share (ratio - 1) and least det F of the octants of one cell, ratio the largest eigenvalue of
-/// A A^T (CellGrowth) over `at_rest`, times the stiffening under pressure, of which `bulk_share` is K/M.
+/// A A^T (Growth) over `at_rest`, times the stiffening under pressure, of which `bulk_share` is K/M.
 template <class Real>
 GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Real (&per_edge)[3],
                                   Real at_rest, Real bulk_share, const double* __restrict share,
@@ -520,21 +526,22 @@ GRANULAW_INLINE void measure_cell(const Block<Real>& block, int first, const Rea
 }
 
 template <class Real>
-GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
+GRANULAW_INLINE Growth growth_of(const Body& body)
 {
   const Grid<Real> grid(body);
   constexpr double whole[octants] = {1, 1, 1, 1, 1, 1, 1, 1};
-  CellGrowth found{0.0, 1.0, 1.0, 1.0};
+  Growth found{0.0, 1.0, 1.0, 1.0};
   const auto raise = [](double& most, double value) __attribute__((always_inline))
   {
     most = value > most ? value : most;
   };
   Block<Real> block;
-  for (const SpatialRegion& region : body.regions) {
+  for (const Region& region : body.reference().regions) {
     const Moduli& m = region.moduli;
     const Real bulk_share = Real(m.bulk / (m.bulk + 4.0 / 3.0 * m.shear));
-    for (int first = region.begin; first < region.end; first += block_cells) {
-      const int end = first + block_cells < region.end ? first + block_cells : region.end;
+    for (int first = region.begin / octants, last = region.end / octants; first < last;
+         first += block_cells) {
+      const int end = first + block_cells < last ? first + block_cells : last;
       gather<Real>(grid, first, end, block);
       for (int cell = first; cell < end; ++cell) {
         Real per_edge[3], ratio, volume;
@@ -544,7 +551,8 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
           raise(finest, per_edge[d]);
         }
         const int cut = grid.cells[cell].cut;
-        const double* share = cut >= 0 ? body.step_share_p.data() + octants * std::size_t(cut) : whole;
+        const double* share =
+            cut >= 0 ? body.reference().cells.step_share.data() + octants * std::size_t(cut) : whole;
         measure_cell<Real>(block, octants * (cell - first), per_edge, Real(finest * finest), bulk_share,
                            share, ratio, volume);
         raise(found.largest, ratio);
@@ -559,42 +567,44 @@ GRANULAW_INLINE CellGrowth growth_of(const SpatialBody& body)
   return found;
 }
 
-CellGrowth growth(const SpatialBody& body)
+Growth growth(const Body& body)
 {
   return body.is_single() ? growth_of<float>(body) : growth_of<double>(body);
 }
 
-void stress(SpatialBody& body, CauchyStress* points)
+void stress(Body& body, CauchyStress* points)
 {
   const Grid<double> grid(body);
   Block<double> block;
-  for (const SpatialRegion& region : body.regions)
-    for (int first = region.begin; first < region.end; first += block_cells) {
-      const int end = first + block_cells < region.end ? first + block_cells : region.end;
+  for (const Region& region : body.reference().regions)
+    for (int first = region.begin / octants, last = region.end / octants; first < last;
+         first += block_cells) {
+      const int end = first + block_cells < last ? first + block_cells : last;
       gather<double>(grid, first, end, block);
       cauchy_stress<Spatial<double>>(state_of<double>(body, octants * first), region.moduli,
                                      octants * (end - first), block, points + octants * first);
     }
 }
 
-void momentum(const SpatialBody& body, double* sum)
+void momentum(const Body& body, double* sum)
 {
-  const double* mass = body.mass_i.data();
-  const double* v = body.v_i.data();
+  const int nodes = body.v_i.nodes;
+  const double* mass = body.reference().mass_i.data();
+  const double* v = body.v_i.values.data();
   HalfLanes<double> sums[2]{};
-  const int even = body.nodes & ~1;
+  const int even = nodes & ~1;
   for (int i = 0; i < even; i += 2) {
     sums[0] += mass[i] * half_lanes(v + 4 * i);
     sums[1] += mass[i + 1] * half_lanes(v + 4 * i + 4);
   }
-  if (even < body.nodes) sums[0] += mass[even] * half_lanes(v + 4 * even);
+  if (even < nodes) sums[0] += mass[even] * half_lanes(v + 4 * even);
   const HalfLanes<double> all = sums[0] + sums[1];
   for (int c = 0; c < 4; ++c) sum[c] = all[c];
 }
 
 }  // namespace
 
-extern const SpatialKernels spatial_kernels{
-    GRANULAW_ISA_NAME, internal_force, accelerate, move, growth, stress, momentum};
+extern const Kernels cell_kernels{points_to_grid, accelerate, move,    elastic_response,
+                                  growth,         stress,     momentum};
 
 }  // namespace granulaw::GRANULAW_ISA_NAMESPACE

@@ -22,35 +22,36 @@ struct Motion
   double r, z, vr, vz;
 };
 
-Motion motion(const Body& b, const Surface& s, int m)
+Motion motion(const Body& b, const Markers& s, int m)
 {
-  Motion x{s.r[m], s.z[m], 0, 0};
+  Motion x{s.place[m][0], s.place[m][2], 0, 0};
+  const double* weight = s.weights(m);
   for (int k = 0; k < s.corners; ++k) {
-    const int i = s.node[std::size_t(k) * s.count + m];
-    const double w = s.weight[std::size_t(k) * s.count + m];
-    x.r += w * b.ur_i[i], x.z += w * b.uz_i[i];
-    x.vr += w * b.vr_i[i], x.vz += w * b.vz_i[i];
+    const int i = s.node(m, k);
+    x.r += weight[k] * b.u_i(i, 0), x.z += weight[k] * b.u_i(i, 1);
+    x.vr += weight[k] * b.v_i(i, 0), x.vz += weight[k] * b.v_i(i, 1);
   }
   return x;
 }
 
 Motion motion(const Body& b, int m)
 {
-  return motion(b, b.surface, m);
+  return motion(b, b.reference().surface, m);
 }
 
 /// Opposite walls must still be seen from each other in the direction they were in at the start.
 void check_pores(const Body& b)
 {
-  const Surface& s = b.pore_walls;
+  const Markers& s = b.reference().pore_walls;
   for (int m = 0; m + 1 < s.count; m += 2) {
     const Motion from = motion(b, s, m), to = motion(b, s, m + 1);
-    const double dr = s.r[m + 1] - s.r[m], dz = s.z[m + 1] - s.z[m];
+    const auto &here = s.place[m], &there = s.place[m + 1];
+    const double dr = there[0] - here[0], dz = there[2] - here[2];
     if (!(dr * (to.r - from.r) + dz * (to.z - from.z) > 0))
       fail("solver",
            fmt::format("the pore at r = {:.4g}, z = {:.4g} (in radii of the first particle) has closed, and "
                        "contact of its walls is not computed; stay below this depth or fill the pore",
-                       0.5 * (s.r[m] + s.r[m + 1]), 0.5 * (s.z[m] + s.z[m + 1])));
+                       0.5 * (here[0] + there[0]), 0.5 * (here[2] + there[2])));
   }
 }
 
@@ -66,9 +67,9 @@ double edge_between(double closed, EdgePoint first, EdgePoint second)
 
 void PlaneContact::push(Body& body, int node, double kick, double least)
 {
-  double& v = body.vz_i[node];
-  const double impulse = body.mass_i[node] * (least - v);
-  pushes_.push_back({node, impulse, v - kick * body.inverse_mass_i[node] * body.fz_i[node]});
+  double& v = body.v_i(node, 1);
+  const double impulse = body.reference().mass_i[node] * (least - v);
+  pushes_.push_back({node, impulse, v - kick * body.reference().inverse_mass_i(node, 1) * body.f_i(node, 1)});
   impulse_ += impulse;
   v = least;
 }
@@ -76,32 +77,36 @@ void PlaneContact::push(Body& body, int node, double kick, double least)
 double PlaneContact::correct(std::span<Body> bodies, double kick, double dt)
 {
   Body& body = bodies.front();
-  const std::vector<int>& surface = body.surface.node;
-  const int count = body.surface.count;
+  const Reference& reference = body.reference();
+  const Markers& surface = reference.surface;
+  const int count = surface.count;
+  const double* height = &reference.place_i.values[reference.nodes];
+  const double* uz = &body.u_i.values[reference.nodes];
+  const double* vz = &body.v_i.values[reference.nodes];
   pushes_.clear();
-  pushes_.reserve(std::size_t(body.nodes) + count);  // all that there can be, so that no later step allocates
+  pushes_.reserve(std::size_t(reference.nodes) + count);  // all that there can be: no later step allocates
   impulse_ = 0;
   outermost_ = -1;
   for (int k = 0; k < count; ++k) {
-    const int i = surface[k];
-    const double gap = body.z_i[i] + body.uz_i[i];
+    const int i = surface.node(k, 0);
+    const double gap = height[i] + uz[i];
     const double least = -gap / dt;  // velocity that just reaches the plane
-    if (body.vz_i[i] < least) {
+    if (vz[i] < least) {
       push(body, i, kick, least);
       outermost_ = k;
     }
   }
-  for (int i = 0; i < body.nodes; ++i) {
-    const double gap = body.z_i[i] + body.uz_i[i];
+  for (int i = 0; i < reference.nodes; ++i) {
+    const double gap = height[i] + uz[i];
     // rounding: a surface node that was just put on the plane is not pushed again
-    if (gap + dt * body.vz_i[i] < -1e-15) push(body, i, kick, -gap / dt);
+    if (gap + dt * vz[i] < -1e-15) push(body, i, kick, -gap / dt);
   }
   return impulse_;
 }
 
 void PlaneContact::account(std::span<const Body> bodies)
 {
-  for (const Push& p : pushes_) dissipated_ -= 0.5 * p.impulse * (p.before + bodies.front().vz_i[p.node]);
+  for (const Push& p : pushes_) dissipated_ -= 0.5 * p.impulse * (p.before + bodies.front().v_i(p.node, 1));
 }
 
 double PlaneContact::edge_radius(std::span<const Body> bodies) const
@@ -113,7 +118,7 @@ double PlaneContact::edge_radius(std::span<const Body> bodies) const
     return EdgePoint{m.r, m.z};
   };
   const double closed = point(outermost_).r;
-  if (outermost_ + 2 >= body.surface.count) return closed;
+  if (outermost_ + 2 >= body.reference().surface.count) return closed;
   return edge_between(closed, point(outermost_ + 1), point(outermost_ + 2));
 }
 
@@ -139,25 +144,28 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double kick, double dt)
 {
   Body& upper = bodies.front();
   Body* lower = bodies.size() > 1 ? &bodies[1] : nullptr;
-  const int count = upper.surface.count;
+  const int corners = upper.reference().surface.corners, count = upper.reference().surface.count;
+  const int lower_count = lower ? lower->reference().surface.count : 0;
   impulse_.resize(count, 0.0), gap_.resize(count), radius_.resize(count);
   rows_.clear(), entries_.clear();
   // all that there can be, so that no later step allocates
   rows_.reserve(count);
-  entries_.reserve(std::size_t(count) * (upper.surface.corners + (lower ? 2 * lower->surface.corners : 0)));
+  entries_.reserve(std::size_t(count) * (corners + (lower ? 2 * lower->reference().surface.corners : 0)));
 
   double before = 0;
   // a surface point of the given body, weighted `share`, seen along the normal (-slope, 1)
   const auto enter = [&](Body& b, int m, double share_r, double share_z) {
-    const Surface& s = b.surface;
+    const Markers& s = b.reference().surface;
+    const NodeField& inverse_mass = b.reference().inverse_mass_i;
+    const double* weight = s.weights(m);
     for (int k = 0; k < s.corners; ++k) {
-      const std::size_t at = std::size_t(k) * s.count + m;
-      const int i = s.node[at];
-      if (s.weight[at] == 0 || b.inverse_mass_i[i] == 0) continue;
-      const double w = s.weight[at], wr = b.on_axis[i] ? 0.0 : share_r * w, wz = share_z * w;
-      const double kicked = kick * b.inverse_mass_i[i];
-      entries_.push_back({&b.vr_i[i], &b.vz_i[i], wr, wz, b.inverse_mass_i[i]});
-      before += wr * (b.vr_i[i] - kicked * b.fr_i[i]) + wz * (b.vz_i[i] - kicked * b.fz_i[i]);
+      const int i = s.node(m, k);
+      const double w = weight[k], per_mass = inverse_mass(i, 1);
+      if (w == 0 || per_mass == 0) continue;
+      const double wr = inverse_mass(i, 0) == 0 ? 0.0 : share_r * w, wz = share_z * w;
+      const double kicked = kick * per_mass;
+      entries_.push_back({&b.v_i(i, 0), &b.v_i(i, 1), wr, wz, per_mass});
+      before += wr * (b.v_i(i, 0) - kicked * b.f_i(i, 0)) + wz * (b.v_i(i, 1) - kicked * b.f_i(i, 1));
     }
   };
 
@@ -168,7 +176,7 @@ void SurfaceContact::make_rows(std::span<Body> bodies, double kick, double dt)
     const Motion x = motion(upper, m);
     double gap = x.z, approach = x.vz, slope = 0, t = 0;
     if (lower) {
-      while (x.r > low1.r && segment + 2 < lower->surface.count) {
+      while (x.r > low1.r && segment + 2 < lower_count) {
         ++segment;
         low0 = low1;
         low1 = motion(*lower, segment + 1);
@@ -252,7 +260,7 @@ double SurfaceContact::edge_radius(std::span<const Body> bodies) const
 {
   if (outermost_ < 0) return 0;
   const double closed = radius_[outermost_];
-  if (outermost_ + 2 >= bodies.front().surface.count) return closed;
+  if (outermost_ + 2 >= bodies.front().reference().surface.count) return closed;
   return edge_between(closed, {radius_[outermost_ + 1], gap_[outermost_ + 1]},
                       {radius_[outermost_ + 2], gap_[outermost_ + 2]});
 }

@@ -3,17 +3,17 @@
 #include <span>
 #include <vector>
 
-#include "solver/body/body.hpp"
+#include "solver/body/motion.hpp"
+#include "solver/output/trace.hpp"
 
 namespace granulaw {
 
 /// Contact of bodies with each other or with planes: impulses that keep them from passing through. No
 /// stiffness, no gap parameter; the force can only push.
-template <class Body>
-class BasicContact
+class Contact
 {
  public:
-  virtual ~BasicContact() = default;
+  virtual ~Contact() = default;
   /// Corrects velocities for a step `dt`, after the nodes were accelerated over `kick`; returns the impulse
   /// on the first body (+z; of planes: of the first plane).
   virtual double correct(std::span<Body> bodies, double kick, double dt) = 0;
@@ -26,35 +26,33 @@ class BasicContact
   double dissipated() const { return dissipated_; }
   /// Radius of the contact edge after the last correct(), 0 if open.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;
-  virtual void visit_state(StateArchive& archive) = 0;
+  /// Work that moving planes have done on the body.
+  virtual double work() const { return 0; }
+  /// Adds the forces of each plane over a sample of length `time` to its trace.
+  virtual void end_sample(std::span<const Body> /*bodies*/, double /*time*/,
+                          std::vector<PlaneTrace>& /*planes*/)
+  {
+  }
+  virtual void visit_state(StateArchive& archive);
 
  protected:
   double dissipated_ = 0;
 };
 
-/// Contact of the first body's surface with the rigid, frictionless plane z = 0 or with the second body,
-/// which is described in its own frame: pole at the origin, mirrored, so that the gap is the sum of both
-/// heights. The contact edge is where the gap, extrapolated from the first two open surface points as
-/// (r - a)^1.5 beside the last closed one, vanishes.
-class Contact : public BasicContact<Body>
-{
- public:
-  void visit_state(StateArchive& archive) override;
-};
-
-/// Edge of a contact from the last closed surface point and the next two, as above.
+/// Edge of a contact from the last closed surface point and the next two: where the gap, extrapolated from
+/// the two open points as (r - a)^1.5, vanishes.
 struct EdgePoint
 {
   double r, gap;
 };
 double edge_between(double closed_r, EdgePoint first, EdgePoint second);
 
-/// A plane against a body whose surface points are grid nodes: predictor-corrector. A node that would end the
-/// step below the plane gets the velocity that puts it there; the nodes do not disturb each other.
-/// Nodes inside the body are held above the plane as well: from about 0.2 R on, a cell at the edge of the
-/// contact can be sheared so far that its inner nodes pass its own surface, which one point a cell does not
-/// see, and the body would run through the plane there (E*/Y = 100, V/V_y = 3000: e .085, .097, .116 at 10,
-/// 14, 20 cells, instead of .070, .074, .078 towards .08).
+/// The rigid, frictionless plane z = 0 against a body whose surface points are grid nodes:
+/// predictor-corrector. A node that would end the step below the plane gets the velocity that puts it there;
+/// the nodes do not disturb each other. Nodes inside the body are held above the plane as well: from about
+/// 0.2 R on, a cell at the edge of the contact can be sheared so far that its inner nodes pass its own
+/// surface, which one point a cell does not see, and the body would run through the plane there (E*/Y = 100,
+/// V/V_y = 3000: e .085, .097, .116 at 10, 14, 20 cells, instead of .070, .074, .078 towards .08).
 class PlaneContact : public Contact
 {
  public:
@@ -76,10 +74,12 @@ class PlaneContact : public Contact
   int outermost_ = -1;  // index into the surface
 };
 
-/// Any surface against the plane or against another body's surface (a polyline through its surface points):
-/// non-negative impulses at the first body's surface points, found by Gauss-Seidel sweeps on the condition
-/// that no point ends the step below the other surface. Normals are those of the other surface.
-/// Walls of pores are not kept apart: correct() throws Error once two of them have passed each other.
+/// Any surface of revolution against the plane z = 0 or against another body's surface (a polyline through
+/// its surface points), which is described in its own frame: pole at the origin, mirrored, so that the gap is
+/// the sum of both heights. Non-negative impulses at the first body's surface points, found by Gauss-Seidel
+/// sweeps on the condition that no point ends the step below the other surface. Normals are those of the
+/// other surface. Walls of pores are not kept apart: correct() throws Error once two of them have passed each
+/// other.
 class SurfaceContact : public Contact
 {
  public:

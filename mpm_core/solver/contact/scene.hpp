@@ -3,44 +3,47 @@
 #include <memory>
 #include <vector>
 
-#include "solver/body/body.hpp"
+#include "solver/body/motion.hpp"
 #include "solver/contact/contact.hpp"
 
 namespace granulaw {
 
-/// What is simulated: bodies, and what keeps them from passing through each other or through planes.
-template <class Body>
-struct BasicScene
-{
-  using BodyType = Body;
+class SpatialContact;
 
-  std::vector<Body> bodies;
-  std::unique_ptr<BasicContact<Body>> contact;
-};
-
+/// A simulation's bodies, and what keeps them from passing through each other or through planes.
+///
 /// Axisymmetric: one body above the rigid plane z = 0, or two against each other, each in its own frame
-/// (contact pole at the origin, body in z >= 0: the second one is mirrored).
-struct Scene : BasicScene<Body>
+/// (contact pole at the origin, body in z >= 0: the second one is mirrored). Three dimensions: one body among
+/// rigid planes.
+struct Scene
 {
+  std::vector<Body> bodies;
+  std::unique_ptr<Contact> contact;
+  SpatialContact* planes = nullptr;    ///< three dimensions: `contact`
+  Vector3 outward = Vector3::UnitZ();  ///< in each body's frame, away from what it meets first
+  Vector3 centre = Vector3::Zero();    ///< three dimensions: centre of mass of the undeformed body
+
+  /// Centre of mass of the first body now.
+  Vector3 centre_now() const { return centre + travel_of(bodies.front()); }
   /// Overlap: how far the centres of mass have come towards the plane, or towards each other.
   double overlap() const
   {
     double sum = 0;
-    for (const Body& b : bodies) sum -= b.travel;
+    for (const Body& b : bodies) sum -= outward.dot(travel_of(b));
     return sum;
   }
   /// Speed at which they separate.
   double separation_velocity() const
   {
     double sum = 0;
-    for (const Body& b : bodies) sum += b.mean_velocity();
+    for (const Body& b : bodies) sum += outward.dot(mean_velocity(b));
     return sum;
   }
   /// Mass that the relative motion feels: m, or m1 m2/(m1 + m2).
   double reduced_mass() const
   {
     double inverse = 0;
-    for (const Body& b : bodies) inverse += 1 / b.mass;
+    for (const Body& b : bodies) inverse += 1 / b.mass();
     return 1 / inverse;
   }
 };

@@ -1,10 +1,12 @@
 #include "solver/contact/spatial_contact.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/state_archive.hpp"
+#include "solver/body/kernels.hpp"
 
 namespace granulaw {
 
@@ -28,6 +30,23 @@ Vector3 vector_at(const double* four)
   return {four[0], four[1], four[2]};
 }
 
+std::array<double, 3> as_array(const Vector3& v)
+{
+  return {v[0], v[1], v[2]};
+}
+
+/// The same impulse on the mirrored bodies: components along the mirrors cancel where the plane crosses them.
+void add_mirrored(const Body& body, const Plane& plane, PlaneTally& tally)
+{
+  for (int d = 0; d < 3; ++d)
+    if (body.reference().mirrored[d] && std::abs(plane.normal[d]) < 1e-9) {
+      tally.impulse[d] = 0, tally.centre[d] = 0;
+      for (int e = 0; e < 3; ++e)
+        if (e != d) tally.torque[e] = 0;
+    }
+  tally.impulse *= plane.copies, tally.torque *= plane.copies, tally.centre *= plane.copies;
+}
+
 /// A marker about a contact.
 struct NearMarker
 {
@@ -36,8 +55,7 @@ struct NearMarker
 };
 
 /// Half axes of the ellipse with the second moments of the markers' patches, larger first.
-std::array<double, 2> ellipse_of(const SpatialBody& body, const Plane& plane,
-                                 std::span<const NearMarker> markers)
+std::array<double, 2> ellipse_of(const Body& body, const Plane& plane, std::span<const NearMarker> markers)
 {
   double area = 0;
   Vector3 centre = Vector3::Zero();
@@ -48,7 +66,7 @@ std::array<double, 2> ellipse_of(const SpatialBody& body, const Plane& plane,
   if (!(area > 0)) return {0, 0};
   centre /= area, moment /= area;
   for (int d = 0; d < 3; ++d)
-    if (body.mirrored[d] && std::abs(plane.normal[d]) < 1e-9) {
+    if (body.reference().mirrored[d] && std::abs(plane.normal[d]) < 1e-9) {
       centre[d] = 0;
       for (int e = 0; e < 3; ++e)
         if (e != d) moment(d, e) = moment(e, d) = 0;
@@ -62,42 +80,51 @@ std::array<double, 2> ellipse_of(const SpatialBody& body, const Plane& plane,
 
 }  // namespace
 
-SpatialContact::SpatialContact(const SpatialBody& body, std::vector<Plane> planes)
+const RowKernels& row_kernels()
+{
+  static const RowKernels* sets[] = {&isa_generic::row_kernels, &isa_avx2::row_kernels,
+                                     &isa_avx512::row_kernels};
+  return *sets[static_cast<int>(instruction_set())];
+}
+
+SpatialContact::SpatialContact(const Body& body, const Vector3& centre, std::vector<Plane> planes)
     : planes_(std::move(planes)),
-      markers_(body.surface.count),
+      centre_(centre),
+      markers_(body.reference().surface.count),
       candidates_(planes_.size()),
       impulse_(4 * planes_.size() * static_cast<std::size_t>(markers_), 0.0),
       rows_(planes_.size() * static_cast<std::size_t>(markers_)),
       pushing_(planes_.size(), 0),
       tallies_(planes_.size())
 {
-  const std::array<int, 3> stride = body.strides();
-  for (int k = 0; k < cell_nodes; ++k) offsets_[k] = 4 * (k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]);
+  for (int k = 0; k < cell_nodes; ++k) offsets_[k] = 4 * body.reference().surface.offset[k];
   for (std::vector<int>& list : candidates_) list.reserve(static_cast<std::size_t>(markers_));
 }
 
-RowNodes SpatialContact::nodes_of(SpatialBody& body) const
+RowNodes SpatialContact::nodes_of(Body& body) const
 {
-  return {body.u_i.data(), body.v_i.data(), body.f_i.data(), body.inverse_mass_i.data(), offsets_.data()};
+  return {body.u_i.values.data(), body.v_i.values.data(), body.f_i.values.data(),
+          body.reference().inverse_mass_i.values.data(), offsets_.data()};
 }
 
-Vector3 SpatialContact::carried(const SpatialBody& body, const NodeField& field, int marker) const
+Vector3 SpatialContact::carried(const Body& body, const NodeField& field, int marker) const
 {
+  const Markers& surface = body.reference().surface;
   double sum[4];
-  row_kernels().carry(field.data() + 4 * body.surface.node[marker], offsets_.data(),
-                      body.surface.weight.data() + std::size_t(cell_nodes) * marker, sum);
+  row_kernels().carry(field.values.data() + 4 * surface.lowest[marker], offsets_.data(),
+                      surface.weights(marker), sum);
   return vector_at(sum);
 }
 
-Vector3 SpatialContact::place(const SpatialBody& body, int marker) const
+Vector3 SpatialContact::place(const Body& body, int marker) const
 {
-  const std::array<double, 3>& start = body.surface.place[marker];
+  const std::array<double, 3>& start = body.reference().surface.place[marker];
   return Vector3(start[0], start[1], start[2]) + carried(body, body.u_i, marker);
 }
 
-void SpatialContact::choose_candidates(const SpatialBody& body)
+void SpatialContact::choose_candidates(const Body& body)
 {
-  room_ = candidate_edges * body.surface.finest;
+  room_ = candidate_edges * body.reference().surface.finest;
   for (std::vector<int>& list : candidates_) list.clear();
   for (int m = 0; m < markers_; ++m) {
     const Vector3 x = place(body, m);
@@ -106,7 +133,7 @@ void SpatialContact::choose_candidates(const SpatialBody& body)
   }
 }
 
-void SpatialContact::make_rows(SpatialBody& body, double kick, double dt)
+void SpatialContact::make_rows(Body& body, double kick, double dt)
 {
   const RowNodes nodes = nodes_of(body);
   row_count_ = 0;
@@ -117,9 +144,9 @@ void SpatialContact::make_rows(SpatialBody& body, double kick, double dt)
                            plane.velocity,
                            plane.friction,
                            static_cast<int>(k),
-                           body.surface.place.data(),
-                           body.surface.node.data(),
-                           body.surface.weight.data(),
+                           body.reference().surface.place.data(),
+                           body.reference().surface.lowest.data(),
+                           body.reference().surface.weight.data(),
                            impulse(k, 0)};
     row_count_ +=
         row_kernels().make(nodes, against, candidates_[k].data(), static_cast<int>(candidates_[k].size()),
@@ -127,11 +154,12 @@ void SpatialContact::make_rows(SpatialBody& body, double kick, double dt)
   }
 }
 
-double SpatialContact::correct(std::span<SpatialBody> bodies, double kick, double dt)
+double SpatialContact::correct(std::span<Body> bodies, double kick, double dt)
 {
-  SpatialBody& body = bodies.front();
+  Body& body = bodies.front();
   const RowKernels& kernels = row_kernels();
-  double closing = std::sqrt(3.0) * kernels.largest(body.v_i.data(), static_cast<int>(body.v_i.size()));
+  double closing =
+      std::sqrt(3.0) * kernels.largest(body.v_i.values.data(), static_cast<int>(body.v_i.values.size()));
   for (const Plane& plane : planes_) closing += std::abs(plane.velocity);
   room_ -= dt * closing;
   if (room_ < 0) choose_candidates(body), room_ -= dt * closing;
@@ -157,9 +185,9 @@ double SpatialContact::correct(std::span<SpatialBody> bodies, double kick, doubl
   return first;
 }
 
-void SpatialContact::account(std::span<const SpatialBody> bodies)
+void SpatialContact::account(std::span<const Body> bodies)
 {
-  const SpatialBody& body = bodies.front();
+  const Body& body = bodies.front();
   for (const ContactRow& row : std::span(rows_.data(), static_cast<std::size_t>(row_count_))) {
     const Vector3 p = vector_at(row.impulse);
     if (p == Vector3::Zero()) continue;
@@ -169,14 +197,7 @@ void SpatialContact::account(std::span<const SpatialBody> bodies)
   }
 }
 
-std::vector<PlaneTally> SpatialContact::take_tallies()
-{
-  std::vector<PlaneTally> taken(planes_.size());
-  std::swap(taken, tallies_);
-  return taken;
-}
-
-std::array<double, 2> SpatialContact::contact_axes(const SpatialBody& body, int k) const
+std::array<double, 2> SpatialContact::contact_axes(const Body& body, int k) const
 {
   if (!pushing_[k]) return {0, 0};
   std::vector<NearMarker> near;
@@ -186,8 +207,8 @@ std::array<double, 2> SpatialContact::contact_axes(const SpatialBody& body, int 
     const bool pushed =
         planes_[k].normal.dot(vector_at(impulse_.data() + 4 * (std::size_t(k) * markers_ + m))) > 0;
     near.push_back({pushed ? 0.0 : std::max(0.0, planes_[k].normal.dot(x) - planes_[k].position),
-                    body.surface.area[m], x});
-    if (pushed) closed += body.surface.area[m];
+                    body.reference().surface.area[m], x});
+    if (pushed) closed += body.reference().surface.area[m];
   }
   std::sort(near.begin(), near.end(), [](const NearMarker& a, const NearMarker& b) { return a.gap < b.gap; });
   const auto upto = [&](double area) {
@@ -215,7 +236,7 @@ std::array<double, 2> SpatialContact::contact_axes(const SpatialBody& body, int 
   return axes;
 }
 
-double SpatialContact::edge_radius(std::span<const SpatialBody> bodies) const
+double SpatialContact::edge_radius(std::span<const Body> bodies) const
 {
   const std::array<double, 2> axes = contact_axes(bodies.front(), 0);
   return std::sqrt(axes[0] * axes[1]);
@@ -231,6 +252,27 @@ void SpatialContact::visit_state(StateArchive& a)
   a.values(impulse_);
   for (PlaneTally& t : tallies_) visit(t.impulse), visit(t.torque), visit(t.centre);
   for (std::vector<int>& list : candidates_) a.growing(list);
+}
+
+void SpatialContact::end_sample(std::span<const Body> bodies, double time, std::vector<PlaneTrace>& traces)
+{
+  const Body& body = bodies.front();
+  const Vector3 now = centre_ + travel_of(body);
+  std::vector<PlaneTally> tallies(planes_.size());
+  std::swap(tallies, tallies_);
+  traces.resize(tallies.size());
+  for (std::size_t k = 0; k < tallies.size(); ++k) {
+    const Plane& plane = planes_[k];
+    PlaneTally& tally = tallies[k];
+    add_mirrored(body, plane, tally);
+    const double push = plane.normal.dot(tally.impulse);
+    const Vector3 torque = tally.torque - now.cross(tally.impulse);
+    const Vector3 arm = push > 0 ? Vector3(tally.centre / push - now) : Vector3(Vector3::Zero());
+    traces[k].normal = as_array(plane.normal);
+    traces[k].samples.push_back({plane.position - plane.start, push / time, as_array(tally.impulse / time),
+                                 as_array(torque / time), as_array(arm),
+                                 contact_axes(body, static_cast<int>(k))});
+  }
 }
 
 }  // namespace granulaw

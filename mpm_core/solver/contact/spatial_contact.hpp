@@ -4,7 +4,6 @@
 
 #include "solver/contact/contact.hpp"
 #include "solver/contact/rows.hpp"
-#include "solver/contact/spatial_scene.hpp"
 
 namespace granulaw {
 
@@ -33,39 +32,39 @@ struct PlaneTally
 /// passed a plane (normal impulse p_n >= 0), and it slides only where the friction is spent:
 ///
 ///     n.v >= V - gap/dt,  p_n >= 0;    |p_t| <= mu p_n,  p_t opposite to the sliding where equal.
-class SpatialContact : public BasicContact<SpatialBody>
+class SpatialContact : public Contact
 {
  public:
-  SpatialContact(const SpatialBody& body, std::vector<Plane> planes);
+  /// `centre`: of mass, at rest.
+  SpatialContact(const Body& body, const Vector3& centre, std::vector<Plane> planes);
 
-  double correct(std::span<SpatialBody> bodies, double kick, double dt) override;
-  void account(std::span<const SpatialBody> bodies) override;
+  double correct(std::span<Body> bodies, double kick, double dt) override;
+  void account(std::span<const Body> bodies) override;
   /// Of the first plane: root of the product of contact_axes().
-  double edge_radius(std::span<const SpatialBody> bodies) const override;
+  double edge_radius(std::span<const Body> bodies) const override;
+  void end_sample(std::span<const Body> bodies, double time, std::vector<PlaneTrace>& planes) override;
   void visit_state(StateArchive& archive) override;
 
   std::vector<Plane>& planes() { return planes_; }
   const std::vector<Plane>& planes() const { return planes_; }
-  /// Tallies of all planes, which start anew.
-  std::vector<PlaneTally> take_tallies();
   /// True if a plane pushed in the last step.
   bool pushes(int plane) const { return pushing_[plane]; }
   /// Half axes of the contact with a plane, larger first; 0, 0 without contact. Where the gap ends that opens
   /// behind the edge: between the ellipses of the markers in contact, and with one and two rings of patches
   /// more, by edge_between().
-  std::array<double, 2> contact_axes(const SpatialBody& body, int plane) const;
-  /// Work that the planes have done on the body.
-  double work() const { return work_; }
+  std::array<double, 2> contact_axes(const Body& body, int plane) const;
+  double work() const override { return work_; }
 
  private:
-  RowNodes nodes_of(SpatialBody& body) const;
-  void choose_candidates(const SpatialBody& body);
-  void make_rows(SpatialBody& body, double kick, double dt);
-  Vector3 place(const SpatialBody& body, int marker) const;
-  Vector3 carried(const SpatialBody& body, const NodeField& field, int marker) const;
+  RowNodes nodes_of(Body& body) const;
+  void choose_candidates(const Body& body);
+  void make_rows(Body& body, double kick, double dt);
+  Vector3 place(const Body& body, int marker) const;
+  Vector3 carried(const Body& body, const NodeField& field, int marker) const;
   double* impulse(std::size_t plane, int marker) { return impulse_.data() + 4 * (plane * markers_ + marker); }
 
   std::vector<Plane> planes_;
+  Vector3 centre_;
   int markers_;
   std::array<int, cell_nodes> offsets_;       // entries from a cell's lowest node to each of its nodes
   std::vector<std::vector<int>> candidates_;  // by plane: markers that might reach it soon

@@ -57,12 +57,14 @@ CellIntegrals integrate(const std::array<MappedGrid::Node, 4>& x)
 
 Body mapped_body(const MappedGrid& grid, const Phase& phase, double hourglass_modulus)
 {
-  Body b;
-  b.allocate(static_cast<int>(grid.nodes.size()), static_cast<int>(grid.cells.size()), 4);
+  Reference b;
+  b.resize_nodes(static_cast<int>(grid.nodes.size()), 2);
+  b.resize_corners(static_cast<int>(grid.cells.size()), 4);
   b.regions = {{0, b.points, phase.moduli}};
-  b.axis = grid.axis, b.equator = grid.equator;
-  for (int i = 0; i < b.nodes; ++i) b.r_i[i] = grid.nodes[i].r, b.z_i[i] = grid.nodes[i].z;
+  b.equator = grid.equator;
+  for (int i = 0; i < b.nodes; ++i) b.place_i(i, 0) = grid.nodes[i].r, b.place_i(i, 1) = grid.nodes[i].z;
 
+  CornerWeights<double>& w = b.corners.full;
   for (int p = 0; p < b.points; ++p) {
     std::array<MappedGrid::Node, 4> x;
     for (int k = 0; k < 4; ++k) x[k] = grid.nodes[grid.cells[p][k]];
@@ -74,25 +76,25 @@ Body mapped_body(const MappedGrid& grid, const Phase& phase, double hourglass_mo
     }
     b.volume_p[p] = c.volume;
     // a modulus of G would come near the stiffness of full integration
-    b.stiffness_p[p] = 0.25 * hourglass_modulus * c.volume * gradient;
+    w.stiffness[p] = 0.25 * hourglass_modulus * c.volume * gradient;
     for (int k = 0; k < 4; ++k) {
       const int at = k * b.points + p, node = grid.cells[p][k];
-      b.corner_p[at] = node;
-      b.br_p[at] = c.br[k], b.bz_p[at] = c.bz[k], b.bh_p[at] = c.bh[k];
-      b.hourglass_p[at] = hourglass_sign[k] - h_r * c.area_br[k] - h_z * c.area_bz[k];
+      b.corners.node[at] = node;
+      w.br[at] = c.br[k], w.bz[at] = c.bz[k], w.bh[at] = c.bh[k];
+      w.hourglass[at] = hourglass_sign[k] - h_r * c.area_br[k] - h_z * c.area_bz[k];
       b.mass_i[node] += c.mass[k];
     }
   }
   const double meshed = std::accumulate(b.mass_i.begin(), b.mass_i.end(), 0.0);
   for (double& m : b.mass_i) m *= phase.density * grid.volume / meshed;
 
-  b.surface.count = static_cast<int>(grid.surface.size());
-  b.surface.corners = 1;
-  b.surface.node = grid.surface;
-  b.surface.weight.assign(grid.surface.size(), 1.0);
-  for (const int i : grid.surface) b.surface.r.push_back(b.r_i[i]), b.surface.z.push_back(b.z_i[i]);
-  b.link();
-  return b;
+  Markers& surface = b.surface;
+  surface.count = static_cast<int>(grid.surface.size()), surface.corners = 1;
+  surface.lowest.assign(grid.surface.size(), 0), surface.weight.assign(grid.surface.size(), 1.0);
+  surface.offset = grid.surface;
+  for (const int i : grid.surface) surface.place.push_back({b.place_i(i, 0), 0, b.place_i(i, 1)});
+  b.link(grid.axis);
+  return Body(std::move(b));
 }
 
 }  // namespace granulaw

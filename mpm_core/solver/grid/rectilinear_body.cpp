@@ -127,34 +127,19 @@ std::vector<Piece> cut_pieces(const CutSection& s, const SplineAxis& r_axis, con
   return pieces;
 }
 
-Surface section_markers(const CutSection& s, const SplineAxis& r_axis, int per_column)
+Markers section_markers(const CutSection& s, const SplineAxis& r_axis, int per_column)
 {
-  Surface surface;
+  Markers surface;
   const auto add = [&](double r) {
     const double z = s.surface_z(r);
-    if (r < 0.99 * s.radius && z < s.height) surface.r.push_back(r), surface.z.push_back(z);
+    if (r < 0.99 * s.radius && z < s.height) surface.place.push_back({r, 0, z});
   };
   add(0);
   for (int c = 0; c < r_axis.cells(); ++c)
     for (int k = 0; k < per_column; ++k)
       add(r_axis.lines()[c] + (k + 0.5) / per_column * (r_axis.lines()[c + 1] - r_axis.lines()[c]));
-  surface.count = static_cast<int>(surface.r.size());
+  surface.count = static_cast<int>(surface.place.size());
   return surface;
-}
-
-void weigh_markers(Surface& surface, const SplineAxis& r_axis, const SplineAxis& z_axis)
-{
-  surface.corners = 9;
-  const std::size_t n = static_cast<std::size_t>(surface.count);
-  surface.node.resize(9 * n), surface.weight.resize(9 * n);
-  for (std::size_t m = 0; m < n; ++m) {
-    const SplineAxis::Values nr = r_axis.at(surface.r[m]), nz = z_axis.at(surface.z[m]);
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        surface.node[(3 * a + b) * n + m] = (nr.first + a) * z_axis.functions() + nz.first + b;
-        surface.weight[(3 * a + b) * n + m] = nr.n[a] * nz.n[b];
-      }
-  }
 }
 
 std::vector<Region> regions_of(const std::vector<Phase>& phases, const std::vector<Piece>& pieces)
@@ -194,26 +179,29 @@ struct MassNodes
   }
 };
 
-/// Places and masses of the nodes; the masses sum up to `exact_mass`, if that is over 0.
-void set_nodes(Body& b, const MassNodes& nodes, const SplineAxis& r_axis, const SplineAxis& z_axis,
-               double exact_mass)
+/// Places and masses of the nodes; the masses sum up to `exact_mass`, if that is over 0. Returns the nodes on
+/// the axis.
+std::vector<int> set_nodes(Reference& b, const MassNodes& nodes, const SplineAxis& r_axis,
+                           const SplineAxis& z_axis, double exact_mass)
 {
+  std::vector<int> axis;
   double total = 0;
   for (std::size_t i = 0; i < nodes.mass.size(); ++i) {
     const int node = nodes.id[i];
     if (node < 0) continue;
     const int row = static_cast<int>(i) / nodes.columns, column = static_cast<int>(i) % nodes.columns;
-    b.r_i[node] = r_axis.node(row), b.z_i[node] = z_axis.node(column);
+    b.place_i(node, 0) = r_axis.node(row), b.place_i(node, 1) = z_axis.node(column);
     total += b.mass_i[node] = nodes.mass[i];
-    if (row == 0) b.axis.push_back(node);
+    if (row == 0) axis.push_back(node);
     if (column == nodes.columns - 1) b.equator.push_back(node);
   }
   const double sampled = std::accumulate(nodes.mass.begin(), nodes.mass.end(), 0.0);
   for (double& m : b.mass_i) m *= (exact_mass > 0 ? exact_mass : sampled) / total;
+  return axis;
 }
 
 /// Volumes, corners and weights of the points.
-void set_points(Body& b, const MassNodes& nodes, const std::vector<Piece>& pieces)
+void set_points(Reference& b, const MassNodes& nodes, const std::vector<Piece>& pieces)
 {
   const int n = b.points;
   for (int p = 0; p < n; ++p) {
@@ -221,31 +209,32 @@ void set_points(Body& b, const MassNodes& nodes, const std::vector<Piece>& piece
     b.volume_p[p] = piece.volume;
     for (int k = 0; k < 9; ++k) {
       const int at = k * n + p;
-      b.corner_p[at] = nodes.id[nodes.corner(piece, k)];
-      b.br_p[at] = piece.br[k], b.bz_p[at] = piece.bz[k], b.bh_p[at] = piece.bh[k];
+      b.corners.node[at] = nodes.id[nodes.corner(piece, k)];
+      CornerWeights<double>& w = b.corners.full;
+      w.br[at] = piece.br[k], w.bz[at] = piece.bz[k], w.bh[at] = piece.bh[k];
     }
   }
 }
 
 /// Places on opposite walls of the pores.
-Surface pore_wall_markers(const CutSection& s)
+Markers pore_wall_markers(const CutSection& s)
 {
-  Surface walls;
-  for (const auto& [r, z] : s.pore_walls) walls.r.push_back(r), walls.z.push_back(z);
+  Markers walls;
+  for (const auto& [r, z] : s.pore_walls) walls.place.push_back({r, 0, z});
   walls.count = static_cast<int>(s.pore_walls.size());
   return walls;
 }
 
 /// Corners of the pieces as they are drawn: all first corners, all second ones, ...
-Surface corner_markers(const CutSection& s, const std::vector<Piece>& pieces)
+Markers corner_markers(const CutSection& s, const std::vector<Piece>& pieces)
 {
-  Surface outline;
+  Markers outline;
   for (int k = 0; k < 4; ++k)
     for (const Piece& piece : pieces) {
       const auto [r, z] = s.onto_body(k == 0 || k == 3 ? piece.r0 : piece.r1, k < 2 ? piece.z0 : piece.z1);
-      outline.r.push_back(r), outline.z.push_back(z);
+      outline.place.push_back({r, 0, z});
     }
-  outline.count = static_cast<int>(outline.r.size());
+  outline.count = static_cast<int>(outline.place.size());
   return outline;
 }
 
@@ -259,26 +248,26 @@ Body rectilinear_body(const CutSection& s)
   if (pieces.empty()) fail("reference grid", "no part of the body lies on it");
   const MassNodes nodes(s, pieces, r_axis, z_axis);
 
-  Body b;
-  b.allocate(nodes.count, static_cast<int>(pieces.size()), 9);
+  Reference b;
+  b.resize_nodes(nodes.count, 2), b.resize_corners(static_cast<int>(pieces.size()), 9);
   b.regions = regions_of(s.phases, pieces);
-  set_nodes(b, nodes, r_axis, z_axis, s.mass);
+  const std::vector<int> axis = set_nodes(b, nodes, r_axis, z_axis, s.mass);
   set_points(b, nodes, pieces);
 
-  const auto weighed = [&](Surface surface) {
-    weigh_markers(surface, r_axis, z_axis);
-    for (std::size_t k = 0; k < surface.node.size(); ++k) {
-      int& node = surface.node[k];
+  const auto weighed = [&](Markers markers) {
+    weigh_markers(markers, r_axis, z_axis);
+    for (std::size_t k = 0; k < markers.offset.size(); ++k) {
+      int& node = markers.offset[k];
       node = nodes.id[node];
-      if (node < 0) node = 0, surface.weight[k] = 0;  // a function of no mass: zero there but for rounding
+      if (node < 0) node = 0, markers.weight[k] = 0;  // a function of no mass: zero there but for rounding
     }
-    return surface;
+    return markers;
   };
   b.surface = weighed(section_markers(s, r_axis, 1));
   b.pore_walls = weighed(pore_wall_markers(s));
-  if (s.onto_body) b.outline = weighed(corner_markers(s, pieces));
-  b.link();
-  return b;
+  if (s.onto_body) b.drawn = weighed(corner_markers(s, pieces));
+  b.link(axis);
+  return Body(std::move(b));
 }
 
 }  // namespace granulaw

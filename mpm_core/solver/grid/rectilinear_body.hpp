@@ -48,10 +48,7 @@ Body rectilinear_body(const CutSection& section);
 /// A column has about one degree of freedom for the shape of its surface. With more markers the impulses are
 /// not unique, the sweeps converge badly, and the contact feeds vibration (four a column: 24 % of the energy
 /// of an elastic impact pumped in and out; one: 1e-5).
-Surface section_markers(const CutSection& section, const SplineAxis& r_axis, int per_column);
-
-/// Corner nodes and weights of a surface whose markers stand at r, z.
-void weigh_markers(Surface& surface, const SplineAxis& r_axis, const SplineAxis& z_axis);
+Markers section_markers(const CutSection& section, const SplineAxis& r_axis, int per_column);
 
 /// One piece of the body that a material point stands for.
 struct Piece

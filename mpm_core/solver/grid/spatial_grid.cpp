@@ -16,7 +16,8 @@ constexpr double least_share = 1e-6;
 /// No node weighs less than this share of a finest cell. Nodes that only slivers reach fly far off otherwise,
 /// and take the slivers with them. A hundredth takes 0.4 % off e.
 constexpr double least_mass = 0.001;
-/// V sum_k |b_k|^2/m_k of a filled octant amid filled cells of edge 1 and density 1 (step_share_p).
+/// V sum_k |b_k|^2/m_k of a filled octant amid filled cells of edge 1 and density 1
+/// (SplineCells::step_share).
 constexpr double own_stiffness_of_filled = 0.096;
 
 /// Means over one half of the cell.
@@ -42,28 +43,32 @@ class Builder
   explicit Builder(const SpatialSection& section) : section_(section)
   {
     for (int d = 0; d < 3; ++d) {
-      body_.axes[d] = SplineAxis(section.lines[d]);
-      for (int c = 0; c < body_.axes[d].cells(); ++c) {
-        splines_[d].emplace_back(body_.axes[d], c);
-        body_.axis_weights[d].push_back(axis_weights(splines_[d].back(), d));
+      cells_.axes[d] = SplineAxis(section.lines[d]);
+      for (int c = 0; c < cells_.axes[d].cells(); ++c) {
+        splines_[d].emplace_back(cells_.axes[d], c);
+        cells_.full.axis[d].push_back(axis_weights(splines_[d].back(), d));
       }
     }
     body_.mirrored = section.mirrored;
-    body_.allocate_nodes();
+    for (int d = 0; d < 3; ++d) cells_.count[d] = cells_.axes[d].functions();
+    body_.resize_nodes(cells_.count[0] * cells_.count[1] * cells_.count[2], 3);
+    for (int i = 0; i < body_.nodes; ++i)
+      for (int d = 0; d < 3; ++d) body_.place_i(i, d) = cells_.axes[d].node(along(i, d));
     filled_.resize(section.phases.size()), cut_.resize(section.phases.size());
   }
 
-  SpatialBody build()
+  Body build()
   {
-    for (int z = 0; z < body_.axes[2].cells(); ++z)
-      for (int y = 0; y < body_.axes[1].cells(); ++y)
-        for (int x = 0; x < body_.axes[0].cells(); ++x) take_cell({x, y, z});
+    for (int z = 0; z < cells_.axes[2].cells(); ++z)
+      for (int y = 0; y < cells_.axes[1].cells(); ++y)
+        for (int x = 0; x < cells_.axes[0].cells(); ++x) take_cell({x, y, z});
     join_cells();
     set_masses();
     set_step_shares();
     set_surface();
     if (section_.drawn) set_corners();
-    return std::move(body_);
+    for (Markers* markers : {&body_.surface, &body_.drawn}) set_offsets(*markers);
+    return Body(std::move(body_));
   }
 
  private:
@@ -90,7 +95,7 @@ class Builder
 
   void take_cell(const Column& column)
   {
-    const std::array<int, 3> stride = body_.strides();
+    const std::array<int, 3> stride = cells_.strides();
     const SpatialCell cell{column[0] + column[1] * stride[1] + column[2] * stride[2], column, -1};
     CellCutter cutter(section_, splines(column));
     const int whole = cutter.whole_phase();
@@ -122,21 +127,22 @@ class Builder
     std::size_t cut_cells = 0;
     for (std::size_t p = 0; p < section_.phases.size(); ++p) {
       if (filled_[p].empty() && cut_[p].empty()) continue;
-      const int begin = static_cast<int>(body_.cells.size());
-      body_.cells.insert(body_.cells.end(), filled_[p].begin(), filled_[p].end());
+      const int begin = static_cast<int>(cells_.cells.size());
+      cells_.cells.insert(cells_.cells.end(), filled_[p].begin(), filled_[p].end());
       for (CutCell& c : cut_[p]) {
         c.cell.cut = static_cast<int>(cut_cells++);
-        body_.cells.push_back(c.cell);
+        cells_.cells.push_back(c.cell);
       }
       const Moduli& m = section_.phases[p].moduli;
       const double wave_speed2 = (m.bulk + 4.0 / 3.0 * m.shear) / section_.phases[p].density;
-      body_.regions.push_back(
-          {begin, static_cast<int>(body_.cells.size()), m, static_cast<int>(p), wave_speed2});
+      body_.regions.push_back({octants * begin, octants * static_cast<int>(cells_.cells.size()), m,
+                               static_cast<int>(p), wave_speed2});
     }
-    if (body_.cells.empty()) fail("reference grid", "no part of the body lies on it");
-    body_.cut_moments.assign(cut_cells * cut_moments_each * octants, 0.0);
-    body_.step_share_p.assign(cut_cells * octants, 0.0);
-    body_.allocate_points();
+    if (cells_.cells.empty()) fail("reference grid", "no part of the body lies on it");
+    cells_.full.cut_moments.assign(cut_cells * cut_moments_each * octants, 0.0);
+    cells_.step_share.assign(cut_cells * octants, 0.0);
+    body_.points = octants * static_cast<int>(cells_.cells.size());
+    body_.volume_p.assign(std::size_t(body_.points), 0.0);
     int at = 0;
     for (std::size_t p = 0; p < section_.phases.size(); ++p) {
       for (const SpatialCell& c : filled_[p]) fill_cell(at++, c, section_.phases[p].density);
@@ -144,9 +150,12 @@ class Builder
     }
   }
 
+  /// Index of a node along axis d.
+  int along(int node, int d) const { return node / cells_.strides()[d] % cells_.count[d]; }
+
   int node(const SpatialCell& cell, int k) const
   {
-    const std::array<int, 3> stride = body_.strides();
+    const std::array<int, 3> stride = cells_.strides();
     return cell.node + k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2];
   }
 
@@ -154,7 +163,7 @@ class Builder
   {
     const double piece = volume(cell.column) / octants;
     for (int lane = 0; lane < octants; ++lane) body_.volume_p[octants * at + lane] = piece;
-    body_.points += octants;
+    body_.filled += octants;
     Moments whole;
     whole.add_box(Vector3::Zero(), Vector3::Ones());
     add_mass(cell, whole, density);
@@ -183,13 +192,13 @@ class Builder
 
   void cut_cell(int at, const CutCell& c, double density)
   {
-    SpatialCell& cell = body_.cells[at];
+    SpatialCell& cell = cells_.cells[at];
     cell.along = from_material(c.moments);
-    double* moments = body_.cut_moments.data() + std::size_t(cell.cut) * cut_moments_each * octants;
+    double* moments = cells_.full.cut_moments.data() + std::size_t(cell.cut) * cut_moments_each * octants;
     for (int lane = 0; lane < octants; ++lane) {
       const Moments& m = c.moments[lane];
       if (m.size() <= 0) continue;
-      ++body_.points;
+      ++body_.filled;
       body_.volume_p[octants * at + lane] = volume(c.cell.column) * m.size();
       add_mass(c.cell, m, density);
       double power[3][3][3];  // axis, then 1, t, t^2/2 as polynomials of xi
@@ -216,17 +225,17 @@ class Builder
       if (mass > 0) mass = std::max(mass, least_mass * density * finest);
   }
 
-  /// Own stiffness of each cut piece over the masses of its nodes (SpatialBody::step_share_p).
+  /// Own stiffness of each cut piece over the masses of its nodes (SplineCells::step_share).
   void set_step_shares()
   {
-    for (const SpatialRegion& region : body_.regions)
-      for (int at = region.begin; at < region.end; ++at) {
-        const SpatialCell& cell = body_.cells[at];
+    for (const Region& region : body_.regions)
+      for (int at = region.begin / octants, end = region.end / octants; at < end; ++at) {
+        const SpatialCell& cell = cells_.cells[at];
         if (cell.cut < 0) continue;
-        const auto& pieces = cut_[region.material][at - region.end + cut_[region.material].size()].moments;
+        const auto& pieces = cut_[region.material][at - end + cut_[region.material].size()].moments;
         for (int lane = 0; lane < octants; ++lane)
           if (pieces[lane].size() > 0)
-            body_.step_share_p[std::size_t(cell.cut) * octants + lane] =
+            cells_.step_share[std::size_t(cell.cut) * octants + lane] =
                 step_share(cell, pieces[lane], section_.phases[region.material].density);
       }
   }
@@ -264,10 +273,8 @@ class Builder
       double& mass = body_.mass_i[i];
       mass *= body_.mass / sampled;
       if (mass <= 0) continue;
-      const int place[3] = {i % body_.count[0], i / body_.count[0] % body_.count[1],
-                            i / (body_.count[0] * body_.count[1])};
       for (int d = 0; d < 3; ++d)
-        body_.inverse_mass_i[4 * i + d] = section_.mirrored[d] && place[d] == 0 ? 0.0 : 1 / mass;
+        body_.inverse_mass_i(i, d) = section_.mirrored[d] && along(i, d) == 0 ? 0.0 : 1 / mass;
     }
   }
 
@@ -277,7 +284,7 @@ class Builder
   /// balance with uniform stress (Gauss). With the splines at its middle small pieces flow without end.
   void set_surface()
   {
-    SpatialSurface& surface = body_.surface;
+    Markers& surface = body_.surface;
     for (const Patch& patch : patches_) {
       const auto s = splines(patch.column);
       const double area = patch.moments.size();
@@ -287,10 +294,10 @@ class Builder
         mean[d] = s[d]->middle + s[d]->edge * patch.moments.value[first_moment[d]] / area;
         surface.finest = surface.finest > 0 ? std::min(surface.finest, s[d]->edge) : s[d]->edge;
       }
-      const std::array<int, 3> stride = body_.strides();
+      const std::array<int, 3> stride = cells_.strides();
       const int lowest = patch.column[0] + patch.column[1] * stride[1] + patch.column[2] * stride[2];
       surface.place.push_back({mean[0], mean[1], mean[2]});
-      surface.node.push_back(lowest);
+      surface.lowest.push_back(lowest);
       surface.area.push_back(area);
       for (int k = 0; k < cell_nodes; ++k) {
         const bool held = body_.mass_i[lowest + k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]] > 0;
@@ -301,44 +308,53 @@ class Builder
     surface.count = static_cast<int>(surface.place.size());
   }
 
+  /// The same of all markers: from the lowest node of a cell to each of its nodes.
+  void set_offsets(Markers& markers) const
+  {
+    const std::array<int, 3> stride = cells_.strides();
+    markers.corners = cell_nodes;
+    for (int k = 0; k < cell_nodes; ++k)
+      markers.offset.push_back(k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]);
+  }
+
   void set_corners()
   {
-    const std::array<int, 3> lines{body_.axes[0].cells() + 1, body_.axes[1].cells() + 1,
-                                   body_.axes[2].cells() + 1};
+    const std::array<int, 3> lines{cells_.axes[0].cells() + 1, cells_.axes[1].cells() + 1,
+                                   cells_.axes[2].cells() + 1};
     std::vector<int> known(std::size_t(lines[0]) * lines[1] * lines[2], -1);
-    for (const SpatialCell& cell : body_.cells) {
+    for (const SpatialCell& cell : cells_.cells) {
       std::array<int, 8> drawn{};
       for (int k = 0; k < 8; ++k) {
         const int x = cell.column[0] + (k % 4 == 1 || k % 4 == 2), y = cell.column[1] + (k % 4 > 1),
                   z = cell.column[2] + k / 4;
         int& corner = known[(std::size_t(z) * lines[1] + y) * lines[0] + x];
         if (corner < 0) {
-          corner = static_cast<int>(body_.corners.place.size());
+          corner = static_cast<int>(body_.drawn.place.size());
           Vector3 place(section_.lines[0][x], section_.lines[1][y], section_.lines[2][z]);
           for (int n = 0; n < 3; ++n) place += std::min(0.0, section_.depth(place)) * section_.normal(place);
           for (int d = 0; d < 3; ++d)
             place[d] = std::clamp(place[d], section_.lines[d].front(), section_.lines[d].back());
-          add_marker(body_.corners, place);
+          add_marker(body_.drawn, place);
         }
         drawn[k] = corner;
       }
-      body_.drawn_cells.push_back(drawn);
+      cells_.drawn.push_back(drawn);
     }
-    body_.corners.count = static_cast<int>(body_.corners.place.size());
+    body_.drawn.count = static_cast<int>(body_.drawn.place.size());
   }
 
-  void add_marker(SpatialSurface& s, const Vector3& x)
+  void add_marker(Markers& s, const Vector3& x)
   {
     SplineAxis::Values v[3];
     for (int d = 0; d < 3; ++d) {
-      v[d] = body_.axes[d].at(x[d]);
+      v[d] = cells_.axes[d].at(x[d]);
       if (s.finest == 0) s.finest = splines_[d][v[d].first].edge;
       s.finest = std::min(s.finest, splines_[d][v[d].first].edge);
     }
-    const std::array<int, 3> stride = body_.strides();
+    const std::array<int, 3> stride = cells_.strides();
     const int lowest = v[0].first + v[1].first * stride[1] + v[2].first * stride[2];
     s.place.push_back({x[0], x[1], x[2]});
-    s.node.push_back(lowest);
+    s.lowest.push_back(lowest);
     for (int k = 0; k < cell_nodes; ++k) {
       const bool held = body_.mass_i[lowest + k / 9 + k / 3 % 3 * stride[1] + k % 3 * stride[2]] > 0;
       s.weight.push_back(held ? v[0].n[k / 9] * v[1].n[k / 3 % 3] * v[2].n[k % 3] : 0.0);
@@ -346,7 +362,8 @@ class Builder
   }
 
   const SpatialSection& section_;
-  SpatialBody body_;
+  Reference body_;
+  SplineCells& cells_ = body_.cells;
   std::array<std::vector<CellSplines>, 3> splines_;
   std::vector<std::vector<SpatialCell>> filled_;  ///< by phase
   std::vector<std::vector<CutCell>> cut_;
@@ -355,7 +372,7 @@ class Builder
 
 }  // namespace
 
-SpatialBody spatial_body(const SpatialSection& section)
+Body spatial_body(const SpatialSection& section)
 {
   return Builder(section).build();
 }

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "solver/body/motion.hpp"
 #include "solver/material/moduli.hpp"
-#include "solver/body/spatial_motion.hpp"
 
 namespace granulaw {
 
@@ -29,7 +29,7 @@ struct SpatialSection
 
 /// The body at rest. Cells are cut by the surface and by interfaces as a CutSection's are
 /// (rectilinear_body.hpp). Cut octants fall into tetrahedra, in which the depth is linear (cell_cutter.hpp).
-SpatialBody spatial_body(const SpatialSection& section);
+Body spatial_body(const SpatialSection& section);
 
 /// Finest edge wanted about a place where planes push, and how far the fine cells reach from it along an
 /// axis.

@@ -10,11 +10,4 @@ namespace granulaw {
 /// and nearest to the method of Li, Pan and Sinka (2009).
 Body updated_body(const CutSection& section);
 
-/// Points to grid: weights at the points' places, nodal masses and velocities, forces of the points'
-/// stresses.
-void updated_points_to_grid(Body& body);
-
-/// Grid to points, after `move`: velocities, affine velocities, places, stresses.
-void updated_grid_to_points(Body& body, double dt);
-
 }  // namespace granulaw

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "solver/material/kernel_math.hpp"
 #include "solver/material/cauchy_stress.hpp"
+#include "solver/material/kernel_math.hpp"
 #include "solver/material/yielding.hpp"
 
 // The stress update of material points, the same in all dimensions: multiplicative plasticity with
@@ -16,7 +16,7 @@ namespace granulaw::kernel {
 
 /// State of the points of one block, from its first.
 template <class Tensor>
-struct PointState
+struct BlockState
 {
   using Real = typename Tensor::Number;
   Real* __restrict c[Tensor::components];  ///< inverse plastic right Cauchy-Green tensor minus identity
@@ -36,7 +36,7 @@ struct alignas(64) Trials
 };
 
 template <bool has_state, bool yields, class Tensor, class Real>
-GRANULAW_INLINE void trial_point(const typename Tensor::Block& block, const PointState<Tensor>& state, int p,
+GRANULAW_INLINE void trial_point(const typename Tensor::Block& block, const BlockState<Tensor>& state, int p,
                                  Real shear2, Trials<Tensor>& out)
 {
   const typename Tensor::Gradient h = Tensor::gradient(block, p);
@@ -53,7 +53,7 @@ GRANULAW_INLINE void trial_point(const typename Tensor::Block& block, const Poin
 
 /// The point after its flow: plastic state, stored energy, stress.
 template <bool flows, bool dilates, class Tensor, class Real>
-GRANULAW_INLINE void finish_point(typename Tensor::Block& block, const PointState<Tensor>& state, int p,
+GRANULAW_INLINE void finish_point(typename Tensor::Block& block, const BlockState<Tensor>& state, int p,
                                   const Trials<Tensor>& trials, Real shear2, Real bulk)
 {
   const typename Tensor::Gradient h = Tensor::gradient(block, p);
@@ -81,7 +81,7 @@ GRANULAW_INLINE void finish_point(typename Tensor::Block& block, const PointStat
 
 template <bool has_state, bool yields, class Tensor, class Real>
 static __attribute__((noinline)) void find_trials(const typename Tensor::Block& block,
-                                                  const PointState<Tensor> state, int count, Real shear2,
+                                                  const BlockState<Tensor> state, int count, Real shear2,
                                                   Trials<Tensor>& trials)
 {
 #pragma omp simd
@@ -89,7 +89,7 @@ static __attribute__((noinline)) void find_trials(const typename Tensor::Block& 
 }
 
 template <bool flows, bool dilates, class Tensor, class Real>
-static __attribute__((noinline)) void finish(typename Tensor::Block& block, const PointState<Tensor> state,
+static __attribute__((noinline)) void finish(typename Tensor::Block& block, const BlockState<Tensor> state,
                                              int count, const Trials<Tensor>& trials, Real shear2, Real bulk)
 {
 #pragma omp simd
@@ -98,7 +98,7 @@ static __attribute__((noinline)) void finish(typename Tensor::Block& block, cons
 
 /// Cauchy stress of points whose plastic state is that of their displacement gradients.
 template <class Tensor>
-static void cauchy_stress(const PointState<Tensor> state, const Moduli& moduli, int count,
+static void cauchy_stress(const BlockState<Tensor> state, const Moduli& moduli, int count,
                           const typename Tensor::Block& block, CauchyStress* points)
 {
   for (int p = 0; p < count; ++p) {
@@ -125,7 +125,7 @@ GRANULAW_INLINE Yielding<Real> yielding_of(const Moduli& moduli)
 /// last update, 0: rate-free. `since_last`: the gradients are those of the last step (`updated`), and J is
 /// that of the elastic strain.
 template <class Tensor, class Real = typename Tensor::Number>
-static void update_stress(const PointState<Tensor> state, const Moduli& moduli,
+static void update_stress(const BlockState<Tensor> state, const Moduli& moduli,
                           const Yielding<Real>& yielding, double per_dt, bool since_last, int count,
                           typename Tensor::Block& block)
 {

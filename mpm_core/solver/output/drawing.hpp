@@ -1,11 +1,11 @@
 #pragma once
 
+#include <span>
+
+#include "solver/body/body.hpp"
 #include "solver/output/fields.hpp"
-#include "solver/contact/scene.hpp"
 
 namespace granulaw {
-
-struct SpatialScene;
 
 /// Bodies as they are drawn, solver units, in the frame of the first one.
 struct Drawing
@@ -16,8 +16,7 @@ struct Drawing
 };
 
 /// The bodies at the end of a step. Their plastic state is brought up to the displacements in a copy: a run
-/// is the same whether anyone looks or not.
-Drawing draw(const Scene& scene);
-Drawing draw(const SpatialScene& scene);
+/// is the same whether anyone looks or not. A second body, which is kept mirrored, is drawn where it is.
+Drawing draw(std::span<const Body> bodies);
 
 }  // namespace granulaw

@@ -18,11 +18,10 @@ class FieldRecorder
   }
 
   /// The grids and the bodies at rest, time 0.
-  template <class Scene>
-  void begin(const Scene& scene)
+  void begin(std::span<const Body> bodies)
   {
     if (!observer_) return;
-    Drawing drawing = draw(scene);
+    Drawing drawing = draw(bodies);
     const int corners = static_cast<int>(drawing.frame.r.size());
     if (observer_.begin && !drawing.cells.empty()) observer_.begin(corners, drawing.cells);
     if (observer_.begin_solid && !drawing.solid_cells.empty())
@@ -31,10 +30,9 @@ class FieldRecorder
   }
   /// To be called at every trace sample, at the end of a step; makes a frame when one is due, or if `last`.
   /// Solver units.
-  template <class Scene>
-  void sample(const Scene& scene, double time, double overlap, double force, bool last)
+  void sample(std::span<const Body> bodies, double time, double overlap, double force, bool last)
   {
-    if (observer_ && (last || time >= next_)) record(draw(scene).frame, time, overlap, force);
+    if (observer_ && (last || time >= next_)) record(draw(bodies).frame, time, overlap, force);
   }
 
  private:

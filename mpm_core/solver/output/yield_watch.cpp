@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/body/kernels.hpp"
 #include "base/state_archive.hpp"
+#include "solver/body/kernels.hpp"
 
 namespace granulaw {
 
@@ -19,14 +19,16 @@ YieldWatch::YieldWatch(std::vector<double> yield_stresses)
 
 void YieldWatch::look(Body& body, double overlap)
 {
-  std::vector<CauchyStress> stress(static_cast<std::size_t>(body.points));
-  kernels().stress(body, stress.data());
+  std::vector<CauchyStress> stress(static_cast<std::size_t>(body.points()));
+  kernels(body).stress(body, stress.data());
+  const AlignedVector<double>& volume = body.reference().volume_p;
   std::vector<double> share(yield_stresses_.size(), 0.0);
-  for (const Region& region : body.regions) {
+  for (const Region& region : body.reference().regions) {
     const auto m = static_cast<std::size_t>(region.material);
     double most = 0;
     for (int p = region.begin; p < region.end; ++p)
-      most = std::max(most, stress[static_cast<std::size_t>(p)].von_mises());
+      if (volume[static_cast<std::size_t>(p)] > 0)
+        most = std::max(most, stress[static_cast<std::size_t>(p)].von_mises());
     share[m] = std::max(share[m], most / yield_stresses_[m]);
   }
   for (std::size_t m = 0; m < share.size(); ++m) {

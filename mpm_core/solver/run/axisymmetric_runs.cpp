@@ -1,15 +1,16 @@
-#include "solver/runs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "solver/loading/flight.hpp"
+#include "solver/loading/press.hpp"
 #include "solver/run/accuracy.hpp"
-#include "solver/run/mean_run.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
+#include "solver/run/mean_run.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/runs.hpp"
 
 namespace granulaw {
 
@@ -63,12 +64,11 @@ RunResult run_impact(const Particle& particle, double velocity, const RunOptions
   return mean_of_shifted_grids(
       options, resolution_of(options, deepest), scale, true,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation<Scene> run(collision.build(deepest, cells, shift), options, duration, scale.stress);
+        Simulation run(collision.build(deepest, cells, shift), options, duration, scale.stress);
         const double reduced = run.scene.reduced_mass();
-        for (Body& body : run.scene.bodies) body.throw_along(-v * reduced / body.mass);
-        ImpactProgramme programme(duration);
-        const auto observe = [](const TraceSample&) {};
-        run.run(programme, {fields, scale, duration}, progress, observe, checkpoint);
+        for (Body& body : run.scene.bodies) throw_body(body, -v * reduced / body.mass() * run.scene.outward);
+        Flight programme(duration);
+        run.run(programme, {fields, scale, duration}, progress, checkpoint);
         RunSummary& s = run.result.summary;
         s.restitution_raw = run.scene.separation_velocity() / v;
         s.work_load = run.energy_start;
@@ -149,7 +149,7 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
   const double depth = plan.depth / scale.length;
   if (!(depth > 0 && depth <= 0.8))
     fail("--depth", "cannot be used", fmt::format("{:g} R", depth), "over 0, up to 0.8 R");
-  PressProgramme::Plan stops;
+  Press::Plan stops;
   for (const double stop : plan.partial_unloads) {
     const double x = stop / scale.length;
     if (!(x > (stops.stops.empty() ? 0 : stops.stops.back()) && x < depth))
@@ -161,16 +161,16 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
       options.slowness *
       (plan.ramp > 0 ? plan.ramp : default_press_ramp(depth, collision.yield_stress() / scale.stress));
   stops.unload_ramp = 0.4 * stops.ramp;
-  stops.support = plan.support;
   const double duration = stops.ramp + stops.unload_ramp;
 
   return mean_of_shifted_grids(
       options, resolution_of(options, depth), scale, false,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation<Scene> run(collision.build(depth, cells, shift), options, duration, scale.stress);
-        PressProgramme programme(stops, collision.e_star());
-        const auto observe = [&](const TraceSample& t) { programme.observe(t.force, t.contact_radius); };
-        run.run(programme, {fields, scale, duration}, progress, observe, checkpoint);
+        Simulation run(collision.build(depth, cells, shift), options, duration, scale.stress);
+        std::unique_ptr<Drive> drive = std::make_unique<BodyForce>();
+        if (plan.support == Support::midplane) drive = std::make_unique<EquatorPlane>();
+        Press programme(stops, collision.e_star(), std::move(drive));
+        run.run(programme, {fields, scale, duration}, progress, checkpoint);
         RunSummary& s = run.result.summary;
         s.work_load = run.loading_work();
         s.work_unload = run.unloading_work();

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "solver/material/law_table.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/grid/updated_body.hpp"
+#include "solver/material/law_table.hpp"
 #include "solver/run/estimates.hpp"
 
 namespace granulaw {
@@ -308,7 +308,7 @@ Scene Collision::build(double deepest, int cells, double shift) const
       if (body.moving) fail("--precision", "the updated grid does double precision only", "single", "double");
       body.use_single();
     }
-  if (scene.bodies.size() == 1 && scene.bodies.front().surface.corners == 1)
+  if (scene.bodies.size() == 1 && scene.bodies.front().reference().surface.corners == 1)
     scene.contact = std::make_unique<PlaneContact>();
   else
     scene.contact = std::make_unique<SurfaceContact>();

@@ -23,11 +23,10 @@ double cpu_seconds()
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-template <class Scene>
-double total(const Scene& scene, double (Scene::BodyType::*energy)() const)
+double total(const Scene& scene, double (Body::*energy)() const)
 {
   double sum = 0;
-  for (const auto& body : scene.bodies) sum += (body.*energy)();
+  for (const Body& body : scene.bodies) sum += (body.*energy)();
   return sum;
 }
 
@@ -39,22 +38,20 @@ std::vector<double> in_units_of(double unit, std::vector<double> values)
 
 }  // namespace
 
-template <class Scene>
-Simulation<Scene>::Simulation(Scene s, const RunOptions& options, double expected, double stress)
+Simulation::Simulation(Scene s, const RunOptions& options, double expected, double stress)
     : scene(std::move(s)),
       yield_watch_(in_units_of(stress, options.yield_stresses)),
       courant_(options.courant),
       window_(expected / options.samples),
       longest_(60 * expected)
 {
-  for (auto& body : scene.bodies) stable_.emplace_back(body);
+  for (Body& body : scene.bodies) stable_.emplace_back(body);
   // Samples of one or two steps would swing with every node that closes.
   while (window_ < 3 * courant_ * step_limit()) window_ *= 2;
   window_end_ = window_;
 }
 
-template <class Scene>
-double Simulation<Scene>::step_limit() const
+double Simulation::step_limit() const
 {
   double limit = stable_.front().limit(scene.bodies.front());
   for (std::size_t b = 1; b < scene.bodies.size(); ++b)
@@ -62,14 +59,11 @@ double Simulation<Scene>::step_limit() const
   return limit;
 }
 
-template <class Scene>
-void Simulation<Scene>::run(Programme& programme, FieldRecorder fields,
-                            const std::function<void(double)>& progress,
-                            const std::function<void(const TraceSample&)>& observe,
-                            const CheckpointSlot& checkpoint)
+void Simulation::run(Programme& programme, FieldRecorder fields, const std::function<void(double)>& progress,
+                     const CheckpointSlot& checkpoint)
 {
-  energy_start = total(scene, &Scene::BodyType::kinetic_energy);
-  fields.begin(scene);
+  energy_start = total(scene, &Body::kinetic_energy);
+  fields.begin(scene.bodies);
   dt_ = last_dt_ = courant_ * step_limit();
   overlap_ = programme.overlap(scene);
   const auto visit = [&](StateArchive& archive) { visit_state(programme, archive); };
@@ -78,10 +72,9 @@ void Simulation<Scene>::run(Programme& programme, FieldRecorder fields,
   while (!programme.finished()) {
     const bool sampled = step(programme);
     if (sampled) {
-      observe(result.trace.back());
-      if constexpr (std::is_same_v<Scene, granulaw::Scene>)
-        if (result.trace.back().branch == Branch::load) yield_watch_.sample(scene.bodies.front(), overlap_);
-      fields.sample(scene, time_, overlap_, result.trace.back().force, programme.finished());
+      programme.observe(result.trace.back());
+      if (result.trace.back().branch == Branch::load) yield_watch_.sample(scene.bodies.front(), overlap_);
+      fields.sample(scene.bodies, time_, overlap_, result.trace.back().force, programme.finished());
     }
     if (steps_ % limit_interval == 0) dt_ = courant_ * step_limit();
     if (!sampled) continue;
@@ -97,8 +90,7 @@ void Simulation<Scene>::run(Programme& programme, FieldRecorder fields,
 }
 
 /// One step; true if it ends a sample.
-template <class Scene>
-bool Simulation<Scene>::step(Programme& programme)
+bool Simulation::step(Programme& programme)
 {
   const double overlap_before = overlap_;
   const Branch branch = programme.branch();
@@ -120,8 +112,7 @@ bool Simulation<Scene>::step(Programme& programme)
   return true;
 }
 
-template <class Scene>
-void Simulation<Scene>::end_sample(Branch branch, int segment, double overlap_before)
+void Simulation::end_sample(Branch branch, int segment, double overlap_before)
 {
   const double length = time_ - window_start_;
   // overlaps are taken at the start of each step: shift the mean by half a step's travel
@@ -134,29 +125,27 @@ void Simulation<Scene>::end_sample(Branch branch, int segment, double overlap_be
   if (time_ > longest_) fail("solver", fmt::format("the contact had not ended after {:.4g} R/c*", time_));
   result.trace.push_back({window_start_ + 0.5 * length, overlap, force,
                           scene.contact->edge_radius(scene.bodies), branch, segment});
-  if constexpr (std::is_same_v<Scene, SpatialScene>) scene.end_sample(length, result.planes);
+  scene.contact->end_sample(scene.bodies, length, result.planes);
   window_start_ = time_;
   impulse_ = overlap_sum_ = 0;
   in_window_ = 0;
 }
 
-template <class Scene>
-void Simulation<Scene>::visit_state(Programme& programme, StateArchive& a)
+void Simulation::visit_state(Programme& programme, StateArchive& a)
 {
   a.value(time_), a.value(dt_), a.value(last_dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
   a.value(last_touch_time_), a.value(last_touch_overlap_);
   a.value(impulse_), a.value(overlap_sum_), a.value(window_start_), a.value(window_end_);
   a.value(in_window_);
   a.growing(result.trace);
-  if constexpr (std::is_same_v<Scene, SpatialScene>) visit_planes(a, result.planes);
-  for (auto& body : scene.bodies) body.visit_state(a);
+  visit_planes(a, result.planes);
+  for (Body& body : scene.bodies) body.visit_state(a);
   scene.contact->visit_state(a);
   programme.visit_state(a);
   yield_watch_.visit_state(a);
 }
 
-template <class Scene>
-double Simulation<Scene>::work(bool load) const
+double Simulation::work(bool load) const
 {
   double sum = 0;
   const auto& t = result.trace;
@@ -169,12 +158,11 @@ double Simulation<Scene>::work(bool load) const
   return load ? sum : -sum;
 }
 
-template <class Scene>
-void Simulation<Scene>::summarise(const Programme& programme)
+void Simulation::summarise(const Programme& programme)
 {
   RunSummary& s = result.summary;
-  for (auto& body : scene.bodies) {
-    s.points += body.points;
+  for (Body& body : scene.bodies) {
+    s.points += body.reference().filled;
     body.fetch_state();
     s.plastic_strain_max = std::max(s.plastic_strain_max, body.largest_plastic_strain());
   }
@@ -186,15 +174,11 @@ void Simulation<Scene>::summarise(const Programme& programme)
   s.contact_time = last_touch_time_;
   const double put_in = energy_start + programme.work();
   const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
-  const double found = total(scene, &Scene::BodyType::kinetic_energy) +
-                       total(scene, &Scene::BodyType::strain_energy) +
-                       total(scene, &Scene::BodyType::plastic_work) + scene.contact->dissipated();
+  const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
+                       total(scene, &Body::plastic_work) + scene.contact->dissipated();
   s.energy_error = std::abs(found - put_in) / peak;
   s.contact_loss = scene.contact->dissipated() / peak;
-  s.hourglass = total(scene, &Scene::BodyType::hourglass_energy) / peak;
+  s.hourglass = total(scene, &Body::hourglass_energy) / peak;
 }
-
-template class Simulation<Scene>;
-template class Simulation<SpatialScene>;
 
 }  // namespace granulaw

@@ -3,31 +3,28 @@
 #include <functional>
 #include <vector>
 
+#include "solver/body/stable_step.hpp"
+#include "solver/contact/scene.hpp"
+#include "solver/loading/programme.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/field_recorder.hpp"
 #include "solver/output/yield_watch.hpp"
-#include "solver/loading/loading_programme.hpp"
-#include "solver/runs.hpp"
-#include "solver/contact/scene.hpp"
-#include "solver/contact/spatial_scene.hpp"
 #include "solver/run/time_step.hpp"
+#include "solver/runs.hpp"
 
 namespace granulaw {
 
 /// One scene under one programme, from first touch to the end; solver units.
-template <class Scene>
 class Simulation
 {
  public:
-  using Programme = BasicProgramme<Scene>;
-
   /// `expected`: duration of the run, about, R/c*. `stress`: the solver's unit, Pa.
   Simulation(Scene scene, const RunOptions& options, double expected, double stress);
 
   /// Steps until the loading programme has finished, on from where `checkpoint` stands if that holds a state.
-  /// `observe` sees every sample of the trace. Bodies and drive must be as at the start of the run.
+  /// Bodies and drive must be as at the start of the run.
   void run(Programme& programme, FieldRecorder fields, const std::function<void(double)>& progress,
-           const std::function<void(const TraceSample&)>& observe, const CheckpointSlot& checkpoint = {});
+           const CheckpointSlot& checkpoint = {});
 
   Scene scene;
   RunResult result;         // what is known at the end stands in result.summary
@@ -47,7 +44,7 @@ class Simulation
   void visit_state(Programme& programme, StateArchive& archive);
 
   YieldWatch yield_watch_;
-  std::vector<StableStep<typename Scene::BodyType>> stable_;
+  std::vector<StableStep> stable_;
   double courant_;
   double window_;  // sample interval
   double window_end_ = 0;

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "solver/loading/flight.hpp"
+#include "solver/loading/press.hpp"
 #include "solver/run/accuracy.hpp"
 #include "solver/run/mean_run.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/run/spatial_setup.hpp"
 #include "solver/runs.hpp"
 #include "solver/shape/body_frame.hpp"
-#include "solver/loading/first_contact.hpp"
-#include "solver/loading/planes_programme.hpp"
-#include "solver/run/spatial_setup.hpp"
 
 namespace granulaw {
 
@@ -53,17 +53,18 @@ Vector3 unit(const std::array<double, 3>& v, const char* where)
 }
 
 /// Sums over the nodes of a part, for the whole body: what the mirrored parts add.
-Eigen::Matrix3d lumped_inertia(const SpatialBody& body, const Vector3& centre)
+Eigen::Matrix3d lumped_inertia(const Body& body, const Vector3& centre)
 {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (int i = 0; i < body.nodes; ++i) {
-    if (body.mass_i[i] <= 0) continue;
+  const Reference& reference = body.reference();
+  for (int i = 0; i < reference.nodes; ++i) {
+    if (reference.mass_i[i] <= 0) continue;
     const Vector3 x = place_now(body, i) - centre;
-    second += body.mass_i[i] * x * x.transpose();
+    second += reference.mass_i[i] * x * x.transpose();
   }
-  second *= body.copies();
+  second *= reference.copies();
   for (int d = 0; d < 3; ++d)
-    if (body.mirrored[d])
+    if (reference.mirrored[d])
       for (int e = 0; e < 3; ++e)
         if (e != d) second(d, e) = second(e, d) = 0;
   return second.trace() * Eigen::Matrix3d::Identity() - second;
@@ -74,33 +75,28 @@ Eigen::Matrix3d lumped_inertia(const SpatialBody& body, const Vector3& centre)
 class ReboundMeter
 {
  public:
-  ReboundMeter(const SpatialScene& scene, const Eigen::Matrix3d* exact)
+  ReboundMeter(const Scene& scene, const Eigen::Matrix3d* exact)
       : start_(lumped_inertia(scene.bodies.front(), scene.centre)), exact_(exact ? *exact : start_)
   {
   }
   const Eigen::Matrix3d& inertia_at_rest() const { return exact_; }
   /// Angular velocity and energy of the rigid motion.
-  Vector3 spin(const SpatialScene& scene) const { return inertia(scene).ldlt().solve(angular(scene)); }
-  double energy(const SpatialScene& scene) const
+  Vector3 spin(const Scene& scene) const { return inertia(scene).ldlt().solve(angular(scene)); }
+  double energy(const Scene& scene) const
   {
-    const SpatialBody& body = scene.bodies.front();
-    return 0.5 * body.copies() * body.mass * mean_velocity(body).squaredNorm() +
+    const Body& body = scene.bodies.front();
+    return 0.5 * body.reference().copies() * body.mass() * mean_velocity(body).squaredNorm() +
            0.5 * angular(scene).dot(spin(scene));
   }
 
  private:
-  Vector3 centre(const SpatialScene& scene) const
+  Eigen::Matrix3d inertia(const Scene& scene) const
   {
-    const std::array<double, 3>& travel = scene.bodies.front().travel;
-    return scene.centre + Vector3(travel[0], travel[1], travel[2]);
+    return exact_ + lumped_inertia(scene.bodies.front(), scene.centre_now()) - start_;
   }
-  Eigen::Matrix3d inertia(const SpatialScene& scene) const
+  Vector3 angular(const Scene& scene) const
   {
-    return exact_ + lumped_inertia(scene.bodies.front(), centre(scene)) - start_;
-  }
-  Vector3 angular(const SpatialScene& scene) const
-  {
-    return of_whole(scene.bodies.front(), angular_momentum(scene.bodies.front(), centre(scene)));
+    return of_whole(scene.bodies.front(), angular_momentum(scene.bodies.front(), scene.centre_now()));
   }
   Eigen::Matrix3d start_, exact_;
 };
@@ -134,29 +130,29 @@ RunResult run_body_impact(const Particle& particle, const Approach& thrown, cons
   return mean_of_shifted_grids(
       options, cells_of(options), scale, true,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation<SpatialScene> run(setup.build(deepest, cells, shift, options.precision), options, duration,
-                                     scale.stress);
-        SpatialBody& body = run.scene.bodies.front();
+        Simulation run(setup.build(deepest, cells, shift, options.precision), options, duration,
+                       scale.stress);
+        Body& body = run.scene.bodies.front();
         const Eigen::Matrix3d exact = setup.inertia();
         const ReboundMeter meter(run.scene, homogeneous ? &exact : nullptr);
         throw_body(body, velocity, spin, run.scene.centre);
-        FreeFlight<SpatialScene> whole(duration);
-        FirstContact first(duration, setup.first_contact() - run.scene.centre, meter.inertia_at_rest());
-        BasicProgramme<SpatialScene>& programme =
-            thrown.first_contact_only ? static_cast<BasicProgramme<SpatialScene>&>(first) : whole;
-        run.run(
-            programme, {fields, scale, duration}, progress, [](const TraceSample&) {}, checkpoint);
+        std::optional<LeavingPoint> point;
+        if (thrown.first_contact_only)
+          point = {setup.first_contact() - run.scene.centre, meter.inertia_at_rest().inverse()};
+        Flight programme(duration, point);
+        run.run(programme, {fields, scale, duration}, progress, checkpoint);
         RunSummary& s = run.result.summary;
         Rebound rebound;
         const Vector3 after = mean_velocity(body), w = meter.spin(run.scene);
-        const Vector3 impulse = body.copies() * body.mass * (after - velocity);
+        const int copies = body.reference().copies();
+        const Vector3 impulse = copies * body.mass() * (after - velocity);
         rebound.normal = s.restitution_raw = after[2] / v;
         rebound.tangential = after[0] / velocity[0];
         rebound.spin = {w[0], w[1], w[2]};
         rebound.impulse_normal = impulse[2];
         rebound.impulse_tangential = slides ? -impulse[0] : 0.0;
         run.result.rebound = rebound;
-        s.work_load = body.copies() * run.energy_start;
+        s.work_load = copies * run.energy_start;
         s.work_unload = meter.energy(run.scene);
         return std::move(run.result);
       });
@@ -192,7 +188,7 @@ RunResult run_planes_press(const Particle& particle, const PressPlan& plan, cons
   const double depth = plan.depth / scale.length;
   if (!(depth > 0 && depth <= 0.8))
     fail("--depth", "cannot be used", fmt::format("{:g} R", depth), "over 0, up to 0.8 R");
-  PlanesProgramme::Plan stops{depth, 0, 0, setup.speeds()};
+  Press::Plan stops{{depth}, 0, 0};
   stops.ramp = options.slowness *
                (plan.ramp > 0 ? plan.ramp : default_press_ramp(depth, setup.yield_stress() / scale.stress));
   stops.unload_ramp = 0.4 * stops.ramp;
@@ -201,17 +197,14 @@ RunResult run_planes_press(const Particle& particle, const PressPlan& plan, cons
   return mean_of_shifted_grids(
       options, cells_of(options), scale, false,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
-        Simulation<SpatialScene> run(setup.build(depth, cells, shift, options.precision), options, duration,
-                                     scale.stress);
-        auto& contact = static_cast<SpatialContact&>(*run.scene.contact);
-        for (Plane& plane : contact.planes()) plane.velocity = 0;
-        PlanesProgramme programme(stops);
-        const auto observe = [&](const TraceSample& t) { programme.observe(t.force, t.contact_radius); };
-        run.run(programme, {fields, scale, duration}, progress, observe, checkpoint);
+        Simulation run(setup.build(depth, cells, shift, options.precision), options, duration, scale.stress);
+        for (Plane& plane : run.scene.planes->planes()) plane.velocity = 0;
+        Press programme(stops, 1, std::make_unique<MovingPlanes>(setup.speeds()));
+        run.run(programme, {fields, scale, duration}, progress, checkpoint);
         RunSummary& s = run.result.summary;
-        const double copies = run.scene.bodies.front().copies();
+        const double copies = run.scene.bodies.front().reference().copies();
         s.work_load = copies * programme.work_load();
-        s.work_unload = copies * programme.work_unload(contact);
+        s.work_unload = copies * programme.work_unload();
         s.restitution_raw = std::sqrt(std::max(0.0, s.work_unload / s.work_load));
         setup.give_mirrored_planes(run.result.planes);
         return std::move(run.result);

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "solver/material/law_table.hpp"
-#include "solver/run/estimates.hpp"
-#include "solver/run/axisymmetric_setup.hpp"
-#include "solver/shape/body_frame.hpp"
 #include "solver/grid/spatial_grid.hpp"
+#include "solver/material/law_table.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
+#include "solver/run/estimates.hpp"
+#include "solver/shape/body_frame.hpp"
 
 namespace granulaw {
 
@@ -250,17 +250,20 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
   return s;
 }
 
-SpatialScene SpatialSetup::build(double deepest, int cells, double shift, Precision precision) const
+Scene SpatialSetup::build(double deepest, int cells, double shift, Precision precision) const
 {
-  SpatialScene scene;
+  Scene scene;
   scene.bodies.push_back(spatial_body(section(deepest, cells, shift)));
-  SpatialBody& body = scene.bodies.front();
+  Body& body = scene.bodies.front();
   if (precision == Precision::single) body.use_single();
-  scene.contact = std::make_unique<SpatialContact>(body, planes_);
-  scene.normal = planes_.front().normal;
-  for (int i = 0; i < body.nodes; ++i) scene.centre += body.mass_i[i] / body.mass * reference_place(body, i);
+  scene.outward = planes_.front().normal;
+  for (int i = 0; i < body.nodes(); ++i)
+    scene.centre += body.reference().mass_i[i] / body.mass() * reference_place(body, i);
   for (int d = 0; d < 3; ++d)
     if (mirrored_[d]) scene.centre[d] = 0;
+  auto contact = std::make_unique<SpatialContact>(body, scene.centre, planes_);
+  scene.planes = contact.get();
+  scene.contact = std::move(contact);
   return scene;
 }
 

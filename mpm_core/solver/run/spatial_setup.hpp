@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "base/scales.hpp"
-#include "solver/runs.hpp"
-#include "solver/shape/solid.hpp"
+#include "solver/contact/scene.hpp"
 #include "solver/contact/spatial_contact.hpp"
 #include "solver/grid/spatial_grid.hpp"
+#include "solver/runs.hpp"
+#include "solver/shape/solid.hpp"
 
 namespace granulaw {
 
@@ -41,7 +42,7 @@ class SpatialSetup
   void draw() { drawn_ = true; }
 
   /// The body at rest for overlaps up to `deepest`, with `cells` across the contact block.
-  SpatialScene build(double deepest, int cells, double shift, Precision precision) const;
+  Scene build(double deepest, int cells, double shift, Precision precision) const;
 
  private:
   /// Where a plane touches, and what the surface is like there.

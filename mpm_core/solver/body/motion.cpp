@@ -1,0 +1,122 @@
+#include "solver/body/motion.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "solver/body/kernels.hpp"
+
+namespace granulaw {
+
+Vector3 at(const NodeField& field, int node)
+{
+  Vector3 v = Vector3::Zero();
+  for (int c = 0; c < field.components; ++c) v[field.direction(c)] = field(node, c);
+  return v;
+}
+
+Vector3 reference_place(const Body& b, int node)
+{
+  return at(b.reference().place_i, node);
+}
+
+Vector3 place_now(const Body& b, int node)
+{
+  return reference_place(b, node) + at(b.u_i, node);
+}
+
+Vector3 carried(const NodeField& field, const Markers& markers, int marker)
+{
+  Vector3 sum = Vector3::Zero();
+  const double* weight = markers.weights(marker);
+  for (int k = 0; k < markers.corners; ++k) {
+    const int node = markers.node(marker, k);
+    for (int c = 0; c < field.components; ++c) sum[field.direction(c)] += weight[k] * field(node, c);
+  }
+  return sum;
+}
+
+Vector3 travel_of(const Body& b)
+{
+  return {b.travel[0], b.travel[1], b.travel[2]};
+}
+
+void throw_body(Body& b, const Vector3& velocity, const Vector3& spin, const Vector3& centre)
+{
+  const NodeField& inverse_mass = b.reference().inverse_mass_i;
+  for (int i = 0; i < b.nodes(); ++i) {
+    const Vector3 v = velocity + spin.cross(place_now(b, i) - centre);
+    for (int c = 0; c < b.v_i.components; ++c)
+      if (inverse_mass(i, c) > 0) b.v_i(i, c) = v[b.v_i.direction(c)];
+  }
+  if (b.moving) std::fill(b.moving->vz.begin(), b.moving->vz.end(), velocity[2]);
+}
+
+void add_velocity(Body& b, const Vector3& velocity)
+{
+  for (int c = 0; c < b.v_i.components; ++c) {
+    const double more = velocity[b.v_i.direction(c)];
+    if (more == 0) continue;
+    const double* inverse_mass = &b.reference().inverse_mass_i.values[b.v_i.at(0, c)];
+    double* v = &b.v_i.values[b.v_i.at(0, c)];
+    const int nodes = b.v_i.nodes, step = b.v_i.per_node;
+    if (step == 1)
+      for (int i = 0; i < nodes; ++i) v[i] += inverse_mass[i] > 0 ? more : 0;
+    else
+      for (int i = 0; i < nodes * step; i += step) v[i] += inverse_mass[i] > 0 ? more : 0;
+  }
+}
+
+double damp_velocity(Body& b, const Vector3& bulk, double share)
+{
+  const Reference& reference = b.reference();
+  const double keep = 1 - share;
+  double gain = 0;
+  for (int i = 0; i < b.v_i.nodes; ++i) {
+    double before = 0, after = 0;
+    for (int c = 0; c < b.v_i.components; ++c) {
+      if (reference.inverse_mass_i(i, c) == 0) continue;
+      double& v = b.v_i(i, c);
+      const double own = bulk[b.v_i.direction(c)], damped = own + keep * (v - own);
+      before += v * v, after += damped * damped;
+      v = damped;
+    }
+    gain += 0.5 * reference.mass_i[i] * (after - before);
+  }
+  return gain;
+}
+
+Vector3 momentum(const Body& b)
+{
+  double sum[4];
+  kernels(b).momentum(b, sum);
+  return {sum[0], sum[1], sum[2]};
+}
+
+Vector3 mean_velocity(const Body& b)
+{
+  Vector3 mean = momentum(b) / b.mass();
+  for (int d = 0; d < 3; ++d)
+    if (b.reference().mirrored[d]) mean[d] = 0;
+  return mean;
+}
+
+Vector3 angular_momentum(const Body& b, const Vector3& centre)
+{
+  const std::vector<double>& mass = b.reference().mass_i;
+  Vector3 sum = Vector3::Zero();
+  for (int i = 0; i < b.nodes(); ++i)
+    if (mass[i] > 0) sum += mass[i] * (place_now(b, i) - centre).cross(at(b.v_i, i));
+  return sum;
+}
+
+Vector3 of_whole(const Body& body, Vector3 angular)
+{
+  const Reference& r = body.reference();
+  for (int d = 0; d < 3; ++d)
+    if (r.mirrored[d])
+      for (int e = 0; e < 3; ++e)
+        if (e != d) angular[e] = 0;
+  return r.copies() * angular;
+}
+
+}  // namespace granulaw
