@@ -324,7 +324,7 @@ TEST(SpatialSinglePrecision, LightNodesAccelerateAsInDouble)
   f.use_single();
   double lightest = 1, heaviest = 0;
   for (const double m : b.reference().mass_i)
-    if (m > 0) lightest = std::min(lightest, m), heaviest = std::max(heaviest, m);
+    if (m > 0) lightest = std::min(lightest, m), heaviest = larger(heaviest, m);
   EXPECT_LT(lightest, 1e-3 * heaviest);  // no node weighs less than a thousandth of a finest cell
   for (Body* body : {&b, &f}) {
     displace(*body, 0.05 * stretch, {0.4, -0.2, 0.1});
@@ -333,8 +333,8 @@ TEST(SpatialSinglePrecision, LightNodesAccelerateAsInDouble)
   double worst = 0, largest = 0;
   const AlignedVector<double>& inverse_mass = b.reference().inverse_mass_i.values;
   for (std::size_t i = 0; i < inverse_mass.size(); ++i) {
-    worst = std::max(worst, inverse_mass[i] * std::abs(b.f_i.values[i] - f.f_i.values[i]));
-    largest = std::max(largest, inverse_mass[i] * std::abs(b.f_i.values[i]));
+    worst = larger(worst, inverse_mass[i] * std::abs(b.f_i.values[i] - f.f_i.values[i]));
+    largest = larger(largest, inverse_mass[i] * std::abs(b.f_i.values[i]));
   }
   EXPECT_LT(worst, 1e-6 * largest);
 }
