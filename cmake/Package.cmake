@@ -52,8 +52,9 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME granulaw-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "\
 C++ libraries and headers. find_package(granulaw) gives granulaw::law, which
-evaluates, reads and writes contact laws, granulaw::solver, the material point
-method, and granulaw::characterise, which makes laws from runs.")
+evaluates, reads and writes contact laws, granulaw::shape, bodies of any shape,
+granulaw::solver, the material point method, and granulaw::characterise, which
+makes laws from runs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "granulaw (= ${PROJECT_VERSION}), libfmt-dev, libeigen3-dev, libhdf5-dev")
 include(CPack)

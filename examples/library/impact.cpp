@@ -63,7 +63,7 @@ int run(const Options& o)
     powder.yield_surface = {"drucker-prager", {{"friction_angle", {30}}, {"dilatancy_angle", {10}}}};
 
   // 2. The particle: a sphere of R = 1 mm.
-  const Particle sphere = Particle::from({1e-3, powder});
+  const Particle sphere = Particle::sphere(1e-3, powder);
 
   // 3. How it comes in.
   Approach approach{o.speed};

@@ -37,8 +37,10 @@ std::string description_of(const Material& m)
 void check_von_mises(const Material& m, const std::string& where)
 {
   if (!m.yield_surface.name.empty())
-    fail(where, "'yield_surface': a contact law is made of materials that yield by von Mises only; mpm impact and "
-                "mpm press run this one", m.yield_surface.name, "no yield_surface");
+    fail(where,
+         "'yield_surface': a contact law is made of materials that yield by von Mises only; mpm impact and "
+         "mpm press run this one",
+         m.yield_surface.name, "no yield_surface");
 }
 
 namespace {
@@ -173,7 +175,7 @@ CharacterisedBody characterised_body_of(const Material& material)
     return material.yields() ? s : s.elastic();
   }
   CharacterisedBody s;
-  s.particle = Particle::from(Sphere{1.0, material});
+  s.particle = Particle::sphere(1.0, material);
   s.scale = {1.0, material.e_star(), material.density};
   s.poisson_ratio = material.poisson_ratio;
   s.mass = 4.0 / 3.0 * M_PI;
@@ -198,7 +200,7 @@ CharacterisedBody characterised_body_of(double e_star_over_yield, double poisson
   m.yield_stress = 1 / e_star_over_yield;
   m.hardening_modulus = hardening_over_e * m.youngs_modulus;
   CharacterisedBody s;
-  s.particle = Particle::from(Sphere{1.0, m});
+  s.particle = Particle::sphere(1.0, m);
   s.poisson_ratio = poisson_ratio;
   s.mass = 4.0 / 3.0 * M_PI;
   fill_yield(s);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/output/trace.hpp"
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace granulaw {
 

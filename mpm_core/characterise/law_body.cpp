@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "characterise/law_material.hpp"
 #include "base/state_archive.hpp"
+#include "characterise/law_material.hpp"
 
 namespace granulaw {
 
@@ -38,7 +38,7 @@ LawBody body_of_particle(const std::string& name, const Particle& particle, cons
 {
   const std::string where = fmt::format("{}: [particle.{}]", source, name);
   for (const Material& m : particle.materials) check_von_mises(m, where);
-  if (particle.solid) return body_of_shape(name, particle, where);
+  if (particle.shape) return body_of_shape(name, particle, where);
   const CharacterisedBody characterised = characterised_body_of(particle);
   const Material& at_pole = particle.materials[static_cast<std::size_t>(characterised.pole_material)];
   LawBody body{law_material(name, at_pole), characterised, sphere_name,
@@ -59,9 +59,8 @@ LawBody law_body(const std::string& name, const Materials& materials, const std:
   const std::string where = fmt::format("{}: [material.{}]", materials.source, name);
   check_von_mises(material, where);
   if (material.rate_dependent())
-    fail(
-        where,
-        fmt::format("its yield stress depends on the rate ('{}'), so its law depends on the particle's size: "
+    fail(where, fmt::format(
+                    "its yield stress depends on the rate ('{}'), so its law depends on the particle's size: "
                     "{}",
                     material.rate.name, hint));
   return body_of_material(name, material);

@@ -6,7 +6,7 @@
 
 namespace granulaw {
 
-std::vector<Vector3> contact_directions(const Solid& solid, int count)
+std::vector<Vector3> contact_directions(const Shape& solid, int count)
 {
   constexpr double quarter = std::numbers::pi / 2, golden = std::numbers::phi - 1;
   const std::array<bool, 3> planes = solid.symmetric();
@@ -22,7 +22,7 @@ std::vector<Vector3> contact_directions(const Solid& solid, int count)
   return directions;
 }
 
-std::vector<Orientation> orientations_of(const Solid& solid, int count)
+std::vector<Orientation> orientations_of(const Shape& solid, int count)
 {
   const MassProperties mass = solid.mass_properties();
   std::vector<Orientation> orientations;

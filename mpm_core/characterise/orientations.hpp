@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace granulaw {
 
@@ -17,9 +17,9 @@ struct Orientation
 
 /// Quasi-uniform directions over the part of the sphere that the body's mirror planes leave: a Fibonacci
 /// lattice, equal areas in z and angle, so that each stands for the same share of all directions.
-std::vector<Vector3> contact_directions(const Solid& solid, int count = 30);
+std::vector<Vector3> contact_directions(const Shape& solid, int count = 30);
 
-std::vector<Orientation> orientations_of(const Solid& solid, int count = 30);
+std::vector<Orientation> orientations_of(const Shape& solid, int count = 30);
 
 /// Mass that resists a normal impulse at a point, over the body's mass: 1/m_eff = 1/m + (r x n).I^-1 (r x n),
 /// r from the centre of mass to the contact. 1 where the normal passes through the centre of mass.

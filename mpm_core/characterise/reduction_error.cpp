@@ -55,10 +55,11 @@ double wave_speed(const UnlikePair& pair)
   return std::sqrt(pair.yielding.e_star() / pair.yielding.density);
 }
 
-Sphere one_body(const UnlikePair& pair)
+Particle one_body(const UnlikePair& pair)
 {
-  Sphere sphere{pair.mapping().length(pair.r_eff()), scaled(pair.yielding, pair.yielding)};
-  sphere.material.density = pair.one_body_density();
+  Particle sphere =
+      Particle::sphere(pair.mapping().length(pair.r_eff()), scaled(pair.yielding, pair.yielding));
+  sphere.materials[0].density = pair.one_body_density();
   return sphere;
 }
 
@@ -77,13 +78,13 @@ struct TwoBodies
   Partner partner;
 
   explicit TwoBodies(const UnlikePair& pair)
-      : first(Particle::from({1.0, scaled(pair.yielding, pair.yielding)}))
+      : first(Particle::sphere(1.0, scaled(pair.yielding, pair.yielding)))
   {
     if (!std::isfinite(pair.radius_ratio)) {
       partner.wall = scaled(pair.partner, pair.yielding);
       return;
     }
-    partner.particle = Particle::from({pair.radius_ratio, scaled(pair.partner, pair.yielding)});
+    partner.particle = Particle::sphere(pair.radius_ratio, scaled(pair.partner, pair.yielding));
     if (pair.radius_ratio < 1) std::swap(first, *partner.particle);
   }
 };
@@ -125,7 +126,7 @@ ContactRecord two_body_record(const UnlikePair& pair, double velocity, const Run
 
 RunSummary press_as_one_body(const UnlikePair& pair, double depth, double ramp, const RunOptions& options)
 {
-  const Sphere sphere = one_body(pair);
+  const Particle sphere = one_body(pair);
   PressPlan plan;
   plan.depth = depth * sphere.radius, plan.ramp = ramp;
   return of_pair(run_press(sphere, plan, options).summary, pair);

@@ -6,15 +6,15 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/state_archive.hpp"
 #include "characterise/characterised_body.hpp"
 #include "characterise/energetic_restitution.hpp"
 #include "characterise/law_material.hpp"
 #include "characterise/orientations.hpp"
 #include "law/replay.hpp"
-#include "base/state_archive.hpp"
 #include "solver/run/accuracy.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/body_frame.hpp"
+#include "solver/shape/rotation.hpp"
 #include "solver/solver_id.hpp"
 
 namespace granulaw {
@@ -51,7 +51,7 @@ struct CertifiedImpact
   Vector3 direction() const { return {check.direction[0], check.direction[1], check.direction[2]}; }
 };
 
-std::vector<CertifiedImpact> impacts_of(const Solid& solid, const ShapeQuestion& question)
+std::vector<CertifiedImpact> impacts_of(const Shape& solid, const ShapeQuestion& question)
 {
   std::vector<CertifiedImpact> impacts;
   for (const double velocity : question.velocities)
@@ -148,7 +148,7 @@ void replay(OrientationCheck& check, const BodyLaw& law, double mass)
 
 }  // namespace
 
-std::string shape_text(const Solid& solid)
+std::string shape_text(const Shape& solid)
 {
   constexpr std::size_t longest = 200;
   const std::string text = solid.definition();
@@ -161,7 +161,7 @@ ShapeCertificate certify_shape(const Particle& particle, const BodyLaw& law, con
   if (particle.materials.size() != 1)
     fail("the certificate of a shape", "needs a body of one material",
          fmt::format("{} materials", particle.materials.size()), "one");
-  const std::shared_ptr<const Solid> solid = solid_of(particle);
+  const SharedShape solid = shape_of(particle);
   const MassProperties of_one = solid->mass_properties();
   const double density = particle.materials[0].density;
   ShapeCertificate certificate;

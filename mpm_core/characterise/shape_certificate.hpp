@@ -5,7 +5,7 @@
 #include "farm/farm.hpp"
 #include "law/law.hpp"
 #include "solver/shape/particle.hpp"
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace granulaw {
 
@@ -18,7 +18,7 @@ struct ShapeQuestion
 };
 
 /// ShapeCertificate::shape: the solid's definition, or what it begins with and a checksum of a long one.
-std::string shape_text(const Solid& solid);
+std::string shape_text(const Shape& solid);
 
 /// Throws the body in each direction and replays the law of a sphere of its material. The law's contact has
 /// the radius sqrt(R' R'') (a plastic contact of overlap delta has the area 2 pi delta sqrt(R' R''), whatever

@@ -33,12 +33,12 @@ struct Scene
       other.hardening_modulus = h.hardening_modulus / h.youngs_modulus * other.youngs_modulus;
     }
     const double radius = 1 / pair.mapping().length(pair.r_eff());
-    first = Particle::from({radius, sphere});
+    first = Particle::sphere(radius, sphere);
     if (std::isinf(pair.radius_ratio)) {
       partner.wall = other;
       return;
     }
-    partner.particle = Particle::from({radius * pair.radius_ratio, other});
+    partner.particle = Particle::sphere(radius * pair.radius_ratio, other);
     if (pair.radius_ratio < 1) std::swap(first, *partner.particle);
     const auto period = [](const Particle& p) {
       return p.radius * std::sqrt(p.materials[0].density / p.materials[0].e_star());

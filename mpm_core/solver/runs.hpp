@@ -103,7 +103,7 @@ struct PressPlan
   std::vector<double> partial_unloads{};  ///< m, two dimensions: ascending overlaps < depth at which the
                                           ///< press unloads until the force ends, then reloads; each makes an
                                           ///< unload and a reload segment
-  double ramp = 0;                   ///< loading time in R/c*; 0: the default of the run
+  double ramp = 0;                        ///< loading time in R/c*; 0: the default of the run
   std::vector<PressPlane> planes{};  ///< planes that press the body in three dimensions; none: its partner
 };
 
@@ -133,10 +133,8 @@ double default_press_ramp(double depth, double yield_over_e_star);
 /// A body of revolution along its axis.
 RunResult run_impact(const Particle& particle, double velocity, const RunOptions& options = {},
                      const Partner& partner = {});
-RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& options = {});
 RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options = {},
                     const Partner& partner = {});
-RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOptions& options = {});
 
 /// A body of any shape among rigid planes.
 RunResult run_body_impact(const Particle& particle, const Approach& approach, const RunOptions& options = {});

@@ -27,7 +27,7 @@ Particle sphere(const std::string& material)
   m.density = 1, m.poisson_ratio = 0.3, m.youngs_modulus = 0.91;
   if (material != "elastic") m.yield_stress = 0.01;
   if (material == "voce") m.hardening = {"voce", {{"saturation_stress", {0.02}}, {"strain", {0.1}}}};
-  return Particle::from({1, m});
+  return Particle::sphere(1, m);
 }
 
 double cpu_seconds()

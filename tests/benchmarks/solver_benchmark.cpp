@@ -38,7 +38,7 @@ RunOptions options(const benchmark::State& state)
 
 void Impact_EY100_V100(benchmark::State& state)
 {
-  const Sphere sphere = reference::unit_sphere(100);
+  const Particle sphere = reference::unit_sphere(100);
   const double v = 100 * yield_velocity(1.0, 0.01, 1.0);
   RunResult r;
   for (auto _ : state) r = run_impact(sphere, v, options(state));
@@ -47,7 +47,7 @@ void Impact_EY100_V100(benchmark::State& state)
 
 void Impact_elastic(benchmark::State& state)
 {
-  const Sphere sphere = reference::unit_sphere(0);
+  const Particle sphere = reference::unit_sphere(0);
   RunResult r;
   for (auto _ : state) r = run_impact(sphere, reference::elastic_impact_velocity(), options(state));
   report(state, r.summary, reference::elastic_impact_force, 1.0, 1.0);
@@ -55,7 +55,7 @@ void Impact_elastic(benchmark::State& state)
 
 void Press_EY100_depth002(benchmark::State& state)
 {
-  const Sphere sphere = reference::unit_sphere(100);
+  const Particle sphere = reference::unit_sphere(100);
   PressPlan plan;
   plan.depth = 0.02;
   plan.support = Support::midplane;

@@ -40,9 +40,9 @@ class KnownSphere
   {
     const CharacterisedBody plain = characterised_body_of(100, 0.3, 0);
     if (!rated) return plain;
-    Sphere sphere{1.0, plain.particle.materials[0]};
-    sphere.material.rate = {"johnson-cook", {{"coefficient", {0.03}}, {"reference_rate", {1e-3}}}};
-    return characterised_body_of(Particle::from(sphere));
+    Particle sphere = Particle::sphere(1.0, plain.particle.materials[0]);
+    sphere.materials[0].rate = {"johnson-cook", {{"coefficient", {0.03}}, {"reference_rate", {1e-3}}}};
+    return characterised_body_of(sphere);
   }
   LawMaterial material() const
   {

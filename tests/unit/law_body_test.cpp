@@ -2,7 +2,7 @@
 
 #include "characterise/law_material.hpp"
 #include "scratch_folder.hpp"
-#include "solver/shape/ellipsoid_solid.hpp"
+#include "solver/shape/shapes.hpp"
 #include "some_materials.hpp"
 
 namespace granulaw {
@@ -57,7 +57,7 @@ TEST(LawBody, AShapeIsASphereOfItsMaterial)
   Materials m = some_materials();
   Particle pebble;
   pebble.materials = {soft_powder()};
-  pebble.solid = std::make_shared<EllipsoidSolid>(Vector3(1e-3, 1.2e-3, 1.5e-3));
+  pebble.shape = ellipsoid_shape(Vector3(1e-3, 1.2e-3, 1.5e-3));
   pebble.radius = 1.2e-3;
   m.particles["pebble"] = pebble;
   const LawBody body = law_body("pebble", m);

@@ -56,8 +56,9 @@ TEST_F(MaterialsFileTest, DocumentedExamplesAreWhatTheySay)
   EXPECT_EQ(names,
             (std::set<std::string>{"coated", "drop", "egg", "grain", "pill", "speckled", "spindle", "worn"}));
 
-  EXPECT_EQ(file.sphere("grain").radius, 2e-3);
-  EXPECT_EQ(file.sphere("grain").material.density, 1500);
+  EXPECT_EQ(file.particle("grain").radius, 2e-3);
+  EXPECT_EQ(file.particle("grain").materials.at(0).density, 1500);
+  EXPECT_TRUE(file.particle("grain").is_homogeneous_sphere());
 
   const Particle& coated = file.particle("coated");
   EXPECT_EQ(coated.materials[coated.material_at(0, 10e-6)].density, 2500);
@@ -121,25 +122,9 @@ TEST_F(MaterialsFileTest, YieldSurfacesThatCannotBeUsed)
   has(complaint("{kind = \"drucker-prager\", friction_angle = 10, dilatancy_angle = 30}"), "is larger than");
 }
 
-TEST_F(MaterialsFileTest, OnlyHomogeneousSpheresAreSpheres)
+TEST_F(MaterialsFileTest, UnknownParticleIsNamedWithTheNearest)
 {
   const std::string sphere = std::string(head) + "radius = 1e-3\nmaterial = \"powder\"\n";
-  const auto sentence = [&](const std::string& more) -> std::string {
-    try {
-      read(sphere + more).sphere("grain");
-    } catch (const Error& error) {
-      return std::string(error.what()).substr(path_.size());
-    }
-    return "accepted";
-  };
-  const std::string so_far = ": only homogeneous spheres can be used here so far";
-  EXPECT_EQ(sentence(""), "accepted");
-  EXPECT_EQ(sentence("layers = [{material = \"powder\", thickness = 1e-5}]"),
-            ": [particle.grain] is layered" + so_far);
-  EXPECT_EQ(sentence("inclusions = [{pore = true, radius = 1e-4, z = 1e-3}]"),
-            ": [particle.grain] has inclusions" + so_far);
-  EXPECT_EQ(sentence("profile = {shape = \"ellipsoid\", aspect = 1}"),
-            ": [particle.grain] has a profile" + so_far);
   try {
     read(sphere).particle("grian");
     FAIL();

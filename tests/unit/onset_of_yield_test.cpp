@@ -13,7 +13,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// A sphere of R = 1 mm under a skin of a tenth of it; E* of the skin 1 GPa.
 CharacterisedBody coated(double core_yield, double skin_yield)
 {
-  Particle p = Particle::from(Sphere{1e-3, {1000, 0.5e9, 0.3, core_yield, 0}});
+  Particle p = Particle::sphere(1e-3, {1000, 0.5e9, 0.3, core_yield, 0});
   p.materials.push_back({1000, 0.91e9, 0.3, skin_yield, 0});
   p.layers = {{1e-4, 1}};
   return characterised_body_of(p);

@@ -42,7 +42,7 @@ TEST(Particle, SphereInClosedForm)
   EXPECT_NEAR(p.surface_z(2e-9) / 1e-15, 1, 1e-12);
   EXPECT_EQ(p.material_at(0, 1e-3), 0);
   EXPECT_EQ(p.material_at(0, -1e-9), -1);
-  EXPECT_EQ(Particle::from({3e-3, Material{}}).radius, 3e-3);
+  EXPECT_EQ(Particle::sphere(3e-3, Material{}).radius, 3e-3);
   validate(p, "here");
 }
 
@@ -409,25 +409,28 @@ RC_GTEST_PROP(Particle, RandomBodies, ())
 RC_GTEST_PROP(Particle, EveryShapeThatIsMadeIsValid, ())
 {
   const double radius = 2e-3;
-  const ProfileShape& shape = *rc::gen::elementOf(profile_shapes());
-  ProfileShape::Values values;
-  for (const ProfileKey& key : shape.keys) {
+  std::vector<ShapeKind> profiles = shape_kinds();
+  std::erase_if(profiles, [](const ShapeKind& kind) { return !kind.profile; });
+  const ShapeKind kind = profiles[*rc::gen::inRange(std::size_t{0}, profiles.size())];
+  ShapeValues values;
+  values.radius = radius;
+  for (const ShapeKey& key : kind.keys) {
     if (!key.required && *rc::gen::arbitrary<bool>()) continue;
     // lengths from 1e-4 to 1 radii, those of the body itself from 1 to 100; each decade as likely
     const std::string name = key.name;
     const bool length = key.unit == std::string("m"), large = name == "height" || name == "cap_radius";
     const double least = length ? (large ? 1 : 1e-4) * radius : key.least;
     const double most = length ? (large ? 100 : 1) * radius : key.most;
-    values[key.name] = least * std::pow(most / least, *rc::gen::inRange(0, 1001) * 1e-3);
+    values.numbers[key.name] = {least * std::pow(most / least, *rc::gen::inRange(0, 1001) * 1e-3)};
   }
   Particle p = body(radius);
   try {
-    p.profile = shape.make(radius, values, "shape");
+    p.profile = kind.profile(values);
   } catch (const Error&) {
-    RC_TAG(shape.name + " refused");
+    RC_TAG(std::string(kind.name) + " refused");
     return;
   }
-  RC_TAG(shape.name);
+  RC_TAG(std::string(kind.name));
   // (a tablet of 100 radii and a rounding more)
   if (p.height() < 100 * radius) validate(p, "shape");
   RC_ASSERT(p.volume() > 0);

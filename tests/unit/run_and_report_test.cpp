@@ -15,7 +15,7 @@ class RunAndReport : public ScratchFolder
   std::string reported(const granulaw::Run& run)
   {
     testing::internal::CaptureStdout();
-    run_and_report(request_, {Particle::from({2e-3, soft_powder()}), {}}, {{"command", "test"}}, false, run);
+    run_and_report(request_, {Particle::sphere(2e-3, soft_powder()), {}}, {{"command", "test"}}, false, run);
     return testing::internal::GetCapturedStdout();
   }
   RunRequest request_;

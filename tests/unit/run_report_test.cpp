@@ -18,7 +18,7 @@ class RunReport : public ScratchFolder
     what();
     return testing::internal::GetCapturedStdout();
   }
-  const Particle grain_ = Particle::from({2e-3, soft_powder()});
+  const Particle grain_ = Particle::sphere(2e-3, soft_powder());
   RunRequest request_;
 };
 

@@ -9,8 +9,7 @@
 #include "characterise/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "own_atlas.hpp"
-#include "solver/shape/box_solid.hpp"
-#include "solver/shape/sphere_solid.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw {
 namespace {
@@ -30,12 +29,12 @@ BodyLaw law()
   return law_from(testing::own_atlas(), law_material("powder", powder()), options);
 }
 
-Particle of_shape(std::shared_ptr<const Solid> solid)
+Particle of_shape(SharedShape solid)
 {
   Particle particle;
   particle.materials = {powder()};
   particle.radius = std::cbrt(solid->mass_properties().volume / (4.0 / 3.0 * M_PI));
-  particle.solid = std::move(solid);
+  particle.shape = std::move(solid);
   return particle;
 }
 
@@ -52,8 +51,7 @@ ShapeQuestion question(double velocity)
 TEST(ShapeCertificate, OfASphereIsTheSolversError)
 {
   ThreadFarm farm(2);
-  const ShapeCertificate certificate =
-      certify_shape(of_shape(std::make_shared<SphereSolid>(1e-3)), law(), question(20), farm);
+  const ShapeCertificate certificate = certify_shape(of_shape(sphere_shape(1e-3)), law(), question(20), farm);
   EXPECT_EQ(certificate.covered(), 1);
   for (const OrientationCheck& check : certificate.checks) {
     EXPECT_NEAR(check.effective_mass, 1, 1e-9);
@@ -71,8 +69,7 @@ TEST(ShapeCertificate, SaysWhereACornerIsFlattened)
   const Vector3 sides(2e-3, 2e-3, 2e-3);
   ThreadFarm farm(2);
   const ShapeQuestion q = question(30);
-  const ShapeCertificate certificate =
-      certify_shape(of_shape(std::make_shared<BoxSolid>(sides, 0.3e-3)), law(), q, farm);
+  const ShapeCertificate certificate = certify_shape(of_shape(box_shape(sides, 0.3e-3)), law(), q, farm);
   EXPECT_LT(certificate.covered(), 1);
   for (const OrientationCheck& check : certificate.checks) {
     EXPECT_LT(check.effective_mass, 1);  // no direction of the lattice passes through the centre
@@ -84,7 +81,7 @@ TEST(ShapeCertificate, SaysWhereACornerIsFlattened)
 
 TEST(ShapeCertificate, WantsABodyOfOneMaterial)
 {
-  Particle two = of_shape(std::make_shared<SphereSolid>(1e-3));
+  Particle two = of_shape(sphere_shape(1e-3));
   two.materials.push_back(powder());
   ThreadFarm farm(1);
   EXPECT_THROW(certify_shape(two, law(), question(1), farm), Error);

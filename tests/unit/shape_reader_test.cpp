@@ -66,7 +66,7 @@ TEST_F(ShapeReader, DocumentedExamplesAreWhatTheySay)
       text += line + "\n";
   }
   const MaterialsFile file = read(text);
-  const auto kind = [&](const char* name) { return std::string(file.particle(name).solid->kind()); };
+  const auto kind = [&](const char* name) { return std::string(file.particle(name).shape->kind()); };
   EXPECT_EQ(kind("ball"), "sphere");
   EXPECT_EQ(kind("pebble"), "ellipsoid");
   EXPECT_EQ(kind("pill"), "superquadric");
@@ -88,7 +88,7 @@ TEST_F(ShapeReader, TheClumpOfTheExampleIsItsMesh)
       "\"a\"\nshape = {kind = "
       "\"mesh\", file = \"grain.stl\"}\n[particle.clump]\nmaterial = \"a\"\nshape = {kind = \"clump\", file "
       "= \"grain.clump\"}\n");
-  const Solid &mesh = *file.particle("mesh").solid, &clump = *file.particle("clump").solid;
+  const Shape &mesh = *file.particle("mesh").shape, &clump = *file.particle("clump").shape;
   // The clump's spheres touch the mesh's vertices from inside, so that they stand out of its chords by less
   // than a hundredth; make_grain.py says how far it lies inside at most.
   for (const Vector3& n : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1), Vector3(-1, 0, 0)}) {
@@ -129,7 +129,7 @@ TEST_F(ShapeReader, ParticlesThatCannotBeUsed)
       {"shape = {kind = \"superquadric\", axes = [1, 2, 3]}",
        "m.toml:6: [particle.grain.shape]: the key 'exponents' is missing"},
       {"shape = {kind = \"superquadric\", axes = [1, 2, 3], exponents = [1.5, 2]}",
-       "m.toml:6: [particle.grain.shape]: 'exponents' is out of range: found 1.5, allowed is 2 to 20"},
+       "m.toml:6: [particle.grain.shape]: 'exponents' is out of range: found [1.5, 2], allowed is 2 to 20"},
       {"shape = {kind = \"box\", sides = [1, 2, 3], edge_radius = 0.6}",
        "m.toml:6: [particle.grain.shape]: 'edge_radius' does not fit the sides: found 0.6 m, allowed is "
        "0.001 to 0.5 m, a "

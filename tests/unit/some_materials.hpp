@@ -39,9 +39,9 @@ inline Materials some_materials()
   Material stronger = soft_powder();
   stronger.yield_stress = 130e6;
   Materials m{"test", {{"powder", soft_powder()}, {"stronger", stronger}, {"glass", glass()}}, {}};
-  m.particles["grain"] = Particle::from({2e-3, soft_powder()});
-  m.particles["rated"] = Particle::from({2e-3, rate_dependent_powder()});
-  Particle coated = Particle::from({2e-3, soft_powder()});
+  m.particles["grain"] = Particle::sphere(2e-3, soft_powder());
+  m.particles["rated"] = Particle::sphere(2e-3, rate_dependent_powder());
+  Particle coated = Particle::sphere(2e-3, soft_powder());
   coated.materials.push_back(glass());
   coated.layers.push_back({1e-4, 1});
   m.particles["coated"] = coated;

@@ -82,7 +82,7 @@ json row(const std::string& job, const RunOptions& o, const RunResult& r, const 
 }
 
 /// The rows of three dimensions; `rows` is added to.
-void study_spatial(const std::string& job, const Sphere& sphere, double velocity, bool quick,
+void study_spatial(const std::string& job, const Particle& sphere, double velocity, bool quick,
                    const RunResult& reference, json& rows)
 {
   RunOptions o;
@@ -91,11 +91,11 @@ void study_spatial(const std::string& job, const Sphere& sphere, double velocity
     for (const int cells : {6, 8, 11, 16}) {
       if (cells > (quick ? 8 : 16)) continue;
       o.resolution = cells, o.shifted_grids = shifted_grids;
-      rows.push_back(row(job, o, run_body_impact(Particle::from(sphere), {velocity}, o), reference));
+      rows.push_back(row(job, o, run_body_impact(sphere, {velocity}, o), reference));
     }
 }
 
-json study(const std::string& job, const Sphere& sphere, double velocity, bool quick)
+json study(const std::string& job, const Particle& sphere, double velocity, bool quick)
 {
   RunOptions o;
   o.grid = GridKind::mapped, o.precision = Precision::full;
@@ -161,7 +161,7 @@ int main(int argc, char** argv)
                   {"created", utc_now()}, {"processor", processor()},      {"quick", quick},
                   {"jobs", json::array()}};
     const json kept = jobs_kept(argv[1], found);
-    const auto finish = [&](const std::string& name, const Sphere& sphere, double velocity) {
+    const auto finish = [&](const std::string& name, const Particle& sphere, double velocity) {
       const auto old =
           std::find_if(kept.begin(), kept.end(), [&](const json& j) { return j["name"] == name; });
       found["jobs"].push_back(old != kept.end() ? *old : study(name, sphere, velocity, quick));

@@ -35,20 +35,20 @@ std::vector<Case> all_cases()
 {
   std::vector<Case> cases;
   const auto impact = [&](double e_over_y, double ratio, double nu = 0.3, double hardening = 0) {
-    const Sphere s = reference::unit_sphere(e_over_y, nu, hardening);
+    const Particle s = reference::unit_sphere(e_over_y, nu, hardening);
     const double v = ratio * yield_velocity(1, 1 / e_over_y, 1);
     cases.push_back(
         {fmt::format("impact E*/Y={:g} V/Vy={:g} nu={:g} H/E={:g}", e_over_y, ratio, nu, hardening),
          [s, v](const RunOptions& o) { return run_impact(s, v, o); }});
   };
   const auto elastic_impact = [&](double v) {
-    const Sphere s = reference::unit_sphere(0);
+    const Particle s = reference::unit_sphere(0);
     cases.push_back({fmt::format("impact elastic V/c={:g}", v),
                      [s, v](const RunOptions& o) { return run_impact(s, v, o); }});
   };
   const auto press = [&](double e_over_y, double depth, Support support, double nu = 0.3,
                          double hardening = 0) {
-    const Sphere s = reference::unit_sphere(e_over_y, nu, hardening);
+    const Particle s = reference::unit_sphere(e_over_y, nu, hardening);
     PressPlan plan;
     plan.depth = depth, plan.support = support;
     cases.push_back(

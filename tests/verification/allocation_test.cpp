@@ -79,9 +79,9 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
   RunOptions options;
   options.grid = GetParam().grid;
   options.precision = GetParam().precision;
-  const Particle particle = Particle::from(reference::unit_sphere(100));
+  const Particle particle = reference::unit_sphere(100);
   Partner partner;
-  if (GetParam().partner) partner.particle = Particle::from(reference::unit_sphere(80)).scaled(1.5);
+  if (GetParam().partner) partner.particle = reference::unit_sphere(80).scaled(1.5);
   constexpr double velocity = 0.02, depth = 0.02;
   const bool pressed = GetParam().pressed;
   const Collision collision(particle, partner, options, Support::free);
@@ -125,7 +125,7 @@ TEST_P(SpatialAllocations, NoneAfterTheFirstStep)
 {
   Plane wall{Vector3::UnitZ(), std::nan("")};
   wall.friction = 0.3;
-  const SpatialSetup setup(Particle::from(reference::unit_sphere(100)), Eigen::Matrix3d::Identity(), {wall},
+  const SpatialSetup setup(reference::unit_sphere(100), Eigen::Matrix3d::Identity(), {wall},
                            {false, true, false});
   constexpr double velocity = 0.1;
   Scene scene = setup.build(setup.expected_overlap(velocity), 6, 0.0, GetParam());

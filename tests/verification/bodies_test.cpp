@@ -20,10 +20,10 @@ namespace {
 
 Particle sphere(double radius, double e_over_y, double stiffness = 1, double density = 1)
 {
-  Sphere s = reference::unit_sphere(e_over_y);
+  Particle s = reference::unit_sphere(e_over_y);
   s.radius = radius;
-  s.material.youngs_modulus *= stiffness, s.material.density *= density;
-  return Particle::from(s);
+  s.materials[0].youngs_modulus *= stiffness, s.materials[0].density *= density;
+  return s;
 }
 
 Partner against(const Particle& particle)

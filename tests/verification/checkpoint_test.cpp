@@ -99,22 +99,22 @@ RunOptions several(int grids)
   return o;
 }
 
-Sphere soft()
+Particle soft()
 {
   return reference::unit_sphere(100);
 }
 
 /// A material that remembers how long its last step was.
-Sphere rate_dependent()
+Particle rate_dependent()
 {
-  Sphere s = soft();
-  s.material.rate = {"johnson-cook", {{"coefficient", {0.1}}, {"reference_rate", {1e-4}}}};
+  Particle s = soft();
+  s.materials[0].rate = {"johnson-cook", {{"coefficient", {0.1}}, {"reference_rate", {1e-4}}}};
   return s;
 }
 
-Run impact(const Sphere& sphere, const Partner& partner = {}, double velocity = 0.05)
+Run impact(const Particle& sphere, const Partner& partner = {}, double velocity = 0.05)
 {
-  return [=](const RunOptions& o) { return run_impact(Particle::from(sphere), velocity, o, partner); };
+  return [=](const RunOptions& o) { return run_impact(sphere, velocity, o, partner); };
 }
 
 Run press(Support support, const Partner& partner = {})
@@ -124,7 +124,7 @@ Run press(Support support, const Partner& partner = {})
   plan.support = support;
   plan.partial_unloads = {0.01, 0.02};
   plan.ramp = 10;
-  return [=](const RunOptions& o) { return run_press(Particle::from(soft()), plan, o, partner); };
+  return [=](const RunOptions& o) { return run_press(soft(), plan, o, partner); };
 }
 
 /// Three dimensions, with all that they keep: friction, spin, impulses at the markers.
@@ -132,21 +132,21 @@ Run oblique_impact()
 {
   Approach thrown{0.1};
   thrown.friction = 0.2, thrown.tangential_velocity = 0.1;
-  return [=](const RunOptions& o) { return run_body_impact(Particle::from(soft()), thrown, o); };
+  return [=](const RunOptions& o) { return run_body_impact(soft(), thrown, o); };
 }
 
 Run cube_press()
 {
   PressPlan plan;
   plan.planes = named_planes("cube"), plan.depth = 0.08, plan.ramp = 10;
-  return [=](const RunOptions& o) { return run_planes_press(Particle::from(soft()), plan, o); };
+  return [=](const RunOptions& o) { return run_planes_press(soft(), plan, o); };
 }
 
 std::vector<Job> jobs()
 {
-  Sphere other = reference::unit_sphere(60);
+  Particle other = reference::unit_sphere(60);
   other.radius = 1.3;
-  const Partner particle{Particle::from(other), {}}, wall{{}, soft().material};
+  const Partner particle{other, {}}, wall{{}, soft().materials[0]};
   std::vector<Job> all{
       {"mapped", impact(soft()), small(GridKind::mapped)},
       {"rectilinear", impact(soft()), small(GridKind::rectilinear)},

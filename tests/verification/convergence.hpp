@@ -11,7 +11,7 @@ namespace granulaw::verification {
 struct Job
 {
   std::string name;
-  Sphere sphere;
+  Particle sphere;
   double velocity;
 };
 Job elastic_impact();  ///< the one that Hertz's theory stops at 0.002 R

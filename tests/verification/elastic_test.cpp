@@ -49,7 +49,7 @@ TEST(GridNoise, MeanOverShiftedGridsRemovesIt)
   one.shifted_grids = 1;
   RunOptions four = one;
   four.shifted_grids = 4;
-  const Sphere sphere = reference::unit_sphere(100);
+  const Particle sphere = reference::unit_sphere(100);
   PressPlan plan;
   plan.depth = 0.02;
   const double raw = run_press(sphere, plan, one).summary.grid_noise;
@@ -60,7 +60,7 @@ TEST(GridNoise, MeanOverShiftedGridsRemovesIt)
 
 TEST(BadInput, IsRefusedInOneSentence)
 {
-  const Sphere good = reference::unit_sphere(100);
+  const Particle good = reference::unit_sphere(100);
   const auto message = [](auto&& call) {
     try {
       call();
@@ -69,11 +69,11 @@ TEST(BadInput, IsRefusedInOneSentence)
     }
     return std::string();
   };
-  Sphere bad = good;
-  bad.material.youngs_modulus = -1;
+  Particle bad = good;
+  bad.materials[0].youngs_modulus = -1;
   EXPECT_NE(message([&] { run_impact(bad, 0.001); }).find("youngs_modulus"), std::string::npos);
   bad = good;
-  bad.material.poisson_ratio = 0.5;
+  bad.materials[0].poisson_ratio = 0.5;
   EXPECT_NE(message([&] { run_impact(bad, 0.001); }).find("poisson_ratio"), std::string::npos);
   EXPECT_NE(message([&] { run_impact(good, -1); }).find("velocity"), std::string::npos);
   EXPECT_NE(message([&] { run_impact(good, 2.0); }).find("wave speed"), std::string::npos);

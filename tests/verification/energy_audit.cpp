@@ -50,9 +50,9 @@ double jacobian(double pressure_over_bulk)
 
 }  // namespace
 
-std::vector<EnergyShares> energy_audit(const Sphere& sphere, double velocity, int cells_across, int frames)
+std::vector<EnergyShares> energy_audit(const Particle& sphere, double velocity, int cells_across, int frames)
 {
-  const Material& m = sphere.material;
+  const Material& m = sphere.materials[0];
   const double shear = m.youngs_modulus / (2 * (1 + m.poisson_ratio));
   const double bulk = m.youngs_modulus / (3 * (1 - 2 * m.poisson_ratio));
   const double mass = 4.0 / 3.0 * M_PI, whole = 0.5 * mass * velocity * velocity;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/material/material.hpp"
+#include "solver/shape/particle.hpp"
 #include "solver/output/trace.hpp"
 
 /// Where the energy of an impact is, computed from outside: from what `--fields` writes, by none of the
@@ -21,7 +21,7 @@ struct EnergyShares
 /// cells times nodal velocities. Elastic: J^2 (q^2/(6 G) + p^2/(2 K)) of each cell's reference volume; J from
 /// ln J = -p J/K. Plastic: J Y d(ep), summed over the frames. The hourglass control's energy is in none of
 /// them.
-std::vector<EnergyShares> energy_audit(const Sphere& sphere, double velocity, int cells_across, int frames);
+std::vector<EnergyShares> energy_audit(const Particle& sphere, double velocity, int cells_across, int frames);
 
 /// Impulse of the contact force, summed over a trace of a single grid; each sample holds the mean force of
 /// its interval and the interval's middle, the first begins at time 0.

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Moduli, Stress,
                                          Moduli{0.35, 0.76, 0.01, 0.0, true},
                                          Moduli{0.35, 0.76, 0.01, 0.02, true}));
 
-const Sphere powder{1e-3, {1500, 9.1e9, 0.3, 100e6}};
+const Particle powder = Particle::sphere(1e-3, {1500, 9.1e9, 0.3, 100e6});
 
 /// Frames are in SI and hold what they say; the run is the same, bit for bit, whether anyone looks or not.
 TEST(Fields, LookingChangesNothing)

@@ -334,14 +334,14 @@ TEST(FlowLaws, NewtonResidual)
 
 constexpr double impact_speed = 0.01;  // of c*
 
-RunResult collide(const Sphere& sphere)
+RunResult collide(const Particle& sphere)
 {
   RunOptions options;
   options.resolution = 8;
   options.shifted_grids = 1;
   options.samples = 200;
-  return run_impact(sphere, impact_speed * std::sqrt(sphere.material.e_star() / sphere.material.density),
-                    options);
+  return run_impact(
+      sphere, impact_speed * std::sqrt(sphere.materials[0].e_star() / sphere.materials[0].density), options);
 }
 
 /// Two spheres of different size, modulus and density with the same E*/Y, nu, V/c* and the same rates times
@@ -351,16 +351,16 @@ TEST(FlowLaws, RateDependentSimilarity)
 {
   for (const RateCase& r : rate_cases()) {
     const FlowLaw voce = hardening_cases()[2].hardening;
-    Sphere unit{1, material(voce, r.rate)};
-    Sphere other = unit;
+    Particle unit = Particle::sphere(1, material(voce, r.rate));
+    Particle other = unit;
     const double stress = 3.7e9, density = 1234;
     other.radius = 2.3e-3;
     const double seconds = other.radius / std::sqrt(stress / density);
-    other.material.density = density;
-    other.material.youngs_modulus *= stress;
-    other.material.yield_stress *= stress;
-    other.material.hardening.values["saturation_stress"][0] *= stress;
-    other.material.rate.values["reference_rate"][0] /= seconds;
+    other.materials[0].density = density;
+    other.materials[0].youngs_modulus *= stress;
+    other.materials[0].yield_stress *= stress;
+    other.materials[0].hardening.values["saturation_stress"][0] *= stress;
+    other.materials[0].rate.values["reference_rate"][0] /= seconds;
     const RunResult a = collide(unit), b = collide(other);
     ASSERT_EQ(a.trace.size(), b.trace.size()) << r.name;
     const double force = stress * other.radius * other.radius;
@@ -378,8 +378,8 @@ TEST(FlowLaws, RateDependentSimilarity)
     EXPECT_GT(larger.summary.delta_max / other.radius, 1.01 * a.summary.delta_max) << r.name;
     // Kinetic, stored and dissipated energy close as well as for a perfectly plastic sphere: the time step's
     // error.
-    Sphere plain = unit;
-    plain.material.hardening = plain.material.rate = {};
+    Particle plain = unit;
+    plain.materials[0].hardening = plain.materials[0].rate = {};
     const double plain_error = collide(plain).summary.energy_error;
     EXPECT_LT(a.summary.energy_error, 2 * plain_error + 1e-4) << r.name;
     std::printf("%s: e %.4f, at ten times the radius %.4f; energy error %.1e (rate-free, perfect %.1e)\n",
@@ -392,8 +392,9 @@ TEST(FlowLaws, RateDependentSimilarity)
 /// hardening.
 TEST(FlowLaws, ImpactAgreesWithClosedForm)
 {
-  Sphere linear{1, material({"linear", {{"modulus", {0.05}}}})};
-  Sphere table{1, material({"tabulated", {{"strain", {0, 10}}, {"stress", {yield, yield + 0.5}}}})};
+  Particle linear = Particle::sphere(1, material({"linear", {{"modulus", {0.05}}}}));
+  Particle table =
+      Particle::sphere(1, material({"tabulated", {{"strain", {0, 10}}, {"stress", {yield, yield + 0.5}}}}));
   const RunSummary a = collide(linear).summary, b = collide(table).summary;
   // local solutions agree to 1e-15; what grows from it over 1e4 steps
   EXPECT_NEAR(b.restitution / a.restitution, 1, 1e-6);
@@ -421,7 +422,7 @@ TEST(FlowLaws, SinglePrecision)
 {
   for (const Case& c : hardening_cases())
     for (const FlowLaw& rate : {FlowLaw{}, rate_cases()[0].rate, rate_cases()[1].rate}) {
-      const Sphere sphere{1, material(c.hardening, rate)};
+      const Particle sphere = Particle::sphere(1, material(c.hardening, rate));
       RunOptions options;
       options.resolution = 12, options.shifted_grids = 1;
       const RunSummary full = run_impact(sphere, 0.01, options).summary;

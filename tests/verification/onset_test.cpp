@@ -86,10 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Poisson, Onset, testing::ValuesIn(cases), name_of);
 /// more: with less Hertz's stress at the contact edge, where the grid's is too high, is near the largest.
 TEST(OnsetByPress, IsHertzs)
 {
-  Sphere sphere;
-  sphere.radius = 1;
-  sphere.material.density = 1, sphere.material.poisson_ratio = 0.3;
-  sphere.material.youngs_modulus = 1 - 0.3 * 0.3;
+  const Particle sphere =
+      Particle::sphere(1, {.density = 1, .youngs_modulus = 1 - 0.3 * 0.3, .poisson_ratio = 0.3});
   const double yield = 0.02, onset = onset_overlap(1.0, yield, 0.3);
   const PressPlan plan{1.5 * onset, Support::free, {}, 0};
   RunOptions options;

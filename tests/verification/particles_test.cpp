@@ -24,7 +24,7 @@ namespace {
 
 Particle sphere(double e_over_y)
 {
-  return Particle::from(reference::unit_sphere(e_over_y));
+  return reference::unit_sphere(e_over_y);
 }
 
 RunOptions options_of(int resolution, int shifted_grids, GridKind grid = GridKind::automatic)

@@ -88,14 +88,12 @@ TEST(EnergyBalance, ContactLossFallsWithTheCellSize)
 TEST(Similarity, DimensionlessTracesAgree)
 {
   const auto run = [](double e, double y, double rho, double radius) {
-    Sphere s;
-    s.radius = radius;
-    s.material = {rho, e, 0.3, y, 0};
+    const Particle s = Particle::sphere(radius, {rho, e, 0.3, y, 0});
     RunOptions o;
     o.resolution = 8;
     o.shifted_grids = 1;
-    RunResult r = run_impact(s, 100 * yield_velocity(s.material.e_star(), y, rho), o);
-    const Scales scale{radius, s.material.e_star(), rho};
+    RunResult r = run_impact(s, 100 * yield_velocity(s.materials[0].e_star(), y, rho), o);
+    const Scales scale{radius, s.materials[0].e_star(), rho};
     for (auto& t : r.trace) t.delta /= scale.length, t.force /= scale.force();
     return r;
   };

@@ -3,22 +3,18 @@
 #include <cmath>
 #include <cstddef>
 
-#include "solver/material/material.hpp"
+#include "solver/shape/particle.hpp"
 
 /// Numbers the solver is held against. Units R = rho = E* = 1 unless said.
 namespace granulaw::reference {
 
 /// Sphere of R = rho = E* = 1 with yield stress 1/e_over_y (0: elastic) and hardening H/E.
-inline Sphere unit_sphere(double e_over_y, double nu = 0.3, double hardening_over_e = 0)
+inline Particle unit_sphere(double e_over_y, double nu = 0.3, double hardening_over_e = 0)
 {
-  Sphere s;
-  s.radius = 1;
-  s.material.density = 1;
-  s.material.poisson_ratio = nu;
-  s.material.youngs_modulus = 1 - nu * nu;
-  if (e_over_y > 0) s.material.yield_stress = 1 / e_over_y;
-  s.material.hardening_modulus = hardening_over_e * s.material.youngs_modulus;
-  return s;
+  Material m{.density = 1, .youngs_modulus = 1 - nu * nu, .poisson_ratio = nu};
+  if (e_over_y > 0) m.yield_stress = 1 / e_over_y;
+  m.hardening_modulus = hardening_over_e * m.youngs_modulus;
+  return Particle::sphere(1, m);
 }
 
 /// Elastic sphere (nu = 0.3) between its driven mid-plane and a rigid plane: axisymmetric finite elements,

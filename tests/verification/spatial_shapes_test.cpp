@@ -9,14 +9,9 @@
 
 #include "base/larger.hpp"
 #include "law/elliptic_contact.hpp"
-#include "solver/shape/shapes.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/body_frame.hpp"
-#include "solver/shape/box_solid.hpp"
-#include "solver/shape/clump_solid.hpp"
-#include "solver/shape/ellipsoid_solid.hpp"
-#include "solver/shape/mesh_solid.hpp"
-#include "solver/shape/superquadric_solid.hpp"
+#include "solver/shape/rotation.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw {
 namespace {
@@ -33,18 +28,18 @@ Material material(double stiffness)
   return m;
 }
 
-Particle particle(std::shared_ptr<const Solid> solid, double stiffness)
+Particle particle(SharedShape solid, double stiffness)
 {
   Particle p;
   p.materials = {material(stiffness)};
   p.radius = std::cbrt(0.75 / M_PI * solid->mass_properties().volume);
-  p.solid = std::move(solid);
+  p.shape = std::move(solid);
   return p;
 }
 
 Particle sphere(double stiffness)
 {
-  return Particle::from({mm, material(stiffness)});
+  return Particle::sphere(mm, material(stiffness));
 }
 
 double customary_velocity(double stiffness)
@@ -75,7 +70,7 @@ struct HertzImpact
 
   HertzImpact(const Particle& p, const Vector3& direction, double velocity)
   {
-    const std::shared_ptr<const Solid> solid = solid_of(p);
+    const SharedShape solid = shape_of(p);
     const MassProperties m = solid->mass_properties();
     Vector3 place;
     const Vector3 n = direction.normalized();
@@ -95,7 +90,7 @@ struct HertzImpact
 /// largest force.
 std::array<double, 2> axes_over_hertz(const RunResult& r, const Particle& p, const Vector3& direction)
 {
-  const PrincipalRadii radii = solid_of(p)->principal_radii(direction.normalized());
+  const PrincipalRadii radii = shape_of(p)->principal_radii(direction.normalized());
   const EllipticContact contact({radii.flatter, radii.sharper}, e_star);
   std::array<double, 2> sum{};
   int count = 0;
@@ -115,7 +110,7 @@ TEST(SpatialShapesSlow, ElasticEllipsoidFollowsHertz)
 {
   const double velocity = 0.0004 * std::sqrt(e_star / density);
   const Particle ball = sphere(0);
-  const Particle egg = particle(std::make_shared<EllipsoidSolid>(Vector3(1.25, 1, 0.8) * mm), 0);
+  const Particle egg = particle(ellipsoid_shape(Vector3(1.25, 1, 0.8) * mm), 0);
   const RunOptions options = coarse(8, 2);
   const RunResult round = thrown(ball, velocity, {0, 0, 1}, options);
   const double force = round.summary.force_max / HertzImpact(ball, {0, 0, 1}, velocity).force;
@@ -136,10 +131,8 @@ TEST(SpatialShapes, SuperquadricOfExponentsTwoIsTheEllipsoid)
 {
   const Vector3 axes = Vector3(0.8, 1, 1.3) * mm;
   const double v = 100 * customary_velocity(100);
-  const RunSummary a =
-      thrown(particle(std::make_shared<EllipsoidSolid>(axes), 100), v, {1, 0, 0}, coarse(6)).summary;
-  const RunSummary b =
-      thrown(particle(std::make_shared<SuperquadricSolid>(axes, 2, 2), 100), v, {1, 0, 0}, coarse(6)).summary;
+  const RunSummary a = thrown(particle(ellipsoid_shape(axes), 100), v, {1, 0, 0}, coarse(6)).summary;
+  const RunSummary b = thrown(particle(superquadric_shape(axes, 2, 2), 100), v, {1, 0, 0}, coarse(6)).summary;
   EXPECT_NEAR(b.restitution / a.restitution, 1, 1e-4);
   EXPECT_NEAR(b.force_max / a.force_max, 1, 1e-4);
 }
@@ -185,11 +178,10 @@ TEST(SpatialShapesSlow, ClumpOfOneBallAndMeshedBallAreTheSphere)
   const double v = 100 * customary_velocity(100);
   const RunSummary ball = thrown(sphere(100), v, {0, 0, -1}, coarse(6)).summary;
   const std::vector<ClumpBall> one{{Vector3::Zero(), mm}};
-  const RunSummary clump =
-      thrown(particle(std::make_shared<ClumpSolid>(one, "test"), 100), v, {0, 0, -1}, coarse(6)).summary;
+  const RunSummary clump = thrown(particle(clump_shape(one, "test"), 100), v, {0, 0, -1}, coarse(6)).summary;
   EXPECT_NEAR(clump.restitution / ball.restitution, 1, 1e-4);
   EXPECT_NEAR(clump.force_max / ball.force_max, 1, 1e-4);
-  const Particle meshed = particle(std::make_shared<MeshSolid>(ball_mesh(mm, 6), "test"), 100);
+  const Particle meshed = particle(mesh_shape(ball_mesh(mm, 6), "test"), 100);
   const RunSummary mesh = thrown(meshed, v, {0, 0, -1}, coarse(6)).summary;
   EXPECT_NEAR(mesh.restitution / ball.restitution, 1, 0.01);
   EXPECT_NEAR(mesh.force_max / ball.force_max, 1, 0.01);
@@ -204,7 +196,7 @@ TEST(SpatialShapesSlow, EllipsoidEndOnAgreesWithTheAxisymmetricSolver)
   revolved.profile = Profile(ellipsoid(mm, 1.5));
   RunOptions fine = coarse(32, 4);
   const RunSummary flat = run_impact(revolved, v, fine).summary;
-  const Particle egg = particle(std::make_shared<EllipsoidSolid>(Vector3(1, 1, 1.5) * mm), 100);
+  const Particle egg = particle(ellipsoid_shape(Vector3(1, 1, 1.5) * mm), 100);
   const RunSummary found = thrown(egg, v, {0, 0, -1}, coarse(10, 4)).summary;
   printf("end-on 2d e %.5f F %.5g d %.5g; 3d e %+.4f F %+.4f d %+.4f cpu %.1f\n", flat.restitution,
          flat.force_max / (e_star * mm * mm), flat.delta_max / mm, found.restitution / flat.restitution - 1,
@@ -218,7 +210,7 @@ TEST(SpatialShapesSlow, EllipsoidEndOnAgreesWithTheAxisymmetricSolver)
 /// torque add up to over the trace is the change of momentum and of angular momentum; the energy closes.
 TEST(SpatialShapes, ObliqueImpactKeepsMomentumAndEnergy)
 {
-  const Particle egg = particle(std::make_shared<EllipsoidSolid>(Vector3(1.2, 1, 0.8) * mm), 100);
+  const Particle egg = particle(ellipsoid_shape(Vector3(1.2, 1, 0.8) * mm), 100);
   Approach t{100 * customary_velocity(100)};
   t.orientation = {0.4, 0, 1}, t.friction = 0.3, t.tangential_velocity = 0.7 * t.velocity;
   const RunResult r = run_body_impact(egg, t, coarse(6));
@@ -230,7 +222,7 @@ TEST(SpatialShapes, ObliqueImpactKeepsMomentumAndEnergy)
     for (int d = 0; d < 3; ++d) impulse[d] += length * s.vector[d], torque[d] += length * s.torque[d];
     before = end;
   }
-  const MassProperties m = egg.solid->mass_properties();
+  const MassProperties m = egg.shape->mass_properties();
   const Vector3 spin(r.rebound->spin[0], r.rebound->spin[1], r.rebound->spin[2]);
   // about y, an axis of the body: its moment of inertia changes by less than 1 % as the contact flattens
   const double angular = density * m.inertia(1, 1) * spin[1];
@@ -254,7 +246,7 @@ double impulse_until(const RunResult& r, double end)
 /// of the impulse), and shorter than the whole impact.
 TEST(SpatialShapes, FirstContactOnlyEndsBeforeTheBodyHitsAgain)
 {
-  const Particle rod = particle(std::make_shared<EllipsoidSolid>(Vector3(1, 1, 3) * mm), 100);
+  const Particle rod = particle(ellipsoid_shape(Vector3(1, 1, 3) * mm), 100);
   Approach t{400 * customary_velocity(100)};
   t.orientation = {std::sin(M_PI / 3), 0, -std::cos(M_PI / 3)};
   const RunResult whole = run_body_impact(rod, t, coarse(6));
@@ -270,7 +262,7 @@ TEST(SpatialShapes, FirstContactOnlyEndsBeforeTheBodyHitsAgain)
 /// A body turned about the wall's normal stands askew to the grid.
 TEST(SpatialShapesSlow, TurningTheBodyAgainstTheGridChangesLittle)
 {
-  const Particle egg = particle(std::make_shared<EllipsoidSolid>(Vector3(1.25, 1, 0.8) * mm), 100);
+  const Particle egg = particle(ellipsoid_shape(Vector3(1.25, 1, 0.8) * mm), 100);
   Approach t{100 * customary_velocity(100)};
   RunOptions options = coarse(8, 4);
   options.estimate_error = true;

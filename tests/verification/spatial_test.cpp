@@ -364,7 +364,7 @@ Particle sphere(double stiffness)
   Material m;
   m.density = 1000, m.poisson_ratio = 0.3, m.youngs_modulus = 0.91 * e_star;
   if (stiffness > 0) m.yield_stress = e_star / stiffness;
-  return Particle::from({radius, m});
+  return Particle::sphere(radius, m);
 }
 
 double customary_velocity(double stiffness)

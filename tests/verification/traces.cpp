@@ -3,9 +3,8 @@
 #include <cmath>
 
 #include "references.hpp"
-#include "solver/shape/shapes.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/ellipsoid_solid.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw::verification {
 
@@ -15,9 +14,9 @@ constexpr double stiffness = 100;  // E*/Y; R = rho = E* = 1
 
 Particle sphere(const FlowLaw& hardening = {}, const FlowLaw& rate = {})
 {
-  Sphere s = reference::unit_sphere(stiffness);
-  s.material.hardening = hardening, s.material.rate = rate;
-  return Particle::from(s);
+  Particle s = reference::unit_sphere(stiffness);
+  s.materials[0].hardening = hardening, s.materials[0].rate = rate;
+  return s;
 }
 
 Particle layered()
@@ -33,7 +32,7 @@ Particle ellipsoid()
 {
   Particle p = sphere(
       {"swift", {{"strength", {0.01 / std::pow(0.004, 0.2)}}, {"exponent", {0.2}}, {"offset", {0.004}}}});
-  p.solid = std::make_shared<EllipsoidSolid>(Vector3(0.9, 1.0, 1.3));
+  p.shape = ellipsoid_shape(Vector3(0.9, 1.0, 1.3));
   p.radius = std::cbrt(p.volume() * 3 / (4 * M_PI));
   return p;
 }
@@ -63,7 +62,7 @@ const std::vector<TracedRun>& traced_runs()
   static const std::vector<TracedRun> runs{
       {"mapped-perfect", 1e-12, [=] { return run_impact(sphere(), fast, coarse(GridKind::mapped, 10, 2)); }},
       {"mapped-elastic", 1e-12,
-       [=] { return run_impact(Particle::from(reference::unit_sphere(0)), slow, coarse(GridKind::mapped)); }},
+       [=] { return run_impact(reference::unit_sphere(0), slow, coarse(GridKind::mapped)); }},
       {"rectilinear-layered", 1e-12,
        [=] { return run_impact(layered(), slow, coarse(GridKind::rectilinear)); }},
       {"updated-voce", 1e-12, [=] { return run_impact(sphere(voce), fast, coarse(GridKind::updated)); }},
@@ -75,8 +74,8 @@ const std::vector<TracedRun>& traced_runs()
        }},
       {"press-midplane", 1e-12,
        [=] {
-         return run_press(Particle::from(reference::unit_sphere(stiffness, 0.3, 0.1)),
-                          {0.04, Support::midplane, {}, 30}, coarse(GridKind::mapped));
+         return run_press(reference::unit_sphere(stiffness, 0.3, 0.1), {0.04, Support::midplane, {}, 30},
+                          coarse(GridKind::mapped));
        }},
       {"press-stops", 1e-12,
        [=] {

@@ -173,7 +173,7 @@ void write_references(const File& open)
     line(fmt::format("elastic press at {} R", p.delta), "force", loading.force(p.delta), p.force);
   for (const reference::Press& p : reference::presses) {
     plan.depth = p.depth;
-    const Sphere sphere = reference::unit_sphere(p.e_over_y, p.nu, p.hardening_over_e);
+    const Particle sphere = reference::unit_sphere(p.e_over_y, p.nu, p.hardening_over_e);
     const RunSummary s = run_press(sphere, plan).summary;
     const std::string name =
         fmt::format("E*/Y = {} H/E = {} to {} R", p.e_over_y, p.hardening_over_e, p.depth);

@@ -23,7 +23,7 @@
 #include "percent.hpp"
 #include "shape_output.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/body_frame.hpp"
+#include "solver/shape/rotation.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {
@@ -118,7 +118,7 @@ std::optional<CharacterisedBody> body_for(const std::string& name, const Law& la
   }
   const LawBody body = law_body(name, read_materials(r.materials));
   const std::optional<ShapeCertificate>& certified = law.bodies.at(name).shape;
-  if (certified && (!body.shape || shape_text(*solid_of(*body.shape)) != certified->shape))
+  if (certified && (!body.shape || shape_text(*shape_of(*body.shape)) != certified->shape))
     fail(r.materials, fmt::format("'{}' has another shape than the law's certificate", name));
   if (!hash.empty() && hash != body.hash)
     fail(r.materials, fmt::format("'{}' is not what the law was made from", name), body.hash, hash);

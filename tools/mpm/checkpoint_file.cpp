@@ -11,7 +11,7 @@
 #include "base/state_archive.hpp"
 #include "base/version.hpp"
 #include "solver/body/kernels.hpp"
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {
@@ -52,7 +52,7 @@ void add(RunIdentity& identity, const std::string& whose, const Particle& p)
   for (const Material& m : p.materials) materials.push_back(describe(m));
   for (const Particle::Layer& l : p.layers) layers.push_back({l.thickness, l.material});
   for (const Particle::Inclusion& i : p.inclusions)
-    p.solid ? inclusions.push_back({i.x, i.y, i.z, i.radius, i.material})
+    p.shape ? inclusions.push_back({i.x, i.y, i.z, i.radius, i.material})
             : inclusions.push_back({i.r, i.z, i.radius, i.material});
   for (const ProfilePoint& point : p.profile) profile.push_back({point.r, point.z});
   identity.emplace_back(whose + " radius", fmt::format("{} m", p.radius));
@@ -60,7 +60,7 @@ void add(RunIdentity& identity, const std::string& whose, const Particle& p)
   identity.emplace_back(whose + " profile", profile.dump());
   identity.emplace_back(whose + " layers", layers.dump());
   identity.emplace_back(whose + " inclusions", inclusions.dump());
-  if (p.solid) identity.emplace_back(whose + " shape", p.solid->definition());
+  if (p.shape) identity.emplace_back(whose + " shape", p.shape->definition());
 }
 
 /// Throws Error naming the first thing that differs.

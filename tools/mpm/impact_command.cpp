@@ -20,7 +20,7 @@
 #include "run_report.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/body_frame.hpp"
+#include "solver/shape/rotation.hpp"
 
 namespace granulaw {
 
@@ -95,7 +95,7 @@ double damage_number_of(const Meeting& m, double velocity)
 /// The mass by its impulse; the tensor of inertia is that of a homogeneous body of this mass.
 RigidBody rigid_body(const Particle& particle, const Approach& thrown, const Rebound& rebound)
 {
-  const MassProperties of_one = solid_of(particle)->mass_properties();
+  const MassProperties of_one = shape_of(particle)->mass_properties();
   const double mass = rebound.impulse_normal / (thrown.velocity * (1 + rebound.normal));
   const auto& [x, y, z] = thrown.orientation;
   const Eigen::Matrix3d turned = rotation_to_plane(Vector3(x, y, z).normalized(), thrown.turn);
@@ -107,7 +107,7 @@ bool is_central(const Particle& particle, const Approach& thrown)
 {
   const auto& [x, y, z] = thrown.orientation;
   const Vector3 direction = Vector3(x, y, z).normalized();
-  const std::shared_ptr<const Solid> solid = solid_of(particle);
+  const SharedShape solid = shape_of(particle);
   Vector3 contact;
   solid->support(direction, &contact);
   constexpr double rounding = 1e-6;

@@ -75,8 +75,8 @@ void read_yield_surface(const Section& y, Material& m)
 
 Material read_material(const Section& s)
 {
-  s.check_keys({"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate",
-                "yield_surface"});
+  s.check_keys(
+      {"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate", "yield_surface"});
   Material m;
   const auto plausible = [&](const char* key, const char* unit) {
     const double value = s.positive(key, unit);
@@ -103,24 +103,11 @@ Material read_material(const Section& s)
   if (s.has("rate"))
     read_rate(s.table("rate", "{law = \"cowper-symonds\", reference_rate = 40, exponent = 5}"), m);
   if (s.has("yield_surface"))
-    read_yield_surface(s.table("yield_surface", "{kind = \"drucker-prager\", friction_angle = 30, "
-                                                "dilatancy_angle = 10}"),
+    read_yield_surface(s.table("yield_surface",
+                               "{kind = \"drucker-prager\", friction_angle = 30, "
+                               "dilatancy_angle = 10}"),
                        m);
   return m;
-}
-
-double ranged(const Section& s, const ProfileKey& key)
-{
-  const double value = s.number(key.name, key.unit);
-  if (!(value >= key.least && value <= key.most)) {
-    const std::string unit = *key.unit ? fmt::format(" {}", key.unit) : "";
-    fail(s.where(s.node(key.name)), fmt::format("'{}' is out of range", key.name),
-         fmt::format("{:g}{}", value, unit),
-         key.most == std::numeric_limits<double>::max()
-             ? "over 0" + unit
-             : fmt::format("{:g} to {:g}{}", key.least, key.most, unit));
-  }
-  return value;
 }
 
 /// {points = [[r, z], ...]}: also sets the radius, where the file does not.
@@ -136,25 +123,6 @@ void read_outline(const Section& s, const Section& p, Particle& particle)
     fail(s.where(s.node("radius")), "'radius' is not the largest r of the points, to 1 %",
          fmt::format("{:g} m", s.number("radius", "m")), fmt::format("{:g} m, or no radius", widest));
   particle.radius = widest;
-}
-
-/// {shape = "NAME", key = value, ...} with the keys that the shape has.
-void read_shape(const Section& p, Particle& particle)
-{
-  const std::string name = p.text("shape");
-  Words names;
-  for (const ProfileShape& shape : profile_shapes()) names.push_back(shape.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    fail_unknown(p.where(p.node("shape")), "no shape", name, names, ", or points = [[r, z], ...]");
-  const ProfileShape& shape = profile_shapes()[found - names.begin()];
-  Words keys{"shape"};
-  for (const ProfileKey& key : shape.keys) keys.push_back(key.name);
-  p.check_keys(keys);
-  ProfileShape::Values values;
-  for (const ProfileKey& key : shape.keys)
-    if (key.required || p.has(key.name)) values[key.name] = ranged(p, key);
-  particle.profile = shape.make(particle.radius, values, p.where());
 }
 
 /// The materials of one particle, in the order in which its keys name them.
@@ -183,14 +151,15 @@ class Places
   std::map<std::string, int> places_;
 };
 
-/// {kind = "NAME", ...}: the solid, and the radius of the sphere of its volume.
-void read_solid_of(const Section& s, Particle& particle, const std::string& folder)
+/// {kind = "NAME", ...}: the shape, and the radius of the sphere of its volume.
+void read_shape_of(const Section& s, Particle& particle, const std::string& folder)
 {
   if (s.has("profile")) fail(s.where(s.node("shape")), "a particle has a 'shape' or a 'profile', not both");
-  const Section shape = s.table("shape", "{kind = \"ellipsoid\", axes = [1e-3, 1e-3, 1.5e-3]}");
   const double radius = s.has("radius") ? s.positive("radius", "m") : 0;
-  particle.solid = read_solid(shape, folder, radius);
-  if (radius > 0 && std::string(particle.solid->kind()) != "sphere")
+  const NamedShape named =
+      read_shape(s.table("shape", "{kind = \"ellipsoid\", axes = [1e-3, 1e-3, 1.5e-3]}"), folder, radius);
+  particle.shape = named.kind->shape(named.values);
+  if (radius > 0 && !named.kind->takes_radius())
     fail(s.where(s.node("radius")), "'radius' cannot go with this shape, which says its own size");
   particle.radius = std::cbrt(particle.volume() * 3 / (4 * std::numbers::pi));
 }
@@ -198,7 +167,7 @@ void read_solid_of(const Section& s, Particle& particle, const std::string& fold
 /// Radius and profile, or shape.
 void read_outside(const Section& s, Particle& particle, const std::string& folder)
 {
-  if (s.has("shape")) return read_solid_of(s, particle, folder);
+  if (s.has("shape")) return read_shape_of(s, particle, folder);
   if (!s.has("profile")) {
     particle.radius = s.positive("radius", "m");
     return;
@@ -206,12 +175,13 @@ void read_outside(const Section& s, Particle& particle, const std::string& folde
   const Section p = s.table("profile", "{shape = \"ellipsoid\", aspect = 1.5} or {points = [[r, z], ...]}");
   if (p.has("points")) return read_outline(s, p, particle);
   particle.radius = s.positive("radius", "m");
-  read_shape(p, particle);
+  const NamedShape named = read_profile(p, particle.radius);
+  particle.profile = named.kind->profile(named.values);
 }
 
 Particle::Inclusion read_inclusion(const Section& i, const Particle& particle, Places& places)
 {
-  if (particle.solid)
+  if (particle.shape)
     i.check_keys({"material", "pore", "radius", "x", "y", "z"});
   else
     i.check_keys({"material", "pore", "radius", "z", "r"});
@@ -221,7 +191,7 @@ Particle::Inclusion read_inclusion(const Section& i, const Particle& particle, P
   if (i.has("pore")) i.check_true("pore");
   const auto optional = [&](const char* key) { return i.has(key) ? i.number(key, "m") : 0.0; };
   return {optional("r"),
-          particle.solid ? optional("z") : i.number("z", "m"),
+          particle.shape ? optional("z") : i.number("z", "m"),
           i.positive("radius", "m"),
           i.has("pore") ? -1 : places.of(i),
           optional("x"),
@@ -279,18 +249,6 @@ void each_section(const std::string& path, const toml::table& root, const char* 
 }
 
 }  // namespace
-
-Sphere MaterialsFile::sphere(const std::string& name) const
-{
-  const Particle& p = particle(name);
-  if (!p.is_homogeneous_sphere())
-    fail(source, fmt::format("[particle.{}] {}: only homogeneous spheres can be used here so far", name,
-                             p.solid             ? "has a shape"
-                             : !p.is_sphere()    ? "has a profile"
-                             : !p.layers.empty() ? "is layered"
-                                                 : "has inclusions"));
-  return {p.radius, p.materials.front()};
-}
 
 MaterialsFile read_materials(const std::string& path)
 {

@@ -39,7 +39,7 @@ namespace granulaw {
 ///     # balls on the axis, centre z above the contact pole; with r from the axis: rings; m
 ///     inclusions = [{material = "hard", radius = 0.2e-3, z = 1e-3},
 ///                   {pore = true, radius = 0.1e-3, z = 1e-3, r = 0.5e-3}]
-///     # a body of revolution that hits along its axis; shapes and their keys: solver/shape/shapes.hpp
+///     # a body of revolution that hits along its axis; shapes and their keys: solver/shape/profiles.cpp
 ///     profile = {shape = "ellipsoid", aspect = 1.5}; or
 ///         # [r, z] from the contact pole to the far pole; m
 ///         {points = [[0, 0], [1e-3, 0.2e-3], [0, 2e-3]]}
@@ -54,11 +54,7 @@ namespace granulaw {
 ///         {kind = "clump", file = "stone.multisphere", scale = 1e-3}  # lines of x y z r; scale may be left
 ///         out {kind = "mesh", file = "stone.stl", scale = 1e-3}           # closed triangle mesh
 ///     inclusions = [{pore = true, radius = 0.1e-3, x = 0.3e-3, y = 0, z = 0}]    # balls
-struct MaterialsFile : Materials
-{
-  /// A particle that is a homogeneous sphere; of any other it says so, as Error.
-  Sphere sphere(const std::string& particle) const;
-};
+using MaterialsFile = Materials;
 
 /// Every problem is one sentence with file, line and key, as Error.
 MaterialsFile read_materials(const std::string& path);

@@ -10,7 +10,7 @@
 #include "json_output.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 #include "trace_file.hpp"
 
 namespace granulaw {
@@ -101,7 +101,7 @@ void print_as_json(const RunRequest& r, const Particle& particle, const RunResul
 
 const char* body_name(const Particle& particle)
 {
-  if (particle.solid) return particle.solid->kind();
+  if (particle.shape) return particle.shape->kind();
   return particle.is_sphere() ? "sphere" : "body of revolution";
 }
 

@@ -81,7 +81,8 @@ void add_accuracy(CLI::App& command, RunRequest& r)
       "any shape, side and friction); default: what the particle and the scene need");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   CLI::Option* with_resolution = command.add_option(
-      "--resolution", r.resolution, "cells across the contact block, 6 to 200 (default: the run's own; in three dimensions 8)");
+      "--resolution", r.resolution,
+      "cells across the contact block, 6 to 200 (default: the run's own; in three dimensions 8)");
   command
       .add_option("--tolerance", r.tolerance,
                   "relative error of F_max and e to reach, such as 0.01: resolution, time step and ramp are "
@@ -115,7 +116,8 @@ void add_effort(CLI::App& command, RunRequest& r)
   command.add_option(
       "--shifted-grids,--phases", r.shifted_grids,
       "runs on grids shifted against each other by equal parts of a cell, 1 to 64; results are "
-      "their mean, free of the first harmonics of the contact-edge grid noise (default 4; in three dimensions 1)");
+      "their mean, free of the first harmonics of the contact-edge grid noise (default 4; in three "
+      "dimensions 1)");
   command.add_option("--courant", r.courant,
                      "time step over its stability limit, 0.05 to 1 (default 0.85); above 1 explicit time "
                      "stepping is unstable");
@@ -192,7 +194,7 @@ void require_three_dimensions(RunRequest& r, const std::string& option)
 bool in_three_dimensions(const RunRequest& r, const Particle& particle)
 {
   if (grid_name(r, particle) != name_of(GridKind::spatial)) {
-    if (particle.solid)
+    if (particle.shape)
       fail("--grid", "a body of any shape needs three dimensions", r.grid,
            fmt::format("{}, or no --grid", name_of(GridKind::spatial)));
     return false;

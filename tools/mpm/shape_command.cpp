@@ -18,6 +18,7 @@
 #include "materials_file.hpp"
 #include "option_checks.hpp"
 #include "shape_output.hpp"
+#include "shape_reader.hpp"
 #include "terminal.hpp"
 #include "trace_file.hpp"
 
@@ -124,7 +125,10 @@ void define(CLI::App& command)
 {
   const auto r = std::make_shared<ShapeRequest>();
   command.add_option("MATERIALS", r->materials, "materials file (TOML)")->required();
-  command.add_option("--particle", r->particle, "[particle.NAME] of one material, of any shape")->required();
+  command
+      .add_option("--particle", r->particle,
+                  "[particle.NAME] of one material, of any shape (" + names_of_shapes() + ") or profile")
+      ->required();
   command.add_option("--velocity", r->question.velocities, "speeds of the impacts on a rigid wall, m/s")
       ->required()
       ->check(above_zero());

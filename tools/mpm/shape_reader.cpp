@@ -1,154 +1,114 @@
 #include "shape_reader.hpp"
 
 #include <filesystem>
-
-#include "solver/shape/box_solid.hpp"
-#include "solver/shape/clump_solid.hpp"
-#include "solver/shape/ellipsoid_solid.hpp"
-#include "solver/shape/mesh_solid.hpp"
-#include "solver/shape/polyhedron_solid.hpp"
-#include "solver/shape/sphere_solid.hpp"
-#include "solver/shape/superquadric_solid.hpp"
+#include <limits>
 
 namespace granulaw {
 
 namespace {
 
-using SharedSolid = std::shared_ptr<const Solid>;
-
-struct Surroundings
+std::string with_unit(const std::string& text, const char* unit)
 {
-  const std::string& folder;
-  double radius;
-};
-
-/// No length of a body may be this many times another: no grid would resolve both.
-constexpr double longest_share = 100;
-
-void fail_at(const Section& s, const char* key, const std::string& what, const std::string& found,
-             const std::string& allowed)
-{
-  fail(s.where(s.node(key)), fmt::format("'{}' {}", key, what), found, allowed);
+  return *unit ? fmt::format("{} {}", text, unit) : text;
 }
 
-/// Three lengths over 0, m, none more than a hundred times another.
-Vector3 lengths(const Section& s, const char* key)
+std::string range_of(const ShapeKey& key)
 {
-  const std::vector<double> values = s.numbers(key, "m");
-  const std::string found = fmt::format("{} numbers", values.size());
-  if (values.size() != 3) fail_at(s, key, "must hold three lengths, along x, y and z", found, "3");
-  const Vector3 v(values[0], values[1], values[2]);
-  const std::string text = fmt::format("[{:g}, {:g}, {:g}] m", v.x(), v.y(), v.z());
-  if (!(v.allFinite() && v.minCoeff() > 0)) fail_at(s, key, "is out of range", text, "over 0 m");
-  if (v.maxCoeff() > longest_share * v.minCoeff())
-    fail_at(s, key, "makes the body too flat or too slender", text,
-            fmt::format("lengths up to {:g} times each other", longest_share));
-  return v;
+  return with_unit(key.most == std::numeric_limits<double>::max()
+                       ? "over 0"
+                       : fmt::format("{:g} to {:g}", key.least, key.most),
+                   key.unit);
 }
 
-double scale_of(const Section& s)
+std::vector<double> numbers_of(const Section& s, const ShapeKey& key)
 {
-  return s.has("scale") ? s.positive("scale", "") : 1;
+  const bool list = key.form == ShapeKey::Form::numbers;
+  const std::vector<double> values =
+      list ? s.numbers(key.name, key.unit) : std::vector{s.number(key.name, key.unit)};
+  if (values.size() != key.count)
+    fail(s.where(s.node(key.name)), fmt::format("'{}' must hold {}", key.name, key.holds),
+         fmt::format("{} numbers", values.size()), fmt::format("{}", key.count));
+  for (const double value : values)
+    if (!(value >= key.least && value <= key.most)) {
+      std::string found;
+      for (const double v : values) found += fmt::format("{}{:g}", found.empty() ? "" : ", ", v);
+      fail(s.where(s.node(key.name)), fmt::format("'{}' is out of range", key.name),
+           with_unit(list ? fmt::format("[{}]", found) : found, key.unit), range_of(key));
+    }
+  return values;
 }
 
-std::string file_of(const Section& s, const Surroundings& around)
+std::vector<double> points_of(const Section& s, const ShapeKey& key)
 {
-  const std::filesystem::path file(s.text("file"));
-  return file.is_absolute() ? file.string() : (std::filesystem::path(around.folder) / file).string();
+  const auto rows = s.rows(key.name, key.count, "[[0, 0, 0], [1e-3, 0, 0], ...] in m");
+  if (!(rows.size() >= key.least && rows.size() <= key.most))
+    fail(s.where(s.node(key.name)), fmt::format("'{}' must hold {}", key.name, key.holds),
+         fmt::format("{}", rows.size()), fmt::format("{:g} to {:g}", key.least, key.most));
+  std::vector<double> values;
+  for (const std::vector<double>& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return values;
 }
 
-SharedSolid read_sphere(const Section& s, const Surroundings& around)
+std::string path_of(const Section& s, const ShapeKey& key, const std::string& folder)
 {
-  return std::make_shared<SphereSolid>(s.has("radius") || around.radius == 0 ? s.positive("radius", "m")
-                                                                             : around.radius);
+  const std::filesystem::path file(s.text(key.name));
+  return file.is_absolute() ? file.string() : (std::filesystem::path(folder) / file).string();
 }
 
-SharedSolid read_ellipsoid(const Section& s, const Surroundings&)
+ShapeValues values_of(const Section& s, const std::vector<ShapeKey>& keys, const std::string& folder,
+                      double radius)
 {
-  return std::make_shared<EllipsoidSolid>(lengths(s, "axes"));
+  ShapeValues values;
+  values.radius = radius;
+  values.where = [s](const char* key) { return *key ? s.where(s.node(key)) : s.where(); };
+  for (const ShapeKey& key : keys)
+    if (key.form == ShapeKey::Form::path)
+      values.path = path_of(s, key, folder);
+    else if (key.required || s.has(key.name))
+      values.numbers[key.name] = key.form == ShapeKey::Form::points ? points_of(s, key) : numbers_of(s, key);
+  return values;
 }
 
-SharedSolid read_superquadric(const Section& s, const Surroundings&)
+/// Names of the profiles, or of the shapes in three dimensions.
+Words names(bool profiles)
 {
-  const Vector3 axes = lengths(s, "axes");
-  const std::vector<double> n = s.numbers("exponents", "");
-  if (n.size() != 2)
-    fail_at(s, "exponents", "must hold two numbers, LIGGGHTS's blockiness n1 and n2",
-            fmt::format("{} numbers", n.size()), "2");
-  for (const double exponent : n)
-    if (!(exponent >= 2 && exponent <= 20))
-      fail_at(s, "exponents", "is out of range", fmt::format("{:g}", exponent), "2 to 20");
-  return std::make_shared<SuperquadricSolid>(axes, n[0], n[1]);
+  Words found;
+  for (const ShapeKind& kind : shape_kinds())
+    if ((kind.profile != nullptr) == profiles) found.push_back(kind.name);
+  return found;
 }
 
-SharedSolid read_box(const Section& s, const Surroundings&)
+/// {WORD = "NAME", key = value, ...} with the keys that the kind has.
+NamedShape read_named(const Section& s, const char* word, bool profile, const std::string& folder,
+                      double radius)
 {
-  const Vector3 sides = lengths(s, "sides");
-  const double radius = s.positive("edge_radius", "m"), least = 1e-3 * sides.minCoeff();
-  if (!(radius >= least && radius <= 0.5 * sides.minCoeff()))
-    fail_at(s, "edge_radius", "does not fit the sides", fmt::format("{:g} m", radius),
-            fmt::format("{:g} to {:g} m, a thousandth to half of the shortest side", least,
-                        0.5 * sides.minCoeff()));
-  return std::make_shared<BoxSolid>(sides, radius);
-}
-
-SharedSolid read_polyhedron(const Section& s, const Surroundings&)
-{
-  const std::vector<std::vector<double>> rows = s.rows("corners", 3, "[[0, 0, 0], [1e-3, 0, 0], ...] in m");
-  if (rows.size() < 4 || rows.size() > 100)
-    fail_at(s, "corners", "must hold the corners of a body", fmt::format("{}", rows.size()), "4 to 100");
-  std::vector<Vector3> corners;
-  for (const std::vector<double>& row : rows) corners.emplace_back(row[0], row[1], row[2]);
-  return std::make_shared<PolyhedronSolid>(corners, s.positive("edge_radius", "m"),
-                                           s.where(s.node("corners")));
-}
-
-SharedSolid read_clump_solid(const Section& s, const Surroundings& around)
-{
-  const std::string path = file_of(s, around);
-  return std::make_shared<ClumpSolid>(read_clump(path, scale_of(s)), path);
-}
-
-SharedSolid read_mesh(const Section& s, const Surroundings& around)
-{
-  const std::string path = file_of(s, around);
-  return std::make_shared<MeshSolid>(read_triangle_mesh(path, scale_of(s)), path);
-}
-
-struct SolidKind
-{
-  const char* name;
-  Words keys;
-  SharedSolid (*read)(const Section& section, const Surroundings& around);
-};
-
-/// A new kind: a reader above, and its entry in this list.
-const std::vector<SolidKind>& solid_kinds()
-{
-  static const std::vector<SolidKind> kinds{{"sphere", {"radius"}, read_sphere},
-                                            {"ellipsoid", {"axes"}, read_ellipsoid},
-                                            {"superquadric", {"axes", "exponents"}, read_superquadric},
-                                            {"box", {"sides", "edge_radius"}, read_box},
-                                            {"polyhedron", {"corners", "edge_radius"}, read_polyhedron},
-                                            {"clump", {"file", "scale"}, read_clump_solid},
-                                            {"mesh", {"file", "scale"}, read_mesh}};
-  return kinds;
+  const std::string name = s.text(word);
+  for (const ShapeKind& kind : shape_kinds()) {
+    if (kind.name != name || (kind.profile != nullptr) != profile) continue;
+    Words keys{word};
+    for (const ShapeKey& key : kind.keys) keys.push_back(key.name);
+    s.check_keys(keys);
+    return {&kind, values_of(s, kind.keys, folder, radius)};
+  }
+  fail_unknown(s.where(s.node(word)), profile ? "no shape" : "no kind of shape", name, names(profile),
+               profile ? ", or points = [[r, z], ...]" : "");
 }
 
 }  // namespace
 
-SharedSolid read_solid(const Section& s, const std::string& folder, double radius)
+NamedShape read_shape(const Section& table, const std::string& folder, double radius)
 {
-  const std::string name = s.text("kind");
-  Words names;
-  for (const SolidKind& kind : solid_kinds()) names.push_back(kind.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) fail_unknown(s.where(s.node("kind")), "no kind of shape", name, names);
-  const SolidKind& kind = solid_kinds()[static_cast<std::size_t>(found - names.begin())];
-  Words keys{"kind"};
-  keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
-  s.check_keys(keys);
-  return kind.read(s, {folder, radius});
+  return read_named(table, "kind", false, folder, radius);
+}
+
+NamedShape read_profile(const Section& table, double radius)
+{
+  return read_named(table, "shape", true, {}, radius);
+}
+
+std::string names_of_shapes()
+{
+  return list_of(names(false));
 }
 
 }  // namespace granulaw

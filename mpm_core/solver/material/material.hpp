@@ -9,8 +9,8 @@
 
 namespace granulaw {
 
-/// A hardening law, rate law or yield surface of solver/material by its name, with the values of its keys, SI;
-/// lists of one for numbers. An empty name: none.
+/// A hardening law, rate law or yield surface of solver/material by its name, with the values of its keys,
+/// SI; lists of one for numbers. An empty name: none.
 struct FlowLaw
 {
   std::string name;
@@ -39,12 +39,5 @@ struct Material
 
 /// Throws Error (see base/error.hpp) naming `where` if a value cannot be used.
 void validate(const Material& material, const char* where);
-
-/// A homogeneous sphere.
-struct Sphere
-{
-  double radius = 0;  ///< m
-  Material material;
-};
 
 }  // namespace granulaw

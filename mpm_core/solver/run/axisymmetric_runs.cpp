@@ -83,7 +83,7 @@ namespace {
 bool in_three_dimensions(const Particle& particle, const Partner& partner, const RunOptions& options,
                          const char* needed)
 {
-  const char* reason = particle.solid ? "a body of any shape" : needed;
+  const char* reason = particle.shape ? "a body of any shape" : needed;
   if (!reason && options.grid != GridKind::spatial) return false;
   if (options.grid != GridKind::spatial && options.grid != GridKind::automatic)
     fail("--grid", fmt::format("{} needs three dimensions", reason), name_of(options.grid),
@@ -118,11 +118,6 @@ RunResult press(const Particle& particle, const PressPlan& plan, const Partner& 
   PressPlan by_planes = plan;
   if (plan.planes.empty()) by_planes.planes = named_planes("pair");
   return run_planes_press(particle, by_planes, options);
-}
-
-RunResult run_impact(const Sphere& sphere, double velocity, const RunOptions& options)
-{
-  return run_impact(Particle::from(sphere), velocity, options);
 }
 
 // Elastic: half as long changes F by 0.15 %. Plastic: 60 at E*/Y = 100 (40 changes e by 0.1 %), and the
@@ -177,11 +172,6 @@ RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOp
         s.restitution_raw = std::sqrt(std::max(0.0, s.work_unload / s.work_load));
         return std::move(run.result);
       });
-}
-
-RunResult run_press(const Sphere& sphere, const PressPlan& plan, const RunOptions& options)
-{
-  return run_press(Particle::from(sphere), plan, options);
 }
 
 }  // namespace granulaw

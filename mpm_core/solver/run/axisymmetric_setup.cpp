@@ -117,7 +117,7 @@ const char* name_of(GridKind grid)
 
 GridChoice choose_grid(const Particle& p)
 {
-  if (p.solid) return {GridKind::spatial, "a body of any shape: three dimensions"};
+  if (p.shape) return {GridKind::spatial, "a body of any shape: three dimensions"};
   if (p.is_homogeneous_sphere())
     return {GridKind::mapped, "a homogeneous sphere: the grid fitted to it is fastest and most exact"};
   if (!p.layers.empty() || !p.inclusions.empty())

@@ -14,7 +14,7 @@
 #include "solver/run/simulation.hpp"
 #include "solver/run/spatial_setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/body_frame.hpp"
+#include "solver/shape/rotation.hpp"
 
 namespace granulaw {
 

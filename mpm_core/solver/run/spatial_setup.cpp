@@ -10,7 +10,7 @@
 #include "solver/material/law_table.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/run/estimates.hpp"
-#include "solver/shape/body_frame.hpp"
+#include "solver/shape/rotation.hpp"
 
 namespace granulaw {
 
@@ -36,7 +36,7 @@ bool equal(const Vector3& a, const Vector3& b)
 SpatialSetup::SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation,
                            std::vector<Plane> planes, const std::array<bool, 3>& may_mirror)
     : particle_(particle),
-      solid_(solid_of(particle)),
+      solid_(shape_of(particle)),
       rotation_(particle.is_sphere() && particle.inclusions.empty() ? Eigen::Matrix3d::Identity() : rotation),
       scale_(scales_of(particle)),
       planes_(std::move(planes))
@@ -71,7 +71,7 @@ void SpatialSetup::find_mirrors(const std::array<bool, 3>& may_mirror)
     for (int e = 0; e < 3; ++e) symmetric = symmetric || (own[e] && std::abs(std::abs(axis[e]) - 1) < same);
     for (const Particle::Inclusion& i : particle_.inclusions)
       symmetric = symmetric && std::abs(axis.dot(Vector3(i.x, i.y, i.z))) < same * particle_.radius &&
-                  particle_.solid != nullptr;
+                  particle_.shape != nullptr;
     for (const Plane& plane : planes_) {
       Vector3 image = plane.normal;
       image[d] = -image[d];
@@ -210,7 +210,7 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
   if (!p.layers.empty() || !p.inclusions.empty()) {
     s.phase_at = [this](const Vector3& x) {
       const Vector3 own = to_body(x);
-      return material_at(particle_, own, std::max(0.0, solid_->depth(own)));
+      return particle_.material_at(own, std::max(0.0, solid_->depth(own)));
     };
     s.interface_distance = [this, length](const Vector3& x) {
       const Vector3 own = to_body(x);

@@ -9,7 +9,7 @@
 #include "solver/contact/spatial_contact.hpp"
 #include "solver/grid/spatial_grid.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace granulaw {
 
@@ -63,7 +63,7 @@ class SpatialSetup
   SpatialSection section(double deepest, int cells, double shift) const;
 
   Particle particle_;
-  std::shared_ptr<const Solid> solid_;
+  SharedShape solid_;
   Eigen::Matrix3d rotation_;
   Scales scale_;
   std::vector<Plane> planes_;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <queue>
 
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw {
 
@@ -31,21 +31,13 @@ double Particle::depth(double r, double z) const
   return profile.depth(std::abs(r), z);
 }
 
-int Particle::material_at(double r, double z) const
-{
-  r = std::abs(r);
-  const double below = depth(r, z);
-  if (!(below >= 0)) return -1;
-  for (auto i = inclusions.rbegin(); i != inclusions.rend(); ++i) {
-    const double dr = r - i->r, dz = z - i->z;
-    if (dr * dr + dz * dz <= i->radius * i->radius) return i->material;
-  }
-  return material_at_depth(below);
-}
-
-int Particle::material_at_depth(double below) const
+int Particle::material_of(double below, const Vector3& x) const
 {
   if (!(below >= 0)) return -1;
+  // A ball is a ring of radius 0.
+  for (auto i = inclusions.rbegin(); i != inclusions.rend(); ++i)
+    if (std::hypot(std::hypot(x.x() - i->x, x.y() - i->y) - i->r, x.z() - i->z) <= i->radius)
+      return i->material;
   double inner = 0;
   for (const Layer& layer : layers) {
     inner += layer.thickness;
@@ -54,39 +46,44 @@ int Particle::material_at_depth(double below) const
   return 0;
 }
 
-double Particle::largest_depth() const
+double Particle::largest_depth(double enough) const
 {
   if (is_sphere()) return radius;
-  // Squares of half width h with depth d at their centre: no depth in one exceeds d + sqrt(2) h. The most
-  // promising is split until it promises nothing more.
-  struct Square
+  // Cubes of half width h with depth d at their centre, or squares of the (r, z) plane: no depth in one
+  // exceeds d + sqrt(dimensions) h. The most promising is split until it promises nothing more. Along a
+  // plate's middle every cube does: there their size is limited.
+  struct Cube
   {
-    double r, z, h, d;
-    double most() const { return d + std::numbers::sqrt2 * h; }
-    bool operator<(const Square& other) const { return most() < other.most(); }
+    Vector3 centre;
+    double h, most;
+    bool operator<(const Cube& other) const { return most < other.most; }
   };
+  const int dimensions = shape ? 3 : 2;
+  const double tolerance = shape ? 1e-2 : 1e-3;
+  Vector3 low(0, 0, 0), high(radius, 0, shape ? 0 : height());
+  if (shape) shape->bounds(low, high);
+  const double whole = 0.5 * (high - low).maxCoeff(), least_h = shape ? 2e-3 * whole : 0;
   double best = 0;
-  std::priority_queue<Square> squares;
-  const auto push = [&](double r, double z, double h) {
-    const Square square{r, z, h, depth(r, z)};
-    best = std::max(best, square.d);
-    if (square.most() > best) squares.push(square);
+  std::priority_queue<Cube> cubes;
+  const auto add = [&](const Vector3& x, double h) {
+    const double d = shape ? shape->depth(x) : depth(x.x(), x.z()), most = d + std::sqrt(dimensions) * h;
+    best = std::max(best, d);
+    if (most > best && h > least_h) cubes.push({x, h, most});
   };
-  const double h = std::min(radius, height()) / 2;
-  for (double r = h; r - h < radius; r += 2 * h)
-    for (double z = h; z - h < height(); z += 2 * h) push(r, z, h);
-  while (!squares.empty() && squares.top().most() > best * (1 + 1e-3)) {
-    const Square s = squares.top();
-    squares.pop();
-    for (const double r : {s.r - s.h / 2, s.r + s.h / 2})
-      for (const double z : {s.z - s.h / 2, s.z + s.h / 2}) push(r, z, s.h / 2);
+  add(0.5 * (low + high), whole);
+  while (!cubes.empty() && cubes.top().most > best * (1 + tolerance) && best <= enough) {
+    const Cube c = cubes.top();
+    cubes.pop();
+    const auto side = [&](bool positive) { return positive ? 0.5 * c.h : -0.5 * c.h; };
+    for (int corner = 0; corner < 1 << dimensions; ++corner)
+      add(c.centre + Vector3(side(corner & 1), shape ? side(corner & 4) : 0, side(corner & 2)), 0.5 * c.h);
   }
   return best;
 }
 
 double Particle::volume() const
 {
-  if (solid) return solid->mass_properties().volume;
+  if (shape) return shape->mass_properties().volume;
   return is_sphere() ? 4.0 / 3.0 * std::numbers::pi * radius * radius * radius : profile.volume();
 }
 
@@ -100,7 +97,7 @@ double Particle::surface_z(double r) const
 
 Particle Particle::scaled(double factor) const
 {
-  assert(!solid);
+  assert(!shape);
   Particle p = *this;
   p.radius *= factor;
   p.profile = p.profile.scaled(factor);
@@ -109,12 +106,18 @@ Particle Particle::scaled(double factor) const
   return p;
 }
 
-Particle Particle::from(const Sphere& sphere)
+Particle Particle::sphere(double radius, const Material& material)
 {
   Particle p;
-  p.radius = sphere.radius;
-  p.materials = {sphere.material};
+  p.radius = radius;
+  p.materials = {material};
   return p;
+}
+
+SharedShape shape_of(const Particle& p)
+{
+  if (p.shape) return p.shape;
+  return p.is_sphere() ? sphere_shape(p.radius) : revolved_shape(p.profile);
 }
 
 }  // namespace granulaw

@@ -1,19 +1,18 @@
 #pragma once
 
-#include <memory>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "solver/material/material.hpp"
-#include "solver/shape/profile.hpp"
+#include "solver/shape/revolved.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace granulaw {
 
-class Solid;
-
 /// A body of revolution that hits along its axis; contact pole at (0, 0), body in z >= 0. SI.
-/// Or a body of any shape: a Solid, in the solid's frame (solver/shape/body_frame.hpp). Then what is said
-/// below of (r, z) and of the contact pole has no meaning, and check_revolution() refuses it.
+/// Or a body of any shape, in the shape's frame. Then the statements below about (r, z) and the contact pole
+/// have no meaning, and check_revolution() refuses it.
 struct Particle
 {
   /// All points nearer to the surface than `thickness` that belong to no layer further out.
@@ -22,26 +21,29 @@ struct Particle
     double thickness;  ///< m
     int material;      ///< index into materials
   };
-  /// A ball on the axis (r = 0) or a ring (torus) of circular section; of a solid: a ball about (x, y, z), r
+  /// A ball on the axis (r = 0) or a ring (torus) of circular section; in a shape: a ball about (x, y, z), r
   /// = 0.
   struct Inclusion
   {
     double r, z, radius;  ///< m: centre of the section, radius of the section
     int material;         ///< index into materials; -1: a pore
-    double x = 0, y = 0;  ///< m; of a solid only
+    double x = 0, y = 0;  ///< m; in a shape only
   };
 
-  /// m: sphere's radius; of a profile: its largest distance from the axis; of a solid: of the sphere of its
+  /// m: sphere's radius; of a profile: its largest distance from the axis; with a shape: of the sphere of its
   /// volume
   double radius = 0;
   std::vector<Material> materials{};  ///< materials[0]: the body (core of a layered one)
   /// Curved shapes are sampled so finely that the chord error is below 1e-6 radius; empty: a sphere.
   Profile profile{};
-  std::vector<Layer> layers{};           ///< from the surface inwards
-  std::vector<Inclusion> inclusions{};   ///< later ones on top of earlier ones and of layers
-  std::shared_ptr<const Solid> solid{};  ///< null: the body of revolution
+  std::vector<Layer> layers{};          ///< from the surface inwards
+  std::vector<Inclusion> inclusions{};  ///< later ones on top of earlier ones and of layers
+  SharedShape shape{};                  ///< null: the body of revolution
 
-  bool is_sphere() const { return profile.empty() && !solid; }
+  /// A homogeneous sphere.
+  static Particle sphere(double radius, const Material& material);
+
+  bool is_sphere() const { return profile.empty() && !shape; }
   bool is_homogeneous_sphere() const { return is_sphere() && layers.empty() && inclusions.empty(); }
   double height() const;                    ///< m
   double height_of_largest_radius() const;  ///< m, above the contact pole
@@ -52,27 +54,37 @@ struct Particle
 
   /// Distance to the surface, m, positive inside. Of a profile: to the polyline, exactly.
   double depth(double r, double z) const;
-  /// Largest depth inside, m, up to 1e-3 too small: layers must be thinner together.
-  double largest_depth() const;
+  /// Largest depth inside, m, up to 1e-3 too small, with a shape 1e-2: layers must be thinner together. The
+  /// search ends at the first depth over `enough`.
+  double largest_depth(double enough = std::numeric_limits<double>::infinity()) const;
   /// Index into materials, -1: outside the body or in a pore. The surface itself is inside.
-  int material_at(double r, double z) const;
-  /// Index into materials of a point of this depth that lies in no inclusion; -1: outside.
-  int material_at_depth(double depth) const;
+  int material_at(double r, double z) const { return material_of(depth(r, z), {r, 0, z}); }
+  /// The same of a point of depth `depth` in the frame of shape_of().
+  int material_at(const Vector3& x, double depth) const
+  {
+    return material_of(depth, shape ? x : x + Vector3(0, 0, 0.5 * height()));
+  }
   double volume() const;  ///< m^3, enclosed by the outer surface
   /// Height of the lower surface above the pole at distance r, m: the part between the pole and the largest r
   /// (the lowest of several heights); beyond the largest r, its value there.
   double surface_z(double r) const;
 
-  /// All lengths times `factor`; materials unchanged. Not of a solid.
+  /// All lengths times `factor`; materials unchanged. Not with a shape.
   Particle scaled(double factor) const;
-  static Particle from(const Sphere& sphere);
+
+ private:
+  int material_of(double depth, const Vector3& x) const;  // x in the frame of the inclusions
 };
+
+/// The particle's surface in three dimensions. A body of revolution lies about the z axis with its middle in
+/// the origin, so that its contact pole is (0, 0, -height/2).
+SharedShape shape_of(const Particle& particle);
 
 /// Throws Error "WHERE: ..." with one sentence if the geometry cannot be used. Materials themselves are
 /// checked by validate(Material).
 void validate(const Particle& particle, const std::string& where);
 
-/// Throws Error "WHERE: ..." if the particle is a solid, for what takes bodies of revolution only.
+/// Throws Error "WHERE: ..." if the particle has a shape, where only bodies of revolution are taken.
 void check_revolution(const Particle& particle, const std::string& where);
 
 }  // namespace granulaw

@@ -3,189 +3,68 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "base/error.hpp"
 
 namespace granulaw {
 
-namespace {
+// Each at the end of the file of its shape.
+ShapeKind sphere_kind();
+ShapeKind ellipsoid_kind();
+ShapeKind superquadric_kind();
+ShapeKind box_kind();
+ShapeKind polyhedron_kind();
+ShapeKind clump_kind();
+ShapeKind mesh_kind();
+ShapeKind ellipsoid_profile_kind();
+ShapeKind flattened_sphere_kind();
+ShapeKind conical_tip_kind();
+ShapeKind tablet_kind();
 
-using Points = std::vector<ProfilePoint>;
-using std::numbers::pi;
-
-constexpr double over_zero = std::numeric_limits<double>::min(),
-                 no_limit = std::numeric_limits<double>::max();
-
-/// Segments over `angle` of a circle so that the chord error, radius (1 - cos(half a segment)), stays below
-/// 0.8e-6 of `scale`; never fewer than 8.
-int segments_of_arc(double radius, double angle, double scale)
+const std::vector<ShapeKind>& shape_kinds()
 {
-  const double least_cosine = 1 - 0.8e-6 * scale / radius;
-  const double step = 2 * std::acos(std::max(least_cosine, 0.0));
-  return std::max(8, static_cast<int>(std::ceil(angle / step)));
+  static const std::vector<ShapeKind> kinds{
+      sphere_kind(),           ellipsoid_kind(),   superquadric_kind(), box_kind(),
+      polyhedron_kind(),       clump_kind(),       mesh_kind(),         ellipsoid_profile_kind(),
+      flattened_sphere_kind(), conical_tip_kind(), tablet_kind()};
+  return kinds;
 }
 
-/// Appends the arc about `centre`, angles in radians from straight down, counter-clockwise; without its first
-/// point where the curve already ends there. The widest point of the circle is always among them.
-void add_arc(Points& profile, ProfilePoint centre, double radius, double from, double to, double scale)
+bool ShapeKind::takes_radius() const
 {
-  if (!(to - from > 1e-9)) return;  // a tablet with cap_radius = radius has no edge
-  if (from < pi / 2 && to > pi / 2) {
-    add_arc(profile, centre, radius, from, pi / 2, scale);
-    from = pi / 2;
-  }
-  const int n = segments_of_arc(radius, to - from, scale);
-  for (int k = profile.empty() ? 0 : 1; k <= n; ++k) {
-    const double angle = from + (to - from) * k / n, half = std::sin(angle / 2);
-    // 1 - cos as a square: z near the pole keeps its digits
-    const double below = 2 * radius * half * half;
-    profile.push_back({centre.r + radius * std::sin(angle), centre.z - radius + below});
-  }
+  return std::any_of(keys.begin(), keys.end(),
+                     [](const ShapeKey& key) { return key.name == std::string("radius"); });
 }
 
-/// Share of the radius: no grid tells a smaller rounding from a sharp edge.
-constexpr double least_share = 1e-4;
-
-void check_size(const char* key, double value, double radius, const std::string& where)
+ShapeKey ShapeKey::positive(const char* name, const char* unit, bool required)
 {
-  if (!(value >= least_share * radius))
-    fail(where, fmt::format("'{}' is too small to be resolved", key), fmt::format("{:g} m", value),
-         fmt::format("{:g} m, {:g} of the radius, or more", least_share * radius, least_share));
+  return {name, unit, std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), required};
 }
 
-/// The ends exactly on the axis, the first in the origin: rounding aside, that is where they are.
-Points closed(Points profile)
+ShapeKey ShapeKey::lengths(const char* name)
 {
-  profile.front() = {0, 0};
-  profile.back().r = 0;
-  return profile;
+  ShapeKey key = positive(name, "m");
+  key.form = Form::numbers, key.count = 3, key.holds = "three lengths, along x, y and z";
+  return key;
 }
 
-}  // namespace
-
-Points ellipsoid(double radius, double aspect)
+std::vector<Vector3> ShapeValues::points(const char* key) const
 {
-  const double half_height = aspect * radius;
-  // The affine image of a circle: its chord error grows with the larger semi-axis.
-  const int n = 2 * segments_of_arc(std::max(radius, half_height), pi / 2, radius);  // even: has the equator
-  Points profile;
-  for (int k = 0; k <= n; ++k) {
-    const double angle = pi * k / n, half = std::sin(angle / 2);
-    profile.push_back({radius * std::sin(angle), 2 * half_height * half * half});
-  }
-  return closed(profile);
+  const std::vector<double>& all = numbers.at(key);
+  std::vector<Vector3> found;
+  for (std::size_t k = 0; k + 2 < all.size(); k += 3) found.emplace_back(all[k], all[k + 1], all[k + 2]);
+  return found;
 }
 
-Points flattened_sphere(double radius, double flat_radius, double fillet, const std::string& where)
+Vector3 ShapeValues::lengths(const char* key) const
 {
-  if (!(flat_radius + fillet < radius))
-    fail(where, "'flat_radius' and 'fillet' leave no sphere: their sum is",
-         fmt::format("{:g} m", flat_radius + fillet), fmt::format("below the radius, {:g} m", radius));
-  check_size("flat_radius", flat_radius, radius, where);
-  check_size("fillet", fillet, radius, where);
-  const double angle = std::asin(flat_radius / (radius - fillet));
-  const double centre = fillet + (radius - fillet) * std::cos(angle);
-  Points profile{{0, 0}};
-  profile.push_back({flat_radius, 0});
-  add_arc(profile, {flat_radius, fillet}, fillet, 0, angle, radius);
-  add_arc(profile, {0, centre}, radius, angle, pi, radius);
-  return closed(profile);
-}
-
-Points conical_tip(double radius, double half_angle, double tip_radius, const std::string& where)
-{
-  if (!(tip_radius < radius))
-    fail(where, "'tip_radius' must be smaller than the body", fmt::format("{:g} m", tip_radius),
-         fmt::format("below the radius, {:g} m", radius));
-  check_size("tip_radius", tip_radius, radius, where);
-  const double flank = half_angle * pi / 180;
-  const double centre = tip_radius + (radius - tip_radius) / std::sin(flank);
-  Points profile;
-  add_arc(profile, {0, tip_radius}, tip_radius, 0, pi / 2 - flank, radius);
-  const double start = pi / 2 - flank;
-  profile.push_back({radius * std::sin(start), centre - radius * std::cos(start)});
-  add_arc(profile, {0, centre}, radius, start, pi, radius);
-  return closed(profile);
-}
-
-Points tablet(double radius, double height, double cap_radius, double edge_radius, const std::string& where)
-{
-  if (!(cap_radius >= radius && cap_radius <= 1000 * radius))
-    fail(where, "'cap_radius' does not fit the band", fmt::format("{:g} m", cap_radius),
-         fmt::format("the radius, {:g} m, to a thousand times it", radius));
-  if (!(edge_radius < radius))
-    fail(where, "'edge_radius' must be smaller than the body", fmt::format("{:g} m", edge_radius),
-         fmt::format("below the radius, {:g} m", radius));
-  check_size("edge_radius", edge_radius, radius, where);
-  const double reach = cap_radius - edge_radius, out = radius - edge_radius;
-  const double angle = std::asin(out / reach);
-  const double band = cap_radius - reach * std::cos(angle);  // where the edge ends and the cylinder begins
-  // (rounding: a height of exactly twice that is a tablet without a band)
-  if (!(height >= 2 * band * (1 - 1e-12)))
-    fail(where, "'height' is too small for the two caps and edges", fmt::format("{:g} m", height),
-         fmt::format("{:g} m or more", 2 * band));
-  Points profile;
-  add_arc(profile, {0, cap_radius}, cap_radius, 0, angle, radius);
-  add_arc(profile, {out, band}, edge_radius, angle, pi / 2, radius);
-  profile.front() = {0, 0};
-  const bool has_band = height > 2 * band * (1 + 1e-12);
-  for (auto p = profile.size() - (has_band ? 0 : 1); p-- > 0;)
-    profile.push_back({profile[p].r, height - profile[p].z});
-  return profile;
-}
-
-Points outline(Points points, const std::string& where)
-{
-  if (points.size() < 3)
-    fail(where, "the points enclose no body", fmt::format("{} points", points.size()), "3 or more");
-  double widest = 0;
-  for (const ProfilePoint& p : points) {
-    if (!std::isfinite(p.r) || !std::isfinite(p.z))
-      fail(where, "a point is not finite", fmt::format("[{:g}, {:g}] m", p.r, p.z));
-    widest = std::max(widest, p.r);
-  }
-  if (widest == 0) fail(where, "the points enclose no body: none has an r over 0");
-  const double tolerance = 1e-3 * widest;
-  ProfilePoint& first = points.front();
-  ProfilePoint& last = points.back();
-  if (!(std::abs(first.r) <= tolerance && std::abs(first.z) <= tolerance))
-    fail(where, "the first point must be the contact pole", fmt::format("[{:g}, {:g}] m", first.r, first.z),
-         fmt::format("[0, 0] within {:g} m", tolerance));
-  if (!(std::abs(last.r) <= tolerance))
-    fail(where, "the last point must lie on the axis, at the far pole",
-         fmt::format("[{:g}, {:g}] m", last.r, last.z), fmt::format("r = 0 within {:g} m", tolerance));
-  return closed(std::move(points));
-}
-
-const std::vector<ProfileShape>& profile_shapes()
-{
-  using Values = ProfileShape::Values;
-  static const std::vector<ProfileShape> shapes{
-      {"ellipsoid",
-       {{"aspect", "", 0.05, 20}},
-       [](double radius, const Values& v, const std::string&) { return ellipsoid(radius, v.at("aspect")); }},
-      {"flattened-sphere",
-       {{"flat_radius", "m", over_zero, no_limit}, {"fillet", "m", over_zero, no_limit, false}},
-       [](double radius, const Values& v, const std::string& where) {
-         const double flat = v.at("flat_radius");
-         const double default_fillet = std::max(0.1 * flat, least_share * radius);
-         return flattened_sphere(radius, flat, v.contains("fillet") ? v.at("fillet") : default_fillet, where);
-       }},
-      {"conical-tip",
-       {{"half_angle", "degrees", 5, 85}, {"tip_radius", "m", over_zero, no_limit}},
-       [](double radius, const Values& v, const std::string& where) {
-         return conical_tip(radius, v.at("half_angle"), v.at("tip_radius"), where);
-       }},
-      {"tablet",
-       {{"height", "m", over_zero, no_limit},
-        {"cap_radius", "m", over_zero, no_limit},
-        {"edge_radius", "m", over_zero, no_limit}},
-       [](double radius, const Values& v, const std::string& where) {
-         return tablet(radius, v.at("height"), v.at("cap_radius"), v.at("edge_radius"), where);
-       }}};
-  return shapes;
+  constexpr double longest_share = 100;  // no grid would resolve both lengths
+  const Vector3 v = points(key).front();
+  if (v.maxCoeff() > longest_share * v.minCoeff())
+    fail(where(key), fmt::format("'{}' makes the body too flat or too slender", key),
+         fmt::format("[{:g}, {:g}, {:g}] m", v.x(), v.y(), v.z()),
+         fmt::format("lengths up to {:g} times each other", longest_share));
+  return v;
 }
 
 }  // namespace granulaw

@@ -21,11 +21,8 @@ bool refuses_a_missing_law()
 
 int main()
 {
-  granulaw::Sphere sphere;
-  sphere.radius = 1e-3;
-  sphere.material.density = 1000;
-  sphere.material.youngs_modulus = 0.91e9;
-  sphere.material.poisson_ratio = 0.3;
+  const granulaw::Particle sphere =
+      granulaw::Particle::sphere(1e-3, {.density = 1000, .youngs_modulus = 0.91e9, .poisson_ratio = 0.3});
   granulaw::RunOptions options;
   options.resolution = 8;
   options.shifted_grids = 1;

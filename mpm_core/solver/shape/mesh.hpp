@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace granulaw {
 

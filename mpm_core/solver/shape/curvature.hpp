@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/shape/solid.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace granulaw {
 

@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "solver/shape/particle.hpp"
-#include "solver/shape/body_frame.hpp"
 
 namespace granulaw {
 
@@ -134,13 +133,7 @@ void check_layers(const Particle& p, const std::string& where)
     thickness += layer.thickness;
   }
   if (p.layers.empty()) return;
-  if (p.solid) {
-    if (!is_deeper_than(*p.solid, thickness))
-      fail(where, "the layers leave no core: they are thicker than the body is deep",
-           fmt::format("{:g} m", thickness));
-    return;
-  }
-  const double room = p.largest_depth();
+  const double room = p.largest_depth(thickness);
   if (!(thickness < room))
     fail(where, "the layers leave no core: they are thicker than the body is deep",
          fmt::format("{:g} m", thickness), fmt::format("below {:g} m", room));
@@ -149,31 +142,18 @@ void check_layers(const Particle& p, const std::string& where)
 void check_inclusion(const Particle& p, const Particle::Inclusion& i, const std::string& name,
                      const std::string& where)
 {
+  const std::string centre =
+      p.shape ? fmt::format("({:g}, {:g}, {:g}) m", i.x, i.y, i.z) : text(ProfilePoint{i.r, i.z});
   if (!(i.radius > 0 && std::isfinite(i.radius)))
     fail(where, fmt::format("'radius' of {} is out of range", name), fmt::format("{:g} m", i.radius),
          "over 0");
-  if (!(i.r >= 0 && std::isfinite(i.r) && std::isfinite(i.z)))
-    fail(where, fmt::format("the centre of {} is out of range", name), text({i.r, i.z}), "r of 0 or more");
+  if (!(i.r >= 0 && std::isfinite(i.r + i.x + i.y + i.z)))
+    fail(where, fmt::format("the centre of {} is out of range", name), centre, "r of 0 or more");
   if (i.r > 0 && i.r < i.radius)
     fail(where, fmt::format("the ring that is {} overlaps itself on the axis", name),
          fmt::format("r = {:g} m", i.r), fmt::format("0 (a ball), or {:g} m and more", i.radius));
   check_material(p, i.material, true, name, where);
-  const double room = p.depth(i.r, i.z);
-  if (!(room > 0)) fail(where, fmt::format("{} has its centre outside the body", name), text({i.r, i.z}));
-  if (!(i.radius < room))
-    fail(where, fmt::format("{} reaches the surface: its radius", name), fmt::format("{:g} m", i.radius),
-         fmt::format("below {:g} m at {}", room, text({i.r, i.z})));
-}
-
-void check_ball(const Particle& p, const Particle::Inclusion& i, const std::string& name,
-                const std::string& where)
-{
-  if (!(i.radius > 0 && std::isfinite(i.radius)))
-    fail(where, fmt::format("'radius' of {} is out of range", name), fmt::format("{:g} m", i.radius),
-         "over 0");
-  check_material(p, i.material, true, name, where);
-  const std::string centre = fmt::format("({:g}, {:g}, {:g}) m", i.x, i.y, i.z);
-  const double room = p.solid->depth({i.x, i.y, i.z});
+  const double room = p.shape ? p.shape->depth({i.x, i.y, i.z}) : p.depth(i.r, i.z);
   if (!(room > 0)) fail(where, fmt::format("{} has its centre outside the body", name), centre);
   if (!(i.radius < room))
     fail(where, fmt::format("{} reaches the surface: its radius", name), fmt::format("{:g} m", i.radius),
@@ -184,9 +164,9 @@ void check_ball(const Particle& p, const Particle::Inclusion& i, const std::stri
 
 void check_revolution(const Particle& p, const std::string& where)
 {
-  if (p.solid)
+  if (p.shape)
     fail(where, "has a shape in three dimensions, which cannot be taken here yet",
-         fmt::format("kind = \"{}\"", p.solid->kind()), "a sphere or a profile");
+         fmt::format("kind = \"{}\"", p.shape->kind()), "a sphere or a profile");
 }
 
 void validate(const Particle& p, const std::string& where)
@@ -194,10 +174,10 @@ void validate(const Particle& p, const std::string& where)
   if (!(p.radius > 0 && std::isfinite(p.radius)))
     fail(where, "'radius' is out of range", fmt::format("{:g} m", p.radius), "over 0");
   if (p.materials.empty()) fail(where, "the particle has no material");
-  if (!p.is_sphere() && !p.solid) check_profile(p, where);
+  if (!p.is_sphere() && !p.shape) check_profile(p, where);
   check_layers(p, where);
   for (std::size_t k = 0; k < p.inclusions.size(); ++k)
-    (p.solid ? check_ball : check_inclusion)(p, p.inclusions[k], fmt::format("inclusion {}", k + 1), where);
+    check_inclusion(p, p.inclusions[k], fmt::format("inclusion {}", k + 1), where);
 }
 
 }  // namespace granulaw

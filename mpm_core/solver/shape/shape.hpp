@@ -17,6 +17,9 @@ struct MassProperties
   Eigen::Matrix3d inertia;  ///< m^5, inertia tensor about the centre of mass
 };
 
+/// From the volume and the integrals of x and of x x^t over the body.
+MassProperties mass_of_moments(double volume, const Vector3& first, const Eigen::Matrix3d& second);
+
 /// Principal radii of curvature of a surface at one point, m: 0 at an edge, 0 and 0 at a corner, infinity
 /// where it is flat. Positive where the surface is convex, negative where it is hollow.
 struct PrincipalRadii
@@ -26,11 +29,11 @@ struct PrincipalRadii
 };
 
 /// The outer surface of a three-dimensional body, in its own frame; SI. It never changes, so any number of
-/// threads may ask at once. Shared by std::shared_ptr<const Solid>.
-class Solid
+/// threads may ask at once. Made by the factories of shapes.hpp.
+class Shape
 {
  public:
-  virtual ~Solid() = default;
+  virtual ~Shape() = default;
 
   /// Signed distance to the surface, m, positive inside. Exact at the surface to first order and changing by
   /// no more than the distance between two points; a class says where it is not the distance itself.
@@ -58,5 +61,7 @@ class Solid
   /// The kind and all numbers that define the body: bodies are equal if their texts are.
   virtual std::string definition() const = 0;
 };
+
+using SharedShape = std::shared_ptr<const Shape>;
 
 }  // namespace granulaw

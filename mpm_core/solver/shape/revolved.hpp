@@ -13,8 +13,6 @@ struct ProfilePoint
   double r, z;
 };
 
-class ProfileTree;
-
 /// Meridian curve of a body of revolution: a polyline from the contact pole (0, 0) to the far pole
 /// (0, height), SI, the body on its left. It never changes. Copies share the points and their search tree, so
 /// a copy costs nothing and any number of threads may ask at once. Every list of points can be held;
@@ -55,7 +53,8 @@ class Profile
 
  private:
   std::shared_ptr<const std::vector<ProfilePoint>> points_;  ///< null: none
-  std::shared_ptr<const ProfileTree> tree_;
+  class Segments;
+  std::shared_ptr<const Segments> segments_;
   std::size_t widest_ = 0;
   bool rising_ = true;  ///< r never falls between the contact pole and the widest point
 };

@@ -1,6 +1,4 @@
 // Bodies inside triangle meshes: against the sphere and the box, and what is refused.
-#include "solver/shape/mesh_solid.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -11,10 +9,8 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "solid_checks.hpp"
-#include "solver/shape/box_solid.hpp"
-#include "solver/shape/ellipsoid_solid.hpp"
-#include "solver/shape/polyhedron_solid.hpp"
+#include "shape_checks.hpp"
+#include "solver/shape/shapes.hpp"
 
 namespace granulaw {
 namespace {
@@ -64,7 +60,7 @@ TriangleMesh ellipsoid_mesh(const Vector3& axes, int refinements)
 std::string sentence_of(const TriangleMesh& mesh)
 {
   try {
-    MeshSolid(mesh, "m.stl");
+    mesh_shape(mesh, "m.stl");
   } catch (const Error& error) {
     return error.what();
   }
@@ -73,40 +69,40 @@ std::string sentence_of(const TriangleMesh& mesh)
 
 TEST(Mesh, CubeIsTheSharpBox)
 {
-  const MeshSolid mesh(cube(), "cube");
-  const BoxSolid box({2, 2, 2}, 0);
-  for (const Vector3& x : random_points(box, 500)) EXPECT_NEAR(mesh.depth(x), box.depth(x), 1e-14);
-  const MassProperties own = mesh.mass_properties(), other = box.mass_properties();
+  const SharedShape mesh = mesh_shape(cube(), "cube");
+  const SharedShape box = box_shape({2, 2, 2}, 0);
+  for (const Vector3& x : random_points(*box, 500)) EXPECT_NEAR(mesh->depth(x), box->depth(x), 1e-14);
+  const MassProperties own = mesh->mass_properties(), other = box->mass_properties();
   EXPECT_NEAR(own.volume, other.volume, 1e-13);
   EXPECT_NEAR((own.inertia - other.inertia).norm(), 0, 1e-12);
-  expect_lipschitz(mesh);
+  expect_lipschitz(*mesh);
 }
 
-TEST(Mesh, FulfilsWhatEverySolidMust)
+TEST(Mesh, FulfilsWhatEveryShapeMust)
 {
-  const MeshSolid mesh(ellipsoid_mesh({1, 2, 3}, 3), "ellipsoid");
-  expect_lipschitz(mesh);
-  expect_support(mesh);
-  expect_normals(mesh);
+  const SharedShape mesh = mesh_shape(ellipsoid_mesh({1, 2, 3}, 3), "ellipsoid");
+  expect_lipschitz(*mesh);
+  expect_support(*mesh);
+  expect_normals(*mesh);
 }
 
 TEST(Mesh, OfASphereIsTheSphereToTheMeshsAccuracy)
 {
   // Edges of up to h = 0.06 R: chords lie h^2/6 below the surface, at the middle of a triangle.
-  const MeshSolid mesh(ellipsoid_mesh({1, 1, 1}, 5), "sphere");
-  for (const Vector3& x : random_points(mesh, 500)) EXPECT_NEAR(mesh.depth(x), 1 - x.norm(), 8e-4);
-  EXPECT_NEAR(mesh.mass_properties().volume / (4 * pi / 3), 1, 2e-3);
-  EXPECT_NEAR(mesh.mass_properties().inertia(0, 0) / (4 * pi / 3 * 0.4), 1, 3e-3);
-  EXPECT_NEAR(mesh.finest_radius(), 1, 0.02);  // of h^2 and of uneven triangles
+  const SharedShape mesh = mesh_shape(ellipsoid_mesh({1, 1, 1}, 5), "sphere");
+  for (const Vector3& x : random_points(*mesh, 500)) EXPECT_NEAR(mesh->depth(x), 1 - x.norm(), 8e-4);
+  EXPECT_NEAR(mesh->mass_properties().volume / (4 * pi / 3), 1, 2e-3);
+  EXPECT_NEAR(mesh->mass_properties().inertia(0, 0) / (4 * pi / 3 * 0.4), 1, 3e-3);
+  EXPECT_NEAR(mesh->finest_radius(), 1, 0.02);  // of h^2 and of uneven triangles
 }
 
 TEST(Mesh, PrincipalRadiiOfAnEllipsoid)
 {
   const Vector3 axes(1, 1.5, 2);
-  const MeshSolid mesh(ellipsoid_mesh(axes, 5), "ellipsoid");
-  const EllipsoidSolid ellipsoid(axes);
+  const SharedShape mesh = mesh_shape(ellipsoid_mesh(axes, 5), "ellipsoid");
+  const SharedShape ellipsoid = ellipsoid_shape(axes);
   for (const Vector3& n : random_directions(40)) {
-    const PrincipalRadii own = mesh.principal_radii(n), other = ellipsoid.principal_radii(n);
+    const PrincipalRadii own = mesh->principal_radii(n), other = ellipsoid->principal_radii(n);
     // The vertex that stands for a direction lies up to half an edge, 0.03, from its support point: the
     // normals differ by 0.03/0.5, and the radii change by up to three times the change of the normal, less
     // the patch's averaging.
@@ -159,7 +155,7 @@ TEST(Mesh, ReadsStlAsTextAndBinary)
   const std::string path = testing::TempDir() + "granulaw_mesh_solid_test.stl";
   {
     std::ofstream out(path);
-    out << "solid cube\n";
+    out << "shape cube\n";
     for (const auto& t : mesh.triangles) {
       out << "facet normal 0 0 0\nouter loop\n";
       for (const int v : t) out << "vertex " << mesh.vertices[v].transpose() << "\n";
@@ -185,7 +181,7 @@ TEST(Mesh, ReadsStlAsTextAndBinary)
   for (const TriangleMesh& read : {text, binary}) {
     EXPECT_EQ(read.vertices.size(), 8u);
     EXPECT_EQ(read.triangles.size(), 12u);
-    EXPECT_NEAR(MeshSolid(read, "cube").mass_properties().volume, 8e-9, 1e-22);
+    EXPECT_NEAR(mesh_shape(read, "cube")->mass_properties().volume, 8e-9, 1e-22);
   }
 }
 
@@ -193,19 +189,19 @@ TEST(Polyhedron, OfABoxsCornersIsTheBox)
 {
   std::vector<Vector3> corners{{0, 0, 0}, {0.1, 0.2, -0.3}, {0.5, 0, 1}};  // inside, and on a face
   for (const Vector3& v : cube().vertices) corners.push_back(v.cwiseProduct(Vector3(0.5, 0.75, 1)));
-  const PolyhedronSolid polyhedron(corners, 0.25, "polyhedron");
-  const BoxSolid box({1.5, 2, 2.5}, 0.25);
-  for (const Vector3& x : random_points(box, 300)) EXPECT_NEAR(polyhedron.depth(x), box.depth(x), 1e-14);
-  expect_support(polyhedron);
-  expect_normals(polyhedron);
-  const MassProperties own = polyhedron.mass_properties(), other = box.mass_properties();
+  const SharedShape polyhedron = polyhedron_shape(corners, 0.25, "polyhedron");
+  const SharedShape box = box_shape({1.5, 2, 2.5}, 0.25);
+  for (const Vector3& x : random_points(*box, 300)) EXPECT_NEAR(polyhedron->depth(x), box->depth(x), 1e-14);
+  expect_support(*polyhedron);
+  expect_normals(*polyhedron);
+  const MassProperties own = polyhedron->mass_properties(), other = box->mass_properties();
   EXPECT_NEAR(own.volume / other.volume, 1, 1e-4);  // its mesh of directions
   EXPECT_NEAR((own.inertia - other.inertia).norm() / other.inertia.norm(), 0, 2e-4);
   for (const Vector3& n : {Vector3(1, 0, 0), Vector3(0.6, 0.8, 0), Vector3(1, 2, 2)}) {
-    EXPECT_EQ(polyhedron.principal_radii(n.normalized()).sharper,
-              box.principal_radii(n.normalized()).sharper);
-    EXPECT_EQ(polyhedron.principal_radii(n.normalized()).flatter,
-              box.principal_radii(n.normalized()).flatter);
+    EXPECT_EQ(polyhedron->principal_radii(n.normalized()).sharper,
+              box->principal_radii(n.normalized()).sharper);
+    EXPECT_EQ(polyhedron->principal_radii(n.normalized()).flatter,
+              box->principal_radii(n.normalized()).flatter);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "solver/shape/implicit_curvature.hpp"
+#include "solver/shape/curvature.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
