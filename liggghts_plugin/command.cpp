@@ -8,9 +8,11 @@
 #include "base/error.hpp"
 #include "liggghts_plugin/contact_history.hpp"
 #include "liggghts_plugin/contact_list.hpp"
+#include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/heat_conduction.hpp"
 #include "liggghts_plugin/private_members.hpp"
 #include "liggghts_plugin/runaway.hpp"
+#include "liggghts_plugin/superquadric.hpp"
 
 namespace granulaw::plugin {
 
@@ -65,7 +67,7 @@ void note_meaning(const CommandModels& models, Setup& setup)
 {
   const Options& options = setup.options;
   const auto bit = [](bool said, long bit) { return said ? bit : 0l; };
-  setup.meaning = {models.hash | bit(setup.energy, HistoryMeaning::energy) |
+  setup.meaning = {models.ids.hash() | bit(setup.energy, HistoryMeaning::energy) |
                        bit(setup.contact_map, HistoryMeaning::contact_map) |
                        bit(options.deformable_wall, HistoryMeaning::deformable_wall) |
                        bit(options.tangential_computed.value_or(false), HistoryMeaning::computed_stiffness),
@@ -76,7 +78,7 @@ void note_meaning(const CommandModels& models, Setup& setup)
 /// The energy tally counts what happens in contact.
 void refuse_out_of_reach(const CommandModels& models, const Setup& setup)
 {
-  if (has_bridges(models.cohesion) && setup.energy)
+  if (models.ids.has_bridges() && setup.energy)
     fail(setup.where,
          "'energy on' does not book the work of liquid bridges that pull across a gap: leave it out");
 }
@@ -84,7 +86,7 @@ void refuse_out_of_reach(const CommandModels& models, const Setup& setup)
 /// no_history is a dashpot capped at the Coulomb limit: without the dashpot there is no friction at all.
 void refuse_no_friction(const CommandModels& models, const Setup& setup, const Words& rest)
 {
-  if (models.tangential != cm::TANGENTIAL_NO_HISTORY) return;
+  if (models.ids.tangential != cm::TANGENTIAL_NO_HISTORY) return;
   const auto off = std::find(rest.begin(), rest.end(), "tangential_damping");
   if ((off != rest.end() && *(off + 1) == "off") || setup.options.tangential_damping == 0.0)
     fail(setup.where, "'tangential no_history' without tangential damping has no friction at all");
@@ -93,7 +95,7 @@ void refuse_no_friction(const CommandModels& models, const Setup& setup, const W
 void warn_stretched_cohesion(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, const Setup& setup)
 {
   const double s = setup.options.stretch.value_or(1.0);
-  if (models.cohesion == cm::COHESION_OFF || s <= 1.0) return;
+  if (models.ids.cohesion == cm::COHESION_OFF || s <= 1.0) return;
   if (!setup.session->first_time("stretched cohesion") || lmp->comm->me != 0) return;
   lmp->error->warning(
       FLERR,
@@ -134,26 +136,7 @@ void with_setup(const Setup& setup, Words words, const std::function<void(int, c
   Setup::current = nullptr;
 }
 
-}  // namespace
-
-void read_command(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setup, int nargs, char** args,
-                  const std::function<void(int, char**)>& call)
-{
-  // The factory counts the words down but leaves `args` on the last one where nothing is left.
-  std::vector<char*> pointers(args, args + std::max(0, nargs));
-  Words of_surface, rest;
-  if (models.superquadric) of_surface = take_curvature_words(setup.where, pointers);
-  read_setup(lmp, models, setup, Words(pointers.begin(), pointers.end()), rest);
-  rest.insert(rest.end(), of_surface.begin(), of_surface.end());
-  note_meaning(models, setup);
-  refuse_out_of_reach(models, setup);
-  refuse_shape(lmp, setup, models.superquadric);
-  refuse_no_friction(models, setup, rest);
-  warn_stretched_cohesion(lmp, models, setup);
-  with_setup(setup, rest, call);
-  refuse_other_histories(lmp, setup);
-}
-
+/// The fixes that come with our models.
 void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
 {
   provide_contact_histories(lmp);
@@ -161,6 +144,52 @@ void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
   provide_contact_list(lmp);
   provide_stats_fix(lmp);
   provide_runaway_fix(lmp);
+}
+
+}  // namespace
+
+CommandStyle::CommandStyle(LAMMPS_NS::LAMMPS* lmp, FixWallGran* wall) : lmp_(lmp) { setup_.wall = wall; }
+
+CommandStyle::~CommandStyle()
+{
+  if (!setup_.session) return;
+  setup_.session->one_size.erase(&setup_);
+  const auto own = setup_.session->styles.find(setup_.wall);
+  if (own != setup_.session->styles.end() && own->second == this) setup_.session->styles.erase(own);
+}
+
+void CommandStyle::read(const CommandModels& models, int nargs, char** args,
+                        const std::function<void(int, char**)>& call)
+{
+  std::optional<UnfinishedFix> unfinished;  // the constructor of a wall's fix is running
+  if (setup_.wall) unfinished.emplace(lmp_, setup_.wall);
+  setup_.session = Session::of(lmp_);
+  setup_.where = setup_.wall ? fmt::format("fix {} wall/gran model {}", setup_.wall->id, models.normal.name)
+                             : fmt::format("pair_style gran model {}", models.normal.name);
+  // The factory counts the words down but leaves `args` on the last one where nothing is left.
+  std::vector<char*> pointers(args, args + std::max(0, nargs));
+  Words of_surface, rest;
+  if (models.ids.superquadric()) of_surface = take_curvature_words(setup_.where, pointers);
+  read_setup(lmp_, models, setup_, Words(pointers.begin(), pointers.end()), rest);
+  rest.insert(rest.end(), of_surface.begin(), of_surface.end());
+  note_meaning(models, setup_);
+  refuse_out_of_reach(models, setup_);
+  refuse_shape(lmp_, setup_, models.ids.superquadric());
+  refuse_no_friction(models, setup_, rest);
+  warn_stretched_cohesion(lmp_, models, setup_);
+  with_setup(setup_, rest, call);
+  refuse_other_histories(lmp_, setup_);
+  setup_.session->styles[setup_.wall] = this;
+  provide_fixes(lmp_);
+}
+
+void CommandStyle::begin_run(const std::function<void()>& init)
+{
+  guarded(lmp_, [&] {
+    init();
+    check_run(lmp_, setup_);
+    if (!setup_.wall) provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
+  });
 }
 
 }  // namespace granulaw::plugin

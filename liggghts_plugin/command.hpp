@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/contact_pieces.hpp"
+#include "liggghts_plugin/normal_physics.hpp"
+#include "liggghts_plugin/pair_table.hpp"
 #include "liggghts_plugin/session.hpp"
-#include "liggghts_plugin/superquadric.hpp"
 
 // How `pair_style gran` and `fix wall/gran` with a model of ours are read: our keywords into a Setup, the
 // others to LIGGGHTS.
@@ -17,22 +18,8 @@ struct CommandModels
 {
   ModelInfo normal;
   void (*read_keywords)(LAMMPS_NS::LAMMPS* lmp, Setup& setup);  ///< NormalPhysics::read_keywords
-  int tangential, cohesion;                                     ///< ids
-  long hash;                                                    ///< LIGGGHTS's number of the five
-  bool superquadric;                                            ///< surface
+  ModelIds ids;
 };
-
-/// Liquid bridges pull across a gap.
-constexpr bool has_bridges(int cohesion)
-{
-  return cohesion == cm::COHESION_EASO_CAPILLARY_VISCOUS ||
-         cohesion == cm::COHESION_WASHINO_CAPILLARY_VISCOUS;
-}
-
-/// Reads our own words of a command into `setup`; `call(nargs, args)` gets the others, with our setup being
-/// current for the model's postSettings. Throws Error with one sentence. Collective.
-void read_command(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setup, int nargs, char** args,
-                  const std::function<void(int, char**)>& call);
 
 /// Runs `work`; what it throws ends the run on all ranks with one sentence. Nothing that a single rank may
 /// fail at is thrown here without the ranks having agreed on it (load_law).
@@ -46,7 +33,48 @@ void guarded(LAMMPS_NS::LAMMPS* lmp, Work&& work)
   }
 }
 
-/// The fixes that come with our models.
-void provide_fixes(LAMMPS_NS::LAMMPS* lmp);
+/// What the pair style and the walls of ours share: the command's setup, and its place in the session.
+class CommandStyle : public CountedStyle
+{
+ public:
+  CommandStyle(const CommandStyle&) = delete;
+  CommandStyle& operator=(const CommandStyle&) = delete;
+  ~CommandStyle() override;
+  const ContactInquiry* contacts() const override { return setup_.contacts; }
+
+ protected:
+  /// `wall`: null for pairs.
+  CommandStyle(LAMMPS_NS::LAMMPS* lmp, FixWallGran* wall);
+
+  /// Reads our own words of the command; `call(nargs, args)` gets the others, with our setup being current
+  /// for the model's postSettings. Ends the run with one sentence where they are wrong. Collective.
+  template <NormalPhysics Physics>
+  void read(std::int64_t hash, int nargs, char** args, const std::function<void(int, char**)>& call)
+  {
+    guarded(lmp_, [&] {
+      read({model_info<Physics>, &Physics::read_keywords, ModelIds::of(hash)}, nargs, args, call);
+    });
+  }
+  /// Before each run: `init` is LIGGGHTS's own. Collective.
+  void begin_run(const std::function<void()>& init);
+
+  const Setup& setup() const { return setup_; }
+  OpenContact open_contact(int itype, int jtype, int i, int j, double weight, double radius_j,
+                           const double* history) const
+  {
+    return {pair_key(setup_, itype, jtype),
+            i,
+            j,
+            weight,
+            {itype, jtype, lmp_->atom->radius[i], radius_j, 0.0, history}};
+  }
+
+ private:
+  void read(const CommandModels& models, int nargs, char** args,
+            const std::function<void(int, char**)>& call);
+
+  LAMMPS_NS::LAMMPS* lmp_;
+  Setup setup_;
+};
 
 }  // namespace granulaw::plugin

@@ -147,7 +147,14 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   };
   /// Whether spheres that do not touch may feel each other (liquid bridges): all within LIGGGHTS's contact
   /// distance are visited then.
-  static constexpr bool acts_at_distance = requires { requires ContactModel::acts_at_distance; };
+  bool acts_at_distance() const
+  {
+    if constexpr (requires { model_.acts_at_distance(); })
+      return model_.acts_at_distance();
+    else
+      return false;
+  }
+  static constexpr bool superquadric = requires { requires ContactModel::superquadric; };
 
   /// So many are collected before their forces are computed: what was read of them is still in the cache.
   static constexpr std::size_t batch = 256;
@@ -219,7 +226,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     const double xi = x[3 * i], yi = x[3 * i + 1], zi = x[3 * i + 2], ri = radius[i];
     Candidate* out = candidates_.data() + at;
     double reach2 = 1.0;  // of the squared sum of radii
-    if constexpr (acts_at_distance)
+    if (acts_at_distance())
       reach2 = lmp_->neighbor->contactDistanceFactor * lmp_->neighbor->contactDistanceFactor;
     for (int jj = 0; jj < count; ++jj) {
       const int j = neighbours[jj] & NEIGHMASK;
@@ -264,7 +271,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     if (!(contact.rsq < contact.radsum * contact.radsum) || !surfaces_meet(pass, particles, contact)) {
       contact.has_force_update = false;
       model_.surfacesClose(contact, on_i, on_j);
-      if constexpr (acts_at_distance)
+      if (acts_at_distance())
         if (contact.has_force_update) apply(pass, particles, contact, on_i, on_j);
       return;
     }
@@ -272,7 +279,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
       stop_at_one_place(i, j);
     contact.r = std::sqrt(contact.rsq);
     contact.rinv = 1.0 / contact.r;
-    if constexpr (!is_superquadric<ContactModel>)
+    if constexpr (!superquadric)
       for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
     set_masses(pass, particles, contact);
     model_.surfacesIntersect(contact, on_i, on_j);
@@ -298,7 +305,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   /// do, and finds contact point, normal, overlap and R*.
   bool surfaces_meet(const Pass& pass, const Particles& particles, SurfacesIntersectData& contact)
   {
-    if constexpr (is_superquadric<ContactModel>) {
+    if constexpr (superquadric) {
       contact.radi = volume_radius(*lmp_->atom, contact.i);
       contact.radj = volume_radius(*lmp_->atom, contact.j);
       set_masses(pass, particles, contact);

@@ -1,71 +1,20 @@
+#include "liggghts_plugin/registration.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <vector>
 
-#include "liggghts_plugin/model_registration.hpp"
+#include "liggghts_plugin/contact_pieces.hpp"
 
 namespace granulaw::plugin {
 
 namespace {
 
 namespace lg = LIGGGHTS;
-
-using Names = std::map<int, std::string>;
-
-// LIGGGHTS's models by id. Functions, as models register themselves while static objects are made.
-const Names& tangential_names()
-{
-  static const Names names = {
-      {cm::TANGENTIAL_OFF, "off"},
-#define TANGENTIAL_MODEL(identifier, name, id) {id, #name},
-#include "style_tangential_model.h"
-#undef TANGENTIAL_MODEL
-  };
-  return names;
-}
-
-const Names& cohesion_names()
-{
-  static const Names names = {
-      {cm::COHESION_OFF, "off"},
-#define COHESION_MODEL(identifier, name, id) {id, #name},
-#include "style_cohesion_model.h"
-#undef COHESION_MODEL
-  };
-  return names;
-}
-
-const Names& rolling_names()
-{
-  static const Names names = {
-      {cm::ROLLING_OFF, "off"},
-#define ROLLING_MODEL(identifier, name, id) {id, #name},
-#include "style_rolling_model.h"
-#undef ROLLING_MODEL
-  };
-  return names;
-}
-
-const Names& surface_names()
-{
-  static const Names names = {
-#define SURFACE_MODEL(identifier, name, id) {id, #name},
-#include "style_surface_model.h"
-#undef SURFACE_MODEL
-  };
-  return names;
-}
-
-template <int... ids>
-std::string join_names(const Names& names, Ids<ids...>)
-{
-  return fmt::format("{}", fmt::join({names.at(ids)...}, ", "));
-}
 
 std::vector<ModelInfo>& known_models()
 {
@@ -86,11 +35,7 @@ void refuse_twin(const ModelInfo& model)
 
 std::string refusal()
 {
-  return fmt::format(
-      "models {} are built for tangential {}; cohesion {}; rolling_friction {}; {}: choose among these",
-      model_names(), join_names(tangential_names(), BuiltTangential{}),
-      join_names(cohesion_names(), BuiltCohesion{}), join_names(rolling_names(), BuiltRolling{}),
-      built_surfaces);
+  return fmt::format("models {} are built for {}: choose among these", model_names(), built_combinations());
 }
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
@@ -103,33 +48,24 @@ lg::Walls::IGranularWall* refuse_wall(LAMMPS* lmp, FixWallGran*, int64_t)
   stop_all(lmp, refusal());
 }
 
-bool is_built(int tangential, int cohesion, int rolling, int surface)
-{
-  return contains(BuiltTangential{}, tangential) && contains(BuiltCohesion{}, cohesion) &&
-         contains(BuiltRolling{}, rolling) && surface_is_built(surface, cohesion);
-}
-
-void add_refusals(const ModelInfo& model)
-{
-  for (const auto& [t, tangential] : tangential_names())
-    for (const auto& [c, cohesion] : cohesion_names())
-      for (const auto& [r, rolling] : rolling_names())
-        for (const auto& [s, surface] : surface_names()) {
-          if (is_built(t, c, r, s)) continue;
-          const auto hash = static_cast<int>(lg::Utils::generate_gran_hashcode(model.id, t, c, r, s));
-          lg::PairStyles::Factory::instance().addStyle("gran", hash, &refuse_pair);
-          lg::Walls::Factory::instance().addStyle("gran", hash, &refuse_wall);
-        }
-}
-
 }  // namespace
 
-void add_model(const ModelInfo& model)
+void add_model(const ModelInfo& model, PairMaker pair, WallMaker wall)
 {
   refuse_twin(model);
   known_models().push_back(model);
   cm::Factory::instance().addNormalModel(model.name, model.id);
-  add_refusals(model);
+  each_combination(model.id, [&](const ModelIds& ids) {
+    const int hash = static_cast<int>(ids.hash());
+    lg::PairStyles::Factory::instance().addStyle("gran", hash, is_built(ids) ? pair : &refuse_pair);
+    lg::Walls::Factory::instance().addStyle("gran", hash, is_built(ids) ? wall : &refuse_wall);
+  });
+}
+
+void check_particles(LAMMPS* lmp, const ModelIds& ids)
+{
+  if (ids.superquadric() && !lmp->atom->superquadric_flag)
+    stop_all(lmp, "'surface superquadric' needs atom_style superquadric, said before the pair style");
 }
 
 std::string model_names()
@@ -144,18 +80,11 @@ std::string model_names()
 std::string describe(const HistoryMeaning& meaning)
 {
   const long combination = meaning.combination;
-  // six bits each, as in LIGGGHTS's GranStyle
-  const auto part = [&](int place) { return static_cast<int>(combination >> 6 * place & 63); };
+  const ModelIds ids = ModelIds::of(combination);
   std::string text = "model";
   for (const ModelInfo& model : known_models())
-    if (model.id == part(0)) text += fmt::format(" {}", model.name);
-  const auto add = [&](const char* kind, const Names& names, int id) {
-    const auto found = names.find(id);
-    if (found != names.end() && found->second != "off") text += fmt::format(" {} {}", kind, found->second);
-  };
-  add("tangential", tangential_names(), part(1));
-  add("cohesion", cohesion_names(), part(2));
-  add("rolling_friction", rolling_names(), part(3));
+    if (model.id == ids.normal) text += fmt::format(" {}", model.name);
+  text += describe_pieces(ids);
   if (combination & HistoryMeaning::energy) text += ", energy on";
   if (combination & HistoryMeaning::contact_map) text += ", contactMap on";
   if (combination & HistoryMeaning::deformable_wall) text += ", wall deformable";

@@ -131,7 +131,7 @@ class Session
 };
 
 /// One command's setup, handed to the contact model: LIGGGHTS builds the model before it reads the words, and
-/// keeps it out of reach. The wrapper (pair_style.hpp, wall_style.hpp) owns the setup and makes it `current`
+/// keeps it out of reach. The style (CommandStyle) owns the setup and makes it `current`
 /// while it calls the model's postSettings; it outlives the model's use of it.
 struct Setup
 {

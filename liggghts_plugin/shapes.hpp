@@ -17,15 +17,6 @@ inline constexpr bool superquadrics_built = true;
 inline constexpr bool superquadrics_built = false;
 #endif
 
-/// Id of the surface model in a GranStyle or in a contact model made of one.
-template <class Model>
-inline constexpr int surface_of = Model::SURFACE;
-template <template <class> class Model, class Style>
-inline constexpr int surface_of<Model<Style>> = Style::SURFACE;
-
-template <class Model>
-inline constexpr bool is_superquadric = surface_of<Model> == cm::SURFACE_SUPERQUADRIC;
-
 /// Surface models and the cohesion models they are built with: `cohesion sjkr` takes spheres' contact areas.
 constexpr bool surface_is_built(int surface, int cohesion)
 {

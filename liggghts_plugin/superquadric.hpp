@@ -77,14 +77,6 @@ inline std::vector<std::string> take_curvature_words(const std::string& where, s
   return taken;
 }
 
-/// Stops before the surface model is made, which would stop one rank with a message that may get lost.
-template <class Style>
-void check_particles(LAMMPS_NS::LAMMPS* lmp)
-{
-  if (is_superquadric<Style> && !lmp->atom->superquadric_flag)
-    stop_all(lmp, "'surface superquadric' needs atom_style superquadric, said before the pair style");
-}
-
 /// Throws Error where a surface model meets particles that it is not for, or a keyword what it cannot serve.
 inline void refuse_shape(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, bool superquadric_surface)
 {

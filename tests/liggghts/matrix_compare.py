@@ -54,8 +54,9 @@ class Run:
 
 
 def run_all(feature, variants, program=None):
-    """{variant: Run} of variants on equally many ranks and of one program (left out: that of the model). One process, `clear` between the decks; where one ends it, the rest in another.
-    Where the first deck of a model ends it, the model's others are left out."""
+    """{variant: Run} of variants on equally many ranks and of one program; left out: that of the model. One process, `clear` between the decks; where one ends it, the rest in another.
+    Where the first deck of a model ends it, the model's others are left out. A program that is named gets a process for each deck: `clear` takes
+    liggghts-mpm's classes from Hertz, which does not bring them again."""
     result, left = {}, list(variants)
     with tempfile.TemporaryDirectory(prefix="granulaw-matrix-") as name:
         top = pathlib.Path(name)
@@ -69,7 +70,7 @@ def run_all(feature, variants, program=None):
                 (folder / law).symlink_to(law_folder() / law)
             (folder / "in.deck").write_text("log liggghts.log\n" + matrix_scene.deck(feature, variant))
         while left:
-            numbers = [variants.index(v) for v in left][:1 if feature.alone else None]
+            numbers = [variants.index(v) for v in left][:1 if feature.alone or program else None]
             (top / "in.all").write_text("clear\n".join(f"print \"DECK {k}\"\nshell cd {k}\ninclude in.deck\nlog none\nshell cd ..\n" for k in numbers))
             status, text, last_words = process(top, variants[0], program or (STOCK if variants[0].model == "hertz" else LAUNCHER))
             shown = re.split(r"^DECK (\d+)$", text, flags=re.M)

@@ -58,8 +58,8 @@ class NewModel(Deck):
         self.refused(self.pair("plain_hertz", "law x.h5"), "unknown keyword 'law'")
 
     def test_other_combinations_are_refused(self):
-        deck = self.pair("plain_hertz", "").replace("tangential history", "tangential no_history")
-        self.refused(deck, "models plain_hertz are built for tangential history; cohesion off; rolling_friction off")
+        deck = self.pair("plain_hertz", "").replace("tangential history", "tangential tan_luding")
+        self.refused(deck, "models plain_hertz are built for tangential off, history, no_history; cohesion off, sjkr")
 
     def test_statistics(self):
         text = self.run_deck(self.pair("plain_hertz", WORDS), launcher="liggghts", environment=PLAIN)

@@ -3,6 +3,7 @@
     rest        1728 spheres on a floor, periodic in x and y, 60,000 steps after they were let fall; each model from its own restart file
     frozen      their positions under Hertz read anew, with a time step of 2e-9 s: every contact is new, half of them grow at every step
     frozen_off  the same with `tangential off`
+    frozen_all  the same with `tangential history cohesion sjkr rolling_friction epsd2`
     hopper      the hopper of tools/demo with 1500 spheres and mesh walls, filled under each model, then open
     chute       loop.py's dense flow, 3000 spheres
     N x C       N spheres of a periodic packing with C contacts a sphere, pressed together: 6 (cubic) and 3 (honeycombs)
@@ -87,7 +88,9 @@ def properties(model):
 
 def bed(model, tangential="history", dt=loop.DT):
     stock, ours = model_words(model, tangential)
-    return (properties(model) + f"pair_style gran {stock} {ours}\npair_coeff * *\n"
+    pieces = ("fix pc all property/global cohesionEnergyDensity peratomtypepair 1 1000.0\n"
+              "fix pr all property/global coefficientRollingFriction peratomtypepair 1 0.1\n" if "cohesion" in tangential else "")
+    return (properties(model) + pieces + f"pair_style gran {stock} {ours}\npair_coeff * *\n"
             f"fix w all wall/gran {stock} primitive type 1 zplane 0.0\n"
             f"fix g all gravity {loop.GRAVITY} vector 0.0 0.0 -1.0\nfix i all nve/sphere\ntimestep {dt}\n")
 
@@ -263,6 +266,7 @@ def measure(folder, scene, programs, models, rounds, error):
 
 def scenes(options):
     found = {"rest": Rest("rest", 2000), "frozen": Frozen("frozen", 2000, "history"), "frozen_off": Frozen("frozen_off", 2000, "off"),
+             "frozen_all": Frozen("frozen_all", 2000, "history cohesion sjkr rolling_friction epsd2"),
              "hopper": Hopper("hopper", 2000), "chute": Chute("chute", 1000)}
     for name in options.scenes:
         yield found[name]
@@ -275,7 +279,7 @@ def scenes(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rounds", type=int, default=10)
-    parser.add_argument("--scenes", nargs="*", default=["rest", "frozen", "frozen_off", "hopper", "chute"])
+    parser.add_argument("--scenes", nargs="*", default=["rest", "frozen", "frozen_off", "frozen_all", "hopper", "chute"])
     parser.add_argument("--sizes", nargs="*", type=int, default=[3000, 27000, 100000])
     parser.add_argument("--contacts", nargs="+", type=int, default=[3, 6])
     parser.add_argument("--ranks", nargs="+", type=int, default=[1, 2])
