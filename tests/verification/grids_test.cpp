@@ -10,6 +10,7 @@
 #include "references.hpp"
 #include "solver/body/kernels.hpp"
 #include "solver/body/updated_points.hpp"
+#include "solver/contact/surface.hpp"
 #include "solver/grid/rectilinear_body.hpp"
 #include "solver/grid/updated_body.hpp"
 #include "solver/loading/flight.hpp"
@@ -183,7 +184,7 @@ TEST(Updated, FliesFreely)
 {
   Scene scene;
   scene.bodies.push_back(updated_sphere(plastic));
-  scene.contact = std::make_unique<SurfaceContact>();
+  scene.contact = std::make_unique<RowContact>(std::make_unique<Surface>(scene.bodies), sweeps_of_revolution);
   Body& b = scene.bodies.front();
   const MovingPoints before = *b.moving;
   const double v = 0.01, dt = 0.02;

@@ -9,7 +9,7 @@
 #include "base/larger.hpp"
 #include "solver/body/kernels.hpp"
 #include "solver/body/stable_step.hpp"
-#include "solver/contact/spatial_contact.hpp"
+#include "solver/contact/planes.hpp"
 #include "solver/grid/spatial_grid.hpp"
 #include "solver/loading/press.hpp"
 #include "solver/run/time_step.hpp"
@@ -508,10 +508,8 @@ TEST(SpatialPress, PlanesFollowTheirRampWhateverTheSteps)
 {
   Scene scene;
   scene.bodies.push_back(ball(elastic, 0.3));
-  auto contact = std::make_unique<SpatialContact>(
-      scene.bodies.front(), Vector3::Zero(), std::vector<Plane>{{Vector3::UnitZ(), -2}});  // out of reach
-  scene.planes = contact.get();
-  scene.contact = std::move(contact);
+  scene.meet(std::make_unique<Planes>(scene.bodies.front(), Vector3::Zero(),
+                                      std::vector<Plane>{{Vector3::UnitZ(), -2}}));  // out of reach
   constexpr double depth = 0.1, ramp = 10;
   Press programme({{depth}, ramp, 4}, 1, std::make_unique<MovingPlanes>(std::vector<double>{1.0}));
   double time = 0;

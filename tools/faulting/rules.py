@@ -231,7 +231,7 @@ def picked(top, seed, count, only=None):
 NAMED = [
     ("factor", "mpm_core/law/replay.cpp", "const double work = 0.5 * (", "const double work = 0.505 * ("),
     ("factor", "mpm_core/law/unloading.hpp", "(11.0 - 2.0 * exponent) / 21.0", "1.01 * (11.0 - 2.0 * exponent) / 21.0"),
-    ("sign", "mpm_core/solver/contact/contact.cpp", "* (least - v);", "* (least + v);"),
+    ("sign", "mpm_core/solver/contact/node_plane.cpp", "* (least - v);", "* (least + v);"),
     ("factor", "mpm_core/law/pair.hpp", "return {e_star_yielding, 1.0 + e_star_yielding", "return {e_star_yielding, 1.0 + 1.01 * e_star_yielding"),
     ("swap", "tools/deck/geometry.cpp", "result.low[k] = std::max(low[k], other.low[k]);",
      "result.low[k] = std::min(low[k], other.low[k]);"),

@@ -1,5 +1,5 @@
-// Compiled once for each instruction set, as body/axisymmetric_isa.cpp, under the same rules. A node's four entries are
-// the lanes of a vector.
+// Compiled once for each instruction set, as body/axisymmetric_isa.cpp, under the same rules. A vector in
+// space has four lanes: x, y, z and a zero; of revolution r is along x.
 #include "solver/contact/rows.hpp"
 #include "solver/material/parameter.hpp"
 
@@ -8,8 +8,6 @@ namespace granulaw::GRANULAW_ISA_NAMESPACE {
 namespace {
 
 typedef double Four __attribute__((vector_size(32), may_alias));
-
-constexpr int stencil = 27;
 
 GRANULAW_INLINE const Four& four(const double* values)
 {
@@ -38,89 +36,181 @@ GRANULAW_INLINE double square_root(double x)
   return __builtin_sqrt(x);
 }
 
-/// Three sums side by side: the next product does not wait for the last.
-GRANULAW_INLINE Four carried(const double* field, const int* __restrict offset,
-                             const double* __restrict weight)
+/// Layout of the nodes' fields in three dimensions: a node is one access. Three sums side by side: the next
+/// product does not wait for the last.
+struct InCells
 {
-  Four a{}, b{}, c{};
+  GRANULAW_INLINE Four carried(const RowNodes&, const double* field, const Stencil& marker)
+  {
+    const double* from = field + marker.lowest;
+    const int* __restrict offset = marker.offset;
+    const double* __restrict weight = marker.weight;
+    Four a{}, b{}, c{};
 #pragma GCC unroll 9
-  for (int k = 0; k < stencil; k += 3) {
-    a += weight[k] * four(field + offset[k]);
-    b += weight[k + 1] * four(field + offset[k + 1]);
-    c += weight[k + 2] * four(field + offset[k + 2]);
+    for (int k = 0; k < cell_nodes; k += 3) {
+      a += weight[k] * four(from + offset[k]);
+      b += weight[k + 1] * four(from + offset[k + 1]);
+      c += weight[k + 2] * four(from + offset[k + 2]);
+    }
+    return (a + b) + c;
   }
-  return (a + b) + c;
+  GRANULAW_INLINE void push(const RowNodes& nodes, const Stencil& marker, Four impulse)
+  {
+    double* v = nodes.v + marker.lowest;
+    const double* inverse_mass = nodes.inverse_mass + marker.lowest;
+#pragma GCC unroll 9
+    for (int k = 0; k < cell_nodes; ++k) {
+      const int at = marker.offset[k];
+      four(v + at) += marker.weight[k] * four(inverse_mass + at) * impulse;
+    }
+  }
+  GRANULAW_INLINE int corners(const Stencil&)
+  {
+    return cell_nodes;
+  }
+  GRANULAW_INLINE Four at(const RowNodes&, const double* field, int entry)
+  {
+    return four(field + entry);
+  }
+};
+
+/// Of revolution: all r, then all z.
+struct InCorners
+{
+  GRANULAW_INLINE Four at(const RowNodes& nodes, const double* field, int entry)
+  {
+    return Four{field[entry], 0.0, field[entry + nodes.apart], 0.0};
+  }
+  GRANULAW_INLINE int corners(const Stencil& marker) { return marker.corners; }
+  GRANULAW_INLINE Four carried(const RowNodes& nodes, const double* field, const Stencil& marker)
+  {
+    double r = 0, z = 0;
+    for (int k = 0; k < marker.corners; ++k) {
+      const double* x = field + marker.lowest + marker.offset[k];
+      r += marker.weight[k] * x[0], z += marker.weight[k] * x[nodes.apart];
+    }
+    return Four{r, 0.0, z, 0.0};
+  }
+  GRANULAW_INLINE void push(const RowNodes& nodes, const Stencil& marker, Four impulse)
+  {
+    const double r = impulse[0], z = impulse[2];
+    for (int k = 0; k < marker.corners; ++k) {
+      const int entry = marker.lowest + marker.offset[k];
+      const double* per_mass = nodes.inverse_mass + entry;
+      nodes.v[entry] += marker.weight[k] * per_mass[0] * r;
+      nodes.v[entry + nodes.apart] += marker.weight[k] * per_mass[nodes.apart] * z;
+    }
+  }
+};
+
+template <class Layout>
+GRANULAW_INLINE Four velocity_of(const RowNodes* bodies, const ContactRow& row)
+{
+  const RowNodes& near = bodies[row.near.body];
+  Four v = Layout::carried(near, near.v, row.near);
+  if (row.far.corners > 0) {
+    const RowNodes& far = bodies[row.far.body];
+    v += four(row.of_other) * Layout::carried(far, far.v, row.far);
+  }
+  return v;
 }
 
-GRANULAW_INLINE void push(const RowNodes& nodes, const ContactRow& row, Four impulse)
+template <class Layout>
+GRANULAW_INLINE void push(const RowNodes* bodies, const ContactRow& row, Four impulse)
 {
-  double* v = nodes.v + row.node;
-  const double* inverse_mass = nodes.inverse_mass + row.node;
-#pragma GCC unroll 9
-  for (int k = 0; k < stencil; ++k) {
-    const int at = nodes.offset[k];
-    four(v + at) += row.weight[k] * four(inverse_mass + at) * impulse;
-  }
+  Layout::push(bodies[row.near.body], row.near, impulse);
+  if (row.far.corners > 0) Layout::push(bodies[row.far.body], row.far, four(row.of_other) * impulse);
 }
 
-void carry(const double* field, const int* offset, const double* weight, double* sum)
+template <class Layout>
+void carry(const RowNodes& nodes, const double* field, const Stencil& marker, double* sum)
 {
-  const Four found = carried(field, offset, weight);
+  const Four found = Layout::carried(nodes, field, marker);
   for (int c = 0; c < 4; ++c) sum[c] = found[c];
 }
 
-/// Response and velocity at the start of the step.
-GRANULAW_INLINE void weigh(const RowNodes& nodes, double kick, ContactRow& row)
+template <class Layout>
+void velocity(const RowNodes* bodies, const ContactRow& row, double* sum)
+{
+  const Four found = velocity_of<Layout>(bodies, row);
+  for (int c = 0; c < 4; ++c) sum[c] = found[c];
+}
+
+/// Adds one body's share to the response, and its velocity of the last kick.
+template <class Layout>
+GRANULAW_INLINE void weigh_one(const RowNodes& nodes, const Stencil& marker, Four& response, Four& kicked)
+{
+  const int corners = Layout::corners(marker);
+  for (int k = 0; k < corners; ++k) {
+    const int at = marker.lowest + marker.offset[k];
+    const double w = marker.weight[k];
+    const Four inverse_mass = Layout::at(nodes, nodes.inverse_mass, at);
+    response += w * w * inverse_mass;
+    kicked += w * inverse_mass * Layout::at(nodes, nodes.f, at);
+  }
+}
+
+template <class Layout>
+GRANULAW_INLINE void weigh_row(const RowNodes* bodies, double kick, Four velocity_now, ContactRow& row)
 {
   Four response{}, kicked{};
-  for (int k = 0; k < stencil; ++k) {
-    const int at = row.node + nodes.offset[k];
-    const double w = row.weight[k];
-    const Four inverse_mass = four(nodes.inverse_mass + at);
-    response += w * w * inverse_mass;
-    kicked += w * inverse_mass * four(nodes.f + at);
+  weigh_one<Layout>(bodies[row.near.body], row.near, response, kicked);
+  if (row.far.corners > 0) {
+    Four of_far{};
+    weigh_one<Layout>(bodies[row.far.body], row.far, response, of_far);
+    kicked += four(row.of_other) * of_far;
   }
   const Four normal = four(row.normal);
   row.response = dot(normal * normal, response);
   row.tangent_response = largest_of(response);
-  four(row.before) = four(row.before) - kick * kicked;
+  four(row.before) = velocity_now - kick * kicked;
 }
 
-int make(const RowNodes& nodes, const RowPlane& plane, const int* candidates, int count, double kick,
+template <class Layout>
+void weigh(const RowNodes* bodies, double kick, ContactRow& row)
+{
+  weigh_row<Layout>(bodies, kick, velocity_of<Layout>(bodies, row), row);
+}
+
+template <class Layout>
+int make(const RowNodes* bodies, const RowPlane& plane, const int* candidates, int count, double kick,
          double dt, double recovery, ContactRow* rows)
 {
+  const RowNodes& nodes = bodies[0];
   const Four normal = four(plane.normal);
   int made = 0;
   for (int n = 0; n < count; ++n) {
-    const int m = candidates[n], node = 4 * plane.node[m];
-    const double* weight = plane.weight + long(stencil) * m;
+    const int m = candidates[n];
+    const Stencil marker{0, cell_nodes, 4 * plane.node[m], plane.offset, plane.weight + long(cell_nodes) * m};
     double* impulse = plane.impulse + 4L * m;
     const Four start{plane.place[m][0], plane.place[m][1], plane.place[m][2], 0.0};
-    const Four velocity = carried(nodes.v + node, nodes.offset, weight);
-    const double gap = dot(normal, start + carried(nodes.u + node, nodes.offset, weight)) - plane.position;
+    const Four velocity = Layout::carried(nodes, nodes.v, marker);
+    const double gap = dot(normal, start + Layout::carried(nodes, nodes.u, marker)) - plane.position;
     const double approach = dot(normal, velocity) - plane.velocity;
     const double fast = approach < 0.0 ? -approach : approach;
     const bool pushed = largest_of(magnitude(four(impulse))) > 0.0;
     if (gap + dt * approach > 0 && !pushed && gap > 4 * dt * fast) continue;
     ContactRow& row = rows[made];
-    four(row.normal) = normal, four(row.before) = velocity;
-    row.weight = weight, row.impulse = impulse;
+    four(row.normal) = normal, four(row.along) = normal;
+    row.near = marker, row.far.corners = 0, row.impulse = impulse;
     row.needed = plane.velocity - (gap < 0 ? recovery : 1) * gap / dt;
     row.speed = plane.velocity, row.friction = plane.friction;
-    row.marker = m, row.plane = plane.plane, row.node = node;
-    weigh(nodes, kick, row);
+    row.marker = m, row.plane = plane.plane;
+    weigh_row<Layout>(bodies, kick, velocity, row);
     made += row.response > 0 ? 1 : 0;
   }
   return made;
 }
 
-void start(const RowNodes& nodes, const ContactRow* rows, int count)
+template <class Layout>
+void start(const RowNodes* bodies, const ContactRow* rows, int count)
 {
   for (int n = 0; n < count; ++n)
-    if (largest_of(magnitude(four(rows[n].impulse))) > 0.0) push(nodes, rows[n], four(rows[n].impulse));
+    if (largest_of(magnitude(four(rows[n].impulse))) > 0.0)
+      push<Layout>(bodies, rows[n], four(rows[n].impulse));
 }
 
-/// The tangential impulse that stops the sliding, or the friction's most against it.
+/// The tangential impulse that stops the sliding, or the friction's most against it. Normals are of length 1.
 GRANULAW_INLINE Four tangential_impulse(const ContactRow& row, Four v, Four p, double normal_velocity,
                                         double normal_impulse, double wanted)
 {
@@ -131,14 +221,15 @@ GRANULAW_INLINE Four tangential_impulse(const ContactRow& row, Four v, Four p, d
   return size > most ? most / size * tangential : tangential;
 }
 
-double sweep(const RowNodes& nodes, ContactRow* rows, int count)
+template <class Layout>
+double sweep(const RowNodes* bodies, ContactRow* rows, int count)
 {
   double change = 0, largest = 0;
   for (int n = 0; n < count; ++n) {
     const ContactRow& row = rows[n];
-    const Four normal = four(row.normal), v = carried(nodes.v + row.node, nodes.offset, row.weight);
+    const Four normal = four(row.normal), v = velocity_of<Layout>(bodies, row);
     const Four p = four(row.impulse);
-    const double normal_velocity = dot(normal, v), normal_impulse = dot(normal, p);
+    const double normal_velocity = dot(normal, v), normal_impulse = dot(four(row.along), p);
     const double free = normal_impulse + (row.needed - normal_velocity) / row.response;
     const double wanted = free > 0.0 ? free : 0.0;
     Four next = wanted * normal;
@@ -146,12 +237,13 @@ double sweep(const RowNodes& nodes, ContactRow* rows, int count)
       next += tangential_impulse(row, v, p, normal_velocity, normal_impulse, wanted);
     const Four step = next - p;
     const double moved = largest_of(magnitude(step));
-    if (moved > 0.0) push(nodes, row, step);
+    if (moved > 0.0) push<Layout>(bodies, row, step);
     four(row.impulse) = next;
     change = moved > change ? moved : change;
     largest = wanted > largest ? wanted : largest;
   }
-  return largest > 0.0 ? change / largest : 0.0;
+  // where all have let go, a marker may have to be pushed again
+  return largest > 0.0 ? change / largest : (change > 0.0 ? 1.0 : 0.0);
 }
 
 double largest(const double* values, int count)
@@ -167,6 +259,9 @@ double largest(const double* values, int count)
 
 }  // namespace
 
-extern const RowKernels row_kernels{carry, make, start, sweep, largest};
+extern const RowKernels corner_rows{carry<InCorners>, velocity<InCorners>, weigh<InCorners>, make<InCorners>,
+                                    start<InCorners>, sweep<InCorners>,    largest};
+extern const RowKernels cell_rows{carry<InCells>, velocity<InCells>, weigh<InCells>, make<InCells>,
+                                  start<InCells>, sweep<InCells>,    largest};
 
 }  // namespace granulaw::GRANULAW_ISA_NAMESPACE

@@ -8,7 +8,7 @@
 
 namespace granulaw {
 
-class SpatialContact;
+class Planes;
 
 /// A simulation's bodies, and what keeps them from passing through each other or through planes.
 ///
@@ -19,9 +19,12 @@ struct Scene
 {
   std::vector<Body> bodies;
   std::unique_ptr<Contact> contact;
-  SpatialContact* planes = nullptr;    ///< three dimensions: `contact`
+  Planes* planes = nullptr;            ///< three dimensions: the contact's side
   Vector3 outward = Vector3::UnitZ();  ///< in each body's frame, away from what it meets first
   Vector3 centre = Vector3::Zero();    ///< three dimensions: centre of mass of the undeformed body
+
+  /// Three dimensions: the first body among planes.
+  void meet(std::unique_ptr<Planes> planes);
 
   /// Centre of mass of the first body now.
   Vector3 centre_now() const { return centre + travel_of(bodies.front()); }

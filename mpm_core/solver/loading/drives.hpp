@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "solver/contact/planes.hpp"
 #include "solver/contact/scene.hpp"
-#include "solver/contact/spatial_contact.hpp"
 
 namespace granulaw {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "solver/contact/node_plane.hpp"
+#include "solver/contact/surface.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/grid/updated_body.hpp"
 #include "solver/material/law_table.hpp"
@@ -309,9 +311,10 @@ Scene Collision::build(double deepest, int cells, double shift) const
       body.use_single();
     }
   if (scene.bodies.size() == 1 && scene.bodies.front().reference().surface.corners == 1)
-    scene.contact = std::make_unique<PlaneContact>();
+    scene.contact = std::make_unique<NodePlane>();
   else
-    scene.contact = std::make_unique<SurfaceContact>();
+    scene.contact =
+        std::make_unique<RowContact>(std::make_unique<Surface>(scene.bodies), sweeps_of_revolution);
   return scene;
 }
 

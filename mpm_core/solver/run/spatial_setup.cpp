@@ -261,9 +261,7 @@ Scene SpatialSetup::build(double deepest, int cells, double shift, Precision pre
     scene.centre += body.reference().mass_i[i] / body.mass() * reference_place(body, i);
   for (int d = 0; d < 3; ++d)
     if (mirrored_[d]) scene.centre[d] = 0;
-  auto contact = std::make_unique<SpatialContact>(body, scene.centre, planes_);
-  scene.planes = contact.get();
-  scene.contact = std::move(contact);
+  scene.meet(std::make_unique<Planes>(body, scene.centre, planes_));
   return scene;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/scales.hpp"
+#include "solver/contact/planes.hpp"
 #include "solver/contact/scene.hpp"
-#include "solver/contact/spatial_contact.hpp"
 #include "solver/grid/spatial_grid.hpp"
 #include "solver/runs.hpp"
 #include "solver/shape/shape.hpp"

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "solver/contact/contact.hpp"
-#include "solver/contact/rows.hpp"
 
 namespace granulaw {
 
@@ -27,19 +26,17 @@ struct PlaneTally
   Vector3 centre = Vector3::Zero();   ///< sum of normal impulse times place
 };
 
-/// The surface of one body against rigid planes with Coulomb friction: impulses at the surface's markers,
-/// found by Gauss-Seidel sweeps that start from those of the last step. After a step no marker may have
-/// passed a plane (normal impulse p_n >= 0), and it slides only where the friction is spent:
-///
-///     n.v >= V - gap/dt,  p_n >= 0;    |p_t| <= mu p_n,  p_t opposite to the sliding where equal.
-class SpatialContact : public Contact
+/// The surface of one body against rigid planes with Coulomb friction.
+class Planes : public Side
 {
  public:
   /// `centre`: of mass, at rest.
-  SpatialContact(const Body& body, const Vector3& centre, std::vector<Plane> planes);
+  Planes(const Body& body, const Vector3& centre, std::vector<Plane> planes);
 
-  double correct(std::span<Body> bodies, double kick, double dt) override;
-  void account(std::span<const Body> bodies) override;
+  int add_rows(std::span<Body> bodies, const RowNodes* nodes, double kick, double dt, double recovery,
+               ContactRow* rows) override;
+  std::size_t most_rows() const override { return planes_.size() * static_cast<std::size_t>(markers_); }
+  double finish(std::span<const Body> bodies, std::span<const ContactRow> rows, double dt) override;
   /// Of the first plane: root of the product of contact_axes().
   double edge_radius(std::span<const Body> bodies) const override;
   void end_sample(std::span<const Body> bodies, double time, std::vector<PlaneTrace>& planes) override;
@@ -53,14 +50,10 @@ class SpatialContact : public Contact
   /// behind the edge: between the ellipses of the markers in contact, and with one and two rings of patches
   /// more, by edge_between().
   std::array<double, 2> contact_axes(const Body& body, int plane) const;
-  double work() const override { return work_; }
 
  private:
-  RowNodes nodes_of(Body& body) const;
   void choose_candidates(const Body& body);
-  void make_rows(Body& body, double kick, double dt);
   Vector3 place(const Body& body, int marker) const;
-  Vector3 carried(const Body& body, const NodeField& field, int marker) const;
   double* impulse(std::size_t plane, int marker) { return impulse_.data() + 4 * (plane * markers_ + marker); }
 
   std::vector<Plane> planes_;
@@ -70,11 +63,8 @@ class SpatialContact : public Contact
   std::vector<std::vector<int>> candidates_;  // by plane: markers that might reach it soon
   double room_ = 0;                           // way that markers may go before candidates are chosen anew
   AlignedVector<double> impulse_;             // [plane][marker][4], of the last step
-  std::vector<ContactRow> rows_;              // room for all that there can be; the first row_count_ count
-  int row_count_ = 0;
   std::vector<char> pushing_;
   std::vector<PlaneTally> tallies_;
-  double work_ = 0;
 };
 
 }  // namespace granulaw

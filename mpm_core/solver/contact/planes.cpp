@@ -1,4 +1,4 @@
-#include "solver/contact/spatial_contact.hpp"
+#include "solver/contact/planes.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
@@ -6,19 +6,13 @@
 #include <cmath>
 
 #include "base/state_archive.hpp"
-#include "solver/body/kernels.hpp"
+#include "solver/contact/edge.hpp"
+#include "solver/contact/scene.hpp"
 
 namespace granulaw {
 
 namespace {
 
-/// Most sweeps of a step, and the change (as a share of the largest impulse) that ends them sooner.
-constexpr int most_sweeps = 15;
-constexpr double small_change = 1e-6;
-/// Sweeps that end early leave markers a little behind a plane. They come back by this share of the way in a
-/// step: the whole way at once would feed energy (e of a plastic impact 0.5 % too small, elastic vibration
-/// growing); by a twentieth e is that of 300 sweeps to 2e-4.
-constexpr double recovery = 0.05;
 /// Markers nearer to a plane than this many of the finest edges are looked at in every step.
 constexpr double candidate_edges = 2;
 /// Share of the gap three patches outside a contact below which a marker is in it: markers inside that push
@@ -80,20 +74,12 @@ std::array<double, 2> ellipse_of(const Body& body, const Plane& plane, std::span
 
 }  // namespace
 
-const RowKernels& row_kernels()
-{
-  static const RowKernels* sets[] = {&isa_generic::row_kernels, &isa_avx2::row_kernels,
-                                     &isa_avx512::row_kernels};
-  return *sets[static_cast<int>(instruction_set())];
-}
-
-SpatialContact::SpatialContact(const Body& body, const Vector3& centre, std::vector<Plane> planes)
+Planes::Planes(const Body& body, const Vector3& centre, std::vector<Plane> planes)
     : planes_(std::move(planes)),
       centre_(centre),
       markers_(body.reference().surface.count),
       candidates_(planes_.size()),
       impulse_(4 * planes_.size() * static_cast<std::size_t>(markers_), 0.0),
-      rows_(planes_.size() * static_cast<std::size_t>(markers_)),
       pushing_(planes_.size(), 0),
       tallies_(planes_.size())
 {
@@ -101,28 +87,18 @@ SpatialContact::SpatialContact(const Body& body, const Vector3& centre, std::vec
   for (std::vector<int>& list : candidates_) list.reserve(static_cast<std::size_t>(markers_));
 }
 
-RowNodes SpatialContact::nodes_of(Body& body) const
-{
-  return {body.u_i.values.data(), body.v_i.values.data(), body.f_i.values.data(),
-          body.reference().inverse_mass_i.values.data(), offsets_.data()};
-}
-
-Vector3 SpatialContact::carried(const Body& body, const NodeField& field, int marker) const
+Vector3 Planes::place(const Body& body, int marker) const
 {
   const Markers& surface = body.reference().surface;
-  double sum[4];
-  row_kernels().carry(field.values.data() + 4 * surface.lowest[marker], offsets_.data(),
-                      surface.weights(marker), sum);
-  return vector_at(sum);
+  const std::array<double, 3>& start = surface.place[marker];
+  double u[4];
+  row_kernels(body).carry(
+      {}, body.u_i.values.data(),
+      {0, cell_nodes, 4 * surface.lowest[marker], offsets_.data(), surface.weights(marker)}, u);
+  return Vector3(start[0], start[1], start[2]) + vector_at(u);
 }
 
-Vector3 SpatialContact::place(const Body& body, int marker) const
-{
-  const std::array<double, 3>& start = body.reference().surface.place[marker];
-  return Vector3(start[0], start[1], start[2]) + carried(body, body.u_i, marker);
-}
-
-void SpatialContact::choose_candidates(const Body& body)
+void Planes::choose_candidates(const Body& body)
 {
   room_ = candidate_edges * body.reference().surface.finest;
   for (std::vector<int>& list : candidates_) list.clear();
@@ -133,10 +109,18 @@ void SpatialContact::choose_candidates(const Body& body)
   }
 }
 
-void SpatialContact::make_rows(Body& body, double kick, double dt)
+int Planes::add_rows(std::span<Body> bodies, const RowNodes* nodes, double kick, double dt, double recovery,
+                     ContactRow* rows)
 {
-  const RowNodes nodes = nodes_of(body);
-  row_count_ = 0;
+  const Body& body = bodies.front();
+  const RowKernels& kernels = row_kernels(body);
+  double closing =
+      std::sqrt(3.0) * kernels.largest(body.v_i.values.data(), static_cast<int>(body.v_i.values.size()));
+  for (const Plane& plane : planes_) closing += std::abs(plane.velocity);
+  room_ -= dt * closing;
+  if (room_ < 0) choose_candidates(body), room_ -= dt * closing;
+  const Markers& surface = body.reference().surface;
+  int made = 0;
   for (std::size_t k = 0; k < planes_.size(); ++k) {
     const Plane& plane = planes_[k];
     const RowPlane against{{plane.normal[0], plane.normal[1], plane.normal[2], 0.0},
@@ -144,40 +128,29 @@ void SpatialContact::make_rows(Body& body, double kick, double dt)
                            plane.velocity,
                            plane.friction,
                            static_cast<int>(k),
-                           body.reference().surface.place.data(),
-                           body.reference().surface.lowest.data(),
-                           body.reference().surface.weight.data(),
+                           surface.place.data(),
+                           surface.lowest.data(),
+                           offsets_.data(),
+                           surface.weight.data(),
                            impulse(k, 0)};
-    row_count_ +=
-        row_kernels().make(nodes, against, candidates_[k].data(), static_cast<int>(candidates_[k].size()),
-                           kick, dt, recovery, rows_.data() + row_count_);
+    made += kernels.make(nodes, against, candidates_[k].data(), static_cast<int>(candidates_[k].size()), kick,
+                         dt, recovery, rows + made);
   }
+  return made;
 }
 
-double SpatialContact::correct(std::span<Body> bodies, double kick, double dt)
+double Planes::finish(std::span<const Body> bodies, std::span<const ContactRow> rows, double dt)
 {
-  Body& body = bodies.front();
-  const RowKernels& kernels = row_kernels();
-  double closing =
-      std::sqrt(3.0) * kernels.largest(body.v_i.values.data(), static_cast<int>(body.v_i.values.size()));
-  for (const Plane& plane : planes_) closing += std::abs(plane.velocity);
-  room_ -= dt * closing;
-  if (room_ < 0) choose_candidates(body), room_ -= dt * closing;
-  make_rows(body, kick, dt);
-  const RowNodes nodes = nodes_of(body);
-  kernels.start(nodes, rows_.data(), row_count_);
-  for (int n = 0; n < most_sweeps && kernels.sweep(nodes, rows_.data(), row_count_) > small_change; ++n) {
-  }
   std::fill(pushing_.begin(), pushing_.end(), 0);
   double first = 0;
-  for (const ContactRow& row : std::span(rows_.data(), static_cast<std::size_t>(row_count_))) {
+  for (const ContactRow& row : rows) {
     const Plane& plane = planes_[row.plane];
     const Vector3 p = vector_at(row.impulse);
     const double normal = plane.normal.dot(p);
     if (normal <= 0) continue;
     pushing_[row.plane] = 1;
     if (row.plane == 0) first += plane.copies * normal;
-    const Vector3 x = place(body, row.marker);
+    const Vector3 x = place(bodies.front(), row.marker);
     PlaneTally& tally = tallies_[row.plane];
     tally.impulse += p, tally.torque += x.cross(p), tally.centre += normal * x;
   }
@@ -185,19 +158,7 @@ double SpatialContact::correct(std::span<Body> bodies, double kick, double dt)
   return first;
 }
 
-void SpatialContact::account(std::span<const Body> bodies)
-{
-  const Body& body = bodies.front();
-  for (const ContactRow& row : std::span(rows_.data(), static_cast<std::size_t>(row_count_))) {
-    const Vector3 p = vector_at(row.impulse);
-    if (p == Vector3::Zero()) continue;
-    const double by_plane = row.speed * planes_[row.plane].normal.dot(p);
-    dissipated_ += by_plane - 0.5 * p.dot(vector_at(row.before) + carried(body, body.v_i, row.marker));
-    work_ += by_plane;
-  }
-}
-
-std::array<double, 2> SpatialContact::contact_axes(const Body& body, int k) const
+std::array<double, 2> Planes::contact_axes(const Body& body, int k) const
 {
   if (!pushing_[k]) return {0, 0};
   std::vector<NearMarker> near;
@@ -236,15 +197,15 @@ std::array<double, 2> SpatialContact::contact_axes(const Body& body, int k) cons
   return axes;
 }
 
-double SpatialContact::edge_radius(std::span<const Body> bodies) const
+double Planes::edge_radius(std::span<const Body> bodies) const
 {
   const std::array<double, 2> axes = contact_axes(bodies.front(), 0);
   return std::sqrt(axes[0] * axes[1]);
 }
 
-void SpatialContact::visit_state(StateArchive& a)
+void Planes::visit_state(StateArchive& a)
 {
-  a.value(dissipated_), a.value(work_), a.value(room_);
+  a.value(room_);
   const auto visit = [&](Vector3& v) {
     for (int d = 0; d < 3; ++d) a.value(v[d]);
   };
@@ -254,7 +215,7 @@ void SpatialContact::visit_state(StateArchive& a)
   for (std::vector<int>& list : candidates_) a.growing(list);
 }
 
-void SpatialContact::end_sample(std::span<const Body> bodies, double time, std::vector<PlaneTrace>& traces)
+void Planes::end_sample(std::span<const Body> bodies, double time, std::vector<PlaneTrace>& traces)
 {
   const Body& body = bodies.front();
   const Vector3 now = centre_ + travel_of(body);
@@ -273,6 +234,12 @@ void SpatialContact::end_sample(std::span<const Body> bodies, double time, std::
                                  as_array(torque / time), as_array(arm),
                                  contact_axes(body, static_cast<int>(k))});
   }
+}
+
+void Scene::meet(std::unique_ptr<Planes> side)
+{
+  planes = side.get();
+  contact = std::make_unique<RowContact>(std::move(side), sweeps_in_three_dimensions);
 }
 
 }  // namespace granulaw
