@@ -89,12 +89,9 @@ void print_as_json(const RunRequest& r, const Particle& particle, const RunResul
   out["grid"] = grid_name(r, particle);
   out["resolution"] = s.resolution;
   out["grids"] = s.grids;
-  out["energy_error"] = s.energy_error;
-  out["grid_noise"] = out["ripple"] = s.grid_noise;
-  out["e_raw"] = s.restitution_raw;
-  out["plastic_strain_max"] = s.plastic_strain_max;
-  out["contact_loss"] = s.contact_loss;
-  out["hourglass"] = s.hourglass;
+  for (const SummaryNumber& n : summary_numbers)
+    if (!out.contains(n.key)) out[n.key] = s.*n.value;
+  out["ripple"] = s.grid_noise;  // its old name
   put_three_dimensions(out, result, centre);
   print_json(out, 2);
 }

@@ -6,48 +6,46 @@ namespace {
 
 /// Calls change(number, its unit) for every number of a run that has a dimension.
 template <class Change>
-void change_units(RunResult& run, const Scales& unit, Change change)
+void change_units(RunResult& run, Change change)
 {
-  for (TraceSample& t : run.trace) {
-    change(t.time, unit.time());
-    change(t.delta, unit.length);
-    change(t.force, unit.force());
-    change(t.contact_radius, unit.length);
-  }
-  for (double& overlap : run.yield_overlaps) change(overlap, unit.length);
-  RunSummary& s = run.summary;
-  change(s.force_max, unit.force());
-  change(s.delta_max, unit.length);
-  change(s.delta_residual, unit.length);
-  change(s.contact_time, unit.time());
-  change(s.work_load, unit.energy());
-  change(s.work_unload, unit.energy());
+  const auto change_all = [&](auto& of, const auto& units) {
+    auto numbers = numbers_of(of);
+    static_assert(std::tuple_size_v<decltype(numbers)> == std::tuple_size_v<std::decay_t<decltype(units)>>);
+    for (std::size_t k = 0; k < numbers.size(); ++k) change(numbers[k], units[k]);
+    of = std::bit_cast<std::decay_t<decltype(of)>>(numbers);
+  };
+  for (TraceSample& t : run.trace)
+    for (const auto& [value, unit] : trace_numbers) change(t.*value, unit);
+  for (double& overlap : run.yield_overlaps) change(overlap, Unit::length);
+  for (const SummaryNumber& n : summary_numbers) change(run.summary.*n.value, n.unit);
   for (PlaneTrace& plane : run.planes)
-    for (PlaneSample& p : plane.samples) {
-      change(p.delta, unit.length), change(p.force, unit.force());
-      for (int d = 0; d < 3; ++d) {
-        change(p.vector[d], unit.force()), change(p.torque[d], unit.energy());
-        change(p.centre[d], unit.length);
-      }
-      for (double& axis : p.axes) change(axis, unit.length);
-    }
-  if (!run.rebound) return;
-  for (double& w : run.rebound->spin) change(w, 1 / unit.time());
-  for (double* impulse : {&run.rebound->impulse_normal, &run.rebound->impulse_tangential})
-    change(*impulse, unit.force() * unit.time());
+    for (PlaneSample& sample : plane.samples) change_all(sample, plane_units);
+  if (run.rebound) change_all(*run.rebound, rebound_units);
 }
 
 }  // namespace
 
+double size_of(Unit unit, const Scales& scales)
+{
+  const double sizes[] = {1,
+                          scales.length,
+                          scales.time(),
+                          scales.force(),
+                          scales.energy(),
+                          1 / scales.time(),
+                          scales.force() * scales.time()};
+  return sizes[static_cast<int>(unit)];
+}
+
 RunResult in_si(RunResult run, const Scales& scale)
 {
-  change_units(run, scale, [](double& number, double unit) { number *= unit; });
+  change_units(run, [&](double& number, Unit unit) { number *= size_of(unit, scale); });
   return run;
 }
 
 RunResult dimensionless(RunResult run, const Scales& scale)
 {
-  change_units(run, scale, [](double& number, double unit) { number /= unit; });
+  change_units(run, [&](double& number, Unit unit) { number /= size_of(unit, scale); });
   return run;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/scales.hpp"
@@ -52,6 +54,44 @@ struct RunSummary
   double grid_noise = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 
+/// What a number is measured in. Over its unit it is the solver's.
+enum class Unit { one, length, time, force, energy, rate, impulse };
+double size_of(Unit unit, const Scales& scales);
+
+inline constexpr std::array<std::pair<double TraceSample::*, Unit>, 4> trace_numbers{
+    {{&TraceSample::time, Unit::time},
+     {&TraceSample::delta, Unit::length},
+     {&TraceSample::force, Unit::force},
+     {&TraceSample::contact_radius, Unit::length}}};
+
+/// How the runs on shifted grids make one number; `none`: it comes from their mean trace.
+enum class Combine { none, mean, sum, largest };
+
+/// A number of the summary: means over grids, units and --json follow this table.
+struct SummaryNumber
+{
+  double RunSummary::*value;
+  Combine combine;
+  Unit unit;
+  const char* key;  ///< of --json
+};
+inline constexpr std::array<SummaryNumber, 14> summary_numbers{{
+    {&RunSummary::restitution, Combine::none, Unit::one, "e"},
+    {&RunSummary::force_max, Combine::none, Unit::force, "force_max_N"},
+    {&RunSummary::delta_max, Combine::mean, Unit::length, "delta_max_m"},
+    {&RunSummary::delta_residual, Combine::mean, Unit::length, "delta_residual_m"},
+    {&RunSummary::contact_time, Combine::mean, Unit::time, "contact_time_s"},
+    {&RunSummary::work_load, Combine::mean, Unit::energy, "work_load_J"},
+    {&RunSummary::work_unload, Combine::mean, Unit::energy, "work_unload_J"},
+    {&RunSummary::cpu_s, Combine::sum, Unit::one, "cpu_s"},
+    {&RunSummary::energy_error, Combine::largest, Unit::one, "energy_error"},
+    {&RunSummary::grid_noise, Combine::none, Unit::one, "grid_noise"},
+    {&RunSummary::restitution_raw, Combine::mean, Unit::one, "e_raw"},
+    {&RunSummary::plastic_strain_max, Combine::largest, Unit::one, "plastic_strain_max"},
+    {&RunSummary::contact_loss, Combine::largest, Unit::one, "contact_loss"},
+    {&RunSummary::hourglass, Combine::largest, Unit::one, "hourglass"},
+}};
+
 /// What one plane did over a sample of the trace; three-dimensional runs, SI.
 struct PlaneSample
 {
@@ -62,6 +102,11 @@ struct PlaneSample
   std::array<double, 3> centre;  ///< m, where the normal force acts, from that centre
   std::array<double, 2> axes;    ///< m, half axes of the contact, larger first
 };
+
+/// Of its numbers, in their order.
+inline constexpr std::array plane_units{Unit::length, Unit::force,  Unit::force,  Unit::force,  Unit::force,
+                                        Unit::energy, Unit::energy, Unit::energy, Unit::length, Unit::length,
+                                        Unit::length, Unit::length, Unit::length};
 
 /// One plane of a three-dimensional run.
 struct PlaneTrace
@@ -79,6 +124,16 @@ struct Rebound
   double impulse_normal = 0;      ///< N s
   double impulse_tangential = 0;  ///< N s, on the body, positive against the tangential velocity or spin
 };
+
+inline constexpr std::array rebound_units{Unit::one,  Unit::one,     Unit::rate,   Unit::rate,
+                                          Unit::rate, Unit::impulse, Unit::impulse};
+
+/// The numbers of a struct that holds nothing else, such as PlaneSample, and the struct of numbers.
+template <class Struct>
+auto numbers_of(const Struct& of)
+{
+  return std::bit_cast<std::array<double, sizeof(Struct) / sizeof(double)>>(of);
+}
 
 struct RunResult
 {

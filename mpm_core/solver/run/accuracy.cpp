@@ -33,20 +33,22 @@ double noise_of(const RunSummary& s)
   return std::max(0.5 * s.grid_noise, s.restitution_spread / s.restitution / std::max(1, s.grids));
 }
 
-/// Of a body of revolution: errors fall faster than h, so that the difference to 0.7 of the resolution is at
-/// least half of them. Two runs may agree by chance: the noise bounds the error from below.
-double flat_error(double difference, const RunSummary& fine)
+/// The error of the finer of two runs: `factor` times their difference and its noise.
+struct ErrorRule
 {
-  return 2 * std::max(difference, noise_of(fine));
-}
+  double factor;
+  bool noise_of_both;  ///< beside the difference; else the fine run's, which bounds it from below
+};
 
-/// In three dimensions the cut surface lets errors fall like h and no faster: they are h/(H - h) of the
-/// difference. That is two to three, and it multiplies the noise of both runs, too.
-double spatial_error(double difference, const RunSummary& fine, const RunSummary& coarse)
+/// Of a body of revolution errors fall faster than h, so that the difference to 0.7 of the resolution is at
+/// least half of them. Two runs may agree by chance: hence the bound. In three dimensions the cut surface
+/// lets errors fall like h and no faster: they are h/(H - h) of the difference. That is two to three, and it
+/// multiplies the noise of both runs, too.
+ErrorRule rule_of(const RunResult& fine, const RunResult& coarse)
 {
-  const double ratio =
-      static_cast<double>(coarse.resolution) / std::max(1, fine.resolution - coarse.resolution);
-  return ratio * std::hypot(difference, noise_of(fine), noise_of(coarse));
+  const int h = coarse.summary.resolution, finer = fine.summary.resolution - h;
+  const bool spatial = !fine.planes.empty();
+  return spatial ? ErrorRule{static_cast<double>(h) / std::max(1, finer), true} : ErrorRule{2, false};
 }
 
 void add_cost(RunSummary& s, const RunSummary& other)
@@ -68,9 +70,10 @@ double error_between(const RunResult& fine, const RunResult& coarse)
 {
   const RunSummary& s = fine.summary;
   const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
-  const double largest = larger(difference(fine, coarse), peak);
-  const bool spatial = !fine.planes.empty();  // such runs tell of their planes
-  return spatial ? spatial_error(largest, s, coarse.summary) : flat_error(largest, s);
+  const double largest = larger(difference(fine, coarse), peak), noise = noise_of(s);
+  const ErrorRule rule = rule_of(fine, coarse);
+  return rule.factor * (rule.noise_of_both ? std::hypot(largest, noise, noise_of(coarse.summary))
+                                           : std::max(largest, noise));
 }
 
 RunResult run_with_estimate(const RunOptions& options, const Run& run)
@@ -106,26 +109,9 @@ class ToleranceSearch
   }
 
   /// The scheme is of second order in the step: half the step leaves a quarter of the error.
-  void shorten_step()
-  {
-    for (;;) {
-      RunOptions half = options_;
-      half.courant = 0.5 * options_.courant;
-      if (agrees(half, found_.step_error) || half.courant < 0.1) return;
-      take(half);
-    }
-  }
-
+  void shorten_step() { refine(&RunOptions::courant, 0.5, 0.1, found_.step_error); }
   /// What the ramp adds falls like its inverse square (inertia) or faster.
-  void lengthen_ramp()
-  {
-    for (;;) {
-      RunOptions slower = options_;
-      slower.slowness = 2 * options_.slowness;
-      if (agrees(slower, found_.ramp_error) || slower.slowness > 16) return;
-      take(slower);
-    }
-  }
+  void lengthen_ramp() { refine(&RunOptions::slowness, 2, 16, found_.ramp_error); }
 
   ToleranceResult raise_resolution()
   {
@@ -161,25 +147,27 @@ class ToleranceSearch
     add_cost(spent_, probed.summary);
     return probed;
   }
-  /// Whether the probe with finer options differs by no more than its share of the tolerance; `error` becomes
-  /// what the coarser options leave.
-  bool agrees(const RunOptions& finer, double& error)
+  /// Changes an option by `factor`, again and again up to `last`, until the probe with the next value differs
+  /// by no more than its share of the tolerance; `error` becomes the error that is left.
+  void refine(double RunOptions::*option, double factor, double last, double& error)
   {
-    finer_ = probe(finer);
-    error = 4.0 / 3.0 * difference(base_, finer_);
-    return error <= share * tolerance_;
-  }
-  void take(const RunOptions& finer)
-  {
-    options_ = finer;
-    base_ = std::move(finer_);
+    for (;;) {
+      RunOptions finer = options_;
+      finer.*option *= factor;
+      RunResult probed = probe(finer);
+      error = 4.0 / 3.0 * difference(base_, probed);
+      const bool ends = factor < 1 ? finer.*option < last : finer.*option > last;
+      if (error <= share * tolerance_ || ends) return;
+      options_ = finer;
+      base_ = std::move(probed);
+    }
   }
 
   double tolerance_;
   RunOptions options_;
   const Run& run_;
   const ToleranceRange& range_;
-  RunResult base_, finer_;  ///< probes with the options so far, and with those tried last
+  RunResult base_;  ///< probe with the options so far
   RunSummary spent_{};
   ToleranceResult found_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/larger.hpp"
 #include "solver/run/grid_noise.hpp"
 #include "solver/run/shifted_grids.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 /// impacts, where inertia makes the early force the largest.
 constexpr double most_noise = 0.05;
 
-/// Means and largest values of the members' numbers; their cost together.
+/// Each number as the table says; the members' cost together.
 RunSummary combined(const std::vector<RunResult>& members)
 {
   RunSummary s;
@@ -24,20 +25,15 @@ RunSummary combined(const std::vector<RunResult>& members)
   double updates = 0;
   for (const RunResult& member : members) {
     const RunSummary& m = member.summary;
-    s.restitution_raw += weight * m.restitution_raw;
-    s.delta_max += weight * m.delta_max;
-    s.delta_residual += weight * m.delta_residual;
-    s.contact_time += weight * m.contact_time;
-    s.work_load += weight * m.work_load;
-    s.work_unload += weight * m.work_unload;
+    for (const SummaryNumber& n : summary_numbers) {
+      double& number = s.*n.value;
+      if (n.combine == Combine::mean) number += weight * m.*n.value;
+      if (n.combine == Combine::sum) number += m.*n.value;
+      if (n.combine == Combine::largest) number = larger(number, m.*n.value);
+    }
     s.steps += m.steps;
-    s.cpu_s += m.cpu_s;
     s.points += m.points;
     updates += static_cast<double>(m.points) * static_cast<double>(m.steps);
-    s.plastic_strain_max = std::max(s.plastic_strain_max, m.plastic_strain_max);
-    s.energy_error = std::max(s.energy_error, m.energy_error);
-    s.contact_loss = std::max(s.contact_loss, m.contact_loss);
-    s.hourglass = std::max(s.hourglass, m.hourglass);
   }
   for (const RunResult& member : members)
     s.restitution_spread =
@@ -64,16 +60,13 @@ std::vector<double> mean_yield_overlaps(const std::vector<RunResult>& members)
 std::optional<Rebound> mean_rebound(const std::vector<RunResult>& members)
 {
   if (!members.front().rebound) return {};
-  Rebound mean;
-  const double weight = 1.0 / static_cast<double>(members.size());
+  auto mean = numbers_of(Rebound{});
   for (const RunResult& member : members) {
-    const Rebound& r = *member.rebound;
-    mean.normal += weight * r.normal, mean.tangential += weight * r.tangential;
-    for (int d = 0; d < 3; ++d) mean.spin[d] += weight * r.spin[d];
-    mean.impulse_normal += weight * r.impulse_normal;
-    mean.impulse_tangential += weight * r.impulse_tangential;
+    const auto numbers = numbers_of(*member.rebound);
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      mean[k] += 1.0 / static_cast<double>(members.size()) * numbers[k];
   }
-  return mean;
+  return std::bit_cast<Rebound>(mean);
 }
 
 /// A single grid reverses at some phase of the grid noise, and the work given back follows the force at the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -62,55 +63,39 @@ struct Between
 /// What one sample of the mean is made of: for each member, where in its trace.
 using MeanSample = std::vector<Between>;
 
-/// Samples of a member's trace in one segment: the first, and how many.
-struct SegmentSamples
+/// Where the samples of `segment` begin in a trace.
+std::size_t begin_of(int segment, const std::vector<TraceSample>& trace)
 {
-  std::size_t first, count;
-};
-
-/// The samples of `segment` in each member's trace, which begin at `next`; `next` moves on behind them.
-std::vector<SegmentSamples> take_segment(const std::vector<RunResult>& members,
-                                         std::vector<std::size_t>& next, int segment)
-{
-  std::vector<SegmentSamples> taken;
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const std::vector<TraceSample>& trace = members[k].trace;
-    const std::size_t first = next[k];
-    while (next[k] < trace.size() && trace[next[k]].segment == segment) ++next[k];
-    taken.push_back({first, next[k] - first});
-  }
-  return taken;
-}
-
-/// `place`: 0 at the segment's first sample, 1 at its last; linear between samples.
-MeanSample mean_sample_at(const std::vector<SegmentSamples>& members, double place)
-{
-  MeanSample sample;
-  for (const SegmentSamples& samples : members) {
-    const std::size_t last = samples.count - 1;
-    const double index = place * static_cast<double>(last);
-    const std::size_t below = std::min(static_cast<std::size_t>(index), last);
-    sample.push_back({samples.first + below, samples.first + std::min(below + 1, last),
-                      index - static_cast<double>(below)});
-  }
-  return sample;
+  const auto before = [segment](const TraceSample& t) { return t.segment < segment; };
+  return static_cast<std::size_t>(std::partition_point(trace.begin(), trace.end(), before) - trace.begin());
 }
 
 /// Of all segments; each has as many samples as the shortest member's.
 std::vector<MeanSample> mean_samples(const std::vector<RunResult>& members)
 {
-  std::vector<std::size_t> next(members.size(), 0);
   std::vector<MeanSample> samples;
-  for (int segment = 0;; ++segment) {
-    const std::vector<SegmentSamples> now = take_segment(members, next, segment);
-    const auto shorter = [](const SegmentSamples& a, const SegmentSamples& b) { return a.count < b.count; };
-    const auto [shortest, longest] = std::minmax_element(now.begin(), now.end(), shorter);
-    if (longest->count == 0) return samples;
-    const std::size_t common = shortest->count;
-    for (std::size_t k = 0; k < common; ++k)
-      samples.push_back(
-          mean_sample_at(now, common > 1 ? static_cast<double>(k) / static_cast<double>(common - 1) : 0.0));
+  int segments = 0;
+  for (const RunResult& m : members)
+    if (!m.trace.empty()) segments = std::max(segments, m.trace.back().segment + 1);
+  for (int segment = 0; segment < segments; ++segment) {
+    std::size_t common = std::numeric_limits<std::size_t>::max();
+    for (const RunResult& m : members)
+      common = std::min(common, begin_of(segment + 1, m.trace) - begin_of(segment, m.trace));
+    for (std::size_t k = 0; k < common; ++k) {
+      // 0 at the segment's first sample, 1 at its last
+      const double place = common > 1 ? static_cast<double>(k) / static_cast<double>(common - 1) : 0.0;
+      MeanSample& sample = samples.emplace_back();
+      for (const RunResult& m : members) {
+        const std::size_t first = begin_of(segment, m.trace),
+                          last = begin_of(segment + 1, m.trace) - 1 - first;
+        const double index = place * static_cast<double>(last);
+        const std::size_t below = std::min(static_cast<std::size_t>(index), last);
+        sample.push_back(
+            {first + below, first + std::min(below + 1, last), index - static_cast<double>(below)});
+      }
+    }
   }
+  return samples;
 }
 
 }  // namespace
@@ -125,9 +110,7 @@ std::vector<TraceSample> mean_trace(const std::vector<RunResult>& members)
     mean.time = mean.delta = mean.force = mean.contact_radius = 0;
     for (std::size_t k = 0; k < members.size(); ++k) {
       const TraceSample &a = members[k].trace[sample[k].below], &b = members[k].trace[sample[k].above];
-      for (double TraceSample::*value :
-           {&TraceSample::time, &TraceSample::delta, &TraceSample::force, &TraceSample::contact_radius})
-        mean.*value += weight * sample[k](a.*value, b.*value);
+      for (const auto& [value, unit] : trace_numbers) mean.*value += weight * sample[k](a.*value, b.*value);
     }
     trace.push_back(mean);
   }
@@ -141,18 +124,16 @@ std::vector<PlaneTrace> mean_planes(const std::vector<RunResult>& members)
   const double weight = 1.0 / static_cast<double>(members.size());
   const std::vector<MeanSample> samples = mean_samples(members);
   for (std::size_t p = 0; p < planes.size(); ++p) {
-    planes[p].samples.assign(samples.size(), PlaneSample{});
-    for (std::size_t n = 0; n < samples.size(); ++n)
+    planes[p].samples.clear();
+    for (const MeanSample& sample : samples) {
+      auto mean = numbers_of(PlaneSample{});
       for (std::size_t k = 0; k < members.size(); ++k) {
         const std::vector<PlaneSample>& from = members[k].planes[p].samples;
-        const Between& between = samples[n][k];
-        const PlaneSample &a = from[between.below], &b = from[between.above];
-        PlaneSample& mean = planes[p].samples[n];
-        mean.delta += weight * between(a.delta, b.delta), mean.force += weight * between(a.force, b.force);
-        for (auto PlaneSample::*value : {&PlaneSample::vector, &PlaneSample::torque, &PlaneSample::centre})
-          for (int d = 0; d < 3; ++d) (mean.*value)[d] += weight * between((a.*value)[d], (b.*value)[d]);
-        for (int d = 0; d < 2; ++d) mean.axes[d] += weight * between(a.axes[d], b.axes[d]);
+        const auto a = numbers_of(from[sample[k].below]), b = numbers_of(from[sample[k].above]);
+        for (std::size_t d = 0; d < mean.size(); ++d) mean[d] += weight * sample[k](a[d], b[d]);
       }
+      planes[p].samples.push_back(std::bit_cast<PlaneSample>(mean));
+    }
   }
   return planes;
 }
