@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calibrate/kind/kind.hpp"
+
 namespace granulaw {
 
 namespace {
@@ -15,8 +17,7 @@ constexpr double widest = 1.5;  // a parameter known to less than this factor, 2
 /// An end at no hardening is one: nothing lies beyond.
 bool ends_below(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
 {
-  const bool hardening = problem.unknowns()[unknown].kind == CalibrationProblem::Unknown::Kind::hardening;
-  return p.within95.low_told || (hardening && p.within95.low <= 0);
+  return p.within95.low_told || (problem.unknowns()[unknown].is_hardening() && p.within95.low <= 0);
 }
 
 Eigen::MatrixXd correlation_of(const Minimum& minimum, std::size_t parameters)
@@ -31,10 +32,9 @@ Eigen::MatrixXd correlation_of(const Minimum& minimum, std::size_t parameters)
 
 Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
 {
-  using Kind = CalibrationProblem::Unknown::Kind;
   const bool below = ends_below(problem, unknown, p), above = p.within95.high_told;
   double ratio = p.within95.high / p.within95.low;
-  if (problem.unknowns()[unknown].kind == Kind::hardening) {
+  if (problem.unknowns()[unknown].is_hardening()) {
     const double yield = problem.unknowns()[unknown].scale * 2;
     ratio = (1 + 2 * p.within95.high / yield) / (1 + 2 * p.within95.low / yield);
   }
@@ -74,28 +74,24 @@ void state_bound(Calibration& c, const CalibrationProblem& problem)
   }
 }
 
-/// The profiles of all parameters; where one of them meets a better minimum, only that.
-std::optional<Coordinates> profile_all(Calibration& c, const CalibrationProblem& problem)
+/// The profiles of all parameters; where one of them meets a better minimum and `may_move`, only that.
+std::optional<Coordinates> profile_all(Calibration& c, const CalibrationProblem& problem, bool may_move)
 {
   c.parameters.clear();
   for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
     FittedParameter f{problem.request().fit[k], profile_likelihood(problem, c.minimum, k, c.interval_scale)};
-    if (f.profile.better) return f.profile.better;
+    if (may_move && f.profile.better) return f.profile.better;
     f.told = told_by(problem, k, f.profile);
     c.parameters.push_back(f);
   }
   return std::nullopt;
 }
 
-}  // namespace
-
-namespace {
-
 void add_compliances(Calibration& c, const CalibrationProblem& problem)
 {
   c.compliances.assign(problem.request().measurements.size(), std::nullopt);
   for (std::size_t u = 0; u < problem.count(); ++u)
-    if (problem.unknowns()[u].kind == CalibrationProblem::Unknown::Kind::compliance && c.bound.empty())
+    if (problem.unknowns()[u].machine == &MachineState::compliance && c.bound.empty())
       c.compliances[problem.unknowns()[u].measurement] =
           profile_likelihood(problem, c.minimum, u, c.interval_scale).within95;
 }
@@ -103,13 +99,12 @@ void add_compliances(Calibration& c, const CalibrationProblem& problem)
 /// Of the problem in which all curves' machines give way, at the minimum of the one in which none does.
 double machine_shift_of(const CalibrationProblem& problem, const Calibration& c)
 {
-  using Kind = CalibrationProblem::Unknown::Kind;
   CalibrationRequest request = problem.request();
   const auto modulus = std::find(request.fit.begin(), request.fit.end(), Parameter::youngs_modulus);
   bool curves = false;
   for (Measurement& m : request.measurements) {
-    curves = curves || (is_curve(m.kind) && !m.fit_compliance);
-    m.fit_compliance = m.fit_compliance || is_curve(m.kind);
+    curves = curves || (m.kind->has_machine && !m.fit_compliance);
+    m.fit_compliance = m.fit_compliance || m.kind->has_machine;
   }
   if (!curves || modulus == request.fit.end() || !request.known.hardens_linearly() || !c.bound.empty())
     return 0;
@@ -121,7 +116,7 @@ double machine_shift_of(const CalibrationProblem& problem, const Calibration& c)
   Eigen::Index next = 0;
   for (Eigen::Index u = 0; u < count; ++u) {
     const CalibrationProblem::Unknown& unknown = gives_way.unknowns()[static_cast<std::size_t>(u)];
-    if (unknown.kind == Kind::compliance &&
+    if (unknown.machine == &MachineState::compliance &&
         !problem.request().measurements[unknown.measurement].fit_compliance)
       q[u] = 0, direction[u] = stiff_machine / unknown.scale;
     else
@@ -137,29 +132,19 @@ double machine_shift_of(const CalibrationProblem& problem, const Calibration& c)
 
 Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
 {
-  constexpr int most_rounds = 4;
+  constexpr int most_moves = 4;
   Calibration c;
   c.minimum = std::move(minimum);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int moves = 0;; ++moves) {
     judge(c, problem);
     c.bound = problem.bound_met(c.minimum.q);
     if (!c.bound.empty()) {
       state_bound(c, problem);
       break;
     }
-    const std::optional<Coordinates> better = profile_all(c, problem);
+    const std::optional<Coordinates> better = profile_all(c, problem, moves < most_moves);
     if (!better) break;
     c.minimum = polished(problem, *better);
-  }
-  if (c.parameters.size() < problem.request().fit.size()) {
-    judge(c, problem);
-    c.parameters.clear();
-    for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
-      FittedParameter f{problem.request().fit[k],
-                        profile_likelihood(problem, c.minimum, k, c.interval_scale)};
-      f.told = told_by(problem, k, f.profile);
-      c.parameters.push_back(f);
-    }
   }
   c.material = problem.material(c.minimum.q);
   for (std::size_t k = 0; k < problem.request().measurements.size(); ++k)

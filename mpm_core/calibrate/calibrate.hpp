@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "calibrate/kind/kind.hpp"
 #include "calibrate/misfit.hpp"
 #include "calibrate/profile_likelihood.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/larger.hpp"
-#include "base/scales.hpp"
 #include "calibrate/flow_shape.hpp"
+#include "calibrate/kind/kind.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/law_material.hpp"
 
@@ -18,14 +18,9 @@ namespace {
 /// Deepest overlap over the radius that the data show of a sphere of this material.
 double deepest(const CalibrationProblem& problem, const CandidateMaterial& material, const SphereLaws& laws)
 {
-  const double per_speed = std::sqrt(material.density / material.yield_stress);
   double depth = 0;
   for (const Measurement& m : problem.request().measurements)
-    for (const Datum& d : m.data) {
-      const double share = m.partner == ImpactPartner::like_sphere ? 0.5 : 1.0;
-      if (is_impact(m.kind)) depth = std::max(depth, laws.impact(share * d.x * per_speed).overlap);
-      if (is_curve(m.kind)) depth = std::max(depth, d.x / m.radius / m.contacts());
-    }
+    depth = std::max(depth, m.kind->reach(m, {material, laws}).overlap);
   return depth;
 }
 
@@ -83,8 +78,8 @@ CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, con
     ++result.laws;
     const Miss miss = miss_of(laws.free(), own, depth);
     result.miss_force = miss.force, result.miss_restitution = miss.restitution;
-    const SphereLaws coarse(atlas, material, nullptr);
-    problem.set_departure(departure(own, coarse.free()));
+    const SphereLaws coarse(atlas, material);
+    problem.laws().set_departure(departure(own, coarse.free()));
     q = polished(problem, q).q;
     if (miss.is_small()) break;
   }

@@ -4,34 +4,23 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "calibrate/kind/composed.hpp"
+#include "calibrate/kind/kind.hpp"
 
 namespace granulaw {
 
 namespace {
 
 constexpr double normal95 = 1.959964;
-constexpr int curve_rows = 60;  // loading rows of a curve; half as many unload
-
-/// A curve between platens to this displacement, its forces still 0.
-Measurement curve_to(double displacement, double radius)
+/// Fills in the values that this material would show.
+void fill(Measurement& m, const CandidateMaterial& material, const Atlas& atlas,
+          const std::vector<Parameter>& varied, double relative_sd)
 {
-  Measurement m;
-  m.kind = MeasurementKind::platens;
-  m.source = "a curve";
-  m.radius = radius;
-  m.fit_offset = true;
-  for (int k = 1; k <= curve_rows; ++k) m.data.push_back({displacement * k / curve_rows, 1, 1, k});
-  for (int k = curve_rows / 2; k > 0; --k)
-    m.data.push_back({displacement * (0.5 + k / (curve_rows + 2.0)), 1, 1, 2 * curve_rows - k});
-  return m;
-}
-
-/// Fills in what this material would show.
-void fill(Measurement& m, const CandidateMaterial& material, const Atlas& atlas, double relative_sd)
-{
-  SphereLawsCache cache(atlas);
-  const SphereLaws& laws = cache.of(material);
-  const std::vector<double> values = predict(m, material, laws, {}).values;
+  const SphereLaws laws(atlas, material);
+  std::optional<ComposedModel> composed;
+  if (m.is_composed()) composed.emplace(atlas, m, varied);
+  const std::vector<double> values =
+      m.kind->predict(m, {material, laws, {}, composed ? &*composed : nullptr}).values;
   const double largest = *std::max_element(values.begin(), values.end());
   for (std::size_t k = 0; k < values.size(); ++k) {
     m.data[k].y = values[k];
@@ -42,36 +31,37 @@ void fill(Measurement& m, const CandidateMaterial& material, const Atlas& atlas,
 }  // namespace
 
 Design::Design(const Atlas& atlas, CalibrationRequest request, const CandidateMaterial& assumed,
-               std::vector<DesignCandidate> candidates, double radius, double relative_sd)
+               std::vector<DesignCandidate> candidates, double relative_sd)
     : candidates_(std::move(candidates))
 {
   if (candidates_.empty()) fail("design", "no measurement is to be considered");
-  std::size_t rows_there = 0;
-  for (const Measurement& m : request.measurements) rows_there += m.data.size();
-  // all impacts are one measurement, whose model errors they share; each curve is one of its own
-  Measurement impacts;
-  impacts.source = "impacts";
-  impacts.radius = radius;
-  std::vector<Measurement> curves;
-  std::vector<std::size_t> rows, counts;
-  for (const DesignCandidate& c : candidates_)
-    if (!is_curve(c.kind)) impacts.data.push_back({c.place, 1, 1, 1});
-  const std::size_t impact_rows = impacts.data.size();
-  if (impact_rows > 0) {
-    fill(impacts, assumed, atlas, relative_sd);
-    request.measurements.push_back(impacts);
-  }
-  std::size_t next_impact = rows_there, next_curve = rows_there + impact_rows;
+  std::vector<Measurement>& all = request.measurements;
+  const auto given = static_cast<std::ptrdiff_t>(all.size());
+  struct Rows
+  {
+    std::ptrdiff_t measurement;
+    std::size_t first, count;
+  };
+  std::vector<Rows> rows;
+  // single rows of a kind are one measurement, whose model errors they share; each curve is one of its own
   for (const DesignCandidate& c : candidates_) {
-    if (!is_curve(c.kind)) {
-      rows.push_back(next_impact++), counts.push_back(1);
-      continue;
+    const Kind& kind = *c.form.kind;
+    auto own = kind.planned ? all.end()
+                            : std::find_if(all.begin() + given, all.end(),
+                                           [&](const Measurement& m) { return m.kind == &kind; });
+    if (own == all.end()) {
+      own = all.insert(own, c.form);
+      own->source = kind.name, own->fit_offset = kind.has_machine;
     }
-    Measurement curve = curve_to(c.place, radius);
-    fill(curve, assumed, atlas, relative_sd);
-    rows.push_back(next_curve), counts.push_back(curve.data.size());
-    next_curve += curve.data.size();
-    request.measurements.push_back(std::move(curve));
+    const std::vector<Datum> planned =
+        kind.planned ? kind.planned(c.place) : std::vector{Datum{c.place, 1, 1, 1}};
+    rows.push_back({own - all.begin(), own->data.size(), planned.size()});
+    own->data.insert(own->data.end(), planned.begin(), planned.end());
+  }
+  std::vector<std::size_t> first_rows{0};
+  for (auto m = all.begin(); m != all.end(); ++m) {
+    if (m - all.begin() >= given) fill(*m, assumed, atlas, request.fit, relative_sd);
+    first_rows.push_back(first_rows.back() + m->data.size());
   }
   request.robust = false;
   const CalibrationProblem problem(atlas, std::move(request));
@@ -89,10 +79,11 @@ Design::Design(const Atlas& atlas, CalibrationRequest request, const CandidateMa
     const auto part = jacobian.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
     return Eigen::MatrixXd(part.transpose() * part);
   };
-  const auto all = static_cast<std::size_t>(jacobian.rows());
-  there_ = block(0, rows_there) + block(problem.data_count(), all - problem.data_count());
-  there_.diagonal().array() += 1e-6;  // what nothing tells
-  for (std::size_t k = 0; k < candidates_.size(); ++k) information_.push_back(block(rows[k], counts[k]));
+  const std::size_t rows_there = first_rows[static_cast<std::size_t>(given)], data = problem.data_count();
+  there_ = block(0, rows_there) + block(data, static_cast<std::size_t>(jacobian.rows()) - data);
+  there_.diagonal().array() += 1e-6;  // of directions that nothing tells
+  for (const Rows& r : rows)
+    information_.push_back(block(first_rows[static_cast<std::size_t>(r.measurement)] + r.first, r.count));
 }
 
 Eigen::MatrixXd Design::information(const std::vector<std::size_t>& chosen) const

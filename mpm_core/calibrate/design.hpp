@@ -4,28 +4,26 @@
 
 namespace granulaw {
 
-/// One further measurement that could be made: an impact at a speed, or a curve between platens to a
-/// displacement.
+/// One further measurement that could be made.
 struct DesignCandidate
 {
-  MeasurementKind kind = MeasurementKind::restitution;
-  double place = 0;  ///< m/s; m
+  Measurement form;  ///< its kind, radii, partner; no data
+  double place = 0;  ///< of the kind's column x, SI: a speed; the largest displacement of a curve
 };
 
 /// Expected half width of the 95 % interval of each wanted parameter, as a share of it (hardening: of H +
 /// Y/2).
 using ExpectedIntervals = std::vector<double>;
 
-/// Which of the candidates would tell most of a material, by the Fisher information at an assumed one: the
-/// fit's, or a guess. What is measured already counts, as do the model's own errors: no number of drops goes
-/// below these.
+/// The candidates that would tell most of a material, by the Fisher information at an assumed one: the fit's,
+/// or a guess. Data that are there count, as do the model's own errors: no number of drops goes below these.
 class Design
 {
  public:
-  /// `request`: what there is, `fit` what is wanted; `assumed`: the material. `relative_sd`: of e, and of the
-  /// force.
+  /// `request`: the data that are there, and the wanted parameters; `assumed`: the material; `relative_sd`:
+  /// of the candidates' values.
   Design(const Atlas& atlas, CalibrationRequest request, const CandidateMaterial& assumed,
-         std::vector<DesignCandidate> candidates, double radius, double relative_sd);
+         std::vector<DesignCandidate> candidates, double relative_sd);
 
   const std::vector<DesignCandidate>& candidates() const { return candidates_; }
   /// With these candidates, by index, besides what there is; none: what there is.

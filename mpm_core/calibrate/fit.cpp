@@ -31,7 +31,9 @@ struct FreeProblem
 int evaluate(const gsl_vector* x, void* data, gsl_vector* f)
 {
   const auto& problem = *static_cast<const FreeProblem*>(data);
-  const Eigen::VectorXd r = problem.problem.residuals(problem.at(x));
+  const Coordinates q = problem.at(x);
+  if (!q.allFinite()) return GSL_EDOM;  // a step along a direction that nothing tells
+  const Eigen::VectorXd r = problem.problem.residuals(q);
   if (!r.allFinite()) return GSL_EDOM;
   for (Eigen::Index k = 0; k < r.size(); ++k) gsl_vector_set(f, static_cast<std::size_t>(k), r[k]);
   return GSL_SUCCESS;

@@ -5,6 +5,7 @@
 
 #include "base/scales.hpp"
 #include "characterise/interpolation.hpp"
+#include "solver/material/law_table.hpp"
 
 namespace granulaw {
 
@@ -52,6 +53,13 @@ double secant_hardening(double stiffness, double poisson_ratio, const FlowCurve&
 }
 
 }  // namespace
+
+FlowCurve flow_curve(const CandidateMaterial& material)
+{
+  return [solid = solver_material(material)](double strain) {
+    return flow_stress(solid, strain) / solid.yield_stress;
+  };
+}
 
 LawShape flow_shape(const Atlas& atlas, double stiffness, double poisson_ratio, const FlowCurve& flow)
 {

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "calibrate/parameters.hpp"
 #include "characterise/atlas.hpp"
 #include "law/contact_curve.hpp"
 
@@ -9,6 +10,8 @@ namespace granulaw {
 
 /// Static flow stress over the yield stress, of the equivalent plastic strain; 1 at 0.
 using FlowCurve = std::function<double(double strain)>;
+/// That of a material, by the solver's flow law.
+FlowCurve flow_curve(const CandidateMaterial& material);
 
 /// The law of a sphere whose hardening is not linear, from the atlas's linear ones, no run.
 ///

@@ -2,25 +2,44 @@
 
 #include <algorithm>
 
+#include "calibrate/kind/kind.hpp"
+
 namespace granulaw {
 
-bool is_curve(MeasurementKind kind)
+namespace {
+
+bool is_shallower(const Datum& a, const Datum& b)
 {
-  return kind == MeasurementKind::platens || kind == MeasurementKind::flat ||
-         kind == MeasurementKind::indenter;
+  return a.x < b.x;
 }
 
-bool is_impact(MeasurementKind kind)
+}  // namespace
+
+double Measurement::largest_x() const
 {
-  return kind == MeasurementKind::restitution || kind == MeasurementKind::contact_radius ||
-         kind == MeasurementKind::residual_displacement || kind == MeasurementKind::contact_time;
+  return std::max_element(data.begin(), data.end(), is_shallower)->x;
+}
+
+double Measurement::largest_y() const
+{
+  double most = 0;
+  for (const Datum& d : data) most = std::max(most, d.y);
+  return most;
+}
+
+double Measurement::effective_radius() const
+{
+  return indenter_radius > 0 ? 1 / (1 / radius + 1 / indenter_radius) : radius;
+}
+
+double Measurement::largest_overlap() const
+{
+  return largest_x() / effective_radius() / kind->contacts;
 }
 
 std::size_t Measurement::reversal() const
 {
-  const auto deepest =
-      std::max_element(data.begin(), data.end(), [](const Datum& a, const Datum& b) { return a.x < b.x; });
-  return static_cast<std::size_t>(deepest - data.begin());
+  return static_cast<std::size_t>(std::max_element(data.begin(), data.end(), is_shallower) - data.begin());
 }
 
 std::size_t Measurement::loading_rows() const
@@ -35,11 +54,6 @@ double Measurement::turn_gap() const
   const std::size_t top = reversal();
   if (top < 2 || loading_rows() == data.size()) return 0;
   return std::max(data[top].x - data[top - 1].x, data[top - 1].x - data[top - 2].x);
-}
-
-double Measurement::effective_radius() const
-{
-  return kind == MeasurementKind::indenter ? 1 / (1 / radius + 1 / indenter_radius) : radius;
 }
 
 }  // namespace granulaw

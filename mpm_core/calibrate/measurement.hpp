@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,25 +10,16 @@
 
 namespace granulaw {
 
-/// What was measured. The columns of each file: measurement_file.hpp.
-enum class MeasurementKind {
-  restitution,  ///< e of a sphere that hits a wall, or its like, against the impact speed
-  platens,      ///< force on a sphere between two platens against the displacement of one towards the other
-  flat,         ///< force of one contact with a flat against its overlap
-  indenter,     ///< force of a spherical indenter against its displacement towards the specimen's middle
-  contact_radius,         ///< m, of the flattened area, against the impact speed
-  residual_displacement,  ///< m, residual overlap after an impact, against its speed
-  contact_time,           ///< s, against the impact speed
-  hardness,               ///< Pa, Vickers: force over the dent's area
-  onset_force             ///< N, at which a contact with a flat begins to yield
-};
+struct Kind;  // kind/kind.hpp
 
-bool is_curve(MeasurementKind kind);  ///< force against displacement
-bool is_impact(MeasurementKind kind);
+/// All kinds of measurement; the first is restitution.
+std::span<const Kind* const> kinds();
+/// Throws Error naming `where` and the nearest name.
+const Kind& kind_named(const std::string& name, const std::string& where);
 
-/// What an impact is against.
+/// Partner of the sphere in an impact.
 enum class ImpactPartner {
-  rigid_wall,
+  wall,
   like_sphere  ///< the speed is that of approach
 };
 
@@ -35,33 +27,46 @@ enum class ImpactPartner {
 struct Datum
 {
   double x = 0;            ///< impact speed or displacement; 0 where the kind has neither
-  double y = 0;            ///< what was measured
+  double y = 0;            ///< the value
   double sd = 0;           ///< its standard deviation; 0: not stated
   int line = 0;            ///< of the file
   double relative_sd = 0;  ///< over 0: none was stated, and it is this share of the true value
 
-  /// Of a true value that is assumed: what is far too low has no smaller noise for that.
+  /// Of a true value that is assumed: a value that is far too low has no smaller noise for that.
   double sd_at(double value) const { return relative_sd > 0 ? relative_sd * std::abs(value) : sd; }
 };
 
 /// The values of one file.
 struct Measurement
 {
-  MeasurementKind kind = MeasurementKind::restitution;
+  const Kind* kind = kinds().front();
   std::string source;  ///< leads messages: the file's path
   std::vector<Datum> data;
   double radius = 0;           ///< m, of the sphere; infinity: a thick flat specimen, which an indenter meets
-  double indenter_radius = 0;  ///< m; of the kind indenter
-  std::optional<LawMaterial> indenter;  ///< its material; none: rigid
-  ImpactPartner partner = ImpactPartner::rigid_wall;
-  std::optional<LawMaterial> wall;  ///< restitution: a thick wall of this material in place of the rigid one
-  std::optional<LawMaterial> ball;  ///< restitution: the sphere's; what is fitted is the thick wall's
-  bool fit_offset = false;          ///< curves: the displacement of first touch is unknown
-  bool fit_compliance = false;      ///< curves: the machine gives way in proportion to the force
+  double indenter_radius = 0;  ///< m; over 0: of a spherical indenter
+  ImpactPartner partner = ImpactPartner::wall;
+  /// Material of the body that is not fitted: an indenter, a thick wall or the ball; none: rigid.
+  std::optional<LawMaterial> counterpart;
+  bool counterpart_is_ball = false;  ///< the ball is the counterpart, and a thick wall is fitted
+  bool fit_offset = false;           ///< curves: the displacement of first touch is unknown
+  bool fit_compliance = false;       ///< curves: the machine gives way in proportion to the force
+  /// Known before the data: 95 % of the ratio of the value to the yield stress lie between, in place of the
+  /// model's own ratio.
+  std::optional<std::pair<double, double>> ratio_to_yield;
 
-  /// Impacts: density of the sphere, kg/m^3, where what is fitted is of this density.
-  double sphere_density(double fitted_density) const { return ball ? ball->density : fitted_density; }
-  /// Curves: index of the datum of largest displacement; what follows is unloading.
+  /// The law of the contact is composed of the laws of two bodies.
+  bool is_composed() const { return counterpart || indenter_radius > 0; }
+  /// Density of the sphere that drops, kg/m^3, where the fitted material has this one.
+  double sphere_density(double fitted) const { return counterpart_is_ball ? counterpart->density : fitted; }
+  /// Speed on a rigid wall at which the sphere loses as much, over the impact's.
+  double wall_share() const { return partner == ImpactPartner::like_sphere ? 0.5 : 1.0; }
+  double largest_x() const;
+  double largest_y() const;
+  /// R* of a contact, m.
+  double effective_radius() const;
+  /// Curves: overlap of one contact over its R* at the largest displacement.
+  double largest_overlap() const;
+  /// Curves: index of the datum of largest displacement; unloading follows.
   std::size_t reversal() const;
   /// Curves: number of data on loading. Where the curve turned between two rows, the datum of largest
   /// displacement may be the first on unloading: its force is below that of the datum before.
@@ -69,10 +74,6 @@ struct Measurement
   /// Curves with unloading: how far beyond the largest displacement, m, the curve may have turned: the
   /// spacing of the rows there. 0: no datum is on unloading.
   double turn_gap() const;
-  /// Curves: contacts that share the displacement.
-  double contacts() const { return kind == MeasurementKind::platens ? 2 : 1; }
-  /// Curves: R* of a contact.
-  double effective_radius() const;
 };
 
 }  // namespace granulaw

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "calibrate/kind/kind.hpp"
 
 namespace granulaw {
 
@@ -39,13 +40,6 @@ std::vector<PseudoResidual> pseudo_residuals(const Measurement& m)
   return found;
 }
 
-double largest_force(const Measurement& m)
-{
-  double most = 0;
-  for (const Datum& d : m.data) most = std::max(most, d.y);
-  return most;
-}
-
 }  // namespace
 
 double ForceScatter::at(double force) const
@@ -58,7 +52,7 @@ ForceScatter scatter_of(const Measurement& curve)
   constexpr double least = 1e-4, most = 0.3;  // of the largest force, and of the share
   constexpr int steps = 32;
   const std::vector<PseudoResidual> residuals = pseudo_residuals(curve);
-  const double unit = largest_force(curve);
+  const double unit = curve.largest_y();
   ForceScatter best{0.01 * unit, 0};
   double best_cost = std::numeric_limits<double>::infinity();
   if (residuals.size() < 3) return best;
@@ -76,38 +70,17 @@ ForceScatter scatter_of(const Measurement& curve)
   return best;
 }
 
-namespace {
-
-void fill_in_standard_deviations(Measurement& m, double relative_sd)
-{
-  if (std::all_of(m.data.begin(), m.data.end(), [](const Datum& d) { return d.sd > 0; })) return;
-  if (is_curve(m.kind)) {
-    const ForceScatter scatter = scatter_of(m);
-    const double floor = 1e-3 * largest_force(m);
-    for (Datum& d : m.data) d.sd = std::max(floor, scatter.at(d.y));
-    return;
-  }
-  for (Datum& d : m.data)
-    if (d.sd == 0) d.sd = relative_sd * d.y, d.relative_sd = relative_sd;
-}
-
-/// Noise may lift an e near 1 over it: one value in thirty thousand by more than four standard deviations.
-void check_restitution(const Measurement& m)
-{
-  constexpr double beyond_noise = 4;
-  for (const Datum& d : m.data)
-    if (d.y > 1 + beyond_noise * d.sd)
-      fail(fmt::format("{}:{}", m.source, d.line), "'restitution' is over 1 by more than its noise",
-           fmt::format("{:g}, standard deviation {:.2g}", d.y, d.sd),
-           fmt::format("over 0, up to 1 and {:g} standard deviations", beyond_noise));
-}
-
-}  // namespace
-
 void complete_standard_deviations(Measurement& m, double relative_sd)
 {
-  fill_in_standard_deviations(m, relative_sd);
-  if (m.kind == MeasurementKind::restitution) check_restitution(m);
+  m.kind->complete(m, relative_sd);
+  constexpr double beyond_noise = 4;  // sd: one value in thirty thousand
+  const Column& y = m.kind->y;
+  for (const Datum& d : m.data)
+    if (d.y > y.most + beyond_noise * d.sd)
+      fail(fmt::format("{}:{}", m.source, d.line),
+           fmt::format("'{}' is over {:g} by more than its noise", y.name(), y.most),
+           fmt::format("{:g}, standard deviation {:.2g}", d.y, d.sd),
+           fmt::format("{}, up to {:g} and {:g} standard deviations", y.allowed, y.most, beyond_noise));
 }
 
 }  // namespace granulaw

@@ -17,9 +17,8 @@ struct ForceScatter
 /// likeliest.
 ForceScatter scatter_of(const Measurement& curve);
 
-/// Fills in the standard deviations that are not stated: of a curve its scatter, but 0.1 % of its largest
-/// force at least (contact curves of the atlas are no smoother); of other kinds `relative_sd` of the value.
-/// Throws Error where a restitution is over 1 by more than its noise.
+/// Fills in the standard deviations that are not stated, as the kind does: of a curve its scatter, of other
+/// kinds `relative_sd` of the value. Throws Error where a value is over Column::most by more than its noise.
 void complete_standard_deviations(Measurement& measurement, double relative_sd);
 
 }  // namespace granulaw

@@ -1,9 +1,10 @@
 #include "calibrate/parameters.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "base/error.hpp"
 #include "characterise/law_material.hpp"
+#include "solver/material/law_table.hpp"
 
 namespace granulaw {
 
@@ -11,42 +12,54 @@ namespace {
 
 struct Named
 {
-  Parameter parameter;
-  const char* name;
+  std::string name;
   bool is_stress;
-  double CandidateMaterial::*member;
+  double LawMaterial::*member;  ///< null: a key of a hardening law
 };
-constexpr Named known[] = {
-    {Parameter::youngs_modulus, "youngs_modulus", true, &CandidateMaterial::youngs_modulus},
-    {Parameter::yield_stress, "yield_stress", true, &CandidateMaterial::yield_stress},
-    {Parameter::hardening_modulus, "hardening_modulus", true, &CandidateMaterial::hardening_modulus},
-    {Parameter::saturation_stress, "saturation_stress", true, &CandidateMaterial::saturation_stress},
-    {Parameter::strain, "strain", false, &CandidateMaterial::strain},
-    {Parameter::strength, "strength", true, &CandidateMaterial::strength},
-    {Parameter::exponent, "exponent", false, &CandidateMaterial::exponent},
-    {Parameter::offset, "offset", false, &CandidateMaterial::offset}};
+
+/// In the order of Parameter, then of the solver's list.
+const std::vector<Named>& known()
+{
+  static const std::vector<Named> all = [] {
+    std::vector<Named> names{{"youngs_modulus", true, &LawMaterial::youngs_modulus},
+                             {"yield_stress", true, &LawMaterial::yield_stress},
+                             {"hardening_modulus", true, &LawMaterial::hardening_modulus}};
+    for (const FlowLawKeys& law : hardening_laws())
+      for (const flow::Parameter& p : law.parameters) {
+        const auto is_it = [&](const Named& n) { return n.name == p.key; };
+        if (law.name != flow::Linear::name && p.is_fitted() &&
+            std::none_of(names.begin(), names.end(), is_it))
+          names.push_back({p.key, p.quantity == flow::Quantity::stress, nullptr});
+      }
+    return names;
+  }();
+  return all;
+}
 
 const Named& entry(Parameter parameter)
 {
-  return known[static_cast<std::size_t>(parameter)];
+  return known()[static_cast<std::size_t>(parameter)];
 }
 
-/// The law's own parameters as the solver knows them.
-FlowLaw flow_law(const CandidateMaterial& m)
+const FlowLawKeys& keys_of(const std::string& law)
 {
-  if (m.hardening == "voce")
-    return {"voce", {{"saturation_stress", {m.saturation_stress}}, {"strain", {m.strain}}}};
-  if (m.hardening == "swift")
-    return {"swift",
-            {{"strength", {m.yield_stress / std::pow(m.offset, m.exponent)}},
-             {"exponent", {m.exponent}},
-             {"offset", {m.offset}}}};
-  return {"johnson-cook", {{"strength", {m.strength}}, {"exponent", {m.exponent}}}};
+  const std::string name = law.empty() ? flow::Linear::name : law;
+  return *std::find_if(hardening_laws().begin(), hardening_laws().end(),
+                       [&](const FlowLawKeys& k) { return k.name == name; });
+}
+
+/// The law's own declaration of a parameter.
+const flow::Parameter& declared(const CandidateMaterial& m, Parameter parameter)
+{
+  const std::vector<flow::Parameter>& own = keys_of(m.hardening.name).parameters;
+  if (m.hardens_linearly()) return own.front();
+  return *std::find_if(own.begin(), own.end(),
+                       [&](const flow::Parameter& p) { return name_of(parameter) == p.key; });
 }
 
 }  // namespace
 
-const char* name_of(Parameter parameter)
+const std::string& name_of(Parameter parameter)
 {
   return entry(parameter).name;
 }
@@ -54,15 +67,16 @@ const char* name_of(Parameter parameter)
 std::vector<std::string> parameter_names()
 {
   std::vector<std::string> names;
-  for (const Named& n : known) names.emplace_back(n.name);
+  for (const Named& n : known()) names.push_back(n.name);
   return names;
 }
 
 Parameter parameter_named(const std::string& name, const std::string& where)
 {
-  for (const Named& n : known)
-    if (name == n.name) return n.parameter;
-  fail_unknown(where, "no parameter", name, parameter_names());
+  const std::vector<std::string> names = parameter_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) fail_unknown(where, "no parameter", name, names);
+  return static_cast<Parameter>(found - names.begin());
 }
 
 bool is_stress(Parameter parameter)
@@ -70,66 +84,69 @@ bool is_stress(Parameter parameter)
   return entry(parameter).is_stress;
 }
 
-double CandidateMaterial::flow(double plastic_strain) const
+Material solver_material(const CandidateMaterial& m)
 {
-  if (hardening == "voce") {
-    const double most = saturation_stress / yield_stress;
-    return most - (most - 1) * std::exp(-plastic_strain / strain);
-  }
-  if (hardening == "swift") return std::pow(1 + plastic_strain / offset, exponent);
-  if (hardening == "johnson-cook") return 1 + strength / yield_stress * std::pow(plastic_strain, exponent);
-  return 1 + hardening_modulus / yield_stress * plastic_strain;
+  Material material = material_of(m);
+  if (m.hardens_linearly()) return material;
+  material.hardening_modulus = 0, material.hardening = m.hardening;
+  for (const flow::Parameter& p : keys_of(m.hardening.name).parameters)
+    if (!p.is_fitted()) {
+      double& set_by_yield = (material.hardening.values[p.key] = {1.0}).front();
+      set_by_yield = m.yield_stress / flow_stress(material, 0);
+    }
+  return material;
 }
 
 std::vector<std::string> fitted_hardening_laws()
 {
-  return {"linear", "voce", "swift", "johnson-cook"};
+  std::vector<std::string> names;
+  for (const FlowLawKeys& law : hardening_laws())
+    if (std::none_of(law.parameters.begin(), law.parameters.end(),
+                     [](const flow::Parameter& p) { return p.list; }))
+      names.push_back(law.name);
+  return names;
 }
 
 std::vector<Parameter> parameters_of(const std::string& law)
 {
-  if (law == "voce") return {Parameter::saturation_stress, Parameter::strain};
-  if (law == "swift") return {Parameter::exponent, Parameter::offset};
-  if (law == "johnson-cook") return {Parameter::strength, Parameter::exponent};
-  return {Parameter::hardening_modulus};
+  if (law.empty() || law == flow::Linear::name) return {Parameter::hardening_modulus};
+  std::vector<Parameter> own;
+  for (const flow::Parameter& p : keys_of(law).parameters)
+    if (p.is_fitted()) own.push_back(parameter_named(p.key, law));
+  return own;
 }
 
-Range range_of(Parameter parameter)
+Range range_of(const CandidateMaterial& m, Parameter parameter)
 {
-  switch (parameter) {
-    case Parameter::strain:
-      return {1e-4, 10};
-    case Parameter::exponent:
-      return {0.05, 1};  // the solver's
-    case Parameter::offset:
-      return {1e-5, 10};
-    default:
-      return {};
-  }
+  const flow::Parameter& p = declared(m, parameter);
+  return {std::max(p.least, p.least_per_yield * m.yield_stress), p.most};
 }
 
-Material solver_material(const CandidateMaterial& m)
+double start_of(const CandidateMaterial& m, Parameter parameter, double gain, double strain)
 {
-  Material material = material_of(m);
-  if (!m.hardens_linearly()) material.hardening_modulus = 0, material.hardening = flow_law(m);
-  return material;
+  return declared(m, parameter).start.at(m.yield_stress, gain, strain);
 }
 
 double value_of(const CandidateMaterial& m, Parameter parameter)
 {
-  return m.*entry(parameter).member;
+  const Named& named = entry(parameter);
+  if (named.member) return m.*named.member;
+  const auto found = m.hardening.values.find(named.name);
+  return found == m.hardening.values.end() || found->second.empty() ? 0 : found->second.front();
 }
 
 void set_value(CandidateMaterial& m, Parameter parameter, double value)
 {
-  m.*entry(parameter).member = value;
+  const Named& named = entry(parameter);
+  if (named.member)
+    m.*named.member = value;
+  else
+    m.hardening.values[named.name] = {value};
 }
 
 void set_value(LawMaterial& m, Parameter parameter, double value)
 {
-  CandidateMaterial candidate(m);
-  set_value(candidate, parameter, value);
-  m = candidate;
+  m.*entry(parameter).member = value;
 }
 
 }  // namespace granulaw

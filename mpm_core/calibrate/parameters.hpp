@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,28 +9,27 @@
 
 namespace granulaw {
 
-/// The numbers of a material that a fit may find, by their names in a materials file; hardening_modulus is
-/// the `modulus` of linear hardening, those after it belong to other hardening laws.
-enum class Parameter {
-  youngs_modulus,
-  yield_stress,
-  hardening_modulus,
-  saturation_stress,
-  strain,
-  strength,
-  exponent,
-  offset
-};
-inline constexpr std::array all_parameters{
-    Parameter::youngs_modulus,    Parameter::yield_stress, Parameter::hardening_modulus,
-    Parameter::saturation_stress, Parameter::strain,       Parameter::strength,
-    Parameter::exponent,          Parameter::offset};
+/// A number of a material that a fit may find. Those beyond the named ones belong to hardening laws: the keys
+/// that the laws of solver/material/laws.hpp declare with a start; parameter_named() has them.
+enum class Parameter : int { youngs_modulus, yield_stress, hardening_modulus };
 
-const char* name_of(Parameter parameter);
+/// Names as in a materials file; hardening_modulus is the `modulus` of linear hardening.
+const std::string& name_of(Parameter parameter);
 /// Throws Error naming `where` and the nearest name.
 Parameter parameter_named(const std::string& name, const std::string& where);
 std::vector<std::string> parameter_names();
 bool is_stress(Parameter parameter);  ///< Pa; else a pure number
+
+/// Ends of what is allowed, or of what 95 % of a normal distribution of the logarithm lie between.
+struct Range
+{
+  double low = 0, high = std::numeric_limits<double>::infinity();
+};
+struct ParameterRange
+{
+  Parameter parameter;
+  Range range;
+};
 
 /// A material that a fit tries: the numbers of a law file, or another hardening law in place of the linear
 /// one.
@@ -41,39 +38,25 @@ struct CandidateMaterial : LawMaterial
   CandidateMaterial() = default;
   CandidateMaterial(LawMaterial m) : LawMaterial(std::move(m)) {}  // NOLINT: every law's material is one
 
-  std::string hardening;  ///< name of its law in a materials file; empty: linear
-  double saturation_stress = 0, strain = 0, strength = 0, exponent = 0, offset = 0;  ///< of that law
+  FlowLaw hardening;  ///< no name: linear. A key that the yield stress sets is left out
 
-  bool hardens_linearly() const { return hardening.empty(); }
-  /// Flow stress over the yield stress.
-  double flow(double plastic_strain) const;
+  bool hardens_linearly() const { return hardening.name.empty(); }
 };
-
-/// Hardening laws that a fit knows, and their parameters; of Swift's law the strength follows from the yield
-/// stress.
-std::vector<std::string> fitted_hardening_laws();
-std::vector<Parameter> parameters_of(const std::string& hardening_law);
-/// What is known of a parameter before the data: 95 % of a normal distribution of its logarithm lie between;
-/// or a limit that it never exceeds.
-struct Range
-{
-  double low = 0, high = std::numeric_limits<double>::infinity();
-};
-/// What a parameter of a hardening law may be.
-Range range_of(Parameter parameter);
 
 /// The solver's material.
 Material solver_material(const CandidateMaterial& material);
 
-double value_of(const CandidateMaterial& material, Parameter parameter);
-void set_value(LawMaterial& material, Parameter parameter, double value);
-void set_value(CandidateMaterial& material, Parameter parameter, double value);
+/// Hardening laws that can be fitted: the solver's whose keys are all numbers. "linear" is among them.
+std::vector<std::string> fitted_hardening_laws();
+/// The parameters of one, by its name; none or "linear": of linear hardening.
+std::vector<Parameter> parameters_of(const std::string& hardening_law);
+/// What the solver takes of a parameter of the material's hardening law.
+Range range_of(const CandidateMaterial& material, Parameter parameter);
+/// Where a search for it begins: the flow stress is (1 + gain) Y at about `strain`.
+double start_of(const CandidateMaterial& material, Parameter parameter, double gain, double strain);
 
-/// The same of a parameter.
-struct ParameterRange
-{
-  Parameter parameter;
-  Range range;
-};
+double value_of(const CandidateMaterial& material, Parameter parameter);  ///< 0: not given
+void set_value(CandidateMaterial& material, Parameter parameter, double value);
+void set_value(LawMaterial& material, Parameter parameter, double value);
 
 }  // namespace granulaw

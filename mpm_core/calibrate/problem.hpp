@@ -1,15 +1,22 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <memory>
 #include <optional>
 
-#include "calibrate/forward_model.hpp"
-#include "calibrate/indenter_model.hpp"
+#include "calibrate/measurement.hpp"
 #include "calibrate/parameters.hpp"
-#include "calibrate/wall_model.hpp"
 
 namespace granulaw {
+
+class Atlas;
+class ComposedModel;
+class SphereLaws;
+class SphereLawsCache;
+struct LawShape;
+struct MachineState;
+struct Prediction;
 
 /// What shall be found, and from what. SI.
 struct CalibrationRequest
@@ -18,8 +25,9 @@ struct CalibrationRequest
   CandidateMaterial known;  ///< density and nu; of what is not fitted, its value; of what is, ignored
   std::vector<Parameter> fit;
   std::vector<ParameterRange> priors, bounds;
-  std::optional<Range> hardness_ratio;  ///< prior of hardness over yield stress, in place of the model's
-  bool robust = true;                   ///< outliers count in proportion to their distance, not to its square
+  bool robust = true;  ///< outliers count in proportion to their distance, not to its square
+
+  bool fits(Parameter parameter) const;
 };
 
 /// The unknowns as a minimiser sees them, each of order one or a logarithm:
@@ -35,29 +43,31 @@ class CalibrationProblem
  public:
   /// Throws Error where the request cannot be met. `atlas` outlives this.
   CalibrationProblem(const Atlas& atlas, CalibrationRequest request);
+  ~CalibrationProblem();
 
   const CalibrationRequest& request() const { return request_; }
-  SphereLawsCache& laws() const { return laws_; }
-  /// What laws of other than linear hardening depart from flow_shape() by: of a law by runs.
-  void set_departure(LawShape departure) { laws_.set_departure(std::move(departure)); }
+  SphereLawsCache& laws() const { return *laws_; }
+  /// Of the measurement's two bodies; null: it has one.
+  const ComposedModel* composed(std::size_t measurement) const { return composed_[measurement].get(); }
 
   /// A place of the unknowns.
   struct Unknown
   {
-    enum class Kind { modulus, hardening, offset, compliance, turn, model_error };
-    Kind kind;
-    Parameter parameter{};        ///< modulus, hardening
-    std::size_t measurement = 0;  ///< the others
-    double scale = 1, step = 1e-3;
-    std::string name;
+    std::optional<Parameter> parameter{};
+    double MachineState::*machine = nullptr;  ///< null, and no parameter: one of the model's own errors
+    std::size_t measurement = 0;              ///< of an unknown that is no parameter
+    double scale = 1;                         ///< unit; of the hardening: Y_ref/2
+    double step = 1e-3;                       ///< of a coordinate, for differences
+    double least = -std::numeric_limits<double>::infinity(), most = -least;  ///< coordinates
+
+    bool is_model_error() const { return !parameter && !machine; }
+    bool is_hardening() const { return parameter == Parameter::hardening_modulus; }
   };
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   std::size_t count() const { return unknowns_.size(); }
   std::size_t data_count() const { return data_; }
   /// Unknowns but for the model's own errors.
   std::size_t fitted_count() const;
-  /// Index of a fitted parameter.
-  std::size_t index_of(Parameter parameter) const;
 
   CandidateMaterial material(const Coordinates& q) const;
   MachineState machine(const Coordinates& q, std::size_t measurement) const;
@@ -68,10 +78,11 @@ class CalibrationProblem
 
   /// Residuals: (measured - predicted)/sd for each datum; priors; model errors; walls.
   Eigen::VectorXd residuals(const Coordinates& q) const;
-  /// Those of one measurement without the model's own errors, and its prediction.
+  /// One measurement's prediction, without and with the model's own errors, and the sd of its data.
   struct Comparison
   {
     std::vector<double> predicted, with_errors, sd;
+    double beyond = 0;  ///< Prediction::beyond
   };
   Comparison compare(const Coordinates& q, std::size_t measurement) const;
   /// How far data, priors and model errors scatter about the fit, as the loss counts them.
@@ -88,20 +99,14 @@ class CalibrationProblem
   std::vector<Coordinates> starts() const;
 
  private:
-  Prediction prediction(const Coordinates& q, std::size_t measurement, const CandidateMaterial& material,
-                        const SphereLaws& laws) const;
-  const SphereLaws& laws_of(const CandidateMaterial& material) const;
+  Comparison compare(const Coordinates& q, std::size_t measurement, const CandidateMaterial& material,
+                     const SphereLaws& laws) const;
   std::vector<double> likely_yield_stresses() const;
-  /// An end of the method's range, and the logarithm of how far beyond it a material lies.
-  struct Limit
-  {
-    enum class Kind { stiffest, softest, hardest, deepest, modulus, parameter_low, parameter_high };
-    Kind kind;
-    double outside;
-    Parameter parameter{};
-  };
-  std::vector<Limit> limits(const CandidateMaterial& material, double beyond) const;
-  std::string sentence(const Limit& limit) const;
+  /// Calls use(logarithm of how far beyond an end of the method's range a material lies, sentence on it) for
+  /// each end.
+  using Sentence = std::function<std::string()>;
+  void limits(const CandidateMaterial& material, double beyond,
+              const std::function<void(double outside, const Sentence&)>& use) const;
   /// Of the data, in their order: no loss has tempered them yet.
   struct Misses
   {
@@ -113,9 +118,8 @@ class CalibrationProblem
   std::vector<double> informed_residuals(const Coordinates& q, const CandidateMaterial& material) const;
 
   CalibrationRequest request_;
-  mutable SphereLawsCache laws_;
-  std::vector<std::unique_ptr<WallModel>> walls_;          ///< by measurement; null: rigid
-  std::vector<std::unique_ptr<IndenterModel>> indenters_;  ///< by measurement; null: it is of another kind
+  std::unique_ptr<SphereLawsCache> laws_;
+  std::vector<std::unique_ptr<ComposedModel>> composed_;  ///< by measurement
   std::vector<Unknown> unknowns_;
   std::size_t data_ = 0;
 };

@@ -22,45 +22,6 @@ MaterialRatios within(const Atlas& atlas, MaterialRatios m)
   return m;
 }
 
-constexpr double sphere_mass = 4.0 / 3.0 * M_PI;  // over rho R^3
-
-}  // namespace
-
-ContactCurve deepest_curve(const LawShape& shape, double onset, double shape_end, double depth)
-{
-  constexpr double shorter = 0.85;
-  for (;; depth *= shorter) {
-    try {
-      return tabulate(shape, onset, shape_end, depth);
-    } catch (const Error&) {
-      if (depth < 2 * onset || depth < 0.05) throw;
-    }
-  }
-}
-
-SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawShape shape, ContactCurve free)
-    : material_(material),
-      atlas_(&atlas),
-      onset_(free.onset()),
-      energy_unit_(energy_unit(sphere_mass, 1 / material_.stiffness)),
-      shape_(std::move(shape)),
-      free_(std::move(free)),
-      impacts_(std::make_unique<ImpactsBySpeed>(shape_, free_, energy_unit_, VelocityAxis::Kind::inertia))
-{
-}
-
-namespace {
-
-double onset_of(const MaterialRatios& m)
-{
-  return onset_overlap(m.stiffness, 1.0, m.poisson_ratio);
-}
-
-ContactCurve linear_curve(const Atlas& atlas, const MaterialRatios& m)
-{
-  return tabulate(atlas.shape(m), onset_of(m), Atlas::depth, Atlas::depth);
-}
-
 /// The linear hardening that stands for another one where a curve between platens departs from a free
 /// sphere's: the two plastic zones meet, and spread as the tangent of the flow stress says, when the contact
 /// is as wide as at an overlap of a fifth of the radius. So F of two presses to 0.1 R is within 0.4 %
@@ -68,43 +29,70 @@ ContactCurve linear_curve(const Atlas& atlas, const MaterialRatios& m)
 MaterialRatios stand_in(const Atlas& atlas, const CandidateMaterial& m)
 {
   MaterialRatios ratios = MaterialRatios::of(m);
-  const double strain = representative_strain * std::sqrt(2 * 0.2);  // a^2 = 2 R delta
-  constexpr double step = 0.05;
-  const double tangent = (m.flow((1 + step) * strain) - m.flow((1 - step) * strain)) / (2 * step * strain);
-  ratios.hardening = tangent * m.yield_stress / m.youngs_modulus;
+  if (!m.hardens_linearly()) {
+    const FlowCurve flow = flow_curve(m);
+    const double strain = representative_strain * std::sqrt(2 * 0.2);  // a^2 = 2 R delta
+    constexpr double step = 0.05;
+    const double tangent = (flow((1 + step) * strain) - flow((1 - step) * strain)) / (2 * step * strain);
+    ratios.hardening = tangent * m.yield_stress / m.youngs_modulus;
+  }
   return within(atlas, ratios);
 }
 
 LawShape shape_of(const Atlas& atlas, const CandidateMaterial& m, const LawShape* departure)
 {
   const MaterialRatios ratios = stand_in(atlas, m);
-  LawShape shape =
-      flow_shape(atlas, ratios.stiffness, ratios.poisson_ratio, [&](double e) { return m.flow(e); });
+  if (m.hardens_linearly()) return atlas.shape(ratios);
+  LawShape shape = flow_shape(atlas, ratios.stiffness, ratios.poisson_ratio, flow_curve(m));
   if (departure) shape.add(1, *departure);
   return shape;
 }
 
+/// A midplane shape's curve, as deep as it is a law: of the softest materials the interpolated loading force
+/// falls near 0.3 R. Beyond its end a curve goes on with its last stiffness.
+ContactCurve deepest_curve(const LawShape& shape, double onset)
+{
+  constexpr double shorter = 0.85;
+  for (double depth = MidplaneShapes::depth;; depth *= shorter) {
+    try {
+      return tabulate(shape, onset, Atlas::depth, depth);
+    } catch (const Error&) {
+      if (depth < 2 * onset || depth < 0.05) throw;
+    }
+  }
+}
+
+constexpr double sphere_mass = 4.0 / 3.0 * M_PI;  // over rho R^3
+
 }  // namespace
 
+SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawShape shape)
+    : material_(material),
+      atlas_(&atlas),
+      energy_unit_(energy_unit(sphere_mass, 1 / material.stiffness)),
+      shape_(std::move(shape)),
+      free_(tabulate(shape_, onset_overlap(material.stiffness, 1.0, material.poisson_ratio), Atlas::depth,
+                     Atlas::depth)),
+      impacts_(shape_, free_, energy_unit_, VelocityAxis::Kind::inertia)
+{
+}
+
 SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& m)
-    : SphereLaws(atlas, within(atlas, m), atlas.shape(within(atlas, m)),
-                 linear_curve(atlas, within(atlas, m)))
+    : SphereLaws(atlas, within(atlas, m), atlas.shape(within(atlas, m)))
 {
 }
 
 SphereLaws::SphereLaws(const Atlas& atlas, const CandidateMaterial& m, const LawShape* departure)
-    : SphereLaws(atlas, stand_in(atlas, m), shape_of(atlas, m, departure),
-                 deepest_curve(shape_of(atlas, m, departure), onset_of(stand_in(atlas, m)), Atlas::depth,
-                               Atlas::depth))
+    : SphereLaws(atlas, stand_in(atlas, m), shape_of(atlas, m, departure))
 {
 }
 
 SphereLaws::Impact SphereLaws::impact(double v) const
 {
   v = std::clamp(v, 1e-9, fastest);
-  const double x = std::min(impacts_->impact_overlap(v), free_.x_end());
-  if (x <= onset_) return {1.0, x, 0.0, free_.loading(x).radius, contact_time(x, 0.0, 1.0)};
-  const LawShape::VelocityEffect effect = impacts_->effect(v);
+  const double x = std::min(impacts_.impact_overlap(v), free_.x_end());
+  if (x <= onset()) return {1.0, x, 0.0, free_.loading(x).radius, contact_time(x, 0.0, 1.0)};
+  const LawShape::VelocityEffect effect = impacts_.effect(v);
   const double slow = free_.work_unloading(x) / free_.work_loading(x);
   const ContactCurve::Reversal top = free_.reversal(x);
   const double kept = (1 - top.residual / x) * std::exp(-effect.residual);
@@ -134,17 +122,11 @@ double SphereLaws::contact_time(double x, double residual, double restitution) c
   return x * loading + (x - residual) / restitution * unloading;
 }
 
-ContactCurve SphereLaws::make_midplane() const
-{
-  return deepest_curve(atlas_->midplane().shape(material_, shape_), onset_, Atlas::depth,
-                       MidplaneShapes::depth);
-}
-
 const ContactCurve& SphereLaws::midplane() const
 {
   if (!midplane_) {
     if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew with mpm atlas");
-    midplane_ = std::make_unique<ContactCurve>(make_midplane());
+    midplane_ = deepest_curve(atlas_->midplane().shape(material_, shape_), onset());
   }
   return *midplane_;
 }
@@ -158,27 +140,18 @@ void SphereLawsCache::set_departure(LawShape departure)
 const SphereLaws& SphereLawsCache::of(const CandidateMaterial& material)
 {
   const MaterialRatios wanted = within(atlas_, MaterialRatios::of(material));
-  Key key{wanted.stiffness, wanted.poisson_ratio, wanted.hardening};
-  if (!material.hardens_linearly())
-    key = {wanted.stiffness,
-           wanted.poisson_ratio,
-           0,
-           material.saturation_stress / material.yield_stress,
-           material.strain,
-           material.strength / material.yield_stress,
-           material.exponent,
-           material.offset};
+  Key key{wanted.stiffness, wanted.poisson_ratio};
+  for (const Parameter p : parameters_of(material.hardening.name))
+    key.push_back(p == Parameter::hardening_modulus
+                      ? wanted.hardening
+                      : value_of(material, p) / (is_stress(p) ? material.yield_stress : 1.0));
   const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& k) { return k.first == key; });
   if (found != kept_.end()) {
     kept_.splice(kept_.begin(), kept_, found);
     return kept_.front().second;
   }
-  if (material.hardens_linearly())
-    kept_.emplace_front(std::piecewise_construct, std::forward_as_tuple(key),
-                        std::forward_as_tuple(atlas_, wanted));
-  else
-    kept_.emplace_front(std::piecewise_construct, std::forward_as_tuple(key),
-                        std::forward_as_tuple(atlas_, material, departure_ ? &*departure_ : nullptr));
+  kept_.emplace_front(std::piecewise_construct, std::forward_as_tuple(std::move(key)),
+                      std::forward_as_tuple(atlas_, material, departure_ ? &*departure_ : nullptr));
   if (kept_.size() > most) kept_.pop_back();
   return kept_.front().second;
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/scales.hpp"
 #include "calibrate/calibrate.hpp"
+#include "calibrate/kind/kind.hpp"
 
 namespace granulaw {
 
@@ -23,39 +23,25 @@ std::string stress(double pa)
   return fmt::format("{:.3g} Pa", pa);
 }
 
-/// Overlap over R* at which a specimen begins to yield under an indenter that does not.
-double onset_on(const LawMaterial& specimen, const LawMaterial& indenter)
-{
-  const double both = 1 / (1 / specimen.e_star() + 1 / indenter.e_star());
-  return onset_overlap(both, specimen.yield_stress, specimen.poisson_ratio);
-}
-
-/// What the data span, as the beginning of a sentence.
+/// The range of the data, as the beginning of a sentence.
 std::string span_of(const CalibrationProblem& problem, const Calibration& c)
 {
-  double slowest = 1e300, fastest = 0, deepest = 0;
-  const double onset = onset_overlap(c.material.e_star(), c.material.yield_stress, c.material.poisson_ratio);
+  const SphereLaws& laws = problem.laws().of(c.material);
+  Reach all;
   for (std::size_t k = 0; k < problem.request().measurements.size(); ++k) {
     const Measurement& m = problem.request().measurements[k];
-    const double share = m.partner == ImpactPartner::like_sphere ? 0.5 : 1.0;
-    const double e_star = c.material.e_star(),
-                 slow = yield_velocity(m.ball ? 1 / (1 / e_star + 1 / m.ball->e_star()) : e_star,
-                                       c.material.yield_stress, m.sphere_density(c.material.density));
-    for (const Datum& d : m.data) {
-      if (is_impact(m.kind))
-        slowest = std::min(slowest, share * d.x / slow), fastest = std::max(fastest, share * d.x / slow);
-      if (is_curve(m.kind))
-        deepest = std::max(deepest, (d.x - c.machines[k].offset) / m.effective_radius() / m.contacts() /
-                                        (m.indenter ? onset_on(c.material, *m.indenter) : onset));
-    }
+    const Reach r = m.kind->reach(m, {c.material, laws, c.machines[k]});
+    all.slowest = std::min(all.slowest, r.slowest), all.fastest = std::max(all.fastest, r.fastest);
+    all.overlap_over_onset = std::max(all.overlap_over_onset, r.overlap_over_onset);
   }
   std::string span;
-  if (fastest > 0)
-    span = fastest < 2 ? fmt::format("These impacts are all below {:.2g} V_y", fastest)
-                       : fmt::format("These impacts are at {:.2g} to {:.2g} V_y", slowest, fastest);
-  if (deepest > 0)
+  if (all.fastest > 0)
+    span = all.fastest < 2
+               ? fmt::format("These impacts are all below {:.2g} V_y", all.fastest)
+               : fmt::format("These impacts are at {:.2g} to {:.2g} V_y", all.slowest, all.fastest);
+  if (all.overlap_over_onset > 0)
     span += (span.empty() ? "The curve goes to " : ", the curve to ") +
-            fmt::format("{:.3g} times the overlap at which yield begins", deepest);
+            fmt::format("{:.3g} times the overlap at which yield begins", all.overlap_over_onset);
   return span.empty() ? "These data" : span;
 }
 
@@ -84,8 +70,7 @@ std::string clause(const FittedParameter& p)
 std::string bound_clause(const Calibration& c)
 {
   std::string names;
-  for (const FittedParameter& p : c.parameters)
-    names += (names.empty() ? "" : ", ") + std::string(name_of(p.parameter));
+  for (const FittedParameter& p : c.parameters) names += (names.empty() ? "" : ", ") + name_of(p.parameter);
   return fmt::format(
       "the fit lies at an end of the method's range, {}: neither value nor interval of {}. A value may be in "
       "another unit than SI, what is held fixed may be wrong, or the material lies outside.",
@@ -126,7 +111,7 @@ std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
 {
   const auto& all = problem.request().measurements;
   const bool fast_only =
-      std::all_of(all.begin(), all.end(), [](const Measurement& m) { return is_impact(m.kind); });
+      std::all_of(all.begin(), all.end(), [](const Measurement& m) { return m.kind->needs_density; });
   const bool hardens = std::any_of(c.parameters.begin(), c.parameters.end(), [](const FittedParameter& p) {
     return p.parameter != Parameter::youngs_modulus && p.parameter != Parameter::yield_stress &&
            p.profile.within68.low > 0;

@@ -84,7 +84,7 @@ Measurement platens(const Atlas& atlas, const LawMaterial& m, Chance& chance, do
   const ContactCurve::Reversal top = laws.midplane().reversal(x_m);
   const double offset = chance.uniform(-0.05, 0.05) * 2 * x_m * radius;
   Measurement measured;
-  measured.kind = MeasurementKind::platens;
+  measured.kind = &kind_named("platens", "study");
   measured.source = "platens";
   measured.radius = radius;
   measured.fit_offset = true;

@@ -1,23 +1,24 @@
 #include "calibration_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "calibrate/kind/kind.hpp"
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
 #include "characterise/law_material.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
 #include "plausible.hpp"
+#include "solver/material/law_table.hpp"
 
 namespace granulaw {
 
 namespace {
-
-constexpr const char* hardness_ratio = "hardness/yield_stress";
 
 std::string without_blanks(const std::string& word)
 {
@@ -30,19 +31,53 @@ double number_or_nan(const std::string& word)
   return number_in(without_blanks(word));
 }
 
-/// A range of a parameter; `what` is allowed besides.
-std::vector<ParameterRange> ranges_of(const std::vector<std::string>& words, const char* option,
-                                      std::optional<Range>* hardness)
+std::vector<std::string> words_of_kinds()
 {
-  std::vector<ParameterRange> found;
-  for (const std::string& word : words) {
-    const NamedRange r = parse_named_range(word, option);
-    if (hardness && r.name == hardness_ratio)
-      *hardness = r.range;
-    else
-      found.push_back({parameter_named(r.name, option), r.range});
+  std::vector<std::string> words;
+  for (const Kind* kind : kinds())
+    if (kind->word) words.emplace_back(kind->word);
+  return words;
+}
+
+/// "CSV files ...": each kind's header and help.
+std::string data_help()
+{
+  std::string text = "CSV files, SI, one kind of measurement each";
+  for (const Kind* kind : kinds()) {
+    text += fmt::format(";\n{}", kind->header());
+    if (kind->word) text += fmt::format(" (--kind {})", kind->word);
+    text += fmt::format(": {}", kind->help);
   }
-  return found;
+  return text +
+         ".\nEach with a further column NAME_sd where the standard deviation is known "
+         "(docs/guide/calibrate.md)";
+}
+
+/// "youngs_modulus, ...; with --hardening voce: saturation_stress, strain; ..."
+std::string fit_help()
+{
+  std::string text = "the wanted numbers: youngs_modulus, yield_stress, hardening_modulus";
+  for (const std::string& law : fitted_hardening_laws()) {
+    std::vector<std::string> names;
+    for (const Parameter p : parameters_of(law))
+      if (p != Parameter::hardening_modulus) names.push_back(name_of(p));
+    if (!names.empty()) text += fmt::format("; with --hardening {}: {}", law, fmt::join(names, ", "));
+  }
+  return text;
+}
+
+/// "hardness/yield_stress": of the kinds that may have it.
+std::string ratio_name(const Kind& kind)
+{
+  return fmt::format("{}/{}", kind.y.quantity, name_of(Parameter::yield_stress));
+}
+
+std::string ratio_names()
+{
+  std::string all;
+  for (const Kind* kind : kinds())
+    if (kind->has_ratio_to_yield) all += ", or " + ratio_name(*kind);
+  return all;
 }
 
 }  // namespace
@@ -71,22 +106,12 @@ Range parse_range(const std::string& word, const std::string& option, const std:
 
 void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
 {
-  CLI::Option* files = command.add_option(
-      "DATA", data,
-      "CSV files, SI, one kind of measurement each: velocity_m_per_s with restitution, contact_radius_m,\n"
-      "residual_displacement_m or contact_time_s; displacement_m,force_N; hardness_Pa; onset_force_N; each "
-      "with a\n"
-      "further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)");
+  CLI::Option* files = command.add_option("DATA", data, data_help());
   if (needs_data) files->required();
+  command.add_option("--fit", fit, fit_help())->required();
   command
-      .add_option("--fit", fit,
-                  "what is wanted: youngs_modulus, yield_stress, hardening_modulus; with --hardening voce: "
-                  "saturation_stress, strain; swift: exponent, offset; johnson-cook: strength, exponent")
-      ->required();
-  command
-      .add_option(
-          "--hardening", hardening,
-          "law: linear (from the atlas), voce, swift or johnson-cook (some laws are made by the solver)")
+      .add_option("--hardening", hardening,
+                  "law: linear, from the atlas; with any other some laws are made by the solver")
       ->check(CLI::IsMember(fitted_hardening_laws()))
       ->capture_default_str();
   command.add_option("--known", known, "NAME=VALUE, SI, of a parameter of --hardening that is not fitted");
@@ -103,13 +128,8 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
       ->check(above_zero());
   command.add_option("--hardening-modulus", hardening_modulus,
                      "Pa, where it is known and not fitted (default 0: perfectly plastic)");
-  command
-      .add_option(
-          "--kind", kind,
-          "of force curves. platens: a sphere between two plates, displacement of one towards the "
-          "other; flat: one contact, displacement of the sphere's middle; sphere: a spherical indenter, "
-          "its displacement towards the specimen's middle")
-      ->check(CLI::IsMember({"platens", "flat", "sphere"}))
+  command.add_option("--kind", kind, "of force curves, whose columns are the same: see DATA")
+      ->check(CLI::IsMember(words_of_kinds()))
       ->capture_default_str();
   command.add_option("--indenter-radius", indenter_radius, "m, with --kind sphere")
       ->check(above_zero_to(1e3));
@@ -144,9 +164,8 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
           "taken from its own scatter")
       ->check(above_zero_to(1))
       ->capture_default_str();
-  command.add_option(
-      "--prior", priors,
-      "'NAME = LOW..HIGH': known before, 95 % lie between; NAME as in --fit, or hardness/yield_stress");
+  command.add_option("--prior", priors,
+                     "'NAME = LOW..HIGH': known before, 95 % lie between; NAME as in --fit" + ratio_names());
   command.add_option("--bounds", bounds, "'NAME = LOW..HIGH': never outside");
   command.add_flag("--no-robust", plain, "outliers count by their square, as all other values");
   command.add_option("--name", name, "of the material in what is written")->capture_default_str();
@@ -154,43 +173,29 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
 
 namespace {
 
-/// The material of a wall or an indenter.
-LawMaterial partner_material(const std::string& path, const std::string& name, const char* option)
+/// The material of a wall, an indenter or a ball.
+LawMaterial material_of_other(const std::string& path, const std::string& name, const char* option)
 {
   const MaterialsFile file = read_materials(path);
   const Material& m = file.material(name);
   if (!m.hardening.name.empty() || m.rate_dependent() || !m.yield_surface.name.empty())
-    fail(option, "this material must yield by von Mises, harden linearly or not at all, and without a rate law",
+    fail(option,
+         "this material must yield by von Mises, harden linearly or not at all, and without a rate law",
          name);
   return law_material(name, m);
 }
 
 }  // namespace
 
-/// Puts the wall, or the ball, to all drops.
-void CalibrationOptions::set_partner(CalibrationRequest& r) const
-{
-  if (!wall.empty() && !ball.empty()) fail("--ball", "is given beside --wall: the one or the other is known");
-  const bool of_ball = !ball.empty();
-  const char* option = of_ball ? "--ball" : "--wall";
-  const LawMaterial material = partner_material(materials, of_ball ? ball : wall, option);
-  for (Measurement& measurement : r.measurements) {
-    if (!is_impact(measurement.kind)) continue;
-    if (measurement.kind != MeasurementKind::restitution || measurement.partner != ImpactPartner::rigid_wall)
-      fail(measurement.source, fmt::format("only restitution of drops goes with {}", option));
-    (of_ball ? measurement.ball : measurement.wall) = material;
-  }
-}
-
 /// The hardening law, and its parameters that are known.
 void CalibrationOptions::set_hardening(CalibrationRequest& r) const
 {
-  if (hardening == "linear") {
+  if (hardening == flow::Linear::name) {
     if (!known.empty()) fail("--known", "belongs to --hardening voce, swift or johnson-cook");
     return;
   }
   if (hardening_modulus) fail("--hardening-modulus", "belongs to linear hardening", hardening);
-  r.known.hardening = hardening;
+  r.known.hardening.name = hardening;
   for (const std::string& word : known) {
     const auto equals = word.find('=');
     const double value = equals == std::string::npos ? -1 : number_or_nan(word.substr(equals + 1));
@@ -203,30 +208,68 @@ void CalibrationOptions::set_hardening(CalibrationRequest& r) const
   }
 }
 
-void CalibrationOptions::set_indenter(Measurement& m) const
+const Kind& CalibrationOptions::curves() const
 {
-  if (!indenter_radius) fail("--indenter-radius", "is missing: --kind sphere needs it");
-  m.indenter_radius = *indenter_radius;
-  if (!indenter.empty()) m.indenter = partner_material(materials, indenter, "--indenter");
+  return **std::find_if(kinds().begin(), kinds().end(),
+                        [&](const Kind* k) { return k->word && k->word == kind; });
+}
+
+Measurement CalibrationOptions::form(const Kind& of, const std::string& source) const
+{
+  Measurement m;
+  m.kind = &of;
+  m.source = source;
+  if (of.needs_density && !density) fail("--density", "is missing: impacts depend on it");
+  m.radius = *radius;
+  m.partner = partner == "like" ? ImpactPartner::like_sphere : ImpactPartner::wall;
+  m.fit_offset = of.has_machine && !offset, m.fit_compliance = of.has_machine && compliance;
+  if (of.counterpart == Kind::Counterpart::indenter) {
+    if (!indenter_radius) fail("--indenter-radius", "is missing: --kind sphere needs it");
+    m.indenter_radius = *indenter_radius;
+    if (!indenter.empty()) m.counterpart = material_of_other(materials, indenter, "--indenter");
+  }
+  if (of.needs_density && !(wall.empty() && ball.empty())) {
+    if (!wall.empty() && !ball.empty())
+      fail("--ball", "is given beside --wall: the one or the other is known");
+    m.counterpart_is_ball = !ball.empty();
+    const char* option = m.counterpart_is_ball ? "--ball" : "--wall";
+    m.counterpart = material_of_other(materials, m.counterpart_is_ball ? ball : wall, option);
+    if (of.counterpart != Kind::Counterpart::wall || m.partner != ImpactPartner::wall)
+      fail(source, fmt::format("only restitution of drops goes with {}", option));
+  }
+  return m;
 }
 
 Measurement CalibrationOptions::measurement(const std::string& path) const
 {
-  const MeasurementKind curves = kind == "flat"     ? MeasurementKind::flat
-                                 : kind == "sphere" ? MeasurementKind::indenter
-                                                    : MeasurementKind::platens;
-  Measurement m = read_measurement(path, curves);
-  if (is_impact(m.kind) && !density) fail("--density", "is missing: impacts depend on it");
-  m.radius = *radius;
-  m.partner = partner == "like" ? ImpactPartner::like_sphere : ImpactPartner::rigid_wall;
-  if (m.kind == MeasurementKind::indenter) set_indenter(m);
-  if (is_curve(m.kind)) {
-    m.fit_offset = !offset, m.fit_compliance = compliance;
-    if (offset)
-      for (Datum& d : m.data) d.x -= *offset;
-  }
+  Measurement read = read_measurement(path, curves());
+  Measurement m = form(*read.kind, path);
+  m.data = std::move(read.data);
+  if (m.kind->has_machine && offset)
+    for (Datum& d : m.data) d.x -= *offset;
   complete_standard_deviations(m, relative_sd);
   return m;
+}
+
+/// Priors and bounds, and the ratio of a value to the yield stress.
+void CalibrationOptions::set_ranges(CalibrationRequest& r) const
+{
+  for (const std::string& word : priors) {
+    const NamedRange prior = parse_named_range(word, "--prior");
+    const auto with_ratio = std::find_if(kinds().begin(), kinds().end(), [&](const Kind* k) {
+      return k->has_ratio_to_yield && prior.name == ratio_name(*k);
+    });
+    if (with_ratio == kinds().end()) {
+      r.priors.push_back({parameter_named(prior.name, "--prior"), prior.range});
+      continue;
+    }
+    for (Measurement& m : r.measurements)
+      if (m.kind == *with_ratio) m.ratio_to_yield = {prior.range.low, prior.range.high};
+  }
+  for (const std::string& word : bounds) {
+    const NamedRange bound = parse_named_range(word, "--bounds");
+    r.bounds.push_back({parameter_named(bound.name, "--bounds"), bound.range});
+  }
 }
 
 void CalibrationOptions::check_plausible_numbers(const CalibrationRequest& r) const
@@ -236,18 +279,16 @@ void CalibrationOptions::check_plausible_numbers(const CalibrationRequest& r) co
   if (youngs_modulus)
     check_plausible("--youngs-modulus", "youngs_modulus", "youngs_modulus", *youngs_modulus);
   if (yield_stress) check_plausible("--yield-stress", "yield_stress", "yield_stress", *yield_stress);
+  // one line for a file: of its fastest impact, or its softest value
   for (const Measurement& m : r.measurements) {
-    const bool impacts = is_impact(m.kind);
-    if (!impacts && m.kind != MeasurementKind::hardness) continue;
-    // one line for a file: of its fastest impact, or its softest value
-    const Datum& d = *std::max_element(m.data.begin(), m.data.end(), [&](const Datum& a, const Datum& b) {
-      return impacts ? a.x < b.x : a.y > b.y;
-    });
-    const std::string where = fmt::format("{}:{}", m.source, d.line);
-    if (impacts)
-      check_plausible(where, "velocity", "velocity_m_per_s", d.x);
-    else
-      check_plausible(where, "hardness", "hardness_Pa", d.y);
+    const auto check = [&](const Column& column, double Datum::*value, double sign) {
+      if (!is_usual_quantity(column.quantity)) return;
+      const Datum& d = *std::max_element(m.data.begin(), m.data.end(), [=](const Datum& a, const Datum& b) {
+        return sign * a.*value < sign * b.*value;
+      });
+      check_plausible(fmt::format("{}:{}", m.source, d.line), column.quantity, column.name(), d.*value);
+    };
+    check(m.kind->x, &Datum::x, 1), check(m.kind->y, &Datum::y, -1);
   }
 }
 
@@ -275,10 +316,8 @@ CalibrationRequest CalibrationOptions::request() const
     if (std::find(r.fit.begin(), r.fit.end(), parameter) == r.fit.end() &&
         !(value_of(r.known, parameter) > 0))
       fail(option, fmt::format("is missing: give it, or add {} to --fit", name_of(parameter)));
-  r.priors = ranges_of(priors, "--prior", &r.hardness_ratio);
-  r.bounds = ranges_of(bounds, "--bounds", nullptr);
   for (const std::string& path : data) r.measurements.push_back(measurement(path));
-  if (!wall.empty() || !ball.empty()) set_partner(r);
+  set_ranges(r);
   check_plausible_numbers(r);
   r.known.density = density.value_or(1000);  // no curve of force depends on it
   return r;

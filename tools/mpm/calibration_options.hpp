@@ -9,7 +9,7 @@
 
 namespace granulaw {
 
-/// What `mpm calibrate` and `mpm design` take: data, what is known of the specimen, what is wanted.
+/// Options of `mpm calibrate` and `mpm design`: data, known and wanted numbers of the specimen.
 struct CalibrationOptions
 {
   std::vector<std::string> data, fit, priors, bounds, known;
@@ -24,12 +24,15 @@ struct CalibrationOptions
   void add_to(CLI::App& command, bool needs_data);
   /// The request, its files read and its words understood. Throws Error.
   CalibrationRequest request() const;
+  /// A measurement of this kind without data: radii, partner, machine.
+  Measurement form(const Kind& kind, const std::string& source) const;
+  /// The kind that --kind chooses of those whose columns are alike.
+  const Kind& curves() const;
 
  private:
   Measurement measurement(const std::string& path) const;
   void set_hardening(CalibrationRequest& request) const;
-  void set_indenter(Measurement& measurement) const;
-  void set_partner(CalibrationRequest& request) const;
+  void set_ranges(CalibrationRequest& request) const;
   void check_plausible_numbers(const CalibrationRequest& request) const;
 };
 

@@ -26,30 +26,6 @@ const char* word_of(Told told)
   }
 }
 
-const char* name_of_kind(MeasurementKind kind)
-{
-  switch (kind) {
-    case MeasurementKind::restitution:
-      return "restitution";
-    case MeasurementKind::platens:
-      return "platens";
-    case MeasurementKind::flat:
-      return "flat";
-    case MeasurementKind::indenter:
-      return "sphere";
-    case MeasurementKind::contact_radius:
-      return "contact radius";
-    case MeasurementKind::residual_displacement:
-      return "residual displacement";
-    case MeasurementKind::contact_time:
-      return "contact time";
-    case MeasurementKind::hardness:
-      return "hardness";
-    default:
-      return "onset force";
-  }
-}
-
 nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const Calibration& c,
                                         std::size_t k)
 {
@@ -57,7 +33,7 @@ nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const
   const CalibrationProblem::Comparison compared = problem.compare(c.minimum.q, k);
   nlohmann::ordered_json out;
   out["source"] = m.source;
-  out["kind"] = name_of_kind(m.kind);
+  out["kind"] = m.kind->name;
   if (m.fit_offset) out["offset_m"] = c.machines[k].offset;
   if (m.fit_compliance) {
     out["compliance_m_per_N"] = c.machines[k].compliance;

@@ -6,6 +6,7 @@
 #include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "calibrate/design.hpp"
+#include "calibrate/kind/kind.hpp"
 #include "calibration_options.hpp"
 #include "command.hpp"
 #include "json_output.hpp"
@@ -19,7 +20,7 @@ struct DesignRequest
 {
   CalibrationOptions options;
   std::string speeds, displacements;
-  std::vector<std::string> guess;
+  std::vector<std::string> guess, measure;
   int count = 8, places = 13;
   double highest = 10;
   bool json = false;
@@ -33,16 +34,15 @@ double drop_height(double speed)
 }
 
 /// Evenly in the logarithm, up to `most`, whose reason is `why`.
-void add_candidates(std::vector<DesignCandidate>& all, MeasurementKind kind, const std::string& range,
+void add_candidates(std::vector<DesignCandidate>& all, const Measurement& form, const std::string& range,
                     const char* option, int places, double most, const std::string& why)
 {
-  if (range.empty()) return;
   Range r = parse_range(range, option);
   if (r.low >= most) fail(option, "none of these measurements can be made", range, why);
   if (r.high > most) fmt::print(stderr, "mpm: {} {}: left out beyond {}\n", option, range, why);
   r.high = std::min(r.high, most);
   for (int k = 0; k < places; ++k)
-    all.push_back({kind, r.low * std::pow(r.high / r.low, static_cast<double>(k) / (places - 1))});
+    all.push_back({form, r.low * std::pow(r.high / r.low, static_cast<double>(k) / (places - 1))});
 }
 
 /// The material by which the design goes: the guess, else what the data say.
@@ -73,11 +73,21 @@ CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequ
   return m;
 }
 
+/// "impact at 2 m/s (from 0.2 m)", "platens to 1e-05 m", "hardness"
 std::string label(const DesignCandidate& c)
 {
-  return is_curve(c.kind)
-             ? fmt::format("platens to {:.3g} m", c.place)
-             : fmt::format("impact at {:.3g} m/s (from {:.3g} m)", c.place, drop_height(c.place));
+  const Kind& kind = *c.form.kind;
+  if (!kind.x.exists()) return kind.name;
+  if (kind.planned) return fmt::format("{} to {:.3g} m", kind.name, c.place);
+  return fmt::format("{} at {:.3g} m/s (from {:.3g} m)", &kind == kinds().front() ? "impact" : kind.name,
+                     c.place, drop_height(c.place));
+}
+
+/// As many copies of a candidate as shall be made: a curve is dear, one of it.
+std::vector<std::size_t> copies_of(const DesignRequest& r, const Design& design, std::size_t k)
+{
+  const bool once = design.candidates()[k].form.kind->planned;
+  return std::vector<std::size_t>(once ? 1 : static_cast<std::size_t>(r.count), k);
 }
 
 std::string cells(const ExpectedIntervals& widths)
@@ -95,10 +105,8 @@ void print(const DesignRequest& r, const Design& design, const std::vector<std::
   fmt::print("\n");
   if (has_data) fmt::print("{:<48}{}\n", "what there is", cells(design.expected({})));
   for (std::size_t k = 0; k < design.candidates().size(); ++k) {
-    const bool curve = is_curve(design.candidates()[k].kind);
-    const std::vector<std::size_t> copies(curve ? 1 : static_cast<std::size_t>(r.count), k);
-    fmt::print("{:<48}{}\n",
-               fmt::format("{} {}", curve ? "1" : std::to_string(r.count), label(design.candidates()[k])),
+    const std::vector<std::size_t> copies = copies_of(r, design, k);
+    fmt::print("{:<48}{}\n", fmt::format("{} {}", copies.size(), label(design.candidates()[k])),
                cells(design.expected(copies)));
   }
   const ExpectedIntervals best = design.expected(plan);
@@ -127,44 +135,68 @@ void print_as_json(const DesignRequest& r, const Design& design, const std::vect
   out["candidates"] = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < design.candidates().size(); ++k) {
     const DesignCandidate& c = design.candidates()[k];
-    const std::vector<std::size_t> copies(is_curve(c.kind) ? 1 : static_cast<std::size_t>(r.count), k);
-    out["candidates"].push_back({{"kind", is_curve(c.kind) ? "platens" : "restitution"},
-                                 {is_curve(c.kind) ? "displacement_m" : "velocity_m_per_s", c.place},
-                                 {"copies", copies.size()},
-                                 {"in_best", std::count(plan.begin(), plan.end(), k)},
-                                 {"expected95", widths_json(r, design.expected(copies))}});
+    const std::vector<std::size_t> copies = copies_of(r, design, k);
+    nlohmann::ordered_json candidate{{"kind", c.form.kind->name}};
+    if (c.form.kind->x.exists()) candidate[c.form.kind->x.name()] = c.place;
+    candidate["copies"] = copies.size();
+    candidate["in_best"] = std::count(plan.begin(), plan.end(), k);
+    candidate["expected95"] = widths_json(r, design.expected(copies));
+    out["candidates"].push_back(std::move(candidate));
   }
   out["best"] = widths_json(r, design.expected(plan));
   print_json(out, 2);
 }
 
-/// As fast as a drop from the highest place, and as the atlas goes for the material.
-void add_speeds(std::vector<DesignCandidate>& all, const DesignRequest& r, const CandidateMaterial& assumed)
+/// The kinds to choose from: those of --measure, else drops and the curves of --kind.
+std::vector<const Kind*> kinds_of(const DesignRequest& r)
+{
+  std::vector<const Kind*> chosen;
+  for (const std::string& name : r.measure) chosen.push_back(&kind_named(name, "--measure"));
+  if (!chosen.empty()) return chosen;
+  if (!r.speeds.empty()) chosen.push_back(kinds().front());
+  if (!r.displacements.empty()) chosen.push_back(&r.options.curves());
+  return chosen;
+}
+
+std::vector<DesignCandidate> candidates_of(const DesignRequest& r, const CandidateMaterial& assumed)
 {
   const double drop = std::sqrt(2 * gravity * r.highest),
                end = SphereLaws::fastest * std::sqrt(assumed.yield_stress / assumed.density);
-  add_candidates(all, MeasurementKind::restitution, r.speeds, "--speeds", r.places, std::min(drop, end),
-                 drop < end
-                     ? fmt::format("{:.3g} m/s, a drop from {:g} m (--highest)", drop, r.highest)
+  std::vector<DesignCandidate> all;
+  for (const Kind* kind : kinds_of(r)) {
+    const Measurement form = r.options.form(*kind, kind->name);
+    const auto needs = [&](const std::string& range, const char* option) {
+      if (range.empty()) fail(option, fmt::format("is missing: of the kind '{}'", kind->name));
+    };
+    if (!kind->x.exists()) {
+      all.push_back({form, 0});
+    } else if (kind->planned) {
+      needs(r.displacements, "--displacements");
+      const double deepest = kind->deepest(form) * form.effective_radius() * kind->contacts;
+      add_candidates(all, form, r.displacements, "--displacements", r.places, deepest,
+                     fmt::format("{:.3g} m, where the atlas ends", deepest));
+    } else {
+      needs(r.speeds, "--speeds");
+      add_candidates(
+          all, form, r.speeds, "--speeds", r.places, std::min(drop, end),
+          drop < end ? fmt::format("{:.3g} m/s, a drop from {:g} m (--highest)", drop, r.highest)
                      : fmt::format("{:.3g} m/s, where the atlas ends for this material (rho V^2/Y = {:g})",
                                    end, SphereLaws::fastest * SphereLaws::fastest));
+    }
+  }
+  return all;
 }
 
 void run(const DesignRequest& r)
 {
   const CalibrationRequest request = r.options.request();
   if (!r.speeds.empty() && !r.options.density) fail("--density", "is missing: impacts depend on it");
-  if (r.speeds.empty() && r.displacements.empty())
-    fail("mpm design", "nothing to choose from: give --speeds, --displacements or both");
+  if (r.speeds.empty() && r.displacements.empty() && r.measure.empty())
+    fail("mpm design", "nothing to choose from: give --speeds, --displacements or --measure");
   const std::optional<Atlas> atlas = own_atlas();
   if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/evidence/atlas.md)");
   const CandidateMaterial assumed = assumed_material(r, request, *atlas);
-  std::vector<DesignCandidate> candidates;
-  add_speeds(candidates, r, assumed);
-  const double deepest = 2 * MidplaneShapes::depth * *r.options.radius;
-  add_candidates(candidates, MeasurementKind::platens, r.displacements, "--displacements", r.places, deepest,
-                 fmt::format("{:.3g} m, where the atlas ends", deepest));
-  const Design design(*atlas, request, assumed, candidates, *r.options.radius, r.options.relative_sd);
+  const Design design(*atlas, request, assumed, candidates_of(r, assumed), r.options.relative_sd);
   const std::vector<std::size_t> plan = design.best(static_cast<std::size_t>(r.count));
   if (r.json)
     print_as_json(r, design, plan);
@@ -178,13 +210,17 @@ void define(CLI::App& command)
   r->options.add_to(command, false);
   command.add_option("--guess", r->guess,
                      "NAME=VALUE of what is fitted, Pa: the material to go by (default: what DATA say)");
+  command.add_option(
+      "--measure", r->measure,
+      "kinds that could be measured: restitution, hardness, ... (default: restitution at --speeds, "
+      "curves of --kind to --displacements)");
   command.add_option("--speeds", r->speeds, "LOW..HIGH, m/s: impacts that could be made");
   command
       .add_option("--highest", r->highest, "m: highest drop that can be made; faster impacts are left out")
       ->check(above_zero_to(1e3))
       ->capture_default_str();
   command.add_option("--displacements", r->displacements,
-                     "LOW..HIGH, m: largest displacements of curves between platens that could be made");
+                     "LOW..HIGH, m: largest displacements of curves that could be made");
   command.add_option("--count", r->count, "measurements to be made")
       ->check(whole_from_to(1, 100))
       ->capture_default_str();

@@ -44,6 +44,12 @@ void ask_nothing_of_units()
   is_silent = true;
 }
 
+bool is_usual_quantity(const std::string& quantity)
+{
+  return std::any_of(std::begin(usual), std::end(usual),
+                     [&](const Usual& u) { return quantity == u.quantity; });
+}
+
 void check_plausible(const std::string& where, const std::string& quantity, const std::string& key,
                      double value)
 {

@@ -8,8 +8,9 @@ namespace granulaw::flow {
 struct JohnsonCook
 {
   static constexpr const char* name = "johnson-cook";
-  static constexpr Parameter parameters[] = {{"strength", Quantity::stress, 0, no_limit},
-                                             {"exponent", Quantity::number, 0.05, 1}};
+  static constexpr Parameter parameters[] = {
+      {"strength", Quantity::stress, 0, no_limit, false, {.per_gain = 2}},
+      {"exponent", Quantity::number, 0.05, 1, false, {.number = 0.25}}};
 
   double yield, strength, exponent;
 

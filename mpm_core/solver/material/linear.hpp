@@ -9,7 +9,12 @@ namespace granulaw::flow {
 struct Linear
 {
   static constexpr const char* name = "linear";
-  static constexpr Parameter parameters[] = {{"modulus", Quantity::stress, 0, no_limit}};
+  static constexpr Parameter parameters[] = {{"modulus",
+                                              Quantity::stress,
+                                              0,
+                                              no_limit,
+                                              false,
+                                              {.per_yield = 0.3243606353500641}}};  // ln(1 + 2 H/Y) = .5
 
   double yield, modulus;
 

@@ -19,13 +19,30 @@ struct ValueAndSlope
 /// 1, Pa, 1/s, degrees: how a parameter is made dimensionless and named; of an angle the sine is kept.
 enum class Quantity { number, stress, rate, angle };
 
+/// Where a fit of a parameter begins, by the flow stress (1 + gain) Y that a law reaches at about a strain:
+/// (per_yield + per_gain gain) Y + per_strain strain + number. All 0: the flow stress goes in proportion to
+/// the parameter, and the yield stress sets it; it is not fitted.
+struct Start
+{
+  double per_yield = 0, per_gain = 0, per_strain = 0, number = 0;
+  constexpr double at(double yield_stress, double gain, double strain) const
+  {
+    return (per_yield + per_gain * gain) * yield_stress + per_strain * strain + number;
+  }
+  bool operator==(const Start&) const = default;
+};
+
 /// One key of a law in the materials file.
 struct Parameter
 {
   const char* key;
   Quantity quantity;
-  double least, most;  ///< allowed, both included
-  bool list = false;   ///< a list of numbers; else one number
+  double least, most;          ///< allowed, both included
+  bool list = false;           ///< a list of numbers, which is not fitted; else one number
+  Start start{};               ///< of a fit (mpm calibrate)
+  double least_per_yield = 0;  ///< of a stress: allowed from this share of the yield stress on
+
+  constexpr bool is_fitted() const { return !list && start != Start{}; }
 };
 
 inline constexpr double over_zero = std::numeric_limits<double>::min();

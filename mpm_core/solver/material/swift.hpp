@@ -8,9 +8,10 @@ namespace granulaw::flow {
 struct Swift
 {
   static constexpr const char* name = "swift";
-  static constexpr Parameter parameters[] = {{"strength", Quantity::stress, over_zero, no_limit},
-                                             {"exponent", Quantity::number, 0.05, 1},
-                                             {"offset", Quantity::number, 1e-12, 10}};
+  static constexpr Parameter parameters[] = {
+      {"strength", Quantity::stress, over_zero, no_limit},
+      {"exponent", Quantity::number, 0.05, 1, false, {.number = 0.25}},
+      {"offset", Quantity::number, 1e-12, 10, false, {.per_strain = 1}}};
 
   double strength, exponent, offset;
 

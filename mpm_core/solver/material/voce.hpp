@@ -8,14 +8,15 @@ namespace granulaw::flow {
 struct Voce
 {
   static constexpr const char* name = "voce";
-  static constexpr Parameter parameters[] = {{"saturation_stress", Quantity::stress, over_zero, no_limit},
-                                             {"strain", Quantity::number, 1e-6, 100}};
+  static constexpr Parameter parameters[] = {
+      {"saturation_stress", Quantity::stress, over_zero, no_limit, false, {.per_yield = 1, .per_gain = 1}, 1},
+      {"strain", Quantity::number, 1e-6, 100, false, {.per_strain = 1}}};
 
   double yield, saturation, per_strain;
 
   static const char* misuse(double yield_stress, const double* v)
   {
-    return v[0] < yield_stress
+    return v[0] < parameters[0].least_per_yield * yield_stress
                ? "'saturation_stress' is below yield_stress; strain softening is not supported"
                : nullptr;
   }

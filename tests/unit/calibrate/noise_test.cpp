@@ -13,7 +13,7 @@ TEST(Noise, FindsTheShareOfACurveWithoutAModel)
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   Measurement m;
-  m.kind = MeasurementKind::platens;
+  m.kind = &kind_named("platens", "test");
   for (int k = 1; k <= 200; ++k) {
     const double x = k / 200.0;
     m.data.push_back({x, std::pow(x, 1.5) * (1 + 0.02 * normal(random)), 0, k});
