@@ -93,13 +93,13 @@ struct TwoBodies
 
 RunSummary run_as_one_body(const UnlikePair& pair, double velocity, const RunOptions& options)
 {
-  return of_pair(run_impact(one_body(pair), velocity / wave_speed(pair), options).summary, pair);
+  return of_pair(impact(one_body(pair), {velocity / wave_speed(pair)}, {}, options).summary, pair);
 }
 
 RunResult two_body_impact(const UnlikePair& pair, double velocity, const RunOptions& options)
 {
   const TwoBodies bodies(pair);
-  return run_impact(bodies.first, velocity / wave_speed(pair), options, bodies.partner);
+  return impact(bodies.first, {velocity / wave_speed(pair)}, bodies.partner, options);
 }
 
 RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOptions& options)
@@ -129,7 +129,7 @@ RunSummary press_as_one_body(const UnlikePair& pair, double depth, double ramp, 
   const Particle sphere = one_body(pair);
   PressPlan plan;
   plan.depth = depth * sphere.radius, plan.ramp = ramp;
-  return of_pair(run_press(sphere, plan, options).summary, pair);
+  return of_pair(press(sphere, plan, {}, options).summary, pair);
 }
 
 RunSummary press_two_bodies(const UnlikePair& pair, double depth, double ramp, const RunOptions& options)
@@ -138,7 +138,7 @@ RunSummary press_two_bodies(const UnlikePair& pair, double depth, double ramp, c
   PressPlan plan;
   plan.depth = depth * pair.mapping().length(pair.r_eff());
   plan.ramp = ramp * std::max(1.0, pair.radius_ratio) / bodies.first.radius;
-  return run_press(bodies.first, plan, options, bodies.partner).summary;
+  return press(bodies.first, plan, bodies.partner, options).summary;
 }
 
 double UnlikePair::axis_speed_ratio() const

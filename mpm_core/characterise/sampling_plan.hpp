@@ -17,9 +17,13 @@ namespace granulaw {
 struct RunSource
 {
   std::function<RunResult(const Particle&, const PressPlan&, const RunOptions&)> press =
-      [](const Particle& p, const PressPlan& plan, const RunOptions& o) { return run_press(p, plan, o); };
+      [](const Particle& p, const PressPlan& plan, const RunOptions& o) {
+        return granulaw::press(p, plan, {}, o);
+      };
   std::function<RunResult(const Particle&, double, const RunOptions&)> impact =
-      [](const Particle& p, double velocity, const RunOptions& o) { return run_impact(p, velocity, o); };
+      [](const Particle& p, double velocity, const RunOptions& o) {
+        return granulaw::impact(p, {velocity}, {}, o);
+      };
 };
 
 /// sqrt(I) from which on the force at an impact's reversal swings with the body and with the cells: with 24

@@ -94,7 +94,7 @@ RunJob job_of(const Particle& particle, const std::string& body, const Certified
     thrown.orientation = impact.check.direction;
     thrown.turn = impact.turn;
     thrown.first_contact_only = true;
-    return run_body_impact(particle, thrown, options);
+    return granulaw::impact(particle, thrown, {}, options);
   };
   return job;
 }

@@ -65,12 +65,12 @@ RunSource two_body_runs(const UnlikePair& pair)
   source.press = [pair](const Particle& sphere, const PressPlan& plan, RunOptions options) {
     const Scene scene(pair, sphere.materials[0]);
     options.slowness *= scene.slowness;
-    return scene.as_one_body(run_press(scene.first, plan, options, scene.partner), 1.0);
+    return scene.as_one_body(press(scene.first, plan, scene.partner, options), 1.0);
   };
   source.impact = [pair](const Particle& sphere, double velocity, const RunOptions& options) {
     const Scene scene(pair, sphere.materials[0]);
     const double faster = 1 / std::sqrt(pair.one_body_density());
-    return scene.as_one_body(run_impact(scene.first, velocity * faster, options, scene.partner), faster);
+    return scene.as_one_body(impact(scene.first, {velocity * faster}, scene.partner, options), faster);
   };
   return source;
 }

@@ -100,9 +100,9 @@ struct PressPlan
 {
   double depth = 0;  ///< m, deepest overlap; with planes: way of those of speed 1. Over 0, up to 0.8 R
   Support support = Support::free;        ///< two dimensions
-  std::vector<double> partial_unloads{};  ///< m, two dimensions: ascending overlaps < depth at which the
-                                          ///< press unloads until the force ends, then reloads; each makes an
-                                          ///< unload and a reload segment
+  std::vector<double> partial_unloads{};  ///< m: ascending overlaps < depth at which the press unloads until
+                                          ///< the force ends, then reloads; each makes an unload and a reload
+                                          ///< segment
   double ramp = 0;                        ///< loading time in R/c*; 0: the default of the run
   std::vector<PressPlane> planes{};  ///< planes that press the body in three dimensions; none: its partner
 };
@@ -127,18 +127,6 @@ double force_at_depth(const RunResult& press, std::size_t plane);
 /// Loading time, R/c*, that a press to `depth` (over R) takes where its plan names none: slow enough for the
 /// rate-free law. `yield_over_e_star`: Y/E* of the weakest body; infinity: elastic.
 double default_press_ramp(double depth, double yield_over_e_star);
-
-// The same in one of the dimensions, whatever the scene would need.
-
-/// A body of revolution along its axis.
-RunResult run_impact(const Particle& particle, double velocity, const RunOptions& options = {},
-                     const Partner& partner = {});
-RunResult run_press(const Particle& particle, const PressPlan& plan, const RunOptions& options = {},
-                    const Partner& partner = {});
-
-/// A body of any shape among rigid planes.
-RunResult run_body_impact(const Particle& particle, const Approach& approach, const RunOptions& options = {});
-RunResult run_planes_press(const Particle& particle, const PressPlan& plan, const RunOptions& options = {});
 
 /// The grid that `GridKind::automatic` takes for a particle, and why, as the end of a sentence.
 struct GridChoice

@@ -79,8 +79,11 @@ Body flat_body(GridKind grid, const std::string& material, Precision precision)
 Body spatial_body(const std::string& material, Precision precision)
 {
   Plane wall{Vector3::UnitZ(), std::nan("")};
-  const SpatialSetup setup(sphere(material), Eigen::Matrix3d::Identity(), {wall}, {true, true, false});
-  return std::move(setup.build(0.05, 8, 0.0, precision).bodies.front());
+  RunOptions options;
+  options.precision = precision;
+  const SpatialSetup setup(sphere(material), Eigen::Matrix3d::Identity(), {wall}, {true, true, false},
+                           options);
+  return std::move(setup.build(0.05, 8, 0.0).bodies.front());
 }
 
 bool wanted(const std::string& name, int count, char** words)

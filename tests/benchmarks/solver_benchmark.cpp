@@ -41,7 +41,7 @@ void Impact_EY100_V100(benchmark::State& state)
   const Particle sphere = reference::unit_sphere(100);
   const double v = 100 * yield_velocity(1.0, 0.01, 1.0);
   RunResult r;
-  for (auto _ : state) r = run_impact(sphere, v, options(state));
+  for (auto _ : state) r = impact(sphere, {v}, {}, options(state));
   report(state, r.summary, reference::impact_EY100_V100_force, reference::impact_EY100_V100_e, 0.01);
 }
 
@@ -49,7 +49,7 @@ void Impact_elastic(benchmark::State& state)
 {
   const Particle sphere = reference::unit_sphere(0);
   RunResult r;
-  for (auto _ : state) r = run_impact(sphere, reference::elastic_impact_velocity(), options(state));
+  for (auto _ : state) r = impact(sphere, {reference::elastic_impact_velocity()}, {}, options(state));
   report(state, r.summary, reference::elastic_impact_force, 1.0, 1.0);
 }
 
@@ -60,7 +60,7 @@ void Press_EY100_depth002(benchmark::State& state)
   plan.depth = 0.02;
   plan.support = Support::midplane;
   RunResult r;
-  for (auto _ : state) r = run_press(sphere, plan, options(state));
+  for (auto _ : state) r = press(sphere, plan, {}, options(state));
   const reference::Press& p = reference::presses[0];
   report(state, r.summary, p.force, p.e, 0.01);
 }

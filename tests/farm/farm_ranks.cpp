@@ -54,7 +54,7 @@ RunJob impact(double velocity, double cost)
           [velocity](RunOptions options) {
             options.resolution = 8;
             options.shifted_grids = 1;
-            return run_impact(cheap_sphere(), velocity, options);
+            return impact(cheap_sphere(), {velocity}, {}, options);
           }};
 }
 

@@ -17,7 +17,7 @@ class FieldFile : public ScratchFolder
     options.shifted_grids = 1;
     options.estimate_error = false;
     options.fields = fields;
-    return run_impact(Particle::sphere(2e-3, soft_powder()), 2.6, options);
+    return impact(Particle::sphere(2e-3, soft_powder()), {2.6}, {}, options);
   }
 };
 

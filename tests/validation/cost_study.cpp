@@ -91,7 +91,7 @@ void study_spatial(const std::string& job, const Particle& sphere, double veloci
     for (const int cells : {6, 8, 11, 16}) {
       if (cells > (quick ? 8 : 16)) continue;
       o.resolution = cells, o.shifted_grids = shifted_grids;
-      rows.push_back(row(job, o, run_body_impact(sphere, {velocity}, o), reference));
+      rows.push_back(row(job, o, impact(sphere, {velocity}, {}, o), reference));
     }
 }
 
@@ -100,10 +100,10 @@ json study(const std::string& job, const Particle& sphere, double velocity, bool
   RunOptions o;
   o.grid = GridKind::mapped, o.precision = Precision::full;
   o.resolution = quick ? 40 : 56, o.shifted_grids = 8, o.courant = 0.5;
-  const RunResult reference = run_impact(sphere, velocity, o);
+  const RunResult reference = impact(sphere, {velocity}, {}, o);
   json found = {{"name", job}, {"reference_cells", o.resolution}, {"rows", json::array()}};
   o.resolution = quick ? 28 : 40;
-  found["reference"] = row(job, o, run_impact(sphere, velocity, o), reference);
+  found["reference"] = row(job, o, impact(sphere, {velocity}, {}, o), reference);
   o = {};
   for (const GridKind grid : {GridKind::mapped, GridKind::rectilinear, GridKind::updated})
     for (const Precision precision : {Precision::full, Precision::single}) {
@@ -113,7 +113,7 @@ json study(const std::string& job, const Particle& sphere, double velocity, bool
           if (cells > (quick ? 16 : grid == GridKind::updated ? 24 : 32)) continue;
           if (shifted_grids == 1 && grid != GridKind::mapped) continue;
           o.grid = grid, o.precision = precision, o.resolution = cells, o.shifted_grids = shifted_grids;
-          found["rows"].push_back(row(job, o, run_impact(sphere, velocity, o), reference));
+          found["rows"].push_back(row(job, o, impact(sphere, {velocity}, {}, o), reference));
         }
     }
   if (job == "plastic") study_spatial(job, sphere, velocity, quick, reference, found["rows"]);

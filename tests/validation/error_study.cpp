@@ -39,12 +39,12 @@ std::vector<Case> all_cases()
     const double v = ratio * yield_velocity(1, 1 / e_over_y, 1);
     cases.push_back(
         {fmt::format("impact E*/Y={:g} V/Vy={:g} nu={:g} H/E={:g}", e_over_y, ratio, nu, hardening),
-         [s, v](const RunOptions& o) { return run_impact(s, v, o); }});
+         [s, v](const RunOptions& o) { return granulaw::impact(s, {v}, {}, o); }});
   };
   const auto elastic_impact = [&](double v) {
     const Particle s = reference::unit_sphere(0);
     cases.push_back({fmt::format("impact elastic V/c={:g}", v),
-                     [s, v](const RunOptions& o) { return run_impact(s, v, o); }});
+                     [s, v](const RunOptions& o) { return granulaw::impact(s, {v}, {}, o); }});
   };
   const auto press = [&](double e_over_y, double depth, Support support, double nu = 0.3,
                          double hardening = 0) {
@@ -54,7 +54,7 @@ std::vector<Case> all_cases()
     cases.push_back(
         {fmt::format("press {} E*/Y={:g} to {:g} nu={:g} H/E={:g}",
                      support == Support::free ? "free" : "midplane", e_over_y, depth, nu, hardening),
-         [s, plan](const RunOptions& o) { return run_press(s, plan, o); }});
+         [s, plan](const RunOptions& o) { return granulaw::press(s, plan, {}, o); }});
   };
   for (const double ratio : {5., 10., 20., 50., 100., 200., 500., 1000.}) impact(100, ratio);
   for (const double ratio : {5., 30., 100.}) impact(30, ratio);

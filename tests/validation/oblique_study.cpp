@@ -81,7 +81,7 @@ RunJob job_of(const Particle& particle, const Case& c, double velocity, const Se
   job.run = [particle, thrown, s](const RunOptions& given) {
     RunOptions options = given;
     options.resolution = s.cells, options.shifted_grids = s.grids, options.grid = GridKind::spatial;
-    return run_body_impact(particle, thrown, options);
+    return impact(particle, thrown, {}, options);
   };
   return job;
 }

@@ -125,10 +125,12 @@ TEST_P(SpatialAllocations, NoneAfterTheFirstStep)
 {
   Plane wall{Vector3::UnitZ(), std::nan("")};
   wall.friction = 0.3;
+  RunOptions options;
+  options.precision = GetParam();
   const SpatialSetup setup(reference::unit_sphere(100), Eigen::Matrix3d::Identity(), {wall},
-                           {false, true, false});
+                           {false, true, false}, options);
   constexpr double velocity = 0.1;
-  Scene scene = setup.build(setup.expected_overlap(velocity), 6, 0.0, GetParam());
+  Scene scene = setup.build(setup.expected_overlap(velocity), 6, 0.0);
   Body& body = scene.bodies.front();
   const StableStep stable(body);
   throw_body(body, {velocity, 0, -velocity}, Vector3::Zero(), scene.centre);

@@ -18,7 +18,7 @@ TEST(Balance, ImpulseIsTheChangeOfMomentum)
   for (const Job& job : {elastic_impact(), plastic_impact()}) {
     RunOptions options;
     options.resolution = 12, options.shifted_grids = 1;
-    const RunResult r = run_impact(job.sphere, job.velocity, options);
+    const RunResult r = impact(job.sphere, {job.velocity}, {}, options);
     const double change = 4.0 / 3.0 * M_PI * job.velocity * (1 + r.summary.restitution_raw);
     EXPECT_NEAR(impulse(r.trace) / change, 1, 1e-12) << job.name;  // rounding of 1e4 steps; measured 2e-15
   }

@@ -92,8 +92,8 @@ TEST(LikeSpheres, AreTheRigidPlaneAtHalfTheVelocity)
 {
   const double v = 50 * yield_velocity(1, 0.01, 1);
   const RunOptions o = options_of(12, 4);
-  const RunSummary pair = run_impact(sphere(1, 100), 2 * v, o, against(sphere(1, 100))).summary;
-  const RunSummary plane = run_impact(sphere(1, 100), v, o).summary;
+  const RunSummary pair = impact(sphere(1, 100), {2 * v}, against(sphere(1, 100)), o).summary;
+  const RunSummary plane = impact(sphere(1, 100), {v}, {}, o).summary;
   // not the same numbers: the pair's contact sweeps until impulses change by 1e-7, the plane's is exact, and
   // its block is sized from both surfaces (measured: e 3e-6, F 8e-5, overlap 6e-5)
   EXPECT_NEAR(pair.restitution_raw, plane.restitution_raw, 1e-3 * plane.restitution_raw);
@@ -114,8 +114,8 @@ TEST_P(Exchange, ChangesNothing)
   const bool mapped = GetParam() == GridKind::mapped;
   const RunOptions o = options_of(mapped ? 16 : 12, mapped ? 4 : 8, GetParam());
   const Particle small = sphere(1, 100), large = sphere(3, 100);
-  const RunSummary a = run_impact(small, 0.01, o, against(large)).summary;
-  const RunSummary b = run_impact(large, 0.01, o, against(small)).summary;
+  const RunSummary a = impact(small, {0.01}, against(large), o).summary;
+  const RunSummary b = impact(large, {0.01}, against(small), o).summary;
   // The resolution's own error: 16 and 24 cells differ by 2e-3 in e, 1e-3 in F. Measured (mapped,
   // rectilinear): e 1.7e-3, 9e-4; F 1.6e-3, 5e-4; overlap 9e-4, 2e-4; at V = 0.004, 16 cells, 4 grids: 2e-4
   // in all.
@@ -138,7 +138,7 @@ class FiniteHertz
  public:
   FiniteHertz()
   {
-    const RunSummary s = run_impact(sphere(1, 0), 0.002, options_of(12, 2)).summary;
+    const RunSummary s = impact(sphere(1, 0), {0.002}, {}, options_of(12, 2)).summary;
     k_ = (std::pow(0.75 * s.force_max, 2.0 / 3.0) - s.delta_max) / s.force_max;
   }
   double k() const { return k_; }
@@ -164,7 +164,7 @@ TEST(Hertz, HoldsForUnlikeSpheresAndForWalls)
   };
   for (const Case c : {Case{3, 2}, Case{0.5, 0.5}, Case{1, 0}, Case{4, 0}}) {
     const Partner partner = c.radius > 0 ? against(sphere(c.radius, 0, c.stiffness)) : wall(0, c.stiffness);
-    const RunSummary s = run_impact(sphere(1, 0), 0.002, options_of(12, 2), partner).summary;
+    const RunSummary s = impact(sphere(1, 0), {0.002}, partner, options_of(12, 2)).summary;
     const double expected = hertz.overlap(s.force_max, 1, 1, c.stiffness, c.radius);
     // Next terms are of order delta/R = 0.01 and less in part; waves in the wall (1.5 % of the energy) shift
     // the peak. Measured 0.9995, 0.9997, 0.9967, 1.0014; without the correction 0.95 to 0.99.
@@ -177,8 +177,8 @@ TEST(Hertz, HoldsForUnlikeSpheresAndForWalls)
 TEST(Wall, BecomesThePlaneWhenStiff)
 {
   const RunOptions o = options_of(12, 4);
-  const RunSummary stiff = run_impact(sphere(1, 100), 0.005, o, wall(0, 1e4, 1e4)).summary;
-  const RunSummary rigid = run_impact(sphere(1, 100), 0.005, o).summary;
+  const RunSummary stiff = impact(sphere(1, 100), {0.005}, wall(0, 1e4, 1e4), o).summary;
+  const RunSummary rigid = impact(sphere(1, 100), {0.005}, {}, o).summary;
   EXPECT_NEAR(stiff.restitution, rigid.restitution, 1e-3);  // the wall's share of the compliance: 1e-4
   EXPECT_NEAR(stiff.force_max, rigid.force_max, 1e-3 * rigid.force_max);
   EXPECT_NEAR(stiff.delta_max, rigid.delta_max, 1e-3 * rigid.delta_max);
@@ -219,7 +219,7 @@ TEST(Wall, RadiatesWhatLambSays)
 {
   const Particle ball = sphere(1, 0);
   for (const double v : {0.001, 0.004}) {
-    const RunResult r = run_impact(ball, v, options_of(12, 2), wall(0));
+    const RunResult r = impact(ball, {v}, wall(0), options_of(12, 2));
     // dF/dt over spans of a fiftieth of the contact: longer than the grid noise's steps, short against the
     // pulse
     double squares = 0;
@@ -264,7 +264,7 @@ TEST(Wall, IsThickEnough)
   };
   const auto [e15, f15] = run_with(15);
   const auto [e60, f60] = run_with(60);
-  const RunResult used = run_impact(ball, v, o, wall(0));
+  const RunResult used = impact(ball, {v}, wall(0), o);
   const double force = TreatedLoading(used.trace).force(0.015);
   // What the wall's own recoil takes falls with its mass, what its far side adds to the stiffness with
   // 1/extent. Measured e .98615, .98511, .98498 and F 1.3023e-3, 1.3019e-3, 1.3018e-3 at 15, 30, 60 R.
@@ -279,9 +279,9 @@ TEST(Energy, IsBalancedWithTwoBodies)
 {
   const RunOptions o = options_of(12, 2);
   // plastic work by steps: measured 5e-4 at most
-  EXPECT_LT(run_impact(sphere(1, 0), 0.01, o, wall(100)).summary.energy_error, 1e-3);
-  EXPECT_LT(run_impact(sphere(1, 100), 0.01, o, wall(50, 0.5)).summary.energy_error, 1e-3);
-  EXPECT_LT(run_impact(sphere(1, 100), 0.01, o, against(sphere(2, 50, 2, 3))).summary.energy_error, 1e-3);
+  EXPECT_LT(impact(sphere(1, 0), {0.01}, wall(100), o).summary.energy_error, 1e-3);
+  EXPECT_LT(impact(sphere(1, 100), {0.01}, wall(50, 0.5), o).summary.energy_error, 1e-3);
+  EXPECT_LT(impact(sphere(1, 100), {0.01}, against(sphere(2, 50, 2, 3)), o).summary.energy_error, 1e-3);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ Particle rate_dependent()
 
 Run impact(const Particle& sphere, const Partner& partner = {}, double velocity = 0.05)
 {
-  return [=](const RunOptions& o) { return run_impact(sphere, velocity, o, partner); };
+  return [=](const RunOptions& o) { return impact(sphere, {velocity}, partner, o); };
 }
 
 Run press(Support support, const Partner& partner = {})
@@ -124,7 +124,7 @@ Run press(Support support, const Partner& partner = {})
   plan.support = support;
   plan.partial_unloads = {0.01, 0.02};
   plan.ramp = 10;
-  return [=](const RunOptions& o) { return run_press(soft(), plan, o, partner); };
+  return [=](const RunOptions& o) { return press(soft(), plan, partner, o); };
 }
 
 /// Three dimensions, with all that they keep: friction, spin, impulses at the markers.
@@ -132,14 +132,14 @@ Run oblique_impact()
 {
   Approach thrown{0.1};
   thrown.friction = 0.2, thrown.tangential_velocity = 0.1;
-  return [=](const RunOptions& o) { return run_body_impact(soft(), thrown, o); };
+  return [=](const RunOptions& o) { return impact(soft(), thrown, {}, o); };
 }
 
 Run cube_press()
 {
   PressPlan plan;
   plan.planes = named_planes("cube"), plan.depth = 0.08, plan.ramp = 10;
-  return [=](const RunOptions& o) { return run_planes_press(soft(), plan, o); };
+  return [=](const RunOptions& o) { return press(soft(), plan, {}, o); };
 }
 
 std::vector<Job> jobs()

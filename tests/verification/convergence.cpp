@@ -28,7 +28,7 @@ RunSummary run(const Job& job, int cells_across, int shifted_grids, double coura
   options.resolution = cells_across;
   options.shifted_grids = shifted_grids;
   options.courant = courant;
-  return run_impact(job.sphere, job.velocity, options).summary;
+  return impact(job.sphere, {job.velocity}, {}, options).summary;
 }
 
 double energy_swing(double courant)

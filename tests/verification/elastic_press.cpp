@@ -24,7 +24,7 @@ PressedSphere press_elastic(double nu, double depth, int cells_across)
   options.fields.frame = [&](const FieldFrame& f) {
     if (f.delta >= s.frame.delta) s.frame = f;  // of equal overlaps the last one: vibration has died out
   };
-  run_press(reference::unit_sphere(0, nu), plan, options);
+  press(reference::unit_sphere(0, nu), plan, {}, options);
   s.contact = hertz::under(s.frame.force);
   return s;
 }

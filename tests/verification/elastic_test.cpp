@@ -13,7 +13,7 @@ namespace {
 
 TEST(ElasticImpact, ReturnsAllEnergy)
 {
-  const RunResult r = run_impact(reference::unit_sphere(0), reference::elastic_impact_velocity());
+  const RunResult r = impact(reference::unit_sphere(0), {reference::elastic_impact_velocity()});
   EXPECT_GE(r.summary.restitution,
             0.999);  // what stays behind as vibration of the sphere is of order (V/c)^(3/5) 1e-3
   EXPECT_LE(r.summary.restitution, 1.0 + 1e-4);  // no energy from nowhere, beyond the step's own oscillation
@@ -30,7 +30,7 @@ TEST(ElasticPress, AgreesWithFiniteElements)
     PressPlan plan;
     plan.depth = depth;
     plan.support = Support::midplane;
-    const RunResult r = run_press(reference::unit_sphere(0), plan);
+    const RunResult r = press(reference::unit_sphere(0), plan);
     const TreatedLoading treated(r.trace);
     ASSERT_TRUE(treated.valid());
     for (const auto& point : reference::elastic_press)
@@ -52,8 +52,8 @@ TEST(GridNoise, MeanOverShiftedGridsRemovesIt)
   const Particle sphere = reference::unit_sphere(100);
   PressPlan plan;
   plan.depth = 0.02;
-  const double raw = run_press(sphere, plan, one).summary.grid_noise;
-  const double mean = run_press(sphere, plan, four).summary.grid_noise;
+  const double raw = press(sphere, plan, {}, one).summary.grid_noise;
+  const double mean = press(sphere, plan, {}, four).summary.grid_noise;
   EXPECT_GT(raw, 0.005);       // there is a grid noise to remove
   EXPECT_LT(mean, 0.5 * raw);  // its first three harmonics are gone; the rest is at most 1/4 for a saw-tooth
 }
@@ -71,18 +71,18 @@ TEST(BadInput, IsRefusedInOneSentence)
   };
   Particle bad = good;
   bad.materials[0].youngs_modulus = -1;
-  EXPECT_NE(message([&] { run_impact(bad, 0.001); }).find("youngs_modulus"), std::string::npos);
+  EXPECT_NE(message([&] { impact(bad, {0.001}); }).find("youngs_modulus"), std::string::npos);
   bad = good;
   bad.materials[0].poisson_ratio = 0.5;
-  EXPECT_NE(message([&] { run_impact(bad, 0.001); }).find("poisson_ratio"), std::string::npos);
-  EXPECT_NE(message([&] { run_impact(good, -1); }).find("velocity"), std::string::npos);
-  EXPECT_NE(message([&] { run_impact(good, 2.0); }).find("wave speed"), std::string::npos);
+  EXPECT_NE(message([&] { impact(bad, {0.001}); }).find("poisson_ratio"), std::string::npos);
+  EXPECT_NE(message([&] { impact(good, {-1}); }).find("velocity"), std::string::npos);
+  EXPECT_NE(message([&] { impact(good, {2.0}); }).find("wave speed"), std::string::npos);
   PressPlan plan;
   plan.depth = 1.5;
-  EXPECT_NE(message([&] { run_press(good, plan); }).find("depth"), std::string::npos);
+  EXPECT_NE(message([&] { press(good, plan); }).find("depth"), std::string::npos);
   RunOptions o;
   o.courant = 1.2;
-  EXPECT_NE(message([&] { run_impact(good, 0.001, o); }).find("courant"), std::string::npos);
+  EXPECT_NE(message([&] { impact(good, {0.001}, {}, o); }).find("courant"), std::string::npos);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ std::vector<EnergyShares> energy_audit(const Particle& sphere, double velocity, 
     strain_before = f.plastic_strain;
     shares.push_back({f.time, kinetic / whole, elastic / whole, plastic / whole});
   };
-  run_impact(sphere, velocity, options);
+  impact(sphere, {velocity}, {}, options);
   return shares;
 }
 

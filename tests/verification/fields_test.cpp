@@ -103,7 +103,7 @@ TEST(Fields, LookingChangesNothing)
 {
   RunOptions options;
   options.resolution = 8, options.shifted_grids = 2;
-  const RunResult blind = run_impact(powder, 2.6, options);
+  const RunResult blind = impact(powder, {2.6}, {}, options);
   std::vector<FieldFrame> frames;
   int nodes = 0, cells = 0, begun = 0;
   options.fields.frames = 20;
@@ -111,7 +111,7 @@ TEST(Fields, LookingChangesNothing)
     nodes = n, cells = int(c.size()), ++begun;
   };
   options.fields.frame = [&](const FieldFrame& f) { frames.push_back(f); };
-  const RunResult seen = run_impact(powder, 2.6, options);
+  const RunResult seen = impact(powder, {2.6}, {}, options);
   ASSERT_EQ(blind.trace.size(), seen.trace.size());
   for (std::size_t k = 0; k < seen.trace.size(); ++k) {
     EXPECT_EQ(blind.trace[k].force, seen.trace[k].force);
@@ -154,7 +154,7 @@ TEST_P(Motion, IsTheIntegralOfTheVelocity)
   std::vector<FieldFrame> frames;
   options.fields.frames = 1000;
   options.fields.frame = [&](const FieldFrame& f) { frames.push_back(f); };
-  run_impact(powder, 2.6, options);
+  impact(powder, {2.6}, {}, options);
   ASSERT_GT(frames.size(), 100u);
   const FieldFrame& first = frames.front();
   const std::size_t nodes = first.r.size();

@@ -340,8 +340,9 @@ RunResult collide(const Particle& sphere)
   options.resolution = 8;
   options.shifted_grids = 1;
   options.samples = 200;
-  return run_impact(
-      sphere, impact_speed * std::sqrt(sphere.materials[0].e_star() / sphere.materials[0].density), options);
+  return impact(sphere,
+                {impact_speed * std::sqrt(sphere.materials[0].e_star() / sphere.materials[0].density)}, {},
+                options);
 }
 
 /// Two spheres of different size, modulus and density with the same E*/Y, nu, V/c* and the same rates times
@@ -425,9 +426,9 @@ TEST(FlowLaws, SinglePrecision)
       const Particle sphere = Particle::sphere(1, material(c.hardening, rate));
       RunOptions options;
       options.resolution = 12, options.shifted_grids = 1;
-      const RunSummary full = run_impact(sphere, 0.01, options).summary;
+      const RunSummary full = impact(sphere, {0.01}, {}, options).summary;
       options.precision = Precision::single;
-      const RunSummary single = run_impact(sphere, 0.01, options).summary;
+      const RunSummary single = impact(sphere, {0.01}, {}, options).summary;
       EXPECT_NEAR(single.restitution / full.restitution, 1, 5e-7) << c.name << " " << rate.name;
       EXPECT_NEAR(single.force_max / full.force_max, 1, 5e-7) << c.name << " " << rate.name;
     }

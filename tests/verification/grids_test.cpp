@@ -260,7 +260,7 @@ void ThreeGrids::compare()
   const auto run = [&](GridKind grid, int cells) {
     RunOptions o;
     o.grid = grid, o.resolution = cells;
-    return run_impact(reference::unit_sphere(100), a.v_over_vy * yield_velocity(1, 0.01, 1), o);
+    return impact(reference::unit_sphere(100), {a.v_over_vy * yield_velocity(1, 0.01, 1)}, {}, o);
   };
   const RunResult mapped = run(GridKind::mapped, a.mapped), other = run(a.grid, a.cells);
   const TreatedLoading expected(mapped.trace), found(other.trace);

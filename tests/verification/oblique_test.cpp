@@ -22,6 +22,13 @@ Particle ball()
   return particle;
 }
 
+/// On the grid of three dimensions, whatever the scene would need.
+RunOptions in_space(RunOptions options)
+{
+  options.grid = GridKind::spatial;
+  return options;
+}
+
 RunResult thrown(double friction, double angle_tangent, double spin = 0)
 {
   Approach t;
@@ -29,7 +36,7 @@ RunResult thrown(double friction, double angle_tangent, double spin = 0)
   t.friction = friction, t.spin = spin;
   RunOptions options;
   options.resolution = 6, options.shifted_grids = 1;
-  return run_body_impact(ball(), t, options);
+  return impact(ball(), t, {}, in_space(options));
 }
 
 /// At 45 degrees, where it slides at first and then sticks.

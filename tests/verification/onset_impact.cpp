@@ -26,7 +26,7 @@ OnsetImpact impact_about_onset(double e_over_y, double nu, double v_over_onset, 
   };
   const double onset =
       yield_velocity(1, 1 / e_over_y, 1) * std::pow(hertz::onset(nu).pressure_ratio / 1.6, 2.5);
-  const RunResult run = run_impact(reference::unit_sphere(e_over_y, nu), v_over_onset * onset, options);
+  const RunResult run = impact(reference::unit_sphere(e_over_y, nu), {v_over_onset * onset}, {}, options);
 
   OnsetImpact found{};
   const double a = hertz::under(run.summary.force_max).a;

@@ -92,12 +92,12 @@ TEST(OnsetByPress, IsHertzs)
   const PressPlan plan{1.5 * onset, Support::free, {}, 0};
   RunOptions options;
   options.resolution = 16, options.shifted_grids = 2;
-  const RunResult without = run_press(sphere, plan, options);
+  const RunResult without = press(sphere, plan, {}, options);
   EXPECT_TRUE(without.yield_overlaps.empty());
   options.yield_stresses = {yield};
   for (const GridKind grid : {GridKind::mapped, GridKind::rectilinear}) {
     options.grid = grid;
-    const RunResult run = run_press(sphere, plan, options);
+    const RunResult run = press(sphere, plan, {}, options);
     ASSERT_EQ(run.yield_overlaps.size(), 1u);
     std::printf("%s: overlap at the onset %.4f of Hertz's\n", name_of(grid), run.yield_overlaps[0] / onset);
     EXPECT_NEAR(run.yield_overlaps[0] / onset, 1, std::sqrt(onset));

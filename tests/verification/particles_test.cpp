@@ -41,7 +41,7 @@ class SameBody : public testing::Test
   static constexpr double velocity = 0.0051;  // 100 V_y: overlap 0.03
   static RunResult run(const Particle& p, int grids)
   {
-    return run_impact(p, velocity, options_of(16, grids, GridKind::rectilinear));
+    return impact(p, {velocity}, {}, options_of(16, grids, GridKind::rectilinear));
   }
 };
 
@@ -168,7 +168,7 @@ TEST(Composite, BulkModulusIsHashins)
 /// Elastic, thrown at the rigid plane: force and overlap at the reversal.
 RunSummary elastic_impact(const Particle& p, double velocity, int cells = 16)
 {
-  return run_impact(p, velocity, options_of(cells, 2)).summary;
+  return impact(p, {velocity}, {}, options_of(cells, 2)).summary;
 }
 
 /// Hertz with the radius of curvature at the pole. The body is finite: its centre of mass comes nearer by k F
@@ -212,7 +212,7 @@ TEST(Shapes, ConeIsSneddons)
   Particle p = sphere(0);
   const double angle = 70 * M_PI / 180, tip = 0.02;
   p.profile = conical_tip(1, 70, tip);
-  const RunResult r = run_impact(p, 0.01, options_of(16, 2));
+  const RunResult r = impact(p, {0.01}, {}, options_of(16, 2));
   const TreatedLoading t(r.trace);
   const double d = r.summary.delta_max;
   EXPECT_GT(d, 3 * tip);
@@ -240,12 +240,12 @@ TEST(Hard, PoreBelowThePole)
   p.inclusions = {{0, 0.06, 0.05, -1}};  // a roof of 0.01 R
   PressPlan plan;
   plan.depth = 0.05;
-  const RunSummary open = run_press(p, plan, options_of(12, 1)).summary;
+  const RunSummary open = press(p, plan, {}, options_of(12, 1)).summary;
   EXPECT_LT(open.energy_error, 2e-3);  // measured 4e-4 at 16 cells: plastic work by steps
   EXPECT_GT(open.restitution, 0.2);
   EXPECT_LT(open.restitution, 0.7);
   plan.depth = 0.15;
-  EXPECT_NE(message_of([&] { run_press(p, plan, options_of(12, 1)); }).find("the pore at r = 0, z = 0.06"),
+  EXPECT_NE(message_of([&] { press(p, plan, {}, options_of(12, 1)); }).find("the pore at r = 0, z = 0.06"),
             std::string::npos);
 }
 
@@ -253,17 +253,17 @@ TEST(Hard, PoreBelowThePole)
 TEST(Hard, ThinShells)
 {
   const double v = 20 * yield_velocity(1, 0.01, 1);
-  const RunSummary plain = run_impact(sphere(100), v, options_of(8, 1, GridKind::rectilinear)).summary;
+  const RunSummary plain = impact(sphere(100), {v}, {}, options_of(8, 1, GridKind::rectilinear)).summary;
   Particle p = sphere(100);
   p.materials.push_back(p.materials.front());
   p.layers = {{0.02, 1}};
   p.materials[1].yield_stress *= 0.1;
-  const RunSummary soft = run_impact(p, v, options_of(8, 1)).summary;
+  const RunSummary soft = impact(p, {v}, {}, options_of(8, 1)).summary;
   EXPECT_LT(soft.energy_error, 1e-3);  // measured 3e-5
   EXPECT_LT(soft.restitution, plain.restitution);
   EXPECT_GT(soft.delta_max, plain.delta_max);
   p.materials[1].yield_stress = 0.1, p.materials[1].youngs_modulus *= 10;
-  const RunSummary hard = run_impact(p, v, options_of(8, 1)).summary;
+  const RunSummary hard = impact(p, {v}, {}, options_of(8, 1)).summary;
   EXPECT_LT(hard.energy_error, 1e-3);  // measured 5e-6
   EXPECT_GT(hard.restitution, plain.restitution);
   EXPECT_LT(hard.delta_max, plain.delta_max);
@@ -277,7 +277,7 @@ TEST(Hard, AFilmThatIsSqueezedOut)
   p.layers = {{0.02, 1}};
   p.materials[1].yield_stress *= 1e-3;
   const std::string message =
-      message_of([&] { run_impact(p, 20 * yield_velocity(1, 0.01, 1), options_of(8, 1)); });
+      message_of([&] { impact(p, {20 * yield_velocity(1, 0.01, 1)}, {}, options_of(8, 1)); });
   EXPECT_NE(message.find("squeezed"), std::string::npos) << message;
 }
 

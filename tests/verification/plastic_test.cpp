@@ -24,7 +24,7 @@ TEST_P(PlasticPress, AgreesWithFiniteElements)
   RunOptions options;
   options.threads = 2;
   const RunSummary s =
-      run_press(reference::unit_sphere(ref.e_over_y, ref.nu, ref.hardening_over_e), plan, options).summary;
+      press(reference::unit_sphere(ref.e_over_y, ref.nu, ref.hardening_over_e), plan, {}, options).summary;
   const double y = 1 / ref.e_over_y;
   // 1 %: the reference's own 0.4 % and the correction for its yield convention, 0.5 %
   EXPECT_NEAR(s.force_max / y, ref.force, 0.01 * ref.force);
@@ -51,7 +51,7 @@ TEST_P(FreeImpact, RestitutionAgreesWithThreeFormulations)
   RunOptions options;
   options.threads = 2;
   const RunSummary s =
-      run_impact(reference::unit_sphere(100), ref.v_over_vy * yield_velocity(1, 0.01, 1), options).summary;
+      impact(reference::unit_sphere(100), {ref.v_over_vy * yield_velocity(1, 0.01, 1)}, {}, options).summary;
   EXPECT_NEAR(s.restitution, ref.e, ref.tolerance);  // the references' own uncertainty and as much again
   EXPECT_LT(s.energy_error, 3e-4);  // measured 1e-4 at V/V_y = 500, 5e-7 at 5: plastic work by steps
 }
@@ -65,7 +65,7 @@ RunSummary deep_impact(int cells, double courant)
   options.resolution = cells;
   options.shifted_grids = 1;
   options.courant = courant;
-  return run_impact(reference::unit_sphere(100), 1500 * yield_velocity(1, 0.01, 1), options).summary;
+  return impact(reference::unit_sphere(100), {1500 * yield_velocity(1, 0.01, 1)}, {}, options).summary;
 }
 
 /// The scheme is of second order although its step shrinks fivefold on the way: half the step, a quarter of
@@ -92,7 +92,7 @@ TEST(Similarity, DimensionlessTracesAgree)
     RunOptions o;
     o.resolution = 8;
     o.shifted_grids = 1;
-    RunResult r = run_impact(s, 100 * yield_velocity(s.materials[0].e_star(), y, rho), o);
+    RunResult r = impact(s, {100 * yield_velocity(s.materials[0].e_star(), y, rho)}, {}, o);
     const Scales scale{radius, s.materials[0].e_star(), rho};
     for (auto& t : r.trace) t.delta /= scale.length, t.force /= scale.force();
     return r;

@@ -47,6 +47,13 @@ double customary_velocity(double stiffness)
   return yield_velocity(e_star, e_star / stiffness, density);
 }
 
+/// On the grid of three dimensions, whatever the scene would need.
+RunOptions in_space(RunOptions options)
+{
+  options.grid = GridKind::spatial;
+  return options;
+}
+
 RunOptions coarse(int cells, int grids = 1)
 {
   RunOptions options;
@@ -59,7 +66,7 @@ RunResult thrown(const Particle& p, double velocity, const std::array<double, 3>
 {
   Approach t{velocity};
   t.orientation = direction;
-  return run_body_impact(p, t, options);
+  return impact(p, t, {}, in_space(options));
 }
 
 /// Largest force of a frictionless elastic impact by Hertz (Johnson 1985, eq. 11.25), and the ellipse then.
@@ -195,7 +202,7 @@ TEST(SpatialShapesSlow, EllipsoidEndOnAgreesWithTheAxisymmetricSolver)
   Particle revolved = sphere(100);
   revolved.profile = Profile(ellipsoid(mm, 1.5));
   RunOptions fine = coarse(32, 4);
-  const RunSummary flat = run_impact(revolved, v, fine).summary;
+  const RunSummary flat = impact(revolved, {v}, {}, fine).summary;
   const Particle egg = particle(ellipsoid_shape(Vector3(1, 1, 1.5) * mm), 100);
   const RunSummary found = thrown(egg, v, {0, 0, -1}, coarse(10, 4)).summary;
   printf("end-on 2d e %.5f F %.5g d %.5g; 3d e %+.4f F %+.4f d %+.4f cpu %.1f\n", flat.restitution,
@@ -213,7 +220,7 @@ TEST(SpatialShapes, ObliqueImpactKeepsMomentumAndEnergy)
   const Particle egg = particle(ellipsoid_shape(Vector3(1.2, 1, 0.8) * mm), 100);
   Approach t{100 * customary_velocity(100)};
   t.orientation = {0.4, 0, 1}, t.friction = 0.3, t.tangential_velocity = 0.7 * t.velocity;
-  const RunResult r = run_body_impact(egg, t, coarse(6));
+  const RunResult r = impact(egg, t, {}, in_space(coarse(6)));
   Vector3 impulse = Vector3::Zero(), torque = Vector3::Zero();
   double before = 0;
   for (std::size_t k = 0; k < r.trace.size(); ++k) {
@@ -249,9 +256,9 @@ TEST(SpatialShapes, FirstContactOnlyEndsBeforeTheBodyHitsAgain)
   const Particle rod = particle(ellipsoid_shape(Vector3(1, 1, 3) * mm), 100);
   Approach t{400 * customary_velocity(100)};
   t.orientation = {std::sin(M_PI / 3), 0, -std::cos(M_PI / 3)};
-  const RunResult whole = run_body_impact(rod, t, coarse(6));
+  const RunResult whole = impact(rod, t, {}, in_space(coarse(6)));
   t.first_contact_only = true;
-  const RunResult first = run_body_impact(rod, t, coarse(6));
+  const RunResult first = impact(rod, t, {}, in_space(coarse(6)));
   EXPECT_LT(first.summary.contact_time, 0.7 * whole.summary.contact_time);
   EXPECT_LT(first.summary.steps, 0.7 * static_cast<double>(whole.summary.steps));
   const double end = first.trace.back().time;
@@ -266,11 +273,11 @@ TEST(SpatialShapesSlow, TurningTheBodyAgainstTheGridChangesLittle)
   Approach t{100 * customary_velocity(100)};
   RunOptions options = coarse(8, 4);
   options.estimate_error = true;
-  const RunSummary straight = run_body_impact(egg, t, options).summary;
+  const RunSummary straight = impact(egg, t, {}, in_space(options)).summary;
   options.estimate_error = false;
   for (const double degrees : {22.5, 45.0}) {
     t.turn = degrees * M_PI / 180;
-    const RunSummary turned = run_body_impact(egg, t, options).summary;
+    const RunSummary turned = impact(egg, t, {}, in_space(options)).summary;
     EXPECT_NEAR(turned.restitution / straight.restitution, 1, straight.error_estimate);
     EXPECT_NEAR(turned.force_max / straight.force_max, 1, straight.error_estimate);
   }

@@ -372,6 +372,13 @@ double customary_velocity(double stiffness)
   return yield_velocity(e_star, e_star / stiffness, 1000);
 }
 
+/// On the grid of three dimensions, whatever the scene would need.
+RunOptions in_space(RunOptions options)
+{
+  options.grid = GridKind::spatial;
+  return options;
+}
+
 RunOptions coarse(int cells, int grids = 1)
 {
   RunOptions options;
@@ -384,8 +391,8 @@ RunOptions coarse(int cells, int grids = 1)
 TEST(SpatialImpact, SphereAgreesWithTheAxisymmetricSolver)
 {
   const double v = 100 * customary_velocity(100);
-  const RunSummary flat = run_impact(sphere(100), v, coarse(24, 2)).summary;
-  const RunSummary found = run_body_impact(sphere(100), {v}, coarse(7, 2)).summary;
+  const RunSummary flat = impact(sphere(100), {v}, {}, coarse(24, 2)).summary;
+  const RunSummary found = impact(sphere(100), {v}, {}, in_space(coarse(7, 2))).summary;
   EXPECT_NEAR(found.restitution / flat.restitution, 1, 0.006);
   EXPECT_NEAR(found.force_max / flat.force_max, 1, 0.012);
   EXPECT_NEAR(found.delta_max / flat.delta_max, 1, 0.005);
@@ -398,9 +405,9 @@ TEST(SpatialImpact, SinglePrecisionChangesNothingOfWeight)
 {
   const double v = 100 * customary_velocity(100);
   RunOptions options = coarse(7, 1);
-  const RunSummary full = run_body_impact(sphere(100), {v}, options).summary;
+  const RunSummary full = impact(sphere(100), {v}, {}, in_space(options)).summary;
   options.precision = Precision::single;
-  const RunSummary single = run_body_impact(sphere(100), {v}, options).summary;
+  const RunSummary single = impact(sphere(100), {v}, {}, in_space(options)).summary;
   EXPECT_NE(single.restitution, full.restitution);
   EXPECT_NEAR(single.restitution / full.restitution, 1, 5e-5);
   EXPECT_NEAR(single.force_max / full.force_max, 1, 1e-4);
@@ -412,8 +419,8 @@ TEST(SpatialImpact, SinglePrecisionChangesNothingOfWeight)
 TEST(SpatialImpact, ElasticSphereAgreesWithTheAxisymmetricSolver)
 {
   const double v = 0.005 * std::sqrt(e_star / 1000);  // to 0.03 R
-  const RunSummary flat = run_impact(sphere(0), v, coarse(16, 1)).summary;
-  const RunSummary found = run_body_impact(sphere(0), {v}, coarse(7, 1)).summary;
+  const RunSummary flat = impact(sphere(0), {v}, {}, coarse(16, 1)).summary;
+  const RunSummary found = impact(sphere(0), {v}, {}, in_space(coarse(7, 1))).summary;
   EXPECT_NEAR(found.restitution / flat.restitution, 1, 0.003);
   EXPECT_NEAR(found.force_max / flat.force_max, 1, 0.01);
   EXPECT_LT(found.energy_error, 1e-3);
@@ -426,7 +433,7 @@ TEST(SpatialImpact, SlidingLosesFrictionTimesTheNormalImpulse)
 {
   Approach thrown{100 * customary_velocity(100)};
   thrown.tangential_velocity = 3 * thrown.velocity, thrown.friction = 0.1;
-  const RunResult r = run_body_impact(sphere(100), thrown, coarse(6));
+  const RunResult r = impact(sphere(100), thrown, {}, in_space(coarse(6)));
   const Rebound& rebound = *r.rebound;
   const double lost = thrown.tangential_velocity * (1 - rebound.tangential);
   EXPECT_NEAR(lost / (thrown.friction * thrown.velocity * (1 + rebound.normal)), 1, 1e-3);
@@ -441,7 +448,7 @@ RunResult press(const std::string& planes, double depth, int cells, int grids = 
 {
   PressPlan plan;
   plan.planes = named_planes(planes), plan.depth = depth * radius;
-  return run_planes_press(sphere(100), plan, coarse(cells, grids));
+  return press(sphere(100), plan, {}, coarse(cells, grids));
 }
 
 /// Mean force over Y R^2 about an overlap of `x` R.
@@ -496,7 +503,7 @@ TEST(SpatialPress, PlanesTurnedAgainstTheGrid)
   const double s = std::sqrt(0.5);
   for (const double a : {s, -s})
     for (const double b : {s, -s}) plan.planes.push_back({{a, b, 0}, {}, 1, 0});
-  const RunResult turned = run_planes_press(sphere(100), plan, coarse(7)), straight = press("cube", 0.11, 7);
+  const RunResult turned = press(sphere(100), plan, {}, coarse(7)), straight = press("cube", 0.11, 7);
   for (const std::size_t k : {std::size_t{0}, std::size_t{2}})
     EXPECT_NEAR(force_at_depth(turned, k) / force_at_depth(straight, k), 1,
                 0.015);  // grid noise of each: 1 %

@@ -49,7 +49,7 @@ RunResult planes(const char* arrangement, double depth, double friction = 0)
   PressPlan plan;
   plan.planes = named_planes(arrangement), plan.depth = depth, plan.ramp = 30;
   for (PressPlane& plane : plan.planes) plane.friction = friction;
-  return run_planes_press(sphere(), plan, coarse(GridKind::spatial, 6));
+  return press(sphere(), plan, {}, coarse(GridKind::spatial, 6));
 }
 
 }  // namespace
@@ -60,49 +60,48 @@ const std::vector<TracedRun>& traced_runs()
   const FlowLaw rate{"cowper-symonds", {{"reference_rate", {0.02}}, {"exponent", {5}}}};
   const double slow = 0.004, fast = 0.03;
   static const std::vector<TracedRun> runs{
-      {"mapped-perfect", 1e-12, [=] { return run_impact(sphere(), fast, coarse(GridKind::mapped, 10, 2)); }},
+      {"mapped-perfect", 1e-12,
+       [=] { return impact(sphere(), {fast}, {}, coarse(GridKind::mapped, 10, 2)); }},
       {"mapped-elastic", 1e-12,
-       [=] { return run_impact(reference::unit_sphere(0), slow, coarse(GridKind::mapped)); }},
+       [=] { return impact(reference::unit_sphere(0), {slow}, {}, coarse(GridKind::mapped)); }},
       {"rectilinear-layered", 1e-12,
-       [=] { return run_impact(layered(), slow, coarse(GridKind::rectilinear)); }},
-      {"updated-voce", 1e-12, [=] { return run_impact(sphere(voce), fast, coarse(GridKind::updated)); }},
+       [=] { return impact(layered(), {slow}, {}, coarse(GridKind::rectilinear)); }},
+      {"updated-voce", 1e-12, [=] { return impact(sphere(voce), {fast}, {}, coarse(GridKind::updated)); }},
       {"two-bodies-rated", 1e-12,
        [=] {
          Partner partner;
          partner.particle = sphere().scaled(1.5);
-         return run_impact(sphere(voce, rate), fast, coarse(GridKind::mapped), partner);
+         return impact(sphere(voce, rate), {fast}, partner, coarse(GridKind::mapped));
        }},
       {"press-midplane", 1e-12,
        [=] {
-         return run_press(reference::unit_sphere(stiffness, 0.3, 0.1), {0.04, Support::midplane, {}, 30},
-                          coarse(GridKind::mapped));
+         return press(reference::unit_sphere(stiffness, 0.3, 0.1), {0.04, Support::midplane, {}, 30}, {},
+                      coarse(GridKind::mapped));
        }},
       {"press-stops", 1e-12,
        [=] {
-         return run_press(sphere(), {0.04, Support::free, {0.01, 0.025}, 30}, coarse(GridKind::rectilinear));
+         return press(sphere(), {0.04, Support::free, {0.01, 0.025}, 30}, {}, coarse(GridKind::rectilinear));
        }},
       {"single-precision", 5e-6,
        [=] {
          RunOptions o = coarse(GridKind::rectilinear);
          o.precision = Precision::single;
-         return run_impact(sphere(voce), fast, o);
+         return impact(sphere(voce), {fast}, {}, o);
        }},
-      {"spatial-perfect", 5e-11,
-       [=] { return run_body_impact(sphere(), {fast}, coarse(GridKind::spatial, 6)); }},
+      {"spatial-perfect", 5e-11, [=] { return impact(sphere(), {fast}, {}, coarse(GridKind::spatial, 6)); }},
       {"spatial-friction", 5e-11,
        [=] {
          Approach thrown{fast};
          thrown.tangential_velocity = fast, thrown.spin = 0.01, thrown.friction = 0.3;
-         return run_body_impact(sphere(voce, rate), thrown, coarse(GridKind::spatial, 6));
+         return impact(sphere(voce, rate), thrown, {}, coarse(GridKind::spatial, 6));
        }},
       {"spatial-first-contact", 5e-11,
        [=] {
          Approach thrown{fast};
          thrown.orientation = {0.3, 0.2, -0.9}, thrown.turn = 0.4, thrown.first_contact_only = true;
-         return run_body_impact(ellipsoid(), thrown, coarse(GridKind::spatial, 6));
+         return impact(ellipsoid(), thrown, {}, coarse(GridKind::spatial, 6));
        }},
-      {"spatial-layered", 5e-11,
-       [=] { return run_body_impact(layered(), {slow}, coarse(GridKind::spatial, 6)); }},
+      {"spatial-layered", 5e-11, [=] { return impact(layered(), {slow}, {}, coarse(GridKind::spatial, 6)); }},
       {"spatial-cube", 5e-11, [=] { return planes("cube", 0.03); }},
       {"spatial-die-friction", 5e-11, [=] { return planes("die", 0.03, 0.2); }}};
   return runs;

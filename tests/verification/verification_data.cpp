@@ -40,7 +40,7 @@ void write_identities(const File& open)
     const Job job = plastic_impact();
     RunOptions options;
     options.resolution = cells, options.shifted_grids = 1;
-    const RunResult r = run_impact(job.sphere, job.velocity, options);
+    const RunResult r = impact(job.sphere, {job.velocity}, {}, options);
     const double momentum = 4.0 / 3.0 * M_PI * job.velocity * (1 + r.summary.restitution_raw);
     out.print("{},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e}\n", cells, i.patch, i.equilibrium, i.momentum, i.mass,
               std::abs(impulse(r.trace) / momentum - 1));
@@ -168,13 +168,13 @@ void write_references(const File& open)
   PressPlan plan;
   plan.support = Support::midplane;
   plan.depth = 0.01;
-  const TreatedLoading loading(run_press(reference::unit_sphere(0), plan).trace);
+  const TreatedLoading loading(press(reference::unit_sphere(0), plan).trace);
   for (const auto& p : reference::elastic_press)
     line(fmt::format("elastic press at {} R", p.delta), "force", loading.force(p.delta), p.force);
   for (const reference::Press& p : reference::presses) {
     plan.depth = p.depth;
     const Particle sphere = reference::unit_sphere(p.e_over_y, p.nu, p.hardening_over_e);
-    const RunSummary s = run_press(sphere, plan).summary;
+    const RunSummary s = press(sphere, plan).summary;
     const std::string name =
         fmt::format("E*/Y = {} H/E = {} to {} R", p.e_over_y, p.hardening_over_e, p.depth);
     line(name, "force", s.force_max * p.e_over_y, p.force);
@@ -184,7 +184,7 @@ void write_references(const File& open)
   for (const reference::Impact& i : reference::impacts) {
     const double v = i.v_over_vy * yield_velocity(1, 0.01, 1);
     line(fmt::format("E*/Y = 100 at V/V_y = {}", i.v_over_vy), "impact e",
-         run_impact(reference::unit_sphere(100), v).summary.restitution, i.e);
+         impact(reference::unit_sphere(100), {v}).summary.restitution, i.e);
   }
 }
 

@@ -206,8 +206,8 @@ TEST(DruckerPrager, FrictionlessIsVonMises)
       const Material m = frictional(0, 0, hardening);
       Material plain = m;
       plain.yield_surface = {};
-      const RunResult a = run_impact(Particle::sphere(1, m), 0.02, coarse(grid));
-      const RunResult b = run_impact(Particle::sphere(1, plain), 0.02, coarse(grid));
+      const RunResult a = impact(Particle::sphere(1, m), {0.02}, {}, coarse(grid));
+      const RunResult b = impact(Particle::sphere(1, plain), {0.02}, {}, coarse(grid));
       ASSERT_EQ(a.trace.size(), b.trace.size());
       for (std::size_t k = 0; k < a.trace.size(); ++k) ASSERT_EQ(a.trace[k].force, b.trace[k].force) << k;
     }
@@ -219,13 +219,13 @@ TEST(DruckerPrager, ImpactsCloseTheirEnergy)
 {
   for (const Angles a : {Angles{20, 0}, Angles{35, 10}, Angles{35, 35}}) {
     const Particle sphere = Particle::sphere(1, frictional(a.friction, a.dilatancy));
-    const RunSummary flat = run_impact(sphere, 0.015, coarse(GridKind::mapped)).summary;
+    const RunSummary flat = impact(sphere, {0.015}, {}, coarse(GridKind::mapped)).summary;
     EXPECT_LT(flat.energy_error, 1.5e-3) << a.friction;
     RunOptions shorter = coarse(GridKind::mapped);
     shorter.courant *= 0.5;
-    EXPECT_LT(run_impact(sphere, 0.015, shorter).summary.energy_error, 0.6 * flat.energy_error) << a.friction;
-    const RunSummary body =
-        run_body_impact(sphere, {0.015}, coarse(GridKind::spatial)).summary;
+    EXPECT_LT(impact(sphere, {0.015}, {}, shorter).summary.energy_error, 0.6 * flat.energy_error)
+        << a.friction;
+    const RunSummary body = impact(sphere, {0.015}, {}, coarse(GridKind::spatial)).summary;
     EXPECT_LT(body.energy_error, 2e-3) << a.friction;
     EXPECT_NEAR(body.restitution / flat.restitution, 1, 0.03);  // single grids of eight cells: 1 to 2 % each
   }
@@ -245,7 +245,7 @@ std::string message_of(const std::function<void()>& run)
 TEST(DruckerPrager, IsRefusedOnTheUpdatedGrid)
 {
   const Particle sphere = Particle::sphere(1, frictional(30, 0));
-  const std::string message = message_of([&] { run_impact(sphere, 0.015, coarse(GridKind::updated)); });
+  const std::string message = message_of([&] { impact(sphere, {0.015}, {}, coarse(GridKind::updated)); });
   EXPECT_NE(message.find("'updated'"), std::string::npos) << message;
   EXPECT_NE(message.find("volume"), std::string::npos) << message;
 }

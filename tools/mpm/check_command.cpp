@@ -132,7 +132,7 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, const Character
 {
   const LawMaterial& m = body.material;
   const RunSummary run = shown(name, [&](const RunOptions& options) {
-    return run_impact(characterised.particle, velocity * characterised.scale.velocity(), options).summary;
+    return impact(characterised.particle, {velocity * characterised.scale.velocity()}, {}, options).summary;
   });
   const double run_force = run.force_max / characterised.scale.force();
   const Scales unit{characterised.scale.length, m.e_star(), m.density};

@@ -6,7 +6,7 @@
 
 namespace granulaw {
 
-/// A run of one job under given options: run_impact or run_press with everything else bound.
+/// A run of one job under given options: impact() or press() with everything else bound.
 using Run = std::function<RunResult(const RunOptions&)>;
 
 /// The coarse partner of a resolution: 0.7 of it, at least 6.

@@ -134,11 +134,10 @@ Scales scales_of(const Particle& p)
 
 Collision::Collision(const Particle& particle, const Partner& partner, const RunOptions& options,
                      Support support)
-    : particle_(particle), partner_(partner), options_(options), support_(support)
+    : Setup(scales_of(particle)), particle_(particle), partner_(partner), options_(options), support_(support)
 {
   check_bodies();
   check_grid();
-  scale_ = scales_of(particle);
   double compliance = 1, inverse_mass = scale_.mass() / mass_of(particle), inverse_radius = 0;
   const auto pole = [&](const Particle& p) {
     return std::min(5.0, p.pole_curvature_radius() / scale_.length);
@@ -171,8 +170,7 @@ void Collision::check_grid() const
 {
   const bool two = partner_.particle || partner_.wall;
   if (options_.grid == GridKind::spatial)
-    fail("--grid", "three dimensions have runs of their own, which impact() and press() choose",
-         name_of(options_.grid), "mapped, rectilinear, updated");
+    fail("--grid", "is one of three dimensions", name_of(options_.grid), "mapped, rectilinear, updated");
   if (options_.grid == GridKind::mapped)
     for (const Particle* p : {&particle_, partner_.particle ? &*partner_.particle : nullptr})
       if (p && !p->is_homogeneous_sphere())
@@ -295,6 +293,18 @@ Body Collision::body_of(const Particle& p, double block, int cells, double shift
   if (grid == GridKind::mapped) return fitted_sphere(p, block, cells, shift);
   const CutSection section = section_of(p, block, cells, shift);
   return grid == GridKind::updated ? updated_body(section) : rectilinear_body(section);
+}
+
+/// 20, and more for deep contacts, where steps are few and strains large.
+int Collision::cells(const RunOptions& options, double deepest) const
+{
+  return cells_of(options, std::round(20 * (1 + std::min(1.0, deepest / 0.15))), 200, "");
+}
+
+std::unique_ptr<Drive> Collision::drive() const
+{
+  if (support_ == Support::midplane) return std::make_unique<EquatorPlane>();
+  return std::make_unique<BodyForce>();
 }
 
 Scene Collision::build(double deepest, int cells, double shift) const

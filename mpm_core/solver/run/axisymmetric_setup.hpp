@@ -2,8 +2,8 @@
 
 #include "base/scales.hpp"
 #include "solver/grid/rectilinear_body.hpp"
+#include "solver/run/setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/contact/scene.hpp"
 
 namespace granulaw {
 
@@ -14,23 +14,21 @@ Scales scales_of(const Particle& particle);
 Phase phase_of(const Material& material, const Scales& scale);
 
 /// A particle and its partner as the estimates below and the grids need them; solver units.
-class Collision
+class Collision : public Setup
 {
  public:
   /// Throws Error if the pair cannot be run as asked.
   Collision(const Particle& particle, const Partner& partner, const RunOptions& options, Support support);
 
-  double reduced_mass() const { return reduced_mass_; }
-  /// 1/(1/E*_1 + 1/E*_2); 1 against the rigid plane.
-  double e_star() const { return e_star_; }
-  /// Largest overlap that an impact can be expected to reach, about; up to 0.9.
-  double expected_overlap(double velocity) const;
-  /// Smallest yield stress of the particles that yield, infinity if none does.
-  double yield_stress() const { return yield_; }
+  double e_star() const override { return e_star_; }
+  double expected_overlap(double velocity) const override;
+  double yield_stress() const override { return yield_; }
+  int cells(const RunOptions& options, double deepest) const override;
 
   /// Bodies at rest, touching, for an overlap up to `deepest`, with `cells` across the contact block; grid
   /// lines shifted by `shift` of a cell.
-  Scene build(double deepest, int cells, double shift) const;
+  Scene build(double deepest, int cells, double shift) const override;
+  std::unique_ptr<Drive> drive() const override;
 
  private:
   /// Radius on the reference surface that the contact covers at overlap x. Sets the block only.
@@ -48,7 +46,6 @@ class Collision
   Partner partner_;
   RunOptions options_;
   Support support_;
-  Scales scale_;
   double e_star_ = 1, yield_ = 0, length_ = 1, reduced_mass_ = 0;
 };
 

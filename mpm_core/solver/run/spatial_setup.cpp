@@ -33,13 +33,21 @@ bool equal(const Vector3& a, const Vector3& b)
 
 }  // namespace
 
+Plane touching_plane(const Vector3& normal)
+{
+  return {normal, std::numeric_limits<double>::quiet_NaN()};
+}
+
 SpatialSetup::SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation,
-                           std::vector<Plane> planes, const std::array<bool, 3>& may_mirror)
-    : particle_(particle),
+                           std::vector<Plane> planes, const std::array<bool, 3>& may_mirror,
+                           const RunOptions& options)
+    : Setup(scales_of(particle)),
+      particle_(particle),
       solid_(shape_of(particle)),
       rotation_(particle.is_sphere() && particle.inclusions.empty() ? Eigen::Matrix3d::Identity() : rotation),
-      scale_(scales_of(particle)),
-      planes_(std::move(planes))
+      planes_(std::move(planes)),
+      drawn_(options.fields),
+      single_(options.precision == Precision::single)
 {
   for (const Material& m : particle.materials) validate(m, "particle");
   validate(particle, "particle");
@@ -109,19 +117,26 @@ void SpatialSetup::drop_mirrored_planes()
   planes_ = kept;
 }
 
-Eigen::Matrix3d SpatialSetup::inertia() const
+std::optional<Eigen::Matrix3d> SpatialSetup::exact_inertia() const
 {
+  if (!particle_.layers.empty() || !particle_.inclusions.empty()) return {};
   return rotation_ * solid_->mass_properties().inertia * rotation_.transpose() / std::pow(scale_.length, 5);
 }
 
-std::vector<double> SpatialSetup::speeds() const
+/// 8, as a certificate over orientations (characterise/shape_certificate.cpp).
+int SpatialSetup::cells(const RunOptions& options, double) const
+{
+  return cells_of(options, 8, 100, " in three dimensions");
+}
+
+std::unique_ptr<Drive> SpatialSetup::drive() const
 {
   std::vector<double> speeds;
   for (const Plane& plane : planes_) speeds.push_back(plane.velocity);
-  return speeds;
+  return std::make_unique<MovingPlanes>(speeds);
 }
 
-void SpatialSetup::give_mirrored_planes(std::vector<PlaneTrace>& planes) const
+void SpatialSetup::give_planes(std::vector<PlaneTrace>& planes) const
 {
   std::vector<PlaneTrace> all;
   for (std::size_t k = 0; k < given_.size(); ++k) {
@@ -250,18 +265,20 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
   return s;
 }
 
-Scene SpatialSetup::build(double deepest, int cells, double shift, Precision precision) const
+Scene SpatialSetup::build(double deepest, int cells, double shift) const
 {
   Scene scene;
   scene.bodies.push_back(spatial_body(section(deepest, cells, shift)));
   Body& body = scene.bodies.front();
-  if (precision == Precision::single) body.use_single();
+  if (single_) body.use_single();
   scene.outward = planes_.front().normal;
   for (int i = 0; i < body.nodes(); ++i)
     scene.centre += body.reference().mass_i[i] / body.mass() * reference_place(body, i);
   for (int d = 0; d < 3; ++d)
     if (mirrored_[d]) scene.centre[d] = 0;
-  scene.meet(std::make_unique<Planes>(body, scene.centre, planes_));
+  std::vector<Plane> at_rest = planes_;
+  for (Plane& plane : at_rest) plane.velocity = 0;
+  scene.meet(std::make_unique<Planes>(body, scene.centre, at_rest));
   return scene;
 }
 

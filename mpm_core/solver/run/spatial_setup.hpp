@@ -2,47 +2,43 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "base/scales.hpp"
 #include "solver/contact/planes.hpp"
 #include "solver/contact/scene.hpp"
 #include "solver/grid/spatial_grid.hpp"
-#include "solver/runs.hpp"
+#include "solver/run/setup.hpp"
 #include "solver/shape/shape.hpp"
 
 namespace granulaw {
 
+/// A plane that touches the body from the given side, wherever that is.
+Plane touching_plane(const Vector3& normal);
+
 /// A particle among planes, before its grid is chosen; solver units. The frame of the scene: origin in the
 /// solid's own, turned by `rotation`.
-class SpatialSetup
+class SpatialSetup : public Setup
 {
  public:
   /// `planes`: positions that are not a number become those where they touch. `may_mirror`: axes along which
   /// the motion is the same on both sides.
   SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation, std::vector<Plane> planes,
-               const std::array<bool, 3>& may_mirror);
+               const std::array<bool, 3>& may_mirror, const RunOptions& options);
 
-  const Scales& scale() const { return scale_; }
-  double yield_stress() const { return yield_; }
-  double mass() const { return mass_; }  ///< of the whole body
-  /// Largest overlap with the first plane that an impact can be expected to reach, about.
-  double expected_overlap(double velocity) const;
-  /// Tensor of inertia of the whole body about its centre of mass, as if all of it were of the first
-  /// material.
-  Eigen::Matrix3d inertia() const;
+  double yield_stress() const override { return yield_; }
+  double expected_overlap(double velocity) const override;
+  int cells(const RunOptions& options, double deepest) const override;
+  /// Tensor of inertia of the whole body about its centre of mass; none of a body of several materials.
+  std::optional<Eigen::Matrix3d> exact_inertia() const;
   /// Point of the body that touches the first plane.
   const Vector3& first_contact() const { return touches_.front().place; }
-  /// Speeds of the planes that are computed, as given.
-  std::vector<double> speeds() const;
+  std::unique_ptr<Drive> drive() const override;
   /// Traces of all planes as the caller listed them: mirrored ones are copied from the one computed.
-  void give_mirrored_planes(std::vector<PlaneTrace>& planes) const;
+  void give_planes(std::vector<PlaneTrace>& planes) const override;
 
-  /// Grids hold what is needed to draw them.
-  void draw() { drawn_ = true; }
-
-  /// The body at rest for overlaps up to `deepest`, with `cells` across the contact block.
-  Scene build(double deepest, int cells, double shift, Precision precision) const;
+  /// Planes at rest.
+  Scene build(double deepest, int cells, double shift) const override;
 
  private:
   /// Where a plane touches, and what the surface is like there.
@@ -65,13 +61,12 @@ class SpatialSetup
   Particle particle_;
   SharedShape solid_;
   Eigen::Matrix3d rotation_;
-  Scales scale_;
   std::vector<Plane> planes_;
   std::vector<Touch> touches_;
   std::vector<Plane> given_;
   std::vector<int> computed_;  ///< of each given plane the one that is computed: itself or its mirror image
   std::array<bool, 3> mirrored_{};
-  bool drawn_ = false;
+  bool drawn_, single_;  ///< grids can be drawn; points in single precision
   double yield_ = 0, mass_ = 0;
   Vector3 low_, high_;  ///< box of the body
 };

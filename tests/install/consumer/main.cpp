@@ -26,7 +26,7 @@ int main()
   granulaw::RunOptions options;
   options.resolution = 8;
   options.shifted_grids = 1;
-  const double e = granulaw::run_impact(sphere, 1.0, options).summary.restitution;
+  const double e = granulaw::impact(sphere, {1.0}, {}, options).summary.restitution;
   const granulaw::ContactCurve curve(granulaw::tabulate_elastic({}, 0.1), "consumer");
   return std::abs(e - 1) < 0.01 && curve.loading(0.01).force > 0 && refuses_a_missing_law() ? 0 : 1;
 }

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "solver/loading/flight.hpp"
+#include "solver/run/accuracy.hpp"
+#include "solver/run/axisymmetric_setup.hpp"
+#include "solver/run/mean_run.hpp"
+#include "solver/run/simulation.hpp"
+#include "solver/run/spatial_setup.hpp"
+#include "solver/runs.hpp"
+#include "solver/shape/rotation.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Sums over the nodes of a part, for the whole body: what the mirrored parts add.
+Eigen::Matrix3d lumped_inertia(const Body& body, const Vector3& centre)
+{
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  const Reference& reference = body.reference();
+  for (int i = 0; i < reference.nodes; ++i) {
+    if (reference.mass_i[i] <= 0) continue;
+    const Vector3 x = place_now(body, i) - centre;
+    second += reference.mass_i[i] * x * x.transpose();
+  }
+  second *= reference.copies();
+  for (int d = 0; d < 3; ++d)
+    if (reference.mirrored[d])
+      for (int e = 0; e < 3; ++e)
+        if (e != d) second(d, e) = second(e, d) = 0;
+  return second.trace() * Eigen::Matrix3d::Identity() - second;
+}
+
+/// The rigid-body motion after an impact. The tensor of inertia is the exact one of the undeformed body plus
+/// what the nodes' own has changed by since (their own is h^2/2 a mass too large).
+class ReboundMeter
+{
+ public:
+  ReboundMeter(const Scene& scene, const std::optional<Eigen::Matrix3d>& exact)
+      : start_(lumped_inertia(scene.bodies.front(), scene.centre)), exact_(exact ? *exact : start_)
+  {
+  }
+  const Eigen::Matrix3d& inertia_at_rest() const { return exact_; }
+  /// Angular velocity and energy of the rigid motion.
+  Vector3 spin(const Scene& scene) const { return inertia(scene).ldlt().solve(angular(scene)); }
+  double energy(const Scene& scene) const
+  {
+    const Body& body = scene.bodies.front();
+    return 0.5 * body.reference().copies() * body.mass() * mean_velocity(body).squaredNorm() +
+           0.5 * angular(scene).dot(spin(scene));
+  }
+
+ private:
+  Eigen::Matrix3d inertia(const Scene& scene) const
+  {
+    return exact_ + lumped_inertia(scene.bodies.front(), scene.centre_now()) - start_;
+  }
+  Vector3 angular(const Scene& scene) const
+  {
+    return of_whole(scene.bodies.front(), angular_momentum(scene.bodies.front(), scene.centre_now()));
+  }
+  Eigen::Matrix3d start_, exact_;
+};
+
+/// A body that meets a plane in three dimensions.
+std::unique_ptr<SpatialSetup> thrown_body(const Particle& particle, const Approach& thrown,
+                                          const RunOptions& options)
+{
+  Plane wall = touching_plane(Vector3::UnitZ());
+  wall.friction = thrown.friction;
+  const bool slides = thrown.tangential_velocity != 0 || thrown.spin != 0;
+  const Eigen::Matrix3d rotation =
+      rotation_to_plane(unit_direction(thrown.orientation, "--orientation"), thrown.turn);
+  return std::make_unique<SpatialSetup>(particle, rotation, std::vector<Plane>{wall},
+                                        std::array<bool, 3>{!slides, true, false}, options);
+}
+
+void check_approach(const Approach& thrown, const Scales& scale)
+{
+  if (!(thrown.velocity > 0))
+    fail("--velocity", "cannot be used", fmt::format("{:g}", thrown.velocity), "over 0 (m/s)");
+  if (!(thrown.velocity < 0.5 * scale.velocity()))
+    fail("--velocity", "is beyond what an impact of a particle can be resolved for",
+         fmt::format("{:g} m/s", thrown.velocity),
+         fmt::format("up to half the wave speed sqrt(E*/rho), {:.4g} m/s", 0.5 * scale.velocity()));
+  if (!(thrown.friction >= 0 && thrown.friction <= 10))
+    fail("--friction", "cannot be used", fmt::format("{:g}", thrown.friction), "0 to 10");
+}
+
+/// The body's motion after an impact, over that before; solver units.
+Rebound rebound_of(const Scene& scene, const ReboundMeter& meter, const Approach& thrown,
+                   const Vector3& velocity)
+{
+  const Body& body = scene.bodies.front();
+  const Vector3 after = mean_velocity(body), spin = meter.spin(scene);
+  const Vector3 impulse = body.reference().copies() * body.mass() * (after - velocity);
+  const bool slides = thrown.tangential_velocity != 0 || thrown.spin != 0;
+  Rebound rebound;
+  rebound.normal = after[2] / -velocity[2];
+  rebound.tangential = after[0] / velocity[0];
+  rebound.spin = {spin[0], spin[1], spin[2]};
+  rebound.impulse_normal = impulse[2];
+  rebound.impulse_tangential = slides ? -impulse[0] : 0.0;
+  return rebound;
+}
+
+}  // namespace
+
+RunResult impact(const Particle& particle, const Approach& thrown, const Partner& partner,
+                 const RunOptions& options)
+{
+  if (options.estimate_error)
+    return run_with_estimate(options,
+                             [&](const RunOptions& o) { return impact(particle, thrown, partner, o); });
+  check_options(options, particle);
+  const bool oblique = thrown.tangential_velocity != 0 || thrown.spin != 0 || thrown.friction != 0 ||
+                       thrown.orientation != Approach{}.orientation || thrown.turn != 0 ||
+                       thrown.first_contact_only;
+  std::unique_ptr<SpatialSetup> spatial;
+  std::unique_ptr<Setup> flat;
+  if (in_three_dimensions(particle, partner, options, oblique ? "an approach that is not head-on" : nullptr))
+    spatial = thrown_body(particle, thrown, options);
+  else
+    flat = std::make_unique<Collision>(particle, partner, options, Support::free);
+  const Setup& setup = spatial ? *spatial : *flat;
+  const Scales scale = setup.scale();
+  check_approach(thrown, scale);
+  const double v = thrown.velocity / scale.velocity();
+  const Vector3 spin(0, thrown.spin * scale.time(), 0);
+  const double deepest = setup.expected_overlap(v), duration = 2.0 * deepest / v + 2.5;
+
+  return mean_of_shifted_grids(
+      options, setup.cells(options, deepest), scale, true,
+      [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
+        Simulation run(setup.build(deepest, cells, shift), options, duration, scale.stress);
+        Scene& scene = run.scene;
+        std::optional<ReboundMeter> meter;
+        if (spatial) meter.emplace(scene, spatial->exact_inertia());
+        std::optional<LeavingPoint> point;
+        if (thrown.first_contact_only)
+          point = {spatial->first_contact() - scene.centre, meter->inertia_at_rest().inverse()};
+        const Vector3 along(thrown.tangential_velocity / scale.velocity(), 0, 0);
+        const double reduced = scene.reduced_mass();
+        for (Body& body : scene.bodies)
+          throw_body(body, along - v * (reduced / body.mass()) * scene.outward, spin, scene.centre);
+        Flight programme(duration, point);
+        run.run(programme, {fields, scale, duration}, progress, checkpoint);
+        RunSummary& s = run.result.summary;
+        s.restitution_raw = scene.separation_velocity() / v;
+        s.work_load = scene.bodies.front().reference().copies() * run.energy_start;
+        s.work_unload = meter ? meter->energy(scene) : s.work_load * s.restitution_raw * s.restitution_raw;
+        if (meter) run.result.rebound = rebound_of(scene, *meter, thrown, along - v * scene.outward);
+        return std::move(run.result);
+      });
+}
+
+}  // namespace granulaw
