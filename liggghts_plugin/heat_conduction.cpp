@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "law/pair.hpp"
+#include "contact/pair.hpp"
 #include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/private_members.hpp"
 #include "liggghts_plugin/session.hpp"

@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "law/contact_step.hpp"
-#include "law/pair.hpp"
+#include "contact/pair.hpp"
 #include "liggghts_plugin/normal_physics.hpp"
 #include "liggghts_plugin/session.hpp"
 #include "liggghts_plugin/superquadric.hpp"

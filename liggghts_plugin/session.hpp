@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "law/pair.hpp"
+#include "contact/pair.hpp"
 #include "liggghts_plugin/bodies.hpp"
 #include "liggghts_plugin/contact_statistics.hpp"
 #include "liggghts_plugin/energy_tally.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "law/pair.hpp"
+#include "contact/pair.hpp"
 #include "liggghts_plugin/session.hpp"
 #include "liggghts_plugin/shapes.hpp"
 

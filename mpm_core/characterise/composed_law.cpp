@@ -14,7 +14,7 @@
 #include "characterise/overlap_at_work.hpp"
 #include "characterise/reduction_error.hpp"
 #include "characterise/tabulate_curve.hpp"
-#include "law/pair.hpp"
+#include "contact/pair.hpp"
 
 namespace granulaw {
 

@@ -73,7 +73,7 @@ struct ComposedShape
 {
   LawMaterial material;    ///< the yielding body's
   double radius_ratio;     ///< as in TwoBodyLaw
-  LawShape shape;          ///< in the pair rule's coordinates (law/pair.hpp)
+  LawShape shape;          ///< in the pair rule's coordinates (contact/pair.hpp)
   CharacterisedBody body;  ///< the yielding one, with the pair's onset
   double end;              ///< overlap where the shape ends
   ComposedError stated;

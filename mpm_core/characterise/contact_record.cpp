@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "law/unloading.hpp"
+#include "contact/unloading.hpp"
 
 namespace granulaw {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "characterise/node_slopes.hpp"
-#include "law/cubic.hpp"
+#include "contact/cubic.hpp"
 
 namespace granulaw {
 

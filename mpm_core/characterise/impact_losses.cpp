@@ -4,7 +4,7 @@
 #include "base/gauss.hpp"
 #include "characterise/impact_level.hpp"
 #include "characterise/reversal_point.hpp"
-#include "law/cubic.hpp"
+#include "contact/cubic.hpp"
 
 namespace granulaw {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "law/unloading.hpp"
+#include "contact/unloading.hpp"
 
 namespace granulaw {
 

@@ -14,7 +14,7 @@ struct UnlikePair
   LawMaterial partner;      ///< may be elastic, or yield as well
   double radius_ratio = 1;  ///< partner's radius over the yielding body's; infinity: a deformable wall
 
-  /// The rule's mapping for this pair (law/pair.hpp).
+  /// The rule's mapping for this pair (contact/pair.hpp).
   PairMapping mapping() const { return PairMapping::deformable_partner(yielding.e_star(), partner.e_star()); }
   /// R* and m*, in units of the yielding body's radius and, of mass, of its density times radius cubed.
   double r_eff() const { return 1.0 / (1.0 + 1.0 / radius_ratio); }

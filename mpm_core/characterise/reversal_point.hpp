@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "law/unloading.hpp"
+#include "contact/unloading.hpp"
 
 namespace granulaw {
 

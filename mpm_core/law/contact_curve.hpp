@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "law/cubic.hpp"
-#include "law/pair.hpp"
-#include "law/unloading.hpp"
+#include "contact/cubic.hpp"
+#include "contact/pair.hpp"
+#include "contact/unloading.hpp"
 #include "law/velocity_axis.hpp"
 
 namespace granulaw {

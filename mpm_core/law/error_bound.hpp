@@ -62,7 +62,7 @@ enum class LawKind {
   two_body,   ///< from runs of the two bodies
   composed,   ///< of the two bodies' laws
   corrected,  ///< composed, then corrected by impacts of the two bodies
-  reduced     ///< of the yielding body, by the pair rule (law/pair.hpp)
+  reduced     ///< of the yielding body, by the pair rule (contact/pair.hpp)
 };
 /// "single", "two-body", "composed", "corrected", "reduced".
 const char* name_of(LawKind kind);

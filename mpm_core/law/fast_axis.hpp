@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "law/cubic.hpp"
+#include "contact/cubic.hpp"
 #include "law/velocity_axis.hpp"
 
 namespace granulaw {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "law/cubic.hpp"
+#include "contact/cubic.hpp"
 
 namespace granulaw {
 

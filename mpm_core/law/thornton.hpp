@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "law/pair.hpp"
+#include "contact/pair.hpp"
 
 namespace granulaw {
 

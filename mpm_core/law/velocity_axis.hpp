@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "law/cubic.hpp"
+#include "contact/cubic.hpp"
 #include "law/impact_levels.hpp"
-#include "law/unloading.hpp"
+#include "contact/unloading.hpp"
 
 namespace granulaw {
 

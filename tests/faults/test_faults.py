@@ -52,15 +52,15 @@ class Faults(unittest.TestCase):
 
     def test_pick(self):
         """The same seed picks the same; a larger count begins with a smaller one's; each folder and kind has its turn."""
-        some, more, other = rules.picked(TOP, 1, 30), rules.picked(TOP, 1, 60), rules.picked(TOP, 2, 30)
-        self.assertEqual(some, more[:30])
+        some, more, other = rules.picked(TOP, 1, 35), rules.picked(TOP, 1, 70), rules.picked(TOP, 2, 35)
+        self.assertEqual(some, more[:35])
         self.assertNotEqual(some, other)
         self.assertEqual({(f.folder, f.kind) for f in some}, {(f, k) for f in rules.FOLDERS for k in rules.KINDS})
-        self.assertEqual(len({f.id for f in more}), 60)
+        self.assertEqual(len({f.id for f in more}), 70)
         for fault in list(rules.named(TOP)) + more:
             self.assertEqual((TOP / fault.path).read_text().split("\n")[fault.line - 1], fault.before)
             self.assertNotEqual(fault.before, fault.after)
-        self.assertEqual(rules.picked(TOP, 1, 30, "tools/deck"), [f for f in some if f.folder == "tools/deck"])
+        self.assertEqual(rules.picked(TOP, 1, 35, "tools/deck"), [f for f in some if f.folder == "tools/deck"])
 
     def test_results(self):
         """A line that a kill cut off counts for nothing; the last line of a fault counts; nine in ten must be caught."""

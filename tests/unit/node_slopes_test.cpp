@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "law/cubic.hpp"
+#include "contact/cubic.hpp"
 
 namespace granulaw {
 namespace {

@@ -1,4 +1,4 @@
-#include "law/unloading.hpp"
+#include "contact/unloading.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

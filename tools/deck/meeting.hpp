@@ -19,7 +19,7 @@ struct Meeting
   bool known_yield = false;  ///< whether the yield stress is known, be it infinite
 
   /// Density, kg/m^3, of the sphere of radius lambda R* and mass lambda m* that stands for the pair on a
-  /// rigid wall: its damage number and its V_y are the pair's (law/pair.hpp).
+  /// rigid wall: its damage number and its V_y are the pair's (contact/pair.hpp).
   double one_body_density(double r_eff, double m_eff) const;
 };
 

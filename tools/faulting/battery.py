@@ -171,6 +171,7 @@ COMMANDS = {
 # Names of the commands whose programs hold the code of a folder (and of those that make their files).
 OF = {
     "mpm_core/solver": "impact|press",
+    "mpm_core/contact": "table$|info$|export$|export, speed|law|fixture|thornton|liggghts|.*deck",
     "mpm_core/law": "table$|info$|export$|export, speed|law|fixture|thornton|liggghts|.*deck",
     "mpm_core/characterise": "table|info|export|law",
     "liggghts_plugin": "table$|liggghts",

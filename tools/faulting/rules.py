@@ -9,7 +9,7 @@ import random
 import re
 from pathlib import Path
 
-FOLDERS = ("mpm_core/solver", "mpm_core/law", "mpm_core/characterise", "liggghts_plugin", "tools/deck", "tools/mpm")
+FOLDERS = ("mpm_core/solver", "mpm_core/contact", "mpm_core/law", "mpm_core/characterise", "liggghts_plugin", "tools/deck", "tools/mpm")
 KINDS = ("sign", "factor", "off by one", "branch", "swap")
 NOT_BUILT = ("register_hertz.cpp",)  # a yardstick of the benchmarks
 
@@ -230,9 +230,9 @@ def picked(top, seed, count, only=None):
 # By hand: (kind, file, a part of one line, what it becomes).
 NAMED = [
     ("factor", "mpm_core/law/replay.cpp", "const double work = 0.5 * (", "const double work = 0.505 * ("),
-    ("factor", "mpm_core/law/unloading.hpp", "(11.0 - 2.0 * exponent) / 21.0", "1.01 * (11.0 - 2.0 * exponent) / 21.0"),
+    ("factor", "mpm_core/contact/unloading.hpp", "(11.0 - 2.0 * exponent) / 21.0", "1.01 * (11.0 - 2.0 * exponent) / 21.0"),
     ("sign", "mpm_core/solver/contact/node_plane.cpp", "* (least - v);", "* (least + v);"),
-    ("factor", "mpm_core/law/pair.hpp", "return {e_star_yielding, 1.0 + e_star_yielding", "return {e_star_yielding, 1.0 + 1.01 * e_star_yielding"),
+    ("factor", "mpm_core/contact/pair.hpp", "return {e_star_yielding, 1.0 + e_star_yielding", "return {e_star_yielding, 1.0 + 1.01 * e_star_yielding"),
     ("swap", "tools/deck/geometry.cpp", "result.low[k] = std::max(low[k], other.low[k]);",
      "result.low[k] = std::min(low[k], other.low[k]);"),
 ]

@@ -27,6 +27,7 @@ STAGES = {
 # Stages whose programs hold the code of a folder, in the order to run them: those before the battery, those after it.
 REACH = {
     "mpm_core/solver": (("verification", "unit", "cli"), ("rest",)),
+    "mpm_core/contact": (("unit", "cli"), ("liggghts", "rest")),
     "mpm_core/law": (("unit", "cli"), ("liggghts", "rest")),
     "mpm_core/characterise": (("unit", "cli"), ("rest",)),
     "liggghts_plugin": (("liggghts",), ("unit", "rest")),
@@ -36,13 +37,14 @@ REACH = {
 # Libraries that the unit test of one file of a folder needs at most.
 MIRRORED = {
     "mpm_core/solver": ("solver", "base"),
-    "mpm_core/law": ("law", "base"),
-    "mpm_core/characterise": ("characterise", "farm", "solver", "law", "base"),
+    "mpm_core/contact": ("contact",),
+    "mpm_core/law": ("law", "contact", "base"),
+    "mpm_core/characterise": ("characterise", "farm", "solver", "law", "contact", "base"),
     "liggghts_plugin": (),
-    "tools/deck": ("deck", "law", "base"),
-    "tools/mpm": ("mpm_parts", "deck", "characterise", "farm", "solver", "law", "base"),
+    "tools/deck": ("deck", "law", "contact", "base"),
+    "tools/mpm": ("mpm_parts", "deck", "characterise", "farm", "solver", "law", "contact", "base"),
 }
-NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer", "docs.links", "docs.book")  # they run none of the six folders
+NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer", "docs.links", "docs.book")  # they run none of the seven folders
 CHEAP = 2.0  # s; tests up to it come before the battery
 FAIR = 20.0  # s; up to it they are run where the battery shows no change, too
 

@@ -6,7 +6,7 @@
 
 #include "calibrate/sphere_laws.hpp"
 #include "characterise/tabulate_curve.hpp"
-#include "law/pair.hpp"
+#include "contact/pair.hpp"
 #include "law/replay.hpp"
 
 namespace granulaw {
