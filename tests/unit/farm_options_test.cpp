@@ -1,5 +1,7 @@
 #include "farm_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "scratch_folder.hpp"
 
 namespace granulaw {
@@ -12,7 +14,8 @@ class FarmOptionsTest : public ScratchFolder
   {
     CLI::App app;
     FarmOptions options;
-    options.add_to(app);
+    Options words_of(app);
+    options.add_to(words_of);
     std::reverse(words.begin(), words.end());  // CLI11 takes them from the back
     app.parse(words);
     return options;

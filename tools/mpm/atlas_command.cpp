@@ -87,11 +87,11 @@ void make_atlas(const AtlasRequest& r)
   print_count(farm->count());
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<AtlasRequest>();
   command.add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
-  CLI::Option* from =
+  const Option from =
       command.add_option("--from", r->from,
                          "an atlas whose materials stay as they are: only those that it lacks and the fresh "
                          "impacts are run");

@@ -139,7 +139,7 @@ void run(const CalibrateRequest& r)
     print_calibration(problem, result);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<CalibrateRequest>();
   r->options.add_to(command, true);

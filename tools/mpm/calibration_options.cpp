@@ -104,15 +104,15 @@ Range parse_range(const std::string& word, const std::string& option, const std:
   return r;
 }
 
-void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
+void CalibrationOptions::add_to(Options& command, bool needs_data)
 {
-  CLI::Option* files = command.add_option("DATA", data, data_help());
+  Option files = command.add_option("DATA", data, data_help());
   if (needs_data) files->required();
   command.add_option("--fit", fit, fit_help())->required();
   command
       .add_option("--hardening", hardening,
                   "law: linear, from the atlas; with any other some laws are made by the solver")
-      ->check(CLI::IsMember(fitted_hardening_laws()))
+      ->among(fitted_hardening_laws())
       ->capture_default_str();
   command.add_option("--known", known, "NAME=VALUE, SI, of a parameter of --hardening that is not fitted");
   command
@@ -129,7 +129,7 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
   command.add_option("--hardening-modulus", hardening_modulus,
                      "Pa, where it is known and not fitted (default 0: perfectly plastic)");
   command.add_option("--kind", kind, "of force curves, whose columns are the same: see DATA")
-      ->check(CLI::IsMember(words_of_kinds()))
+      ->among(words_of_kinds())
       ->capture_default_str();
   command.add_option("--indenter-radius", indenter_radius, "m, with --kind sphere")
       ->check(above_zero_to(1e3));
@@ -138,9 +138,9 @@ void CalibrationOptions::add_to(CLI::App& command, bool needs_data)
           "--partner", partner,
           "of impacts. wall: rigid; like: a sphere of the same material and size, the speed is that of "
           "approach")
-      ->check(CLI::IsMember({"wall", "like"}))
+      ->among({"wall", "like"})
       ->capture_default_str();
-  CLI::Option* materials_file = command.add_option(
+  Option materials_file = command.add_option(
       "--materials", materials, "TOML file that holds the material of the wall, the indenter or the ball");
   command.add_option("--indenter", indenter, "name of the indenter's material (default: rigid)")
       ->needs(materials_file);

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibrate/problem.hpp"
+#include "options.hpp"
 
 namespace granulaw {
 
@@ -21,7 +21,7 @@ struct CalibrationOptions
   std::string wall, indenter, ball;  ///< names there; empty: rigid, and the ball is what is fitted
   bool compliance = false, plain = false;
 
-  void add_to(CLI::App& command, bool needs_data);
+  void add_to(Options& command, bool needs_data);
   /// The request, its files read and its words understood. Throws Error.
   CalibrationRequest request() const;
   /// A measurement of this kind without data: radii, partner, machine.

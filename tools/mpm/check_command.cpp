@@ -242,7 +242,7 @@ void check(const CheckRequest& r)
       r.law, law.bodies.size(), law.pair_list(), throws.count(), seed);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<CheckRequest>();
   command.add_option("LAW", r->law, "law file of mpm table")->required();

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "options.hpp"
 
 namespace granulaw {
 
@@ -10,7 +11,7 @@ struct Command
 {
   const char* name;
   const char* summary;                ///< of mpm --help and of mpm NAME --help
-  void (*define)(CLI::App& command);  ///< adds its options, and the callback that carries it out
+  void (*define)(Options& command);  ///< adds its options, and the callback that carries it out
   bool on_ranks = false;              ///< shares its runs among the processes of mpirun; others refuse them
 };
 

@@ -255,13 +255,12 @@ void set_contact_law(deck::PlanOptions& into, const deck::Scene& scene, std::opt
 
 }  // namespace
 
-void DeckOptions::add_to(CLI::App& command, bool own_materials, CLI::Option* needed)
+void DeckOptions::add_to(Options& command, bool own_materials, Option needed)
 {
-  const std::size_t before = command.get_options().size();
+  const std::size_t before = command.size();
   command
       .add_option("--var", variables, "NAME VALUE: a variable of the deck, as liggghts -var; several times")
-      ->type_size(2)
-      ->expected(1, 1000);
+      ->pairs_of_words();
   if (own_materials)
     command.add_option("--materials-file", materials_file, "MATERIALS.toml: yield stresses and hardening");
   command.add_option(
@@ -286,8 +285,7 @@ void DeckOptions::add_to(CLI::App& command, bool own_materials, CLI::Option* nee
       "JSON of fix granulaw/stats: what a run of this deck visited replaces what is foreseen, with a "
       "margin of 1.25");
   if (!needed) return;
-  const auto options = command.get_options();
-  for (std::size_t k = before; k < options.size(); ++k) options[k]->needs(needed);
+  for (Option& own : command.from(before)) own.needs(needed);
 }
 
 PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "deck/plan.hpp"
+#include "options.hpp"
 
 namespace granulaw {
 
@@ -21,7 +21,7 @@ struct DeckOptions
 
   /// `own_materials`: with --materials-file (mpm table has its own). `needed`: an option without which these
   /// mean nothing.
-  void add_to(CLI::App& command, bool own_materials, CLI::Option* needed = nullptr);
+  void add_to(Options& command, bool own_materials, Option needed = Option());
 };
 
 /// A deck read and planned.

@@ -204,7 +204,7 @@ void run(const DesignRequest& r)
     print(r, design, plan, !request.measurements.empty());
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<DesignRequest>();
   r->options.add_to(command, false);

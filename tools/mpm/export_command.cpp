@@ -127,13 +127,13 @@ void export_law(const ExportRequest& r)
   fmt::print("wrote {}: {} pairs of {} rows\n", r.output, pairs.size(), r.points + 1);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<ExportRequest>();
   command.add_option("LAW", r->law, "law file of mpm table")->required();
   command.add_option("-o,--output", r->output, "NAME.csv")->required();
   command.add_option("--pair", r->pair, "a:b or a:wall (default: every pair of the file)");
-  CLI::Option* radius = command.add_option("--effective-radius", r->r_eff,
+  const Option radius = command.add_option("--effective-radius", r->r_eff,
                                            "R* = R_i R_j/(R_i + R_j), on a wall R_i, m (default 1e-3)");
   command
       .add_flag("--dimensionless", r->dimensionless,
@@ -143,7 +143,7 @@ void define(CLI::App& command)
                      "relative normal speed at first touch, m/s, for laws with a velocity axis (default 0: "
                      "quasi-static)");
   command.add_option("--points", r->points, "intervals, uniform in overlap^(1/4) (default 400)")
-      ->check(CLI::Range(10, 100000));
+      ->check(whole_from_to(10, 100000));
   command.callback([r] { export_law(*r); });
 }
 

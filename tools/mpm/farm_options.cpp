@@ -12,13 +12,13 @@
 
 namespace granulaw {
 
-void FarmOptions::add_to(CLI::App& command)
+void FarmOptions::add_to(Options& command)
 {
   command
       .add_option("--jobs", jobs,
                   "runs at the same time in each process (default: one for each core; under mpirun: one)")
       ->check(whole_from_to(1, 1024));
-  CLI::Option* folder =
+  const Option folder =
       command.add_option("--cache", cache, "folder for finished runs")->capture_default_str();
   command.add_flag("--no-cache", no_cache, "keep no finished run and reuse none")->excludes(folder);
 }

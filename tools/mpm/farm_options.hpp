@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "farm/farm.hpp"
+#include "options.hpp"
 
 namespace granulaw {
 
@@ -15,7 +15,7 @@ struct FarmOptions
   std::string cache = default_cache_folder();
   bool no_cache = false;
 
-  void add_to(CLI::App& command);
+  void add_to(Options& command);
   /// Throws Error if the cache cannot be a folder: before anything is computed.
   void check() const;
   std::unique_ptr<Farm> farm() const;

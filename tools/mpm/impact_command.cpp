@@ -159,7 +159,7 @@ void impact(ImpactRequest r)
   run_and_report(r.run, m, asked, false, run);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<ImpactRequest>();
   r->run.add_to(command);

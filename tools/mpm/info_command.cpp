@@ -133,7 +133,7 @@ void info(const std::string& path)
     }
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto path = std::make_shared<std::string>();
   command.add_option("LAW", *path, "law file of mpm table")->required();

@@ -162,7 +162,7 @@ void replay(const LawRequest& r)
     print(c, found, result);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<LawRequest>();
   command.add_option("LAW", r->law, "law file of mpm table")->required();

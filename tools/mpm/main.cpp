@@ -8,6 +8,7 @@
 #include <gsl/gsl_errno.h>
 #include <hdf5.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <new>
@@ -102,8 +103,10 @@ void add_commands(CLI::App& app)
 {
   app.set_version_flag("--version", fmt::format("mpm {} ({})", version(), git_hash()));
   app.require_subcommand(1);
-  for (const Command* command : commands)
-    command->define(*app.add_subcommand(command->name, command->summary));
+  for (const Command* command : commands) {
+    Options options(*app.add_subcommand(command->name, command->summary));
+    command->define(options);
+  }
 }
 
 /// Whether the first word is a command whose runs the processes of mpirun share.

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 
 #include "base/error.hpp"
+#include "options.hpp"
 
 namespace granulaw {
 
@@ -22,26 +22,21 @@ inline double number_in(const std::string& word)
   return end != word.c_str() && *end == '\0' ? value : std::nan("");
 }
 
-inline CLI::Validator number_check(const std::string& allowed, bool (*good)(double, double, double),
-                                   double low, double high)
+inline Check number_check(const std::string& allowed, bool (*good)(double, double, double), double low,
+                          double high)
 {
-  return {[=](std::string& word) {
-            return good(number_in(word), low, high)
-                       ? std::string()
-                       : fmt::format("cannot be used: found '{}', allowed is {}", word, allowed);
-          },
-          allowed};
+  return {allowed, [=](const std::string& word) { return good(number_in(word), low, high); }};
 }
 
 /// From `low` to `high`, both included.
-inline CLI::Validator from_to(double low, double high)
+inline Check from_to(double low, double high)
 {
   return number_check(
       fmt::format("a number from {:g} to {:g}", low, high),
       [](double value, double least, double most) { return value >= least && value <= most; }, low, high);
 }
 /// A whole number, from `low` to `high`.
-inline CLI::Validator whole_from_to(int low, int high)
+inline Check whole_from_to(int low, int high)
 {
   return number_check(
       fmt::format("a whole number from {} to {}", low, high),
@@ -51,14 +46,14 @@ inline CLI::Validator whole_from_to(int low, int high)
       low, high);
 }
 /// Over 0, up to `high`.
-inline CLI::Validator above_zero_to(double high)
+inline Check above_zero_to(double high)
 {
   return number_check(
       fmt::format("a number over 0, up to {:g}", high),
       [](double value, double, double most) { return value > 0 && value <= most; }, 0, high);
 }
 /// Over 0, finite.
-inline CLI::Validator above_zero()
+inline Check above_zero()
 {
   return number_check(
       "a number over 0", [](double value, double, double) { return value > 0 && std::isfinite(value); }, 0,

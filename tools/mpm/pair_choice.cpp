@@ -40,7 +40,7 @@ void check_radii(const PairOptions& options, const PairNames& names, double radi
 
 }  // namespace
 
-void define_pair_options(CLI::App& command, PairOptions& options)
+void define_pair_options(Options& command, PairOptions& options)
 {
   command.add_option("--pair", options.pair, "a:b or a:wall; may be left out if the file holds one");
   command.add_option(

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "law/law.hpp"
+#include "options.hpp"
 #include "pair_names.hpp"
 
 namespace granulaw {
@@ -29,7 +29,7 @@ struct ChosenPair
 };
 
 /// --pair, --radius and --radius2.
-void define_pair_options(CLI::App& command, PairOptions& options);
+void define_pair_options(Options& command, PairOptions& options);
 
 /// Throws Error where the options name no pair of the law, or sizes that it does not hold for.
 ChosenPair choose_pair(const Law& law, const PairOptions& options);

@@ -274,7 +274,7 @@ void plan(const PlanRequest& r)
   print_next(d, command);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<PlanRequest>();
   command.add_option("DECK", r->deck, "LIGGGHTS input script")->required();

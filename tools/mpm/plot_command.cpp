@@ -51,7 +51,7 @@ void plot(const Request& r)
   draw("plot_pair.py", {r.output}, curves.dump(), r.output);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<Request>();
   command.add_option("LAW", r->law, "law file of mpm table")->required();

@@ -91,7 +91,7 @@ void press(PressRequest r)
   });
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<PressRequest>();
   r->run.add_to(command);

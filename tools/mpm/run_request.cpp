@@ -62,7 +62,7 @@ void check_fields(const RunRequest& r)
     fail("--fields", "its HDF5 file would be the trace's, -o", r.output, "another name");
 }
 
-void add_bodies(CLI::App& command, RunRequest& r)
+void add_bodies(Options& command, RunRequest& r)
 {
   command.add_option("MATERIALS", r.materials, "TOML file with [material.NAME] and [particle.NAME]")
       ->required();
@@ -72,7 +72,7 @@ void add_bodies(CLI::App& command, RunRequest& r)
                      "a material of that file: a thick deformable wall of it (default: rigid)");
 }
 
-void add_accuracy(CLI::App& command, RunRequest& r)
+void add_accuracy(Options& command, RunRequest& r)
 {
   command.add_option(
       "--grid", r.grid,
@@ -80,7 +80,7 @@ void add_accuracy(CLI::App& command, RunRequest& r)
       "updated (points move through the grid: the independent check), rectilinear-3d (three dimensions: "
       "any shape, side and friction); default: what the particle and the scene need");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
-  CLI::Option* with_resolution = command.add_option(
+  const Option with_resolution = command.add_option(
       "--resolution", r.resolution,
       "cells across the contact block, 6 to 200 (default: the run's own; in three dimensions 8)");
   command
@@ -90,15 +90,15 @@ void add_accuracy(CLI::App& command, RunRequest& r)
       ->excludes(with_resolution);
 }
 
-void add_outputs(CLI::App& command, RunRequest& r)
+void add_outputs(Options& command, RunRequest& r)
 {
   command.add_option("-o,--output", r.output, "trace of the run: NAME.csv or NAME.h5");
-  CLI::Option* with_fields = command.add_option(
+  const Option with_fields = command.add_option(
       "--fields", r.fields, "the deformed body over time for ParaView: NAME.xdmf, and NAME.h5 beside it");
   command.add_option("--frames", r.frames, "about so many moments in it, 2 to 10000 (default 40)")
       ->check(whole_from_to(2, 10000))
       ->needs(with_fields);
-  CLI::Option* with_checkpoint = command.add_option(
+  const Option with_checkpoint = command.add_option(
       "--checkpoint", r.checkpoint,
       "keeps the state of the run in this file; the same command goes on from there after it was stopped or "
       "killed, with the identical trace. The file is removed when the run is finished and its outputs are "
@@ -110,7 +110,7 @@ void add_outputs(CLI::App& command, RunRequest& r)
       ->needs(with_checkpoint);
 }
 
-void add_effort(CLI::App& command, RunRequest& r)
+void add_effort(Options& command, RunRequest& r)
 {
   command.add_option("--jobs", r.jobs, "threads (default 1)")->check(whole_from_to(1, 256));
   command.add_option(
@@ -127,7 +127,7 @@ void add_effort(CLI::App& command, RunRequest& r)
 
 }  // namespace
 
-void RunRequest::add_to(CLI::App& command)
+void RunRequest::add_to(Options& command)
 {
   add_bodies(command, *this);
   add_accuracy(command, *this);

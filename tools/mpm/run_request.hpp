@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
+#include "options.hpp"
 #include "solver/runs.hpp"
 
 namespace granulaw {
@@ -22,7 +22,7 @@ struct RunRequest
   int jobs = 1, frames = 40;
   bool json = false, no_estimate = false;
 
-  void add_to(CLI::App& command);
+  void add_to(Options& command);
   /// Throws Error where an option, or two together, cannot be used: before anything is read or computed.
   void check() const;
   /// For the solver, but for what watches the run.

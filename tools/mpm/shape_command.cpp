@@ -121,7 +121,7 @@ void certify(ShapeRequest& r)
   print_count(farm->count());
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<ShapeRequest>();
   command.add_option("MATERIALS", r->materials, "materials file (TOML)")->required();

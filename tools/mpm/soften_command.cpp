@@ -131,7 +131,7 @@ void soften(const SoftenRequest& r)
     print(r.limits, s);
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<SoftenRequest>();
   command.add_option("DECK", r->deck, "LIGGGHTS input script")->required();

@@ -43,7 +43,7 @@ struct TableRequest
 
 /// Takes from the deck what was not given itself: pairs, depth, damage number and radius ratio. Returns the
 /// pairs of the deck that yield.
-std::vector<deck::PairPlan> take_from_deck(TableRequest& r, const CLI::App& command)
+std::vector<deck::PairPlan> take_from_deck(TableRequest& r, const Options& command)
 {
   std::vector<deck::PairPlan> yielding;
   r.scene.materials_file = r.materials;
@@ -223,7 +223,7 @@ void make_table(const TableRequest& r, const std::vector<deck::PairPlan>& of_dec
 }
 
 /// Of --deck: only what its scene needs.
-void make_table_for_deck(TableRequest& r, const CLI::App& command)
+void make_table_for_deck(TableRequest& r, const Options& command)
 {
   const std::vector<deck::PairPlan> yielding = take_from_deck(r, command);
   if (rank() == 0 && yielding.empty())
@@ -235,7 +235,7 @@ void make_table_for_deck(TableRequest& r, const CLI::App& command)
   make_table(r, yielding);
 }
 
-void add_range_options(CLI::App& command, LawFileRequest& file)
+void add_range_options(Options& command, LawFileRequest& file)
 {
   command
       .add_option("--tolerance", file.tolerance,
@@ -272,7 +272,7 @@ void add_range_options(CLI::App& command, LawFileRequest& file)
                    "by runs, at equal radii)");
 }
 
-void add_shape_options(CLI::App& command, ShapeQuestion& shapes)
+void add_shape_options(Options& command, ShapeQuestion& shapes)
 {
   command
       .add_option("--directions,--orientations", shapes.directions,
@@ -287,11 +287,11 @@ void add_shape_options(CLI::App& command, ShapeQuestion& shapes)
       ->check(above_zero());
 }
 
-void define(CLI::App& command)
+void define(Options& command)
 {
   const auto r = std::make_shared<TableRequest>();
   command.add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
-  CLI::Option* deck =
+  const Option deck =
       command.add_option("--deck", r->deck, "LIGGGHTS deck: only what its scene can reach (mpm plan)");
   r->scene.add_to(command, false, deck);
   command.add_option(
@@ -303,7 +303,7 @@ void define(CLI::App& command)
   command.add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");
   r->farm.add_to(command);
   command.add_option("-o,--output", r->output, "law file, NAME.h5")->required();
-  command.callback([r, &command] {
+  command.callback([r, command] {
     if (r->deck.empty())
       make_table(*r);
     else
