@@ -42,13 +42,14 @@ double ContactStatistics::damage_number_limit() const
   return limit;
 }
 
+double combined(Combine how, double a, double b)
+{
+  return how == Combine::sum ? a + b : how == Combine::largest ? std::max(a, b) : std::min(a, b);
+}
+
 void ContactStatistics::Pair::merge(const Pair& other)
 {
-  Pair copy = other;
-  const auto mine = numbers(), theirs = copy.numbers();
-  for (int k = 0; k < sums; ++k) *mine[k] += *theirs[k];
-  for (int k = sums; k < sums + maxima; ++k) *mine[k] = std::max(*mine[k], *theirs[k]);
-  for (int k = sums + maxima; k < sums + maxima + minima; ++k) *mine[k] = std::min(*mine[k], *theirs[k]);
+  for (const Quantity& q : quantities) this->*q.value = combined(q.combine, this->*q.value, other.*q.value);
   for (int b = 0; b < LogHistogram::bins; ++b) {
     speed.count[b] += other.speed.count[b];
     overlap.count[b] += other.overlap.count[b];
@@ -103,9 +104,9 @@ void ContactStatistics::Pair::count_ended()
 ContactStatistics::Pair ContactStatistics::Pair::in_si(const DeckUnits& units) const
 {
   Pair si = *this;
-  for (double* energy : {&si.dissipated, &si.other_work, &si.waves, &si.brought}) *energy *= units.energy();
-  for (double* one : {&si.speed_min, &si.speed_max, &si.speed.first, &si.info.onset_speed})
-    *one *= units.length;
+  for (const Quantity& q : quantities)
+    si.*q.value *= q.unit == Quantity::energy ? units.energy() : q.unit == Quantity::speed ? units.length : 1.0;
+  for (double* one : {&si.speed.first, &si.info.onset_speed}) *one *= units.length;
   return si;
 }
 

@@ -64,6 +64,9 @@ struct PairInfo
 /// Part of the table's overlap range from which a contact counts as near its edge.
 inline constexpr double near_edge = 0.9;
 
+/// How a number of all contacts follows from the numbers of each pair of types and each rank.
+enum class Combine { sum, largest, least };
+
 /// What the contacts of this rank did since the pair style was set. Filled by the contact loops.
 ///
 /// A pair of a local particle and a ghost is computed on both ranks (or twice on one, across a periodic
@@ -102,16 +105,6 @@ struct ContactStatistics
     double run_frequency2 = 0;  ///< frequency2 of this run alone (this rank's; not kept in restarts)
     PairInfo info;
 
-    static constexpr int sums = 12, maxima = 4, minima = 2;
-    /// The numbers above, first those that add up over ranks, then those of which the largest, the least
-    /// counts.
-    std::array<double*, sums + maxima + minima> numbers()
-    {
-      return {&dissipated, &other_work, &waves,      &touches,     &ended,
-              &near,       &past,       &beyond,     &too_fast,    &too_slow,
-              &sudden,     &brought,    &speed_max,  &overlap_max, &damage_number_max,
-              &frequency2, &speed_min,  &overlap_min};
-    }
     /// Counts a contact in its bin of overlap, with `contactMap on` (touch_speed >= 0) in the map; a negative
     /// weight takes it out. A pair that two ranks see counts half on each, and may have begun on one of them
     /// alone: only the sum over ranks need not be negative.
@@ -157,5 +150,47 @@ struct ContactStatistics
   std::vector<double> pack() const;
   bool unpack(const double* values, std::size_t count, bool sums);
 };
+
+/// A number that is counted for each pair of types. The list of all is the one place that says how it adds up
+/// over types and ranks, its unit, and where it is printed.
+struct Quantity
+{
+  double ContactStatistics::Pair::*value;
+  Combine combine;
+  enum Unit { plain, energy, speed } unit;
+  const char* key;  ///< in the JSON; null: not there
+  int vector = -1;  ///< place in fix granulaw/stats' vector, from 0; -1: not there
+  bool split = false;  ///< the vector has it of particles, and in the next place of walls
+  int column = -1;     ///< of the fix's array; -1: not there
+};
+
+/// Restart files hold the numbers in this order.
+inline constexpr auto quantities = [] {
+  using Pair = ContactStatistics::Pair;
+  using enum Combine;
+  return std::array{
+      Quantity{&Pair::dissipated, sum, Quantity::energy, "normal_dissipation_J", 0, true, 2},
+      Quantity{&Pair::other_work, sum, Quantity::energy, "other_work_J", 14, false, 3},
+      Quantity{&Pair::waves, sum, Quantity::energy, "wave_dissipation_J", 18, false, 7},
+      Quantity{&Pair::touches, sum, Quantity::plain, "contacts_begun", 2, true, 0},
+      Quantity{&Pair::ended, sum, Quantity::plain, "contacts_ended", -1, false, 1},
+      Quantity{&Pair::near, sum, Quantity::plain, "contacts_near_table_edge", 11},
+      Quantity{&Pair::past, sum, Quantity::plain, "contacts_past_table"},
+      Quantity{&Pair::beyond, sum, Quantity::plain, "contact_steps_beyond_table", 8},
+      Quantity{&Pair::too_fast, sum, Quantity::plain, "contacts_beyond_speed_axis", 10},
+      Quantity{&Pair::too_slow, sum, Quantity::plain, "contacts_below_speed_axis", 15},
+      Quantity{&Pair::sudden, sum, Quantity::plain, "contacts_begun_overlapping", 16, false, 6},
+      Quantity{&Pair::brought, sum, Quantity::energy, "energy_of_overlapping_starts_J", 17},
+      Quantity{&Pair::speed_max, largest, Quantity::speed, "impact_speed_max_m_per_s", 4, true, 4},
+      Quantity{&Pair::overlap_max, largest, Quantity::plain, "overlap_over_radius_max", 6, true, 5},
+      Quantity{&Pair::damage_number_max, largest, Quantity::plain, "damage_number_max", 9},
+      Quantity{&Pair::frequency2, largest, Quantity::plain, nullptr, 12},  // printed as a time step
+      Quantity{&Pair::speed_min, least, Quantity::speed, "impact_speed_min_m_per_s"},
+      Quantity{&Pair::overlap_min, least, Quantity::plain, "overlap_over_radius_min"},
+  };
+}();
+
+/// Of two values of a quantity.
+double combined(Combine how, double a, double b);
 
 }  // namespace granulaw::plugin

@@ -351,30 +351,18 @@ double FixStats::compute_scalar()
 
 double FixStats::compute_vector(int n)
 {
-  const ContactStatistics::Pair p = session_->statistics.total(false), w = session_->statistics.total(true);
-  const double own[vector_length] = {p.dissipated,
-                                     w.dissipated,
-                                     p.touches,
-                                     w.touches,
-                                     p.speed_max,
-                                     w.speed_max,
-                                     p.overlap_max,
-                                     w.overlap_max,
-                                     p.beyond + w.beyond,
-                                     std::max(p.damage_number_max, w.damage_number_max),
-                                     p.too_fast + w.too_fast,
-                                     p.near + w.near,
-                                     std::max(p.frequency2, w.frequency2),
-                                     stored_energy(),
-                                     p.other_work + w.other_work,
-                                     p.too_slow + w.too_slow,
-                                     p.sudden + w.sudden,
-                                     p.brought + w.brought,
-                                     p.waves + w.waves};
-  const bool is_sum = !((n >= 4 && n <= 7) || n == 9 || n == 12);
+  double own = stored_energy();
+  Combine how = Combine::sum;
+  for (const Quantity& q : quantities) {
+    if (q.vector < 0 || n < q.vector || n > q.vector + static_cast<int>(q.split)) continue;
+    const double particles = session_->statistics.total(false).*q.value,
+                 walls = session_->statistics.total(true).*q.value;
+    how = q.combine;
+    own = !q.split ? combined(how, particles, walls) : n == q.vector ? particles : walls;
+  }
   double result = 0;
-  MPI_Allreduce(&own[n], &result, 1, MPI_DOUBLE, is_sum ? MPI_SUM : MPI_MAX, world);
-  if (n == 12) return result > 0 ? largest_step(1.0, result) : 0.0;
+  MPI_Allreduce(&own, &result, 1, MPI_DOUBLE, operation(how), world);
+  if (n == time_step_place) return result > 0 ? largest_step(1.0, result) : 0.0;
   return result;
 }
 
@@ -387,10 +375,9 @@ double FixStats::compute_array(int row, int column)
   ContactStatistics::Pair counts;  // walls of both kinds together
   for (const auto& [key, counted] : rows_.pairs)
     if (row_of_types(key, atom->ntypes) == row) counts.merge(counted);
-  const double values[array_columns] = {counts.touches,    counts.ended,     counts.dissipated,
-                                        counts.other_work, counts.speed_max, counts.overlap_max,
-                                        counts.sudden,     counts.waves};
-  return values[column];
+  for (const Quantity& q : quantities)
+    if (q.column == column) return counts.*q.value;
+  return 0.0;
 }
 
 void FixStats::end_of_step()

@@ -42,6 +42,7 @@ class FixStats : public LAMMPS_NS::Fix
 {
  public:
   static constexpr int vector_length = 19, array_columns = 8;
+  static constexpr int time_step_place = 12;  // in the vector, where frequency2 stands
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
   ~FixStats() override;

@@ -1,18 +1,25 @@
 #include "liggghts_plugin/rank_sums.hpp"
 
+#include <vector>
+
 namespace granulaw::plugin {
+
+MPI_Op operation(Combine how)
+{
+  return how == Combine::sum ? MPI_SUM : how == Combine::largest ? MPI_MAX : MPI_MIN;
+}
 
 void reduce(ContactStatistics::Pair& counts, MPI_Comm world)
 {
-  using Pair = ContactStatistics::Pair;
-  const auto numbers = counts.numbers();
-  double values[Pair::sums + Pair::maxima + Pair::minima];
-  for (std::size_t k = 0; k < numbers.size(); ++k) values[k] = *numbers[k];
-  double *largest = values + Pair::sums, *least = largest + Pair::maxima;
-  MPI_Allreduce(MPI_IN_PLACE, values, Pair::sums, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, largest, Pair::maxima, MPI_DOUBLE, MPI_MAX, world);
-  MPI_Allreduce(MPI_IN_PLACE, least, Pair::minima, MPI_DOUBLE, MPI_MIN, world);
-  for (std::size_t k = 0; k < numbers.size(); ++k) *numbers[k] = values[k];
+  for (const Combine how : {Combine::sum, Combine::largest, Combine::least}) {
+    std::vector<double> values;
+    for (const Quantity& q : quantities)
+      if (q.combine == how) values.push_back(counts.*q.value);
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, operation(how), world);
+    const double* next = values.data();
+    for (const Quantity& q : quantities)
+      if (q.combine == how) counts.*q.value = *next++;
+  }
   MPI_Allreduce(MPI_IN_PLACE, counts.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, counts.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
   int mapped = counts.map.empty() ? 0 : 1;  // one rank may have it alone, out of a restart file

@@ -6,6 +6,9 @@
 
 namespace granulaw::plugin {
 
+/// How MPI combines so.
+MPI_Op operation(Combine how);
+
 /// Makes sums, largest and least values those of all ranks. Collective.
 void reduce(ContactStatistics::Pair& counts, MPI_Comm world);
 

@@ -8,9 +8,7 @@ namespace granulaw::plugin {
 namespace {
 
 constexpr std::size_t key_length = 3;
-constexpr std::size_t side_length = key_length + ContactStatistics::Pair::sums +
-                                    ContactStatistics::Pair::maxima + ContactStatistics::Pair::minima +
-                                    2 * LogHistogram::bins;
+constexpr std::size_t side_length = key_length + quantities.size() + 2 * LogHistogram::bins;
 
 /// First number of pack(); negative, as no kind of a key is.
 constexpr double layout = -static_cast<double>(side_length);
@@ -22,12 +20,11 @@ std::vector<double> ContactStatistics::pack() const
 {
   std::vector<double> values{layout};
   for (const auto& [key, counts] : pairs) {
-    Pair copy = counts;
     values.insert(values.end(),
                   {static_cast<double>(key.kind), static_cast<double>(key.i), static_cast<double>(key.j)});
-    for (const double* value : copy.numbers()) values.push_back(*value);
-    values.insert(values.end(), copy.speed.count.begin(), copy.speed.count.end());
-    values.insert(values.end(), copy.overlap.count.begin(), copy.overlap.count.end());
+    for (const Quantity& q : quantities) values.push_back(counts.*q.value);
+    values.insert(values.end(), counts.speed.count.begin(), counts.speed.count.end());
+    values.insert(values.end(), counts.overlap.count.begin(), counts.overlap.count.end());
   }
   for (const auto& [key, counts] : pairs) {
     if (counts.map.empty()) continue;
@@ -53,11 +50,12 @@ bool ContactStatistics::unpack(const double* values, std::size_t count, bool sum
   const double *v = values + 1, *end = values + count;
   for (; v + side_length <= end && v[0] < map_record; v += side_length) {
     Pair& counts = pairs[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}];
-    const auto numbers = counts.numbers();
     const double* from = v + key_length;
-    for (std::size_t k = sums ? 0 : Pair::sums; k < numbers.size(); ++k) *numbers[k] = from[k];
+    for (const Quantity& q : quantities) {
+      if (sums || q.combine != Combine::sum) counts.*q.value = *from;
+      ++from;
+    }
     if (!sums) continue;
-    from += numbers.size();
     std::copy_n(from, LogHistogram::bins, counts.speed.count.begin());
     std::copy_n(from + LogHistogram::bins, LogHistogram::bins, counts.overlap.count.begin());
   }

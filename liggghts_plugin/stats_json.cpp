@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace granulaw::plugin {
 
 namespace {
@@ -71,33 +69,17 @@ std::string quoted(const std::string& text)
 /// The counts of a pair, as the inside of a JSON object.
 std::string counts_json(const ContactStatistics::Pair& s, const std::string& indent)
 {
-  const std::pair<const char*, std::string> entries[] = {
-      {"normal_dissipation_J", number(s.dissipated)},
-      {"wave_dissipation_J", number(s.waves)},
-      {"other_work_J", number(s.other_work)},
-      {"contacts_begun", number(s.touches)},
-      {"contacts_ended", number(s.ended)},
-      {"impact_speed_min_m_per_s", number(s.speed_min)},
-      {"impact_speed_max_m_per_s", number(s.speed_max)},
-      {"overlap_over_radius_min", number(s.overlap_min)},
-      {"overlap_over_radius_max", number(s.overlap_max)},
-      {"damage_number_max", number(s.damage_number_max)},
-      {"inertia_number_max", number(s.damage_number_max)},
-      {"contacts_near_table_edge", number(s.near)},
-      {"contacts_past_table", number(s.past)},
-      {"contact_steps_beyond_table", number(s.beyond)},
-      {"contacts_beyond_speed_axis", number(s.too_fast)},
-      {"contacts_below_speed_axis", number(s.too_slow)},
-      {"contacts_begun_overlapping", number(s.sudden)},
-      {"energy_of_overlapping_starts_J", number(s.brought)},
-      {"time_step_allowed_s", number(s.dt_allowed())},
-      {"impact_speed", histogram_json(s.speed, "approach speed at first touch, m/s")},
-      {"largest_overlap_over_radius",
-       histogram_json(s.overlap, "largest overlap/R* of each contact that ended")},
-  };
   std::string text;
-  for (const auto& [name, value] : entries)
+  const auto add = [&](const char* name, const std::string& value) {
     text += fmt::format("{}{}\"{}\": {}", text.empty() ? "" : ",\n", indent, name, value);
+  };
+  for (const Quantity& q : quantities)
+    if (q.key) add(q.key, number(s.*q.value));
+  add("inertia_number_max", number(s.damage_number_max));  // the older name of the damage number
+  add("time_step_allowed_s", number(s.dt_allowed()));
+  add("impact_speed", histogram_json(s.speed, "approach speed at first touch, m/s"));
+  add("largest_overlap_over_radius",
+      histogram_json(s.overlap, "largest overlap/R* of each contact that ended"));
   if (!s.map.empty()) text += fmt::format(",\n{}\"contact_map\": {}", indent, map_json(s));
   return text;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 namespace granulaw::plugin {
 namespace {
@@ -100,6 +101,22 @@ TEST(ContactStatistics, RowsOfTypesAreEachPairOnce)
   }
   EXPECT_EQ(row_of_types({PairKey::particles, 1, 2}, 2), 1);
   EXPECT_EQ(row_of_types({PairKey::deformable_wall, 1, 1}, 2), 3);
+}
+
+/// The vector and the array of fix granulaw/stats have each place once; place 13 is the energy held, no count.
+TEST(ContactStatistics, EveryPlaceOfTheFixHasOneQuantity)
+{
+  std::multiset<int> vector{13}, columns;
+  for (const Quantity& q : quantities) {
+    if (q.vector >= 0) vector.insert(q.vector);
+    if (q.split) vector.insert(q.vector + 1);
+    if (q.column >= 0) columns.insert(q.column);
+  }
+  ASSERT_EQ(vector.size(), 19u);  // fix_granulaw_stats.md
+  ASSERT_EQ(columns.size(), 8u);
+  int place = 0, column = 0;
+  for (const int found : vector) EXPECT_EQ(found, place++);
+  for (const int found : columns) EXPECT_EQ(found, column++);
 }
 
 }  // namespace
