@@ -2,7 +2,7 @@
 
 namespace granulaw {
 
-Axis::Axis(const AxisTable& table, const Column& mean, const std::vector<double>& kept,
+Axis::Axis(const AxisTable& table, const HermiteColumn& mean, const std::vector<double>& kept,
            const std::vector<double>& span)
     : end_(table.level.back()), share_end_(table.share_end)
 {
@@ -34,7 +34,7 @@ Axis::Axis(const AxisTable& table, const Column& mean, const std::vector<double>
     rows_[bin] = static_cast<std::uint8_t>(k);
   }
 
-  const auto cubic_of = [&](const Column& column, std::size_t k, std::size_t l, double(&c)[4]) {
+  const auto cubic_of = [&](const HermiteColumn& column, std::size_t k, std::size_t l, double(&c)[4]) {
     std::fill_n(c, 4, 0.0);
     if (k == 0 && !rate) return;
     const std::size_t at = (k ? k - 1 : 0) * nodes + l;

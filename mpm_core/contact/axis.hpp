@@ -35,13 +35,13 @@ struct AxisTable
   double reference_radius = 0;  ///< m; by rate only, else 0
   double speed_begin = 0;       ///< v of the first level, the slowest impact stored; by rate only, else 0
   double speed_end = 0;         ///< v at the last node of `reach`; faster impacts count as this one
-  Column reach;                 ///< X(v) at nodes even in v from 0; slopes by v
+  HermiteColumn reach;          ///< X(v) at nodes even in v from 0; slopes by v
   std::vector<double> level;    ///< X_k, ascending; between levels all is linear in X, below the first one to
                                 ///< nothing at X = 0 (by rate: as at the first)
   std::vector<double> kept, span;  ///< CurveTable's, of an impact that reverses at its X_k
   double share_end = 0;            ///< x/X at the last node of `force`
-  Column force;  ///< A at nodes even in x/X from 0, level after level; slopes by x/X. F = F_slow (1 + A);
-                 ///< from share_end on F = F_slow
+  HermiteColumn force;  ///< A at nodes even in x/X from 0, level after level; slopes by x/X. F = F_slow (1 +
+                        ///< A); from share_end on F = F_slow
 
   std::size_t shares() const { return level.empty() ? 0 : force.size() / level.size(); }
   double share_spacing() const { return share_end / static_cast<double>(shares() - 1); }
@@ -60,7 +60,7 @@ class Axis
   Axis() = default;
   /// `mean` of the curve's work of loading: W = W_slow (1 + M) at the nodes of `table.force`. `kept`, `span`:
   /// by how much -ln of both exceeds the slow press's at each level.
-  Axis(const AxisTable& table, const Column& mean, const std::vector<double>& kept,
+  Axis(const AxisTable& table, const HermiteColumn& mean, const std::vector<double>& kept,
        const std::vector<double>& span);
 
   /// A and dA/dx at overlap x of a contact that latched X > 0.

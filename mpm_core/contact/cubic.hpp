@@ -8,7 +8,7 @@
 namespace granulaw {
 
 /// A function at nodes: values, and slopes by the coordinate of the nodes. Cubic Hermite between them.
-struct Column
+struct HermiteColumn
 {
   std::vector<double> value, slope;
 
@@ -18,7 +18,7 @@ struct Column
 
 /// The column made to rise between nodes at `x`: values below an earlier one are raised to it, slopes limited
 /// to 0 and three times the chord (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980: sufficient).
-inline void make_rise(Column& column, const std::vector<double>& x)
+inline void make_rise(HermiteColumn& column, const std::vector<double>& x)
 {
   auto& [value, slope] = column;
   for (std::size_t k = 1; k < value.size(); ++k) value[k] = std::max(value[k], value[k - 1]);
@@ -29,7 +29,7 @@ inline void make_rise(Column& column, const std::vector<double>& x)
   }
 }
 /// The column made never to rise: its mirror image made to rise.
-inline void make_fall(Column& column, const std::vector<double>& x)
+inline void make_fall(HermiteColumn& column, const std::vector<double>& x)
 {
   const auto mirror = [&] {
     for (double& v : column.value) v = -v;

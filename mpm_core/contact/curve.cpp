@@ -37,14 +37,14 @@ Fault wrong_values(const char* name, const std::vector<double>& values, std::siz
   return {};
 }
 
-Fault wrong_column(const char* name, const Column& column, std::size_t count, double low, double high)
+Fault wrong_column(const char* name, const HermiteColumn& column, std::size_t count, double low, double high)
 {
   if (Fault f = wrong_values(name, column.value, count, low, high)) return f;
   return wrong_values((std::string(name) + "_slope").c_str(), column.slope, count, -big, big);
 }
 
 /// `sign` 1: the column rises between nodes at x; -1: it falls.
-Fault turns(const char* name, const Column& column, const std::vector<double>& x, int sign)
+Fault turns(const char* name, const HermiteColumn& column, const std::vector<double>& x, int sign)
 {
   for (std::size_t k = 0; k + 1 < x.size(); ++k) {
     const double h = x[k + 1] - x[k];
@@ -67,7 +67,7 @@ std::vector<double> even_nodes(std::size_t count, double end)
 }
 
 /// Coefficients in t from 0 to `width` of the Hermite cubic between nodes k and k + 1, `length` apart.
-void cubic_of(const Column& column, std::size_t k, double length, double width, double (&c)[4])
+void cubic_of(const HermiteColumn& column, std::size_t k, double length, double width, double (&c)[4])
 {
   hermite(c, column.value[k], column.value[k + 1], length * column.slope[k], length * column.slope[k + 1]);
   double scale = 1;
@@ -220,9 +220,9 @@ Curve::Curve(CurveTable table, std::optional<AxisTable> axis)
     yields_from_ = table_.onset;
     first_turn_ = static_cast<std::size_t>(table_.octaves) * CurveTable::nodes_an_octave;
     std::vector<double> x = table_.yielding_nodes();
-    Column kept = table_.kept, span = table_.span;
+    HermiteColumn kept = table_.kept, span = table_.span;
     if (axis_table_) {  // the axis changes logarithms: they are what is interpolated
-      for (Column* column : {&kept, &span}) {
+      for (HermiteColumn* column : {&kept, &span}) {
         for (std::size_t k = 0; k < x.size(); ++k) {
           column->slope[k] = -column->slope[k] / column->value[k];
           column->value[k] = -std::log(column->value[k]);
@@ -248,7 +248,7 @@ void Curve::add_axis()
   const AxisTable& a = *axis_table_;
   const std::size_t nodes = a.shares();
   const double h = a.share_spacing();
-  Column mean;
+  HermiteColumn mean;
   std::vector<double> kept, span;
   for (std::size_t k = 0; k < a.level.size(); ++k) {
     const double latched = a.level[k];

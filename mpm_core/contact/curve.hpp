@@ -28,14 +28,14 @@ struct CurveTable
   static constexpr int nodes_an_octave = 8;
 
   double onset = std::numeric_limits<double>::infinity();  ///< x at which yield begins; infinity: elastic
-  double end = 0;   ///< largest x for which the law holds; between the last two nodes, or the last
-  int octaves = 0;  ///< from the first node to the onset (elastic: to 1)
-  Column force;     ///< of loading; never falls
-  Column radius;    ///< contact radius over R; never falls
+  double end = 0;        ///< largest x for which the law holds; between the last two nodes, or the last
+  int octaves = 0;       ///< from the first node to the onset (elastic: to 1)
+  HermiteColumn force;   ///< of loading; never falls
+  HermiteColumn radius;  ///< contact radius over R; never falls
   // from the onset on:
-  Column kept;         ///< W_u/W_L of a reversal at x, e squared; never rises
-  Column span;         ///< 1 - delta_r/delta_m; never rises
-  Column hertz_share;  ///< A of UnloadingShape
+  HermiteColumn kept;         ///< W_u/W_L of a reversal at x, e squared; never rises
+  HermiteColumn span;         ///< 1 - delta_r/delta_m; never rises
+  HermiteColumn hertz_share;  ///< A of UnloadingShape
 
   CurveTable() = default;
   /// With octaves down to 2^-40, below which Hertz is exact to 1e-6. The columns are empty.

@@ -10,9 +10,9 @@
 namespace granulaw::testing {
 
 /// A column of f at these x; slopes by central differences good to 1e-9.
-inline Column sampled(const std::vector<double>& nodes, const std::function<double(double)>& f)
+inline HermiteColumn sampled(const std::vector<double>& nodes, const std::function<double(double)>& f)
 {
-  Column column;
+  HermiteColumn column;
   for (const double x : nodes) {
     const double h = 1e-4 * x;
     column.add(f(x), (8.0 * (f(x + h) - f(x - h)) - (f(x + 2 * h) - f(x - 2 * h))) / (12.0 * h));
