@@ -274,35 +274,6 @@ TEST(Particle, LayersAndInclusions)
       }
     // less the pore, and less nothing else: the ball stays clear of the ring; cells of 1/500 cut at the edge
     EXPECT_NEAR(ring / (2 * pi * pi * r * (a * a - 0.01e-6)), 1, 2e-3);
-    // what is scaled keeps its materials
-    const Particle big = p.scaled(1000);
-    EXPECT_EQ(big.material_at(0.6, 1.11), 1);
-    EXPECT_EQ(big.material_at(0.6, 1.09), -1);
-    EXPECT_NEAR(big.volume() / p.volume(), 1e9, 1e-3);
-  }
-}
-
-TEST(Particle, ScalingMultipliesEveryLength)
-{
-  Particle p;
-  p.radius = 1;
-  p.profile = {{0, 0}, {1, 1.5}, {0, 2}};
-  p.layers = {{0.25, 1}, {0.125, 2}};
-  p.inclusions = {{0.5, 1.25, 0.0625, 1}, {0, 1, 0.375, -1}};
-  const Particle q = p.scaled(4);  // powers of two: exact
-  EXPECT_EQ(q.radius, 4);
-  ASSERT_EQ(q.profile.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(q.profile[k].r, 4 * p.profile[k].r);
-    EXPECT_EQ(q.profile[k].z, 4 * p.profile[k].z);
-  }
-  for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(q.layers[k].thickness, 4 * p.layers[k].thickness);
-    EXPECT_EQ(q.layers[k].material, p.layers[k].material);
-    EXPECT_EQ(q.inclusions[k].r, 4 * p.inclusions[k].r);
-    EXPECT_EQ(q.inclusions[k].z, 4 * p.inclusions[k].z);
-    EXPECT_EQ(q.inclusions[k].radius, 4 * p.inclusions[k].radius);
-    EXPECT_EQ(q.inclusions[k].material, p.inclusions[k].material);
   }
 }
 
@@ -311,7 +282,7 @@ TEST(Particle, ChangedProfilesAreNoticed)
   Particle p = body(1e-3, ellipsoid(1e-3, 1));
   EXPECT_NEAR(p.depth(0, 0.3e-3), 0.3e-3, 1e-9);
   const Particle copy = p;
-  p.profile = p.profile.scaled(2);
+  p.profile = ellipsoid(2e-3, 1);
   EXPECT_NEAR(p.depth(0, 3e-3), 1e-3, 1e-8);
   EXPECT_NEAR(copy.depth(0, 0.3e-3), 0.3e-3, 1e-9);
   p.profile = copy.profile;

@@ -81,7 +81,7 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
   options.precision = GetParam().precision;
   const Particle particle = reference::unit_sphere(100);
   Partner partner;
-  if (GetParam().partner) partner.particle = reference::unit_sphere(80).scaled(1.5);
+  if (GetParam().partner) partner.particle = Particle::sphere(1.5, reference::unit_sphere(80).materials[0]);
   constexpr double velocity = 0.02, depth = 0.02;
   const bool pressed = GetParam().pressed;
   const Collision collision(particle, partner, options, Support::free);

@@ -70,7 +70,7 @@ const std::vector<TracedRun>& traced_runs()
       {"two-bodies-rated", 1e-12,
        [=] {
          Partner partner;
-         partner.particle = sphere().scaled(1.5);
+         partner.particle = Particle::sphere(1.5, sphere().materials[0]);
          return impact(sphere(voce, rate), {fast}, partner, coarse(GridKind::mapped));
        }},
       {"press-midplane", 1e-12,

@@ -1,7 +1,6 @@
 #include "solver/shape/particle.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <queue>
@@ -93,17 +92,6 @@ double Particle::surface_z(double r) const
   if (!is_sphere()) return profile.surface_z(r);
   if (r >= radius) return radius;
   return r * r / (radius + std::sqrt(radius * radius - r * r));  // no difference of near numbers
-}
-
-Particle Particle::scaled(double factor) const
-{
-  assert(!shape);
-  Particle p = *this;
-  p.radius *= factor;
-  p.profile = p.profile.scaled(factor);
-  for (Layer& layer : p.layers) layer.thickness *= factor;
-  for (Inclusion& i : p.inclusions) i.r *= factor, i.z *= factor, i.radius *= factor;
-  return p;
 }
 
 Particle Particle::sphere(double radius, const Material& material)

@@ -69,9 +69,6 @@ struct Particle
   /// (the lowest of several heights); beyond the largest r, its value there.
   double surface_z(double r) const;
 
-  /// All lengths times `factor`; materials unchanged. Not with a shape.
-  Particle scaled(double factor) const;
-
  private:
   int material_of(double depth, const Vector3& x) const;  // x in the frame of the inclusions
 };

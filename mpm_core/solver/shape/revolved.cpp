@@ -181,13 +181,6 @@ double Profile::pole_curvature_radius(double reach) const
   return (first.r * first.r + first.z * first.z) / (2 * first.z);
 }
 
-Profile Profile::scaled(double factor) const
-{
-  std::vector<ProfilePoint> points(begin(), end());
-  for (ProfilePoint& p : points) p.r *= factor, p.z *= factor;
-  return points;
-}
-
 namespace {
 
 bool is_mirrored(const Profile& profile)

@@ -49,8 +49,6 @@ class Profile
   /// Infinity for a flat tip.
   double pole_curvature_radius(double reach) const;
 
-  Profile scaled(double factor) const;  ///< all lengths times `factor`
-
  private:
   std::shared_ptr<const std::vector<ProfilePoint>> points_;  ///< null: none
   class Segments;
