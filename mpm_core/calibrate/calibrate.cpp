@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "calibrate/kind/kind.hpp"
+#include "calibrate/misfit.hpp"
+#include "calibrate/profile_likelihood.hpp"
 
 namespace granulaw {
 

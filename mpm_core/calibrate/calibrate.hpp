@@ -2,13 +2,42 @@
 
 #include <cstdint>
 
-#include "calibrate/kind/kind.hpp"
-#include "calibrate/misfit.hpp"
-#include "calibrate/profile_likelihood.hpp"
+#include "calibrate/problem.hpp"
 
 namespace granulaw {
 
-/// What data tell of a parameter, in one word.
+/// Where the sum of squares is least.
+struct Minimum
+{
+  Coordinates q;
+  double cost = 0;           ///< sum of squared residuals
+  Eigen::MatrixXd jacobian;  ///< of the residuals, at q
+};
+
+/// The answer of the data on one parameter, SI. An end that no data tell is the end of what is allowed.
+struct Interval
+{
+  double low = 0, high = 0;
+  bool low_told = true, high_told = true;
+};
+struct ParameterProfile
+{
+  double value = 0;
+  Interval within68, within95;
+  Coordinates low95, high95;  ///< all unknowns at the ends of the 95 % interval
+  std::optional<Coordinates>
+      better;  ///< a place with a smaller sum of squares than the minimum's, if one was met
+};
+
+/// A systematic difference between data and fit that has a name.
+struct Misfit
+{
+  std::string source;    ///< the measurement's; empty: between several
+  std::string name;      ///< in one or two words
+  std::string sentence;  ///< the difference, and its likely causes
+};
+
+/// The answer of the data on a parameter, in one word.
 enum class Told {
   value,       ///< an interval
   from_below,  ///< it is larger than the interval's low end; nothing else
@@ -25,7 +54,7 @@ struct FittedParameter
   bool identifiable() const { return told == Told::value; }
 };
 
-/// What came out of the data.
+/// The answer of a fit.
 struct Calibration
 {
   CandidateMaterial material;
@@ -68,7 +97,7 @@ struct Band
 /// Empty where the fit lies at an end of the method's range.
 Band band_of(const CalibrationProblem& problem, const Calibration& calibration, std::size_t measurement);
 
-/// What the data tell and what they do not, as sentences; the last of all says whether the model fits.
+/// Values, bounds and misfits as sentences; the last of all says whether the model fits.
 std::string verdict(const CalibrationProblem& problem, const Calibration& calibration);
 
 /// Materials drawn from the posterior: a random walk (Metropolis) over the likelihood from the best fit,

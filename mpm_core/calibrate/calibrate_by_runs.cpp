@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/larger.hpp"
+#include "calibrate/fit.hpp"
 #include "calibrate/flow_shape.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "characterise/build_law.hpp"

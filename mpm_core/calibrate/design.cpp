@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "calibrate/fit.hpp"
 #include "calibrate/kind/composed.hpp"
 #include "calibrate/kind/kind.hpp"
 

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "calibrate/calibrate.hpp"
+#include "calibrate/fit.hpp"
 
 namespace granulaw {
 

@@ -1,16 +1,8 @@
 #pragma once
 
-#include "calibrate/problem.hpp"
+#include "calibrate/calibrate.hpp"
 
 namespace granulaw {
-
-/// Where the sum of squares is least.
-struct Minimum
-{
-  Coordinates q;
-  double cost = 0;           ///< sum of squared residuals
-  Eigen::MatrixXd jacobian;  ///< of the residuals, at q
-};
 
 /// Least squares by GSL's trust region (gsl_multifit_nlinear, Levenberg-Marquardt steps) from `start`; the
 /// unknowns for which `fixed` is true stay there.

@@ -76,4 +76,16 @@ struct Measurement
   double turn_gap() const;
 };
 
+/// Fills in the standard deviations that are not stated, as the kind does: of a curve its scatter, of other
+/// kinds `relative_sd` of the value. Throws Error where a value is over Column::most by more than its noise.
+void complete_standard_deviations(Measurement& measurement, double relative_sd);
+
+/// The unknowns of a curve's machine.
+struct MachineState
+{
+  double offset = 0;      ///< m, displacement at first touch
+  double compliance = 0;  ///< m/N
+  double beyond = 0;      ///< m, displacement at which the curve turned, less the largest of its data
+};
+
 }  // namespace granulaw

@@ -7,14 +7,6 @@
 
 namespace granulaw {
 
-/// A systematic difference between data and fit that has a name.
-struct Misfit
-{
-  std::string source;    ///< the measurement's; empty: between several
-  std::string name;      ///< in one or two words
-  std::string sentence;  ///< the difference, and its likely causes
-};
-
 /// Looks for patterns in what the fit leaves of each measurement: those of its kind (Kind::inspect), single
 /// values further off than four standard deviations while the others fit, and impacts that show a stronger
 /// material than slow measurements, or a weaker one.

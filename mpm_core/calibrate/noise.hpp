@@ -17,8 +17,4 @@ struct ForceScatter
 /// likeliest.
 ForceScatter scatter_of(const Measurement& curve);
 
-/// Fills in the standard deviations that are not stated, as the kind does: of a curve its scatter, of other
-/// kinds `relative_sd` of the value. Throws Error where a value is over Column::most by more than its noise.
-void complete_standard_deviations(Measurement& measurement, double relative_sd);
-
 }  // namespace granulaw

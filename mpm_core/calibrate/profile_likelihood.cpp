@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "calibrate/fit.hpp"
+
 namespace granulaw {
 
 namespace {

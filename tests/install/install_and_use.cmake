@@ -24,6 +24,7 @@ run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE} -B ${WORK}/build -DCMAKE_PRE
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${WORK}/build/consumer)
 run(${WORK}/build/shapes)
+run(${WORK}/build/fit_material ${WORK}/prefix/share/granulaw/atlas.h5 ${SOURCE}/../../../examples/calibrate/drops.csv)
 run(${WORK}/prefix/bin/mpm --version)
 # the law that the consumer's own program made
 run(${WORK}/prefix/bin/mpm law ${WORK}/build/law.h5 --pair powder:wall --velocity 1)

@@ -12,6 +12,7 @@
 
 #include "base/scales.hpp"
 #include "calibrate/calibrate.hpp"
+#include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
 #include "characterise/characterised_body.hpp"
 #include "characterise/law_from_atlas.hpp"

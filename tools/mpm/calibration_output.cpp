@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/kind/kind.hpp"
 #include "json_output.hpp"
 
 namespace granulaw {

@@ -25,14 +25,6 @@ struct Column
   std::string name() const { return *unit ? std::string(quantity) + "_" + unit : quantity; }
 };
 
-/// What the machine of a curve adds to the unknowns.
-struct MachineState
-{
-  double offset = 0;      ///< m, displacement at first touch
-  double compliance = 0;  ///< m/N
-  double beyond = 0;      ///< m, displacement at which the curve turned, less the largest of its data
-};
-
 /// A material that is held against a measurement.
 struct Trial
 {

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
 #include "calibrate/design.hpp"
+#include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
 #include "characterise/composed_law.hpp"
 

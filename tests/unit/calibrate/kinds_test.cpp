@@ -7,6 +7,7 @@
 #include "calibrate/calibrate.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/kind/composed.hpp"
+#include "calibrate/kind/kind.hpp"
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
 
