@@ -88,7 +88,6 @@ GRANULAW_OPTION(std::string)
 GRANULAW_OPTION(std::vector<double>)
 GRANULAW_OPTION(std::vector<std::string>)
 GRANULAW_OPTION(std::optional<int>)
-GRANULAW_OPTION(std::optional<int>)
 GRANULAW_OPTION(std::optional<double>)
 #undef GRANULAW_OPTION
 
