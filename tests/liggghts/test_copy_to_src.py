@@ -32,7 +32,7 @@ class CopyToSrc(unittest.TestCase):
         before = {path.name for path in self.src.iterdir()}
         (self.src / "granulaw_old.cpp").write_text("of an earlier version")
         self.copy()
-        expected = {f"granulaw_{name}_{path.name}" for folder, name in (("liggghts_plugin", "liggghts_plugin"), ("mpm_core/law", "law"),
+        expected = {f"granulaw_{name}_{path.name}" for folder, name in (("liggghts_plugin", "liggghts_plugin"), ("mpm_core/law", "law"), ("mpm_core/contact", "contact"),
                                                                         ("mpm_core/base", "base"))
                     for path in (ROOT / folder).glob("*.cpp") if path.name not in NOT_COPIED} | {"granulaw_base_version.cpp"}
         expected |= {f"granulaw_liggghts_plugin_register_{model}.cpp" for model in ("mpm", "thornton")}  # of models.list
