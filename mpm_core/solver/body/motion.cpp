@@ -26,13 +26,17 @@ Vector3 place_now(const Body& b, int node)
 
 Vector3 carried(const NodeField& field, const Markers& markers, int marker)
 {
-  Vector3 sum = Vector3::Zero();
   const double* weight = markers.weights(marker);
+  const int* offset = markers.offsets(marker);
+  const double* values = field.values.data() + std::size_t(markers.lowest[marker]) * field.per_node;
+  const int across = field.per_component, last = field.components - 1, step = field.per_node;
+  double x = 0, y = 0, z = 0;
   for (int k = 0; k < markers.corners; ++k) {
-    const int node = markers.node(marker, k);
-    for (int c = 0; c < field.components; ++c) sum[field.direction(c)] += weight[k] * field(node, c);
+    const double* v = values + std::ptrdiff_t(offset[k]) * step;
+    x += weight[k] * v[0], z += weight[k] * v[std::ptrdiff_t(last) * across];
+    if (last == 2) y += weight[k] * v[across];
   }
-  return sum;
+  return {x, y, z};
 }
 
 Vector3 travel_of(const Body& b)
@@ -69,18 +73,22 @@ void add_velocity(Body& b, const Vector3& velocity)
 double damp_velocity(Body& b, const Vector3& bulk, double share)
 {
   const Reference& reference = b.reference();
+  const double* mass = reference.mass_i.data();
   const double keep = 1 - share;
+  const int nodes = b.v_i.nodes, step = b.v_i.per_node;
   double gain = 0;
-  for (int i = 0; i < b.v_i.nodes; ++i) {
-    double before = 0, after = 0;
-    for (int c = 0; c < b.v_i.components; ++c) {
-      if (reference.inverse_mass_i(i, c) == 0) continue;
-      double& v = b.v_i(i, c);
-      const double own = bulk[b.v_i.direction(c)], damped = own + keep * (v - own);
-      before += v * v, after += damped * damped;
-      v = damped;
+  for (int c = 0; c < b.v_i.components; ++c) {
+    const double own = bulk[b.v_i.direction(c)];
+    const double* inverse_mass = &reference.inverse_mass_i.values[b.v_i.at(0, c)];
+    double* v = &b.v_i.values[b.v_i.at(0, c)];
+    double sums[4]{};  // side by side: the next sum does not wait for the last
+    for (int i = 0; i < nodes; ++i) {
+      double& now = v[std::ptrdiff_t(i) * step];
+      const double damped = inverse_mass[std::ptrdiff_t(i) * step] > 0 ? own + keep * (now - own) : now;
+      sums[i & 3] += mass[i] * (damped - now) * (damped + now);
+      now = damped;
     }
-    gain += 0.5 * reference.mass_i[i] * (after - before);
+    gain += 0.5 * ((sums[0] + sums[1]) + (sums[2] + sums[3]));
   }
   return gain;
 }
