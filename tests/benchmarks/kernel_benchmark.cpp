@@ -54,16 +54,19 @@ double rate_of(long points, Step step)
 double rate_of_body(Body body, InstructionSet set, double pole)
 {
   const Kernels& k = kernels(body, set);
+  const NodeField& place = body.reference().place_i;
+  const int last = place.components - 1;
+  NodeField squeezed[2] = {body.u_i, body.u_i};
+  for (int phase : {0, 1})
+    for (int i = 0; i < body.nodes(); ++i) {
+      const double height = place(i, last) - pole, way = (phase ? 0.01 : 0.012) * std::max(0.0, 1 - height);
+      for (int c = 0; c < last; ++c) squeezed[phase](i, c) = way * place(i, c);
+      squeezed[phase](i, last) = -way * height;
+    }
   int phase = 0;
   return rate_of(body.reference().filled, [&] {
-    const double size = ++phase % 2 ? 0.01 : 0.012;
-    const int last = body.u_i.components - 1;
-    for (int i = 0; i < body.nodes(); ++i) {
-      const NodeField& place = body.reference().place_i;
-      const double height = place(i, last) - pole, way = size * std::max(0.0, 1 - height);
-      for (int c = 0; c < last; ++c) body.u_i(i, c) = way * place(i, c);
-      body.u_i(i, last) = -way * height;
-    }
+    const NodeField& u = squeezed[++phase % 2];
+    std::copy(u.values.begin(), u.values.end(), body.u_i.values.begin());
     k.points_to_grid(body);
   });
 }
