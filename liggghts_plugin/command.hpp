@@ -33,7 +33,7 @@ void guarded(LAMMPS_NS::LAMMPS* lmp, Work&& work)
   }
 }
 
-/// What the pair style and the walls of ours share: the command's setup, and its place in the session.
+/// Common part of the pair style and the walls of ours: the command's setup, its place in the session.
 class CommandStyle : public CountedStyle
 {
  public:

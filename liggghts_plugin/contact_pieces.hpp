@@ -77,7 +77,7 @@ class Off
   Base* operator->() { return nullptr; }
 };
 
-/// Whether models of ours can be combined so.
+/// True: models of ours can be combined so.
 bool is_built(const ModelIds& ids);
 /// Calls visit for every combination with this normal model that LIGGGHTS can name.
 void each_combination(int normal, const std::function<void(const ModelIds&)>& visit);

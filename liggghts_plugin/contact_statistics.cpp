@@ -13,6 +13,12 @@ double least_known(double a, double b)
   return std::min(a, b);
 }
 
+/// Two values of a quantity as one.
+double combined(Combine how, double a, double b)
+{
+  return how == Combine::sum ? a + b : how == Combine::largest ? std::max(a, b) : std::min(a, b);
+}
+
 }  // namespace
 
 void PairInfo::include(const PairInfo& other)
@@ -40,11 +46,6 @@ double ContactStatistics::damage_number_limit() const
   for (const auto& [key, counts] : pairs)
     if (counts.info.needed) limit = least_known(limit, counts.info.damage_number_limit);
   return limit;
-}
-
-double combined(Combine how, double a, double b)
-{
-  return how == Combine::sum ? a + b : how == Combine::largest ? std::max(a, b) : std::min(a, b);
 }
 
 void ContactStatistics::Pair::merge(const Pair& other)

@@ -64,7 +64,7 @@ struct PairInfo
 /// Part of the table's overlap range from which a contact counts as near its edge.
 inline constexpr double near_edge = 0.9;
 
-/// How a number of all contacts follows from the numbers of each pair of types and each rank.
+/// Rule by which the numbers of pairs of types, and of ranks, make the number of all contacts.
 enum class Combine { sum, largest, least };
 
 /// What the contacts of this rank did since the pair style was set. Filled by the contact loops.
@@ -189,8 +189,5 @@ inline constexpr auto quantities = [] {
       Quantity{&Pair::overlap_min, least, Quantity::plain, "overlap_over_radius_min"},
   };
 }();
-
-/// Of two values of a quantity.
-double combined(Combine how, double a, double b);
 
 }  // namespace granulaw::plugin

@@ -351,17 +351,18 @@ double FixStats::compute_scalar()
 
 double FixStats::compute_vector(int n)
 {
-  double own = stored_energy();
-  Combine how = Combine::sum;
-  for (const Quantity& q : quantities) {
-    if (q.vector < 0 || n < q.vector || n > q.vector + static_cast<int>(q.split)) continue;
-    const double particles = session_->statistics.total(false).*q.value,
-                 walls = session_->statistics.total(true).*q.value;
-    how = q.combine;
-    own = !q.split ? combined(how, particles, walls) : n == q.vector ? particles : walls;
-  }
-  double result = 0;
-  MPI_Allreduce(&own, &result, 1, MPI_DOUBLE, operation(how), world);
+  const auto found = std::find_if(quantities.begin(), quantities.end(), [n](const Quantity& q) {
+    return q.vector >= 0 && n >= q.vector && n <= q.vector + static_cast<int>(q.split);
+  });
+  const bool is_count = found != quantities.end();  // else the energy held
+  double own = 0, result = 0;
+  if (!is_count)
+    own = stored_energy();
+  else if (found->split)
+    own = session_->statistics.total(n > found->vector).*found->value;
+  else
+    own = session_->statistics.total().*found->value;
+  MPI_Allreduce(&own, &result, 1, MPI_DOUBLE, is_count ? operation(found->combine) : MPI_SUM, world);
   if (n == time_step_place) return result > 0 ? largest_step(1.0, result) : 0.0;
   return result;
 }

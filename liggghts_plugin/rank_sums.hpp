@@ -6,7 +6,7 @@
 
 namespace granulaw::plugin {
 
-/// How MPI combines so.
+/// The same rule in MPI.
 MPI_Op operation(Combine how);
 
 /// Makes sums, largest and least values those of all ranks. Collective.

@@ -32,7 +32,7 @@ struct Datum
   int line = 0;            ///< of the file
   double relative_sd = 0;  ///< over 0: none was stated, and it is this share of the true value
 
-  /// Of a true value that is assumed: a value that is far too low has no smaller noise for that.
+  /// Noise about an assumed true value: a measured value that is far too low has no smaller noise.
   double sd_at(double value) const { return relative_sd > 0 ? relative_sd * std::abs(value) : sd; }
 };
 

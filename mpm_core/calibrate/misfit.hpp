@@ -26,7 +26,7 @@ struct Factors
 {
   double value[3], sd[3];
   double scatter;  ///< of what they leave, over the sd given
-  /// Whether a factor is no chance and no error of the model, whose sd is `model`.
+  /// True: a factor is no chance and no error of the model, whose sd is `model`.
   bool seen(int k, double model) const;
 };
 Factors legendre_factors(const Differences& differences);

@@ -50,7 +50,7 @@ Material solver_material(const CandidateMaterial& material);
 std::vector<std::string> fitted_hardening_laws();
 /// The parameters of one, by its name; none or "linear": of linear hardening.
 std::vector<Parameter> parameters_of(const std::string& hardening_law);
-/// What the solver takes of a parameter of the material's hardening law.
+/// Range of a parameter of the material's hardening law that the solver takes.
 Range range_of(const CandidateMaterial& material, Parameter parameter);
 /// Where a search for it begins: the flow stress is (1 + gain) Y at about `strain`.
 double start_of(const CandidateMaterial& material, Parameter parameter, double gain, double strain);

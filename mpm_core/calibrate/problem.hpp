@@ -47,7 +47,7 @@ class CalibrationProblem
 
   const CalibrationRequest& request() const { return request_; }
   SphereLawsCache& laws() const { return *laws_; }
-  /// Of the measurement's two bodies; null: it has one.
+  /// Model of the measurement's two bodies; null: it has one.
   const ComposedModel* composed(std::size_t measurement) const { return composed_[measurement].get(); }
 
   /// A place of the unknowns.

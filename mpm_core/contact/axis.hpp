@@ -11,7 +11,7 @@
 
 namespace granulaw {
 
-/// What the speed of an impact changes of a CurveTable.
+/// Changes of a CurveTable by the speed of an impact.
 ///
 /// The mass of the yielding zone has to be set moving and brought to rest: the force of an impact exceeds a
 /// slow press's at the same overlap early in the contact (+10 to +50 % at a tenth of its largest overlap),

@@ -5,7 +5,7 @@
 
 namespace granulaw {
 
-/// What a contact answers the particle code.
+/// Answer of a contact to the particle code.
 struct Answer
 {
   enum class Branch {

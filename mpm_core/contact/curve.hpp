@@ -167,7 +167,7 @@ class Curve
   /// true, so that its force is none.
   bool unloads(double x, double x_max) const { return !(x >= x_max) && !(x_max <= yields_from_); }
   Reversal reversal(double x_max, double latched = 0) const;
-  /// What a reversal at x_max beyond the onset is shaped from: force and work of loading, and the columns of
+  /// Source of the shape of a reversal at x_max beyond the onset: force and work of loading, columns of
   /// CurveTable.
   struct Top
   {

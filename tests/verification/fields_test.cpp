@@ -80,7 +80,7 @@ TEST_P(Stress, GivesTheKernelsForcesAndEnergies)
     }
   }
   for (int i = 0; i < b.nodes(); ++i)
-    largest = std::max({largest, std::abs(b.f_i(i, 0)), std::abs(b.f_i(i, 1))});
+    largest = larger(largest, larger(std::abs(b.f_i(i, 0)), std::abs(b.f_i(i, 1))));
   for (int i = 0; i < b.nodes(); ++i) {
     EXPECT_NEAR(fr[i], b.f_i(i, 0), 1e-8 * largest);
     EXPECT_NEAR(fz[i], b.f_i(i, 1), 1e-8 * largest);

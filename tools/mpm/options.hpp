@@ -11,7 +11,7 @@ class Option;
 
 namespace granulaw {
 
-/// What the word behind an option must be.
+/// Condition on the word behind an option.
 struct Check
 {
   std::string allowed;                            ///< in words, for --help and for the complaint
@@ -58,10 +58,10 @@ class Options
   Option add_flag(const std::string& names, bool& value, const std::string& description);
   /// One that was added.
   Option get_option(const std::string& name) const;
-  /// Those that were added from the `first` on.
+  /// Options that were added from the `first` on.
   std::vector<Option> from(std::size_t first) const;
   std::size_t size() const;
-  /// How often the option stands on the command line.
+  /// Number of times that the option stands on the command line.
   std::size_t count(const std::string& name) const;
   /// Carries the command out, once its options are read.
   void callback(const std::function<void()>& carry_out);

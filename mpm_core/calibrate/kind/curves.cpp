@@ -180,7 +180,7 @@ void check_depth(const Measurement& m, const CalibrationRequest&, const Atlas&)
          fmt::format("{:.3g}", m.largest_overlap()), fmt::format("up to {:g}", end));
 }
 
-/// Of a curve its scatter, but 0.1 % of its largest force at least: contact curves of the atlas are no
+/// Noise of a curve: its scatter, and 0.1 % of its largest force at least. Contact curves of the atlas are no
 /// smoother.
 void complete(Measurement& m, double)
 {

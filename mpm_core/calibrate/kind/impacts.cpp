@@ -61,7 +61,7 @@ struct Shown
 {
   double value, error;
 };
-/// Of values whose error is one smooth share of them.
+/// Prediction of values whose error is one smooth share of them.
 template <Shown (*show)(const Measurement&, const SphereLaws::Impact&, double speed)>
 Prediction predict_each(const Measurement& m, const Trial& t)
 {

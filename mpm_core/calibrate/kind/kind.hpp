@@ -38,7 +38,7 @@ struct Trial
 struct Prediction
 {
   std::vector<double> values;  ///< of Measurement::data
-  /// What one standard deviation of each of the model's own errors changes of the values. An error of the
+  /// Change of the values by one standard deviation of each of the model's own errors. An error of the
   /// model is a smooth function of speed or overlap, no scatter: Legendre polynomials, whose factors a fit
   /// has for unknowns of mean 0.
   std::vector<std::vector<double>> errors;
@@ -108,7 +108,7 @@ struct Kind
 /// degrees; Johnson 1985, eq. 6.36), 3 at most; the flow stress is that at a strain of 8 % (Tabor 1951).
 double hardness_of(const CandidateMaterial& material);
 
-/// How far single values depart from the smooth error, over it: half of its variance.
+/// Departure of single values from the smooth error, over it: half of its variance.
 inline const double rough_share = std::sqrt(0.5);
 /// Legendre's polynomials of degree 0 to 2 at t from -1 to 1, each of mean square 1.
 void legendre(double t, double out[3]);

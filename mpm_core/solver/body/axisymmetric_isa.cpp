@@ -190,7 +190,7 @@ GRANULAW_INLINE void sum_to_nodes(Body& body)
   }
 }
 
-/// What becomes of the stresses.
+/// Use of the stresses.
 enum class Then { forces, push_forward };
 
 template <class Real>

@@ -63,7 +63,7 @@ struct Kernels
   void (*momentum)(const Body& body, double* sum);
 };
 
-/// Of the instruction set that runs.
+/// Kernels of the instruction set that runs.
 const Kernels& kernels(const Body& body);
 const Kernels& kernels(const Body& body, InstructionSet set);
 

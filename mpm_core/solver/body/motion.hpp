@@ -13,7 +13,7 @@ using Vector3 = Eigen::Vector3d;
 
 /// A field's vector at a node.
 Vector3 at(const NodeField& field, int node);
-/// Of a node in the undeformed body, and where it is now.
+/// Place of a node in the undeformed body, and its place now.
 Vector3 reference_place(const Body& body, int node);
 Vector3 place_now(const Body& body, int node);
 
@@ -33,7 +33,7 @@ void add_velocity(Body& body, const Vector3& velocity);
 double damp_velocity(Body& body, const Vector3& bulk, double share);
 
 Vector3 momentum(const Body& body);
-/// Of the centre of mass of the whole body.
+/// Velocity of the centre of mass of the whole body.
 Vector3 mean_velocity(const Body& body);
 Vector3 angular_momentum(const Body& body, const Vector3& centre);
 /// The whole body's angular momentum from that of the part that is computed: mirrored parts cancel all but

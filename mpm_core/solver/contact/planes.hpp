@@ -37,7 +37,7 @@ class Planes : public Side
                ContactRow* rows) override;
   std::size_t most_rows() const override { return planes_.size() * static_cast<std::size_t>(markers_); }
   double finish(std::span<const Body> bodies, std::span<const ContactRow> rows, double dt) override;
-  /// Of the first plane: root of the product of contact_axes().
+  /// Radius at the first plane: root of the product of contact_axes().
   double edge_radius(std::span<const Body> bodies) const override;
   void end_sample(std::span<const Body> bodies, double time, std::vector<PlaneTrace>& planes) override;
   void visit_state(StateArchive& archive) override;

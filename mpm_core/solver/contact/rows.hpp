@@ -85,7 +85,7 @@ struct RowKernels
   double (*largest)(const double* values, int count);
 };
 
-/// Of the instruction set that runs, for the bodies of a scene.
+/// Kernels of the instruction set that runs, for the bodies of a scene.
 const RowKernels& row_kernels(const Body& body);
 
 namespace isa_generic {

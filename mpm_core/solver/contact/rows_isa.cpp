@@ -74,7 +74,7 @@ struct InCells
   }
 };
 
-/// Of revolution: all r, then all z.
+/// Layout of a body of revolution: all r, then all z.
 struct InCorners
 {
   GRANULAW_INLINE Four at(const RowNodes& nodes, const double* field, int entry)

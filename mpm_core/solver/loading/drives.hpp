@@ -7,7 +7,7 @@
 
 namespace granulaw {
 
-/// How a press moves its bodies. `speed`: at which the overlap grows.
+/// Motion of the bodies of a press. `speed`: at which the overlap grows.
 class Drive
 {
  public:

@@ -54,7 +54,7 @@ struct RunSummary
   double grid_noise = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
 
-/// What a number is measured in. Over its unit it is the solver's.
+/// Unit of a number. Over its unit it is the solver's.
 enum class Unit { one, length, time, force, energy, rate, impulse };
 double size_of(Unit unit, const Scales& scales);
 
@@ -64,7 +64,7 @@ inline constexpr std::array<std::pair<double TraceSample::*, Unit>, 4> trace_num
      {&TraceSample::force, Unit::force},
      {&TraceSample::contact_radius, Unit::length}}};
 
-/// How the runs on shifted grids make one number; `none`: it comes from their mean trace.
+/// Rule by which runs on shifted grids make one number; `none`: it comes from their mean trace.
 enum class Combine { none, mean, sum, largest };
 
 /// A number of the summary: means over grids, units and --json follow this table.
@@ -103,7 +103,7 @@ struct PlaneSample
   std::array<double, 2> axes;    ///< m, half axes of the contact, larger first
 };
 
-/// Of its numbers, in their order.
+/// Units of its numbers, in their order.
 inline constexpr std::array plane_units{Unit::length, Unit::force,  Unit::force,  Unit::force,  Unit::force,
                                         Unit::energy, Unit::energy, Unit::energy, Unit::length, Unit::length,
                                         Unit::length, Unit::length, Unit::length};

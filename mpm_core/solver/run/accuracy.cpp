@@ -40,7 +40,7 @@ struct ErrorRule
   bool noise_of_both;  ///< beside the difference; else the fine run's, which bounds it from below
 };
 
-/// Of a body of revolution errors fall faster than h, so that the difference to 0.7 of the resolution is at
+/// Errors of a body of revolution fall faster than h, so that the difference to 0.7 of the resolution is at
 /// least half of them. Two runs may agree by chance: hence the bound. In three dimensions the cut surface
 /// lets errors fall like h and no faster: they are h/(H - h) of the difference. That is two to three, and it
 /// multiplies the noise of both runs, too.

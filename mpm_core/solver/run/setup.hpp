@@ -48,7 +48,7 @@ void check_options(const RunOptions& options, const Particle& particle);
 bool in_three_dimensions(const Particle& particle, const Partner& partner, const RunOptions& options,
                          const char* needed);
 
-/// Of length 1. `where` leads the sentence of Error about one that is none.
+/// Direction of length 1. `where` leads the sentence of Error about a vector that has none.
 Vector3 unit_direction(const std::array<double, 3>& v, const char* where);
 
 }  // namespace granulaw

@@ -85,7 +85,7 @@ class Box : public Shape
   }
   PrincipalRadii principal_radii(const Vector3& direction) const override
   {
-    // Of the components of the normal, one is not zero on a face, two on an edge, three at a corner.
+    // The normal has one component that is not zero on a face, two on an edge, three at a corner.
     int along = 0;
     direction.cwiseAbs().minCoeff(&along);
     switch ((direction.array() != 0).count()) {

@@ -28,7 +28,7 @@ std::string text(const Vector3& p)
 
 using Edge = std::pair<int, int>;
 
-/// How often each edge is passed from its first to its second vertex.
+/// Number of times that each edge is passed from its first to its second vertex.
 std::map<Edge, int> passes_of_edges(const TriangleMesh& mesh)
 {
   std::map<Edge, int> passes;
@@ -117,7 +117,7 @@ void check_closed(const TriangleMesh& mesh, const std::string& where)
 
 MassProperties mass_properties_of(const TriangleMesh& mesh)
 {
-  // Of a tetrahedron of the origin and a, b, c: the integral of x x^t is V/20 (s s^t + a a^t + b b^t + c
+  // Tetrahedron of the origin and a, b, c: the integral of x x^t is V/20 (s s^t + a a^t + b b^t + c
   // c^t), s = a + b + c.
   double volume = 0;
   Vector3 first = Vector3::Zero();
@@ -340,7 +340,7 @@ class Mesh : public Shape
     }
     return reach;
   }
-  /// Of a paraboloid fitted to the vertices within a tenth of the radius of the sphere of the body's volume
+  /// Radii of a paraboloid fitted to the vertices within a tenth of the radius of the sphere of its volume
   /// about the support point: the curvature that a contact of about that size has. Wider where fewer than 12
   /// vertices lie there; 0 and 0 of a mesh with fewer than 6 around the point.
   PrincipalRadii principal_radii(const Vector3& direction) const override
@@ -360,7 +360,7 @@ class Mesh : public Shape
       if (distance <= reach) points.push_back(mesh_.vertices[v]);
     return fit_paraboloid(points, where, direction);
   }
-  /// Of paraboloids fitted to two rings of neighbours about each vertex: of a sharp edge about the size of
+  /// Radii of paraboloids fitted to two rings of neighbours of each vertex: at a sharp edge about the size of
   /// its triangles.
   double finest_radius() const override { return finest_; }
   MassProperties mass_properties() const override { return mass_; }

@@ -160,7 +160,7 @@ class Polyhedron : public Shape
     return {edge_radius_, infinity, (touching[1] - touching[0]).cross(direction).normalized()};
   }
   double finest_radius() const override { return edge_radius_; }
-  /// Of the mesh of the support points of some 1e5 directions: within 1e-4.
+  /// Properties of the mesh of the support points of some 1e5 directions: within 1e-4.
   MassProperties mass_properties() const override
   {
     return mass_properties_of(mesh_of_support_points(*this, 256));

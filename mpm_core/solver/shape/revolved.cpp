@@ -42,7 +42,7 @@ class Profile::Segments
     tree_ = BoxTree(boxes, true);
   }
 
-  /// Of (r >= 0, z), positive on the left of the curve: inside. Minus infinity if there is no segment.
+  /// Depth of (r >= 0, z), positive on the left of the curve: inside. Minus infinity if there is no segment.
   double depth(double r, double z) const
   {
     if (segments_.empty()) return -infinity;

@@ -130,7 +130,7 @@ struct ShapeValues
   double number(const char* key) const { return numbers.at(key).front(); }
   double scale() const { return has("scale") ? number("scale") : 1; }
   std::vector<Vector3> points(const char* key) const;
-  /// Of ShapeKey::lengths. Throws Error where one is more than a hundred times another.
+  /// Values of ShapeKey::lengths. Throws Error where one is more than a hundred times another.
   Vector3 lengths(const char* key) const;
 };
 

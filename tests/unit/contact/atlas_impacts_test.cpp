@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/larger.hpp"
 #include "characterise/atlas.hpp"
 #include "characterise/law_from_atlas.hpp"
 #include "law/replay.hpp"
@@ -33,8 +34,8 @@ TEST(Atlas, LawsAgreeWithImpactsOfOtherMaterials)
     const Replay replay = replay_on_wall(law, 1, 4. / 3 * M_PI, v[3] * std::sqrt(yield));
     const double off_force = replay.force_max / v[4] - 1, off = replay.restitution - v[5];
     force += off_force * off_force, restitution += off * off;
-    worst_force = std::max(worst_force, std::abs(off_force));
-    worst_restitution = std::max(worst_restitution, std::abs(off));
+    worst_force = larger(worst_force, std::abs(off_force));
+    worst_restitution = larger(worst_restitution, std::abs(off));
     EXPECT_NEAR(replay.contact_time / v[6], 1, 0.01) << line;
     ++count;
   }

@@ -1,4 +1,4 @@
-// What the speed of an impact changes of a curve.
+// Changes of a curve by the speed of an impact.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

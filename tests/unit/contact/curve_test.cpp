@@ -57,7 +57,7 @@ TEST(CurveTest, ChangesTheSpanWhereNoUnloadingReturnsTheWork)
   EXPECT_TRUE(r.shape().rises());
 }
 
-/// What a cycle leaves is W - W_u: it never falls, so that no closed cycle gains.
+/// A cycle loses W - W_u, which never falls: no closed cycle gains.
 TEST(CurveTest, LosesNoLessFurtherOn)
 {
   const Curve curve = SyntheticTables{}.curve();

@@ -110,7 +110,7 @@ struct SyntheticTables
   }
   Curve curve_with_axis() const { return Curve(table(), axis()); }
 
-  /// Of a body that never yields.
+  /// Table of a body that never yields.
   static Curve elastic()
   {
     CurveTable t(std::numeric_limits<double>::infinity(), 0.0625);
