@@ -46,10 +46,6 @@ std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::str
   int failed = message.empty() ? 0 : 1;
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, lmp->world);
   if (failed) fail(where, "a rank could not take over the law that rank 0 read", path);
-  const auto add = [&](const BodyLaw& body) { loaded->curves.emplace(&body.curve, FastCurve(body.curve)); };
-  for (const auto& [name, body] : loaded->law.bodies) add(body);
-  for (const auto& [name, laws] : loaded->law.pair_laws)
-    for (const TwoBodyLaw& own : laws) add(own.law);
   return loaded;
 }
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 
-#include "law/fast_curve.hpp"
 #include "law/law.hpp"
 
 namespace LAMMPS_NS {
@@ -13,12 +11,11 @@ class LAMMPS;
 
 namespace granulaw::plugin {
 
-/// A law file in memory, with the curves that the contact loop reads.
+/// A law file in memory.
 struct LoadedLaw
 {
   std::string path;
   Law law;
-  std::map<const ContactCurve*, FastCurve> curves;  ///< of each curve of `law`, of bodies and of pairs
 };
 
 /// Collective. Rank 0 reads `path` and hands the file's bytes to the others. Throws the same Error on all

@@ -50,34 +50,21 @@ void check_material(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, const Types& typ
 }
 
 /// Hertz's law itself, for `elastic` types: F = F_Hertz, a = a_Hertz, no yield.
-struct HertzBody
+const BodyLaw& hertz_body()
 {
-  BodyLaw body;
-  FastCurve curve;
-
-  static const HertzBody& instance()
-  {
-    static const HertzBody hertz;
-    return hertz;
-  }
-
- private:
-  HertzBody()
-  {
-    const std::vector<double> zeros(33, 0.0), ones(33, 1.0), three_halves(33, UnloadingShape{}.exponent);
-    ContactCurve::Table table;
-    table.s_end = 1.0;
-    table.onset = std::numeric_limits<double>::infinity();
-    table.force_ratio = table.radius_ratio = table.hertz_share = ones;
-    table.exponent = three_halves;
-    table.residual_ratio = zeros;
-    table.force_ratio_slope = table.radius_ratio_slope = table.exponent_slope = table.hertz_share_slope =
-        table.residual_ratio_slope = zeros;
+  static const BodyLaw hertz = [] {
+    CurveTable table(std::numeric_limits<double>::infinity(), 1.0);
+    for (const double x : table.nodes()) {
+      const double root = std::sqrt(x);
+      table.force.add(x * root, 1.5 * root), table.radius.add(root, 0.5 / root);
+    }
+    BodyLaw body;
     body.material.name = elastic_name;
-    body.curve = ContactCurve(table, elastic_name);
-    curve = FastCurve(body.curve);
-  }
-};
+    body.curve = Curve(table);
+    return body;
+  }();
+  return hertz;
+}
 
 /// Overlap/(lambda R*) beyond which no law of one contact holds: on a rigid wall a tenth of the radius.
 constexpr double deep_flattening = 0.1;
@@ -178,25 +165,25 @@ MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& wher
                e_star_j = e_star_[static_cast<std::size_t>(j)];
   // a law that has a material of this name means that one
   const bool i_elastic = a == elastic_name && !body(i), j_elastic = b == elastic_name && !body(j);
-  const HertzBody& hertz = HertzBody::instance();
+  const BodyLaw& hertz = hertz_body();
   if (i_elastic && (rigid || j_elastic)) {
     const PairMapping mapping =
         rigid ? PairMapping::rigid_partner(e_star_i) : PairMapping::deformable_partner(e_star_i, e_star_j);
-    return {PairLaw{&hertz.body.curve, mapping, &hertz.body}, hertz.curve, stretch, units_};
+    return {PairLaw{{&hertz.curve, mapping}, &hertz}, stretch, units_};
   }
   const std::string here = fmt::format("{}: types {} ({}) and {} ({}{}), law file {}", where, i, a, j,
                                        rigid ? "rigid wall, " : "", b, setup_->law->path);
   PairLaw law;
   if (const BodyLaw* yielding = i_elastic ? body(j) : j_elastic && !rigid ? body(i) : nullptr) {
-    check_partners(*yielding, hertz.body, here);
-    law = {&yielding->curve,
-           PairMapping::deformable_partner(yielding->material.e_star(), i_elastic ? e_star_i : e_star_j),
+    check_partners(*yielding, hertz, here);
+    law = {{&yielding->curve,
+            PairMapping::deformable_partner(yielding->material.e_star(), i_elastic ? e_star_i : e_star_j)},
            yielding};
   } else
     law = resolve_pair(setup_->law->law, a, rigid ? wall_name : b, here, radius_i, radius_j);
   const auto& waves = setup_->options.own_words("waves");
   if (!waves.empty() && waves[0] == "off") law.radiation = 0.0;
-  return {law, setup_->law->curves.at(law.curve), stretch, units_};
+  return {law, stretch, units_};
 }
 
 PairInfo MpmPhysics::describe(const Contact& contact, const PairKey& key) const
@@ -207,7 +194,7 @@ PairInfo MpmPhysics::describe(const Contact& contact, const PairKey& key) const
   info.law = fmt::format("mpm {}", setup_->law->path);
   const BodyLaw& body = *contact.law.yielding;
   const Law& law = setup_->law->law;
-  const bool hertz = &body == &HertzBody::instance().body;
+  const bool hertz = &body == &hertz_body();
   const bool elastic_partner = !law.find_pair(info.a, info.b);
   if (hertz || elastic_partner) {
     info.kind = hertz ? "Hertz" : name_of(LawKind::reduced);
@@ -235,24 +222,21 @@ double MpmContact::stored_energy(double r_eff, double delta, double delta_max, d
   const double length = r_eff / per_lambda;
   const double unit = force_scale * r_eff * r_eff * length;
   const double x = delta / length, x_max = std::max(delta, delta_max) / length;
-  const ContactCurve& exact = curve->curve();
-  if (x_max <= exact.onset()) return unit * exact.work_loading(x, impact_overlap);
-  const ContactCurve::Reversal top = exact.reversal(x_max, impact_overlap);
-  const double span = x_max - top.residual, u = (x - top.residual) / span;
-  return u > 0.0 ? unit * top.force * span * top.shape.work(u) : 0.0;
+  if (!curve->unloads(x, x_max))
+    return unit * (curve->work(x, impact_overlap) - curve->lost(x, impact_overlap));
+  return unit * curve->reversal(x_max, impact_overlap).work(x);
 }
 
 double MpmContact::planned_stiffness(double r_eff, double delta) const
 {
   const double length = r_eff / per_lambda;
-  return force_scale * r_eff * r_eff / length * granulaw::planned_stiffness(curve->curve(), delta / length);
+  return force_scale * r_eff * r_eff / length * granulaw::planned_stiffness(*curve, delta / length);
 }
 
 double MpmContact::stiffness(double r_eff, double delta, double impact_overlap) const
 {
   const double length = r_eff / per_lambda;
-  return force_scale * r_eff * r_eff / length *
-         reversal_stiffness(curve->curve(), delta / length, impact_overlap);
+  return force_scale * r_eff * r_eff / length * reversal_stiffness(*curve, delta / length, impact_overlap);
 }
 
 }  // namespace granulaw::plugin

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/contact.hpp"
 #include "law/damage_number.hpp"
-#include "law/fast_curve.hpp"
 #include "law/law.hpp"
 #include "liggghts_plugin/normal_physics.hpp"
 
@@ -18,7 +18,7 @@ namespace granulaw::plugin {
 /// One pair of types under a tabulated law: PairLaw with everything that does not change worked out.
 struct MpmContact
 {
-  const FastCurve* curve = nullptr;
+  const Curve* curve = nullptr;
   double per_lambda = 0;   // 1/(lambda S), lambda of PairMapping
   double lambda = 0;       // lambda S
   double force_scale = 0;  // Hertz force at x = 1 over R*^2 S
@@ -31,8 +31,8 @@ struct MpmContact
   /// A stretched contact moves as the real one, S times as far in S times the time, so its forces are 1/S of
   /// the real ones. The waves' C K^2 v must be, too: v is the real one and K is 1/S^2 of it, which leaves C
   /// S^3.
-  MpmContact(const PairLaw& pair, const FastCurve& fast_curve, double stretch, const DeckUnits& deck_units)
-      : curve(&fast_curve),
+  MpmContact(const PairLaw& pair, double stretch, const DeckUnits& deck_units)
+      : curve(pair.curve),
         per_lambda(1.0 / (pair.mapping.length(1.0) * stretch)),
         lambda(pair.mapping.length(1.0) * stretch),
         force_scale(pair.mapping.force(1.0) / (deck_units.pressure() * stretch)),
@@ -59,7 +59,7 @@ struct MpmContact
   {
     return law.min_speed(r_eff * units.length, m_eff * units.mass) / units.length;
   }
-  using Reversal = FastCurve::Reversal;
+  using Reversal = granulaw::Reversal;
   /// How many values a contact keeps of its last reversal; the first is its overlap, 0 before there is one.
   static constexpr std::size_t reversal_values = sizeof(Reversal) / sizeof(double);
   /// At overlap delta of a contact whose largest overlap so far is delta_max and which latched X. `kept`: its
@@ -69,18 +69,18 @@ struct MpmContact
     const double per_length = per_lambda / r_eff;
     const double x = delta * per_length, x_max = delta_max * per_length;
     const double scale = force_scale * r_eff * r_eff;
-    if (!curve->unloads(x, x_max)) return scale * curve->loading_force(x, impact_overlap);
-    return scale * reversal(x_max, impact_overlap, kept).force_at(x);
+    if (!curve->unloads(x, x_max)) return scale * curve->force(x, impact_overlap);
+    return scale * reversal(x_max, impact_overlap, kept).force(x);
   }
   double loading(double r_eff, double delta, double impact_overlap) const
   {
-    return force_scale * r_eff * r_eff * curve->loading_force(delta * (per_lambda / r_eff), impact_overlap);
+    return force_scale * r_eff * r_eff * curve->force(delta * (per_lambda / r_eff), impact_overlap);
   }
   double grow(double r_eff, double from, double to, double impact_overlap, double*) const
   {
     const double per_length = per_lambda / r_eff;
     return force_scale * r_eff * r_eff * (r_eff * lambda) *
-           curve->dissipated(from * per_length, to * per_length, impact_overlap);
+           (curve->lost(to * per_length, impact_overlap) - curve->lost(from * per_length, impact_overlap));
   }
   /// force(), to the bit, and dF/d(delta) of the branch.
   Response response(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
@@ -88,29 +88,31 @@ struct MpmContact
     const double per_length = per_lambda / r_eff;
     const double x = delta * per_length, x_max = delta_max * per_length;
     const double scale = force_scale * r_eff * r_eff;
-    const FastCurve::Response now = curve->unloads(x, x_max)
-                                        ? reversal(x_max, impact_overlap, kept).response_at(x)
-                                        : curve->loading_response(x, impact_overlap);
+    if (curve->unloads(x, x_max)) {
+      const Reversal back = reversal(x_max, impact_overlap, kept);
+      return {scale * back.force(x), scale * per_length * back.stiffness(x)};
+    }
+    const Curve::Loading now = curve->loading(x, impact_overlap);
     return {scale * now.force, scale * per_length * now.stiffness};
   }
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
-    return curve->evaluate(law.mapping, r_eff, per_stretch * delta, per_stretch * delta_max, impact_overlap)
+    return answer(*curve, law.mapping, r_eff, per_stretch * delta, per_stretch * delta_max, impact_overlap)
         .contact_radius;
   }
-  double yield_overlap() const { return curve->curve().onset() / per_lambda; }
+  double yield_overlap() const { return curve->onset() / per_lambda; }
   double pair_modulus() const { return law.mapping.e_star_pair() / units.pressure(); }
   bool needs_mass() const { return law.curve->axis() != nullptr; }
   double dissipated(double r_eff, double from, double to, double impact_overlap) const
   {
     const double length = r_eff / per_lambda;
     return force_scale * r_eff * r_eff * length *
-           curve->dissipated(from / length, to / length, impact_overlap);
+           (curve->lost(to / length, impact_overlap) - curve->lost(from / length, impact_overlap));
   }
   double stored_energy(double r_eff, double delta, double delta_max, double impact_overlap) const;
   double stiffness(double r_eff, double delta, double impact_overlap) const;
   double planned_stiffness(double r_eff, double delta) const;
-  double largest_overlap() const { return curve->curve().x_end() / per_lambda; }
+  double largest_overlap() const { return curve->end() / per_lambda; }
   double stiffness_range() const { return largest_overlap(); }
   double damage_number_per_speed2() const { return damage_number(law, units.length); }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "law/thornton.hpp"
+#include "contact/thornton.hpp"
 #include "liggghts_plugin/normal_physics.hpp"
 
 namespace granulaw::plugin {

@@ -26,7 +26,7 @@ double deepest(const CalibrationProblem& problem, const CandidateMaterial& mater
 }
 
 /// The slow law of a material, by runs, as deep as the data go.
-ContactCurve law_by_runs(const CandidateMaterial& material, double depth, double onset, const Atlas& atlas,
+Curve law_by_runs(const CandidateMaterial& material, double depth, double onset, const Atlas& atlas,
                          Farm& farm, const Progress& progress)
 {
   constexpr double margin = 1.1, least_over_onset = 8;
@@ -45,15 +45,15 @@ struct Miss
 };
 
 /// From twice the onset to the depth of the data.
-Miss miss_of(const ContactCurve& fitted, const ContactCurve& own, double depth)
+Miss miss_of(const Curve& fitted, const Curve& own, double depth)
 {
   constexpr int places = 12;
   Miss miss;
-  const double first = 2 * own.onset(), last = std::min(depth, own.x_end());
+  const double first = 2 * own.onset(), last = std::min(depth, own.end());
   if (!(last > first)) return miss;
   for (int k = 0; k <= places; ++k) {
     const double x = first * std::pow(last / first, static_cast<double>(k) / places);
-    const auto e = [x](const ContactCurve& c) { return std::sqrt(c.work_unloading(x) / c.work_loading(x)); };
+    const auto e = [x](const Curve& c) { return std::sqrt(c.kept(x)); };
     miss.force = larger(miss.force, std::abs(fitted.loading(x).force / own.loading(x).force - 1));
     miss.restitution = larger(miss.restitution, std::abs(e(fitted) - e(own)));
   }
@@ -71,7 +71,7 @@ CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, con
     const CandidateMaterial material = problem.material(q);
     const SphereLaws& laws = problem.laws().of(material);
     const double depth = deepest(problem, material, laws);
-    const ContactCurve own =
+    const Curve own =
         law_by_runs(material, depth, laws.onset(), atlas, farm, [&](double done, const std::string& what) {
           if (progress)
             progress((result.laws + done) / most_laws, fmt::format("law {}: {}", result.laws + 1, what));

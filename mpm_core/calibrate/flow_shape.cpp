@@ -99,20 +99,19 @@ LawShape flow_shape(const Atlas& atlas, double stiffness, double poisson_ratio, 
   return shape;
 }
 
-LawShape departure(const ContactCurve& own, const ContactCurve& stand_in)
+LawShape departure(const Curve& own, const Curve& stand_in)
 {
   LawShape d = LawShape::zero();
   const double onset = stand_in.onset(), range = std::log(Atlas::depth / onset);
-  const double end = std::min(own.x_end(), stand_in.x_end());
+  const double end = std::min(own.end(), stand_in.end());
   for (std::size_t k = 1; k < LawShape::nodes; ++k) {
     const double x = std::min(end, onset * std::exp(range * static_cast<double>(k) / (LawShape::nodes - 1)));
-    const ContactCurve::Reversal a = own.reversal(x), b = stand_in.reversal(x);
+    const Curve::Top a = own.top(x), b = stand_in.top(x);
     d.force_reduction[k] = -std::log(a.force / b.force);
-    d.widening[k] = std::log(a.radius / b.radius);
-    d.residual[k] = -std::log((1 - a.residual / x) / (1 - b.residual / x));
-    d.dissipation[k] = -std::log(own.work_unloading(x) / own.work_loading(x) * stand_in.work_loading(x) /
-                                 stand_in.work_unloading(x));
-    d.hertz_share[k] = a.shape.hertz_share - b.shape.hertz_share;
+    d.widening[k] = std::log(own.radius(x) / stand_in.radius(x));
+    d.residual[k] = -std::log(a.span / b.span);
+    d.dissipation[k] = -std::log(a.kept / b.kept);
+    d.hertz_share[k] = a.share - b.share;
   }
   return d;
 }

@@ -4,7 +4,7 @@
 
 #include "calibrate/parameters.hpp"
 #include "characterise/atlas.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/curve.hpp"
 
 namespace granulaw {
 
@@ -26,6 +26,6 @@ inline constexpr double representative_strain = 0.23;
 
 /// What a law of the material's own departs from its flow_shape() by: a shape that is added. Both are of the
 /// same onset. Beyond the own law's end it keeps its last value; velocity effects are left as they are.
-LawShape departure(const ContactCurve& own, const ContactCurve& stand_in);
+LawShape departure(const Curve& own, const Curve& stand_in);
 
 }  // namespace granulaw

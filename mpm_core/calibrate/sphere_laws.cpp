@@ -48,20 +48,6 @@ LawShape shape_of(const Atlas& atlas, const CandidateMaterial& m, const LawShape
   return shape;
 }
 
-/// A midplane shape's curve, as deep as it is a law: of the softest materials the interpolated loading force
-/// falls near 0.3 R. Beyond its end a curve goes on with its last stiffness.
-ContactCurve deepest_curve(const LawShape& shape, double onset)
-{
-  constexpr double shorter = 0.85;
-  for (double depth = MidplaneShapes::depth;; depth *= shorter) {
-    try {
-      return tabulate(shape, onset, Atlas::depth, depth);
-    } catch (const Error&) {
-      if (depth < 2 * onset || depth < 0.05) throw;
-    }
-  }
-}
-
 constexpr double sphere_mass = 4.0 / 3.0 * M_PI;  // over rho R^3
 
 }  // namespace
@@ -73,7 +59,7 @@ SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawSh
       shape_(std::move(shape)),
       free_(tabulate(shape_, onset_overlap(material.stiffness, 1.0, material.poisson_ratio), Atlas::depth,
                      Atlas::depth)),
-      impacts_(shape_, free_, energy_unit_, VelocityAxis::Kind::inertia)
+      impacts_(shape_, free_, energy_unit_, AxisTable::By::inertia)
 {
 }
 
@@ -90,15 +76,14 @@ SphereLaws::SphereLaws(const Atlas& atlas, const CandidateMaterial& m, const Law
 SphereLaws::Impact SphereLaws::impact(double v) const
 {
   v = std::clamp(v, 1e-9, fastest);
-  const double x = std::min(impacts_.impact_overlap(v), free_.x_end());
+  const double x = std::min(impacts_.impact_overlap(v), free_.end());
   if (x <= onset()) return {1.0, x, 0.0, free_.loading(x).radius, contact_time(x, 0.0, 1.0)};
   const LawShape::VelocityEffect effect = impacts_.effect(v);
-  const double slow = free_.work_unloading(x) / free_.work_loading(x);
-  const ContactCurve::Reversal top = free_.reversal(x);
-  const double kept = (1 - top.residual / x) * std::exp(-effect.residual);
+  const double slow = free_.kept(x);
+  const double kept = free_.top(x).span * std::exp(-effect.residual);
   const double residual = x * std::clamp(1 - kept, 0.0, 0.9999);
   const double e = std::min(1.0, std::sqrt(slow * std::exp(-effect.dissipation)));
-  return {e, x, residual, top.radius, contact_time(x, residual, e)};
+  return {e, x, residual, free_.radius(x), contact_time(x, residual, e)};
 }
 
 /// Loading by the slow press's work, brought to the impact's energy; unloading by the shape that gives e^2 of
@@ -106,13 +91,13 @@ SphereLaws::Impact SphereLaws::impact(double v) const
 double SphereLaws::contact_time(double x, double residual, double restitution) const
 {
   // x' = x (1 - w^2), u = 1 - w^2: the integrands are smooth at the reversal
-  const double all = free_.work_loading(x);
+  const double all = free_.work(x);
   const double loading = gauss<7>(0.0, 1.0, [&](double w) {
-    return 2 * w / std::sqrt(std::max(1e-12, 1 - free_.work_loading(x * (1 - w * w)) / all));
+    return 2 * w / std::sqrt(std::max(1e-12, 1 - free_.work(x * (1 - w * w)) / all));
   });
-  const ContactCurve::Reversal top = free_.reversal(x);
-  UnloadingShape shape = top.shape;
-  const double share = restitution * restitution * all / (top.force * (x - residual));
+  const Reversal top = free_.reversal(x);
+  UnloadingShape shape = top.shape();
+  const double share = restitution * restitution * all / (top.top() * (x - residual));
   shape.exponent =
       std::clamp(UnloadingShape::exponent_of(share, shape.hertz_share), UnloadingShape::least_exponent,
                  UnloadingShape::largest_exponent(shape.hertz_share));
@@ -122,11 +107,11 @@ double SphereLaws::contact_time(double x, double residual, double restitution) c
   return x * loading + (x - residual) / restitution * unloading;
 }
 
-const ContactCurve& SphereLaws::midplane() const
+const Curve& SphereLaws::midplane() const
 {
   if (!midplane_) {
     if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew with mpm atlas");
-    midplane_ = deepest_curve(atlas_->midplane().shape(material_, shape_), onset());
+    midplane_ = tabulate(atlas_->midplane().shape(material_, shape_), onset(), Atlas::depth, MidplaneShapes::depth);
   }
   return *midplane_;
 }

@@ -7,7 +7,7 @@
 #include "calibrate/parameters.hpp"
 #include "characterise/atlas.hpp"
 #include "characterise/impacts_by_speed.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/curve.hpp"
 
 namespace granulaw {
 
@@ -37,8 +37,8 @@ class SphereLaws
   Impact impact(double v) const;
   static constexpr double fastest = 0.3;
 
-  const ContactCurve& free() const { return free_; }  ///< slow press of a free sphere
-  const ContactCurve& midplane() const;               ///< of one held at its equator; made when asked for
+  const Curve& free() const { return free_; }  ///< slow press of a free sphere
+  const Curve& midplane() const;               ///< of one held at its equator; made when asked for
 
  private:
   SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawShape shape);
@@ -48,9 +48,9 @@ class SphereLaws
   const Atlas* atlas_;
   double energy_unit_;
   LawShape shape_;
-  ContactCurve free_;
+  Curve free_;
   ImpactsBySpeed impacts_;
-  mutable std::optional<ContactCurve> midplane_;
+  mutable std::optional<Curve> midplane_;
 };
 
 /// The laws of the last materials that were asked for: a fit also varies unknowns that are no property of the

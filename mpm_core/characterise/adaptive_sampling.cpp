@@ -92,7 +92,7 @@ void fit_and_leave_out(Sampled& sampled, const SamplingSetting& s, const OnsetSi
 SamplingPlan refinement(const Sampled& sampled, const SamplingSetting& s, Asked& overlaps, Asked& speeds)
 {
   const double tolerance = s.options.tolerance;
-  const bool rate = axis_kind_of(s.body) == VelocityAxis::Kind::rate;
+  const bool rate = axis_kind_of(s.body) == AxisTable::By::rate;
   std::optional<double> least_speed;
   if (!rate) least_speed = std::sqrt(negligible_damage_number(tolerance));
   std::vector<double> slow = overlaps.of(bisections(sampled.slow, tolerance));
@@ -106,9 +106,9 @@ SamplingPlan refinement(const Sampled& sampled, const SamplingSetting& s, Asked&
 
 }  // namespace
 
-VelocityAxis::Kind axis_kind_of(const CharacterisedBody& body)
+AxisTable::By axis_kind_of(const CharacterisedBody& body)
 {
-  return body.rate_dependent() ? VelocityAxis::Kind::rate : VelocityAxis::Kind::inertia;
+  return body.rate_dependent() ? AxisTable::By::rate : AxisTable::By::inertia;
 }
 
 Sampled sample(SamplingPlan plan, const SamplingSetting& setting, OnsetSimilarity* guide, BuildRuns& runs)

@@ -37,6 +37,6 @@ struct Sampled
 Sampled sample(SamplingPlan plan, const SamplingSetting& setting, OnsetSimilarity* guide, BuildRuns& runs);
 
 /// Which axis a body's law has.
-VelocityAxis::Kind axis_kind_of(const CharacterisedBody& body);
+AxisTable::By axis_kind_of(const CharacterisedBody& body);
 
 }  // namespace granulaw

@@ -8,7 +8,7 @@
 #include "characterise/atlas.hpp"
 #include "law/h5.hpp"
 #include "law/h5_checksum.hpp"
-#include "law/h5_names.hpp"
+#include "law/layout.hpp"
 
 namespace granulaw {
 
@@ -69,12 +69,12 @@ constexpr Field midplane_checks{
     "rows of E*/Y, nu, H/E, delta/R, rms relative error of F, error of e, relative error "
     "of delta_m - delta_r"};
 
-struct Curve
+struct ShapeField
 {
   const Field& field;
   std::vector<double> LawShape::*values;
 };
-constexpr Curve curves[] = {{force_reduction, &LawShape::force_reduction},
+constexpr ShapeField curves[] = {{force_reduction, &LawShape::force_reduction},
                             {widening, &LawShape::widening},
                             {residual, &LawShape::residual},
                             {dissipation, &LawShape::dissipation},
@@ -182,7 +182,7 @@ Atlas read_open(hid_t file, const std::string& path)
     nodes.push_back({{k[i], nu[i], h[i]}, LawShape::zero()});
     nodes[i].shape.elastic = {e[3 * i], e[3 * i + 1], e[3 * i + 2]};
   }
-  for (const Curve& c : curves) {
+  for (const ShapeField& c : curves) {
     const std::vector<double> all = read_numbers(file, c.field, count * LawShape::nodes, path);
     for (std::size_t i = 0; i < all.size(); ++i)
       (nodes[i / LawShape::nodes].shape.*c.values)[i % LawShape::nodes] = all[i];
@@ -245,7 +245,7 @@ void write_atlas(const Atlas& atlas, const std::string& path)
       for (const double c : {node.shape.elastic.c1, node.shape.elastic.c2, node.shape.elastic.d1})
         v.push_back(c);
     });
-    for (const Curve& c : curves)
+    for (const ShapeField& c : curves)
       gather(c.field, [&](const auto& node, auto& v) {
         v.insert(v.end(), (node.shape.*c.values).begin(), (node.shape.*c.values).end());
       });

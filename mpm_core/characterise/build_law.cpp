@@ -35,7 +35,7 @@ double slowest_of(const CharacterisedBody& body, const BuildOptions& o)
 }
 
 /// rms of a press's loading force about a curve, over the upper half of its overlaps.
-double scatter_about(const ContactCurve& curve, const ContactRecord& press)
+double scatter_about(const Curve& curve, const ContactRecord& press)
 {
   double sum = 0;
   int count = 0;
@@ -332,7 +332,7 @@ void Build::elastic()
   for (const RunOutcome& outcome : runs_.make_needed(jobs, 1.0, "the elastic press"))
     presses.push_back(contact_record_of(outcome.result));
   const ElasticFit fit = fit_elastic(presses);
-  law_.curve = ContactCurve(tabulate_elastic(fit.correction, options_.depth), law_.material.name);
+  law_.curve = tabulate_elastic(fit.correction, options_.depth);
   Certificate& c = law_.certificate;
   c.interpolation_error = fit.error;
   c.residual_scatter = scatter_about(law_.curve, presses.back());

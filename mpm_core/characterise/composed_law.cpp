@@ -277,7 +277,7 @@ std::vector<Sample> plastic_samples(const ComposedPair& pair, const RuleCoordina
   return samples;
 }
 
-using Curve = boost::math::interpolators::makima<std::vector<double>>;
+using Interpolated = boost::math::interpolators::makima<std::vector<double>>;
 
 /// The shape's functions through the samples, the first of which is the onset.
 LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& elastic, double end)
@@ -311,7 +311,7 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
   const auto fill = [&](std::vector<double> LawShape::*member, std::vector<double> values) {
     const double at_onset = values.front();  // rounding of the fitted elastic part
     for (double& value : values) value -= at_onset;
-    const Curve curve(std::vector<double>(log_x), std::move(values));
+    const Interpolated curve(std::vector<double>(log_x), std::move(values));
     for (int k = 1; k < LawShape::nodes; ++k)
       (shape.*member)[static_cast<std::size_t>(k)] = curve(std::min(
           log_x.front() + (std::log(end) - log_x.front()) * k / (LawShape::nodes - 1), log_x.back()));
@@ -326,8 +326,8 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
 
 /// Those of the yielding body at its own damage number: an impact reaches so much less than by the slow law
 /// as that body's own does. `speed_ratio`: UnlikePair::axis_speed_ratio().
-std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const ContactCurve& own_slow,
-                                                       const ContactCurve& pair_slow,
+std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const Curve& own_slow,
+                                                       const Curve& pair_slow,
                                                        const CharacterisedBody& body, double speed_ratio)
 {
   std::vector<LawShape::VelocityEffect> effects = own.velocity_effects;
@@ -339,20 +339,6 @@ std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, cons
     effect.log_overlap += std::log(overlap / own_overlap / speed_ratio);
   }
   return effects;
-}
-
-/// finish_curve() with an axis to options.fastest, or to where what the yielding body's impacts show still
-/// makes an admissible law: against a soft partner they reach further than it was ever thrown.
-double finish_where_admissible(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
-                               BuildOptions options, double end)
-{
-  for (; options.fastest > slow_speed; options.fastest /= 2) try {
-      return finish_curve(law, shape, body, options, end);
-    } catch (const Error&) {
-    }
-  options.fastest = 0;
-  law.certificate.damage_number_max = slow_speed * slow_speed;
-  return finish_curve(law, shape, body, options, end);
 }
 
 }  // namespace
@@ -376,9 +362,8 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
   result.radius_ratio = radius_ratio;
   BodyLaw& law = result.law;
   law.material = yielding.material();
-  law.curve = ContactCurve(
-      tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, depth, 3), depth),
-      law.material.name);
+  law.curve =
+      tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, depth, 3), depth);
   law.certificate.origin = composed_origin;
   law.certificate.damage_number_max = std::numeric_limits<double>::infinity();
   law.certificate.atlas_error_force = error_of(yielding, partner).force;
@@ -458,7 +443,7 @@ TwoBodyLaw law_of(const ComposedShape& composed, const BuildOptions& options)
   if (!composed.shape.velocity_effects.empty())
     of_pair.fastest = std::min(of_pair.fastest, composed.shape.velocity_effects.back().speed);
   law.certificate.interpolation_error =
-      finish_where_admissible(law, composed.shape, composed.body, of_pair, composed.end);
+      finish_curve(law, composed.shape, composed.body, of_pair, composed.end);
   double& limit = law.certificate.damage_number_max;  // so far v^2 of the axis
   limit = std::min(limit / (composed.speed_ratio * composed.speed_ratio), composed.damage_number_max);
   return result;

@@ -121,7 +121,7 @@ constexpr int grids = 2;  // shifted against each other
 /// sqrt(I) of the impact whose energy is the law's loading work up to this overlap.
 double PairImpacts::speed_to(double overlap) const
 {
-  return std::sqrt(guide_.law.curve.work_loading(overlap) / energy_unit(body_.mass, body_.yield));
+  return std::sqrt(guide_.law.curve.work(overlap) / energy_unit(body_.mass, body_.yield));
 }
 
 /// Of the deepest impact: at the end of the law, or as fast as it goes without ringing, which no cells of a
@@ -150,8 +150,9 @@ RunJob PairImpacts::job(double place, int cells) const
 
 Replay PairImpacts::replay(double speed) const
 {
-  const PairLaw law{&guide_.law.curve, pair_.mapping(), &guide_.law,
-                    radiation(pair_.yielding, 1.0, pair_.partner, pair_.radius_ratio)};
+  const PairLaw law{{&guide_.law.curve, pair_.mapping(),
+                     radiation(pair_.yielding, 1.0, pair_.partner, pair_.radius_ratio)},
+                    &guide_.law};
   return replay_collision(law, pair_.r_eff(), pair_.m_eff() * pair_.yielding.density,
                           fastest_of_law(pair_, speed * speed));
 }

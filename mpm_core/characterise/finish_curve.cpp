@@ -12,11 +12,11 @@ namespace granulaw {
 namespace {
 
 /// The certificate's errors of F and e without the axis, at its ends. Returns the largest.
-double note_axis_cost(BodyLaw& law, const ContactCurve& slow, const VelocityAxis::Table& axis,
+double note_axis_cost(BodyLaw& law, const Curve& slow, const AxisTable& axis,
                       const CharacterisedBody& body)
 {
   const Scales unit{body.scale.length, law.material.e_star(), law.material.density};
-  const auto replay = [&](const ContactCurve& curve, double v) {
+  const auto replay = [&](const Curve& curve, double v) {
     BodyLaw other = law;
     other.curve = curve;
     return replay_on_wall(other, unit.length, body.mass * unit.mass(),
@@ -40,14 +40,14 @@ double note_axis_cost(BodyLaw& law, const ContactCurve& slow, const VelocityAxis
 double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody& body,
                     const BuildOptions& options, double shape_end)
 {
-  const ContactCurve slow = tabulate(shape, body.onset, shape_end, options.depth);
+  const Curve slow = tabulate(shape, body.onset, shape_end, options.depth);
   const double error = table_error(shape, body.onset, shape_end, slow);
   if (options.fastest == 0) {
     law.curve = slow;
     return error;
   }
   const bool rate = body.rate_dependent();
-  const VelocityAxis::Table axis =
+  const AxisTable axis =
       rate ? tabulate_rate(shape, slow, 1 / body.yield, body.mass, options.fastest, body.scale.length)
            : tabulate_inertia(shape, slow, 1 / body.yield, body.mass, options.fastest);
   // It ends where an impact reaches the end of the curve.
@@ -58,8 +58,7 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const CharacterisedBody
     return error;
   }
   law.certificate.damage_number_max = axis.speed_end * axis.speed_end;
-  law.curve = ContactCurve(slow.table(), axis, law.material.name);
-  require_admissible(law.curve);
+  law.curve = fitted_curve(slow.table(), axis);
   // Model only what the scene needs.
   if (note_axis_cost(law, slow, axis, body) <= options.tolerance) law.curve = slow;
   return error;

@@ -367,8 +367,8 @@ FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const Elastic
   ContactRecords records;
   records.slow = presses;
   const FittedShape fitted = fit_shape(records, elastic, onset, x_end);
-  const ContactCurve curve = tabulate(fitted.shape, onset, x_end, x_end);
-  return {curve.table(), fitted.quality, table_error(fitted.shape, onset, x_end, curve)};
+  const Curve curve = tabulate(fitted.shape, onset, x_end, x_end);
+  return {curve, fitted.quality, table_error(fitted.shape, onset, x_end, curve)};
 }
 
 }  // namespace granulaw

@@ -44,7 +44,7 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
 /// The same from presses alone, tabulated: a rate-free curve to x_end.
 struct FittedCurve
 {
-  ContactCurve::Table table;
+  Curve curve;
   FitQuality quality;
   double table_error = 0;  ///< largest relative difference of F between table and fit
 };

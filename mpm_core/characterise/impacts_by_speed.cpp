@@ -18,8 +18,8 @@ std::vector<double> speeds_of(const LawShape& shape)
 
 }  // namespace
 
-ImpactsBySpeed::ImpactsBySpeed(const LawShape& shape, const ContactCurve& slow, double energy_unit,
-                               VelocityAxis::Kind kind)
+ImpactsBySpeed::ImpactsBySpeed(const LawShape& shape, const Curve& slow, double energy_unit,
+                               AxisTable::By kind)
     : shape_(shape), slow_(slow), energy_unit_(energy_unit), between_(speeds_of(shape), kind)
 {
   for (const LawShape::VelocityEffect& i : shape.velocity_effects)

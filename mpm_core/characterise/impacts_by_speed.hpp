@@ -4,7 +4,7 @@
 
 #include "characterise/law_shape.hpp"
 #include "characterise/speed_interpolation.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/curve.hpp"
 
 namespace granulaw {
 
@@ -12,10 +12,10 @@ namespace granulaw {
 class ImpactsBySpeed
 {
  public:
-  /// `energy_unit`: kinetic energy at v = 1 over 4/3 E* R^3, the unit of ContactCurve's work. `slow` and
+  /// `energy_unit`: kinetic energy at v = 1 over 4/3 E* R^3, the unit of Curve's work. `slow` and
   /// `shape` outlive this.
-  ImpactsBySpeed(const LawShape& shape, const ContactCurve& slow, double energy_unit,
-                 VelocityAxis::Kind kind);
+  ImpactsBySpeed(const LawShape& shape, const Curve& slow, double energy_unit,
+                 AxisTable::By kind);
 
   /// X: the overlap/R that an impact reaches.
   double impact_overlap(double v) const;
@@ -28,7 +28,7 @@ class ImpactsBySpeed
   double slow_impact_overlap(double v) const;
 
   const LawShape& shape_;
-  const ContactCurve& slow_;
+  const Curve& slow_;
   double energy_unit_;
   SpeedInterpolation between_;
   std::vector<double> log_overlap_ratio_;  // over the rate-free law's, by the shape's speeds

@@ -76,7 +76,7 @@ LawShape LawShape::rescaled(double share) const
 
 LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const
 {
-  const ContactCurve sphere = tabulate(*this, onset, end, known);
+  const Curve sphere = tabulate(*this, onset, end, known);
   const double compliance = 2.0 / 3.0 * (elastic.c1 - body.c1);
   const double range = std::log(end / onset);
   LawShape result = *this;
@@ -90,12 +90,12 @@ LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, doubl
     }
     double skin = x;  // x'
     for (int round = 0; round < 20; ++round) skin = x - compliance * sphere.loading(skin).force;
-    const ContactCurve::Reversal top = sphere.reversal(skin);
-    const double s = std::pow(x, 0.25), below = 0.5 * compliance * top.force * top.force;  // work
-    const double work = sphere.work_loading(skin), returned = sphere.work_unloading(skin);
-    result.force_reduction[k] = -std::log(top.force / (std::pow(x, 1.5) * body.force_ratio(s)));
-    result.widening[k] = std::log(top.radius / (std::sqrt(x) * body.radius_ratio(s)));
-    result.residual[k] = -std::log1p(-top.residual / x);
+    const double s = std::pow(x, 0.25), force = sphere.force(skin);
+    const double below = 0.5 * compliance * force * force;  // work
+    const double work = sphere.work(skin), returned = work * sphere.kept(skin);
+    result.force_reduction[k] = -std::log(force / (std::pow(x, 1.5) * body.force_ratio(s)));
+    result.widening[k] = std::log(sphere.radius(skin) / (std::sqrt(x) * body.radius_ratio(s)));
+    result.residual[k] = -std::log1p(-sphere.reversal(skin).residual() / x);
     result.dissipation[k] = -std::log((returned + below) / (work + below));
   }
   return result;

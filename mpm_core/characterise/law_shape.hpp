@@ -28,7 +28,7 @@ struct ElasticCorrection
 };
 
 /// The law of a yielding body in the coordinates in which materials resemble each other: what the runs are
-/// fitted to, what the atlas keeps and interpolates, and what a ContactCurve is tabulated from.
+/// fitted to, what the atlas keeps and interpolates, and what a Curve is tabulated from.
 ///
 /// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero
 /// slope at the onset:

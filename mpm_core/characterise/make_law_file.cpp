@@ -44,9 +44,9 @@ std::string text_of(const FlowLaw& law)
 std::string size_of(const LawBody& body, const BodyLaw& law)
 {
   const double radius = body.characterised.scale.length;
-  if (const VelocityAxis* axis = law.curve.axis())
+  if (const AxisTable* axis = law.curve.axis())
     return fmt::format("rate-dependent: holds for R = {:g} m and from {:.3g} m/s on a wall", radius,
-                       axis->speed_begin() * speed_unit(body.material));
+                       axis->speed_begin * speed_unit(body.material));
   return fmt::format("rate-dependent, by less than the tolerance at R = {:g} m and in this range of speeds",
                      radius);
 }

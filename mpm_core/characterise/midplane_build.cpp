@@ -104,7 +104,7 @@ namespace {
 MidplaneCheck compare(MidplaneCheck check, const Atlas& atlas, const RunResult& run)
 {
   const CharacterisedBody body = sphere_of(check.material);
-  const ContactCurve curve =
+  const Curve curve =
       tabulate(atlas.midplane_shape(check.material), body.onset, Atlas::depth, MidplaneShapes::depth);
   const ContactRecord record = contact_record_of(run);
   double sum = 0;
@@ -117,8 +117,8 @@ MidplaneCheck compare(MidplaneCheck check, const Atlas& atlas, const RunResult& 
   check.error_force = std::sqrt(sum / count);
   const double x = record.depth;
   check.error_restitution =
-      std::sqrt(curve.work_unloading(x) / curve.work_loading(x)) - std::sqrt(record.work_ratio);
-  check.error_recovery = (x - curve.reversal(x).residual) / (x - record.residual) - 1;
+      std::sqrt(curve.kept(x)) - std::sqrt(record.work_ratio);
+  check.error_recovery = (x - curve.reversal(x).residual()) / (x - record.residual) - 1;
   return check;
 }
 

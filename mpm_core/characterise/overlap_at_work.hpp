@@ -1,7 +1,7 @@
 #pragma once
 
 #include "characterise/rising_root.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/curve.hpp"
 
 namespace granulaw {
 
@@ -14,10 +14,10 @@ inline double energy_unit(double mass, double yield)
 
 /// Overlap/R at which loading has taken this work, in the unit of the curve's work: that of an impact of so
 /// much kinetic energy, if speed changed nothing.
-inline double overlap_at_work(const ContactCurve& curve, double work)
+inline double overlap_at_work(const Curve& curve, double work)
 {
   constexpr double beyond = 4;  // curves go on past their end
-  return rising_root([&](double x) { return curve.work_loading(x) - work; }, 0.0, beyond, 48);
+  return rising_root([&](double x) { return curve.work(x) - work; }, 0.0, beyond, 48);
 }
 
 }  // namespace granulaw

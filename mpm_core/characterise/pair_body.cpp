@@ -75,12 +75,12 @@ PairBody::PairBody(const Atlas& atlas, const LawMaterial& material)
   if (material.yields()) make_twins(atlas);
 }
 
-PairBody::PairBody(const Atlas& atlas, const LawMaterial& material, const ContactCurve& own)
+PairBody::PairBody(const Atlas& atlas, const LawMaterial& material, const Curve& own)
     : material_(material), ratios_(MaterialRatios::of(material))
 {
   const double onset = characterised_body_of(ratios_.stiffness, ratios_.poisson_ratio, 0).onset;
   const Twin own_twin = tabulated(own, atlas.elastic(ratios_.poisson_ratio).fit.correction, ratios_.stiffness,
-                                  onset, own.x_end());
+                                  onset, own.end());
   const auto misfit = [&](double log_hardening) {
     return departure(own_twin, stand_in(atlas, std::exp(log_hardening))).rms();
   };
@@ -119,7 +119,7 @@ PairBody PairBody::elastic() const
 }
 
 /// A twin from its slow law on a rigid flat, up to the overlap `depth`.
-PairBody::Twin PairBody::tabulated(const ContactCurve& curve, const ElasticCorrection& elastic,
+PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& elastic,
                                    double stiffness, double onset, double depth)
 {
   Twin t;
@@ -127,15 +127,15 @@ PairBody::Twin PairBody::tabulated(const ContactCurve& curve, const ElasticCorre
   t.log_end = std::log(depth / onset);
   for (int node = 0; node < overlap_nodes; ++node) {
     const double x = onset * std::exp(log_overlap_of(node, t.log_end));
-    const ContactCurve::Reversal top = curve.reversal(x);
-    const double force = 4.0 / 3.0 * top.force;
+    const Reversal top = curve.reversal(x);
+    const double force = 4.0 / 3.0 * top.top(), radius = curve.radius(x);
     const bool is_elastic = node <= elastic_intervals;
-    const UnloadingShape unloading = is_elastic ? elastic.unloading(std::pow(x, 0.25)) : top.shape;
-    t.log_contact.push_back(std::log(top.radius));
-    t.log_pressure.push_back(std::log(force * stiffness / (M_PI * top.radius * top.radius)));
+    const UnloadingShape unloading = is_elastic ? elastic.unloading(std::pow(x, 0.25)) : top.shape();
+    t.log_contact.push_back(std::log(radius));
+    t.log_pressure.push_back(std::log(force * stiffness / (M_PI * radius * radius)));
     t.log_overlap.push_back(std::log(x));
     // -ln of the share that is recovered
-    t.log_lost.push_back(is_elastic ? 0.0 : -std::log1p(-top.residual / x));
+    t.log_lost.push_back(is_elastic ? 0.0 : -std::log1p(-top.residual() / x));
     t.unloading_work.push_back(unloading.work());
     t.hertz_share.push_back(unloading.hertz_share);
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "characterise/atlas.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/curve.hpp"
 #include "law/law_material.hpp"
 
 namespace granulaw {
@@ -45,7 +45,7 @@ class PairBody
   /// law on a rigid flat. Twins are those of the linearly hardening material that comes nearest; by what the
   /// body's own contact departs from this one's at the strain kappa E*/Y, each twin does at the same strain.
   /// Known up to the strain where the own law ends.
-  PairBody(const Atlas& atlas, const LawMaterial& material, const ContactCurve& own);
+  PairBody(const Atlas& atlas, const LawMaterial& material, const Curve& own);
 
   /// At contact radius a.
   struct State
@@ -104,7 +104,7 @@ class PairBody
   };
 
   void make_twins(const Atlas& atlas);
-  static Twin tabulated(const ContactCurve& curve, const ElasticCorrection& elastic, double stiffness,
+  static Twin tabulated(const Curve& curve, const ElasticCorrection& elastic, double stiffness,
                         double onset, double depth);
   Twin twin(const Atlas& atlas, double stiffness) const;
   Twin stand_in(const Atlas& atlas, double hardening) const;

@@ -21,7 +21,7 @@ struct UnlikePair
   double m_eff() const;
   /// Density, over the yielding body's, of the one sphere that stands for the pair: see `as_one_body`.
   double one_body_density() const;
-  /// v of the velocity axis in the rule's coordinates (law/velocity_axis.hpp) over the square root of the
+  /// v of the velocity axis in the rule's coordinates (contact/axis.hpp) over the square root of the
   /// damage number (law/damage_number.hpp), at one relative speed. 1 between like spheres and on a rigid wall.
   double axis_speed_ratio() const;
   /// Customary V_y of that sphere, m/s: the relative velocity that V/V_y of a pair is counted from.

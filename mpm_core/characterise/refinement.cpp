@@ -53,7 +53,7 @@ struct Interpolated
   double dissipation, log_force;
 };
 Interpolated interpolated(std::span<const LawShape::VelocityEffect> effects, std::size_t left_out,
-                          VelocityAxis::Kind kind)
+                          AxisTable::By kind)
 {
   std::vector<double> speeds;
   std::vector<const LawShape::VelocityEffect*> others;
@@ -134,9 +134,9 @@ std::vector<LeftOutRun> leave_out_slow(const ContactRecords& records, const Shap
 
 std::vector<LeftOutRun> leave_out_fast(std::span<const ContactRecords::Impact> impacts,
                                        std::span<const LawShape::VelocityEffect> effects,
-                                       VelocityAxis::Kind kind)
+                                       AxisTable::By kind)
 {
-  const bool rate = kind == VelocityAxis::Kind::rate;
+  const bool rate = kind == AxisTable::By::rate;
   std::vector<LeftOutRun> runs;
   for (std::size_t k = 0; k < impacts.size(); ++k) {
     const double speed = impacts[k].speed, e = restitution_of(impacts[k].path);

@@ -7,7 +7,7 @@
 
 #include "characterise/law_shape.hpp"
 #include "characterise/sampling_plan.hpp"
-#include "law/velocity_axis.hpp"
+#include "contact/axis.hpp"
 
 namespace granulaw {
 
@@ -60,6 +60,6 @@ std::vector<LeftOutRun> leave_out_slow(const ContactRecords& records, const Shap
 /// axis have no prediction; the lower end of inertia's is the standstill.
 std::vector<LeftOutRun> leave_out_fast(std::span<const ContactRecords::Impact> impacts,
                                        std::span<const LawShape::VelocityEffect> effects,
-                                       VelocityAxis::Kind kind);
+                                       AxisTable::By kind);
 
 }  // namespace granulaw

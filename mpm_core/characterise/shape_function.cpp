@@ -10,11 +10,19 @@ ShapeFunction::ShapeFunction(std::vector<double> values, double q_end, Kind kind
       spacing_(q_end / static_cast<double>(values_.size() - 1)),
       q_end_(q_end)
 {
-  const boost::math::interpolators::cardinal_cubic_b_spline<double> spline(values_.begin(), values_.end(),
-                                                                           0.0, spacing_, 0.0);
+  const boost::math::interpolators::cardinal_cubic_b_spline<double> spline(
+      values_.begin(), values_.end(), 0.0, spacing_, 0.0, end_slope());
   for (std::size_t k = 0; k < values_.size(); ++k)
     slopes_.push_back(k ? spline.prime(spacing_ * static_cast<double>(k)) : 0.0);
   if (kind == Kind::rising) limit_slopes();
+}
+
+/// Of the cubic through the last four nodes. Where none is given, Boost 1.74 takes the slope at the fifth last
+/// node.
+double ShapeFunction::end_slope() const
+{
+  const auto last = values_.rbegin();
+  return (11 * last[0] - 18 * last[1] + 9 * last[2] - 2 * last[3]) / (6 * spacing_);
 }
 
 double ShapeFunction::value(double q) const

@@ -22,6 +22,7 @@ class ShapeFunction
 
  private:
   static std::vector<double> raised(std::vector<double> values);
+  double end_slope() const;
   void limit_slopes();
   double at(double q, bool slope) const;
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "characterise/interpolation.hpp"
-#include "law/velocity_axis.hpp"
+#include "contact/axis.hpp"
 
 namespace granulaw {
 
@@ -16,8 +16,8 @@ class SpeedInterpolation
 {
  public:
   /// `speeds`: ascending.
-  SpeedInterpolation(std::span<const double> speeds, VelocityAxis::Kind kind)
-      : rate_(kind == VelocityAxis::Kind::rate)
+  SpeedInterpolation(std::span<const double> speeds, AxisTable::By kind)
+      : rate_(kind == AxisTable::By::rate)
   {
     if (!rate_ && !speeds.empty()) nodes_.push_back(-speeds.front());
     if (!rate_) nodes_.push_back(0.0);

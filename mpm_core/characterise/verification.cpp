@@ -10,9 +10,9 @@
 namespace granulaw {
 
 std::vector<double> verification_speeds(const std::vector<ContactRecords::Impact>& impacts, double fastest,
-                                        VelocityAxis::Kind kind, std::size_t count)
+                                        AxisTable::By kind, std::size_t count)
 {
-  const bool rate = kind == VelocityAxis::Kind::rate;
+  const bool rate = kind == AxisTable::By::rate;
   std::vector<double> ends;
   if (!rate) ends.push_back(0);
   for (const ContactRecords::Impact& impact : impacts)

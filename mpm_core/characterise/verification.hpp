@@ -12,7 +12,7 @@ namespace granulaw {
 /// farthest from its runs; `count` of these intervals, evenly spread. `impacts` ascend; the law's axis ends
 /// at `fastest`. A rate's intervals go by the logarithm of the speed; inertia's begin at standstill.
 std::vector<double> verification_speeds(const std::vector<ContactRecords::Impact>& impacts, double fastest,
-                                        VelocityAxis::Kind kind, std::size_t count);
+                                        AxisTable::By kind, std::size_t count);
 
 /// Replays `law` against fresh impacts at these sqrt(I); its certificate notes the largest errors. Returns
 /// the largest as it counts for the tolerance.

@@ -5,23 +5,6 @@
 
 namespace granulaw {
 
-/// Answer of a contact to the particle code.
-struct Answer
-{
-  enum class Branch {
-    apart,      ///< nothing touches, whatever the sign of the overlap
-    loading,    ///< at its largest overlap, or never yielded
-    unloading,  ///< or reloading, below its largest overlap
-    held        ///< at an edge that adhesion pins
-  };
-
-  double force;  ///< N, repulsive positive; an adhesive one may be negative: only `branch` says what touches
-  double stiffness;       ///< dF/d(overlap) on the branch, N/m
-  double contact_radius;  ///< m
-  double delta_max;       ///< m, the new largest overlap since first touch
-  Branch branch;
-};
-
 /// A pair of bodies under one law.
 struct PairContact
 {

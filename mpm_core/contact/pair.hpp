@@ -4,13 +4,21 @@
 
 namespace granulaw {
 
-/// What a contact gives back to the particle code.
-struct ContactForce
+/// Answer of a contact to the particle code.
+struct Answer
 {
-  double force;           ///< N, repulsive positive, never negative
-  double stiffness;       ///< dF/d(overlap) on the current branch, N/m
+  enum class Branch {
+    apart,      ///< nothing touches, whatever the sign of the overlap
+    loading,    ///< at its largest overlap, or never yielded
+    unloading,  ///< or reloading, below its largest overlap
+    held        ///< at an edge that adhesion pins
+  };
+
+  double force;  ///< N, repulsive positive; an adhesive one may be negative: only `branch` says what touches
+  double stiffness;       ///< dF/d(overlap) on the branch, N/m
   double contact_radius;  ///< m
   double delta_max;  ///< m, the new largest overlap since first touch: store it if this call advances time
+  Branch branch = Branch::loading;
 };
 
 /// The one rule that carries a one-body law (a sphere on a rigid wall) to every pair (DESIGN section 4).

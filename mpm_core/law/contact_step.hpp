@@ -5,9 +5,8 @@
 #include <limits>
 
 #include "base/larger.hpp"
-#include "law/contact_curve.hpp"
 #include "law/law.hpp"
-#include "law/thornton.hpp"
+#include "contact/thornton.hpp"
 
 // The time step of a particle code: one rule for the plug-in, `mpm plan` and `mpm soften`.
 //
@@ -50,21 +49,21 @@ double overlap_of_step(double step, double m_eff, double deepest, const auto& st
 
 /// Stiffness of the steeper branch at x = delta/(lambda R*) of a contact that has just reached it, over Hertz's
 /// force at x = 1 and the length lambda R*.
-inline double reversal_stiffness(const ContactCurve& curve, double x, double impact_overlap = 0)
+inline double reversal_stiffness(const Curve& curve, double x, double impact_overlap = 0)
 {
-  if (x <= curve.onset()) return curve.loading(x, impact_overlap).stiffness;
-  const ContactCurve::Reversal top = curve.reversal(x, impact_overlap);
-  return std::max(top.stiffness, top.shape.exponent * top.force / (x - top.residual));
+  const double loading = curve.loading(x, impact_overlap).stiffness;
+  if (x <= curve.onset()) return loading;
+  return std::max(loading, curve.reversal(x, impact_overlap).stiffness(x));
 }
 
 /// The same before a run: of a contact pressed to x, or of an impact that reverses there, whichever is stiffer.
-inline double planned_stiffness(const ContactCurve& curve, double x)
+inline double planned_stiffness(const Curve& curve, double x)
 {
   const double pressed = reversal_stiffness(curve, x);
-  const VelocityAxis* axis = curve.axis();
+  const AxisTable* axis = curve.axis();
   if (!axis) return pressed;
-  const double impact_overlap = std::clamp(x, axis->impact_overlap(axis->speed_begin()),
-                                           axis->impact_overlap(axis->speed_end()));
+  const double impact_overlap =
+      std::clamp(x, curve.reach(axis->speed_begin), curve.reach(axis->speed_end));
   return std::max(pressed, reversal_stiffness(curve, x, impact_overlap));
 }
 

@@ -7,7 +7,7 @@ namespace granulaw {
 /// Damage number I = rho V^2/Y of a pair at the relative normal speed `speed`, m/s: density and yield stress
 /// are those of the yielding body, V = speed/sqrt(lambda) is its share of the approach (all on a rigid wall,
 /// half between like bodies). On a rigid wall and between like spheres it is v^2 of the velocity axis
-/// (velocity_axis.hpp). Certificate::damage_number_max is the largest one for which the errors of a law were
+/// (AxisTable). Certificate::damage_number_max is the largest one for which the errors of a law were
 /// shown to hold.
 inline double damage_number(const LawMaterial& yielding, const PairMapping& mapping, double speed)
 {

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "law/h5_checksum.hpp"
-#include "law/h5_names.hpp"
+#include "law/layout.hpp"
 
 namespace granulaw::h5 {
 

@@ -101,9 +101,9 @@ double PairLaw::axis_speed(double r_eff, double m_eff, double speed) const
 
 double PairLaw::speed_coordinate(double r_eff, double m_eff) const
 {
-  if (curve->axis()->kind() == VelocityAxis::Kind::inertia) return axis_speed(r_eff, m_eff, 1.0);
+  if (curve->axis()->by == AxisTable::By::inertia) return axis_speed(r_eff, m_eff, 1.0);
   const LawMaterial& m = yielding->material;
-  return std::sqrt(m.density / m.yield_stress) * curve->axis()->table().reference_radius /
+  return std::sqrt(m.density / m.yield_stress) * curve->axis()->reference_radius /
          mapping.length(r_eff);
 }
 
@@ -120,7 +120,7 @@ void check_size(const PairLaw& pair, double radius, const std::string& where)
 
 PairLaw wall_pair(const BodyLaw& body)
 {
-  return {&body.curve, PairMapping::rigid_partner(body.material.e_star()), &body};
+  return {{&body.curve, PairMapping::rigid_partner(body.material.e_star())}, &body};
 }
 
 namespace {
@@ -157,12 +157,12 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
   if (a == b) std::tie(radius_a, radius_b) = std::minmax({radius_a, radius_b});
   const double ratio = swap ? radius_a / radius_b : radius_b / radius_a;
   const TwoBodyLaw* own = nearest(law, a, b, 1 / (1 + ratio));
-  if (!own) return {&yielding.curve, mapping, &yielding};
+  if (!own) return {{&yielding.curve, mapping}, &yielding};
   const bool composed = own->law.certificate.origin == composed_origin;
-  return {&own->law.curve, mapping, &own->law,
-          composed ? radiation(yielding.material, swap ? radius_b : radius_a, partner.material,
-                               swap ? radius_a : radius_b)
-                   : 0.0};
+  const double waves = composed ? radiation(yielding.material, swap ? radius_b : radius_a, partner.material,
+                                            swap ? radius_a : radius_b)
+                                : 0.0;
+  return {{&own->law.curve, mapping, waves}, &own->law};
 }
 
 }  // namespace granulaw

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/scales.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/contact.hpp"
 #include "law/law_material.hpp"
 #include "law/orientation_check.hpp"
 
@@ -23,9 +23,6 @@ struct Certificate
   double held_out_error = 0;            ///< largest error of e at a press depth left out of the fit
   double residual_scatter = 0;  ///< rms of the runs about the fit: what the grid noise treatment removed
   double reload_loop_area = 0;  ///< largest area of an unload/reload loop over the loading work there
-  double slow_press_force =
-      0;  ///< F of a slow press over the impact's at the deepest impact's overlap, less 1
-  double slow_press_restitution = 0;    ///< the same of e: what inertia does at damage_number_max (signed)
   double verification_error_force = 0;  ///< largest error of F_max, replay of this law against fresh impacts
   double verification_error_restitution = 0;  ///< the same of e
   double verification_impacts = 0;            ///< how many impacts were compared
@@ -35,7 +32,6 @@ struct Certificate
   double axis_cost_restitution = 0;    ///< the same of e (both signed)
   double atlas_error_force = 0;        ///< of what the atlas tells, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
-  std::string support = "free";        ///< how the characterising press held the body
   std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas; or ...
 };
 
@@ -49,7 +45,7 @@ inline constexpr const char* sphere_name = "sphere";
 struct BodyLaw
 {
   LawMaterial material;
-  ContactCurve curve;
+  Curve curve;
   Certificate certificate;
   std::string body = sphere_name;  ///< else the name of a layered or shaped particle: wall and like pair only
   double pole_radius = 0;          ///< m, radius of curvature at the pole, as computed; 0: any (spheres)
@@ -117,42 +113,39 @@ void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where
 bool yields_first(const LawMaterial& a, const LawMaterial& b);
 
 /// A pair's law, resolved: which curve, which mapping. What a particle code keeps for each pair of types.
-struct PairLaw
+struct PairLaw : PairContact  // its curve is the Law's
 {
-  const ContactCurve* curve = nullptr;  ///< of the yielding body, or the pair's own; owned by the Law
-  PairMapping mapping;
   const BodyLaw* yielding = nullptr;  ///< whose curve it is: the yielding body, or TwoBodyLaw::law
-  double radiation = 0;  ///< C of radiation.hpp, s^3/kg: of a composed law; 0: the curve has what waves take
 
-  /// See ContactCurve::evaluate; X of impact_overlap(), latched at first touch.
-  ContactForce evaluate(double r_eff, double delta, double delta_max, double impact_overlap = 0) const
+  /// X of impact_overlap(), latched at first touch.
+  Answer evaluate(double r_eff, double delta, double delta_max, double impact_overlap = 0) const
   {
-    return curve->evaluate(mapping, r_eff, delta, delta_max, impact_overlap);
+    return answer(*curve, mapping, r_eff, delta, delta_max, impact_overlap);
   }
   /// Largest overlap the table answers for, m.
-  double max_overlap(double r_eff) const { return curve->x_end() * mapping.length(r_eff); }
+  double max_overlap(double r_eff) const { return curve->end() * mapping.length(r_eff); }
 
-  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see velocity_axis.hpp. The yielding body
+  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see AxisTable. The yielding body
   /// yields.
   double axis_speed(double r_eff, double m_eff, double speed) const;
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without a velocity axis or approach, clamped beyond max_speed().
   double impact_overlap(double r_eff, double m_eff, double speed) const
   {
-    return curve->axis() ? curve->axis()->impact_overlap(speed_coordinate(r_eff, m_eff) * speed) : 0.0;
+    return curve->axis() ? curve->reach(speed_coordinate(r_eff, m_eff) * speed) : 0.0;
   }
   /// Least approach speed that the law knows, m/s: slower impacts are answered as this one. 0 without a rate
   /// axis.
   double min_speed(double r_eff, double m_eff) const
   {
-    return curve->axis() ? curve->axis()->speed_begin() / speed_coordinate(r_eff, m_eff) : 0.0;
+    return curve->axis() ? curve->axis()->speed_begin / speed_coordinate(r_eff, m_eff) : 0.0;
   }
   /// Radius, m, that the yielding body must have (check_size); 0: any.
-  double only_radius() const { return curve->axis() ? curve->axis()->table().reference_radius : 0.0; }
+  double only_radius() const { return curve->axis() ? curve->axis()->reference_radius : 0.0; }
   /// Largest approach speed the velocity axis answers for, m/s; infinity: there is no axis.
   double max_speed(double r_eff, double m_eff) const
   {
-    return curve->axis() ? curve->axis()->speed_end() / speed_coordinate(r_eff, m_eff)
+    return curve->axis() ? curve->axis()->speed_end / speed_coordinate(r_eff, m_eff)
                          : std::numeric_limits<double>::infinity();
   }
 
@@ -161,7 +154,7 @@ struct PairLaw
   double usual_mass(double r_eff) const;
 
  private:
-  /// v of the velocity axis over the relative normal speed, s/m (velocity_axis.hpp).
+  /// v of the velocity axis over the relative normal speed, s/m (AxisTable).
   double speed_coordinate(double r_eff, double m_eff) const;
 };
 

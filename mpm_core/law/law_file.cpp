@@ -11,15 +11,13 @@
 #include "base/error.hpp"
 #include "law/h5.hpp"
 #include "law/h5_checksum.hpp"
-#include "law/h5_names.hpp"
 #include "law/h5_structure.hpp"
+#include "law/layout.hpp"
 #include "law/shape_certificate_file.hpp"
 
 namespace granulaw {
 
 namespace {
-
-using Table = ContactCurve::Table;
 
 // A file may be hostile: what it can make the reader allocate ends at some tens of megabytes. A node costs
 // some 200 bytes (its values and its interval's coefficients).
@@ -34,78 +32,11 @@ std::string shortened(const std::string& text)
   return text.size() <= most ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, most));
 }
 
-struct CurveField
-{
-  const h5::Field& field;
-  std::vector<double> Table::*values;
-};
-constexpr CurveField curve_fields[] = {{h5::force_ratio, &Table::force_ratio},
-                                       {h5::force_ratio_slope, &Table::force_ratio_slope},
-                                       {h5::residual_ratio, &Table::residual_ratio},
-                                       {h5::residual_ratio_slope, &Table::residual_ratio_slope},
-                                       {h5::exponent, &Table::exponent},
-                                       {h5::exponent_slope, &Table::exponent_slope},
-                                       {h5::hertz_share, &Table::hertz_share},
-                                       {h5::hertz_share_slope, &Table::hertz_share_slope},
-                                       {h5::radius_ratio, &Table::radius_ratio},
-                                       {h5::radius_ratio_slope, &Table::radius_ratio_slope}};
-
-struct AxisField
-{
-  const h5::Field& field;
-  std::vector<double> VelocityAxis::Table::*values;
-};
-constexpr AxisField axis_fields[] = {
-    {h5::impact_overlap, &VelocityAxis::Table::impact_overlap},
-    {h5::impact_overlap_slope, &VelocityAxis::Table::impact_overlap_slope},
-    {h5::force_correction, &VelocityAxis::Table::force_correction},
-    {h5::force_correction_slope, &VelocityAxis::Table::force_correction_slope},
-    {h5::residual_correction, &VelocityAxis::Table::residual_correction},
-    {h5::residual_correction_slope, &VelocityAxis::Table::residual_correction_slope},
-    {h5::exponent_correction, &VelocityAxis::Table::exponent_correction},
-    {h5::exponent_correction_slope, &VelocityAxis::Table::exponent_correction_slope}};
-
-struct CertificateField
-{
-  const h5::Field& field;
-  double Certificate::*value;
-  bool is_signed = false;
-};
-constexpr CertificateField certificate_fields[] = {
-    {h5::solver_error_force, &Certificate::solver_error_force},
-    {h5::solver_error_restitution, &Certificate::solver_error_restitution},
-    {h5::interpolation_error, &Certificate::interpolation_error},
-    {h5::held_out_error, &Certificate::held_out_error},
-    {h5::residual_scatter, &Certificate::residual_scatter},
-    {h5::reload_loop_area, &Certificate::reload_loop_area},
-    {h5::slow_press_force, &Certificate::slow_press_force, true},
-    {h5::slow_press_restitution, &Certificate::slow_press_restitution, true},
-    {h5::verification_error_force, &Certificate::verification_error_force},
-    {h5::verification_error_restitution, &Certificate::verification_error_restitution},
-    {h5::verification_impacts, &Certificate::verification_impacts},
-    {h5::damage_number_max, &Certificate::damage_number_max},
-    {h5::axis_cost_force, &Certificate::axis_cost_force, true},
-    {h5::axis_cost_restitution, &Certificate::axis_cost_restitution, true},
-    {h5::atlas_error_force, &Certificate::atlas_error_force},
-    {h5::atlas_error_restitution, &Certificate::atlas_error_restitution}};
-constexpr const char* origins[] = {"runs", "atlas", composed_origin};
-
-struct PairField
-{
-  const h5::Field& field;
-  double LawPair::*error;
-};
-constexpr PairField pair_fields[] = {
-    {h5::pair_reduction_error_force, &LawPair::reduction_error_force},
-    {h5::pair_reduction_error_restitution, &LawPair::reduction_error_restitution}};
-
 /// Of the curve and its axis: each costs about the same.
-std::size_t node_count(const ContactCurve& curve)
+std::size_t node_count(const Curve& curve)
 {
-  const std::size_t own = curve.table().force_ratio.size();
-  return curve.axis() ? own + curve.axis()->table().force_correction.size() +
-                            curve.axis()->table().impact_overlap.size()
-                      : own;
+  const std::size_t own = curve.table().force.size();
+  return curve.axis() ? own + curve.axis()->force.size() + curve.axis()->reach.size() : own;
 }
 
 /// Material constants in any units, but such that no product or ratio of them overflows.
@@ -132,7 +63,7 @@ void check_name(const std::string& name, const std::string& where)
          fmt::format("{}, and not '{}'", name_rule, wall_name));
 }
 
-/// What must hold between the numbers of one body, beyond what ContactCurve checks of its own nodes.
+/// What must hold between the numbers of one body, beyond what Curve::fault() finds of its own nodes.
 void check_body(const BodyLaw& body, const std::string& where)
 {
   const LawMaterial& m = body.material;
@@ -145,18 +76,20 @@ void check_body(const BodyLaw& body, const std::string& where)
   if (m.yields() != std::isfinite(body.curve.onset()))
     fail(where, m.yields() ? "the material yields but its curve has no onset"
                            : "the material is elastic but its curve has an onset of yield");
-  // g(0) = 1 by definition (docs/reference/law-format.md); a fit may round
-  if (const double first = body.curve.table().force_ratio.front(); !(std::abs(first - 1) <= 1e-3))
-    fail(where, "the force does not begin as Hertz's: 'force_ratio' at node 0 is out of range",
-         fmt::format("{:.6g}", first), "1");
-  for (const CertificateField& c : certificate_fields)
+  // below its first node the curve is Hertz's: it starts as that; a fit may round
+  const CurveTable& t = body.curve.table();
+  if (const double ratio = t.force.value.front() / std::pow(t.node(0), 1.5); !(std::abs(ratio - 1) <= 1e-3))
+    fail(where, "the force does not begin as Hertz's: 'force' at node 0 over it is out of range",
+         fmt::format("{:.6g}", ratio), "1");
+  for (const h5::CertificateField& c : h5::certificate_fields)
     if (const double value = body.certificate.*c.value;
         !(value >= (c.is_signed ? -1.0 : 0.0)) ||
         (!std::isfinite(value) && c.value != &Certificate::damage_number_max))
       // NaN fails as well; damage_number_max alone may be infinite (elastic)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
-  if (std::find(std::begin(origins), std::end(origins), body.certificate.origin) == std::end(origins))
+  if (std::find(std::begin(h5::origins), std::end(h5::origins), body.certificate.origin) ==
+      std::end(h5::origins))
     fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin),
          "runs, atlas, composed");
   if (body.curve.axis() && !m.yields())
@@ -243,81 +176,88 @@ void check_pairs(const Law& law, const std::string& where)
   for (const auto& [name, laws] : law.pair_laws) check_pair_laws(law, name, laws, where);
 }
 
-VelocityAxis::Table read_axis(hid_t body, const std::string& where)
+template <class Table>
+void read_column(hid_t group, const h5::ColumnField<Table>& f, Table& table, const std::string& where)
+{
+  table.*f.column = {h5::read_vector(group, f.values, most_nodes, where),
+                     h5::read_vector(group, f.slopes, most_nodes, where)};
+}
+
+template <class Table>
+void write_column(hid_t group, const h5::ColumnField<Table>& f, const Table& table, const std::string& path)
+{
+  h5::write_vector(group, f.values, (table.*f.column).value, path);
+  h5::write_vector(group, f.slopes, (table.*f.column).slope, path);
+}
+
+AxisTable read_axis(hid_t body, const std::string& where)
 {
   const h5::Handle group = h5::open_group(body, h5::velocity_axis, where);
-  VelocityAxis::Table axis;
+  AxisTable axis;
   const std::string kind = h5::read_text_attribute(group, h5::kind, where);
   if (kind != h5::kind_inertia && kind != h5::kind_rate)
     fail(where, "unknown 'kind' of the velocity axis", shortened(kind),
          fmt::format("{}, {}", h5::kind_inertia, h5::kind_rate));
-  if (kind == h5::kind_rate) {
-    axis.kind = VelocityAxis::Kind::rate;
-    axis.reference_radius = h5::read_scalar(group, h5::reference_radius, where);
-    axis.speed_begin = h5::read_scalar(group, h5::speed_begin, where);
-  }
-  axis.speed_end = h5::read_scalar(group, h5::speed_end, where);
-  axis.ratio_end = h5::read_scalar(group, h5::ratio_end, where);
-  const double levels = h5::read_scalar(group, h5::levels, where);
-  if (!(levels >= 1 && levels <= 256 && levels == std::floor(levels)))
-    fail(where, "'slices' is out of range", fmt::format("{:.6g}", levels), "a whole number from 1 to 256");
-  axis.levels = static_cast<std::size_t>(levels);
-  if (axis.kind == VelocityAxis::Kind::inertia) {
-    const double first = h5::read_scalar(group, h5::first_levels, where);
-    if (!(first >= 1 && first <= levels && first == std::floor(first)))
-      fail(where, "'first_slices' is out of range", fmt::format("{:.6g}", first),
-           fmt::format("a whole number from 1 to {:.0f}", levels));
-    axis.first_levels = static_cast<std::size_t>(first);
-  }
-  for (const AxisField& f : axis_fields) axis.*f.values = h5::read_vector(group, f.field, most_nodes, where);
+  const bool rate = kind == h5::kind_rate;
+  axis.by = rate ? AxisTable::By::rate : AxisTable::By::inertia;
+  for (const h5::AxisNumber& n : h5::axis_numbers)
+    if (rate || !n.of_rate) axis.*n.value = h5::read_scalar(group, n.field, where);
+  for (const auto& f : h5::axis_columns) read_column(group, f, axis, where);
+  for (const h5::ListField& f : h5::axis_lists)
+    axis.*f.values = h5::read_vector(group, f.field, most_nodes, where);
   return axis;
 }
 
-void write_axis(hid_t body, const VelocityAxis::Table& axis, const std::string& path)
+void write_axis(hid_t body, const AxisTable& axis, const std::string& path)
 {
   const h5::Handle group = h5::create_group(body, h5::velocity_axis, path);
-  const bool rate = axis.kind == VelocityAxis::Kind::rate;
+  const bool rate = axis.by == AxisTable::By::rate;
   h5::write_text_attribute(group, h5::kind, rate ? h5::kind_rate : h5::kind_inertia, path);
-  if (rate) {
-    h5::write_scalar(group, h5::reference_radius, axis.reference_radius, path);
-    h5::write_scalar(group, h5::speed_begin, axis.speed_begin, path);
-  }
-  h5::write_scalar(group, h5::speed_end, axis.speed_end, path);
-  h5::write_scalar(group, h5::ratio_end, axis.ratio_end, path);
-  h5::write_scalar(group, h5::levels, static_cast<double>(axis.levels), path);
-  if (!rate) h5::write_scalar(group, h5::first_levels, static_cast<double>(axis.first_levels), path);
-  for (const AxisField& f : axis_fields) h5::write_vector(group, f.field, axis.*f.values, path);
+  for (const h5::AxisNumber& n : h5::axis_numbers)
+    if (rate || !n.of_rate) h5::write_scalar(group, n.field, axis.*n.value, path);
+  for (const auto& f : h5::axis_columns) write_column(group, f, axis, path);
+  for (const h5::ListField& f : h5::axis_lists) h5::write_vector(group, f.field, axis.*f.values, path);
 }
 
-ContactCurve read_curve(hid_t group, const std::string& where)
+Curve read_curve(hid_t group, const std::string& where)
 {
   const h5::Handle c = h5::open_group(group, h5::curve, where);
-  Table table;
-  table.s_end = h5::read_scalar(c, h5::s_end, where);
-  table.onset = h5::has_link(c, h5::onset.name) ? h5::read_scalar(c, h5::onset, where)
-                                                : std::numeric_limits<double>::infinity();
-  for (const CurveField& f : curve_fields) table.*f.values = h5::read_vector(c, f.field, most_nodes, where);
-  return h5::has_link(group, h5::velocity_axis) ? ContactCurve(table, read_axis(group, where), where)
-                                                : ContactCurve(table, where);
+  CurveTable table;
+  if (h5::has_link(c, h5::onset.name)) table.onset = h5::read_scalar(c, h5::onset, where);
+  table.end = h5::read_scalar(c, h5::end, where);
+  const double octaves = h5::read_scalar(c, h5::octaves, where);
+  if (!(octaves >= 0 && octaves <= 64 && octaves == std::floor(octaves)))
+    fail(where, "'octaves' is out of range", fmt::format("{:.6g}", octaves), "a whole number from 0 to 64");
+  table.octaves = static_cast<int>(octaves);
+  for (const auto& f : h5::curve_columns) {
+    const bool only_yielding = &f >= h5::curve_columns + 2;
+    if (!only_yielding || table.yields()) read_column(c, f, table, where);
+  }
+  std::optional<AxisTable> axis;
+  if (h5::has_link(group, h5::velocity_axis)) axis = read_axis(group, where);
+  if (const Fault fault = Curve::fault(table, axis ? &*axis : nullptr))
+    fail(where, fault.what, fault.found, fault.allowed);
+  return Curve(std::move(table), std::move(axis));
 }
 
-void write_curve(hid_t group, const ContactCurve& curve, const std::string& path)
+void write_curve(hid_t group, const Curve& curve, const std::string& path)
 {
-  const Table& table = curve.table();
+  const CurveTable& table = curve.table();
   const h5::Handle c = h5::create_group(group, h5::curve, path);
-  h5::write_scalar(c, h5::s_end, table.s_end, path);
   if (std::isfinite(table.onset)) h5::write_scalar(c, h5::onset, table.onset, path);
-  for (const CurveField& f : curve_fields) h5::write_vector(c, f.field, table.*f.values, path);
-  if (curve.axis()) write_axis(group, curve.axis()->table(), path);
+  h5::write_scalar(c, h5::end, table.end, path);
+  h5::write_scalar(c, h5::octaves, table.octaves, path);
+  for (const auto& f : h5::curve_columns)
+    if ((table.*f.column).size() > 0) write_column(c, f, table, path);
+  if (curve.axis()) write_axis(group, *curve.axis(), path);
 }
 
 Certificate read_certificate(hid_t group, const std::string& where)
 {
   const h5::Handle k = h5::open_group(group, h5::certificate, where);
   Certificate certificate;
-  for (const CertificateField& f : certificate_fields)
+  for (const h5::CertificateField& f : h5::certificate_fields)
     certificate.*f.value = h5::read_scalar(k, f.field, where);
-  certificate.support = h5::read_text_attribute(k, h5::support, where);
   certificate.origin = h5::read_text_attribute(k, h5::origin, where);
   return certificate;
 }
@@ -325,9 +265,8 @@ Certificate read_certificate(hid_t group, const std::string& where)
 void write_certificate(hid_t group, const Certificate& certificate, const std::string& path)
 {
   const h5::Handle k = h5::create_group(group, h5::certificate, path);
-  for (const CertificateField& f : certificate_fields)
+  for (const h5::CertificateField& f : h5::certificate_fields)
     h5::write_scalar(k, f.field, certificate.*f.value, path);
-  h5::write_text_attribute(k, h5::support, certificate.support, path);
   h5::write_text_attribute(k, h5::origin, certificate.origin, path);
 }
 
@@ -414,6 +353,17 @@ void write_pair_laws(hid_t group, const std::vector<TwoBodyLaw>& laws, const std
     write_two_body_law(h5::create_group(group, std::to_string(k + 1).c_str(), path), laws[k], path);
 }
 
+/// The command that made the file, as its provenance says.
+std::string command_of(const h5::Handle& file, const std::string& path)
+{
+  constexpr const char* usual = "mpm table MATERIALS.toml";
+  if (!h5::has_link(file, h5::provenance)) return usual;
+  const h5::Handle notes = h5::open_group(file, h5::provenance, path);
+  if (H5Aexists(notes, h5::command) <= 0) return usual;
+  const std::string command = h5::read_text_attribute(notes, h5::command, path);
+  return command.size() <= 300 ? command : usual;
+}
+
 /// Refuses what is not a law file of this major version, each case with its own sentence.
 h5::Handle open_law(const std::string& path)
 {
@@ -429,7 +379,9 @@ h5::Handle open_law(const std::string& path)
   if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != h5::format_value)
     fail(path, "is an HDF5 file but not a contact law of granulaw");
   const int major = h5::read_int_attribute(file, h5::version_major, path);
-  if (major < h5::major) fail(path, "a law of an older version of granulaw: build it again with `mpm table`");
+  if (major < h5::major)
+    fail(path, fmt::format("a law file of version {}, and this program reads {}: make it anew with `{}`",
+                           major, h5::major, command_of(file, path)));
   if (major != h5::major)
     fail(path, "the law file's major version is not the one this program reads", std::to_string(major),
          std::to_string(h5::major));
@@ -442,7 +394,7 @@ Law read_open(const h5::Handle& file, const std::string& path)
 
   const h5::Handle bodies = h5::open_group(file, h5::bodies, path);
   std::size_t nodes = 0, orientations = 0;
-  const auto count_nodes = [&](const ContactCurve& curve) {
+  const auto count_nodes = [&](const Curve& curve) {
     nodes += node_count(curve);
     if (nodes > most_nodes_together)
       fail(path, "the curves have too many nodes together", std::to_string(nodes),
@@ -465,7 +417,7 @@ Law read_open(const h5::Handle& file, const std::string& path)
     if (colon == std::string::npos) fail(path, "unusable pair", shortened(pair), "a:b or a:wall");
     law.pairs.push_back({pair.substr(0, colon), pair.substr(colon + 1)});
   }
-  for (const PairField& f : pair_fields) {
+  for (const h5::PairField& f : h5::pair_fields) {
     const std::vector<double> errors = h5::read_vector(file, f.field, most_pairs, path);
     if (errors.size() != law.pairs.size())
       fail(path, fmt::format("'{}' has the wrong length", f.field.name), std::to_string(errors.size()),
@@ -560,7 +512,7 @@ void write_law(const Law& law, const std::string& path)
     std::vector<std::string> pairs;
     for (const LawPair& pair : law.pairs) pairs.push_back(pair.a + ":" + pair.b);
     h5::write_texts(file, h5::pairs, pairs, path);
-    for (const PairField& f : pair_fields) {
+    for (const h5::PairField& f : h5::pair_fields) {
       std::vector<double> errors;
       for (const LawPair& pair : law.pairs) errors.push_back(pair.*f.error);
       h5::write_vector(file, f.field, errors, path);

@@ -7,11 +7,11 @@
 
 namespace granulaw {
 
-/// Key of Law::provenance under which read_law() gives the file's checksum (h5_checksum.hpp). Absent: the
-/// file is of an older minor version and has none. write_law() makes a new one.
+/// Key of Law::provenance under which read_law() gives the file's checksum (h5_checksum.hpp). Absent:
+/// another program wrote the file. write_law() makes a new one.
 inline constexpr const char* checksum_note = "checksum";
 
-/// Reads a law file (HDF5; layout in docs/reference/law-format.md, every name in h5_names.hpp). Any file that
+/// Reads a law file (HDF5; layout in docs/reference/law-format.md, every name in layout.hpp). Any file that
 /// is not a whole, sane law of this major version gives one sentence as Error; never a crash or a large
 /// allocation.
 Law read_law(const std::string& path);

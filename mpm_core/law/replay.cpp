@@ -11,7 +11,7 @@ namespace granulaw {
 namespace {
 
 /// C K^2 v of the dashpot that stands for waves; a contact never pulls.
-double with_waves(const ContactForce& now, double radiation, double speed)
+double with_waves(const Answer& now, double radiation, double speed)
 {
   return std::max(now.force + radiation * now.stiffness * now.stiffness * speed, 0.0);
 }
@@ -25,7 +25,7 @@ Replay replay(const NormalForce& law, double radiation, double effective_mass, d
   const double dt = duration_guess / steps_per_contact;
   double time = 0, delta = 0, delta_max = 0, v = velocity;
   double total = 0;
-  ContactForce now{};
+  Answer now{};
   const auto longest = static_cast<long>(steps_per_contact) * 100;
   for (long step = 0; step < longest; ++step) {
     result.samples.push_back({time, delta, total, now.contact_radius, v < 0});

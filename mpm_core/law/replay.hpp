@@ -29,8 +29,8 @@ struct Replay
   std::vector<Sample> samples;  ///< every step
 };
 
-/// Force law of one contact as (overlap, largest overlap so far) -> ContactForce.
-using NormalForce = std::function<ContactForce(double delta, double delta_max)>;
+/// Force law of one contact as (overlap, largest overlap so far) -> Answer.
+using NormalForce = std::function<Answer(double delta, double delta_max)>;
 
 /// Integrates m* d2(delta)/dt2 = -F by velocity Verlet from delta = 0, v = velocity until the force ends.
 /// `duration_guess` (s) sets the step: duration_guess/steps_per_contact. m* in kg, velocity in m/s.

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "law/h5.hpp"
-#include "law/h5_names.hpp"
+#include "law/layout.hpp"
 
 namespace granulaw::h5 {
 

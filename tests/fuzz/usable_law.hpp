@@ -26,7 +26,7 @@ inline std::string unusable(const Law& law)
           if (speed > 0 && !pair.curve->axis()) break;
           const double latched =
               speed > 0 ? pair.impact_overlap(r_eff, mass, speed * pair.max_speed(r_eff, mass)) : 0.0;
-          const ContactForce f = pair.evaluate(r_eff, part * largest, largest, latched);
+          const Answer f = pair.evaluate(r_eff, part * largest, largest, latched);
           if (!sane(f.force) || !sane(f.contact_radius) || !std::isfinite(f.stiffness) ||
               f.delta_max != largest)
             return fmt::format("{}:{} at {:g} of {:g} m, X = {:g}: F = {:g} N, dF/dd = {:g} N/m, a = {:g} m",

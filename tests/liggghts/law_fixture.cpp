@@ -35,7 +35,7 @@
 
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
-#include "law/thornton.hpp"
+#include "contact/thornton.hpp"
 #include "synthetic_law.hpp"
 
 namespace {
@@ -57,7 +57,7 @@ granulaw::TwoBodyLaw law_of_size(const granulaw::BodyLaw& powder, double radius_
   other.depth = depth;
   granulaw::TwoBodyLaw own;
   own.law = powder;
-  own.law.curve = granulaw::ContactCurve(other.table(), other.axis(), "law_fixture");
+  own.law.curve = other.curve_with_axis();
   own.law.certificate.origin = origin;
   own.radius_ratio = radius_ratio;
   return own;
@@ -114,7 +114,7 @@ int run(int argc, char** argv)
     granulaw::Law law = word(3) == "axis" ? synthetic.law_with_axis() : synthetic.law();
     if (word(3) == "rate") {
       granulaw::BodyLaw& powder = law.bodies.at("powder");
-      powder.curve = {synthetic.table(), synthetic.rate_axis(number(4)), "law_fixture"};
+      powder.curve = granulaw::Curve(synthetic.table(), synthetic.rate_axis(number(4)));
     }
     if (word(3) == "pair_law") {
       law = synthetic.law_with_axis();
@@ -177,7 +177,7 @@ int run(int argc, char** argv)
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::BodyLaw& body = law.bodies.at(word(3));
     const granulaw::PairLaw pair{
-        &body.curve, granulaw::PairMapping::deformable_partner(body.material.e_star(), number(4)), &body};
+        {&body.curve, granulaw::PairMapping::deformable_partner(body.material.e_star(), number(4))}, &body};
     print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
     return 0;
   }

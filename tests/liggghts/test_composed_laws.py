@@ -229,7 +229,8 @@ class Ledger(Composed):
         dissipated, booked, in_row = self.result(text, "LOST")
         lost = 0.5 * mass * speed**2 * (1 - e * e)
         self.assertAlmostEqual(booked / waves, 1.0, delta=1e-4)  # of first order in the replay
-        self.assertAlmostEqual((dissipated + booked) / lost, 1.0, delta=1e-5)
+        # the work of loading with a velocity axis is a table, to 9e-5 of the work
+        self.assertAlmostEqual((dissipated + booked) / lost, 1.0, delta=9e-5)
         self.assertEqual(in_row, booked)
         stats = json.loads((self.folder / "s.json").read_text())
         self.assertAlmostEqual(stats["pair"]["wave_dissipation_J"] / booked, 1.0, delta=1e-8)

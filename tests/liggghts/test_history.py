@@ -81,7 +81,7 @@ class KeptReversal(Deck):
         self.assertLess(delta, 0.999 * largest)  # it unloads
         expected = (self.fixture("force", law, "powder", "wall", repr(radius), repr(delta), repr(largest), repr(impact))[0] if law else
                     thornton_unloading(radius, delta, largest))
-        # the loop's table against the curve: 2e-5 of the force at the reversal (FastCurve.AgreesWithTheCurve)
+        # the loop's table against the curve: 2e-5 of the force at the reversal
         self.assertAlmostEqual(force / expected, 1.0, delta=1e-4)
         self.assertGreater(force, 1.0)
 

@@ -63,7 +63,7 @@ class Outputs(Deck):
                 self.assertGreater(delta, 0)
                 if model == "mpm":
                     expected = self.fixture("radius", self.law, "powder", partner, r_eff, delta, largest, 0)[0]
-                    self.assertAlmostEqual(a / expected, 1.0, delta=1e-5)  # FastCurve against the curve
+                    self.assertAlmostEqual(a / expected, 1.0, delta=1e-5)  # text of the dump
                 else:
                     self.assertAlmostEqual(a / thornton_radius(r_eff, 1 if kind == "wall" else 0.5, delta, largest), 1.0, delta=1e-9)
                 self.assertAlmostEqual(dissipated / loss, 1.0, delta=1e-9)

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MPM = sys.argv.pop(1)
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "examples" / "common"), str(pathlib.Path(__file__).resolve().parent)]
 import run_files  # noqa: E402
-from reporting import contacts_part, flow_part, law_part, page, solver_part  # noqa: E402
+from reporting import contacts_part, flow_part, page, solver_part  # noqa: E402
 
 
 def script(name):
@@ -64,7 +64,6 @@ class Pictures(unittest.TestCase):
         self.assertEqual(broken, [])
         self.tidied(flow_part.picture(decks[0], [name for name in flow_part.observables(decks[0])]))
         self.tidied(solver_part.picture(run_files.cost()))
-        self.tidied(law_part.picture(run_files.law_size()))
         found, _ = contacts_part.read(decks)
         self.tidied(contacts_part.picture(next(iter(found.values()))), named=False)  # a map between two rows of bars, named above
 

@@ -49,11 +49,11 @@ class KnownSphere
     const Material m = body().particle.materials[0];
     return {"known", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, 0};
   }
-  ContactCurve curve() const
+  Curve curve() const
   {
     SyntheticLaw law;
-    law.x_end = 0.3, law.onset = body().onset;
-    return law.curve(257);
+    law.end = 0.3, law.onset = body().onset;
+    return law.curve();
   }
 
   BuiltLaw build(double tolerance)
@@ -78,7 +78,7 @@ class KnownSphere
   double force(bool yields, double x, double x_m) const
   {
     if (!yields) return force_unit * std::pow(x, 1.5) * (1 + SyntheticLaw::finite_sphere * std::sqrt(x));
-    return force_unit * curve_.evaluate(unit_pair, 1.0, x, x_m).force;
+    return force_unit * answer(curve_, unit_pair, 1.0, x, x_m).force;
   }
 
   RunResult press(const Particle& particle, const PressPlan& plan, const RunOptions& options)
@@ -108,7 +108,7 @@ class KnownSphere
       double reloaded = 0;
       go(stop, 0, Branch::load, s.work_load);
       s.work_unload = 0;
-      const double residual = yields ? curve_.reversal(stop).residual : 0;
+      const double residual = yields ? curve_.reversal(stop).residual() : 0;
       go(residual, stop, Branch::unload, s.work_unload);
       if (stop < plan.depth) go(stop, stop, Branch::reload, reloaded);
       s.delta_residual = residual;
@@ -124,7 +124,7 @@ class KnownSphere
     const double share = short_of(peak_error, options);
     const Replay replay = replay_collision(
         [&](double x, double x_m) {
-          ContactForce f = curve_.evaluate(unit_pair, 1.0, x, x_m);
+          Answer f = answer(curve_, unit_pair, 1.0, x, x_m);
           f.force *= force_unit, f.stiffness *= force_unit;
           return f;
         },
@@ -148,20 +148,20 @@ class KnownSphere
     s.resolution = options.resolution, s.grids = options.shifted_grids;
   }
 
-  ContactCurve curve_ = curve();
+  Curve curve_ = curve();
 };
 
 TEST(BuildLaw, FindsTheLawThatItsRunsReplay)
 {
   KnownSphere sphere;
   const BuiltLaw built = sphere.build(0.01);
-  const ContactCurve known = sphere.curve();
+  const Curve known = sphere.curve();
   EXPECT_TRUE(built.holes.empty());
   EXPECT_LT(built.sampling_error, 0.01);
   for (const double x : {0.002, 0.006, 0.02, 0.06, 0.1, 0.15, 0.2}) {
     // what the sampling plan is refined to, of F and of e
     EXPECT_NEAR(built.law.curve.loading(x).force / known.loading(x).force, 1, 0.01) << x;
-    const auto e = [x](const ContactCurve& c) { return std::sqrt(c.work_unloading(x) / c.work_loading(x)); };
+    const auto e = [x](const Curve& c) { return std::sqrt(c.kept(x)); };
     EXPECT_NEAR(e(built.law.curve), e(known), 0.005) << x;
   }
 }

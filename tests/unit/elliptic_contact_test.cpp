@@ -1,5 +1,5 @@
 // Hertz's contact over an ellipse: tabulated values and limits.
-#include "law/elliptic_contact.hpp"
+#include "elliptic_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ class HostileLaw : public ::testing::Test
     fs::create_directories(folder_);
     path_ = (folder_ / "law.h5").string();
     const std::string good = (folder_ / "other.h5").string();
-    write_law(SyntheticLaw{}.whole_law(65, 3, 10), good);
+    write_law(SyntheticLaw{}.whole_law(3, 10), good);
     testing::without_checksum(h5::Handle(H5Fopen(good.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)));
     fs::copy_file(folder_ / "other.h5", folder_ / "good.h5");
     ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
@@ -143,7 +143,7 @@ TEST_F(HostileLaw, CutAtEvery64thByte)
 /// The test itself must be able to fail.
 TEST_F(HostileLaw, TheJudgeSeesWhatItShould)
 {
-  Law law = SyntheticLaw{}.whole_law(65, 3, 10);
+  Law law = SyntheticLaw{}.whole_law(3, 10);
   EXPECT_EQ(testing::unusable(law), "");
   law.bodies["powder"].material.youngs_modulus = HUGE_VAL;
   EXPECT_NE(testing::unusable(law), "");

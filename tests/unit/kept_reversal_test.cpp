@@ -56,11 +56,10 @@ TEST(KeptReversal, LeavesTheForceOfMpmAsItIs)
 {
   const Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
   const BodyLaw& powder = law.bodies.at("powder");
-  const FastCurve curve{powder.curve};
-  const PairLaw pair{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10), &powder};
+  const PairLaw pair{{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10)}, &powder};
   for (const double stretch : {1.0, 3.0})
     for (const double impact_overlap : {0.0, 0.01})
-      expect_the_same_force_with_what_is_kept(MpmContact(pair, curve, stretch, {}), 0.05, impact_overlap);
+      expect_the_same_force_with_what_is_kept(MpmContact(pair, stretch, {}), 0.05, impact_overlap);
 }
 
 TEST(KeptReversal, LeavesTheForceOfThorntonAsItIs)

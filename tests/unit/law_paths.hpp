@@ -6,24 +6,23 @@
 #include <cmath>
 
 #include "base/larger.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/contact.hpp"
 
-// What tests of ContactCurve, of its axis and of FastCurve ask alike of a law on a path of one contact.
+// Properties of a law on a path of one contact.
 namespace granulaw::testing {
 
-/// Force unit 1, length unit 1: evaluate() then returns the curve's own numbers.
+/// Force unit 1, length unit 1: answer() then returns the curve's own numbers.
 inline const PairMapping unit_pair = PairMapping::rigid_partner(0.75);
 
 /// Draws a reversal, also beyond the table, and an overlap below or beyond it; asserts that the stiffness
-/// there is the derivative of the force. `Law`: ContactCurve or FastCurve; `curve`: its curve.
-template <class Law>
-void stiffness_is_the_derivative(const Law& law, const ContactCurve& curve, double impact_overlap = 0)
+/// there is the derivative of the force.
+inline void stiffness_is_the_derivative(const Curve& curve, double impact_overlap = 0)
 {
-  const double s_m = curve.table().s_end * *rc::gen::inRange(1, 1150) / 1000.0, x_m = s_m * s_m * s_m * s_m;
+  const double x_m = curve.end() * std::pow(*rc::gen::inRange(1, 1150) / 1000.0, 4);
   const double x = x_m * *rc::gen::inRange(1, 2000) / 1000.0, step = 1e-7 * x;
-  RC_PRE(std::abs(x - x_m) > 2 * step && std::abs(x - curve.x_end()) > 2 * step);
-  const auto at = [&](double overlap) { return law.evaluate(unit_pair, 1.0, overlap, x_m, impact_overlap); };
-  const ContactForce here = at(x);
+  RC_PRE(std::abs(x - x_m) > 2 * step && std::abs(x - curve.end()) > 2 * step);
+  const auto at = [&](double overlap) { return answer(curve, unit_pair, 1.0, overlap, x_m, impact_overlap); };
+  const Answer here = at(x);
   const double up = at(x + step).force, down = at(x - step).force;
   RC_PRE((up == 0) == (down == 0));
   // central difference: truncation 1e-14, cancellation 1e-16/1e-7 of F/x; up to 1e-7 times some where a
@@ -32,11 +31,10 @@ void stiffness_is_the_derivative(const Law& law, const ContactCurve& curve, doub
 }
 
 /// A path of a contact that latched X, and the work put into it, by Simpson's rule in s = x^(1/4).
-template <class Law>
 class Path
 {
  public:
-  explicit Path(const Law& law, double impact_overlap = 0) : law_(&law), impact_overlap_(impact_overlap) {}
+  explicit Path(const Curve& law, double impact_overlap = 0) : law_(&law), impact_overlap_(impact_overlap) {}
 
   void move(double to)
   {
@@ -57,7 +55,7 @@ class Path
  private:
   double force(double x) const
   {
-    return x > 0 ? law_->evaluate(unit_pair, 1.0, x, x_m_, impact_overlap_).force : 0.0;
+    return x > 0 ? answer(*law_, unit_pair, 1.0, x, x_m_, impact_overlap_).force : 0.0;
   }
   /// Between two overlaps, one with force and one without.
   double end_of_force(double a, double b) const
@@ -93,27 +91,25 @@ class Path
     x_ = to;
   }
 
-  const Law* law_;
+  const Curve* law_;
   double impact_overlap_;
   double x_ = 0, x_m_ = 0, work_ = 0, open_ = 0, top_ = 0;
 };
 
 /// Draws reversals of a contact; asserts that no closed cycle gains energy by more than `error` of the force
 /// allows.
-template <class Law>
-void no_closed_cycle_gains(const Law& law, const ContactCurve& curve, double impact_overlap = 0,
-                           double error = 0)
+inline void no_closed_cycle_gains(const Curve& curve, double impact_overlap = 0, double error = 0)
 {
   const auto any_overlap = [&] {  // a little beyond the table, too
-    return std::pow(curve.table().s_end * *rc::gen::inRange(1, 1020) / 1000.0, 4);
+    return curve.end() * std::pow(*rc::gen::inRange(1, 1020) / 1000.0, 4);
   };
   // the force's error on the way up and down, over no longer way than x_m
-  const auto open = [&](const Path<Law>& path) { return 2 * error * path.scale() + path.open(); };
-  Path<Law> contact(law, impact_overlap);
+  const auto open = [&](const Path& path) { return 2 * error * path.scale() + path.open(); };
+  Path contact(curve, impact_overlap);
   const int turns = *rc::gen::inRange(2, 10);
   for (int k = 0; k < turns; ++k) contact.move(any_overlap());
   // a cycle that begins anywhere: to come back from it leaves no less spent than to come back at once
-  Path<Law> cycled = contact;
+  Path cycled = contact;
   for (int k = 0; k < 3; ++k) cycled.move(any_overlap());
   cycled.move(contact.x());
   cycled.move(0.0);
@@ -121,7 +117,7 @@ void no_closed_cycle_gains(const Law& law, const ContactCurve& curve, double imp
   RC_ASSERT(contact.work() >= -open(contact));
   RC_ASSERT(cycled.work() - contact.work() >= -open(cycled));
   // unloading and reloading share a curve: without a new delta_max nothing is gained or lost
-  Path<Law> again = contact;
+  Path again = contact;
   for (int k = 0; k < 3; ++k) again.move(contact.x_m() * *rc::gen::inRange(0, 1001) / 1000.0);
   again.move(0.0);
   RC_ASSERT(std::abs(again.work() - contact.work()) <= open(again));

@@ -91,8 +91,8 @@ TEST_F(MakeLawFile, ByRunsThatTheFarmCounts)
   ThreadFarm again(1, RunCache(path("runs")));
   const MadeLawFile same = make_law_file(plan, &again);
   EXPECT_EQ(again.count().made, 0);
-  EXPECT_EQ(same.law.bodies.at("powder").curve.table().force_ratio,
-            made.law.bodies.at("powder").curve.table().force_ratio);
+  EXPECT_EQ(same.law.bodies.at("powder").curve.table().force.value,
+            made.law.bodies.at("powder").curve.table().force.value);
 }
 
 TEST_F(MakeLawFile, WhatProgressThrowsStopsIt)

@@ -15,12 +15,12 @@ class Waves : public ::testing::Test
  protected:
   const Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
   const BodyLaw& powder = law.bodies.at("powder");
-  const FastCurve curve{powder.curve};
-  const PairLaw pair{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10), &powder,
-                     radiation(powder.material, 1.0, powder.material, 8.0)};
+  const PairLaw pair{{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10),
+                      radiation(powder.material, 1.0, powder.material, 8.0)},
+                     &powder};
   static constexpr double r_eff = 1.5e-3, speed = 3.0;
 
-  MpmContact contact(double stretch, const DeckUnits& units) const { return {pair, curve, stretch, units}; }
+  MpmContact contact(double stretch, const DeckUnits& units) const { return {pair, stretch, units}; }
 
   struct State
   {
@@ -50,7 +50,7 @@ TEST_F(Waves, ForceAndStiffnessAreThoseOfTheBranch)
     double kept[MpmContact::reversal_values] = {};
     const Response found = c.response(r_eff, s.delta, s.delta_max, s.impact_overlap, kept);
     const double expected =
-        curve.evaluate(pair.mapping, r_eff, s.delta, s.delta_max, s.impact_overlap).stiffness;
+        answer(powder.curve, pair.mapping, r_eff, s.delta, s.delta_max, s.impact_overlap).stiffness;
     EXPECT_NEAR(found.stiffness, expected, 1e-12 * expected);
     EXPECT_EQ(found.force, c.force(r_eff, s.delta, s.delta_max, s.impact_overlap, kept));
   }

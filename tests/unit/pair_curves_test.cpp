@@ -5,7 +5,7 @@
 #include <set>
 
 #include "law/replay.hpp"
-#include "law/thornton.hpp"
+#include "contact/thornton.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
@@ -22,7 +22,7 @@ Law some_law()
   for (const double ratio : {1.0, std::numeric_limits<double>::infinity()}) {
     TwoBodyLaw& own = law.pair_laws["powder:glass"].emplace_back();
     own.law = law.bodies.at("powder");
-    own.law.curve = ContactCurve(other.table(), other.axis(), "other");
+    own.law.curve = other.curve_with_axis();
     own.law.certificate.origin = composed_origin;
     own.radius_ratio = ratio;
   }

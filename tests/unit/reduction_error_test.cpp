@@ -230,9 +230,10 @@ TEST(TwoBodyLaw, GivesBackItsPairWhereTheRuleFails)
       fit_plastic(presses, correction, onset_overlap(1, 0.02, 0.3), presses.back().depth);
   BodyLaw body;
   body.material = pair.yielding;
-  body.curve = ContactCurve(fitted.table, "two-body law");
+  body.curve = fitted.curve;
   const double v = 15 * v_y;
-  const Replay replay = replay_collision({&body.curve, pair.mapping(), &body}, pair.r_eff(), pair.m_eff(), v);
+  const Replay replay =
+      replay_collision({{&body.curve, pair.mapping()}, &body}, pair.r_eff(), pair.m_eff(), v);
   const RunSummary truth = run_two_bodies(pair, v, o), rule = run_as_one_body(pair, v, o);
   EXPECT_GT(std::abs(rule.restitution / truth.restitution - 1), 0.03);
   // six coarse impacts: a few times the grid noise of two grids of 10 cells

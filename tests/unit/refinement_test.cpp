@@ -70,7 +70,7 @@ TEST(Refinement, InertiaIsKnownAtStandstill)
 
 /// Impacts whose velocity effects are these functions of the speed.
 template <class Force, class Dissipation>
-std::vector<LeftOutRun> impacts_left_out(const std::vector<double>& speeds, VelocityAxis::Kind kind,
+std::vector<LeftOutRun> impacts_left_out(const std::vector<double>& speeds, AxisTable::By kind,
                                          const Force& force, const Dissipation& dissipation)
 {
   std::vector<ContactRecords::Impact> impacts;
@@ -87,11 +87,11 @@ std::vector<LeftOutRun> impacts_left_out(const std::vector<double>& speeds, Velo
 TEST(Refinement, EffectsThatGoAsTheDamageNumberAreNotMissed)
 {
   const auto square = [](double v) { return 2 * v * v; };
-  const auto runs = impacts_left_out({0.0625, 0.125, 0.25}, VelocityAxis::Kind::inertia, square, square);
+  const auto runs = impacts_left_out({0.0625, 0.125, 0.25}, AxisTable::By::inertia, square, square);
   EXPECT_NEAR(largest_miss(runs), 0, 1e-12);
   EXPECT_FALSE(runs.back().predicted);
   const auto bump = [&](double v) { return square(v) + (v == 0.125 ? 0.03 : 0); };
-  const auto missed = impacts_left_out({0.0625, 0.125, 0.25}, VelocityAxis::Kind::inertia, bump, square);
+  const auto missed = impacts_left_out({0.0625, 0.125, 0.25}, AxisTable::By::inertia, bump, square);
   EXPECT_NEAR(missed[1].predicted->force / missed[1].measured.force, std::exp(-0.03), 1e-3);
   EXPECT_EQ(bisections(missed, tolerance, 0.04).size(), 2u);  // not below 0.04
 }
@@ -100,7 +100,7 @@ TEST(Refinement, ARateGoesByTheLogarithmOfTheSpeed)
 {
   const std::vector<double> speeds = first_rate_speeds(0.005, 0.25);
   const auto log = [](double v) { return 0.03 * std::log(v); };
-  const auto runs = impacts_left_out(speeds, VelocityAxis::Kind::rate, log, log);
+  const auto runs = impacts_left_out(speeds, AxisTable::By::rate, log, log);
   EXPECT_NEAR(largest_miss(runs), 0, 1e-12);
   EXPECT_FALSE(runs.front().predicted);  // slower ones are not known
   EXPECT_TRUE(runs[1].predicted);
@@ -157,12 +157,12 @@ TEST(Verification, StandsHalfWayBetweenTheRuns)
     for (const double v : speeds) all.push_back({v, {}});
     return all;
   };
-  EXPECT_EQ(verification_speeds(impacts({0.1, 0.2}), 0.2, VelocityAxis::Kind::inertia, 3),
+  EXPECT_EQ(verification_speeds(impacts({0.1, 0.2}), 0.2, AxisTable::By::inertia, 3),
             (std::vector{0.05, 0.15000000000000002}));
   // five intervals, three of which are looked at
-  EXPECT_EQ(verification_speeds(impacts({1, 2, 3, 4, 5}), 5, VelocityAxis::Kind::inertia, 3),
+  EXPECT_EQ(verification_speeds(impacts({1, 2, 3, 4, 5}), 5, AxisTable::By::inertia, 3),
             (std::vector{0.5, 2.5, 4.5}));
-  const auto rate = verification_speeds(impacts({0.01, 0.04, 0.16}), 0.16, VelocityAxis::Kind::rate, 4);
+  const auto rate = verification_speeds(impacts({0.01, 0.04, 0.16}), 0.16, AxisTable::By::rate, 4);
   ASSERT_EQ(rate.size(), 2u);
   EXPECT_NEAR(rate[0], 0.02, 1e-12);
 }

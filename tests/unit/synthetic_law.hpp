@@ -2,38 +2,38 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <vector>
 
-#include "base/scales.hpp"
 #include "law/law.hpp"
 
 namespace granulaw::testing {
 
-/// Samples a table from functions of s; slopes by central differences good to 1e-9.
-inline ContactCurve::Table sample_table(double s_end, double onset, int count,
-                                        const std::function<double(double)>& force_ratio,
-                                        const std::function<double(double)>& residual_ratio,
-                                        const std::function<double(double)>& exponent,
-                                        const std::function<double(double)>& hertz_share,
-                                        const std::function<double(double)>& radius_ratio)
+/// A column of f at these x; slopes by central differences good to 1e-9.
+inline HermiteColumn sampled(const std::vector<double>& nodes, const std::function<double(double)>& f)
 {
-  ContactCurve::Table table;
-  table.s_end = s_end;
-  table.onset = onset;
-  const auto fill = [&](const std::function<double(double)>& f, std::vector<double>& value,
-                        std::vector<double>& slope) {
-    for (int k = 0; k < count; ++k) {
-      const double s = s_end * k / (count - 1), step = 1e-5 * s_end;
-      value.push_back(f(s));
-      slope.push_back((8.0 * (f(s + step) - f(s - step)) - (f(s + 2 * step) - f(s - 2 * step))) /
-                      (12.0 * step));
+  HermiteColumn column;
+  for (const double x : nodes) {
+    const double h = 1e-4 * x;
+    column.add(f(x), (8.0 * (f(x + h) - f(x - h)) - (f(x + 2 * h) - f(x - 2 * h))) / (12.0 * h));
+  }
+  return column;
+}
+
+/// No closed cycle gains energy: the work lost never falls, without an impact and at every level of the axis.
+inline bool loses_no_less_further_on(const Curve& curve)
+{
+  std::vector<double> latched = curve.examined_levels();
+  latched.push_back(0);
+  for (const double at : latched) {
+    double before = 0;
+    for (double x = 0.9 * curve.onset(); x < 1.05 * curve.end(); x *= 1.003) {
+      const double lost = curve.lost(x, at);
+      if (!(lost >= before - 1e-12 * curve.work(x))) return false;  // rounding
+      before = lost;
     }
-  };
-  fill(force_ratio, table.force_ratio, table.force_ratio_slope);
-  fill(residual_ratio, table.residual_ratio, table.residual_ratio_slope);
-  fill(exponent, table.exponent, table.exponent_slope);
-  fill(hertz_share, table.hertz_share, table.hertz_share_slope);
-  fill(radius_ratio, table.radius_ratio, table.radius_ratio_slope);
-  return table;
+  }
+  return true;
 }
 
 /// A law with the features of a real one and nothing measured: past the onset, with q = ln(s/s_onset),
@@ -42,94 +42,89 @@ inline ContactCurve::Table sample_table(double s_end, double onset, int count,
 struct SyntheticLaw
 {
   double onset = 6.4e-4;  ///< of E*/Y = 100
-  double x_end = 0.1;
+  double end = 0.1;
   double force_reduction = 1.6;  ///< ln(F/F_elastic) = -force reduction q^2/(1 + q)
-  double depth = 1.1;            ///< residual ratio = 0.9999 (1 - exp(-depth q^2))
-  double bend = 0.05;  ///< exponent = the elastic one + bend q^2/(1 + q^2); Hertz share: less bend of it
+  double depth = 1.1;            ///< -ln kept = 2.9 depth q^2/(1 + q)
+  double span_share = 0.9;       ///< ln span = span_share ln kept
+  double bend = 0.05;            ///< Hertz share: less bend q^2/(1 + q^2)
 
   static constexpr double finite_sphere = 0.9;  ///< F_elastic = F_Hertz (1 + finite_sphere sqrt(x))
 
-  /// Unloading along F_elastic itself (plus 1e-9: an admissible law must not return more than it took, not
-  /// even by rounding).
-  static UnloadingShape elastic_unloading(double s)
+  static double past(double x, double onset)
   {
-    const double c = finite_sphere * s * s;
-    return {(1.5 + 2 * c) / (1 + c) + 1e-9, 1 / (1 + c)};
+    return std::max(0.0, 0.25 * (std::log(std::max(x, 1e-48)) - std::log(onset)));
   }
-
-  UnloadingShape unloading(double s) const
+  double force(double x) const
   {
-    const double q = past(s, onset), more = bend * q * q / (1 + q * q);
-    const UnloadingShape elastic = elastic_unloading(s);
-    return {elastic.exponent + more, elastic.hertz_share - more};
+    const double q = past(x, onset);
+    return std::pow(x, 1.5) * (1 + finite_sphere * std::sqrt(x)) *
+           std::exp(-force_reduction * q * q / (1 + q));
   }
-  double residual_ratio(double s) const
+  double radius(double x) const
   {
-    const double q = past(s, onset);
-    return 0.9999 * (1 - std::exp(-depth * q * q));  // a law may not come nearer to 1 than 1e-5
+    const double q = past(x, onset);
+    return std::sqrt(x) * (1 + 0.3 * q * q / (1 + q));
   }
-  static double past(double s, double onset)
+  double kept(double x) const
   {
-    return std::max(0.0, std::log(std::max(s, 1e-12)) - 0.25 * std::log(onset));
+    const double q = past(x, onset);
+    return std::exp(-2.9 * depth * q * q / (1 + q));
   }
-  ContactCurve::Table table(int count = 129) const
+  double span(double x) const { return std::pow(kept(x), span_share); }
+  double hertz_share(double x) const
   {
-    return sample_table(
-        std::pow(x_end, 0.25), onset, count,
-        [&](double s) {
-          const double q = past(s, onset);
-          return (1 + finite_sphere * s * s) * std::exp(-force_reduction * q * q / (1 + q));
-        },
-        [&](double s) { return residual_ratio(s); }, [&](double s) { return unloading(s).exponent; },
-        [&](double s) { return unloading(s).hertz_share; },
-        [&](double s) {
-          const double q = past(s, onset);
-          return 1 + 0.3 * q * q / (1 + q);
-        });
+    const double q = past(x, onset);
+    return 1 / (1 + finite_sphere * std::sqrt(x)) - bend * q * q / (1 + q * q);
   }
-  ContactCurve curve(int count = 129) const { return ContactCurve(table(count), "synthetic"); }
+  CurveTable table() const
+  {
+    CurveTable t(onset, end);
+    const std::vector<double> nodes = t.nodes(), yielding = t.yielding_nodes();
+    t.force = sampled(nodes, [&](double x) { return force(x); });
+    t.radius = sampled(nodes, [&](double x) { return radius(x); });
+    t.kept = sampled(yielding, [&](double x) { return kept(x); });
+    t.span = sampled(yielding, [&](double x) { return span(x); });
+    t.hertz_share = sampled(yielding, [&](double x) { return hertz_share(x); });
+    make_fall(t.kept, yielding), make_fall(t.span, yielding);
+    return t;
+  }
+  Curve curve() const { return Curve(table()); }
 
   /// A velocity axis with the features of a real one: the impact's force exceeds the slow press's early in
-  /// the contact, crosses it at xi = 0.65 and ends a little below; it leaves a little less residual, rebounds
-  /// a little more steeply, and all that grows in proportion to X.
-  VelocityAxis::Table axis(int levels = 8, int nodes = 25) const
+  /// the contact, crosses it at about two thirds and ends a little below; impacts lose a little more.
+  AxisTable axis(int levels = 8, int nodes = 25) const
   {
-    VelocityAxis::Table table;
-    table.speed_end = 0.066;  // 17 m/s of law()'s powder on a wall
-    table.ratio_end = 1.5;
-    table.levels = static_cast<std::size_t>(levels);
-    table.first_levels = std::min<std::size_t>(3, table.levels);
+    AxisTable t;
+    t.speed_end = 0.245;
+    t.share_end = 1.5;
     for (int j = 0; j <= 16; ++j) {
       const double r = j / 16.0;
-      table.impact_overlap.push_back(x_end * r * (0.6 + 0.4 * r));
-      table.impact_overlap_slope.push_back(x_end * (0.6 + 0.8 * r) / table.speed_end);
+      t.reach.add(end * r * (0.6 + 0.4 * r), end * (0.6 + 0.8 * r) / t.speed_end);
     }
-    const ImpactLevels scale = ImpactLevels::from_standstill(table.levels, table.first_levels, 1.0);
-    for (int k = 1; k <= levels; ++k)
+    for (int k = 1; k <= levels; ++k) {
+      const double part = static_cast<double>(k) / levels, latched = end * part;
+      t.level.push_back(latched);
+      t.kept.push_back(kept(latched) * (1 - 0.05 * part));
+      t.span.push_back(span(latched) * (1 - 0.01 * part));
       for (int l = 0; l < nodes; ++l) {
-        const double part = scale.overlap(k), xi = table.ratio_end * l / (nodes - 1);
-        const double rest = 1 - xi / table.ratio_end, cross = 1 - xi / 0.65, bottom = 1 + xi * xi;
-        table.force_correction.push_back(0.5 * part * rest * rest * cross);
-        table.force_correction_slope.push_back(0.5 * part * rest *
-                                               (-2 / table.ratio_end * cross - rest / 0.65));
-        table.residual_correction.push_back(-0.002 * part * xi * xi / bottom);
-        table.residual_correction_slope.push_back(-0.004 * part * xi / (bottom * bottom));
-        table.exponent_correction.push_back(0.1 * part * xi * xi / bottom);
-        table.exponent_correction_slope.push_back(0.2 * part * xi / (bottom * bottom));
+        const double xi = t.share_end * l / (nodes - 1), rest = 1 - xi / t.share_end, cross = 1 - xi / 0.65;
+        t.force.add(0.5 * part * rest * rest * cross,
+                    0.5 * part * rest * (-2 / t.share_end * cross - rest / 0.65));
       }
-    return table;
+      t.force.value.back() = t.force.slope.back() = 0;
+    }
+    return t;
   }
   /// The same for a rate-dependent material.
-  VelocityAxis::Table rate_axis(double reference_radius, int levels = 8, int nodes = 25) const
+  AxisTable rate_axis(double reference_radius, int levels = 8, int nodes = 25) const
   {
-    VelocityAxis::Table table = axis(levels, nodes);
-    table.first_levels = 1;
-    table.kind = VelocityAxis::Kind::rate;
-    table.reference_radius = reference_radius;
-    table.speed_begin = table.speed_end / 40;
-    return table;
+    AxisTable t = axis(levels, nodes);
+    t.by = AxisTable::By::rate;
+    t.reference_radius = reference_radius;
+    t.speed_begin = t.speed_end / 40;
+    return t;
   }
-  ContactCurve curve_with_axis(int count = 129) const { return {table(count), axis(), "synthetic"}; }
+  Curve curve_with_axis() const { return Curve(table(), axis()); }
 
   /// law() with a velocity axis for the powder.
   Law law_with_axis() const
@@ -144,14 +139,14 @@ struct SyntheticLaw
   }
 
   /// All that a file may hold: law_with_axis() and a law of its own for powder:glass, with a rate axis.
-  Law whole_law(int count = 129, int levels = 8, int nodes = 25) const
+  Law whole_law(int levels = 8, int nodes = 25) const
   {
     Law result = law_with_axis();
     BodyLaw& powder = result.bodies.at("powder");
-    powder.curve = ContactCurve(table(count), axis(levels, nodes), "synthetic");
+    powder.curve = Curve(table(), axis(levels, nodes));
     TwoBodyLaw& own = result.pair_laws["powder:glass"].emplace_back();
     own.law = powder;
-    own.law.curve = ContactCurve(table(count), rate_axis(1e-3, levels, nodes), "synthetic");
+    own.law.curve = Curve(table(), rate_axis(1e-3, levels, nodes));
     own.radius_ratio = 2;
     return result;
   }
@@ -167,11 +162,11 @@ struct SyntheticLaw
     law.bodies["powder"] = powder;
     BodyLaw glass;
     glass.material = {"glass", 2500.0, 70e9, 0.2, std::numeric_limits<double>::infinity(), 0.0};
-    ContactCurve::Table t = sample_table(
-        0.5, std::numeric_limits<double>::infinity(), 33, [](double s) { return 1 + 0.9 * s * s; },
-        [](double) { return 0.0; }, [](double s) { return elastic_unloading(s).exponent; },
-        [](double s) { return elastic_unloading(s).hertz_share; }, [](double) { return 1.0; });
-    glass.curve = ContactCurve(t, "glass");
+    CurveTable t(std::numeric_limits<double>::infinity(), 0.0625);
+    t.force =
+        sampled(t.nodes(), [](double x) { return std::pow(x, 1.5) * (1 + finite_sphere * std::sqrt(x)); });
+    t.radius = sampled(t.nodes(), [](double x) { return std::sqrt(x); });
+    glass.curve = Curve(t);
     law.bodies["glass"] = glass;
     law.pairs = {
         {"powder", "powder"}, {"powder", "glass"}, {"glass", "glass"}, {"powder", "wall"}, {"glass", "wall"}};

@@ -3,83 +3,92 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "base/error.hpp"
+#include "characterise/shape_function.hpp"
 
 namespace granulaw {
 namespace {
 
-constexpr double onset = 1e-4;
+constexpr double onset = 1e-4, end = 0.1;
 
-/// Hertz's force, then straight on; losses as given functions of ln(x/onset).
-CurveSource source(std::function<double(double)> residual, std::function<double(double)> dissipation)
+/// Losses as functions of u, 0 at the onset and 1 at the end.
+LawShape shape_with(const std::function<double(double)>& residual,
+                    const std::function<double(double)>& dissipation)
 {
-  CurveSource s;
-  s.onset = onset;
-  s.loading = [](double x) {
-    const double top = std::pow(onset, 1.5), slope = 1.5 * std::sqrt(onset);
-    return x <= onset ? ContactCurve::Loading{x * std::sqrt(x), 1.5 * std::sqrt(x), std::sqrt(x)}
-                      : ContactCurve::Loading{top + slope * (x - onset), slope, std::sqrt(x)};
-  };
-  s.residual = [=](double x) { return residual(std::log(x / onset)); };
-  s.dissipation = [=](double x) { return dissipation(std::log(x / onset)); };
-  s.hertz_share = [](double) { return 0.5; };
-  return s;
+  LawShape shape = LawShape::zero();
+  shape.elastic.c1 = 0.9, shape.elastic.d1 = 0.1;
+  for (std::size_t k = 1; k < LawShape::nodes; ++k) {
+    const double u = static_cast<double>(k) / (LawShape::nodes - 1);
+    shape.force_reduction[k] = 1.5 * u * u;
+    shape.widening[k] = 0.3 * u * u;
+    shape.residual[k] = residual(u), shape.dissipation[k] = dissipation(u);
+  }
+  return shape;
 }
 
-TEST(TabulateCurve, HasTheSourcesFunctions)
+TEST(TabulateCurve, HasTheShapesFunctions)
 {
-  const CurveSource s = source([](double q) { return 0.05 * q * q; }, [](double q) { return 0.06 * q * q; });
-  const ContactCurve curve = tabulate(s, 0.01);
-  for (double x = 1e-5; x < 0.01; x *= 1.07) {
-    // 2e-5: cubics in s
-    EXPECT_NEAR(curve.loading(x).force / s.loading(x).force, 1, 2e-5) << x;
-    if (x < onset) {
-      EXPECT_NEAR(curve.work_unloading(x) / curve.work_loading(x), 1, 1e-12);
-      continue;
-    }
-    EXPECT_NEAR(-std::log1p(-curve.reversal(x).residual / x), s.residual(x), 2e-4) << x;
-    // 2e-4: the least loss
-    EXPECT_NEAR(-std::log(curve.work_unloading(x) / curve.work_loading(x)), s.dissipation(x), 4e-4) << x;
+  const LawShape shape = shape_with([](double u) { return 2 * u * u; }, [](double u) { return 2.2 * u * u; });
+  const Curve curve = tabulate(shape, onset, end, end);
+  const double q_end = 0.25 * std::log(end / onset);
+  const ShapeFunction residual(shape.residual, q_end), dissipation(shape.dissipation, q_end);
+  // 3.2e-6: a cubic over the last interval, whose far node lies beyond the end, where the functions go straight
+  EXPECT_LT(table_error(shape, onset, end, curve), 4e-6);
+  EXPECT_LT(change_of_restitution(shape, onset, end, curve),
+            1e-5);  // the same, and the spline's first interval
+  for (double x = 1.4 * onset; x < end; x *= 1.07) {
+    const double q = 0.25 * std::log(x / onset);
+    EXPECT_NEAR(std::sqrt(curve.kept(x)), std::exp(-0.5 * dissipation.value(q)), 1e-6) << x;
+    EXPECT_NEAR(curve.top(x).span, std::exp(-residual.value(q)), 1e-5) << x;
   }
 }
 
-/// Losses that fall, jump or scatter: the law's dissipated work does not fall.
-TEST(TabulateCurve, IsAdmissibleWhateverTheLosses)
+/// Losses that fall, jump or scatter: the work lost does not fall.
+TEST(TabulateCurve, LosesNoLessFurtherOnWhateverTheLosses)
 {
   using Losses = std::function<double(double)>;
-  const Losses scattering = [](double q) { return 0.1 * q * q * (1 + 0.3 * std::sin(20 * q)); },
-               jumping = [](double q) { return q < 1 ? 0.0 : 0.5; }, nothing = [](double) { return 0.0; },
-               falling = [](double q) { return 0.3 * q * std::exp(-q); };
+  const Losses scattering = [](double u) { return u * u * (1 + 0.3 * std::sin(40 * u)); },
+               jumping = [](double u) { return u < 0.5 ? 0.0 : 0.5; }, nothing = [](double) { return 0.0; },
+               falling = [](double u) { return 3 * u * std::exp(-4 * u); };
   for (const Losses& dissipation : {scattering, jumping, nothing, falling}) {
-    const ContactCurve curve = tabulate(source(nothing, dissipation), 0.01);
+    const Curve curve = tabulate(shape_with(nothing, dissipation), onset, end, end);
     double before = 0;
-    for (double x = onset * (1 + 1e-9); x < 0.01; x *= 1.003) {
-      const double dissipated = curve.work_loading(x) - curve.work_unloading(x);
-      EXPECT_GE(dissipated, before - 1e-12 * curve.work_loading(x)) << x;  // rounding
-      before = dissipated;
+    for (double x = onset * (1 + 1e-9); x < end; x *= 1.003) {
+      EXPECT_GE(curve.lost(x), before * (1 - 1e-14)) << x;  // rounding
+      before = curve.lost(x);
     }
   }
 }
 
-/// Nothing lost over 0.4 R leaves no residual overlap that costs nothing: an unloading which is that steep
-/// has less work, and what it returns goes first.
-TEST(TabulateCurve, TakesFromTheResidualWhatAnUnloadingCannotReturn)
+/// At a reversal unloading is not softer than loading, from the onset on, where both are the elastic curve's.
+TEST(TabulateCurve, UnloadsNoSofterThanItLoads)
 {
-  const ContactCurve curve =
-      tabulate(source([](double) { return 0.0; }, [](double q) { return 0.5 * q; }), 0.01);
-  const double x = 0.009;
-  EXPECT_NEAR(-std::log(curve.work_unloading(x) / curve.work_loading(x)), 0.5 * std::log(x / onset), 1e-3);
-  EXPECT_GE(curve.reversal(x).residual, 0);
+  const Curve curve = tabulate(
+      shape_with([](double u) { return 2 * u * u; }, [](double u) { return 2.2 * u * u; }), onset, end, end);
+  for (double x = onset * (1 + 1e-9); x < end; x *= 1.01)
+    // 1e-4: the share between nodes
+    EXPECT_GE(curve.reversal(x).stiffness(x), curve.loading(x).stiffness * (1 - 1e-4)) << x;
 }
 
-TEST(TabulateCurve, RefusesALoadingForceThatFalls)
+TEST(TabulateCurve, MakesALoadingForceRise)
 {
-  CurveSource s = source([](double q) { return 0.1 * q; }, [](double q) { return 0.1 * q; });
-  s.loading = [](double x) {
-    return ContactCurve::Loading{std::sin(400 * x) + 1.5, 400 * std::cos(400 * x), std::sqrt(x)};
-  };
-  EXPECT_THROW(tabulate(s, 0.01), Error);
+  LawShape shape = shape_with([](double u) { return u; }, [](double u) { return u; });
+  shape.force_reduction.back() = 4;  // the last node falls
+  const Curve curve = tabulate(shape, onset, end, end);
+  double before = 0;
+  for (double x = 0.5 * end; x < end; x *= 1.001) {
+    EXPECT_GE(curve.force(x), before);
+    before = curve.force(x);
+  }
+}
+
+TEST(TabulateCurve, RefusesATableThatIsNoLaw)
+{
+  CurveTable table = tabulate_elastic({}, 0.1).table();
+  table.force.value[7] = 0;
+  EXPECT_THROW(fitted_curve(table), Error);
 }
 
 }  // namespace

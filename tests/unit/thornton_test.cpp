@@ -1,4 +1,4 @@
-#include "law/thornton.hpp"
+#include "contact/thornton.hpp"
 
 #include <gtest/gtest.h>
 
@@ -109,7 +109,7 @@ TEST(Replay, RestitutionIsTheRatioOfTheWorkFunctions)
     const Replay replay = replay_collision(pair, r, mass, v);
     const double x = replay.delta_max / r;
     ASSERT_FALSE(replay.left_range);
-    EXPECT_NEAR(replay.restitution, std::sqrt(pair.curve->work_unloading(x) / pair.curve->work_loading(x)),
+    EXPECT_NEAR(replay.restitution, std::sqrt(pair.curve->kept(x)),
                 2e-4);
   }
 }

@@ -82,7 +82,7 @@ Measurement platens(const Atlas& atlas, const LawMaterial& m, Chance& chance, do
   const double unit = 4.0 / 3.0 * m.e_star() * radius * radius;
   const double depth = chance.between(std::max(20 * laws.onset(), 0.01), std::max(25 * laws.onset(), 0.2));
   const double x_m = std::min(depth, 0.3);
-  const ContactCurve::Reversal top = laws.midplane().reversal(x_m);
+  const Reversal top = laws.midplane().reversal(x_m);
   const double offset = chance.uniform(-0.05, 0.05) * 2 * x_m * radius;
   Measurement measured;
   measured.kind = &kind_named("platens", "study");
@@ -100,7 +100,7 @@ Measurement platens(const Atlas& atlas, const LawMaterial& m, Chance& chance, do
   }
   for (int k = unloading - 1; k > 0; --k) {
     const double u = static_cast<double>(k) / unloading;
-    add(top.residual + u * (x_m - top.residual), top.force * top.shape.at(u).value);
+    add(top.residual() + u * (x_m - top.residual()), top.force_at(u, std::sqrt(u)));
   }
   complete_standard_deviations(measured, 0.01);
   return measured;

@@ -123,7 +123,7 @@ Deviation compare(const Atlas& atlas, const Mixture& m, const RunSummary& truth)
 {
   const LawMaterial &s = m.pair.yielding, &h = m.pair.partner;
   const TwoBodyLaw own = compose_law(atlas, PairBody(atlas, s), PairBody(atlas, h), m.pair.radius_ratio, {});
-  const PairLaw law{&own.law.curve, m.pair.mapping(), &own.law, radiation(s, 1.0, h, m.pair.radius_ratio)};
+  const PairLaw law{{&own.law.curve, m.pair.mapping(), radiation(s, 1.0, h, m.pair.radius_ratio)}, &own.law};
   const Replay replay = replay_collision(law, m.pair.r_eff(), m.pair.m_eff(), m.velocity());
   const Certificate& c = own.law.certificate;
   return {replay.force_max / truth.force_max - 1, replay.restitution - truth.restitution, c.atlas_error_force,

@@ -23,8 +23,8 @@ class SpringContact
 
   ContactForces move(double delta, double slide, double dt)
   {
-    const ContactForce normal = pair_.evaluate(thrown_.radius, delta, deepest_, impact_overlap_);
-    deepest_ = larger(deepest_, delta);
+    const Answer normal = pair_.evaluate(thrown_.radius, delta, deepest_, impact_overlap_);
+    deepest_ = std::max(deepest_, delta);
     const double radius = spring_.computed_radius ? normal.contact_radius : std::sqrt(thrown_.radius * delta);
     const double k = spring_.stiffness * radius, most = spring_.friction * normal.force;
     stretch_ += slide;

@@ -39,8 +39,7 @@ BodyLaw own_law(const UnlikePair& pair, const RunOptions& options)
   const double onset = onset_overlap(s.e_star(), s.yield_stress, s.poisson_ratio);
   BodyLaw law;
   law.material = s;
-  law.curve = ContactCurve(fit_plastic(presses, fit_elastic(press), onset, presses.back().depth).table,
-                           "pair's own law");
+  law.curve = fit_plastic(presses, fit_elastic(press), onset, presses.back().depth).curve;
   return law;
 }
 
@@ -51,7 +50,7 @@ void study(const char* name, const UnlikePair& pair)
   const BodyLaw law = own_law(pair, options);
   for (const double speed : {4.4, 15., 47., 77.}) {
     const double v = speed * pair.yield_velocity();
-    const Replay own = replay_collision({&law.curve, pair.mapping(), &law}, pair.r_eff(), pair.m_eff(), v);
+    const Replay own = replay_collision({{&law.curve, pair.mapping()}, &law}, pair.r_eff(), pair.m_eff(), v);
     const RunSummary rule = run_as_one_body(pair, v, options), truth = run_two_bodies(pair, v, options);
     fmt::print(
         "{:28} V/V_y {:4g}: rule F {:+.4f} e {:+.4f} time {:+.4f}; own law F {:+.4f} e {:+.4f} time "

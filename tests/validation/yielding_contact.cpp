@@ -66,7 +66,7 @@ ContactForces YieldingContact::move(double delta, double slide, double)
 {
   stretch_ += slide;
   if (depth_ == 0) depth_ = delta;
-  const ContactForce elastic = law(delta, std::max(depth_, delta));
+  const Answer elastic = law(delta, std::max(depth_, delta));
   if (elastic.force <= 0) return {0, stretch_ = 0};
   const double k = stiffness_ * elastic.contact_radius, strength = shear_strength(elastic.contact_radius);
   const double stretched = k * std::abs(stretch_), from = depth_;

@@ -51,7 +51,7 @@ class YieldingContact
   ContactForces move(double delta, double slide, double dt);
 
  private:
-  ContactForce law(double delta, double depth) const
+  Answer law(double delta, double depth) const
   {
     return pair_.evaluate(radius_, delta, depth, impact_overlap_);
   }

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "base/larger.hpp"
-#include "law/elliptic_contact.hpp"
+#include "elliptic_contact.hpp"
 #include "solver/runs.hpp"
 #include "solver/shape/rotation.hpp"
 #include "solver/shape/shapes.hpp"

@@ -20,7 +20,7 @@ struct PairPlan
   double onset = 0;           ///< m/s, where yield begins, the least over the sizes; infinity: never
   double yield_velocity = 0;  ///< m/s, customary V_y, the least over the sizes; infinity: elastic
   double damage_number = 0;   ///< largest I = rho V^2/Y (law/damage_number.hpp)
-  double axis_number = 0;     ///< v^2 of the velocity axis (law/velocity_axis.hpp): I of the pair's one body
+  double axis_number = 0;     ///< v^2 of the velocity axis (contact/axis.hpp): I of the pair's one body
   double overlap = 0;         ///< largest, over R*, of the real contact: the deck's over its stretch
   double depth = 0;           ///< largest, over lambda R*: the table's own coordinate
   std::string overlap_basis;  ///< "law", "Thornton", "Hertz" or "visited"

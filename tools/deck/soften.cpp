@@ -7,7 +7,7 @@
 
 #include "base/scales.hpp"
 #include "deck/hertz.hpp"
-#include "law/thornton.hpp"
+#include "contact/thornton.hpp"
 
 namespace granulaw::deck {
 

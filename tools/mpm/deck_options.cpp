@@ -195,7 +195,7 @@ class LawsAtHand
     if (deck_law_->find_pair(m.name_a, rigid ? wall_name : m.name_b))
       return resolve_pair(*deck_law_, m.name_a, rigid ? wall_name : m.name_b, "the deck's law", radius_a,
                           radius_b);
-    return PairLaw{&yielding->second.curve, m.mapping, &yielding->second};
+    return PairLaw{{&yielding->second.curve, m.mapping}, &yielding->second};
   }
 
   /// Each law is made once.
@@ -213,7 +213,7 @@ class LawsAtHand
       found->second = law_from(*atlas_, material, options);
     }
     if (!found->second) return {};
-    return PairLaw{&found->second->curve, m.mapping, &*found->second};
+    return PairLaw{{&found->second->curve, m.mapping}, &*found->second};
   }
 
   std::optional<Law> deck_law_;

@@ -28,7 +28,8 @@ struct ExportRequest
 
 void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
 {
-  out << fmt::format("# contact law, exported from {}; formulas: docs/reference/law-format.md of granulaw\n", r.law);
+  out << fmt::format("# contact law, exported from {}; formulas: docs/reference/law-format.md of granulaw\n",
+                     r.law);
   for (const char* note : {"version", "git_hash"})
     if (const auto found = law.provenance.find(note); found != law.provenance.end())
       out << fmt::format("# {} = {}\n", note, printable(found->second));
@@ -55,7 +56,7 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
 void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name, const ExportRequest& r)
 {
   const PairMapping& m = pair.mapping;
-  const ContactCurve& curve = *pair.curve;
+  const Curve& curve = *pair.curve;
   const double lambda = m.sqrt_lambda * m.sqrt_lambda;
   const double length = r.dimensionless ? 1 : m.length(r.r_eff),
                force = r.dimensionless ? 1 : m.force(r.r_eff),
@@ -72,12 +73,14 @@ void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name,
                               impact_overlap * length)
                 : fmt::format("# {}: the law has no velocity axis: quasi-static at any speed\n", name));
   for (int k = 0; k <= r.points; ++k) {
-    const double s = curve.table().s_end * k / r.points, x = std::min(s * s * s * s, curve.x_end());
-    const ContactCurve::Reversal t = curve.reversal(x, impact_overlap);
+    const double x = std::min(curve.end() * std::pow(static_cast<double>(k) / r.points, 4), curve.end());
+    const Curve::Loading now = curve.loading(x, impact_overlap);
+    const Reversal t = k > 0 ? curve.reversal(x, impact_overlap) : Reversal{};
+    const UnloadingShape shape = k > 0 ? t.shape() : UnloadingShape{};
     const bool yielded = x > curve.onset();
     out << fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{}\n", name, length * x,
-                       force * t.force, force / length * t.stiffness, radius * t.radius,
-                       yielded ? length * t.residual : 0.0, t.shape.exponent, t.shape.hertz_share,
+                       force * now.force, force / length * now.stiffness, radius * now.radius,
+                       yielded ? length * t.residual() : 0.0, shape.exponent, shape.hertz_share,
                        yielded ? 1 : 0);
   }
 }
@@ -152,7 +155,8 @@ void define(Options& command)
 extern const Command export_command{
     "export",
     "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
-    "overlap, residual overlap, exponent and foot (Hertz share) of the unloading after a reversal there. Lines that "
+    "overlap, residual overlap, exponent and foot (Hertz share) of the unloading after a reversal there. "
+    "Lines that "
     "begin "
     "with # state "
     "the\n"

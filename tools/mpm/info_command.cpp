@@ -37,16 +37,15 @@ void print_material(const LawMaterial& m, const std::map<std::string, std::strin
 }
 
 /// The law's range along its velocity axis.
-void print_axis(const VelocityAxis& axis, const LawMaterial& m, const Certificate& c)
+void print_axis(const AxisTable& t, const LawMaterial& m, const Certificate& c)
 {
-  const VelocityAxis::Table& t = axis.table();
-  if (axis.kind() == VelocityAxis::Kind::inertia)
+  if (t.by == AxisTable::By::inertia)
     fmt::print("  velocity axis         to I = rho V^2/Y = {:.3g}", t.speed_end * t.speed_end);
   else
     fmt::print("  rate axis            V = {:.3g} to {:.3g} m/s on a wall, for R = {:.4g} m only",
                t.speed_begin * speed_unit(m), t.speed_end * speed_unit(m), t.reference_radius);
-  fmt::print(", {} levels of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.levels,
-             t.ratio_nodes(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
+  fmt::print(", {} levels of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.level.size(),
+             t.shares(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
 }
 
 void print_origin(const Certificate& c)
@@ -55,7 +54,7 @@ void print_origin(const Certificate& c)
   if (c.origin != "atlas" && (c.atlas_error_force > 0 || c.atlas_error_restitution > 0))
     fmt::print(" (without speed from the atlas: {})",
                ErrorBound{c.atlas_error_force, c.atlas_error_restitution}.text());
-  fmt::print("\n  support              {}\n", printable(c.support));
+  fmt::print("\n");
 }
 
 void print_errors(const BodyLaw& body)
@@ -75,9 +74,6 @@ void print_errors(const BodyLaw& body)
   if (c.verification_impacts > 0)
     fmt::print("  against {:.0f} impacts    {}\n", c.verification_impacts,
                errors_text(c.verification_error_force, c.verification_error_restitution));
-  if (c.slow_press_force != 0 || c.slow_press_restitution != 0)
-    fmt::print("  slow press instead   force {:+.2g} %, e {:+.2g} % at the deepest impact's overlap\n",
-               100 * c.slow_press_force, 100 * c.slow_press_restitution);
 }
 
 void print_body(const BodyLaw& body, const std::map<std::string, std::string>& provenance)
@@ -93,8 +89,8 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
         body.body, body.pole_radius, body.mass_ratio);
   print_material(m, provenance);
   fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
-             body.curve.x_end(), body.curve.table().force_ratio.size(), body.curve.onset());
-  if (const VelocityAxis* axis = body.curve.axis()) print_axis(*axis, m, c);
+             body.curve.end(), body.curve.table().force.size(), body.curve.onset());
+  if (const AxisTable* axis = body.curve.axis()) print_axis(*axis, m, c);
   print_origin(c);
   print_errors(body);
   if (std::isfinite(c.damage_number_max))
@@ -105,7 +101,7 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
   }
   if (m.yields())
     fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n",
-               support_ratio(body.curve.x_end()));
+               support_ratio(body.curve.end()));
 }
 
 void print_pair(const Law& law, const LawPair& pair)
@@ -122,7 +118,7 @@ void info(const std::string& path)
   const Law law = read_law(path);
   fmt::print("{}: contact law, pairs {}\n", path, law.pair_list());
   for (const auto& [name, text] : law.provenance) fmt::print("  {} = {}\n", printable(name), printable(text));
-  if (!law.provenance.contains(checksum_note)) fmt::print("  checksum = none (file of an older version)\n");
+  if (!law.provenance.contains(checksum_note)) fmt::print("  checksum = none\n");
   for (const LawPair& pair : law.pairs) print_pair(law, pair);
   for (const auto& entry : law.bodies) print_body(entry.second, law.provenance);
   for (const auto& [name, laws] : law.pair_laws)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "law/replay.hpp"
-#include "law/thornton.hpp"
+#include "contact/thornton.hpp"
 
 namespace granulaw {
 
@@ -58,7 +58,7 @@ std::vector<Drawn> other_laws(const Law& law, const ChosenPair& pair)
   for (const TwoBodyLaw& own : *laws)
     if (&own.law != pair.law.yielding)
       drawn.push_back(
-          {"laws for other ratios of radii", "other", {&own.law.curve, pair.law.mapping, &own.law}});
+          {"laws for other ratios of radii", "other", {{&own.law.curve, pair.law.mapping}, &own.law}});
   return drawn;
 }
 
@@ -67,7 +67,7 @@ std::vector<Drawn> drawn_laws(const Law& law, const ChosenPair& pair)
 {
   std::vector<Drawn> drawn = other_laws(law, pair);
   const BodyLaw& body = yielding_body(law, pair);
-  if (has_own_law(law, pair)) drawn.push_back({"pair rule", "rule", {&body.curve, pair.law.mapping, &body}});
+  if (has_own_law(law, pair)) drawn.push_back({"pair rule", "rule", {{&body.curve, pair.law.mapping}, &body}});
   drawn.push_back({law_name(law, pair), "law", pair.law});
   return drawn;
 }

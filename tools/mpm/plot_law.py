@@ -17,11 +17,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 
-def hermite(nodes, value, slope, s):
-    """Cubic Hermite with slopes d/ds, nodes uniform: as the law library evaluates (docs/reference/law-format.md)."""
-    h = nodes[1] - nodes[0]
-    k = np.clip((s / h).astype(int), 0, len(nodes) - 2)
-    t = s / h - k
+def hermite(nodes, value, slope, x):
+    """Cubic Hermite with slopes d/dx: as the law library evaluates (docs/reference/law-format.md)."""
+    k = np.clip(np.searchsorted(nodes, x, "right") - 1, 0, len(nodes) - 2)
+    h = nodes[k + 1] - nodes[k]
+    t = (x - nodes[k]) / h
     return ((1 + 2 * t) * (1 - t) ** 2 * value[k] + t * (1 - t) ** 2 * h * slope[k]
             + t * t * (3 - 2 * t) * value[k + 1] + t * t * (t - 1) * h * slope[k + 1])
 
@@ -32,31 +32,32 @@ class Body:
         self.e_star = material["youngs_modulus"][()] / (1 - material["poisson_ratio"][()] ** 2)
         self.yield_stress = material["yield_stress"][()] if "yield_stress" in material else np.inf
         self.onset = curve["onset"][()] if "onset" in curve else np.inf
-        self.s_end = curve["s_end"][()]
+        self.end = curve["end"][()]
         self.curve = {name: curve[name][:] for name in curve if curve[name].shape}
-        self.nodes = np.linspace(0, self.s_end, len(self.curve["force_ratio"]))
+        k = np.arange(len(self.curve["force"]))
+        self.nodes = (self.onset if np.isfinite(self.onset) else 1) * (1 + k % 8 / 8) * 2.0 ** (k // 8 - curve["octaves"][()])
 
     def of(self, name, x):
-        return hermite(self.nodes, self.curve[name], self.curve[name + "_slope"], np.asarray(x) ** 0.25)
+        """A column at x; kept, span and hertz_share begin at the onset."""
+        value = self.curve[name]
+        return hermite(self.nodes[-len(value):], value, self.curve[name + "_slope"], np.asarray(x))
 
     def loading(self, x):
         """F/(4/3 E* R^2)."""
-        return x ** 1.5 * self.of("force_ratio", x)
-
-    def unloading(self, x_m, u):
-        """F/F_m after a reversal at x_m, u from 0 at the residual overlap to 1."""
-        n, a = self.of("exponent", x_m), self.of("foot", x_m)
-        return a * u ** 1.5 + (5 - 2 * a - 2 * n) * u ** 2 + (a + 2 * n - 4) * u ** 2.5
+        return self.of("force", x)
 
     def works(self):
         """x, loading work and returned work, in 4/3 E* R^3."""
-        s = np.linspace(0, self.s_end, 4001)[1:]
-        x = s ** 4
-        integrand = 4 * s ** 3 * self.loading(x)
-        loaded = np.cumsum(integrand) * (s[1] - s[0])
-        share = (11 - 2 * self.of("exponent", x)) / 21 + self.of("foot", x) * 2 / 105
-        returned = self.loading(x) * x * (1 - self.of("residual_ratio", x)) * share
-        return x, loaded, np.where(x > self.onset, returned, loaded)
+        x = np.linspace(0, self.end ** 0.25, 4001)[1:] ** 4
+        force = self.loading(x)
+        loaded = x[0] * force[0] / 2.5 + np.concatenate([[0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(x))])
+        return x, loaded, loaded * np.where(x > self.onset, self.of("kept", np.maximum(x, self.onset)), 1)
+
+    def unloading(self, x_m, u, work):
+        """F/F_m after a reversal at x_m whose work of loading is `work`, u from 0 at the residual overlap to 1."""
+        a = self.of("hertz_share", x_m)
+        n = 5.5 - 10.5 * self.of("kept", x_m) * work / (self.loading(x_m) * x_m * self.of("span", x_m)) + 0.2 * a
+        return a * u ** 1.5 + (5 - 2 * a - 2 * n) * u ** 2 + (a + 2 * n - 4) * u ** 2.5
 
 
 def thornton(v):
@@ -70,18 +71,17 @@ def main(law, picture):
     with h5py.File(law) as file:
         for colour, name in enumerate(file["bodies"]):
             body, c = Body(file["bodies"][name]), f"C{colour}"
-            x = np.linspace(0, body.s_end, 400)[1:] ** 4
+            x = np.linspace(0, body.end ** 0.25, 400)[1:] ** 4
             scale = 4 / 3 * body.e_star / (body.yield_stress if np.isfinite(body.yield_stress) else body.e_star)
             label = f"{name}" + (f", E*/Y = {body.e_star / body.yield_stress:.0f}" if np.isfinite(body.yield_stress) else ", elastic")
             left.plot(x, scale * body.loading(x), c, label=label)
             if not np.isfinite(body.onset):
                 continue
+            deep, loaded, returned = body.works()
             for x_m in np.array([0.15, 0.4, 0.7, 1.0]) * x[-1]:
-                residual = float(body.of("residual_ratio", x_m)) * x_m
+                span = float(body.of("span", x_m)) * x_m
                 u = np.linspace(0, 1, 100)
-                left.plot(residual + u * (x_m - residual),
-                          scale * float(body.loading(x_m)) * body.unloading(x_m, u), c, lw=0.8)
-            x, loaded, returned = body.works()
+                left.plot(x_m - span * (1 - u), scale * float(body.loading(x_m)) * body.unloading(x_m, u, np.interp(x_m, deep, loaded)), c, lw=0.8)
             # kinetic energy 2/3 pi rho R^3 V^2 = 4/3 E* R^3 loaded; rho V_y^2 = (pi/2)^4 (2/5) 1.6^5 Y^5/E*^4
             v_y = np.sqrt((np.pi / 2) ** 4 * 0.4 * 1.6 ** 5 * (body.yield_stress / body.e_star) ** 5)
             right.plot(np.sqrt(2 / np.pi * loaded) / v_y, np.sqrt(returned / loaded), c, label=label)

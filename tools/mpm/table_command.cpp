@@ -138,7 +138,7 @@ void print_origin(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 void print_certificate(const std::string& name, const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
-  fmt::print("{}: to delta/R = {:.3g}", name, body.curve.x_end());
+  fmt::print("{}: to delta/R = {:.3g}", name, body.curve.end());
   if (body.curve.axis()) fmt::print(" and I = rho V^2/Y = {:.3g}", c.damage_number_max);
   if (c.origin != "atlas")
     fmt::print("; held-out e {}, scatter {}", percent(c.held_out_error), percent(c.residual_scatter));

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "law/h5.hpp"
-#include "law/h5_names.hpp"
+#include "law/layout.hpp"
 
 namespace granulaw {
 

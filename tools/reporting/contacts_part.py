@@ -30,8 +30,10 @@ class Law:
                 get = lambda part, name: body[part][name][()]
                 e_star = get("material", "youngs_modulus") / (1 - get("material", "poisson_ratio")**2)
                 self.ratio = float(e_star / get("material", "yield_stress"))
-                self.s_end, self.onset = float(get("curve", "s_end")), float(get("curve", "onset"))
-                self.g, self.slope = get("curve", "force_ratio"), get("curve", "force_ratio_slope")
+                self.end, self.onset = float(get("curve", "end")), float(get("curve", "onset"))
+                self.force, self.slope = get("curve", "force"), get("curve", "force_slope")
+                k = np.arange(len(self.force))
+                self.nodes = self.onset * (1 + k % 8 / 8) * 2.0**(k // 8 - get("curve", "octaves"))
         except (OSError, KeyError, ValueError, RuntimeError) as error:
             raise files.Unreadable(path, f"not a law file with material '{materials[0]}' ({str(error).splitlines()[0]})") from None
 
@@ -44,13 +46,11 @@ class Law:
         """(V/V_y, x): overlap x over lambda R* at which a head-on impact turns, quasi-static; x is delta/R on a rigid wall.
 
         (V/V_onset)^2 = W(x)/W(onset), W the loading work: the same for the wall and for like pairs."""
-        s = np.linspace(0, self.s_end, 20001)
-        h = self.s_end / (len(self.g) - 1)
-        k = np.minimum((s / h).astype(int), len(self.g) - 2)
-        t = s / h - k
-        g = (1 - t)**2 * ((1 + 2 * t) * self.g[k] + t * h * self.slope[k]) + t**2 * ((3 - 2 * t) * self.g[k + 1] - (1 - t) * h * self.slope[k + 1])
-        x = s**4
-        force = x**1.5 * g
+        x = np.linspace(self.nodes[0]**0.25, self.end**0.25, 20001)**4
+        k = np.clip(np.searchsorted(self.nodes, x, "right") - 1, 0, len(self.nodes) - 2)
+        h = self.nodes[k + 1] - self.nodes[k]
+        t, f, m = (x - self.nodes[k]) / h, self.force, self.slope
+        force = (1 - t)**2 * ((1 + 2 * t) * f[k] + t * h * m[k]) + t**2 * ((3 - 2 * t) * f[k + 1] - (1 - t) * h * m[k + 1])
         work = np.concatenate([[0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(x))])
         keep = x > 1e-6 * self.onset
         return np.sqrt(work[keep] / np.interp(self.onset, x, work)) / self.yield_per_onset, x[keep]
@@ -77,7 +77,7 @@ class Contacts:
         self.speed, self.overlap = {}, {}
         self.joint, self.mapped = {}, True  # (bin of speed, of overlap): contacts that ended; of every run, or not at all
         self.speed_max = self.overlap_max = 0.0
-        self.scale = limit * (law.s_end**-4) if law else None  # lambda: x of the law to overlap/R*
+        self.scale = limit / law.end if law else None  # lambda: x of the law to overlap/R*
 
     def add(self, entry, path):
         files.rows_with(path, [entry], ("contacts_begun", "contact_steps_beyond_table"))

@@ -25,7 +25,7 @@ class ComposedModel
   struct IndenterLaw
   {
     LawMaterial specimen;
-    ContactCurve curve;
+    Curve curve;
     double length = 0, force = 0;  ///< m, N: units of overlap and force
   };
   /// Valid until the next call.

@@ -18,7 +18,7 @@ namespace {
 /// A contact's slow law, the units that bring it to a measured curve, and its errors (sd).
 struct CurveModel
 {
-  const ContactCurve& curve;
+  const Curve& curve;
   double length, force;   ///< m, N
   double force_error;     ///< relative
   double recovery_error;  ///< of the unloading, over the largest overlap less the residual
@@ -26,9 +26,10 @@ struct CurveModel
 
 /// Unloading from `top` where the overlap is this share of the recovery, the largest overlap less the
 /// residual, above the residual.
-double unloading_force(const ContactCurve::Reversal& top, double share)
+double unloading_force(const Reversal& top, double share)
 {
-  return share > 0 ? top.force * top.shape.at(std::min(share, 1.0)).value : 0.0;
+  const double u = std::min(share, 1.0);
+  return share > 0 ? top.force_at(u, std::sqrt(u)) : 0.0;
 }
 
 Prediction predict_curve(const Measurement& m, const CurveModel& model, const MachineState& machine)
@@ -42,18 +43,18 @@ Prediction predict_curve(const Measurement& m, const CurveModel& model, const Ma
   double x_m = 0;
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
   x_m += std::max(0.0, machine.beyond) / m.kind->contacts / model.length;
-  const ContactCurve::Reversal top = model.curve.reversal(std::max(x_m, 1e-12));
+  const Reversal top = model.curve.reversal(std::max(x_m, 1e-12));
   // The checks' errors are each one curve's: smooth. Unloading is off by a share of what it recovers, however
   // far the press went.
   const double factor_error = model.force_error, recovery_error = model.recovery_error,
-               recovery = x_m - top.residual;
+               recovery = x_m - top.residual();
   constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured
   for (std::size_t k = 0; k < m.data.size(); ++k) {
     const double x = overlap(m.data[k]);
     const bool unloads = k >= loading && x_m > model.curve.onset();
     double force = 0, stretched = 0, steep = 0, place = 1;
     if (unloads) {
-      const double share = (x - top.residual) / recovery;
+      const double share = (x - top.residual()) / recovery;
       force = unloading_force(top, share);
       stretched = unloading_force(top, 1 - (1 - share) / (1 - recovery_error)) - force;
       steep =
@@ -95,7 +96,7 @@ Prediction predict_indenter(const Measurement& m, const Trial& t)
   // composed laws were held against runs, whose own error comes on top
   const double error = std::hypot(t.composed->error(law.specimen).force, atlas.solver);
   Prediction p = predict_curve(m, {law.curve, law.length, law.force, error, atlas.recovery}, t.machine);
-  p.beyond = std::log(m.largest_x() / (law.length * law.curve.x_end()));
+  p.beyond = std::log(m.largest_x() / (law.length * law.curve.end()));
   return p;
 }
 

@@ -1,7 +1,7 @@
 // bench_loop_law one FILE ONSET: writes the synthetic law with onset of yield at x = ONSET (overlap/R on a
 // rigid wall) and prints the largest error of the contact loop's force against the functions the law was
 // sampled from, over 200,000 random states (loading and unloading), relative to the force at the turning
-// point. bench_loop_law axis FILE: with a velocity axis; against the law's curve. bench_loop_law four FILE:
+// point. bench_loop_law axis FILE: with a velocity axis. bench_loop_law four FILE:
 // four materials and a law of its own for each of their ten pairs; prints the largest of their ten errors.
 // bench_loop_law four FILE RATIO...: those of unlike materials composed, so that they radiate, at these
 // ratios. bench_loop_law rule FILE: the four materials without laws of their pairs.
@@ -13,53 +13,30 @@
 #include <string>
 #include <vector>
 
-#include "base/larger.hpp"
-#include "law/fast_curve.hpp"
+#include "contact/contact.hpp"
 #include "law/law_file.hpp"
 #include "synthetic_law.hpp"
 
 namespace {
 
-using granulaw::larger;
 using granulaw::testing::SyntheticLaw;
 
-/// `exact`: force at x, x_max and X.
-double worst_error(const granulaw::ContactCurve& curve, const auto& exact)
+/// Largest difference of the loading force from the functions that the table was sampled from, relative.
+double worst_error(const SyntheticLaw& shape, const granulaw::Curve& curve)
 {
-  const granulaw::FastCurve table(curve);
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> log_x(std::log(1e-7), std::log(curve.x_end())), part(0.0, 1.2);
+  std::uniform_real_distribution<double> log_x(std::log(1e-7), std::log(curve.end()));
   double worst = 0;
   for (int k = 0; k < 200000; ++k) {
-    const double x_max = std::exp(log_x(random)), x = std::min(x_max * part(random), curve.x_end());
-    const double X = curve.axis() ? std::min(x_max / part(random), curve.axis()->overlap_end()) : 0.0;
-    const double top = std::max(x, x_max);
-    worst = larger(worst, std::abs(table.force(x, x_max, X) - exact(x, x_max, X)) / exact(top, top, X));
+    const double x = std::exp(log_x(random));
+    worst = std::max(worst, std::abs(curve.force(x) / shape.force(x) - 1));
   }
   return worst;
-}
-
-double worst_error(const SyntheticLaw& shape, const granulaw::ContactCurve& curve)
-{
-  const auto q_of = [&](double s) { return SyntheticLaw::past(s, shape.onset); };
-  const auto loading = [&](double x) {
-    const double s = std::pow(x, 0.25), q = q_of(s);
-    return std::pow(x, 1.5) * (1 + shape.finite_sphere * s * s) *
-           std::exp(-shape.force_reduction * q * q / (1 + q));
-  };
-  return worst_error(curve, [&](double x, double x_max, double) {
-    if (x >= x_max || x_max <= shape.onset) return loading(x);
-    const double s = std::pow(x_max, 0.25);
-    const double residual = x_max * shape.residual_ratio(s);
-    const double u = (x - residual) / (x_max - residual);
-    return u <= 0 ? 0.0 : loading(x_max) * shape.unloading(s).at(u).value;
-  });
 }
 
 constexpr double youngs_modulus = 9.1e7;  // as loop.py
 constexpr double modulus_over_yield =
     4;  // E*/Y that the law states: so strong a sphere ends its contact before waves return (radiation.hpp)
-constexpr int nodes = 1025;  // so many that the error is the loop's, not the sampling's
 
 double one(const char* file, double onset)
 {
@@ -68,7 +45,7 @@ double one(const char* file, double onset)
   granulaw::Law law = shape.law();
   granulaw::BodyLaw& powder = law.bodies.at("powder");
   powder.material.youngs_modulus = youngs_modulus;
-  powder.curve = shape.curve(nodes);
+  powder.curve = shape.curve();
   granulaw::write_law(law, file);
   return worst_error(shape, powder.curve);
 }
@@ -80,10 +57,7 @@ double with_axis(const char* file)
   powder.material.youngs_modulus = youngs_modulus;
   powder.material.yield_stress *= 1e-2;  // as Young's modulus: the speeds of the flow are within the axis
   granulaw::write_law(law, file);
-  const auto unit_pair = granulaw::PairMapping::rigid_partner(0.75);  // of R* = 1: length and force 1
-  return worst_error(powder.curve, [&](double x, double x_max, double X) {
-    return powder.curve.evaluate(unit_pair, 1.0, x, x_max, X).force;
-  });
+  return worst_error(SyntheticLaw{}, powder.curve);
 }
 
 /// `ratios`: none: one law for each pair, as from runs. `pair_laws` false: every pair follows the pair rule.
@@ -96,12 +70,12 @@ double four(const char* file, const std::vector<double>& ratios, bool pair_laws 
     SyntheticLaw shape;
     shape.onset = onset *= 1.2;  // ten curves, no two alike
     granulaw::BodyLaw result = shape.law().bodies.at("powder");
-    result.curve = shape.curve(nodes);
+    result.curve = shape.curve();
     result.material.name = name;
     result.material.youngs_modulus = youngs_modulus;
     // of four materials the first yields against the others
     result.material.yield_stress = result.material.e_star() / modulus_over_yield * std::sqrt(onset / 3e-4);
-    worst = larger(worst, worst_error(shape, result.curve));
+    worst = std::max(worst, worst_error(shape, result.curve));
     return result;
   };
   for (const std::string& name : names) {

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/fit_curve.hpp"
-#include "law/contact_curve.hpp"
+#include "contact/curve.hpp"
 #include "law/law_file.hpp"
 #include "solver/runs.hpp"
 
@@ -27,6 +27,6 @@ int main()
   options.resolution = 8;
   options.shifted_grids = 1;
   const double e = granulaw::impact(sphere, {1.0}, {}, options).summary.restitution;
-  const granulaw::ContactCurve curve(granulaw::tabulate_elastic({}, 0.1), "consumer");
+  const granulaw::Curve curve = granulaw::tabulate_elastic({}, 0.1);
   return std::abs(e - 1) < 0.01 && curve.loading(0.01).force > 0 && refuses_a_missing_law() ? 0 : 1;
 }

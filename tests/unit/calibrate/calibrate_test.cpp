@@ -128,7 +128,7 @@ Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, doubl
   const PairMapping mapping = PairMapping::deformable_partner(m.e_star(), indenter.e_star());
   const double r_eff = measured.effective_radius(), deepest = depth * r_eff;
   const auto add = [&](double d, double delta_max) {
-    const double force = law.law.curve.evaluate(mapping, r_eff, d, delta_max).force;
+    const double force = answer(law.law.curve, mapping, r_eff, d, delta_max).force;
     measured.data.push_back({d, force, 0.01 * force, static_cast<int>(measured.data.size()) + 2});
   };
   for (int k = 1; k <= 40; ++k) add(deepest * k / 40, 0);

@@ -67,7 +67,7 @@ TEST(Departure, IsWhatIsAddedToGetTheOwnLaw)
     const double x = r * onset;
     // between nodes 0.13 apart in ln(overlap), and through the tables' admissibility
     EXPECT_NEAR(curve(sum).loading(x).force / curve(b).loading(x).force, 1, 1e-3);
-    EXPECT_NEAR(curve(sum).reversal(x).residual / curve(b).reversal(x).residual, 1, 5e-3);
+    EXPECT_NEAR(curve(sum).reversal(x).residual() / curve(b).reversal(x).residual(), 1, 5e-3);
   }
 }
 

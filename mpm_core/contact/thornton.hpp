@@ -9,7 +9,7 @@ namespace granulaw {
 
 /// Thornton's elastic-perfectly-plastic contact in closed form: the baseline.
 /// C. Thornton, "Coefficient of restitution for collinear collisions of elastic-perfectly plastic spheres",
-/// J. Appl. Mech. 64 (1997) 383. State: the largest overlap since first touch, as for ContactCurve.
+/// J. Appl. Mech. 64 (1997) 383. State: the largest overlap since first touch, as for Curve.
 ///
 ///   loading below yield  F = 4/3 E* sqrt(R*) d^1.5
 ///   loading beyond       F = F_y + pi p_y R* (d - d_y)
@@ -28,9 +28,9 @@ struct ThorntonPair
     return q * q * r_eff;
   }
 
-  /// Force and stiffness at overlap `delta` (m, > 0); see ContactForce for units. No allocation, no
+  /// Force and stiffness at overlap `delta` (m, > 0); see Answer for units. No allocation, no
   /// exceptions.
-  ContactForce evaluate(double r_eff, double delta, double delta_max) const
+  Answer evaluate(double r_eff, double delta, double delta_max) const
   {
     const double hertz = 4.0 / 3.0 * e_star;
     const double root = std::sqrt(r_eff * delta);
@@ -49,9 +49,9 @@ struct ThorntonPair
     const double area = (2.0 * f_m + f_y) / (2.0 * M_PI * yield_pressure), edge = std::sqrt(area);
     const double elastic = f_m / (hertz * edge);  // d_m - d_p
     const double part = (delta - (delta_max - elastic)) / elastic;
-    if (part <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+    if (part <= 0.0) return {0.0, 0.0, 0.0, delta_max, Answer::Branch::apart};
     const double root_part = std::sqrt(part), a = edge * root_part;  // sqrt(R_p (d - d_p))
-    return {f_m * part * root_part, 2.0 * e_star * a, a, delta_max};
+    return {f_m * part * root_part, 2.0 * e_star * a, a, delta_max, Answer::Branch::unloading};
   }
 
   /// J, elastic energy that a contact holds at overlap `delta` (m): what it gives back on complete unloading.
@@ -81,7 +81,7 @@ struct ThorntonPair
   /// flattened contact, in the elastic range Hertz's.
   double unloading_stiffness(double r_eff, double delta_max) const
   {
-    const ContactForce top = evaluate(r_eff, delta_max, delta_max);
+    const Answer top = evaluate(r_eff, delta_max, delta_max);
     if (delta_max <= yield_overlap(r_eff)) return top.stiffness;
     const double f_y = evaluate(r_eff, yield_overlap(r_eff), 0.0).force;
     const double area = (2.0 * top.force + f_y) / (2.0 * M_PI * yield_pressure);

@@ -1,4 +1,4 @@
-#include "law/elliptic_contact.hpp"
+#include "elliptic_contact.hpp"
 
 #include <cmath>
 #include <numbers>
