@@ -49,7 +49,7 @@ class Path
   double work() const { return work_; }
   /// Largest force met, times x_m: above all work.
   double scale() const { return top_ * x_m_; }
-  /// What Simpson's rule leaves open of the work: what half as many pieces change, and rounding.
+  /// Error of Simpson's rule in the work: its change with half as many pieces, and rounding.
   double open() const { return open_ + 1e-12 * scale(); }
 
  private:

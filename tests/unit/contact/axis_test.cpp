@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "paths.hpp"
+#include "law_paths.hpp"
 #include "synthetic_tables.hpp"
 
 namespace granulaw {

@@ -4,7 +4,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contact/contact.hpp"
-#include "paths.hpp"
+#include "law_paths.hpp"
 #include "synthetic_tables.hpp"
 
 namespace granulaw {
