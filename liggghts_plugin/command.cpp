@@ -54,7 +54,7 @@ void read_setup(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setu
   Session& session = *setup.session;
   setup.own = setup.options = parse_options(models.normal, is_wall, setup.where, words, rest);
   if (is_wall && session.pair_options) inherit(setup, rest);
-  models.read_keywords(lmp, setup);
+  if (models.read_keywords) models.read_keywords(lmp, setup);
   if (setup.options.dissipated_energy && is_wall && !session.dissipated_energy)
     fail(setup.where, "'computeDissipatedEnergy on' counts walls with the pair style's: say it there");
   if (!is_wall) share_with_session(setup);
@@ -136,13 +136,19 @@ void with_setup(const Setup& setup, Words words, const std::function<void(int, c
   Setup::current = nullptr;
 }
 
+/// The fixes and computes of ours that a deck may name.
+void provide_observers(LAMMPS_NS::LAMMPS* lmp)
+{
+  provide_heat_conduction(lmp);
+  provide_contact_list(lmp);
+  provide_stats_fix(lmp);
+}
+
 /// The fixes that come with our models.
 void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
 {
   provide_contact_histories(lmp);
-  provide_heat_conduction(lmp);
-  provide_contact_list(lmp);
-  provide_stats_fix(lmp);
+  provide_observers(lmp);
   provide_runaway_fix(lmp);
 }
 
@@ -173,14 +179,23 @@ void CommandStyle::read(const CommandModels& models, int nargs, char** args,
   read_setup(lmp_, models, setup_, Words(pointers.begin(), pointers.end()), rest);
   rest.insert(rest.end(), of_surface.begin(), of_surface.end());
   note_meaning(models, setup_);
+  setup_.session->styles[setup_.wall] = this;
+  if (!models.read_keywords) {
+    DeckUnits::of(lmp_->update->unit_style, setup_.where);
+    return provide_observers(lmp_);
+  }
   refuse_out_of_reach(models, setup_);
   refuse_shape(lmp_, setup_, models.ids.superquadric());
   refuse_no_friction(models, setup_, rest);
   warn_stretched_cohesion(lmp_, models, setup_);
   with_setup(setup_, rest, call);
   refuse_other_histories(lmp_, setup_);
-  setup_.session->styles[setup_.wall] = this;
   provide_fixes(lmp_);
+}
+
+void CommandStyle::plan(const ModelInfo& normal, std::int64_t hash, int nargs, char** args)
+{
+  guarded(lmp_, [&] { read({normal, nullptr, ModelIds::of(hash)}, nargs, args, {}); });
 }
 
 void CommandStyle::begin_run(const std::function<void()>& init)

@@ -17,7 +17,7 @@ namespace granulaw::plugin {
 struct CommandModels
 {
   ModelInfo normal;
-  void (*read_keywords)(LAMMPS_NS::LAMMPS* lmp, Setup& setup);  ///< NormalPhysics::read_keywords
+  void (*read_keywords)(LAMMPS_NS::LAMMPS* lmp, Setup& setup);  ///< NormalPhysics::read_keywords; null: for a plan
   ModelIds ids;
 };
 
@@ -55,6 +55,8 @@ class CommandStyle : public CountedStyle
       read({model_info<Physics>, &Physics::read_keywords, ModelIds::of(hash)}, nargs, args, call);
     });
   }
+  /// The same for a plan: the words are checked, no file is read, no contact is computed.
+  void plan(const ModelInfo& normal, std::int64_t hash, int nargs, char** args);
   /// Before each run: `init` is LIGGGHTS's own. Collective.
   void begin_run(const std::function<void()>& init);
 

@@ -17,5 +17,7 @@ struct ModelInfo
 
 /// Those of this library, by id: "mpm and thornton".
 std::string model_names();
+/// Null: it is LIGGGHTS's.
+const ModelInfo* find_model(int id);
 
 }  // namespace granulaw::plugin

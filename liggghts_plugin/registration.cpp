@@ -77,6 +77,13 @@ std::string model_names()
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
+const ModelInfo* find_model(int id)
+{
+  for (const ModelInfo& model : known_models())
+    if (model.id == id) return &model;
+  return nullptr;
+}
+
 std::string describe(const HistoryMeaning& meaning)
 {
   const long combination = meaning.combination;

@@ -9,24 +9,33 @@
 namespace granulaw {
 namespace {
 
-constexpr const char* deck_text =
-    "atom_style granular\n"
-    "boundary f f f\n"
-    "units si\n"
-    "region box block -0.05 0.05 -0.05 0.05 0 0.5 units box\n"
-    "create_box 2 box\n"
-    "fix m1 all property/global youngsModulus peratomtype 9.1e9 2e11\n"
-    "fix m2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
-    "pair_style gran model mpm tangential history law law.h5 materials powder steel\n"
-    "pair_coeff * *\n"
-    "timestep 1e-6\n"
-    "fix g all gravity 9.81 vector 0 0 -1\n"
-    "fix floor all wall/gran model mpm tangential history primitive type 2 zplane 0.0\n"
-    "fix t1 all particletemplate/sphere 15485863 atom_type 1 density constant 1500 radius constant ${r}\n"
-    "fix d1 all particledistribution/discrete 32452843 1 t1 1.0\n"
-    "fix i1 all insert/pack seed 32452867 distributiontemplate d1 vel constant 0 0 -2 insert_every once "
-    "overlapcheck yes particles_in_region 100 region box\n"
-    "run 1000\n";
+/// 100 spheres that fall on a floor of another type.
+deck::Scene powder_on_steel()
+{
+  deck::Scene s;
+  s.deck = "in.deck";
+  s.units = "si";
+  s.gravity = {0, 0, -9.81};
+  s.domain = {{-0.05, -0.05, 0}, {0.05, 0.05, 0.5}};
+  s.types = 2;
+  s.materials[1] = {9.1e9, 0.3, {}};
+  s.materials[2] = {2e11, 0.3, {}};
+  s.model = "mpm";
+  s.law_file = "law.h5";
+  s.material_names = {"powder", "steel"};
+  s.time_step = 1e-6;
+  deck::Source spheres;
+  spheres.where = "in.deck:15";
+  spheres.radius_min = spheres.radius_max = 2e-3;
+  spheres.density = 1500;
+  spheres.centres = s.domain;
+  spheres.speed = 2;
+  spheres.count = 100;
+  s.sources = {spheres};
+  s.walls = {{"in.deck:12", "floor", 2, {{-0.05, -0.05, 0}, {0.05, 0.05, 0}}, 0, 0, false, "mpm"}};
+  s.runs = {{"in.deck:16", 1000, 1e-6, 50}};
+  return s;
+}
 
 constexpr const char* materials_text =
     "[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = 0.3\nyield_stress = 1e8\n";
@@ -38,12 +47,8 @@ class DeckOptionsTest : public ScratchFolder
   {
     ScratchFolder::SetUp();
     options_.materials_file = write("m.toml", materials_text);
-    options_.variables = {"r", "2e-3"};
   }
-  PlannedDeck planned(const std::string& text = deck_text) const
-  {
-    return plan_deck(write("in.deck", text), options_);
-  }
+  PlannedDeck planned(const deck::Scene& scene = powder_on_steel()) const { return plan_scene(scene, options_); }
   DeckOptions options_;
 };
 
@@ -72,20 +77,21 @@ TEST_F(DeckOptionsTest, NamesMayBeGiven)
 /// A type that particles have is not elastic because a file lacks its name; one of rigid walls may be.
 TEST_F(DeckOptionsTest, ParticlesNeedTheirMaterial)
 {
-  const auto with_names = [](const std::string& names) {
-    std::string text = deck_text;
-    return text.replace(text.find("powder steel"), 12, names);
+  const auto with_names = [](std::vector<std::string> names) {
+    deck::Scene s = powder_on_steel();
+    s.material_names = std::move(names);
+    return s;
   };
   expect_error("'materials' of pair_style: " + options_.materials_file +
                    " has no material for atom type 1 'powdr' (did you mean 'powder'?): allowed is powder",
-               [&] { planned(with_names("powdr steel")); });
+               [&] { planned(with_names({"powdr", "steel"})); });
   // the plug-in's own word for a type without yield
-  const PlannedDeck elastic = planned(with_names("elastic steel"));
+  const PlannedDeck elastic = planned(with_names({"elastic", "steel"}));
   EXPECT_FALSE(elastic.options.materials.at(1).yields());
   EXPECT_EQ(elastic.plan.pairs.back().overlap_basis, "Hertz");
   // a wall that gives way has a material, too
-  std::string soft = deck_text;
-  soft.replace(soft.find("primitive type 2"), 16, "wall deformable primitive type 2");
+  deck::Scene soft = powder_on_steel();
+  soft.walls[0].deformable = true;
   expect_error("has no material for atom type 2 'steel'", [&] { planned(soft); });
 }
 
@@ -97,8 +103,9 @@ TEST_F(DeckOptionsTest, ParticlesAndFlowLawsAreNoted)
                     "hardening = {law = \"swift\", strength = 251.1886e6, exponent = 0.2, offset = 0.01}\n"
                     "[particle.grain]\nradius = 2e-3\nmaterial = \"powder\"\n"
                     "layers = [{material = \"powder\", thickness = 2e-5}]\n");
-  std::string text = deck_text;
-  const PlannedDeck d = planned(text.replace(text.find("powder steel"), 12, "grain steel"));
+  deck::Scene grain = powder_on_steel();
+  grain.material_names = {"grain", "steel"};
+  const PlannedDeck d = planned(grain);
   EXPECT_EQ(d.options.materials.at(1).yield_stress, 1e8);
   ASSERT_EQ(d.scene.notes.size(), 2u);
   EXPECT_NE(d.scene.notes[0].find("'grain' is planned as a homogeneous sphere"), std::string::npos);
@@ -108,12 +115,14 @@ TEST_F(DeckOptionsTest, ParticlesAndFlowLawsAreNoted)
 /// The step of thornton's deck is that of its own closed form, at the depth of its own collision.
 TEST_F(DeckOptionsTest, TheModelOfTheDeckGivesItsStep)
 {
-  std::string text = deck_text;
-  text.replace(text.find("model mpm tangential history law law.h5 materials powder steel"), 62,
-               "model thornton tangential history");
-  text.insert(text.find("pair_style"), "fix y all property/global yieldStress peratomtype 1e8 1e12\n");
+  deck::Scene thornton = powder_on_steel();
+  thornton.model = "thornton";
+  thornton.law_file.clear();
+  thornton.material_names.clear();
+  thornton.materials[1].yield_stress = 1e8;
+  thornton.materials[2].yield_stress = 1e12;
   options_.materials_file = "";
-  const PlannedDeck d = planned(text);
+  const PlannedDeck d = planned(thornton);
   const deck::PairPlan& wall = d.plan.pairs.back();
   EXPECT_EQ(wall.overlap_basis, "Thornton");
   const double r = 2e-3, mass = 1500 * 4.0 / 3.0 * M_PI * r * r * r;
@@ -130,8 +139,9 @@ TEST_F(DeckOptionsTest, StepsArePastedRoundedDown)
 
 TEST_F(DeckOptionsTest, WhatTheDeckDoesNotTellIsAskedFor)
 {
-  options_.variables = {};  // no radius
-  const PlannedDeck d = planned();
+  deck::Scene hidden = powder_on_steel();
+  hidden.sources.clear();
+  const PlannedDeck d = planned(hidden);
   EXPECT_FALSE(d.plan.complete());
   EXPECT_NE(questions_text(d.plan).find(": give it by --"), std::string::npos);
   expect_error("in.x: not in the deck: ", [&] { require_answers(d.plan, "in.x"); });
@@ -143,7 +153,6 @@ TEST_F(DeckOptionsTest, WhatTheDeckDoesNotTellIsAskedFor)
 
 TEST_F(DeckOptionsTest, RadiiMayStandInEitherOrder)
 {
-  options_.variables = {};
   options_.radius = {3e-3, 1e-3};
   const PlannedDeck d = planned();
   EXPECT_EQ(*d.options.radius_min, 1e-3);

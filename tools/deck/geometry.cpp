@@ -29,19 +29,6 @@ Box Box::within(const Box& other) const
   return result;
 }
 
-double Box::volume() const
-{
-  return empty() ? 0.0 : size()[0] * size()[1] * size()[2];
-}
-
-std::array<Vec3, 8> Box::corners() const
-{
-  std::array<Vec3, 8> result;
-  for (std::size_t c = 0; c < 8; ++c)
-    for (std::size_t k = 0; k < 3; ++k) result[c][k] = (c >> k & 1) != 0 ? high[k] : low[k];
-  return result;
-}
-
 double Box::top(const Vec3& axis) const
 {
   double sum = 0;  // side by side: 0 times an infinite side is 0
@@ -53,16 +40,6 @@ double Box::top(const Vec3& axis) const
 double Box::bottom(const Vec3& axis) const
 {
   return -top(-1.0 * axis);
-}
-
-Vec3 rotated(const Vec3& p, const Vec3& axis, double degrees)
-{
-  const double length = norm(axis);
-  if (length == 0) return p;
-  const Vec3 k = 1 / length * axis;
-  const double c = std::cos(degrees * M_PI / 180), s = std::sin(degrees * M_PI / 180);
-  const Vec3 cross{k[1] * p[2] - k[2] * p[1], k[2] * p[0] - k[0] * p[2], k[0] * p[1] - k[1] * p[0]};
-  return c * p + s * cross + dot(k, p) * (1 - c) * k;  // Rodrigues
 }
 
 }  // namespace granulaw::deck

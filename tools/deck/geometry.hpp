@@ -44,14 +44,9 @@ struct Box
   void include(const Box& other);
   Box within(const Box& other) const;  ///< the part of this in `other`
   Vec3 size() const { return high - low; }
-  double volume() const;
-  std::array<Vec3, 8> corners() const;
   /// Largest and smallest coordinate along the unit vector `axis`.
   double top(const Vec3& axis) const;
   double bottom(const Vec3& axis) const;
 };
-
-/// `p` turned by `degrees` about `axis` (any length) through the origin.
-Vec3 rotated(const Vec3& p, const Vec3& axis, double degrees);
 
 }  // namespace granulaw::deck

@@ -29,7 +29,7 @@ struct Source
   double density = 0;                     ///< kg/m^3; 0: not known
   Box centres;                            ///< where they may start; empty: not known
   double speed = 0;                       ///< m/s, largest speed at the start
-  double count = 0;                       ///< how many of them the runs bring in, at most; 0: not known
+  double count = 0;                       ///< how many of them the runs bring in; 0: not known
   /// m, every centre, where all start at once, at rest, and are of one radius and density; else empty.
   std::vector<Vec3> together;
 };
@@ -43,6 +43,7 @@ struct Wall
   double speed = 0;         ///< m/s, largest speed of its points when it moves
   double drag_speed = 0;    ///< m/s, of its surface along itself (conveyor): drags, does not push
   bool deformable = false;  ///< the word `wall deformable` of the plug-in: its material gives way
+  std::string model{};      ///< its normal model
 };
 
 /// One `run`.
@@ -80,7 +81,8 @@ struct Scene
 
 using Presets = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// Reads a deck. Throws Error where it, or a file it needs, cannot be used.
+/// LIGGGHTS reads the deck (`liggghts-mpm -plan`). Throws Error where that program is missing, or with LIGGGHTS's own
+/// sentence where the deck, or a file that it needs, cannot be used.
 Scene read_scene(const std::string& deck, const Presets& presets = {});
 
 }  // namespace granulaw::deck

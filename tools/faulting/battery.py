@@ -79,6 +79,7 @@ SCENE = """units si
 atom_style granular
 boundary f f f
 newton off
+communicate single vel yes
 variable h equal 0.04
 variable n loop 2
 variable speed equal sqrt(2*9.81*${h})+abs(-0.1)

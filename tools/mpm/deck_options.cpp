@@ -290,11 +290,16 @@ void DeckOptions::add_to(Options& command, bool own_materials, Option needed)
 
 PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)
 {
-  PlannedDeck result;
   deck::Presets presets;
   for (std::size_t k = 0; k + 1 < o.variables.size(); k += 2)
     presets.push_back({o.variables[k], {o.variables[k + 1]}});
-  result.scene = deck::read_scene(path, presets);
+  return plan_scene(deck::read_scene(path, presets), o);
+}
+
+PlannedDeck plan_scene(deck::Scene scene, const DeckOptions& o)
+{
+  PlannedDeck result;
+  result.scene = std::move(scene);
   deck::PlanOptions& p = result.options;
   const auto given = [](double value) { return value > 0 ? std::optional<double>(value) : std::nullopt; };
   p.drop_height = given(o.drop_height), p.speed = given(o.speed), p.density = given(o.density);

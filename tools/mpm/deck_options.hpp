@@ -34,6 +34,8 @@ struct PlannedDeck
 
 /// Throws Error.
 PlannedDeck plan_deck(const std::string& deck, const DeckOptions& options);
+/// The same of a deck that was read.
+PlannedDeck plan_scene(deck::Scene scene, const DeckOptions& options);
 
 /// What is left to be asked, one line each.
 std::string questions_text(const deck::Plan& plan);

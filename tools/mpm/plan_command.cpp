@@ -289,7 +289,8 @@ extern const Command plan_command{
     "plan",
     "What a LIGGGHTS deck needs of a contact law: pairs, speeds, overlaps, time step, cost, and the mpm "
     "table\n"
-    "command. What it cannot follow it names, and asks for as an option (docs/guide/plan.md).\n"
+    "command. LIGGGHTS reads the deck (liggghts-mpm); what the deck lacks is asked for as an option\n"
+    "(docs/guide/plan.md).\n"
     "Example: mpm plan in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
     define};
 

@@ -11,18 +11,14 @@
 namespace granulaw::deck {
 namespace {
 
-using DeckMeeting = Deck;
-
-TEST_F(DeckMeeting, DeformableWallsAreBodiesOfTheirMaterial)
+TEST(DeckMeeting, DeformableWallsAreBodiesOfTheirMaterial)
 {
   PlanOptions options;
   options.materials[1] = {"steel", 7800, 2e11, 0.3, 1e9, 0};
   options.materials[2] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
-  std::string text = falling("");
-  const std::size_t primitive = text.find("primitive");
-  ASSERT_NE(primitive, std::string::npos);
-  text.insert(text.find('\n', primitive), " wall deformable");
-  const Plan plan = make_plan(scene(text), options), rigid = make_plan(scene(falling("")), options);
+  Scene deforming = falling();
+  deforming.walls[0].deformable = true;
+  const Plan plan = make_plan(deforming, options), rigid = make_plan(falling(), options);
   const Meeting& wall = plan.pairs[1].meeting;
   EXPECT_TRUE(wall.wall && wall.deformable);
   EXPECT_EQ(wall.name_b, "wax");

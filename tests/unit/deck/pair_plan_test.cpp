@@ -19,7 +19,7 @@ TEST_F(DeckPairPlan, HertzSufficesBelowTheOnset)
   const double onset = onset_velocity(1e8, 1e6, 1000, 0.3);
   for (const double factor : {0.999, 1.001}) {
     options.speed = factor * onset;
-    const Plan plan = make_plan(scene(falling("")), options);
+    const Plan plan = make_plan(falling(), options);
     EXPECT_NEAR(plan.pairs[1].onset / onset, 1, 1e-12);
     EXPECT_NEAR(plan.pairs[0].onset / onset, 2, 1e-12);  // each sphere of a pair takes half of the speed
     EXPECT_EQ(plan.pairs[1].needs_table, factor > 1);
@@ -32,7 +32,7 @@ TEST_F(DeckPairPlan, TakesWhatWasVisited)
 {
   PlanOptions options;
   options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
-  const Scene s = scene(falling(""));
+  const Scene s = falling();
   const std::string both =
       R"("pair": {"contacts_begun": 9, "impact_speed_max_m_per_s": 1.0, "overlap_over_radius_max": 0.5},
                               "wall": {"contacts_begun": 0, "impact_speed_max_m_per_s": 0})";

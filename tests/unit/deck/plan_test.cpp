@@ -11,8 +11,6 @@
 namespace granulaw::deck {
 namespace {
 
-using DeckPlan = Deck;
-
 Plan plan_of(const Scene& scene, double speed)
 {
   PlanOptions options;
@@ -21,9 +19,9 @@ Plan plan_of(const Scene& scene, double speed)
   return make_plan(scene, options);
 }
 
-TEST_F(DeckPlan, TheTableReachesAFifthBeyondInTwoDigits)
+TEST(DeckPlan, TheTableReachesAFifthBeyondInTwoDigits)
 {
-  const Scene s = scene(falling(""));
+  const Scene s = falling();
   for (const double speed : {0.05, 0.3, 2.0}) {
     const Plan plan = plan_of(s, speed);
     double depth = 0, damage_number = 0;
@@ -40,9 +38,10 @@ TEST_F(DeckPlan, TheTableReachesAFifthBeyondInTwoDigits)
   }
 }
 
-TEST_F(DeckPlan, TheCostIsThatOfAllRuns)
+TEST(DeckPlan, TheCostIsThatOfAllRuns)
 {
-  const Scene s = scene(falling("run 1000"));
+  Scene s = falling();
+  s.runs.push_back({"in.deck:12", 1000, 1e-5, 100});
   EXPECT_EQ(plan_of(s, 1).particle_steps, 50 * 1000 + 100 * 1000);
   PlanOptions options;
   options.particles = 7;
@@ -51,26 +50,26 @@ TEST_F(DeckPlan, TheCostIsThatOfAllRuns)
   EXPECT_DOUBLE_EQ(make_plan(s, options).hours, 14.0 / 3600);
 }
 
-TEST_F(DeckPlan, ASingleParticleMeetsOnlyWalls)
+TEST(DeckPlan, ASingleParticleMeetsOnlyWalls)
 {
-  const std::string deck =
-      "units si\nfix m all property/global youngsModulus peratomtype 91e6\n"
-      "fix g all gravity 9.81 vector 0 0 -1\nfix w all wall/gran model hertz primitive type 1 zplane 0.0\n"
-      "create_atoms 1 single 0 0 0.1\n";
-  const std::string set = "set type 1 diameter 0.004 density 1000\n";
-  const Plan one = plan_of(scene(deck + set), 1),
-             two = plan_of(scene(deck + "create_atoms 1 single 0 0 0.2\n" + set), 1);
+  Scene s = falling();
+  s.sources[0].count = 1;
+  const Plan one = plan_of(s, 1);
+  s.sources[0].count = 2;
+  const Plan two = plan_of(s, 1);
   ASSERT_EQ(one.pairs.size(), 1u);
   EXPECT_TRUE(one.pairs[0].meeting.wall);
   EXPECT_EQ(two.pairs.size(), 2u);
 }
 
 /// Walls of one type count once, rigid and deformable ones apart, at the fastest approach.
-TEST_F(DeckPlan, WallsOfATypeAreOneBody)
+TEST(DeckPlan, WallsOfATypeAreOneBody)
 {
-  const std::string wall = "\nfix v all wall/gran model hertz primitive type 2 zplane -0.1 ";
-  const Plan plan =
-      make_plan(scene(falling(wall + "\nfix u all wall/gran primitive type 2 zplane 0 wall deformable")), {});
+  Scene s = falling();
+  s.walls.push_back(floor_at(-0.1));
+  s.walls.push_back(floor_at(0));
+  s.walls.back().deformable = true;
+  const Plan plan = make_plan(s, {});
   ASSERT_EQ(plan.pairs.size(), 3u);
   EXPECT_FALSE(plan.pairs[1].meeting.deformable);
   EXPECT_TRUE(plan.pairs[2].meeting.deformable);

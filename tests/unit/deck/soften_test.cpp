@@ -18,10 +18,9 @@ TEST_F(DeckSoften, AStretchedDeckHasLongerStepsAndTheSameOverlapsInItsLaw)
 {
   PlanOptions options;
   options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
-  const std::string style =
-      "pair_style gran model mpm tangential history law x.h5 materials wax wax stretch 4\n";
-  const Scene plain = scene(falling("")), stretched = scene(style + falling(""));
-  ASSERT_EQ(stretched.stretch, 4);
+  const Scene plain = falling();
+  Scene stretched = plain;
+  stretched.stretch = 4;
   const Plan a = make_plan(plain, options), b = make_plan(stretched, options);
   EXPECT_DOUBLE_EQ(b.time_step, 4 * a.time_step);
   EXPECT_DOUBLE_EQ(b.depth, a.depth);
@@ -41,7 +40,7 @@ TEST_F(DeckSoften, SoftensWithinEachLimit)
 {
   PlanOptions options;
   options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
-  const Scene s = scene(falling(""));
+  const Scene s = falling();
   const Plan plan = make_plan(s, options);
   SoftenLimits limits{0.5, 10, 1e6, 0.01, 0.6};
   const auto all = [&] { return soften(s, plan, options, limits); };
@@ -65,7 +64,7 @@ TEST_F(DeckSoften, SoftenStatesItsNumbers)
   PlanOptions options;
   options.materials[1] = {"wax", 1000, 91e6, 0.3, 1e6, 0};
   options.materials[2] = {"steel", 7800, 210e9, 0.3, 1e9, 0};
-  const Scene s = scene(falling(""));
+  const Scene s = falling();
   const Plan plan = make_plan(s, options);
   const double r = 0.002, d = 2 * r, g = 9.81, rho = 1000, ball = 4.0 / 3.0 * M_PI * r * r * r;
   const double rounding = 1e-12;

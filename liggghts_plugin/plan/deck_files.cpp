@@ -1,0 +1,220 @@
+#undef _FORTIFY_SOURCE  // its inline functions bear the names that are defined here
+#include "liggghts_plugin/plan/deck_files.hpp"
+
+#include <dlfcn.h>
+#include <mpi.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace granulaw::plan {
+
+namespace {
+
+bool closed = false;
+
+struct Place
+{
+  std::string path;
+  int line = 0, first_line = 1;  ///< of the command that is being read
+  bool continued = false;
+};
+
+/// What the deck wrote, by path: files in memory, which it can read again.
+std::map<std::string, int>& written()
+{
+  static std::map<std::string, int> files;
+  return files;
+}
+
+std::map<std::FILE*, Place>& places()
+{
+  static std::map<std::FILE*, Place> open_files;
+  return open_files;
+}
+
+std::function<bool(std::FILE*)> is_deck_file;
+std::function<void(const char*, const char*)> on_line;
+
+template <class Function>
+Function* next(const char* name)
+{
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+using Open = std::FILE*(const char*, const char*);
+
+std::FILE* really_open(const char* path, const char* mode)
+{
+  static Open* const open = next<Open>("fopen64");
+  return open(path, mode);
+}
+
+std::string key_of(const char* path)
+{
+  std::error_code ignored;
+  return std::filesystem::absolute(path, ignored).lexically_normal().string();
+}
+
+void copy_into(int memory, const char* path)
+{
+  std::FILE* from = really_open(path, "r");
+  if (!from) return;
+  char part[65536];
+  for (std::size_t n; (n = std::fread(part, 1, sizeof part, from)) > 0;)
+    if (::write(memory, part, n) < 0) break;
+  std::fclose(from);
+}
+
+/// In place of a file that is opened to write.
+std::FILE* open_in_memory(const char* path, const char* mode)
+{
+  const bool keeps = mode[0] != 'w';
+  const auto [found, is_new] = written().try_emplace(key_of(path), -1);
+  if (is_new) {
+    found->second = memfd_create("deck", MFD_CLOEXEC);
+    if (keeps) copy_into(found->second, path);
+  }
+  return really_open(("/proc/self/fd/" + std::to_string(found->second)).c_str(), mode);
+}
+
+std::FILE* open_file(const char* path, const char* mode)
+{
+  if (!closed || !path || !mode) return really_open(path, mode);
+  if (std::strpbrk(mode, "wa+")) {
+    if (std::strncmp(path, "/dev/", 5) == 0 || std::strncmp(path, "/proc/", 6) == 0) return really_open(path, mode);
+    return open_in_memory(path, mode);
+  }
+  const auto own = written().find(key_of(path));
+  std::FILE* file = really_open(
+      own == written().end() ? path : ("/proc/self/fd/" + std::to_string(own->second)).c_str(), mode);
+  if (file) places()[file] = {path};
+  return file;
+}
+
+void count_line(std::FILE* file, const char* text)
+{
+  const auto found = places().find(file);
+  if (found == places().end() || !is_deck_file || !is_deck_file(file)) return;
+  Place& place = found->second;
+  ++place.line;
+  if (!place.continued) {
+    place.first_line = place.line;
+    on_line((place.path + ":" + std::to_string(place.line)).c_str(), text);
+  }
+  std::size_t end = std::strlen(text);
+  while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1]))) --end;
+  place.continued = end > 0 && text[end - 1] == '&';
+}
+
+}  // namespace
+
+void close_files()
+{
+  closed = true;
+}
+
+void open_files()
+{
+  closed = false;
+}
+
+void follow_lines(std::function<bool(std::FILE*)> is_deck, std::function<void(const char*, const char*)> line)
+{
+  is_deck_file = std::move(is_deck);
+  on_line = std::move(line);
+}
+
+}  // namespace granulaw::plan
+
+#define GRANULAW_OWN extern "C" __attribute__((visibility("default")))
+
+GRANULAW_OWN std::FILE* fopen(const char* path, const char* mode) { return granulaw::plan::open_file(path, mode); }
+GRANULAW_OWN std::FILE* fopen64(const char* path, const char* mode) { return granulaw::plan::open_file(path, mode); }
+
+GRANULAW_OWN char* fgets(char* text, int size, std::FILE* file)
+{
+  static auto* const read = granulaw::plan::next<char*(char*, int, std::FILE*)>("fgets");
+  char* result = read(text, size, file);
+  if (granulaw::plan::closed && result) granulaw::plan::count_line(file, text);
+  return result;
+}
+
+GRANULAW_OWN void rewind(std::FILE* file)
+{
+  static auto* const back = granulaw::plan::next<void(std::FILE*)>("rewind");
+  if (granulaw::plan::closed)
+    if (const auto place = granulaw::plan::places().find(file); place != granulaw::plan::places().end())
+      place->second.line = 0, place->second.continued = false;
+  back(file);
+}
+
+GRANULAW_OWN std::FILE* popen(const char* command, const char* mode)
+{
+  static auto* const start = granulaw::plan::next<std::FILE*(const char*, const char*)>("popen");
+  // gzip -d of a file to read stays; a compressed dump goes nowhere
+  return granulaw::plan::closed && mode[0] == 'w' ? granulaw::plan::really_open("/dev/null", "w") : start(command, mode);
+}
+
+GRANULAW_OWN int system(const char* command)
+{
+  static auto* const run = granulaw::plan::next<int(const char*)>("system");
+  return granulaw::plan::closed ? 0 : run(command);
+}
+
+GRANULAW_OWN int mkdir(const char* path, mode_t mode) noexcept
+{
+  static auto* const make = granulaw::plan::next<int(const char*, mode_t)>("mkdir");
+  return granulaw::plan::closed ? 0 : make(path, mode);
+}
+
+GRANULAW_OWN int rmdir(const char* path) noexcept
+{
+  static auto* const take = granulaw::plan::next<int(const char*)>("rmdir");
+  return granulaw::plan::closed ? 0 : take(path);
+}
+
+GRANULAW_OWN int unlink(const char* path) noexcept
+{
+  static auto* const take = granulaw::plan::next<int(const char*)>("unlink");
+  return granulaw::plan::closed ? 0 : take(path);
+}
+
+GRANULAW_OWN int remove(const char* path) noexcept
+{
+  static auto* const take = granulaw::plan::next<int(const char*)>("remove");
+  return granulaw::plan::closed ? 0 : take(path);
+}
+
+GRANULAW_OWN int rename(const char* from, const char* to) noexcept
+{
+  static auto* const move = granulaw::plan::next<int(const char*, const char*)>("rename");
+  return granulaw::plan::closed ? 0 : move(from, to);
+}
+
+GRANULAW_OWN int MPI_File_open(MPI_Comm comm, const char* path, int mode, MPI_Info info, MPI_File* file)
+{
+  if (!granulaw::plan::closed || !(mode & (MPI_MODE_WRONLY | MPI_MODE_RDWR | MPI_MODE_CREATE)))
+    return PMPI_File_open(comm, path, mode, info, file);
+  return PMPI_File_open(comm, "/dev/null", MPI_MODE_WRONLY, info, file);
+}
+
+/// At the end of LIGGGHTS's error->all.
+GRANULAW_OWN int MPI_Finalize()
+{
+  granulaw::plan::open_files();
+  return PMPI_Finalize();
+}
+
+/// LIGGGHTS's error->one: its message is on a stream that MPI_Abort does not write out.
+GRANULAW_OWN int MPI_Abort(MPI_Comm comm, int status)
+{
+  if (granulaw::plan::closed) std::exit(1);
+  return PMPI_Abort(comm, status);
+}

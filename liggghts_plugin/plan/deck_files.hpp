@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdio>
+#include <functional>
+
+// The files of a deck that is planned: nothing that it writes is written. The launcher's own fopen, mkdir and so on
+// stand before those of the C library in the whole process, for C++ streams and VTK, too.
+namespace granulaw::plan {
+
+/// From now on.
+void close_files();
+/// As ever again: Open MPI takes its own files away when it ends.
+void open_files();
+
+/// Called for each line that is read from a file: its name, the number of the command's first line, the line.
+/// `is_deck`: the file is one of commands.
+void follow_lines(std::function<bool(std::FILE*)> is_deck,
+                  std::function<void(const char* where, const char* text)> line);
+
+}  // namespace granulaw::plan

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/plan/record.hpp"
+
+// `liggghts-mpm -plan FILE -in DECK`: LIGGGHTS reads the deck and sets up every run, but takes two of its steps alone,
+// the first and the last. No force acts in contact: no law is needed to plan. What is in memory goes to FILE (Record).
+namespace granulaw::plugin {
+
+struct Options;
+
+namespace plan {
+
+/// Follows one deck from command to command and from run to run.
+class Planner
+{
+ public:
+  Planner(LAMMPS_NS::LAMMPS* lmp, std::string file);
+
+  /// Of this process; null: it does not plan.
+  static Planner* current();
+
+  /// The next line of the deck: all commands before it have been executed.
+  void begin_line(const std::string& where, const std::string& text);
+  /// A run that is set up, before its first step.
+  void begin_run();
+  /// Behind its first step, in which particles were inserted.
+  void first_step_done();
+  /// Meshes go where their motion takes them but for the last step.
+  void move_meshes(double steps);
+  void hold_insertions();
+  /// At its last step.
+  void end_run(int steps);
+  void add_run(int steps);
+  /// The process ends: writes the record. True: the deck was read to its end.
+  bool finish(int status);
+
+  /// What the commands say: `wall` is null for the pair style.
+  void note_style(const LAMMPS_NS::FixWallGran* wall, const std::string& model, const Options& options);
+  void forget_style(const LAMMPS_NS::FixWallGran* wall) { styles_.erase(wall); }
+
+ private:
+  struct Style
+  {
+    std::string model;
+    bool deformable = false;
+  };
+  /// An insertion, and how many particles its runs have brought in.
+  struct Insertion
+  {
+    std::vector<std::size_t> sources;
+    std::vector<double> shares;  ///< of the number of particles
+    double spheres = 1;          ///< of one particle, in the mean
+    bool began = false;
+    int before = 0;  ///< particles that it had inserted when the run began
+    double expected = 0;
+    LAMMPS_NS::bigint next = 0, end = 0;
+  };
+  struct Atom
+  {
+    int type;
+    double radius, density;
+    std::array<double, 3> x, v;
+  };
+
+  void after_command();
+  void find_settings();
+  void find_materials();
+  void find_walls();
+  void add_mesh_wall(const LAMMPS_NS::FixWallGran& wall, LAMMPS_NS::FixMeshSurface& mesh);
+  void add_primitive_wall(LAMMPS_NS::FixWallGran& wall);
+  void find_forces();
+  void find_atoms();
+  void find_insertions();
+  void record_without_run();
+  Insertion& insertion_of(LAMMPS_NS::FixInsert& fix);
+  void look_at_meshes(bool moving);
+  void stop_where_nothing_is_new();
+  void stop_where_late();
+  Atom atom(int i) const;
+  std::string where(const LAMMPS_NS::Fix& fix) const;
+  Wall& wall(const std::string& where, const std::string& id);
+  template <class Visit>
+  void each_fix(Visit&& visit) const;
+
+  LAMMPS_NS::LAMMPS* lmp_;
+  std::string file_, where_, text_;
+  Record record_;
+  std::map<const LAMMPS_NS::Fix*, std::pair<std::string, std::string>> places_;  ///< id and where of each fix
+  std::map<const LAMMPS_NS::FixWallGran*, Style> styles_;
+  std::map<std::string, Insertion> insertions_;
+  std::unordered_map<int, Atom> atoms_;                 ///< by tag, when the last run ended
+  std::map<int, std::size_t> source_of_type_;           ///< of atoms that no insertion brought
+  std::string atoms_where_;
+  LAMMPS_NS::bigint natoms_ = 0;
+  std::vector<double> fingerprint_;
+  int runs_without_news_ = 0;
+  double count_ = 0;  ///< particles when the run began
+  double cleared_ = 0;  ///< particles that `clear` took away
+  bool has_box_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace plan
+}  // namespace granulaw::plugin

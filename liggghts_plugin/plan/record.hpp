@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+// A deck's scene as LIGGGHTS holds it in memory, in the deck's units. tools/deck reads it (deck/scene.hpp).
+namespace granulaw::plugin::plan {
+
+struct Box
+{
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+
+  bool empty() const { return low[0] > high[0]; }
+  void include(const double* point);
+  void include(const Box& other);
+  Box within(const Box& other) const;
+};
+
+struct Material
+{
+  std::optional<double> youngs_modulus, poisson_ratio, yield_stress;
+};
+
+/// Particles of one type that one command brings in.
+struct Source
+{
+  std::string where;  ///< "FILE:LINE"
+  int type = 1;
+  double radius_min = 0, radius_max = 0;
+  double density = 0;  ///< mass over the sphere's volume: of a clump's sphere the mass is the body's
+  Box centres;
+  double speed = 0, count = 0;
+  std::vector<std::array<double, 3>> together;  ///< centres, if all are alike and start at rest
+};
+
+struct Wall
+{
+  std::string where, id, model;  ///< of a mesh: its id
+  int type = 1;
+  Box box;  ///< with all that its motion sweeps
+  double speed = 0, drag_speed = 0;
+  bool deformable = false;
+};
+
+struct Run
+{
+  std::string where;
+  double steps = 0, time_step = 0, particles = 0;
+};
+
+struct Record
+{
+  std::string units;
+  std::array<double, 3> gravity{};
+  Box domain;
+  std::array<bool, 3> periodic{};
+  int types = 0;
+  std::map<int, Material> materials;
+  std::optional<double> restitution;  ///< the smallest coefficientRestitution
+  std::string model, law;             ///< words of pair_style gran: model, law, materials, stretch
+  std::vector<std::string> material_names;
+  double stretch = 1;
+  std::vector<Source> sources;
+  std::vector<Wall> walls;
+  std::vector<Run> runs;
+  double time_step = 0;
+  std::vector<std::string> notes, unknown_particles, unknown_speeds;
+  std::string stopped_at;  ///< the command that LIGGGHTS refused; empty: it read the deck to its end
+
+  double count() const;
+  void note(const std::string& text);
+  void ask_speed(const std::string& text);
+  /// All that a plan uses but the runs: what a run that brings nothing new leaves as it is.
+  std::vector<double> fingerprint() const;
+  std::string json() const;
+};
+
+}  // namespace granulaw::plugin::plan

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/plan/record.hpp"
+
+namespace granulaw::plugin::plan {
+
+struct MeshView
+{
+  Box box;
+  double speed = 0;  ///< largest of its nodes
+};
+/// A mesh as it is now.
+MeshView look_at(LAMMPS_NS::FixMeshSurface& mesh);
+
+bool is_moved(LAMMPS_NS::LAMMPS* lmp, const LAMMPS_NS::FixMeshSurface& mesh);
+
+/// Moves all meshes by their fix move/mesh over `steps` time steps, in some hundred strides, and calls `visit` after
+/// each.
+void sweep(LAMMPS_NS::LAMMPS* lmp, double steps, const std::function<void()>& visit);
+
+}  // namespace granulaw::plugin::plan
