@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/characterised_body.hpp"
 #include "characterise/finish_curve.hpp"
 #include "characterise/overlap_at_work.hpp"
@@ -186,13 +187,15 @@ namespace {
 struct Sample
 {
   double x, force, radius, residual, returned, hertz_share;
+  double contact;  // radius over R*
+  bool yielded;
 };
 
 class RuleCoordinates
 {
  public:
   RuleCoordinates(const PairMapping& mapping, double r_eff)
-      : length_(mapping.length(r_eff)), force_(mapping.force(r_eff)), radius_(mapping.radius(r_eff))
+      : length_(mapping.length(r_eff)), force_(mapping.force(r_eff)), radius_(mapping.radius(r_eff)), r_eff_(r_eff)
   {
   }
   Sample of(const ComposedState& s) const
@@ -203,11 +206,13 @@ class RuleCoordinates
             s.contact_radius / radius_,
             std::max(0.0, x - recovered),
             force * recovered * s.unloading_work,
-            s.hertz_share};
+            s.hertz_share,
+            s.contact_radius / r_eff_,
+            s.log_yield_overlap > 0};
   }
 
  private:
-  double length_, force_, radius_;
+  double length_, force_, radius_, r_eff_;
 };
 
 /// Least squares of F/Hertz - 1 = c1 sqrt(x) + c2 x + c3 x^1.5 and of a/a_Hertz - 1 = d1 sqrt(x).
@@ -244,9 +249,9 @@ std::pair<double, double> radii_of(double radius_ratio)
   return {1.0, radius_ratio};
 }
 
-/// Of the pair without yield.
+/// Of the pair without yield, fitted up to the contact radius `widest`, over R*.
 ElasticCorrection elastic_correction(const PairBody& s, const PairBody& h, double radius_ratio,
-                                     const RuleCoordinates& rule, double deepest, int terms)
+                                     const RuleCoordinates& rule, double widest, int terms)
 {
   const PairBody elastic_s = s.elastic(), elastic_h = h.elastic();
   const auto [radius, partner_radius] = radii_of(radius_ratio);
@@ -254,26 +259,46 @@ ElasticCorrection elastic_correction(const PairBody& s, const PairBody& h, doubl
   std::vector<Sample> samples;
   constexpr int count = 24;
   for (int k = 1; k <= count; ++k) {
-    const double a = pair.r_eff() * std::sqrt(deepest) * k / count;
+    const double a = pair.r_eff() * widest * k / count;
     const ComposedState state = pair.at(a);
     if (state.known) samples.push_back(rule.of(state));
   }
   return fit_correction(samples, terms);
 }
 
-/// From the onset on, to `depth`, or where the atlas ends or the contact is nearly as wide as the smaller
-/// body.
-std::vector<Sample> plastic_samples(const ComposedPair& pair, const RuleCoordinates& rule, double depth)
+/// From this contact radius on, to `depth`, or where the atlas ends or the contact is nearly as wide as the
+/// smaller body.
+std::vector<Sample> samples_from(double first, const ComposedPair& pair, const RuleCoordinates& rule,
+                                 double depth)
 {
   constexpr double step = 1.05;   // of the contact radius: 0.1 in ln x
   constexpr double widest = 0.9;  // the atlas's laws end at 0.9 to 1.1 R
   std::vector<Sample> samples;
-  for (double a = pair.yield_radius(); a <= widest * pair.smaller_radius(); a *= step) {
+  for (double a = first; a <= widest * pair.smaller_radius(); a *= step) {
     const ComposedState state = pair.at(a);
     if (!state.known) break;
     samples.push_back(rule.of(state));
     if (samples.back().x > depth) break;
   }
+  return samples;
+}
+
+bool covers_an_octave(const std::vector<Sample>& samples, double depth)
+{
+  constexpr std::size_t fewest = 8;
+  return samples.size() >= fewest && std::min(depth, samples.back().x) >= 2 * samples.front().x;
+}
+
+/// From first yield on. A pair that yields so late that less than an octave of overlaps would be left begins
+/// earlier: up to first yield its samples lose nothing.
+std::vector<Sample> plastic_samples(const ComposedPair& pair, const RuleCoordinates& rule, double depth)
+{
+  constexpr double earlier = 0.9;    // contact radius
+  constexpr double earliest = 0.05;  // over R*
+  double first = pair.yield_radius();
+  std::vector<Sample> samples = samples_from(first, pair, rule, depth);
+  while (!covers_an_octave(samples, depth) && earlier * first > earliest * pair.r_eff())
+    samples = samples_from(first *= earlier, pair, rule, depth);
   return samples;
 }
 
@@ -286,7 +311,7 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
   const double x0 = samples.front().x;
   double work =
       std::pow(x0, 2.5) * (0.4 + elastic.c1 * std::sqrt(x0) / 3 + elastic.c2 * x0 / 3.5);  // of loading
-  const double told_at_onset = samples.front().returned / work;  // 1, but for the fit of the elastic part
+  double told_at_onset = 1;  // but for the fit of the elastic part
   double lost = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const Sample& now = samples[k];
@@ -295,9 +320,11 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
       const double power = std::log(now.force / last.force) / std::log(now.x / last.x);
       const double more = (now.force * now.x - last.force * last.x) / (power + 1);
       work += more;
-      // What is lost cannot be given back later.
-      lost = std::max(work - now.returned / told_at_onset, lost);
     }
+    if (k == 0 || !now.yielded)
+      told_at_onset = now.returned / work;
+    else  // what is lost cannot be given back later
+      lost = std::max(work - now.returned / told_at_onset, lost);
     const double s = std::pow(now.x, 0.25);
     log_x.push_back(std::log(now.x));
     reduction.push_back(-std::log(now.force / (std::pow(now.x, 1.5) * elastic.force_ratio(s))));
@@ -363,7 +390,7 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
   BodyLaw& law = result.law;
   law.material = yielding.material();
   law.curve =
-      tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, depth, 3), depth);
+      tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, std::sqrt(depth), 3), depth);
   law.certificate.origin = composed_origin;
   law.certificate.damage_number_max = std::numeric_limits<double>::infinity();
   law.certificate.atlas_error_force = error_of(yielding, partner).force;
@@ -397,15 +424,13 @@ ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const 
   const ComposedPair pair(yielding, radius, partner, partner_radius);
   const RuleCoordinates rule(mapping_of(yielding, partner), pair.r_eff());
   const std::vector<Sample> samples = plastic_samples(pair, rule, options.depth);
-  constexpr std::size_t fewest = 8;
-  if (samples.size() < fewest || std::min(options.depth, samples.back().x) < 2 * samples.front().x)
+  if (!covers_an_octave(samples, options.depth))
     fail(fmt::format("the pair {}:{}", yielding.material().name, partner.material().name),
          "begins to yield where the atlas ends, or the law",
          fmt::format("a = {:.3g} R*", pair.yield_radius() / pair.r_eff()));
   const double onset = samples.front().x, end = std::min(options.depth, samples.back().x);
-  const double elastic_depth = std::clamp(1.5 * onset, 0.005, 0.04);
-  const ElasticCorrection elastic =
-      elastic_correction(yielding, partner, radius_ratio, rule, elastic_depth, 2);
+  const double widest = larger(std::sqrt(std::clamp(1.5 * onset, 0.005, 0.04)), samples.front().contact);
+  const ElasticCorrection elastic = elastic_correction(yielding, partner, radius_ratio, rule, widest, 2);
   const MaterialRatios ratios = yielding.ratios();
   const double speed_ratio =
       UnlikePair{yielding.material(), partner.material(), radius_ratio}.axis_speed_ratio();

@@ -155,27 +155,35 @@ class Maker
 
   void add_pair(const LawFilePlan::Pair& pair)
   {
-    ReductionError stated = pair.stated;
-    if (pair.composed_at.empty()) {
-      if (pair.own_law) add_law_by_runs(pair);
-    } else
-      try {
-        file_.law.pair_laws[pair.name()] = pair.own_law ? corrected_or_composed(pair) : composed(pair);
-      } catch (const Error& error) {  // the pair rule serves any pair
-        stated = pair.by_rule;
-        file_.law.provenance["not_composed." + pair.name()] = error.what();
-      }
+    if (!pair.composed_at.empty())
+      add_pair_laws(pair, pair.own_law ? corrected_or_composed(pair) : composed(pair));
+    else if (pair.own_law)
+      add_law_by_runs(pair);
+    const bool follows_rule = file_.not_composed.contains(pair.name());
+    const ReductionError& stated = follows_rule ? pair.by_rule : pair.stated;
     file_.law.pairs.push_back({pair.a, pair.b, stated.force, stated.restitution});
   }
 
+  void add_pair_laws(const LawFilePlan::Pair& pair, std::vector<TwoBodyLaw> laws)
+  {
+    if (!laws.empty()) file_.law.pair_laws[pair.name()] = std::move(laws);
+  }
+
+  /// At a ratio that cannot be composed the law at the nearest one stands in, or the pair rule where there is
+  /// none.
   std::vector<TwoBodyLaw> composed(const LawFilePlan::Pair& pair)
   {
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b));
     const Atlas& atlas = *plan_.request.atlas;
     std::vector<TwoBodyLaw> laws;
     for (const double ratio : pair.composed_at)
-      laws.push_back(
-          compose_law(atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
+      try {
+        laws.push_back(
+            compose_law(atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
+      } catch (const Error& error) {
+        file_.not_composed[pair.name()].push_back(ratio);
+        file_.law.provenance[fmt::format("not_composed.{}.{:.4g}", pair.name(), ratio)] = error.what();
+      }
     return laws;
   }
 

@@ -25,10 +25,13 @@ double contact_duration(const LawMaterial& a, double radius_a, const LawMaterial
   const double mass = 1 / (inverse_mass(a, radius_a) + inverse_mass(b, radius_b));
   const double radius = 1 / (1 / radius_a + 1 / radius_b);
   const double yield = std::min(a.yield_stress, b.yield_stress);
-  if (std::isfinite(yield)) return std::sqrt(mass / (radius * yield));
   const double e_star = 1 / (1 / a.e_star() + 1 / b.e_star());
-  const double velocity = 0.01 * std::min(wave_speed(a), wave_speed(b));
-  return 2.87 * std::pow(mass * mass / (e_star * e_star * radius * velocity), 0.2);
+  const double slowest = std::min(wave_speed(a), wave_speed(b));
+  const auto elastic = [&](double velocity) {
+    return 2.87 * std::pow(mass * mass / (e_star * e_star * radius * velocity), 0.2);
+  };
+  if (!std::isfinite(yield)) return elastic(0.01 * slowest);
+  return std::max(std::sqrt(mass / (radius * yield)), elastic(0.05 * slowest));
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ inline constexpr double negligible_radiation = 0.05;
 
 /// C of two solid spheres, s^3/kg; radius (m): infinity for a thick wall. Only ratios of radii count.
 ///
-/// The contact's duration t: that of a plastic contact, sqrt(m*/(R* Y)), which does not depend on the speed;
-/// of two elastic bodies Hertz's at a hundredth of the softer one's wave speed.
+/// The contact's duration t: that of a plastic contact, sqrt(m*/(R* Y)), which does not depend on the speed,
+/// but no less than Hertz's at a twentieth of the softer one's wave speed: a soft partner lengthens it, and
+/// the contact hardly yields. Of two elastic bodies Hertz's at a hundredth of that speed.
 double radiation(const LawMaterial& a, double radius_a, const LawMaterial& b, double radius_b);
 
 }  // namespace granulaw

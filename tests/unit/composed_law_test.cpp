@@ -141,6 +141,35 @@ TEST(ComposedLaw, IsAdmissibleForAnyPair)
   EXPECT_GT(composed_of, 25);
 }
 
+/// Contacts with a partner of a hundredth of its stiffness yield where they are as wide as the bodies, or not
+/// at all: the law is the two finite elastic bodies' up to there.
+TEST(ComposedLaw, OfASoftPartnerAgainstWhichItHardlyYields)
+{
+  const LawMaterial hard = material("hard", 1, 0.03), soft = material("soft", 0.01, never);
+  const PairBody first(atlas(), hard), second(atlas(), soft);
+  const PairMapping mapping = PairMapping::deformable_partner(1, 0.01);
+  for (const double ratio : {0.0, 0.5, 1.0, 2.0, wall}) {
+    const Curve law = composed(hard, soft, ratio).law.curve;
+    const ComposedPair pair(first, ratio == 0 ? wall : 1, second, ratio == 0 ? 1 : ratio);
+    const double length = mapping.length(pair.r_eff()), force = mapping.force(pair.r_eff());
+    EXPECT_GT(law.end() * length, 0.4 * pair.smaller_radius()) << ratio;
+    for (const double a : {0.05, 0.1, 0.2, 0.4, 0.6, 0.8}) {
+      const ComposedState state = pair.at(a * pair.smaller_radius());
+      // two terms of the elastic body, fitted over all of it
+      EXPECT_NEAR(law.force(state.overlap / length) * force / state.force, 1, 0.02) << ratio << ' ' << a;
+    }
+    EXPECT_NEAR(law.kept(0.5 * law.end()), 1, 1e-9) << ratio;
+  }
+}
+
+TEST(Radiation, OfASoftSphereOnAHardWallComesBackInTime)
+{
+  // hardly yields: by two runs (E* 1:34, Y 0.01 E*, V/c 0.007 and 0.02) e is 0.998
+  const LawMaterial hard = material("hard", 34, 0.3), soft = material("soft", 1, never);
+  EXPECT_LT(radiation(hard, wall, soft, 1), 0.03 * radiation_number);
+  EXPECT_LT(radiation(hard, 1, soft, 1), 0.06 * radiation_number);
+}
+
 TEST(Radiation, OfAThickWallIsTheHalfSpacesAndOfLikeSpheresNearlyNothing)
 {
   const LawMaterial m = material("m", 1, 0.01);

@@ -116,9 +116,23 @@ bool has_own_laws(const LawFilePlan::Pair& pair, const Law& law)
   return law.pair_laws.contains(pair.name());
 }
 
+/// Ratios of radii that have no law of their own.
+void print_not_composed(const LawFilePlan::Pair& pair, const MadeLawFile& file)
+{
+  const auto found = file.not_composed.find(pair.name());
+  if (found == file.not_composed.end()) return;
+  const auto material = [&](const std::string& name) { return file.law.bodies.at(name).material; };
+  const std::string& yielding = yields_first(material(pair.a), material(pair.b)) ? pair.a : pair.b;
+  fmt::print("{}: cannot be composed where the partner's radius over that of '{}' is {:.4g} (mpm info says why): {}\n",
+             pair.name(), yielding, fmt::join(found->second, ", "),
+             has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in, within the pair rule's error"
+                                          : "the pair rule stands in");
+}
+
 /// How the pair's laws came about, where that is worth a line.
 void print_origin(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
+  print_not_composed(pair, file);
   if (!has_own_laws(pair, file.law)) {
     if (pair.worth_own_law)
       fmt::print("{}: follows the pair rule; --own-law computes a two-body law\n", pair.name());
