@@ -151,18 +151,18 @@ ComposedState ComposedPair::at(double a) const
   state.force = M_PI * a * a * pressure;
   state.overlap = a * (s.residual + s.recovered + h.residual + h.recovered);
   // A plastic body that its partner indents deeper than a flat would is sloped under the pressure, and
-  // recovers less.
+  // recovers less: beyond an overlap of exp(fully) times that at first yield.
   const auto sloped = [&](const BodyAtContact::Share& share, double radius) {
     constexpr double measured = 0.26;  // without it e of unlike radii and stiff partners is up to 0.015 high
-    return share.log_yield_overlap > 0
-               ? share.recovered * (1 - measured * flatness * (share.curvature - a / radius))
-               : share.recovered;
+    constexpr double fully = 0.1;
+    const double part = std::clamp(share.log_yield_overlap / fully, 0.0, 1.0);
+    return share.recovered * (1 - part * measured * flatness * (share.curvature - a / radius));
   };
   state.recovered = a * (sloped(s, radius_) + sloped(h, partner_radius_));
   // Both unload as the body whose dent it is; elastic ones by what each recovers.
+  constexpr double elastic = 1e-6;  // residual over recovered overlap from which on the dent counts
   const double residual = s.residual + h.residual, recovered = s.recovered + h.recovered;
-  const bool yielded = residual > 1e-6 * recovered;
-  const double share = yielded ? s.residual / residual : s.recovered / recovered;
+  const double share = (s.residual + elastic * s.recovered) / (residual + elastic * recovered);
   const auto of_s = first_.unloading(s.curvature, a / radius_, residual / recovered),
              of_h = second_.unloading(h.curvature, a / partner_radius_, residual / recovered);
   state.unloading_work = share * of_s.work + (1 - share) * of_h.work;
@@ -176,9 +176,8 @@ double ComposedPair::find_yield_radius() const
 {
   if (!first_.yields() && !second_.yields()) return std::numeric_limits<double>::infinity();
   const double low = std::log(1e-5 * r_eff_), high = std::log(r_eff_);
-  constexpr int bits = 26;
   return std::exp(
-      rising_root([&](double log_a) { return at(std::exp(log_a)).log_yield_overlap; }, low, high, bits));
+      rising_root([&](double log_a) { return at(std::exp(log_a)).log_yield_overlap; }, low, high, root_bits));
 }
 
 namespace {
@@ -273,12 +272,15 @@ std::vector<Sample> samples_from(double first, const ComposedPair& pair, const R
 {
   constexpr double step = 1.05;   // of the contact radius: 0.1 in ln x
   constexpr double widest = 0.9;  // the atlas's laws end at 0.9 to 1.1 R
+  constexpr int last_ones = 2;    // beyond `depth`: makima's slopes up to there need them
+  int beyond = 0;
   std::vector<Sample> samples;
   for (double a = first; a <= widest * pair.smaller_radius(); a *= step) {
     const ComposedState state = pair.at(a);
     if (!state.known) break;
     samples.push_back(rule.of(state));
-    if (samples.back().x > depth) break;
+    beyond += samples.back().x > depth;
+    if (beyond > last_ones) break;
   }
   return samples;
 }

@@ -110,6 +110,22 @@ TEST(ComposedLaw, IsContinuousInThePartner)
   EXPECT_LT(difference(large, thick).force, 0.001);
 }
 
+/// Materials that differ by rounding have laws that differ by the accuracy of the roots, 2^-40 of ln(a).
+TEST(ComposedLaw, OfMaterialsThatDifferByRoundingIsTheSame)
+{
+  constexpr double accuracy = 1e-9;
+  for (const double partner : {0.6, 1.4, 2.8})
+    for (const double ratio : {0.0, 1.0, 2.3, wall}) {
+      LawMaterial s = material("s", 1, 0.009);
+      const LawMaterial h = material("h", partner, 0.03, 0.25);
+      const Curve law = composed(s, h, ratio).law.curve;
+      s.youngs_modulus *= 1 + 1e-15;
+      const Difference by_rounding = difference(law, composed(s, h, ratio).law.curve);
+      EXPECT_LT(by_rounding.force, accuracy) << partner << ' ' << ratio;
+      EXPECT_LT(by_rounding.restitution, accuracy) << partner << ' ' << ratio;
+    }
+}
+
 /// A sphere dents a wall as it dents a sphere of 10,000 times its size.
 TEST(ComposedLaw, OfAThickWallThatYields)
 {
