@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/larger.hpp"
@@ -35,7 +36,9 @@ double convergence_index(double change, double cell_ratio)
 
 DiscretisationError grid_convergence(const RunResult& fine, const RunResult& coarse)
 {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
   const double ratio = static_cast<double>(fine.summary.resolution) / coarse.summary.resolution;
+  if (!(ratio > 1)) return {unknown, unknown};
   const double force = change_of_loading(fine, coarse);
   const double e = std::abs(coarse.summary.restitution / fine.summary.restitution - 1);
   return {convergence_index(force, ratio), convergence_index(larger(force, e), ratio)};

@@ -18,7 +18,8 @@ struct DiscretisationError
 /// and 1 of the largest overlap counts: contact-edge grid noise and the ringing of an impact are in no fit,
 /// and two curves do not agree by chance, as two peaks do. Two values of e may; so u of e is at least u of
 /// the force. The order: 17, 24 and 48 cells, 25 impacts and presses, E*/Y 30 to 2000 (docs/decisions.md).
-/// Throws Error where the loading of a run has too few samples.
+/// Infinite where thin layers give both runs the same grid. Throws Error where the loading of a run has too
+/// few samples.
 DiscretisationError grid_convergence(const RunResult& fine, const RunResult& coarse);
 
 /// The index of any quantity: `change` is |f_coarse/f_fine - 1|, `cell_ratio` that of the cells, over 1.

@@ -23,6 +23,18 @@ DiscretisationError larger(const DiscretisationError& a, const DiscretisationErr
   return {std::max(a.force, b.force), std::max(a.restitution, b.restitution)};
 }
 
+/// `coarse`, or where thin layers give it the grid of `fine` the next coarser run whose grid is another.
+RunResult of_another_grid(const Probe& probe, const RunResult& fine, RunResult coarse, int cells,
+                          BuildRuns& runs)
+{
+  for (int next = coarse_partner(cells); coarse.summary.resolution >= fine.summary.resolution && next < cells;
+       next = coarse_partner(cells)) {
+    coarse = runs.make_needed({probe.run(next)}, share_of_progress, "one of the first runs").front().result;
+    cells = next;
+  }
+  return coarse;
+}
+
 }  // namespace
 
 ResolutionChoice choose_resolutions(std::vector<Probe> probes, const std::vector<RunJob>& beside,
@@ -42,7 +54,9 @@ ResolutionChoice choose_resolutions(std::vector<Probe> probes, const std::vector
 
     std::vector<Probe> open;
     for (std::size_t k = 0; k < probes.size(); ++k) {
-      const RunResult &fine = outcomes[2 * k].result, &coarse = outcomes[2 * k + 1].result;
+      const RunResult& fine = outcomes[2 * k].result;
+      const RunResult coarse =
+          of_another_grid(probes[k], fine, outcomes[2 * k + 1].result, coarse_partner(resolution), runs);
       const DiscretisationError found = grid_convergence(fine, coarse);
       const double error = larger(found.force, counted(found.restitution, fine.summary.restitution));
       if (!(error <= tolerance)) {  // an error that is no number is not met

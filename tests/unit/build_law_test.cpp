@@ -1,12 +1,14 @@
 // What the builder asks for and makes of it, with runs that are replays of a known law.
 #include "characterise/build_law.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "characterise/grid_convergence.hpp"
+#include "characterise/resolution_choice.hpp"
 #include "law/replay.hpp"
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"
@@ -263,21 +265,44 @@ TEST(BuildLaw, RampsFollowFromTheTolerance)
   EXPECT_EQ(loading_ramp(KnownSphere().body().elastic(), 0.2, 0.01), 0);
 }
 
+/// F = F_0 (1 + 0.01 (24/n)^1.65).
+RunResult converging_run(int cells)
+{
+  RunResult r;
+  for (int k = 1; k <= 200; ++k) {
+    const double x = 1e-4 * k;
+    r.trace.push_back({0, x, x * (1 + 0.01 * std::pow(24. / cells, 1.65)), 0, Branch::load, 0});
+  }
+  r.summary.delta_max = 0.02, r.summary.restitution = 0.5, r.summary.resolution = cells;
+  return r;
+}
+
 TEST(GridConvergence, IsTheIndexOfAForceThatConvergesAsObserved)
 {
-  // F = F_0 (1 + 0.01 (24/n)^1.65): the true error of 24 cells is 0.0099, of which the index is 1.25 times
-  const auto run = [](int cells) {
-    RunResult r;
-    for (int k = 1; k <= 200; ++k) {
-      const double x = 1e-4 * k;
-      r.trace.push_back({0, x, x * (1 + 0.01 * std::pow(24. / cells, 1.65)), 0, Branch::load, 0});
-    }
-    r.summary.delta_max = 0.02, r.summary.restitution = 0.5, r.summary.resolution = cells;
-    return r;
-  };
+  // the true error of 24 cells is 0.0099, of which the index is 1.25 times
+  const auto& run = converging_run;
   const DiscretisationError found = grid_convergence(run(24), run(17));
   EXPECT_NEAR(found.force, 1.25 * 0.01 / 1.01, 1e-6);
   EXPECT_EQ(found.restitution, found.force);  // two e may agree by chance
+  EXPECT_TRUE(std::isinf(grid_convergence(run(24), run(24)).force));
+}
+
+/// A probe whose thin layers make one grid of all cells from 15 to 24: the index is that of 24 and 12.
+TEST(ResolutionChoice, NeverComparesAGridWithItself)
+{
+  std::vector<int> asked;
+  int cells = 0;
+  const auto run = [&](int n) {
+    const int grid = n > 14 && n < 24 ? 24 : n;
+    asked.push_back(n);
+    return RunJob{"probe", fmt::format("{}", n), 1, [grid](const RunOptions&) { return converging_run(grid); }};
+  };
+  const BuildOptions options;
+  BuildRuns runs(options);
+  const ResolutionChoice choice = choose_resolutions({{run, &cells}}, {}, 0.02, runs);
+  EXPECT_EQ(asked, (std::vector<int>{24, 17, 12}));
+  EXPECT_EQ(cells, 24);
+  EXPECT_EQ(choice.error.force, grid_convergence(converging_run(24), converging_run(12)).force);
 }
 
 }  // namespace

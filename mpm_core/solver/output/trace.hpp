@@ -39,7 +39,7 @@ struct RunSummary
   double contact_time = 0;        ///< s
   double work_load = 0;           ///< J
   double work_unload = 0;         ///< J
-  int resolution = 0;             ///< cells across the contact block
+  int resolution = 0;             ///< cells across the contact block, of the grid as made
   int grids = 1;                  ///< shifted grids whose mean this is
   long points = 0;                ///< material points of one grid, their mean
   long steps = 0;

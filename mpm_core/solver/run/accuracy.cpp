@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/larger.hpp"
 #include "solver/run/grid_noise.hpp"
@@ -12,6 +13,8 @@ namespace {
 
 /// Shares of the tolerance: the square root of the sum of the squares is the whole.
 constexpr double share = 0.25;
+
+constexpr int fewest_cells = 6;
 
 /// Largest force by the fit through the loading, which no grid noise moves.
 double fitted_force(const RunResult& run)
@@ -40,15 +43,18 @@ struct ErrorRule
   bool noise_of_both;  ///< beside the difference; else the fine run's, which bounds it from below
 };
 
-/// Errors of a body of revolution fall faster than h, so that the difference to 0.7 of the resolution is at
-/// least half of them. Two runs may agree by chance: hence the bound. In three dimensions the cut surface
+/// Errors of a body of revolution fall faster than h, as h^1.65 (grid_convergence.hpp), so that the difference
+/// to 1/1.4 of the resolution is at least half of them, and that of cells that differ by less a smaller part.
+/// Two runs may agree by chance: hence the bound. In three dimensions the cut surface
 /// lets errors fall like h and no faster: they are h/(H - h) of the difference. That is two to three, and it
 /// multiplies the noise of both runs, too.
 ErrorRule rule_of(const RunResult& fine, const RunResult& coarse)
 {
   const int h = coarse.summary.resolution, finer = fine.summary.resolution - h;
   const bool spatial = !fine.planes.empty();
-  return spatial ? ErrorRule{static_cast<double>(h) / std::max(1, finer), true} : ErrorRule{2, false};
+  if (spatial) return {static_cast<double>(h) / std::max(1, finer), true};
+  const auto part = [](double ratio) { return std::pow(ratio, 1.65) - 1; };
+  return {2 * larger(1.0, part(1.4) / part(fine.summary.resolution / static_cast<double>(h))), false};
 }
 
 void add_cost(RunSummary& s, const RunSummary& other)
@@ -63,7 +69,7 @@ void add_cost(RunSummary& s, const RunSummary& other)
 
 int coarse_partner(int resolution)
 {
-  return std::max(6, static_cast<int>(std::lround(0.7 * resolution)));
+  return std::max(fewest_cells, static_cast<int>(std::lround(0.7 * resolution)));
 }
 
 double error_between(const RunResult& fine, const RunResult& coarse)
@@ -71,6 +77,7 @@ double error_between(const RunResult& fine, const RunResult& coarse)
   const RunSummary& s = fine.summary;
   const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
   const double largest = larger(difference(fine, coarse), peak), noise = noise_of(s);
+  if (coarse.summary.resolution >= s.resolution) return std::numeric_limits<double>::infinity();
   const ErrorRule rule = rule_of(fine, coarse);
   return rule.factor * (rule.noise_of_both ? std::hypot(largest, noise, noise_of(coarse.summary))
                                            : std::max(largest, noise));
@@ -85,13 +92,17 @@ RunResult run_with_estimate(const RunOptions& options, const Run& run)
     if (options.progress) options.progress(from + (to - from) * done);
   };
   RunResult fine = run(own);
-  own.resolution = coarse_partner(fine.summary.resolution);
   own.refine = 1;  // it is in the fine run's resolution
   own.fields = {};
   from = 0.7, to = 1.0;
-  const RunResult coarse = run(own);
-  fine.summary.error_estimate = error_between(fine, coarse);
-  add_cost(fine.summary, coarse.summary);
+  fine.summary.error_estimate = std::numeric_limits<double>::infinity();
+  for (int cells = fine.summary.resolution; cells > fewest_cells;) {
+    own.resolution = cells = coarse_partner(cells);
+    const RunResult coarse = run(own);
+    add_cost(fine.summary, coarse.summary);
+    fine.summary.error_estimate = error_between(fine, coarse);
+    if (std::isfinite(fine.summary.error_estimate)) break;
+  }
   return fine;
 }
 

@@ -13,11 +13,13 @@ using Run = std::function<RunResult(const RunOptions&)>;
 int coarse_partner(int resolution);
 
 /// Error of the finer of two runs of one job at resolutions N and coarse_partner(N), relative, of F_max and
-/// e, the larger. Measured on the cases of tests/validation/error_study.cpp
-/// (docs/evidence/solver-accuracy.md), in three dimensions on those of docs/evidence/solver-accuracy-3d.md.
+/// e, the larger; infinity where thin layers give both the same grid. Measured on the cases of
+/// tests/validation/error_study.cpp (docs/evidence/solver-accuracy.md), in three dimensions on those of
+/// docs/evidence/solver-accuracy-3d.md.
 double error_between(const RunResult& fine, const RunResult& coarse);
 
-/// Runs the job and its coarse partner; error_estimate filled, cost of both counted.
+/// Runs the job and its coarse partner, or the next coarser one whose grid is another; error_estimate filled,
+/// cost of all counted.
 RunResult run_with_estimate(const RunOptions& options, const Run& run);
 
 /// What run_to_tolerance found.

@@ -264,6 +264,15 @@ Body Collision::thick_wall(const Material& material, double block, int cells, do
                      hourglass_modulus(phase.moduli));
 }
 
+/// Two cells in a layer, as far as four times the cost allows.
+double Collision::fine_step(const Particle& p, double block, int cells) const
+{
+  double step = block / cells;
+  for (const Particle::Layer& layer : p.layers)
+    step = std::min(step, std::max(0.5 * layer.thickness / scale_.length, 0.5 * block / cells));
+  return step;
+}
+
 /// `p` must outlive the section.
 CutSection Collision::section_of(const Particle& p, double block, int cells, double shift) const
 {
@@ -279,10 +288,7 @@ CutSection Collision::section_of(const Particle& p, double block, int cells, dou
   s.height = (support_ == Support::free ? p.height() : p.height_of_largest_radius()) / length;
   if (support_ == Support::free) s.mass = mass_of(p) / scale_.mass();
   s.block = block, s.depth = 0.8 * block;
-  s.fine = block / cells;
-  // two cells in a layer, as far as four times the cost allows
-  for (const Particle::Layer& layer : p.layers)
-    s.fine = std::min(s.fine, std::max(0.5 * layer.thickness / length, 0.5 * block / cells));
+  s.fine = fine_step(p, block, cells);
   s.shift = shift;
   return s;
 }
@@ -299,6 +305,16 @@ Body Collision::body_of(const Particle& p, double block, int cells, double shift
 int Collision::cells(const RunOptions& options, double deepest) const
 {
   return cells_of(options, std::round(20 * (1 + std::min(1.0, deepest / 0.15))), 200, "");
+}
+
+/// Of two bodies the fewer.
+int Collision::cells_made(double deepest, int cells) const
+{
+  const auto made = [&](const Particle& p) {
+    const double block = block_for(p, deepest);
+    return static_cast<int>(std::lround(block / fine_step(p, block, cells)));
+  };
+  return partner_.particle ? std::min(made(particle_), made(*partner_.particle)) : made(particle_);
 }
 
 std::unique_ptr<Drive> Collision::drive() const

@@ -24,6 +24,7 @@ class Collision : public Setup
   double expected_overlap(double velocity) const override;
   double yield_stress() const override { return yield_; }
   int cells(const RunOptions& options, double deepest) const override;
+  int cells_made(double deepest, int cells) const override;
 
   /// Bodies at rest, touching, for an overlap up to `deepest`, with `cells` across the contact block; grid
   /// lines shifted by `shift` of a cell.
@@ -36,6 +37,7 @@ class Collision : public Setup
   void check_bodies() const;
   void check_grid() const;
   double block_for(const Particle& particle, double deepest) const;
+  double fine_step(const Particle& particle, double block, int cells) const;
   /// Bodies whose fine cells span `block`.
   Body body_of(const Particle& particle, double block, int cells, double shift) const;
   Body fitted_sphere(const Particle& sphere, double block, int cells, double shift) const;

@@ -135,8 +135,9 @@ RunResult impact(const Particle& particle, const Approach& thrown, const Partner
   const Vector3 spin(0, thrown.spin * scale.time(), 0);
   const double deepest = setup.expected_overlap(v), duration = 2.0 * deepest / v + 2.5;
 
+  const int across = setup.cells(options, deepest);
   return mean_of_shifted_grids(
-      options, setup.cells(options, deepest), scale, true,
+      options, across, setup.cells_made(deepest, across), scale, true,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
         Simulation run(setup.build(deepest, cells, shift), options, duration, scale.stress);
         Scene& scene = run.scene;

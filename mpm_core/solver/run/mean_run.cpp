@@ -114,8 +114,8 @@ RunSummary summary_of(const std::vector<TraceSample>& trace, const std::vector<R
 
 }  // namespace
 
-RunResult mean_of_shifted_grids(const RunOptions& options, int cells, const Scales& scale, bool rings,
-                                const SingleRun& single)
+RunResult mean_of_shifted_grids(const RunOptions& options, int cells, int cells_made, const Scales& scale,
+                                bool rings, const SingleRun& single)
 {
   const auto one = [&](double shift, const std::function<void(double)>& report) {
     // all that tells the runs of one request from each other
@@ -141,7 +141,7 @@ RunResult mean_of_shifted_grids(const RunOptions& options, int cells, const Scal
   result.yield_overlaps = mean_yield_overlaps(members);
   result.planes = mean_planes(members);
   result.rebound = mean_rebound(members);
-  result.summary.resolution = cells;
+  result.summary.resolution = cells_made;
   result.summary.grids = options.shifted_grids;
   return in_si(std::move(result), scale);
 }

@@ -13,8 +13,9 @@ using SingleRun = std::function<RunResult(int, double, const FieldObserver&,
 
 /// Runs `single` on options.shifted_grids shifted grids. The fields shown are those of the grid whose shift
 /// is nearest to zero.
-/// `cells`: across the contact block. `rings`: the body vibrates after the run, as after an impact.
-RunResult mean_of_shifted_grids(const RunOptions& options, int cells, const Scales& scale, bool rings,
-                                const SingleRun& single);
+/// `cells`: across the contact block; `cells_made`: those of the grid that they give (Setup). `rings`: the
+/// body vibrates after the run, as after an impact.
+RunResult mean_of_shifted_grids(const RunOptions& options, int cells, int cells_made, const Scales& scale,
+                                bool rings, const SingleRun& single);
 
 }  // namespace granulaw

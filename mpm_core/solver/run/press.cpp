@@ -89,8 +89,9 @@ RunResult press(const Particle& particle, const PressPlan& plan, const Partner& 
   const Press::Plan stops = stops_of(plan, *setup, options.slowness);
   const double depth = stops.stops.back(), duration = stops.ramp + stops.unload_ramp;
 
+  const int across = setup->cells(options, depth);
   return mean_of_shifted_grids(
-      options, setup->cells(options, depth), scale, false,
+      options, across, setup->cells_made(depth, across), scale, false,
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
         Simulation run(setup->build(depth, cells, shift), options, duration, scale.stress);
         Press programme(stops, setup->e_star(), setup->drive());

@@ -18,6 +18,8 @@ class Setup
   /// Cells across the contact block for overlaps up to `deepest`. Throws Error if the options' own cannot be
   /// used.
   virtual int cells(const RunOptions& options, double deepest) const = 0;
+  /// Cells across the block of the grid that build() makes: more where thin layers ask for it.
+  virtual int cells_made(double /*deepest*/, int cells) const { return cells; }
   /// Largest overlap that an impact can be expected to reach, about; up to 0.9.
   virtual double expected_overlap(double velocity) const = 0;
   /// Smallest yield stress of the materials, Pa; infinity if none yields.
