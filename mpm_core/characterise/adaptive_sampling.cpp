@@ -66,6 +66,11 @@ void run_round(const SamplingPlan& plan, const SamplingSetting& setting, Contact
   run(parts, setting.source, runs, runs.done() + 0.7 * (0.9 - runs.done()));
 }
 
+ElasticCorrection elastic_of(const ContactRecords& records, const SamplingSetting& s)
+{
+  return s.elastic_press ? measured_elastic(*s.elastic_press, records.slow, s.body.onset) : s.elastic;
+}
+
 FittedShape fit(const ContactRecords& records, const SamplingSetting& s, const ShapePrior* prior)
 {
   if (s.known) {
@@ -73,13 +78,13 @@ FittedShape fit(const ContactRecords& records, const SamplingSetting& s, const S
     fitted.shape.velocity_effects = fit_velocity_effects(records.fast, *s.known, s.body.onset, s.shape_end());
     return fitted;
   }
-  return fit_shape(records, s.elastic, s.body.onset, s.options.depth, prior);
+  return fit_shape(records, elastic_of(records, s), s.body.onset, s.options.depth, prior);
 }
 
 void fit_and_leave_out(Sampled& sampled, const SamplingSetting& s, const OnsetSimilarity* similarity)
 {
   std::optional<ShapePrior> known;
-  if (similarity) known = similarity->prior(s.elastic);
+  if (similarity) known = similarity->prior(elastic_of(sampled.records, s));
   const ShapePrior* prior = known ? &*known : nullptr;
   sampled.fitted = fit(sampled.records, s, prior);
   const auto shape_of = [&](const ContactRecords& others) { return fit(others, s, prior).shape; };

@@ -18,6 +18,7 @@ struct SamplingSetting
   const RunSource& source;
   const LawShape* known;  ///< the law at no rate, to Atlas::depth, where no run is needed for it; else null
   ElasticCorrection elastic;
+  const ContactRecord* elastic_press;  ///< of a body of several materials; else null
   int press_cells, impact_cells;
 
   /// Where the shape's functions of u end.

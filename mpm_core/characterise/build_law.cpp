@@ -14,6 +14,7 @@
 #include "characterise/fit_curve.hpp"
 #include "characterise/onset_of_yield.hpp"
 #include "characterise/onset_similarity.hpp"
+#include "characterise/overlap_at_work.hpp"
 #include "characterise/refinement.hpp"
 #include "characterise/resolution_choice.hpp"
 #include "characterise/tabulate_curve.hpp"
@@ -73,6 +74,7 @@ class Build
   double first_overlap(const SamplingPlan& plan) const;
   std::optional<OnsetSimilarity> onset_similarity(double first) const;
   void certify(const Sampled& sampled);
+  double slowest_verification() const;
   void verify_impacts(const ContactRecords& records);
 
   BuiltLaw built_;
@@ -85,6 +87,7 @@ class Build
   BuildRuns runs_;
   std::optional<LawShape> known_;  ///< a rate-dependent body's law at no rate, where the atlas tells it
   ElasticCorrection elastic_;
+  std::optional<ContactRecord> elastic_press_;  ///< of a body of several materials
   int press_cells_ = first_resolution, impact_cells_ = first_resolution;
 };
 
@@ -203,7 +206,8 @@ void Build::find_onset()
     return runs_.make_needed({job}, runs_.done(), "the elastic press").front().result;
   };
   const RunResult first = press(0);
-  elastic_ = fit_elastic(contact_record_of(first));
+  elastic_press_ = contact_record_of(first);
+  elastic_ = fit_elastic(*elastic_press_);
   body_.onset = onset_of_yield(body_, first);
   const double latest = latest_onset * options_.depth;
   if (std::isinf(body_.onset) && first.summary.delta_max < latest)
@@ -222,6 +226,7 @@ void Build::resolve(const SamplingPlan& plan)
   if (known_ || press_cells_ == first_resolution) return;
   const RunJob finer = elastic_press_job(body_, press_cells_, source_);
   const RunOutcome press = runs_.make_needed({finer}, runs_.done() + 0.05, "the elastic press").front();
+  if (elastic_press_) elastic_press_ = contact_record_of(press.result);
   elastic_ = fit_elastic(contact_record_of(press.result));
 }
 
@@ -253,12 +258,21 @@ void Build::certify(const Sampled& sampled)
   c.atlas_error_restitution = options_.atlas->claimed_restitution();
 }
 
+/// sqrt(I) of an impact within four onsets, where layers show: twice as deep as the onset, or as the
+/// shallowest runs.
+double Build::slowest_verification() const
+{
+  const double overlap = 2 * std::max(body_.onset, SamplingRange{}.shallowest);
+  return std::sqrt(law_.curve.work(overlap) / energy_unit(body_.mass, body_.yield));
+}
+
 void Build::verify_impacts(const ContactRecords& records)
 {
   constexpr std::size_t of_inertia = 3, of_rate = 4;  // impacts; a rate's axis is the longer one
   const double fastest = std::sqrt(law_.certificate.damage_number_max);
-  const std::vector<double> speeds = verification_speeds(records.fast, fastest, axis_kind_of(body_),
-                                                         body_.rate_dependent() ? of_rate : of_inertia);
+  std::vector<double> speeds = verification_speeds(records.fast, fastest, axis_kind_of(body_),
+                                                   body_.rate_dependent() ? of_rate : of_inertia);
+  if (!body_.is_uniform()) speeds.insert(speeds.begin(), slowest_verification());
   const double error = verify(law_, body_, speeds, impact_cells_, source_, runs_);
   built_.sampling_error = larger(built_.sampling_error, error);
 }
@@ -304,7 +318,8 @@ void Build::plastic()
 
   const std::size_t before = runs_.count();
   const SamplingSetting setting{body_,    slow_,        options_,     source_, known_ ? &*known_ : nullptr,
-                                elastic_, press_cells_, impact_cells_};
+                                elastic_, elastic_press_ ? &*elastic_press_ : nullptr,
+                                press_cells_, impact_cells_};
   const Sampled sampled = sample(plan, setting, guide ? &*guide : nullptr, runs_);
   built_.runs_full = most_runs(guide);
   if (guide) built_.shallow = guide->how();

@@ -180,6 +180,32 @@ ElasticCorrection fit_elastic(const ContactRecord& press)
   return fit_elastic_terms({&press, 1}, 2);
 }
 
+ElasticCorrection measured_elastic(const ContactRecord& press, std::span<const ContactRecord> slow,
+                                   double onset)
+{
+  ElasticCorrection elastic = fit_elastic(press);
+  Samples samples;
+  const auto take = [&](const ContactRecord& run, double end) {
+    for (std::size_t k = 0; k < run.loading.size(); ++k) {
+      const auto& [x, f, radius] = run.loading[k];
+      if (x < elastic_from * run.depth || x > end || f <= 0) continue;
+      const double s = std::pow(x, 0.25);
+      samples.push_back({s, std::log(f / (hertz_force(x) * elastic.force_ratio(s))), weight_of(run, k)});
+    }
+  };
+  take(press, press.depth);
+  for (const ContactRecord& run : slow) take(run, onset);
+  // As a function of s = x^(1/4) it begins with zero value and slope; the contact radius goes as s^2, so that
+  // a layer of 0.01 R or more is as thick as several knots.
+  constexpr int intervals = 24;
+  const double end = std::pow(press.depth, 0.25);
+  const SmoothSpline spline(end, intervals, samples, 0.02);
+  std::vector<double> values;
+  for (int k = 0; k <= 2 * intervals; ++k) values.push_back(spline.value(0.5 * end * k / intervals));
+  elastic.measured = std::make_shared<const ShapeFunction>(std::move(values), end);
+  return elastic;
+}
+
 ElasticFit fit_elastic(std::span<const ContactRecord> presses)
 {
   ElasticFit fit{fit_elastic_terms(presses, 3)};

@@ -11,6 +11,10 @@ namespace granulaw {
 
 /// Weighted least squares through one elastic press, up to which the body yields: c3 = 0.
 ElasticCorrection fit_elastic(const ContactRecord& press);
+/// The same of a body of several materials: its force is that of the press itself, and further below that of
+/// its slow runs up to the onset of yield.
+ElasticCorrection measured_elastic(const ContactRecord& press, std::span<const ContactRecord> slow,
+                                   double onset);
 
 /// The same of a body that never yields, through presses of several depths, and how well it fits: the largest
 /// relative deviation of the force, averaged over parts of a press as long as the grid noise of the contact

@@ -77,7 +77,11 @@ LawShape LawShape::rescaled(double share) const
 LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const
 {
   const Curve sphere = tabulate(*this, onset, end, known);
-  const double compliance = 2.0 / 3.0 * (elastic.c1 - body.c1);
+  const double at_onset = std::pow(onset, 0.25);
+  const double difference = body.measured  // of c1
+                                ? (elastic.force_ratio(at_onset) - body.force_ratio(at_onset)) / std::sqrt(onset)
+                                : elastic.c1 - body.c1;
+  const double compliance = 2.0 / 3.0 * difference;
   const double range = std::log(end / onset);
   LawShape result = *this;
   result.elastic = body;

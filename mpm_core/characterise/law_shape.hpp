@@ -1,8 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <memory>
 #include <vector>
 
+#include "characterise/shape_function.hpp"
 #include "contact/unloading.hpp"
 
 namespace granulaw {
@@ -13,11 +16,19 @@ namespace granulaw {
 struct ElasticCorrection
 {
   double c1 = 0, c2 = 0, d1 = 0, c3 = 0;
-  double force_ratio(double s) const { return 1 + s * s * (c1 + s * s * (c2 + s * s * c3)); }
-  double force_ratio_slope(double s) const { return s * (2 * c1 + s * s * (4 * c2 + s * s * 6 * c3)); }
+  /// Of a body of several materials, whose stiffness changes where the contact is as wide as a layer is thick:
+  /// ln of the force as computed over that of the terms, by s. Null: the terms are all.
+  std::shared_ptr<const ShapeFunction> measured{};
+
+  double force_ratio(double s) const { return terms(s) * beside_terms(s); }
+  double force_ratio_slope(double s) const
+  {
+    const double of_terms = s * (2 * c1 + s * s * (4 * c2 + s * s * 6 * c3));
+    return measured ? beside_terms(s) * (of_terms + terms(s) * measured->slope(s)) : of_terms;
+  }
   double radius_ratio(double s) const { return 1 + d1 * s * s; }
   double radius_ratio_slope(double s) const { return 2 * d1 * s; }
-  /// this += weight * other.
+  /// this += weight * other, of which neither has a measured part.
   void add(double weight, const ElasticCorrection& other);
   /// Of unloading from s along the elastic curve itself (c3 = 0): x^1.5 (1 + c1 sqrt(x) + c2 x).
   UnloadingShape unloading(double s) const
@@ -25,6 +36,10 @@ struct ElasticCorrection
     const double a = 1 / force_ratio(s), b = a * c1 * s * s, c = 1 - a - b;
     return {1.5 * a + 2 * b + 2.5 * c, a};
   }
+
+ private:
+  double terms(double s) const { return 1 + s * s * (c1 + s * s * (c2 + s * s * c3)); }
+  double beside_terms(double s) const { return measured ? std::exp(measured->value(s)) : 1.0; }
 };
 
 /// The law of a yielding body in the coordinates in which materials resemble each other: what the runs are

@@ -35,14 +35,19 @@ class KnownSphere
   double press_error = 0;               ///< of a press's force with 24 cells; falls with the cells' square
   double peak_error = 0;                ///< the same of an impact's
   double scatter = 0;                   ///< of an impact's loading about the fit, at any number of cells
-  bool rated = false;
+  bool rated = false, coated = false;
   const Atlas* atlas = nullptr;
 
   CharacterisedBody body() const
   {
     const CharacterisedBody plain = characterised_body_of(100, 0.3, 0);
-    if (!rated) return plain;
+    if (!rated && !coated) return plain;
     Particle sphere = Particle::sphere(1.0, plain.particle.materials[0]);
+    if (coated) {  // with its own material: the law is the same
+      sphere.materials.push_back(sphere.materials[0]);
+      sphere.layers.push_back({0.3, 1});
+      return characterised_body_of(sphere);
+    }
     sphere.materials[0].rate = {"johnson-cook", {{"coefficient", {0.03}}, {"reference_rate", {1e-3}}}};
     return characterised_body_of(sphere);
   }
@@ -166,6 +171,19 @@ TEST(BuildLaw, FindsTheLawThatItsRunsReplay)
     const auto e = [x](const Curve& c) { return std::sqrt(c.kept(x)); };
     EXPECT_NEAR(e(built.law.curve), e(known), 0.005) << x;
   }
+}
+
+/// Layers show where the contact is as wide as they are thick: one impact more verifies the law near the onset.
+TEST(BuildLaw, ABodyOfSeveralMaterialsIsVerifiedNearTheOnset)
+{
+  KnownSphere sphere;
+  const double of_sphere = sphere.build(0.01).law.certificate.verification_impacts;
+  sphere.coated = true;
+  const BuiltLaw built = sphere.build(0.01);
+  EXPECT_EQ(built.law.certificate.verification_impacts, of_sphere + 1);
+  EXPECT_LT(built.sampling_error, 0.01);
+  for (const double x : {3e-4, 1e-3, 0.01, 0.1})
+    EXPECT_NEAR(built.law.curve.force(x) / sphere.curve().force(x), 1, 0.01) << x;
 }
 
 /// Of one kind of runs 24 cells were not enough and 34 were, of the other 24. `least`: runs of 34 cells.

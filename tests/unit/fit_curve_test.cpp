@@ -97,6 +97,45 @@ TEST(FitCurve, DoesNotFollowTheContactEdgeNoise)
   EXPECT_LT(smooth.quality.scatter, 0.002);
 }
 
+/// Force over Hertz's of an elastic body with a skin of 0.03 R on a core half as stiff: it changes where the
+/// contact is as wide as the skin is thick.
+double layered(double x)
+{
+  const double wide = std::sqrt(x) / 0.03;
+  return 1 - 0.5 * wide * wide / (1 + wide * wide);
+}
+
+ContactRecord layered_press(double depth)
+{
+  ContactRecord press;
+  press.depth = depth;
+  for (int k = 1; k <= 400; ++k) {
+    const double x = depth * k / 400;
+    press.loading.push_back({x, std::pow(x, 1.5) * layered(x), std::sqrt(x)});
+  }
+  return press;
+}
+
+TEST(FitElastic, OfSeveralMaterialsFollowsThePressesOwnPoints)
+{
+  constexpr double onset = 1e-3, depth = 0.02;
+  const ContactRecord press = layered_press(depth);
+  const std::vector<ContactRecord> slow{layered_press(1.3e-3), layered_press(0.0075)};
+  const ElasticCorrection terms = fit_elastic(press), measured = measured_elastic(press, slow, onset);
+  double of_terms = 0, of_measured = 0, of_slope = 0;
+  for (double x = 1e-4; x < depth; x *= 1.1) {
+    const double s = std::pow(x, 0.25), step = 1e-5 * s;
+    of_terms = larger(of_terms, std::abs(terms.force_ratio(s) / layered(x) - 1));
+    of_measured = larger(of_measured, std::abs(measured.force_ratio(s) / layered(x) - 1));
+    const double slope = (measured.force_ratio(s + step) - measured.force_ratio(s - step)) / (2 * step);
+    of_slope = larger(of_slope, std::abs(measured.force_ratio_slope(s) - slope));
+  }
+  EXPECT_GT(of_terms, 0.05);
+  EXPECT_LT(of_measured, 0.005);  // half of the tolerance of most laws
+  EXPECT_LT(of_slope, 1e-6);      // central differences
+  EXPECT_EQ(measured.force_ratio(0), 1);
+}
+
 /// Shape of a body that yields: numbers like those of E*/Y = 500.
 LawShape sphere_shape()
 {
