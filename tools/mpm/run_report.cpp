@@ -128,7 +128,10 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
   if (r.json) return print_as_json(r, particle, result, centre);
   print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
   print_three_dimensions(result, centre);
-  if (s.error_estimate > 0) fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
+  if (std::isinf(s.error_estimate))
+    fmt::print("estimated error of F and e     not known: no coarser grid is another\n");
+  else if (s.error_estimate > 0)
+    fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
   fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
              s.cpu_s, 1e-6 * s.point_updates_per_s);
   if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
