@@ -15,7 +15,6 @@
 #include "law/law_file.hpp"
 #include "liggghts_plugin/energy_properties.hpp"
 #include "liggghts_plugin/fix_style.hpp"
-#include "liggghts_plugin/plan/planner.hpp"
 #include "liggghts_plugin/rank_sums.hpp"
 #include "liggghts_plugin/restart_record.hpp"
 #include "liggghts_plugin/stats_json.hpp"
@@ -212,7 +211,7 @@ void FixStats::check_files() const
   std::string message;
   if (comm->me == 0) try {
       const std::string where = fmt::format("fix {} granulaw/stats", id);
-      if (plan::Planner::current()) return;  // a plan writes nothing
+      if (is_planning) return;
       if (!path_.empty()) require_writable(path_, where + ": file");
       if (speaks() && session_->pair_options && !session_->pair_options->stats_path.empty())
         require_writable(session_->pair_options->stats_path, "pair_style gran: stats");

@@ -86,6 +86,9 @@ class CountedStyle
 
 struct Setup;
 
+/// True: the process reads a deck for a plan (plan/planner.hpp), and writes nothing.
+inline bool is_planning = false;
+
 /// What the pair style, the walls and the statistics fix of one LIGGGHTS instance share.
 class Session
 {

@@ -19,6 +19,7 @@
 #include "liggghts_plugin/plan/dry_run.hpp"
 #include "liggghts_plugin/plan/sweep.hpp"
 #include "liggghts_plugin/private_members.hpp"
+#include "liggghts_plugin/session.hpp"
 #include "primitive_wall.h"
 #include "region.h"
 
@@ -126,6 +127,7 @@ void include_radius(Source& s, double radius)
 Planner::Planner(lmp::LAMMPS* lammps, std::string file) : lmp_(lammps), file_(std::move(file))
 {
   planner = this;
+  is_planning = true;
   replace_contacts();
   replace_styles(lmp_);
 }

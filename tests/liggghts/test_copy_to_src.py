@@ -2,6 +2,7 @@
 it prints compile what it copied."""
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -39,6 +40,14 @@ class CopyToSrc(unittest.TestCase):
         self.assertEqual({path.name for path in self.src.iterdir()} - before, expected | {"granulaw"})
         for filled_in in ("granulaw_base_version.cpp", "granulaw_liggghts_plugin_register_mpm.cpp"):
             self.assertNotIn("@", (self.src / filled_in).read_text())
+
+    def test_what_is_copied_includes_what_is_copied(self):
+        """A header that stays behind stops the build of a user's own LIGGGHTS."""
+        self.copy()
+        places = [self.src / "granulaw", self.src / "granulaw" / "mpm_core"]
+        missing = [f"{file.name}: {name}" for file in [*self.src.glob("granulaw_*.cpp"), *(self.src / "granulaw").rglob("*.hpp")]
+                   for name in re.findall(r'^#include "([a-z_]+/[^"]+)"', file.read_text(), re.M) if not any((place / name).exists() for place in places)]
+        self.assertEqual(missing, [])
 
     def test_its_words_compile(self):
         """One file of each folder (docs/guide/own-liggghts.md: the whole of LIGGGHTS, done once)."""
