@@ -1,8 +1,6 @@
 #include "liggghts_plugin/plan/dry_run.hpp"
 
-#include <algorithm>
 #include <cstring>
-#include <iterator>
 #include <regex>
 #include <set>
 
@@ -64,14 +62,10 @@ class NoContacts final : public LAMMPS_NS::Compute
  public:
   NoContacts(LAMMPS_NS::LAMMPS* lmp, int iarg, int narg, char** arg) : Compute(lmp, iarg, narg, arg)
   {
-    static constexpr const char* of_one_column[] = {"contactArea",    "delta",          "heatFlux",
-                                                    "contactRadius", "largestOverlap", "dissipatedEnergy"};
-    const bool is_column = narg == 4 && std::any_of(std::begin(of_one_column), std::end(of_one_column),
-                                                    [&](const char* word) { return std::strcmp(arg[3], word) == 0; });
     local_flag = 1;
     timeflag = 1;
     size_local_rows = 0;
-    size_local_cols = is_column ? 0 : 100;
+    size_local_cols = 100;
   }
   void init() override {}
   void compute_local() override { invoked_local = update->ntimestep; }

@@ -292,7 +292,7 @@ run 1
     def test_lists_of_contacts_are_empty(self):
         """No contact acts, and no history is kept: decks that list contacts are planned all the same."""
         lists = ("compute l all pair/gran/local pos id force history contactRadius\ncompute one all pair/gran/local delta\ncompute n all reduce sum c_l[20]\n"
-                 "dump l all local 1 contacts c_l[1] c_l[30] c_one\nthermo_style custom step c_n\n")
+                 "dump l all local 1 contacts c_l[1] c_l[30] c_one[1]\nthermo_style custom step c_n\n")
         self.assertEqual(len(self.scene(BOX + FLOOR + ONE + lists + "run 10\n")["runs"]), 1)
 
     def test_scenes_behind_clear(self):
