@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "liggghts_plugin/deck_keywords.hpp"
 #include "liggghts_plugin/mpm_physics.hpp"
 #include "liggghts_plugin/thornton_physics.hpp"
 
@@ -293,24 +292,6 @@ TEST(Options, KeywordNamesAreThoseOfModelAndCommand)
     EXPECT_FALSE(has(keyword_names(thornton, where), "materials"));
     EXPECT_EQ(has(keyword_names(thornton, where), "wall"), where);
     EXPECT_EQ(has(keyword_names(thornton, where), "stats"), !where);
-  }
-}
-
-TEST(DeckKeywords, AreThoseOfThePlugin)
-{
-  for (const bool is_wall : {pair, wall}) {
-    for (const std::string& name : keyword_names(mpm, is_wall)) {
-      EXPECT_TRUE(find_keyword(name, is_wall)) << name;
-      EXPECT_TRUE(is_reserved(name, is_wall)) << name;
-    }
-    EXPECT_TRUE(is_reserved("curvatureLimitFactor", is_wall));
-    EXPECT_TRUE(is_reserved("rolling_friction", is_wall));
-    EXPECT_EQ(is_reserved("primitive", is_wall), is_wall);
-    EXPECT_FALSE(is_reserved("wax", is_wall));
-  }
-  for (const Keyword& k : keyword_table) {
-    const auto same = [&](const Keyword& other) { return other.name == k.name; };
-    EXPECT_EQ(std::count_if(keyword_table.begin(), keyword_table.end(), same), 1) << k.name;
   }
 }
 
