@@ -29,7 +29,8 @@ const char* take_plan(std::vector<char*>& words)
   for (std::size_t k = 1; k + 1 < words.size(); ++k)
     if (std::strcmp(words[k], "-plan") == 0) {
       const char* file = words[k + 1];
-      words.erase(words.begin() + static_cast<std::ptrdiff_t>(k), words.begin() + static_cast<std::ptrdiff_t>(k) + 2);
+      words.erase(words.begin() + static_cast<std::ptrdiff_t>(k),
+                  words.begin() + static_cast<std::ptrdiff_t>(k) + 2);
       return file;
     }
   return nullptr;
@@ -67,7 +68,8 @@ void plan(std::vector<char*> words, const char* file)
   lammps = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), words.data(), MPI_COMM_WORLD);
   granulaw_plan(lammps, file);
   on_exit(&end_plan, nullptr);
-  granulaw::plan::follow_lines([](std::FILE* stream) { return stream == lammps->infile; }, &granulaw_plan_line);
+  granulaw::plan::follow_lines([](std::FILE* stream) { return stream == lammps->infile; },
+                               &granulaw_plan_line);
   lammps->input->file();
   std::exit(0);
 }

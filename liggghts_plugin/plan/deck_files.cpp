@@ -26,7 +26,7 @@ struct Place
   bool continued = false;
 };
 
-/// What the deck wrote, by path: files in memory, which it can read again.
+/// Files that the deck wrote, by path: in memory, where it can read them again.
 std::map<std::string, int>& written()
 {
   static std::map<std::string, int> files;
@@ -88,7 +88,8 @@ std::FILE* open_file(const char* path, const char* mode)
 {
   if (!closed || !path || !mode) return really_open(path, mode);
   if (std::strpbrk(mode, "wa+")) {
-    if (std::strncmp(path, "/dev/", 5) == 0 || std::strncmp(path, "/proc/", 6) == 0) return really_open(path, mode);
+    if (std::strncmp(path, "/dev/", 5) == 0 || std::strncmp(path, "/proc/", 6) == 0)
+      return really_open(path, mode);
     return open_in_memory(path, mode);
   }
   const auto own = written().find(key_of(path));
@@ -135,8 +136,14 @@ void follow_lines(std::function<bool(std::FILE*)> is_deck, std::function<void(co
 
 #define GRANULAW_OWN extern "C" __attribute__((visibility("default")))
 
-GRANULAW_OWN std::FILE* fopen(const char* path, const char* mode) { return granulaw::plan::open_file(path, mode); }
-GRANULAW_OWN std::FILE* fopen64(const char* path, const char* mode) { return granulaw::plan::open_file(path, mode); }
+GRANULAW_OWN std::FILE* fopen(const char* path, const char* mode)
+{
+  return granulaw::plan::open_file(path, mode);
+}
+GRANULAW_OWN std::FILE* fopen64(const char* path, const char* mode)
+{
+  return granulaw::plan::open_file(path, mode);
+}
 
 GRANULAW_OWN char* fgets(char* text, int size, std::FILE* file)
 {
@@ -159,7 +166,8 @@ GRANULAW_OWN std::FILE* popen(const char* command, const char* mode)
 {
   static auto* const start = granulaw::plan::next<std::FILE*(const char*, const char*)>("popen");
   // gzip -d of a file to read stays; a compressed dump goes nowhere
-  return granulaw::plan::closed && mode[0] == 'w' ? granulaw::plan::really_open("/dev/null", "w") : start(command, mode);
+  return granulaw::plan::closed && mode[0] == 'w' ? granulaw::plan::really_open("/dev/null", "w")
+                                                  : start(command, mode);
 }
 
 GRANULAW_OWN int system(const char* command)

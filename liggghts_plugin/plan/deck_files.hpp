@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <functional>
 
-// The files of a deck that is planned: nothing that it writes is written. The launcher's own fopen, mkdir and so on
-// stand before those of the C library in the whole process, for C++ streams and VTK, too.
+// The files of a deck that is planned: nothing that it writes is written. The launcher's own fopen, mkdir and
+// so on stand before those of the C library in the whole process, for C++ streams and VTK, too.
 namespace granulaw::plan {
 
 /// From now on.

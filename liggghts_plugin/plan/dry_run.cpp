@@ -81,7 +81,8 @@ LAMMPS_NS::Compute* make_no_contacts(LAMMPS_NS::LAMMPS* lmp, int iarg, int narg,
 void replace_styles(LAMMPS_NS::LAMMPS* lmp)
 {
   replace_fix_style(lmp, "multicontact/halfspace", &make_no_fix);
-  for (const char* name : {"pair/gran/local", "wall/gran/local"}) replace_compute_style(lmp, name, &make_no_contacts);
+  for (const char* name : {"pair/gran/local", "wall/gran/local"})
+    replace_compute_style(lmp, name, &make_no_contacts);
   LAMMPS_NS::Update& update = *lmp->update;
   if (dynamic_cast<DryRun*>(update.integrate)) return;
   delete update.integrate;

@@ -18,14 +18,15 @@ class DryRun final : public LAMMPS_NS::Verlet
   void run(int steps) override;
 };
 
-/// Puts a DryRun in the place of another integrator, and nothing in that of fixes and computes which need contacts.
+/// Puts a DryRun in the place of another integrator, and nothing in that of fixes and computes which need
+/// contacts.
 void replace_styles(LAMMPS_NS::LAMMPS* lmp);
 
 /// Puts styles without forces in the place of all of `pair_style gran` and `fix wall/gran`.
 void replace_contacts();
 
-/// True of an `if` whose condition contains a value that only a run has: of a compute, a fix, a thermo keyword, or of a
-/// variable that is computed from one.
+/// True of an `if` whose condition contains a value that only a run has: of a compute, a fix, a thermo
+/// keyword, or of a variable that is computed from one.
 bool branches_on_run(LAMMPS_NS::Variable* variables, const std::string& line);
 
 }  // namespace granulaw::plugin::plan

@@ -1,6 +1,6 @@
 #include "liggghts_plugin/plan/planner.hpp"
 
-// What the launcher calls, which is linked to the plug-in's library (plan/deck_files.cpp).
+// Calls of the launcher (launcher.cpp), which is linked to the plug-in's library.
 using granulaw::plugin::plan::Planner;
 
 /// Before the deck is read. The planner lives as long as the process.

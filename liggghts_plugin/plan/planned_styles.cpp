@@ -42,7 +42,7 @@ std::string name_of(int normal)
   return "off";
 }
 
-/// Tells the planner what the command says; the words of LIGGGHTS's own models have no bearing on a plan.
+/// Hands the words of the command to the planner; those of LIGGGHTS's own models have no bearing on a plan.
 void note(LAMMPS* lmp, FixWallGran* wall, std::int64_t hash, int nargs, char** args,
           std::unique_ptr<PlannedCommand>& command)
 {
@@ -89,7 +89,9 @@ class PlannedPair final : public lg::PairStyles::IGranularPairStyle
 class PlannedWall final : public lg::Walls::IGranularWall
 {
  public:
-  PlannedWall(LAMMPS* lmp, FixWallGran* parent, std::int64_t hash) : lmp_(lmp), parent_(parent), hash_(hash) {}
+  PlannedWall(LAMMPS* lmp, FixWallGran* parent, std::int64_t hash) : lmp_(lmp), parent_(parent), hash_(hash)
+  {
+  }
   ~PlannedWall() override { Planner::current()->forget_style(parent_); }
   void settings(int nargs, char** args, lg::IContactHistorySetup*) override
   {

@@ -70,7 +70,7 @@ bool begins(const char* text, const char* with)
   return std::strncmp(text, with, std::strlen(with)) == 0;
 }
 
-/// What one insertion brings in, before any limit on the total.
+/// Particles of one insertion, before any limit on the total.
 double each_insertion(lmp::FixInsert& fix)
 {
   auto* pack = dynamic_cast<lmp::FixInsertPack*>(&fix);
@@ -210,8 +210,8 @@ void Planner::begin_run()
   count_ = record_.count() - cleared_;
 }
 
-/// A deck without a run, for a program that drives LIGGGHTS: what stands there when it ends, and the templates that the
-/// program may insert.
+/// A deck without a run, for a program that drives LIGGGHTS: what stands there when it ends, and the
+/// templates that the program may insert.
 void Planner::record_without_run()
 {
   if (!record_.runs.empty() || !lmp_->domain->box_exist) return;
@@ -251,7 +251,8 @@ void Planner::find_materials()
       return;
     }
     for (int k = 0; k < std::min(count, lmp_->atom->ntypes); ++k) {
-      if (name == "youngsModulus" || name == "YoungsModulus") record_.materials[k + 1].youngs_modulus = values[k];
+      if (name == "youngsModulus" || name == "YoungsModulus")
+        record_.materials[k + 1].youngs_modulus = values[k];
       if (name == "poissonsRatio") record_.materials[k + 1].poisson_ratio = values[k];
       if (name == "yieldStress") record_.materials[k + 1].yield_stress = values[k];
     }
@@ -272,7 +273,8 @@ void Planner::find_walls()
     auto* gran = dynamic_cast<lmp::FixWallGran*>(&fix);
     if (!gran) {
       if (begins(fix.style, "wall/"))
-        record_.note(fmt::format("{}: 'fix {}' is not planned with: only wall/gran is", where(fix), fix.style));
+        record_.note(
+            fmt::format("{}: 'fix {}' is not planned with: only wall/gran is", where(fix), fix.style));
       return;
     }
     if (!gran->is_mesh_wall()) return add_primitive_wall(*gran);
@@ -344,8 +346,8 @@ void Planner::move_meshes(double steps)
 /// Fixes that give velocities which no first step shows.
 void Planner::find_forces()
 {
-  static constexpr const char* styles[] = {"addforce",  "aveforce", "couple/",   "drag",     "efield", "external",
-                                           "nve/limit", "setforce", "spring", "rigid"};
+  static constexpr const char* styles[] = {"addforce", "aveforce",  "couple/",  "drag",   "efield",
+                                           "external", "nve/limit", "setforce", "spring", "rigid"};
   each_fix([&](const lmp::Fix& fix) {
     const bool moves = std::strcmp(fix.style, "move") == 0;
     for (const char* style : styles)
@@ -481,10 +483,12 @@ void Planner::end_run(int steps)
     const double each = each_insertion(*insert);
     int& inserted = insert->*exposed(Inserted{});
     double added = each * static_cast<double>(times);
-    const bool fills = dynamic_cast<lmp::FixInsertPack*>(insert) && !dynamic_cast<lmp::FixInsertRateRegion*>(insert);
+    const bool fills =
+        dynamic_cast<lmp::FixInsertPack*>(insert) && !dynamic_cast<lmp::FixInsertRateRegion*>(insert);
     if (fills && !in.began && in.next == first + 1) added += (inserted - in.before) - each;
     const bool limited = (insert->*exposed(HasTotal{})) != 0;
-    if (limited) added = std::min(added, static_cast<double>((insert->*exposed(InsertionTotal{})) - in.before));
+    if (limited)
+      added = std::min(added, static_cast<double>((insert->*exposed(InsertionTotal{})) - in.before));
     in.began = true;
     inserted = in.before + static_cast<int>(std::min(std::round(added), 1e9));
     const bool ended = every <= 0 || (limited && inserted >= (insert->*exposed(InsertionTotal{})));
@@ -529,9 +533,10 @@ void Planner::stop_where_nothing_is_new()
   runs_without_news_ = now == fingerprint_ ? runs_without_news_ + 1 : 0;
   fingerprint_ = std::move(now);
   if (runs_without_news_ < most_runs) return;
-  record_.note(fmt::format("{}: {} runs in turn bring nothing new: the plan leaves the loop and the deck here, and its "
-                           "cost counts the runs up to here",
-                           where_, most_runs));
+  record_.note(fmt::format(
+      "{}: {} runs in turn bring nothing new: the plan leaves the loop and the deck here, and its "
+      "cost counts the runs up to here",
+      where_, most_runs));
   std::exit(0);
 }
 
@@ -539,9 +544,10 @@ void Planner::stop_where_late()
 {
   constexpr std::chrono::seconds longest{60};
   if (std::chrono::steady_clock::now() - start_ < longest) return;
-  record_.note(fmt::format("{}: reading the deck takes more than {} s: the plan leaves it here, and its cost counts the "
-                           "runs up to here",
-                           where_, longest.count()));
+  record_.note(fmt::format(
+      "{}: reading the deck takes more than {} s: the plan leaves it here, and its cost counts the "
+      "runs up to here",
+      where_, longest.count()));
   std::exit(0);
 }
 

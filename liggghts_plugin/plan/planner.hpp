@@ -9,8 +9,9 @@
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/plan/record.hpp"
 
-// `liggghts-mpm -plan FILE -in DECK`: LIGGGHTS reads the deck and sets up every run, but takes two of its steps alone,
-// the first and the last. No force acts in contact: no law is needed to plan. What is in memory goes to FILE (Record).
+// `liggghts-mpm -plan FILE -in DECK`: LIGGGHTS reads the deck and sets up every run, but takes two of its
+// steps alone, the first and the last. No force acts in contact: no law is needed to plan. What is in memory
+// goes to FILE (Record).
 namespace granulaw::plugin {
 
 struct Options;
@@ -23,7 +24,7 @@ class Planner
  public:
   Planner(LAMMPS_NS::LAMMPS* lmp, std::string file);
 
-  /// Of this process; null: it does not plan.
+  /// The one of this process; null: it does not plan.
   static Planner* current();
 
   /// The next line of the deck: all commands before it have been executed.
@@ -41,7 +42,7 @@ class Planner
   /// The process ends: writes the record. True: the deck was read to its end.
   bool finish(int status);
 
-  /// What the commands say: `wall` is null for the pair style.
+  /// Words of a command; `wall` is null for the pair style.
   void note_style(const LAMMPS_NS::FixWallGran* wall, const std::string& model, const Options& options);
   void forget_style(const LAMMPS_NS::FixWallGran* wall) { styles_.erase(wall); }
 
@@ -95,13 +96,13 @@ class Planner
   std::map<const LAMMPS_NS::Fix*, std::pair<std::string, std::string>> places_;  ///< id and where of each fix
   std::map<const LAMMPS_NS::FixWallGran*, Style> styles_;
   std::map<std::string, Insertion> insertions_;
-  std::unordered_map<int, Atom> atoms_;                 ///< by tag, when the last run ended
-  std::map<int, std::size_t> source_of_type_;           ///< of atoms that no insertion brought
+  std::unordered_map<int, Atom> atoms_;        ///< by tag, when the last run ended
+  std::map<int, std::size_t> source_of_type_;  ///< of atoms that no insertion brought
   std::string atoms_where_;
   LAMMPS_NS::bigint natoms_ = 0;
   std::vector<double> fingerprint_;
   int runs_without_news_ = 0;
-  double count_ = 0;  ///< particles when the run began
+  double count_ = 0;    ///< particles when the run began
   double cleared_ = 0;  ///< particles that `clear` took away
   bool has_box_ = false;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

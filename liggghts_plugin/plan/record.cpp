@@ -21,16 +21,22 @@ json to_json(const std::optional<double>& value)
 
 json to_json(const Source& s)
 {
-  return {{"where", s.where},     {"type", s.type},
-          {"radius", {s.radius_min, s.radius_max}}, {"density", s.density},
-          {"centres", to_json(s.centres)}, {"speed", s.speed},
-          {"count", s.count},     {"together", s.together}};
+  return {{"where", s.where},
+          {"type", s.type},
+          {"radius", {s.radius_min, s.radius_max}},
+          {"density", s.density},
+          {"centres", to_json(s.centres)},
+          {"speed", s.speed},
+          {"count", s.count},
+          {"together", s.together}};
 }
 
 json to_json(const Wall& w)
 {
-  return {{"where", w.where}, {"id", w.id},       {"model", w.model},           {"type", w.type},
-          {"box", to_json(w.box)},  {"speed", w.speed}, {"drag_speed", w.drag_speed}, {"deformable", w.deformable}};
+  return {{"where", w.where},           {"id", w.id},
+          {"model", w.model},           {"type", w.type},
+          {"box", to_json(w.box)},      {"speed", w.speed},
+          {"drag_speed", w.drag_speed}, {"deformable", w.deformable}};
 }
 
 json to_json(const Run& r)

@@ -45,7 +45,8 @@ void move(lmp::FixMoveMesh& fix, double duration)
   mover.initial_integrate(time, since_setup, duration);
 }
 
-/// True: its displacement is its velocity times the stride, or the turn about its axis, however long the stride.
+/// True: its displacement is its velocity times the stride, or the turn about its axis, however long the
+/// stride.
 bool takes_any_stride(lmp::FixMoveMesh& fix)
 {
   lmp::MeshMover* mover = fix.*exposed(MoverOf{});
@@ -95,7 +96,8 @@ MeshView look_at(lmp::FixMeshSurface& fix)
     for (int i = 0; i < v->size(); ++i)
       for (int j = 0; j < 3; ++j) {
         const double* node = v->begin()[i][j];
-        view.speed = std::max(view.speed, std::sqrt(node[0] * node[0] + node[1] * node[1] + node[2] * node[2]));
+        view.speed =
+            std::max(view.speed, std::sqrt(node[0] * node[0] + node[1] * node[1] + node[2] * node[2]));
       }
   return view;
 }
@@ -103,11 +105,12 @@ MeshView look_at(lmp::FixMeshSurface& fix)
 bool is_moved(lmp::LAMMPS* lammps, const lmp::FixMeshSurface& mesh)
 {
   const auto moves = moves_of(lammps);
-  return std::any_of(moves.begin(), moves.end(), [&](const auto* move) { return move->fixMeshCompare(&mesh); });
+  return std::any_of(moves.begin(), moves.end(),
+                     [&](const auto* move) { return move->fixMeshCompare(&mesh); });
 }
 
-/// First in strides over which a velocity changes by some hundredths of the largest; where these do not reach the
-/// end, turns and straight ways go on in longer ones. Those are uneven: they meet no period.
+/// First in strides over which a velocity changes by some hundredths of the largest; where these do not reach
+/// the end, turns and straight ways go on in longer ones. Those are uneven: they meet no period.
 void sweep(lmp::LAMMPS* lammps, double steps, const std::function<void()>& visit)
 {
   std::vector<lmp::FixMoveMesh*> moves = moves_of(lammps);
@@ -137,7 +140,8 @@ void sweep(lmp::LAMMPS* lammps, double steps, const std::function<void()>& visit
   std::erase_if(moves, [](lmp::FixMoveMesh* fix) { return !takes_any_stride(*fix); });
   const double rest = (steps - done) / long_strides;
   for (int k = 0; k < long_strides && rest > 0 && !moves.empty(); ++k)
-    stride(k + 1 < long_strides ? rest * (0.75 + 0.5 * std::fmod(0.618 * k, 1.0)) : std::max(0.0, steps - done));
+    stride(k + 1 < long_strides ? rest * (0.75 + 0.5 * std::fmod(0.618 * k, 1.0))
+                                : std::max(0.0, steps - done));
   lammps->update->ntimestep = first;
 }
 

@@ -17,8 +17,8 @@ MeshView look_at(LAMMPS_NS::FixMeshSurface& mesh);
 
 bool is_moved(LAMMPS_NS::LAMMPS* lmp, const LAMMPS_NS::FixMeshSurface& mesh);
 
-/// Moves all meshes by their fix move/mesh over `steps` time steps, in some hundred strides, and calls `visit` after
-/// each.
+/// Moves all meshes by their fix move/mesh over `steps` time steps, in some hundred strides, and calls
+/// `visit` after each.
 void sweep(LAMMPS_NS::LAMMPS* lmp, double steps, const std::function<void()>& visit);
 
 }  // namespace granulaw::plugin::plan

@@ -3,6 +3,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -348,6 +349,13 @@ run 1
         included.write_text("\n\nthermo xyzzy\n")
         self.refused(BOX + "include more\n", "more:3")
 
+    def test_a_plan_needs_one_rank(self):
+        (self.folder / "in.deck").write_text(BOX + ONE + "run 1\n")
+        done = subprocess.run([harness.MPIRUN, "--oversubscribe", "-np", "2", harness.LAUNCHER, "-plan", "scene.json", "-in", "in.deck"], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("-plan needs one rank", done.stdout + done.stderr)
+
     def test_paths_count_from_the_deck_or_from_here(self):
         (self.folder / "meshes").mkdir()
         (self.folder / "decks" / "meshes").mkdir(parents=True)
@@ -364,6 +372,11 @@ run 1
         done = subprocess.run([MPM, "plan", "in.deck"], cwd=self.folder, capture_output=True, text=True, env={**os.environ, "GRANULAW_LAUNCHER": "/gone/liggghts-mpm"})
         self.assertEqual(done.returncode, 1)
         self.assertIn("/gone/liggghts-mpm: cannot be started", done.stderr)
+        alone = self.folder / "mpm"
+        shutil.copy(MPM, alone)
+        done = subprocess.run([alone, "plan", "in.deck"], cwd=self.folder, capture_output=True, text=True, env={k: v for k, v in os.environ.items() if k != "GRANULAW_LAUNCHER"})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("liggghts-mpm is not beside this program", done.stderr)
 
 
 class Units(Planned):

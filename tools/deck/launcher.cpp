@@ -23,14 +23,17 @@ std::string launcher()
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
   for (const char* place : {"liggghts-mpm", "../../liggghts_plugin/liggghts-mpm"})
     if (fs::exists(here / place)) return (here / place).string();
-  fail("mpm", "LIGGGHTS reads the deck, and liggghts-mpm is not beside this program (set GRANULAW_LAUNCHER to its path)");
+  fail("mpm",
+       "LIGGGHTS reads the deck, and liggghts-mpm is not beside this program (set GRANULAW_LAUNCHER to its "
+       "path)");
 }
 
 std::string read_all(int end)
 {
   std::string all;
   char part[65536];
-  for (ssize_t length; (length = read(end, part, sizeof part)) > 0;) all.append(part, static_cast<std::size_t>(length));
+  for (ssize_t length; (length = read(end, part, sizeof part)) > 0;)
+    all.append(part, static_cast<std::size_t>(length));
   return all;
 }
 
@@ -40,7 +43,8 @@ void leave_mpi()
   std::vector<std::string> names;
   for (char** entry = environ; *entry; ++entry) {
     const std::string text = *entry;
-    for (const char* prefix : {"PMIX_", "PMI_", "OMPI_COMM_", "OMPI_UNIVERSE_", "OMPI_MCA_orte", "OMPI_MCA_ess_base"})
+    for (const char* prefix :
+         {"PMIX_", "PMI_", "OMPI_COMM_", "OMPI_UNIVERSE_", "OMPI_MCA_orte", "OMPI_MCA_ess_base"})
       if (text.starts_with(prefix)) names.push_back(text.substr(0, text.find('=')));
   }
   for (const std::string& name : names) unsetenv(name.c_str());
@@ -77,7 +81,8 @@ DryRun dry_run(const std::string& folder, const std::vector<std::string>& words)
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) != child || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
     fail(program, "cannot be started");
-  if (WIFSIGNALED(status)) result.said += fmt::format("\nERROR: LIGGGHTS was ended by signal {}\n", WTERMSIG(status));
+  if (WIFSIGNALED(status))
+    result.said += fmt::format("\nERROR: LIGGGHTS was ended by signal {}\n", WTERMSIG(status));
   result.ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   lseek(scene, 0, SEEK_SET);
   result.scene = read_all(scene);

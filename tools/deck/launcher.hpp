@@ -5,7 +5,7 @@
 
 namespace granulaw::deck {
 
-/// What `liggghts-mpm -plan` made of a deck.
+/// Result of `liggghts-mpm -plan`.
 struct DryRun
 {
   bool ended = false;  ///< it read the deck to its end

@@ -53,8 +53,9 @@ class Places
   explicit Places(std::string folder) : folder_(std::move(folder)) {}
   std::string path(const std::string& of_deck) const
   {
-    return folder_.empty() || of_deck.empty() || of_deck.starts_with('/') ? of_deck
-                                                                          : (fs::path(folder_) / of_deck).string();
+    return folder_.empty() || of_deck.empty() || of_deck.starts_with('/')
+               ? of_deck
+               : (fs::path(folder_) / of_deck).string();
   }
   std::vector<std::string> sentences(const json& list) const
   {
@@ -98,13 +99,14 @@ Source source_of(const json& j, const Places& places)
 
 Wall wall_of(const json& j, const Places& places)
 {
-  return {places.path(j["where"]), j["id"], j["type"], box_of(j["box"]), j["speed"], j["drag_speed"], j["deformable"],
-          j["model"]};
+  return {places.path(j["where"]), j["id"],         j["type"], box_of(j["box"]), j["speed"],
+          j["drag_speed"],         j["deformable"], j["model"]};
 }
 
 TypeMaterial material_of(const json& j)
 {
-  return {optional_number(j["youngs_modulus"]), optional_number(j["poisson_ratio"]), optional_number(j["yield_stress"])};
+  return {optional_number(j["youngs_modulus"]), optional_number(j["poisson_ratio"]),
+          optional_number(j["yield_stress"])};
 }
 
 Scene scene_of(const json& j, const Places& places)
@@ -138,7 +140,8 @@ std::string complaint(const std::string& said)
 {
   static const std::regex pattern(R"((^|\n)ERROR( on proc \d+)?: ([^\n]*))");
   std::smatch found;
-  if (!std::regex_search(said, found, pattern)) return "LIGGGHTS cannot read it: " + said.substr(said.size() - std::min<std::size_t>(said.size(), 300));
+  if (!std::regex_search(said, found, pattern))
+    return "LIGGGHTS cannot read it: " + said.substr(said.size() - std::min<std::size_t>(said.size(), 300));
   return std::regex_replace(found[3].str(), std::regex(R"( \([^()]*\.(cpp|h):\d+\)$)"), "");
 }
 

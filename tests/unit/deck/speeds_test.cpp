@@ -56,7 +56,9 @@ TEST(DeckSpeeds, ACloudShieldsItsFloor)
       [](Scene& s) { s.sources[0].together.clear(); },  // of several radii or densities, or in motion
       [](Scene& s) { s.sources.push_back(s.sources[0]); },
       [](Scene& s) { s.walls.push_back(floor_at(-0.1)); },
-      [](Scene& s) { s.walls.push_back({"", "c", 2, {{-0.1, -0.1, 0}, {0.1, 0.1, 1}}, 0, 0, false, ""}); },
+      [](Scene& s) {
+        s.walls.push_back({"", "c", 2, {{-0.1, -0.1, 0}, {0.1, 0.1, 1}}, 0, 0, false, ""});
+      },
       [](Scene& s) { s.walls[0].speed = 0.1; },
       [](Scene& s) { s.unknown_speeds.push_back("in.deck:9: fix addforce"); }};
   for (std::size_t k = 0; k < others.size(); ++k) {
