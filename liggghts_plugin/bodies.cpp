@@ -22,20 +22,12 @@ GRANULAW_EXPOSE(TemplateRadii, LAMMPS_NS::FixTemplateMultiplespheres, r_sphere);
 
 namespace {
 
-constexpr const char* property_name = "granulaw_body";
-
 template <class Fix>
 Fix* next_fix(LAMMPS_NS::LAMMPS* lmp, int& f)
 {
   while (f < lmp->modify->nfix)
     if (Fix* found = dynamic_cast<Fix*>(lmp->modify->fix[f++])) return found;
   return nullptr;
-}
-
-LAMMPS_NS::FixPropertyAtom* property(LAMMPS_NS::LAMMPS* lmp)
-{
-  return static_cast<LAMMPS_NS::FixPropertyAtom*>(
-      lmp->modify->find_fix_property(property_name, "property/atom", "vector", 0, 0, property_name, false));
 }
 
 bool spheres_overlap(const double* a, double radius_a, const double* b, double radius_b)
@@ -69,18 +61,19 @@ bool any_overlaps_itself(LAMMPS_NS::FixMultisphere& clumps, const LAMMPS_NS::Ato
 
 }  // namespace
 
+/// To ghosts and, since a body may belong to another rank than its sphere, back from them.
+constexpr ParticleColumns::Spec Bodies::spec()
+{
+  return {
+      .name = "granulaw_body", .columns = columns, .restart = false, .to_ghosts = true, .from_ghosts = true};
+}
+
 void Bodies::provide(LAMMPS_NS::LAMMPS* lmp, bool inertia)
 {
   int from = 0, from_clumps = 0;
   const bool rigid = next_fix<LAMMPS_NS::FixRigid>(lmp, from);
   const bool clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, from_clumps);
-  if (property(lmp) || !(rigid || (clumps && inertia))) return;
-  // not in restart files; to ghosts and, since a body may belong to another rank than its sphere, back from
-  // them
-  const char* arg[] = {property_name, "all", "property/atom", property_name, "vector", "no",
-                       "yes",         "yes", "0.0",           "0.0",         "0.0",    "0.0",
-                       "0.0",         "0.0", "0.0",           "0.0",         "0.0",    "0.0"};
-  lmp->modify->add_fix_property_atom(8 + columns, const_cast<char**>(arg), property_name);
+  if (rigid || (clumps && inertia)) ParticleColumns::provide(lmp, spec());
 }
 
 bool Bodies::overlap_themselves(LAMMPS_NS::LAMMPS* lmp)
@@ -96,7 +89,7 @@ bool Bodies::overlap_themselves(LAMMPS_NS::LAMMPS* lmp)
 
 void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
 {
-  values_ = property(lmp);
+  values_ = ParticleColumns::find(lmp, spec());
   if (!values_) return;
   atom_ = lmp->atom;
   const LAMMPS_NS::Fix* freeze = lmp->modify->find_fix_style_strict("freeze", 0);
@@ -105,15 +98,13 @@ void Bodies::update(LAMMPS_NS::LAMMPS* lmp)
   clear();
   const bool rigid_bodies = fill_rigid(lmp);
   if (alone_) {
-    if (rigid_bodies) values_->do_forward_comm();
+    if (rigid_bodies) values_.send();
     return;
   }
   fill_clumps(lmp);
-  values_->do_reverse_comm();  // sums: each sphere was filled once, on the rank of its body
-  values_->do_forward_comm();
+  values_.gather();  // sums: each sphere was filled once, on the rank of its body
+  values_.send();
 }
-
-double* Bodies::row(int i) const { return values_->array_atom[i]; }
 
 void Bodies::clear() const
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/particle_columns.hpp"
 
 namespace granulaw::plugin {
 
@@ -25,7 +25,7 @@ class Bodies
   /// True: fix freeze holds sphere `i`, so that the partner's mass alone counts.
   bool frozen(int i) const { return (atom_->mask[i] & freeze_bit_) != 0; }
   /// False: no sphere is part of a body, as far as contacts must know.
-  bool known() const { return values_ != nullptr; }
+  bool known() const { return static_cast<bool>(values_); }
   /// kg, of the body that sphere `i` is part of; 0: none.
   double mass(int i) const { return row(i)[mass_column]; }
   /// 1/kg at a point of contact on sphere `i` with unit normal n: 1/m + n.[I^-1 (r x n) x r], r from the
@@ -36,8 +36,9 @@ class Bodies
  private:
   enum Column : int { mass_column, arm, inverse_inertia = 4, columns = 10 };  // xx yy zz xy xz yz
 
-  /// The numbers of sphere `i`. The array is asked for anew: commands between runs may move it.
-  double* row(int i) const;
+  static constexpr ParticleColumns::Spec spec();
+  /// The numbers of sphere `i`.
+  double* row(int i) const { return values_.rows()[i]; }
   /// Before a step's numbers come in.
   void clear() const;
   /// The spheres of bodies that this rank holds. The first is false where the deck has no fix rigid.
@@ -50,9 +51,9 @@ class Bodies
   void find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const;
 
   static constexpr double not_looked_up = -1.0;  // in mass_column
-  LAMMPS_NS::FixPropertyAtom* values_ = nullptr;
+  ParticleColumns values_;                       // false: no bodies
   const LAMMPS_NS::Atom* atom_ = nullptr;
-  int freeze_bit_ = 0;  // of the group that fix freeze holds; 0: there is none
+  int freeze_bit_ = 0;                  // of the group that fix freeze holds; 0: there is none
   LAMMPS_NS::LAMMPS* alone_ = nullptr;  // of one rank: it has every clump and looks one up when it is asked
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "liggghts_plugin/contact_statistics.hpp"
-#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/particle_columns.hpp"
 
 namespace granulaw::plugin {
 
@@ -20,11 +20,38 @@ class EnergyTally
   /// Values of contact history that account() keeps: force and couple of the last step, newton flag "1".
   static constexpr int history_values = 6;
 
-  double** per_atom = nullptr;  ///< rows of `columns`; null: not there yet
-  double** dissipated_energy =
-      nullptr;           ///< LIGGGHTS's property of that name, energy first; null: not asked for
-  double law_force = 0;  ///< N, of the law alone, in the contact computed last
+  /// Moves with the particles and into restart files.
+  static constexpr ParticleColumns::Spec energies{.name = "granulaw_energy",
+                                                  .columns = columns,
+                                                  .restart = true,
+                                                  .to_ghosts = false,
+                                                  .from_ghosts = false};
+  /// Of `computeDissipatedEnergy on`, as LIGGGHTS's own models make it: energy, and six places that they work
+  /// with.
+  static constexpr ParticleColumns::Spec lost{.name = "dissipated_energy",
+                                              .columns = 7,
+                                              .restart = true,
+                                              .to_ghosts = true,
+                                              .from_ghosts = false,
+                                              .fix_id = "dissipated_energy_"};
+
+  ParticleColumns per_atom;                   ///< `energies`; false: not there yet
+  ParticleColumns dissipated_energy;          ///< `lost`; false: not asked for
+  double law_force = 0;                       ///< N, of the law alone, in the contact computed last
   ContactStatistics::Pair* counts = nullptr;  ///< of that contact
+
+  /// Adds the properties where they are asked for. Collective.
+  static void provide(LAMMPS_NS::LAMMPS* lmp, bool energy, bool dissipated)
+  {
+    if (energy) ParticleColumns::provide(lmp, energies);
+    if (dissipated) ParticleColumns::provide(lmp, lost);
+  }
+  /// The properties as the deck has them now.
+  void find(LAMMPS_NS::LAMMPS* lmp, bool dissipated)
+  {
+    per_atom = ParticleColumns::find(lmp, energies);
+    dissipated_energy = dissipated ? ParticleColumns::find(lmp, lost) : ParticleColumns();
+  }
 
   void share(const SurfacesIntersectData& sidata, Column column, double energy, int nlocal) const
   {
@@ -73,8 +100,8 @@ class EnergyTally
  private:
   void add(int particle, Column column, double energy) const
   {
-    per_atom[particle][column] += energy;
-    if (dissipated_energy && column != stored) dissipated_energy[particle][0] += energy;
+    per_atom.rows()[particle][column] += energy;
+    if (dissipated_energy && column != stored) dissipated_energy.rows()[particle][0] += energy;
   }
 
   static void cross(const double* a, const double* b, double* out)

@@ -13,7 +13,6 @@
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "law/law_file.hpp"
-#include "liggghts_plugin/energy_properties.hpp"
 #include "liggghts_plugin/fix_style.hpp"
 #include "liggghts_plugin/rank_sums.hpp"
 #include "liggghts_plugin/restart_record.hpp"
@@ -37,7 +36,8 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
 {
   register_fix_style(lmp, style_name, &make_fix);
   if (!lmp->domain->box_exist) return;
-  provide_energy_properties(lmp);
+  const std::shared_ptr<Session> session = Session::of(lmp);
+  EnergyTally::provide(lmp, session->energy != nullptr, session->dissipated_energy);
   if (lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw", "all", style_name};
   lmp->modify->add_fix(3, const_cast<char**>(arg));
@@ -70,8 +70,9 @@ FixStats::~FixStats()
 
 void FixStats::grow_arrays(int)
 {
-  find_energy_properties(lmp, session_->tally, session_->dissipated_energy);
-  array_atom = session_->tally.per_atom;
+  EnergyTally& tally = session_->tally;
+  tally.find(lmp, session_->dissipated_energy);
+  array_atom = tally.per_atom ? tally.per_atom.rows() : nullptr;
 }
 
 void FixStats::read_keywords(int narg, char** arg)
@@ -283,8 +284,9 @@ void FixStats::pre_force(int)
   session_->bodies.update(lmp);
   step_of_rows_ = -1;
   if (!session_->energy) return;
-  find_energy_properties(lmp, session_->tally, session_->dissipated_energy);
-  clear_stored_energy(lmp, session_->tally);
+  EnergyTally& tally = session_->tally;
+  tally.find(lmp, session_->dissipated_energy);
+  for (int a = 0; tally.per_atom && a < atom->nlocal; ++a) tally.per_atom.rows()[a][EnergyTally::stored] = 0.0;
 }
 
 ContactStatistics FixStats::sum_of_ranks(bool with_open) const
@@ -306,7 +308,7 @@ double FixStats::stored_energy() const
 {
   if (!session_->energy || !session_->tally.per_atom) return 0.0;
   double sum = 0.0;
-  for (int a = 0; a < atom->nlocal; ++a) sum += session_->tally.per_atom[a][EnergyTally::stored];
+  for (int a = 0; a < atom->nlocal; ++a) sum += session_->tally.per_atom.rows()[a][EnergyTally::stored];
   return sum;
 }
 

@@ -124,6 +124,32 @@ class Outputs(Deck):
             self.assertAlmostEqual(float(rows[0][1]) / self.result(text, "HELD")[0], 1.0, delta=1e-4)  # six digits are written
             self.assertEqual({(held, lost) for _, held, lost in rows[1:]}, {("0", "0")})
 
+    def test_energies_follow_their_particles(self):
+        """Three spheres that lost different energies on a floor: one is deleted, numbers change, a file is written and read on other ranks."""
+        places = (-0.01, 0.0, 0.01)
+        for model in MODELS:
+            for ranks in (1, 2):
+                words = self.words(model, "energy on")
+                style = (properties([POWDER]) + f"pair_style gran model {model} tangential off {words}\npair_coeff * *\n"
+                         f"fix w all wall/gran model {model} tangential off primitive type 1 zplane 0.0\nfix i all nve/sphere\ntimestep {DT!r}\n")
+                atoms = "".join(f"create_atoms 1 single {x!r} 0 {1.001 * RADIUS!r} units box\nset atom {k} vz {-k}\n" for k, x in enumerate(places, 1))
+                dump = "write_dump all custom {} x f_granulaw[2] modify format \"%.9g %.9g\"\n"
+                deck = (head(half=20 * RADIUS) + style.replace("fix i", f"{atoms}set group all diameter {2 * RADIUS!r} density {POWDER.density}\nfix i") +
+                        "run 1500\n" + dump.format("before.txt") + "group one id 1\ndelete_atoms group one compress yes\n" + dump.format("after.txt") +
+                        "write_restart kept.restart\n")
+                self.run_deck(deck, ranks=ranks)
+                again = head(half=20 * RADIUS)
+                again = again[:again.index("region")] + "read_restart kept.restart\n" + again[again.index("neighbor"):] + style
+                self.run_deck(again + "run 0\n" + dump.format("read.txt"), ranks=3 - ranks)
+                found = {}
+                for name in ("before.txt", "after.txt", "read.txt"):
+                    lines = (self.folder / name).read_text().partition("ITEM: ATOMS")[2].splitlines()[1:]
+                    found[name] = {round(float(x), 6): float(energy) for x, energy in map(str.split, lines)}
+                lost = [found["before.txt"][x] for x in places]
+                self.assertTrue(0 < lost[0] < lost[1] < lost[2], lost)
+                for name in ("after.txt", "read.txt"):
+                    self.assertEqual(found[name], {x: found["before.txt"][x] for x in places[1:]}, (model, ranks, name))
+
     def test_types_that_change_in_contact(self):
         """`set type` while two spheres touch: the contact is open, and ends once: in the row of the types with which it last grew."""
         count = "".join(f"variable b{r} equal f_granulaw[{r}][1]\nvariable e{r} equal f_granulaw[{r}][2]\n" for r in (1, 2, 3))
