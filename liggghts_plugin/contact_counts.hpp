@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/element.hpp"
 #include "liggghts_plugin/bodies.hpp"
 #include "liggghts_plugin/energy_tally.hpp"
 #include "liggghts_plugin/normal_physics.hpp"
@@ -15,23 +16,6 @@ namespace granulaw::plugin {
 /// motion: particles were inserted into each other, or an edge of a mesh handed a pressed sphere over. Walls
 /// may move at another point of the step than spheres, so that twice the motion is possible.
 inline constexpr double sudden_start = 2.0;
-
-/// Force and dissipation of a contact that goes deeper than it ever was, by the law's shorter way if it has
-/// one.
-template <class Law>
-double loading_of(const Law& law, double r_eff, double delta, double delta_max, double impact_overlap,
-                  double* kept)
-{
-  if constexpr (HasLoading<Law>) return law.loading(r_eff, delta, impact_overlap);
-  return law.force(r_eff, delta, delta_max, impact_overlap, kept);
-}
-template <class Law>
-double dissipation_of(const Law& law, double r_eff, double from, double to, double impact_overlap,
-                      double* kept)
-{
-  if constexpr (HasLoading<Law>) return law.grow(r_eff, from, to, impact_overlap, kept);
-  return law.dissipated(r_eff, from, to, impact_overlap);
-}
 
 /// Counts what contacts do in the statistics, in the steps that take them deeper than they were. `Entry`: of
 /// a PairTable.
@@ -90,24 +74,21 @@ class ContactCounts
       counts.brought += weight * entry.contact.stored_energy(r_eff, delta, delta, impact_overlap);
     } else {
       const double dissipated = dissipation_of(entry.contact, r_eff, delta_max, delta, impact_overlap, kept);
-      counts.dissipated += weight * dissipated;
+      counts.taken[Mechanism::plastic] += weight * dissipated;
       if (energy_) [[unlikely]]
         energy_->share(contact, EnergyTally::dissipated, dissipated, lmp_->atom->nlocal);
     }
   }
 
-  /// Books what waves take in a step: their force times the approach in the middle of it. Of that the
-  /// velocities are half a step behind; `normal_force`, all that acts along the normal, takes them there,
-  /// exactly where nothing else touches the two bodies. Work that this misses stands with the other forces,
-  /// which are measured, waves among them.
+  /// Books what waves take in a step. Work that this misses stands with the other forces, which are measured,
+  /// waves among them.
   void radiate(const SurfacesIntersectData& contact, const Entry& entry, double waves_force,
                double normal_force) const
   {
     if (!contact.computeflag || !contact.shearupdate) return;
-    const double dt = lmp_->update->dt;
-    const double taken =
-        weight(contact) * waves_force * dt * (-contact.vn - 0.5 * dt * normal_force / contact.meff);
-    entry.counts->waves += taken;
+    const double taken = weight(contact) * work_of_waves(waves_force, -contact.vn, normal_force, contact.meff,
+                                                         lmp_->update->dt);
+    entry.counts->taken[Mechanism::waves] += taken;
     if (energy_) [[unlikely]]
       entry.counts->other_work -= taken;
   }

@@ -50,7 +50,8 @@ double ContactStatistics::damage_number_limit() const
 
 void ContactStatistics::Pair::merge(const Pair& other)
 {
-  for (const Quantity& q : quantities) this->*q.value = combined(q.combine, this->*q.value, other.*q.value);
+  for (const Quantity& q : quantities)
+    q.value.of(*this) = combined(q.combine, q.value.of(*this), q.value.of(other));
   for (int b = 0; b < LogHistogram::bins; ++b) {
     speed.count[b] += other.speed.count[b];
     overlap.count[b] += other.overlap.count[b];
@@ -106,7 +107,9 @@ ContactStatistics::Pair ContactStatistics::Pair::in_si(const DeckUnits& units) c
 {
   Pair si = *this;
   for (const Quantity& q : quantities)
-    si.*q.value *= q.unit == Quantity::energy ? units.energy() : q.unit == Quantity::speed ? units.length : 1.0;
+    q.value.of(si) *= q.unit == Quantity::energy  ? units.energy()
+                      : q.unit == Quantity::speed ? units.length
+                                                  : 1.0;
   for (double* one : {&si.speed.first, &si.info.onset_speed}) *one *= units.length;
   return si;
 }

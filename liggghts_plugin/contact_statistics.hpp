@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <compare>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/ledger.hpp"
 #include "law/contact_step.hpp"
 #include "law/error_bound.hpp"
 #include "liggghts_plugin/deck_units.hpp"
@@ -75,9 +77,8 @@ struct ContactStatistics
 {
   struct Pair
   {
-    double dissipated = 0;   ///< J: loading work minus recoverable work, from the law's own work functions
-    double other_work = 0;   ///< J, taken by all but the normal law and waves; energy on only
-    double waves = 0;        ///< J, taken by waves (law/radiation.hpp)
+    Ledger taken;            ///< J: by the normal law, its own work functions; by waves (law/radiation.hpp)
+    double other_work = 0;   ///< J, taken by all that `taken` has not; energy on only
     double touches = 0;      ///< contacts that began
     double ended = 0;        ///< contacts that ended; known once the open ones are out (count_ended)
     double near = 0;         ///< contacts that came deeper than near_edge of the table
@@ -155,10 +156,26 @@ struct ContactStatistics
 /// over types and ranks, its unit, and where it is printed.
 struct Quantity
 {
-  double ContactStatistics::Pair::*value;
-  Combine combine;
-  enum Unit { plain, energy, speed } unit;
-  const char* key;  ///< in the JSON; null: not there
+  /// A number of a pair: a member, or what a mechanism took.
+  struct Value
+  {
+    double ContactStatistics::Pair::*member = nullptr;
+    Mechanism mechanism = Mechanism::count;
+
+    constexpr Value() = default;
+    constexpr Value(double ContactStatistics::Pair::*number) : member(number) {}
+    constexpr Value(Mechanism m) : mechanism(m) {}
+    template <class Pair>
+    auto& of(Pair& pair) const
+    {
+      return member ? pair.*member : pair.taken.taken[static_cast<std::size_t>(mechanism)];
+    }
+  };
+
+  Value value;
+  Combine combine = Combine::sum;
+  enum Unit { plain, energy, speed } unit = plain;
+  const char* key = nullptr;  ///< in the JSON; null: not there
   int vector = -1;  ///< place in fix granulaw/stats' vector, from 0; -1: not there
   bool split = false;  ///< the vector has it of particles, and in the next place of walls
   int column = -1;     ///< of the fix's array; -1: not there
@@ -168,10 +185,10 @@ struct Quantity
 inline constexpr auto quantities = [] {
   using Pair = ContactStatistics::Pair;
   using enum Combine;
-  return std::array{
-      Quantity{&Pair::dissipated, sum, Quantity::energy, "normal_dissipation_J", 0, true, 2},
-      Quantity{&Pair::other_work, sum, Quantity::energy, "other_work_J", 14, false, 3},
-      Quantity{&Pair::waves, sum, Quantity::energy, "wave_dissipation_J", 18, false, 7},
+  const auto energy = [](Quantity::Value value, const char* key, int vector, int column, bool split = false) {
+    return Quantity{value, sum, Quantity::energy, key, vector, split, column};
+  };
+  const std::array counts{
       Quantity{&Pair::touches, sum, Quantity::plain, "contacts_begun", 2, true, 0},
       Quantity{&Pair::ended, sum, Quantity::plain, "contacts_ended", -1, false, 1},
       Quantity{&Pair::near, sum, Quantity::plain, "contacts_near_table_edge", 11},
@@ -188,6 +205,27 @@ inline constexpr auto quantities = [] {
       Quantity{&Pair::speed_min, least, Quantity::speed, "impact_speed_min_m_per_s"},
       Quantity{&Pair::overlap_min, least, Quantity::plain, "overlap_over_radius_min"},
   };
+  constexpr auto further = static_cast<std::size_t>(
+      std::ranges::count_if(mechanisms.begin() + 1, mechanisms.end(), &MechanismText::in_statistics));
+  std::array<Quantity, 2 + further + counts.size()> all{
+      energy(Mechanism::plastic, mechanisms[0].key, 0, 2, true),
+      energy(&Pair::other_work, "other_work_J", 14, 3),
+  };
+  auto next = all.begin() + 2;
+  int vector = 18, column = 7;  // places that further mechanisms take from here on
+  for (const MechanismText& m : mechanisms)
+    if (m.in_statistics && m.which != Mechanism::plastic)
+      *next++ = energy(m.which, m.key, vector++, column++);
+  std::ranges::copy(counts, next);
+  return all;
 }();
+
+/// Numbers of the fix's vector and array: up to the last place that a quantity has.
+constexpr int places(int Quantity::*place)
+{
+  int last = 0;
+  for (const Quantity& q : quantities) last = std::max(last, q.*place);
+  return last + 1;
+}
 
 }  // namespace granulaw::plugin

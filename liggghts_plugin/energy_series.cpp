@@ -29,26 +29,27 @@ std::string EnergySeries::json(const DeckUnits& units, bool energies, const std:
   struct Entry
   {
     const char* name;
-    Column column;
+    int column;
     double unit;
     bool shown;
   };
   const double joule = units.energy();
-  const Entry entries[] = {{"time_s", time, 1, true},
-                           {"particles", particles, 1, true},
-                           {"kinetic_J", kinetic, joule, true},
-                           {"rotational_J", rotational, joule, true},
-                           {"normal_dissipation_J", dissipated, joule, true},
-                           {"wave_dissipation_J", waves, joule, true},
-                           {"elastic_J", elastic, joule, energies},
-                           {"other_work_J", other_work, joule, energies},
-                           {"fastest_particle_m_per_s", fastest, units.length, true}};
+  std::vector<Entry> entries{{"time_s", time, 1, true},
+                             {"particles", particles, 1, true},
+                             {"kinetic_J", kinetic, joule, true},
+                             {"rotational_J", rotational, joule, true}};
+  for (const MechanismText& m : mechanisms)
+    entries.push_back({m.key, taken + static_cast<int>(m.which), joule, m.in_statistics});
+  entries.insert(entries.end(), {{"elastic_J", elastic, joule, energies},
+                                 {"other_work_J", other_work, joule, energies},
+                                 {"fastest_particle_m_per_s", fastest, units.length, true}});
   std::string text;
   for (const Entry& entry : entries) {
     if (!entry.shown) continue;
     text += fmt::format("{}{}\"{}\": [", text.empty() ? "" : ",\n", indent, entry.name);
     for (std::size_t k = 0; k < rows_.size(); ++k)
-      text += fmt::format("{}{:.6g}", k ? ", " : "", rows_[k][entry.column] * entry.unit);
+      text += fmt::format("{}{:.6g}", k ? ", " : "",
+                          rows_[k][static_cast<std::size_t>(entry.column)] * entry.unit);
     text += "]";
   }
   return text;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/ledger.hpp"
 #include "liggghts_plugin/deck_units.hpp"
 
 namespace granulaw::plugin {
@@ -17,15 +18,13 @@ class EnergySeries
   static constexpr std::size_t capacity = 400;
 
   /// Deck's units. Sums over particles, then over contacts since the counts began.
-  enum Column : int
-  {
+  enum Column : int {
     time,
     particles,
-    kinetic,     ///< translation: sum of m v^2/2, as `thermo`'s ke
-    rotational,  ///< spheres: sum of (2/5) m R^2 omega^2/2
-    dissipated,  ///< by the normal laws
-    waves,
-    elastic,     ///< held by normal contacts now; energy on, else 0
+    kinetic,                                               ///< translation: sum of m v^2/2, as `thermo`'s ke
+    rotational,                                            ///< spheres: sum of (2/5) m R^2 omega^2/2
+    taken,                                                 ///< by each Mechanism, in turn
+    elastic = taken + static_cast<int>(Mechanism::count),  ///< held by normal contacts now; energy on, else 0
     other_work,  ///< taken by the other contact forces; energy on, else 0
     fastest,     ///< largest speed of a particle
     columns

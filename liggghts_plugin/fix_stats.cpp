@@ -333,8 +333,7 @@ void FixStats::add_energies()
     fastest2 = std::max(fastest2, v2);
   }
   const ContactStatistics::Pair counts = session_->statistics.total();
-  row[EnergySeries::dissipated] = counts.dissipated;
-  row[EnergySeries::waves] = counts.waves;
+  std::ranges::copy(counts.taken.taken, row.begin() + EnergySeries::taken);
   row[EnergySeries::elastic] = stored_energy();
   row[EnergySeries::other_work] = counts.other_work;
   MPI_Allreduce(MPI_IN_PLACE, row.data(), EnergySeries::columns, MPI_DOUBLE, MPI_SUM, world);
@@ -346,7 +345,7 @@ void FixStats::add_energies()
 
 double FixStats::compute_scalar()
 {
-  const double own = session_->statistics.total().dissipated;
+  const double own = session_->statistics.total().taken[Mechanism::plastic];
   double sum = 0;
   MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   return sum;
@@ -361,10 +360,11 @@ double FixStats::compute_vector(int n)
   double own = 0, result = 0;
   if (!is_count)
     own = stored_energy();
-  else if (found->split)
-    own = session_->statistics.total(n > found->vector).*found->value;
-  else
-    own = session_->statistics.total().*found->value;
+  else {
+    const ContactStatistics& all = session_->statistics;
+    const ContactStatistics::Pair counts = found->split ? all.total(n > found->vector) : all.total();
+    own = found->value.of(counts);
+  }
   MPI_Allreduce(&own, &result, 1, MPI_DOUBLE, is_count ? operation(found->combine) : MPI_SUM, world);
   if (n == time_step_place) return result > 0 ? largest_step(1.0, result) : 0.0;
   return result;
@@ -380,7 +380,7 @@ double FixStats::compute_array(int row, int column)
   for (const auto& [key, counted] : rows_.pairs)
     if (row_of_types(key, atom->ntypes) == row) counts.merge(counted);
   for (const Quantity& q : quantities)
-    if (q.column == column) return counts.*q.value;
+    if (q.column == column) return q.value.of(counts);
   return 0.0;
 }
 

@@ -41,7 +41,7 @@ namespace granulaw::plugin {
 class FixStats : public LAMMPS_NS::Fix
 {
  public:
-  static constexpr int vector_length = 19, array_columns = 8;
+  static constexpr int vector_length = places(&Quantity::vector), array_columns = places(&Quantity::column);
   static constexpr int time_step_place = 12;  // in the vector, where frequency2 stands
 
   FixStats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);

@@ -136,8 +136,8 @@ void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
 {
   for (const int t : {i, is_wall ? i : j}) {
     const auto at = static_cast<std::size_t>(t);
-    if (material(t) != contact.law.yielding->material.name || !(contact.law.only_radius() > 0)) continue;
-    const auto check = [law = contact.law, unit = units_.length,
+    if (material(t) != contact.yielding->material.name || !(contact.law().only_radius() > 0)) continue;
+    const auto check = [law = contact.law(), unit = units_.length,
                         where = fmt::format("{}: type {}, law file {}", setup_->where, t, setup_->law->path)](
                            double radius) { check_size(law, radius * unit, where); };
     for (const double radius : {sizes.radius[at], sizes.largest_radius[at]})
@@ -192,7 +192,7 @@ PairInfo MpmPhysics::describe(const Contact& contact, const PairKey& key) const
   info.a = material(key.i);
   info.b = key.kind == PairKey::rigid_wall ? wall_name : material(key.j);
   info.law = fmt::format("mpm {}", setup_->law->path);
-  const BodyLaw& body = *contact.law.yielding;
+  const BodyLaw& body = *contact.yielding;
   const Law& law = setup_->law->law;
   const bool hertz = &body == &hertz_body();
   const bool elastic_partner = !law.find_pair(info.a, info.b);
@@ -202,10 +202,10 @@ PairInfo MpmPhysics::describe(const Contact& contact, const PairKey& key) const
     info.stated.damage_number_max = body.certificate.damage_number_max;
   } else {
     const double flat_partner = std::numeric_limits<double>::infinity();
-    info.stated = statement_of(law, contact.law, info.a, info.b);
+    info.stated = statement_of(law, contact.law(), info.a, info.b);
     if (key.kind == PairKey::deformable_wall)
       info.stated =
-          info.stated.at_distance(distance_in_size(law, contact.law, info.a, info.b, 1.0, flat_partner));
+          info.stated.at_distance(distance_in_size(law, contact.law(), info.a, info.b, 1.0, flat_partner));
     info.kind = name_of(info.stated.kind);
   }
   if (body.material.yields()) {
@@ -215,28 +215,6 @@ PairInfo MpmPhysics::describe(const Contact& contact, const PairKey& key) const
   info.overlap_limit = contact.largest_overlap();
   if (std::isfinite(info.stated.damage_number_max)) info.damage_number_limit = info.stated.damage_number_max;
   return info;
-}
-
-double MpmContact::stored_energy(double r_eff, double delta, double delta_max, double impact_overlap) const
-{
-  const double length = r_eff / per_lambda;
-  const double unit = force_scale * r_eff * r_eff * length;
-  const double x = delta / length, x_max = std::max(delta, delta_max) / length;
-  if (!curve->unloads(x, x_max))
-    return unit * (curve->work(x, impact_overlap) - curve->lost(x, impact_overlap));
-  return unit * curve->reversal(x_max, impact_overlap).work(x);
-}
-
-double MpmContact::planned_stiffness(double r_eff, double delta) const
-{
-  const double length = r_eff / per_lambda;
-  return force_scale * r_eff * r_eff / length * granulaw::planned_stiffness(*curve, delta / length);
-}
-
-double MpmContact::stiffness(double r_eff, double delta, double impact_overlap) const
-{
-  const double length = r_eff / per_lambda;
-  return force_scale * r_eff * r_eff / length * reversal_stiffness(*curve, delta / length, impact_overlap);
 }
 
 }  // namespace granulaw::plugin

@@ -16,14 +16,23 @@
 
 namespace granulaw::plugin {
 
+/// Gives each value of the list its place in LIGGGHTS's contact history; the place of the first.
+inline int add_history(LIGGGHTS::IContactHistorySetup& history, std::span<const Kept> keeps)
+{
+  int first = -1;
+  for (const Kept& one : keeps)
+    for (std::size_t k = 1; k <= one.values; ++k) {
+      const std::string name = one.values == 1 ? std::string(one.name) : fmt::format("{}_{}", one.name, k);
+      const int place = history.add_history_value(name, one.turns_with_exchange ? "1" : "0");
+      if (first < 0) first = place;
+    }
+  return first;
+}
+
 /// The history policy that all models share, and everything else that is not the law itself (NormalPhysics).
 ///
-/// State: one scalar per contact, delta_max, the largest overlap since first touch (m), and, where the
-/// physics latches it, a second one, the impact overlap X of the law's velocity axis (over lambda R*), set in
-/// the first step from the approach speed. Both have newton flag "0" (the same number seen from either
-/// particle), advance only when the step does (computeflag and shearupdate), and return to zero when the
-/// geometric overlap ends. What follows from them for un- and reloading, the reversal, is kept beside them
-/// once it was worked out; without it the same is worked out again, to the bit.
+/// State: NormalState of the law. It advances only when the step does (computeflag and shearupdate), and
+/// returns to zero when the geometric overlap ends.
 ///
 /// Everything that a Contact takes and gives is in the deck's units, and stretched (`stretch S`): delta_max
 /// and the contact statistics' overlaps are the deck's own, S times the real ones; work needs no conversion,
@@ -35,17 +44,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* cmb)
       : NormalModelBase(lmp, hsetup, cmb)
   {
-    history_offset_ = hsetup->add_history_value("delta_max", "0");
+    history_offset_ = add_history(*hsetup, State::keeps);
     cmb->add_history_offset("delta_max", history_offset_);
-    if constexpr (Physics::latches_impact) {
-      impact_offset_ = hsetup->add_history_value("impact_overlap", "0");
-      cmb->add_history_offset("impact_overlap", impact_offset_);
-    }
-    if constexpr (keeps_reversals) {
-      reversal_offset_ = hsetup->add_history_value("turn_overlap", "0");
-      for (std::size_t k = 1; k < Physics::Contact::reversal_values; ++k)
-        hsetup->add_history_value(fmt::format("turn_{}", k), "0");
-    }
     if (superquadrics_built && atom->superquadric_flag)
       counts_.keep_radius_at(hsetup->add_history_value("curvature_radius", "0"));
   }
@@ -97,41 +97,26 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = effective_radius(sidata);
     const Entry& entry = pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
-    const double delta = sidata.deltan, delta_max = sidata.contact_history[history_offset_];
-    double* const reversal = sidata.contact_history + reversal_offset_;
+    double* const kept = sidata.contact_history + history_offset_;
+    const double delta = sidata.deltan, delta_max = State::largest(kept);
     if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
       check_stretched(sidata, r_eff);
       beyond_table(sidata, entry, r_eff);
     }
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
-    if constexpr (keeps_reversals)
+    if constexpr (!Law::keeps.empty())
       if (update->ntimestep == first_step_) [[unlikely]]
-        reversal[0] = 0.0;  // what a restart brings may be of another law
+        State::forget_derived(kept);  // what a restart brings may be of another law
 
-    double impact_overlap = 0.0, reached = delta_max;
-    NormalForces forces;
-    // one branch for force and books: in a bed that is pressed no processor can foresee which contacts grow
-    if (delta > delta_max) {
-      if constexpr (Physics::latches_impact)
-        impact_overlap = delta_max == 0.0 ? first_impact_overlap(entry, r_eff, sidata)
-                                          : sidata.contact_history[impact_offset_];
-      forces =
-          normal_forces<true>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
-      if (sidata.computeflag && sidata.shearupdate) {
-        if constexpr (Physics::latches_impact) sidata.contact_history[impact_offset_] = impact_overlap;
-        counts_.deepen(sidata, entry, r_eff, impact_overlap, delta_max, reversal);
-        sidata.contact_history[history_offset_] = reached = delta;
-      }
-    } else {
-      if constexpr (Physics::latches_impact) impact_overlap = sidata.contact_history[impact_offset_];
-      forces =
-          normal_forces<false>(entry.contact, r_eff, delta, delta_max, impact_overlap, reversal, sidata.vn);
-    }
-    const auto [law_force, waves_force] = forces;
+    const NormalForces now =
+        advance_normal(entry.contact, {r_eff, delta, -sidata.vn, sidata.computeflag && sidata.shearupdate},
+                       Radiates<Law> && pairs_.radiates(), kept, Books{*this, sidata, entry, r_eff});
+    const double law_force = now.law, waves_force = now.waves;
     const double root = std::sqrt(r_eff * delta);
-    const double radius =
-        tangential_.computed ? entry.contact.contact_radius(r_eff, delta, delta_max, impact_overlap) : root;
+    const double radius = tangential_.computed
+                              ? entry.contact.contact_radius(r_eff, delta, delta_max, now.impact_overlap)
+                              : root;
     const double impedance = std::sqrt(root * sidata.meff);  // both dampings are proportional to it
     // of an undamped contact the law's force itself, to the bit: it is never negative
     sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
@@ -139,9 +124,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     // (std::max gives its first argument where that is no number, and the runaway fix ends the run)
     const double normal_force =
         law_force <= 0.0 ? 0.0 : std::max((law_force + waves_force) - sidata.gamman * sidata.vn, 0.0);
-    if (pairs_.radiates()) counts_.radiate(sidata, entry, waves_force, normal_force);
+    if (Radiates<Law> && pairs_.radiates()) counts_.radiate(sidata, entry, waves_force, normal_force);
     if (energy_) [[unlikely]]
-      store_energy(sidata, entry, r_eff, reached, impact_overlap, law_force);
+      store_energy(sidata, entry, r_eff, now.largest, now.impact_overlap, law_force);
 
     sidata.Fn = normal_force;
     sidata.kn =
@@ -162,20 +147,19 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   {
     if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
     if (!scdata.contact_history) return;
-    double& delta_max = scdata.contact_history[history_offset_];
-    if (delta_max == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
+    double* const kept = scdata.contact_history + history_offset_;
+    if (State::largest(kept) == 0.0)
+      return;  // near neighbours that never touched: leave their cache lines alone
     counts_.forget_speed(scdata.contact_history);
-    delta_max = 0.0;
-    if constexpr (Physics::latches_impact) scdata.contact_history[impact_offset_] = 0.0;
-    if constexpr (keeps_reversals) scdata.contact_history[reversal_offset_] = 0.0;
+    std::fill_n(kept, State::values, 0.0);
   }
 
   ContactState state(const ContactPlace& contact) const override
   {
     const Entry& pair = pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j);
-    const double delta_max = contact.history[history_offset_], r_eff = contact.r_eff();
-    double impact_overlap = 0.0;
-    if constexpr (Physics::latches_impact) impact_overlap = contact.history[impact_offset_];
+    const double* const kept = contact.history + history_offset_;
+    const double delta_max = State::largest(kept), impact_overlap = State::impact_overlap(kept),
+                 r_eff = contact.r_eff();
     return {pair.contact.contact_radius(r_eff, contact.overlap, delta_max, impact_overlap), delta_max,
             pair.contact.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
   }
@@ -192,33 +176,32 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
  private:
-  static constexpr bool keeps_reversals = Physics::Contact::reversal_values > 0;
-
+  using Law = typename Physics::Contact;
+  using State = NormalState<Law>;
   using Entry = typename PairTable<Physics>::Entry;
 
-  struct NormalForces
+  /// What advance_normal asks for in the steps that take a contact deeper than it was.
+  struct Books
   {
-    double law = 0.0, waves = 0.0;  ///< N
+    const PlasticModel& model;
+    const SurfacesIntersectData& sidata;
+    const Entry& entry;
+    double r_eff;
+
+    double impact_overlap() const { return model.first_impact_overlap(entry, r_eff, sidata); }
+    void deepen(double from, double latched, double* own) const
+    {
+      model.counts_.deepen(sidata, entry, r_eff, latched, from, own);
+    }
   };
-  /// The law's force, and that of waves: it only brakes, and never makes a contact pull. `deeper`: than ever.
-  template <bool deeper>
-  NormalForces normal_forces(const typename Physics::Contact& contact, double r_eff, double delta,
-                             double delta_max, double impact_overlap, double* reversal, double vn) const
-  {
-    if constexpr (Radiates<typename Physics::Contact>)
-      if (pairs_.radiates()) {
-        const auto [force, k] = contact.response(r_eff, delta, delta_max, impact_overlap, reversal);
-        return {force, std::max(-contact.radiation * k * k * vn, -force)};
-      }
-    if constexpr (deeper) return {loading_of(contact, r_eff, delta, delta_max, impact_overlap, reversal)};
-    return {contact.force(r_eff, delta, delta_max, impact_overlap, reversal)};
-  }
 
   /// X of a contact that begins.
   [[gnu::noinline]] double first_impact_overlap(const Entry& entry, double r_eff,
                                                 SurfacesIntersectData sidata) const
   {
-    return entry.contact.impact_overlap(r_eff, contact_mass(setup_->session->bodies, sidata), -sidata.vn);
+    if constexpr (LatchesImpact<Law>)
+      return entry.contact.impact_overlap(r_eff, contact_mass(setup_->session->bodies, sidata), -sidata.vn);
+    return 0.0;
   }
 
   // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
@@ -302,8 +285,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   PairTable<Physics> pairs_;
   ContactCounts<Entry> counts_;
   EnergyTally* energy_ = nullptr;  // null: energy off
-  int history_offset_ = -1, impact_offset_ = -1;
-  int reversal_offset_ = 0;           // of the values of its reversal
+  int history_offset_ = -1;        // of State's values
   LAMMPS_NS::bigint first_step_ = 0;  // of this run
   TangentialChoice tangential_;
   double stretch_ = 1.0;

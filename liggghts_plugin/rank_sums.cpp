@@ -14,11 +14,11 @@ void reduce(ContactStatistics::Pair& counts, MPI_Comm world)
   for (const Combine how : {Combine::sum, Combine::largest, Combine::least}) {
     std::vector<double> values;
     for (const Quantity& q : quantities)
-      if (q.combine == how) values.push_back(counts.*q.value);
+      if (q.combine == how) values.push_back(q.value.of(counts));
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, operation(how), world);
     const double* next = values.data();
     for (const Quantity& q : quantities)
-      if (q.combine == how) counts.*q.value = *next++;
+      if (q.combine == how) q.value.of(counts) = *next++;
   }
   MPI_Allreduce(MPI_IN_PLACE, counts.speed.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, counts.overlap.count.data(), LogHistogram::bins, MPI_DOUBLE, MPI_SUM, world);

@@ -22,7 +22,7 @@ std::vector<double> ContactStatistics::pack() const
   for (const auto& [key, counts] : pairs) {
     values.insert(values.end(),
                   {static_cast<double>(key.kind), static_cast<double>(key.i), static_cast<double>(key.j)});
-    for (const Quantity& q : quantities) values.push_back(counts.*q.value);
+    for (const Quantity& q : quantities) values.push_back(q.value.of(counts));
     values.insert(values.end(), counts.speed.count.begin(), counts.speed.count.end());
     values.insert(values.end(), counts.overlap.count.begin(), counts.overlap.count.end());
   }
@@ -52,7 +52,7 @@ bool ContactStatistics::unpack(const double* values, std::size_t count, bool sum
     Pair& counts = pairs[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}];
     const double* from = v + key_length;
     for (const Quantity& q : quantities) {
-      if (sums || q.combine != Combine::sum) counts.*q.value = *from;
+      if (sums || q.combine != Combine::sum) q.value.of(counts) = *from;
       ++from;
     }
     if (!sums) continue;

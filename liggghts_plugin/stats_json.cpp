@@ -74,7 +74,7 @@ std::string counts_json(const ContactStatistics::Pair& s, const std::string& ind
     text += fmt::format("{}{}\"{}\": {}", text.empty() ? "" : ",\n", indent, name, value);
   };
   for (const Quantity& q : quantities)
-    if (q.key) add(q.key, number(s.*q.value));
+    if (q.key) add(q.key, number(q.value.of(s)));
   add("inertia_number_max", number(s.damage_number_max));  // the older name of the damage number
   add("time_step_allowed_s", number(s.dt_allowed()));
   add("impact_speed", histogram_json(s.speed, "approach speed at first touch, m/s"));

@@ -112,8 +112,9 @@ std::string end_table(const ContactStatistics& sum, const DeckUnits& units, cons
   table += row("contacts begun", "{:.0f}", pair.touches, wall.touches);
   table += row("largest approach speed, m/s", "{:.4g}", pair.speed_max, wall.speed_max);
   table += row("largest overlap/R*", "{:.4g}", pair.overlap_max, wall.overlap_max);
-  table += row("dissipated by normal contacts, J", "{:.6g}", pair.dissipated, wall.dissipated);
-  if (all.waves > 0) table += row("taken by waves, J", "{:.6g}", pair.waves, wall.waves);
+  for (const MechanismText& m : mechanisms)
+    if (m.shown_if_zero || all.taken[m.which] > 0)
+      table += row(m.words, "{:.6g}", pair.taken[m.which], wall.taken[m.which]);
   if (all.damage_number_max > 0)
     table += row("largest I = rho V^2/Y", "{:.3g}", pair.damage_number_max, wall.damage_number_max);
   if (all.frequency2 > 0) {

@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "law/contact_step.hpp"
 #include "law/law.hpp"
 #include "liggghts_plugin/liggghts.hpp"
 #include "liggghts_plugin/session.hpp"
@@ -41,7 +40,7 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
   }
 }
 
-ThorntonContact ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
+Thornton ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
 {
   const ThorntonPair law = rigid ? ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}
                                  : ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
@@ -59,16 +58,6 @@ PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) c
   info.stiffness_ratio = 1.6 * contact.law.e_star / contact.law.yield_pressure;
   info.overlap_limit = std::numeric_limits<double>::infinity();
   return info;
-}
-
-double ThorntonContact::stored_energy(double r_eff, double delta, double delta_max, double) const
-{
-  return law.stored_energy(r_eff, per_stretch * delta, per_stretch * delta_max);
-}
-
-double ThorntonContact::stiffness(double r_eff, double delta, double) const
-{
-  return per_stretch * per_stretch * granulaw::planned_stiffness(law, r_eff, per_stretch * delta);
 }
 
 }  // namespace granulaw::plugin

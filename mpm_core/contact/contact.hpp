@@ -1,9 +1,42 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "contact/curve.hpp"
 #include "contact/pair.hpp"
 
 namespace granulaw {
+
+/// Numbers of the yielding body that say how fast an impact is.
+struct ImpactMeasure
+{
+  double density = 0;                                             ///< kg/m^3
+  double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
+  double mass_ratio = 1;                                          ///< mass over rho 4/3 pi R^3
+
+  /// v = sqrt(I) of a collision at this relative normal speed, m/s: see AxisTable.
+  double axis_speed(const PairMapping& mapping, double r_eff, double m_eff, double speed) const
+  {
+    // A pair moves like one body of radius lambda R* and mass lambda m* against the rigid wall.
+    const double length = mapping.length(r_eff), volume = 4.0 / 3.0 * M_PI * length * length * length;
+    return speed * std::sqrt(mapping.sqrt_lambda * mapping.sqrt_lambda * m_eff /
+                             (mass_ratio * volume * yield_stress));
+  }
+  /// v of the velocity axis over the relative normal speed, s/m (AxisTable).
+  double per_speed(const AxisTable& axis, const PairMapping& mapping, double r_eff, double m_eff) const
+  {
+    if (axis.by == AxisTable::By::inertia) return axis_speed(mapping, r_eff, m_eff, 1.0);
+    return std::sqrt(density / yield_stress) * axis.reference_radius / mapping.length(r_eff);
+  }
+  /// Damage number I = rho V^2/Y, V = speed/sqrt(lambda) the yielding body's share of the approach (all on a
+  /// rigid wall, half between like bodies). 0: the body is elastic.
+  double damage_number(const PairMapping& mapping, double speed) const
+  {
+    const double share = speed / mapping.sqrt_lambda;
+    return density * share * share / yield_stress;
+  }
+};
 
 /// A pair of bodies under one law.
 struct PairContact
@@ -13,13 +46,23 @@ struct PairContact
   double radiation = 0;  ///< C of the dashpot that stands for waves, s^3/kg; 0: the curve has what waves take
 };
 
+/// Units that carry a contact to its curve: of overlap 1/per_length, of force and of contact radius.
+struct PairUnits
+{
+  double per_length, force, radius;
+
+  static PairUnits of(const PairMapping& mapping, double r_eff)
+  {
+    return {1.0 / mapping.length(r_eff), mapping.force(r_eff), mapping.radius(r_eff)};
+  }
+};
+
 /// The law: force, stiffness and contact radius of a pair at overlap `delta` (m, > 0) whose largest overlap
 /// so far is `delta_max` (m) and which latched X. No allocation, no exception.
-inline Answer answer(const Curve& curve, const PairMapping& mapping, double r_eff, double delta,
-                     double delta_max, double latched = 0)
+inline Answer answer(const Curve& curve, const PairUnits& units, double delta, double delta_max,
+                     double latched = 0)
 {
-  const double per_length = 1.0 / mapping.length(r_eff), force = mapping.force(r_eff),
-               radius = mapping.radius(r_eff);
+  const auto [per_length, force, radius] = units;
   const double x = delta * per_length, x_max = delta_max * per_length;
   if (!curve.unloads(x, x_max)) {
     const Curve::Loading now = curve.loading(x, latched);
@@ -34,6 +77,12 @@ inline Answer answer(const Curve& curve, const PairMapping& mapping, double r_ef
   return {force * reversal.force_at(u, root), force * per_length * slope * reversal.per_span,
           radius * curve.radius(x_max) * slope / reversal.slope_at(1.0, 1.0), delta_max,
           Answer::Branch::unloading};
+}
+
+inline Answer answer(const Curve& curve, const PairMapping& mapping, double r_eff, double delta,
+                     double delta_max, double latched = 0)
+{
+  return answer(curve, PairUnits::of(mapping, r_eff), delta, delta_max, latched);
 }
 
 /// State of a contact between two steps; zero again when the overlap ends.

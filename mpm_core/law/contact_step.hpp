@@ -5,8 +5,9 @@
 #include <limits>
 
 #include "base/larger.hpp"
-#include "law/law.hpp"
+#include "contact/tabulated.hpp"
 #include "contact/thornton.hpp"
+#include "law/law.hpp"
 
 // The time step of a particle code: one rule for the plug-in, `mpm plan` and `mpm soften`.
 //
@@ -47,36 +48,11 @@ double overlap_of_step(double step, double m_eff, double deepest, const auto& st
   return low;
 }
 
-/// Stiffness of the steeper branch at x = delta/(lambda R*) of a contact that has just reached it, over Hertz's
-/// force at x = 1 and the length lambda R*.
-inline double reversal_stiffness(const Curve& curve, double x, double impact_overlap = 0)
-{
-  const double loading = curve.loading(x, impact_overlap).stiffness;
-  if (x <= curve.onset()) return loading;
-  return std::max(loading, curve.reversal(x, impact_overlap).stiffness(x));
-}
-
-/// The same before a run: of a contact pressed to x, or of an impact that reverses there, whichever is stiffer.
-inline double planned_stiffness(const Curve& curve, double x)
-{
-  const double pressed = reversal_stiffness(curve, x);
-  const AxisTable* axis = curve.axis();
-  if (!axis) return pressed;
-  const double impact_overlap =
-      std::clamp(x, curve.reach(axis->speed_begin), curve.reach(axis->speed_end));
-  return std::max(pressed, reversal_stiffness(curve, x, impact_overlap));
-}
-
-/// The same of a pair, N/m, at the overlap `delta` (m).
+/// N/m: of the steeper branch of a pair that has just reached `delta` (m), before a run.
 inline double planned_stiffness(const PairLaw& law, double r_eff, double delta)
 {
   const double length = law.mapping.length(r_eff);
   return law.mapping.force(r_eff) / length * planned_stiffness(*law.curve, delta / length);
-}
-
-inline double planned_stiffness(const ThorntonPair& law, double r_eff, double delta)
-{
-  return std::max(law.evaluate(r_eff, delta, delta).stiffness, law.unloading_stiffness(r_eff, delta));
 }
 
 }  // namespace granulaw

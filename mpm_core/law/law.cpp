@@ -91,22 +91,6 @@ double PairLaw::usual_mass(double r_eff) const
   return rigid ? mass : 0.5 * mass;
 }
 
-double PairLaw::axis_speed(double r_eff, double m_eff, double speed) const
-{
-  // A pair moves like one body of radius lambda R* and mass lambda m* against the rigid wall.
-  const double length = mapping.length(r_eff), volume = 4.0 / 3.0 * M_PI * length * length * length;
-  return speed * std::sqrt(mapping.sqrt_lambda * mapping.sqrt_lambda * m_eff /
-                           (yielding->mass_ratio * volume * yielding->material.yield_stress));
-}
-
-double PairLaw::speed_coordinate(double r_eff, double m_eff) const
-{
-  if (curve->axis()->by == AxisTable::By::inertia) return axis_speed(r_eff, m_eff, 1.0);
-  const LawMaterial& m = yielding->material;
-  return std::sqrt(m.density / m.yield_stress) * curve->axis()->reference_radius /
-         mapping.length(r_eff);
-}
-
 void check_size(const PairLaw& pair, double radius, const std::string& where)
 {
   const double only = pair.only_radius();

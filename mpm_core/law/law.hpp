@@ -127,7 +127,15 @@ struct PairLaw : PairContact  // its curve is the Law's
 
   /// v = sqrt(I) of a collision at this relative normal speed, m/s: see AxisTable. The yielding body
   /// yields.
-  double axis_speed(double r_eff, double m_eff, double speed) const;
+  double axis_speed(double r_eff, double m_eff, double speed) const
+  {
+    return measure().axis_speed(mapping, r_eff, m_eff, speed);
+  }
+  /// Of the yielding body.
+  ImpactMeasure measure() const
+  {
+    return {yielding->material.density, yielding->material.yield_stress, yielding->mass_ratio};
+  }
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without a velocity axis or approach, clamped beyond max_speed().
   double impact_overlap(double r_eff, double m_eff, double speed) const
@@ -155,7 +163,10 @@ struct PairLaw : PairContact  // its curve is the Law's
 
  private:
   /// v of the velocity axis over the relative normal speed, s/m (AxisTable).
-  double speed_coordinate(double r_eff, double m_eff) const;
+  double speed_coordinate(double r_eff, double m_eff) const
+  {
+    return measure().per_speed(*curve->axis(), mapping, r_eff, m_eff);
+  }
 };
 
 /// A body against the rigid wall.

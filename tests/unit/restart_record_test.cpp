@@ -38,7 +38,7 @@ TEST(ContactStatistics, PacksAndUnpacks)
 {
   ContactStatistics statistics;
   ContactStatistics::Pair& counts = statistics.pairs[{PairKey::rigid_wall, 2, 1}];
-  counts.dissipated = 0.5;
+  counts.taken[Mechanism::plastic] = 0.5;
   counts.speed_max = 3.0;
   counts.speed_min = 0.1;
   counts.speed.add(3.0, 1.0);
@@ -50,10 +50,10 @@ TEST(ContactStatistics, PacksAndUnpacks)
   ASSERT_TRUE(other.unpack(values.data(), values.size(), false));
   const ContactStatistics::Pair &all = first.pairs.at({PairKey::rigid_wall, 2, 1}),
                                 &some = other.pairs.at({PairKey::rigid_wall, 2, 1});
-  EXPECT_EQ(all.dissipated, 0.5);
+  EXPECT_EQ(all.taken[Mechanism::plastic], 0.5);
   EXPECT_EQ(all.overlap.count[7], 1.0);
   EXPECT_EQ(all.map, counts.map);
-  EXPECT_EQ(some.dissipated, 0.0);
+  EXPECT_EQ(some.taken[Mechanism::plastic], 0.0);
   EXPECT_EQ(some.overlap.count[7], 0.0);
   EXPECT_EQ(some.speed_max, 3.0);
   EXPECT_EQ(some.speed_min, 0.1);

@@ -21,6 +21,12 @@ struct PlainHertzContact : FormulaContact
     const double real = per_stretch * delta;
     return per_stretch * 4.0 / 3.0 * e_star * std::sqrt(r_eff * real) * real;
   }
+  Response response(double r_eff, double delta, double, double, double*) const
+  {
+    const double stiffness =
+        per_stretch * per_stretch * 2.0 * e_star * std::sqrt(r_eff * per_stretch * delta);
+    return {force(r_eff, delta, 0.0, 0.0, nullptr), stiffness};
+  }
   double contact_radius(double r_eff, double delta, double, double) const
   {
     return std::sqrt(r_eff * per_stretch * delta);
@@ -34,7 +40,7 @@ struct PlainHertzContact : FormulaContact
   }
   double stiffness(double r_eff, double delta, double) const
   {
-    return per_stretch * per_stretch * 2.0 * e_star * std::sqrt(r_eff * per_stretch * delta);
+    return response(r_eff, delta, delta, 0.0, nullptr).stiffness;
   }
 };
 

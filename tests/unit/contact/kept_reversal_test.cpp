@@ -6,11 +6,11 @@
 #include <random>
 #include <vector>
 
-#include "liggghts_plugin/mpm_physics.hpp"
-#include "liggghts_plugin/thornton_physics.hpp"
+#include "contact/tabulated.hpp"
+#include "contact/thornton.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw::plugin {
+namespace granulaw {
 namespace {
 
 struct Step
@@ -36,9 +36,9 @@ std::vector<Step> path(unsigned seed, double deepest)
 template <class Contact>
 void expect_the_same_force_with_what_is_kept(const Contact& contact, double deepest, double impact_overlap)
 {
-  double delta_max = 0.0, kept[Contact::reversal_values] = {};
+  double delta_max = 0.0, kept[values_of(Contact::keeps)] = {};
   for (const auto& [r_eff, delta] : path(11, deepest)) {
-    double fresh[Contact::reversal_values] = {};
+    double fresh[values_of(Contact::keeps)] = {};
     const double force = contact.force(r_eff, delta, delta_max, impact_overlap, kept);
     ASSERT_EQ(force, contact.force(r_eff, delta, delta_max, impact_overlap, fresh));
     if (delta <= delta_max) continue;
@@ -52,36 +52,43 @@ void expect_the_same_force_with_what_is_kept(const Contact& contact, double deep
   EXPECT_GT(delta_max, 0.5 * deepest * 1e-3);
 }
 
-TEST(KeptReversal, LeavesTheForceOfMpmAsItIs)
+TEST(KeptReversal, LeavesTheForceOfTheTableAsItIs)
 {
   const Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
   const BodyLaw& powder = law.bodies.at("powder");
-  const PairLaw pair{{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10)}, &powder};
+  const PairLaw pair{{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10)},
+                     &powder};
   for (const double stretch : {1.0, 3.0})
     for (const double impact_overlap : {0.0, 0.01})
-      expect_the_same_force_with_what_is_kept(MpmContact(pair, stretch, {}), 0.05, impact_overlap);
+      expect_the_same_force_with_what_is_kept(Tabulated(pair, pair.measure(), {.stretch = stretch}), 0.05,
+                                              impact_overlap);
 }
 
 TEST(KeptReversal, LeavesTheForceOfThorntonAsItIs)
 {
   for (const double yield_pressure : {1.6e6, 1.6e7, 1.6e30})  // deep, in mid-path, never
     for (const double stretch : {1.0, 3.0})
-      expect_the_same_force_with_what_is_kept(ThorntonContact({1e8, yield_pressure}, stretch), 0.05, 0.0);
+      expect_the_same_force_with_what_is_kept(Thornton({1e8, yield_pressure}, stretch), 0.05, 0.0);
 }
 
-TEST(ThorntonContact, IsThorntonPairButForRounding)
+TEST(Thornton, IsThorntonPairButForRounding)
 {
   for (const double yield_pressure : {1.6e6, 1.6e7})
     for (const double stretch : {1.0, 3.0}) {
       const ThorntonPair pair{1e8, yield_pressure};
-      const ThorntonContact contact(pair, stretch);
-      double delta_max = 0.0, kept[ThorntonContact::reversal_values] = {};
+      const Thornton contact(pair, stretch);
+      double delta_max = 0.0, kept[values_of(Thornton::keeps)] = {};
       for (const auto& [r_eff, delta] : path(5, 0.05)) {
         const double real = delta / stretch, real_max = std::max(delta_max, delta) / stretch;
         const double expected = pair.evaluate(r_eff, real, delta_max / stretch).force / stretch;
         // p = 1 - (d_m - d)/(d_m - d_p) is off by rounding of one, and with it the force, by 1.5 F_m of that
         const double top = pair.evaluate(r_eff, real_max, real_max).force / stretch;
-        ASSERT_NEAR(contact.force(r_eff, delta, delta_max, 0.0, kept), expected, 1e-14 * top);
+        const auto [force, stiffness] = contact.response(r_eff, delta, delta_max, 0.0, kept);
+        ASSERT_NEAR(force, expected, 1e-14 * top);
+        const Answer exact = pair.evaluate(r_eff, real, delta_max / stretch);
+        // 2 E* a and the slope of F_m p^1.5 are one; p's rounding counts by its root
+        ASSERT_NEAR(stiffness, exact.stiffness / (stretch * stretch),
+                    2e-8 * std::max(exact.stiffness, top / real_max));
         if (delta > delta_max) {
           contact.grow(r_eff, delta_max, delta, 0.0, kept);
           delta_max = delta;
@@ -91,4 +98,4 @@ TEST(ThorntonContact, IsThorntonPairButForRounding)
 }
 
 }  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw

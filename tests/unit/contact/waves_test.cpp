@@ -1,13 +1,13 @@
-// Waves of MpmContact: C K^2 v in the deck's units, stretched.
+// Waves of Tabulated: C K^2 v in the caller's units, stretched.
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "contact/tabulated.hpp"
 #include "law/radiation.hpp"
-#include "liggghts_plugin/mpm_physics.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw::plugin {
+namespace granulaw {
 namespace {
 
 class Waves : public ::testing::Test
@@ -20,7 +20,7 @@ class Waves : public ::testing::Test
                      &powder};
   static constexpr double r_eff = 1.5e-3, speed = 3.0;
 
-  MpmContact contact(double stretch, const DeckUnits& units) const { return {pair, stretch, units}; }
+  Tabulated contact(Scale scale) const { return {pair, pair.measure(), scale}; }
 
   struct State
   {
@@ -32,22 +32,22 @@ class Waves : public ::testing::Test
                                   {1.8e-5, 2e-5, 0.01}};
 
   /// N, force of waves, of the deck's contact at S times the overlap.
-  double force(const State& s, double stretch, const DeckUnits& units) const
+  double force(const State& s, const Scale& scale) const
   {
-    const MpmContact c = contact(stretch, units);
-    double kept[MpmContact::reversal_values] = {};
-    const double r = r_eff / units.length, delta = stretch * s.delta / units.length,
-                 delta_max = stretch * s.delta_max / units.length;
+    const Tabulated c = contact(scale);
+    double kept[values_of(Tabulated::keeps)] = {};
+    const double r = r_eff / scale.length, delta = scale.stretch * s.delta / scale.length,
+                 delta_max = scale.stretch * s.delta_max / scale.length;
     const double k = c.response(r, delta, delta_max, s.impact_overlap, kept).stiffness;
-    return c.radiation * k * k * (speed / units.length) * units.mass * units.length;
+    return c.radiation * k * k * (speed / scale.length) * scale.mass * scale.length;
   }
 };
 
 TEST_F(Waves, ForceAndStiffnessAreThoseOfTheBranch)
 {
-  const MpmContact c = contact(1, {});
+  const Tabulated c = contact({});
   for (const State& s : states) {
-    double kept[MpmContact::reversal_values] = {};
+    double kept[values_of(Tabulated::keeps)] = {};
     const Response found = c.response(r_eff, s.delta, s.delta_max, s.impact_overlap, kept);
     const double expected =
         answer(powder.curve, pair.mapping, r_eff, s.delta, s.delta_max, s.impact_overlap).stiffness;
@@ -59,17 +59,20 @@ TEST_F(Waves, ForceAndStiffnessAreThoseOfTheBranch)
 TEST_F(Waves, TakeTheSameShareOfAStretchedContact)
 {
   for (const State& s : states) {
-    const double real = force(s, 1, {}), stretch = 20;
-    EXPECT_NEAR(force(s, stretch, {}), real / stretch, 1e-12 * real);  // as the law's own force
+    const double real = force(s, {}), stretch = 20;
+    EXPECT_NEAR(force(s, {.stretch = stretch}), real / stretch, 1e-12 * real);  // as the law's own force
   }
 }
 
 TEST_F(Waves, AreTheSameInCgs)
 {
-  const DeckUnits cgs = DeckUnits::of("cgs", "here");
-  EXPECT_NEAR(contact(1, cgs).radiation, pair.radiation * 1e-3, 1e-15 * pair.radiation);  // s^3/g
-  for (const State& s : states) EXPECT_NEAR(force(s, 5, cgs), force(s, 5, {}), 1e-12 * force(s, 5, {}));
+  const Scale cgs{.length = 0.01, .mass = 0.001};
+  EXPECT_NEAR(contact(cgs).radiation, pair.radiation * 1e-3, 1e-15 * pair.radiation);  // s^3/g
+  for (const State& s : states) {
+    const double expected = force(s, {.stretch = 5});
+    EXPECT_NEAR(force(s, {cgs.length, cgs.mass, 5}), expected, 1e-12 * expected);
+  }
 }
 
 }  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw

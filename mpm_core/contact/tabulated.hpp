@@ -1,0 +1,189 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "contact/contact.hpp"
+#include "contact/normal.hpp"
+
+namespace granulaw {
+
+/// SI values of the caller's units (time is the second), and the factor S by which the caller stretches
+/// overlaps.
+struct Scale
+{
+  double length = 1;   ///< m
+  double mass = 1;     ///< kg
+  double stretch = 1;  ///< S
+
+  double pressure() const { return mass / length; }  ///< Pa
+};
+
+/// Stiffness of the steeper branch at x = delta/(lambda R*) of a contact that has just reached it, over
+/// Hertz's force at x = 1 and the length lambda R*.
+inline double reversal_stiffness(const Curve& curve, double x, double impact_overlap = 0)
+{
+  const double loading = curve.loading(x, impact_overlap).stiffness;
+  if (x <= curve.onset()) return loading;
+  return std::max(loading, curve.reversal(x, impact_overlap).stiffness(x));
+}
+
+/// The same before a run: of a contact pressed to x, or of an impact that reverses there, whichever is
+/// stiffer.
+inline double planned_stiffness(const Curve& curve, double x)
+{
+  const double pressed = reversal_stiffness(curve, x);
+  const AxisTable* axis = curve.axis();
+  if (!axis) return pressed;
+  const double impact_overlap = std::clamp(x, curve.reach(axis->speed_begin), curve.reach(axis->speed_end));
+  return std::max(pressed, reversal_stiffness(curve, x, impact_overlap));
+}
+
+/// One pair of bodies under a tabulated law, with everything that does not change worked out: in the caller's
+/// units, stretched.
+///
+/// A stretched contact moves as the real one, S times as far in S times the time, so its forces are 1/S of
+/// the real ones. The waves' C K^2 v must be, too: v is the real one and K is 1/S^2 of it, which leaves C
+/// S^3. X stays the unstretched law's.
+struct Tabulated
+{
+  const Curve* curve = nullptr;
+  double per_lambda = 0;   // 1/(lambda S), lambda of PairMapping
+  double lambda = 0;       // lambda S
+  double force_scale = 0;  // Hertz force at x = 1 over R*^2 S
+  double radiation = 0;    // C S^3 of the dashpot that stands for waves (law/radiation.hpp), s^3/kg; 0: none
+  PairMapping mapping{};   // SI, unstretched
+  ImpactMeasure measure;   // SI
+  double per_stretch = 1;  // 1/S
+  Scale scale;
+
+  static constexpr std::array keeps{Kept{.name = "turn_overlap", .derived = true},
+                                    Kept{.name = "turn", .values = 4, .derived = true}};
+  static_assert(sizeof(Reversal) == values_of(keeps) * sizeof(double));
+
+  Tabulated() = default;
+  Tabulated(const PairContact& pair, const ImpactMeasure& impacts, const Scale& caller)
+      : curve(pair.curve),
+        per_lambda(1.0 / (pair.mapping.length(1.0) * caller.stretch)),
+        lambda(pair.mapping.length(1.0) * caller.stretch),
+        force_scale(pair.mapping.force(1.0) / (caller.pressure() * caller.stretch)),
+        radiation(pair.radiation * caller.mass * caller.stretch * caller.stretch * caller.stretch),
+        mapping(pair.mapping),
+        measure(impacts),
+        per_stretch(1.0 / caller.stretch),
+        scale(caller)
+  {
+  }
+
+  double force(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
+  {
+    const double per_length = per_lambda / r_eff;
+    const double x = delta * per_length, x_max = delta_max * per_length;
+    const double unit = force_scale * r_eff * r_eff;
+    if (!curve->unloads(x, x_max)) return unit * curve->force(x, impact_overlap);
+    return unit * reversal(x_max, impact_overlap, kept).force(x);
+  }
+  Response response(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
+  {
+    const double per_length = per_lambda / r_eff;
+    const double x = delta * per_length, x_max = delta_max * per_length;
+    const double unit = force_scale * r_eff * r_eff;
+    if (curve->unloads(x, x_max)) {
+      const Reversal back = reversal(x_max, impact_overlap, kept);
+      return {unit * back.force(x), unit * per_length * back.stiffness(x)};
+    }
+    const Curve::Loading now = curve->loading(x, impact_overlap);
+    return {unit * now.force, unit * per_length * now.stiffness};
+  }
+  double loading(double r_eff, double delta, double impact_overlap) const
+  {
+    return force_scale * r_eff * r_eff * curve->force(delta * (per_lambda / r_eff), impact_overlap);
+  }
+  double grow(double r_eff, double from, double to, double impact_overlap, double*) const
+  {
+    const double per_length = per_lambda / r_eff;
+    return force_scale * r_eff * r_eff * (r_eff * lambda) *
+           (curve->lost(to * per_length, impact_overlap) - curve->lost(from * per_length, impact_overlap));
+  }
+  double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
+  {
+    return answer(*curve, mapping, r_eff, per_stretch * delta, per_stretch * delta_max, impact_overlap)
+        .contact_radius;
+  }
+  double dissipated(double r_eff, double from, double to, double impact_overlap) const
+  {
+    const double length = r_eff / per_lambda;
+    return force_scale * r_eff * r_eff * length *
+           (curve->lost(to / length, impact_overlap) - curve->lost(from / length, impact_overlap));
+  }
+  double stored_energy(double r_eff, double delta, double delta_max, double impact_overlap) const
+  {
+    const double length = r_eff / per_lambda;
+    const double unit = force_scale * r_eff * r_eff * length;
+    const double x = delta / length, x_max = std::max(delta, delta_max) / length;
+    if (!curve->unloads(x, x_max))
+      return unit * (curve->work(x, impact_overlap) - curve->lost(x, impact_overlap));
+    return unit * curve->reversal(x_max, impact_overlap).work(x);
+  }
+  double stiffness(double r_eff, double delta, double impact_overlap) const
+  {
+    const double length = r_eff / per_lambda;
+    return force_scale * r_eff * r_eff / length * reversal_stiffness(*curve, delta / length, impact_overlap);
+  }
+  double planned_stiffness(double r_eff, double delta) const
+  {
+    const double length = r_eff / per_lambda;
+    return force_scale * r_eff * r_eff / length * granulaw::planned_stiffness(*curve, delta / length);
+  }
+
+  double yield_overlap() const { return curve->onset() / per_lambda; }
+  double pair_modulus() const { return mapping.e_star_pair() / scale.pressure(); }
+  double largest_overlap() const { return curve->end() / per_lambda; }
+  double stiffness_range() const { return largest_overlap(); }
+  bool needs_mass() const { return curve->axis() != nullptr; }
+
+  /// X of a contact that begins at this approach speed; 0: quasi-static.
+  double impact_overlap(double r_eff, double m_eff, double speed) const
+  {
+    if (!curve->axis()) return 0.0;
+    return curve->reach(per_speed(r_eff, m_eff) * (speed * scale.length));
+  }
+  /// Where the law's velocity axis ends; infinity without one.
+  double max_speed(double r_eff, double m_eff) const
+  {
+    if (!curve->axis()) return std::numeric_limits<double>::infinity();
+    return curve->axis()->speed_end / per_speed(r_eff, m_eff) / scale.length;
+  }
+  /// Slowest impact that a rate law has; 0: any.
+  double min_speed(double r_eff, double m_eff) const
+  {
+    if (!curve->axis()) return 0.0;
+    return curve->axis()->speed_begin / per_speed(r_eff, m_eff) / scale.length;
+  }
+  double damage_number_per_speed2() const { return measure.damage_number(mapping, scale.length); }
+
+ private:
+  /// s/m, of speeds in SI.
+  double per_speed(double r_eff, double m_eff) const
+  {
+    return measure.per_speed(*curve->axis(), mapping, r_eff * scale.length, m_eff * scale.mass);
+  }
+  /// The reversal at x_max, out of `kept` where that holds it, and kept there else.
+  Reversal reversal(double x_max, double impact_overlap, double* kept) const
+  {
+    if (kept[0] != x_max) [[unlikely]] {
+      const Reversal reversal = curve->reversal(x_max, impact_overlap);
+      std::memcpy(kept, &reversal, sizeof reversal);
+    }
+    std::array<double, values_of(keeps)> values;
+    std::copy_n(kept, values.size(), values.begin());
+    return std::bit_cast<Reversal>(values);
+  }
+};
+
+static_assert(NormalLaw<Tabulated> && LatchesImpact<Tabulated> && HasLoading<Tabulated> &&
+              Radiates<Tabulated>);
+
+}  // namespace granulaw

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact/ledger.hpp"
+#include "contact/normal.hpp"
+
+// The tangential law of a contact. It has the normal law and its memory, so that a law whose dent grows under
+// shear can deepen the contact.
+namespace granulaw {
+
+using Vector = std::array<double, 3>;
+
+/// A contact's motion in a step, in the caller's units.
+struct ContactMotion : NormalMotion
+{
+  double m_eff = 0;  ///< kg
+  double dt = 0;     ///< s
+  Vector normal{};   ///< unit, from j to i
+  Vector slide{};    ///< m/s, velocity of i's surface against j's at the contact, along the surface
+};
+
+// clang-format off
+
+/// `normal_kept`: the normal law's values (NormalState), `kept`: this law's own. The law may lower `force`, N, what
+/// acts along the normal, and raise the largest overlap, and books what either takes.
+template <class Law, class Normal>
+concept TangentialLaw = std::copyable<Law> &&
+    requires(const Law law, const Normal normal, const ContactMotion& motion, double& force, double* normal_kept, double* kept,
+             Ledger& books) {
+  { std::span<const Kept>(Law::keeps) };
+  /// N, on i.
+  { law.advance(normal, motion, force, normal_kept, kept, books) } -> std::same_as<Vector>;
+};
+
+// clang-format on
+
+/// No tangential force.
+struct Frictionless
+{
+  static constexpr std::array<Kept, 0> keeps{};
+  template <class Normal>
+  Vector advance(const Normal&, const ContactMotion&, double&, double*, double*, Ledger&) const
+  {
+    return {};
+  }
+};
+
+/// Mindlin's spring with Coulomb's limit, as LIGGGHTS's `tangential history` has it, to the bit:
+/// k_t = 8 G* sqrt(R* d), a dashpot while it sticks.
+struct Spring
+{
+  static constexpr std::array keeps{Kept{.name = "shear", .values = 3, .turns_with_exchange = true}};
+
+  double stiffness = 0;  ///< Pa, k_t over the contact radius: 8 G*
+  double friction = 0;   ///< coefficient
+  double damping = 0;    ///< dashpot over sqrt(sqrt(R* d) m*): 2 Z sqrt(8 G*)
+
+  template <class Normal>
+  Vector advance(const Normal&, const ContactMotion& m, double& force, double*, double* shear,
+                 Ledger& books) const
+  {
+    const double root = std::sqrt(m.r_eff * m.overlap), k = stiffness * root;
+    return advance(m, force, k, damping * std::sqrt(root * m.m_eff), shear, books);
+  }
+  /// With k_t (N/m) and the dashpot (kg/s) given.
+  Vector advance(const ContactMotion& m, double normal_force, double k, double dashpot, double* shear,
+                 Ledger& books) const
+  {
+    Vector u{shear[0], shear[1], shear[2]};
+    if (m.advances) {
+      for (int c = 0; c < 3; ++c) u[c] += m.slide[c] * m.dt;
+      const double out = u[0] * m.normal[0] + u[1] * m.normal[1] + u[2] * m.normal[2];
+      for (int c = 0; c < 3; ++c) u[c] -= out * m.normal[c];
+    }
+    const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    const double held = k * length, most = friction * std::abs(normal_force);
+    Vector force{-(k * u[0]), -(k * u[1]), -(k * u[2])};
+    double taken = 0.0;
+    if (held > most) {
+      const double ratio = most / held;
+      for (int c = 0; c < 3; ++c) force[c] *= ratio;
+      if (m.advances)
+        for (int c = 0; c < 3; ++c) u[c] = -force[c] / k;
+      taken = most * (held - most) / k;
+    } else {
+      for (int c = 0; c < 3; ++c) force[c] -= dashpot * m.slide[c];
+      taken = dashpot * m.dt * (m.slide[0] * m.slide[0] + m.slide[1] * m.slide[1] + m.slide[2] * m.slide[2]);
+    }
+    if (m.advances) {
+      std::copy_n(u.begin(), 3, shear);
+      books[Mechanism::friction] += taken;
+    }
+    return force;
+  }
+};
+
+}  // namespace granulaw
