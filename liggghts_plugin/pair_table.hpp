@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "law/contact_step.hpp"
 #include "contact/pair.hpp"
+#include "contact/tangential.hpp"
 #include "liggghts_plugin/normal_physics.hpp"
 #include "liggghts_plugin/session.hpp"
 #include "liggghts_plugin/superquadric.hpp"
@@ -265,8 +266,7 @@ class PairTable
   static double eight_shear_moduli(const Types& types, int i, int j)
   {
     const auto compliance = [&](int t) {
-      const double nu = types.poisson_ratio[t];
-      return 2.0 * (2.0 - nu) * (1.0 + nu) / types.youngs_modulus[t];
+      return shear_compliance(types.youngs_modulus[t], types.poisson_ratio[t]);
     };
     return 8.0 / (compliance(i) + compliance(j)) / types.units.pressure();
   }

@@ -48,6 +48,12 @@ struct Frictionless
   }
 };
 
+/// 1/Pa, of one body: 8 G* of a pair is 8 over the sum of both (Mindlin).
+inline double shear_compliance(double youngs_modulus, double poisson_ratio)
+{
+  return 2.0 * (2.0 - poisson_ratio) * (1.0 + poisson_ratio) / youngs_modulus;
+}
+
 /// Mindlin's spring with Coulomb's limit, as LIGGGHTS's `tangential history` has it, to the bit:
 /// k_t = 8 G* sqrt(R* d), a dashpot while it sticks.
 struct Spring
@@ -56,7 +62,17 @@ struct Spring
 
   double stiffness = 0;  ///< Pa, k_t over the contact radius: 8 G*
   double friction = 0;   ///< coefficient
-  double damping = 0;    ///< dashpot over sqrt(sqrt(R* d) m*): 2 Z sqrt(8 G*)
+  double damping = 0;    ///< dashpot over sqrt(sqrt(R* d) m*)
+
+  Spring() = default;
+  /// `damping_ratio`: Z, part of critical. Stretched by S, k_t,s(d) = k_t(d/S)/S^2, and Mindlin's radius is
+  /// of the stretched overlap: another 1/sqrt(S).
+  Spring(double eight_shear_moduli, double friction_coefficient, double damping_ratio, double stretch = 1)
+      : stiffness(eight_shear_moduli * std::pow(stretch, -2.5)),
+        friction(friction_coefficient),
+        damping(2.0 * damping_ratio * std::sqrt(stiffness))
+  {
+  }
 
   template <class Normal>
   Vector advance(const Normal&, const ContactMotion& m, double& force, double*, double* shear,

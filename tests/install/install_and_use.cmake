@@ -27,5 +27,6 @@ run(${WORK}/build/shapes)
 run(${WORK}/build/fit_material ${WORK}/prefix/share/granulaw/atlas.h5 ${SOURCE}/../../../examples/calibrate/drops.csv)
 run(${WORK}/prefix/bin/mpm --version)
 # the law that the consumer's own program made
+run(${WORK}/build/collide ${WORK}/build/law.h5 powder wall 1e-3 inf 6.283185307e-6 1)
 run(${WORK}/prefix/bin/mpm law ${WORK}/build/law.h5 --pair powder:wall --velocity 1)
 run(${WORK}/prefix/bin/mpm check ${WORK}/build/law.h5 --impacts 0)
