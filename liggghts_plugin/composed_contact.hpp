@@ -6,6 +6,7 @@
 
 #include "liggghts_plugin/contact_pieces.hpp"
 #include "liggghts_plugin/energy_tally.hpp"
+#include "liggghts_plugin/own_tangential.hpp"
 #include "liggghts_plugin/plastic_model.hpp"
 
 namespace granulaw::plugin {
@@ -33,6 +34,7 @@ class ComposedContact final : public cm::ContactModelBase
         tangential_(lmp, hsetup, this, ids_.tangential),
         rolling_(lmp, hsetup, this, ids_.rolling)
   {
+    if constexpr (requires { tangential_->follow(*normal_.operator->()); }) tangential_->follow(*normal_.operator->());
   }
 
   int64_t hashcode() const { return ids_.hash(); }
@@ -137,6 +139,12 @@ template <NormalPhysics Physics>
 using UsualContact =
     ComposedContact<Physics, cm::SURFACE_DEFAULT, Off<cm::CohesionModelBase>,
                     Fixed<cm::TangentialModel<cm::TANGENTIAL_HISTORY>>, Off<cm::RollingModelBase>>;
+
+/// A tangential law of ours, which the normal law shares its memory with.
+template <NormalPhysics Physics, class Law>
+using OwnContact =
+    ComposedContact<Physics, cm::SURFACE_DEFAULT, Chosen<cm::CohesionModelBase>,
+                    Fixed<OwnTangential<Physics, Law>>, Chosen<cm::RollingModelBase>>;
 
 /// All others, with a virtual call for each model that is on: docs/evidence/loop-time.md has the cost.
 template <NormalPhysics Physics, int surface = cm::SURFACE_DEFAULT>

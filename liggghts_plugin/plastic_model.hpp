@@ -96,8 +96,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = effective_radius(sidata);
-    const Entry& entry = pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
-    double* const kept = sidata.contact_history + history_offset_;
+    const Entry& entry = entry_of(sidata);
+    double* const kept = kept_of(sidata.contact_history);
     const double delta = sidata.deltan, delta_max = State::largest(kept);
     if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
       check_stretched(sidata, r_eff);
@@ -154,6 +154,24 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     std::fill_n(kept, State::values, 0.0);
   }
 
+  // For a tangential law of ours (OwnTangential).
+  using Entry = typename PairTable<Physics>::Entry;
+  const Entry& entry_of(const SurfacesIntersectData& sidata) const
+  {
+    return pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
+  }
+  double* kept_of(double* history) const { return history + history_offset_; }
+  /// Of the mechanisms in the statistics; what they take is no other work.
+  void book(const SurfacesIntersectData& sidata, const Entry& entry, const Ledger& books) const
+  {
+    for (const MechanismText& m : mechanisms) {
+      if (!m.in_statistics) continue;
+      const double taken = counts_.weight(sidata) * books[m.which];
+      entry.counts->taken[m.which] += taken;
+      if (energy_) entry.counts->other_work -= taken;
+    }
+  }
+
   ContactState state(const ContactPlace& contact) const override
   {
     const Entry& pair = pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j);
@@ -178,7 +196,6 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
  private:
   using Law = typename Physics::Contact;
   using State = NormalState<Law>;
-  using Entry = typename PairTable<Physics>::Entry;
 
   /// What advance_normal asks for in the steps that take a contact deeper than it was.
   struct Books

@@ -102,7 +102,7 @@ void make_element(granulaw_contact_law& contact, const granulaw_pair& pair)
                                ? pair.shear_stiffness
                                : eight_shear_moduli_of(*contact.law, pair.a, pair.b) / scale.pressure();
   contact.element = ContactElement<Tabulated, Spring>{
-      normal, Spring(stiffness, pair.friction, pair.shear_damping, scale.stretch)};
+      normal, Spring(ShearPair::of(stiffness, pair.friction, pair.shear_damping, scale.stretch))};
 }
 
 const Tabulated& normal_of(const granulaw_contact_law& contact)

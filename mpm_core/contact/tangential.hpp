@@ -54,32 +54,39 @@ inline double shear_compliance(double youngs_modulus, double poisson_ratio)
   return 2.0 * (2.0 - poisson_ratio) * (1.0 + poisson_ratio) / youngs_modulus;
 }
 
+/// Numbers of a pair that tangential laws are made of.
+struct ShearPair
+{
+  double stiffness = 0;  ///< Pa, k_t over the contact radius sqrt(R* d): 8 G*
+  double friction = 0;   ///< coefficient
+  double damping = 0;    ///< dashpot over sqrt(sqrt(R* d) m*)
+
+  /// `damping_ratio`: Z, part of critical. Stretched by S, k_t,s(d) = k_t(d/S)/S^2, and Mindlin's radius is
+  /// of the stretched overlap: another 1/sqrt(S).
+  static ShearPair of(double eight_shear_moduli, double friction, double damping_ratio, double stretch = 1)
+  {
+    const double stiffness = eight_shear_moduli * std::pow(stretch, -2.5);
+    return {stiffness, friction, 2.0 * damping_ratio * std::sqrt(stiffness)};
+  }
+};
+
 /// Mindlin's spring with Coulomb's limit, as LIGGGHTS's `tangential history` has it, to the bit:
 /// k_t = 8 G* sqrt(R* d), a dashpot while it sticks.
 struct Spring
 {
   static constexpr std::array keeps{Kept{.name = "shear", .values = 3, .turns_with_exchange = true}};
 
-  double stiffness = 0;  ///< Pa, k_t over the contact radius: 8 G*
-  double friction = 0;   ///< coefficient
-  double damping = 0;    ///< dashpot over sqrt(sqrt(R* d) m*)
+  ShearPair pair;
 
   Spring() = default;
-  /// `damping_ratio`: Z, part of critical. Stretched by S, k_t,s(d) = k_t(d/S)/S^2, and Mindlin's radius is
-  /// of the stretched overlap: another 1/sqrt(S).
-  Spring(double eight_shear_moduli, double friction_coefficient, double damping_ratio, double stretch = 1)
-      : stiffness(eight_shear_moduli * std::pow(stretch, -2.5)),
-        friction(friction_coefficient),
-        damping(2.0 * damping_ratio * std::sqrt(stiffness))
-  {
-  }
+  explicit Spring(const ShearPair& numbers) : pair(numbers) {}
 
   template <class Normal>
   Vector advance(const Normal&, const ContactMotion& m, double& force, double*, double* shear,
                  Ledger& books) const
   {
-    const double root = std::sqrt(m.r_eff * m.overlap), k = stiffness * root;
-    return advance(m, force, k, damping * std::sqrt(root * m.m_eff), shear, books);
+    const double root = std::sqrt(m.r_eff * m.overlap), k = pair.stiffness * root;
+    return advance(m, force, k, pair.damping * std::sqrt(root * m.m_eff), shear, books);
   }
   /// With k_t (N/m) and the dashpot (kg/s) given.
   Vector advance(const ContactMotion& m, double normal_force, double k, double dashpot, double* shear,
@@ -92,7 +99,7 @@ struct Spring
       for (int c = 0; c < 3; ++c) u[c] -= out * m.normal[c];
     }
     const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-    const double held = k * length, most = friction * std::abs(normal_force);
+    const double held = k * length, most = pair.friction * std::abs(normal_force);
     Vector force{-(k * u[0]), -(k * u[1]), -(k * u[2])};
     double taken = 0.0;
     if (held > most) {

@@ -5,7 +5,7 @@ import subprocess
 import unittest
 
 from collisions import pair_deck, wall_deck
-from harness import GLASS, POWDER, Deck
+from harness import GLASS, POWDER, Deck, head, properties
 
 RADIUS, SPEED, DT = 1.7e-3, 1.0, 2e-7
 STEPS = 40  # within the contact, which takes 50 to 60 steps
@@ -33,6 +33,26 @@ class NewModel(Deck):
                 ours = self.speed(self.pair("plain_hertz", WORDS, materials, radii, run))
                 self.assertAlmostEqual(ours, stock, delta=1e-9 * SPEED)
             self.assertAlmostEqual(ours / SPEED, 1.0, delta=1e-3)  # elastic; the deck's 120 steps hold the whole collision
+
+    def test_a_tangential_law_of_ours(self):
+        """Spring in LIGGGHTS's place: spheres that meet beside their centres and spin, on a floor too, with a rolling model; to the last bit."""
+        for rolling in ("", " rolling_friction epsd2"):
+            ends = []
+            for tangential in ("history", "own_spring"):
+                style = f"model plain_hertz tangential {tangential}{rolling}"
+                words = "elasticDamping off tangentialDampingRatio 0.2"
+                deck = (head(half=20 * RADIUS) + properties([POWDER], 0.3) + f"pair_style gran {style} {words}\npair_coeff * *\n"
+                        f"fix w all wall/gran {style} primitive type 1 zplane 0.0 {words}\n"
+                        f"create_atoms 1 single 0 0 {1.0005 * RADIUS!r} units box\ncreate_atoms 1 single {1.2 * RADIUS!r} {0.4 * RADIUS!r} {2.5543 * RADIUS!r} units box\n"
+                        f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nset atom 1 vx 0.4 vy -0.2 vz -1.0\nset atom 2 vx -1.0 vy 0.7 vz -1.5\n"
+                        f"fix i all nve/sphere\ntimestep {DT!r}\nrun 30\nrun 300\n" +
+                        "".join(f"variable {q}{k} equal {q[:-1]}{q[-1]}[{k}]\n" for q in ("vx", "vy", "vz") for k in (1, 2)) +
+                        "compute spin all erotate/sphere\nthermo_style custom step c_spin\nvariable s equal c_spin\nrun 0\n"
+                        'print "END ' + " ".join(f"$(v_{q}{k})" for q in ("vx", "vy", "vz") for k in (1, 2)) + ' $(v_s)"\n')
+                text = self.run_deck(deck, launcher="liggghts", environment=PLAIN)
+                ends.append(text[text.index("END "):].split("\n")[0])
+            self.assertEqual(*ends)
+            self.assertGreater(float(ends[0].split()[-1]), 0)
 
     def test_its_own_keyword(self):
         stiff = type(POWDER)("powder", POWDER.density, 4 * POWDER.youngs_modulus, POWDER.poisson_ratio, POWDER.yield_stress)

@@ -74,7 +74,7 @@ TEST(ContactElement, BooksWhatACollisionLoses)
 
 TEST(ContactElement, BooksWhatFrictionTakes)
 {
-  const Spring spring(8e9, 0.3, 0.0);
+  const Spring spring(ShearPair::of(8e9, 0.3, 0.0));
   const ContactElement<Tabulated, Spring> element{tabulated(0.0), spring};
   const Collision end =
       collide(element, speed, 5.0, 2e-9);  // slides all along: mu (1 + e) V is less than 5 m/s
@@ -86,7 +86,7 @@ TEST(ContactElement, BooksWhatFrictionTakes)
 
 TEST(ContactElement, KeepsNothingOfAContactThatEnded)
 {
-  const ContactElement<Tabulated, Spring> element{tabulated(1.0), Spring(8e9, 0.3, 0.0)};
+  const ContactElement<Tabulated, Spring> element{tabulated(1.0), Spring(ShearPair::of(8e9, 0.3, 0.0))};
   Collision end = collide(element, speed, 5.0, 2e-8);
   EXPECT_GT(NormalState<Tabulated>::largest(end.kept.data()), 0);
   ContactMotion apart{{1e-3, -1e-9, -1.0, true}, mass, 1e-9, {0, 0, 1}, {}};
@@ -97,7 +97,7 @@ TEST(ContactElement, KeepsNothingOfAContactThatEnded)
 
 TEST(ContactElement, AStepThatDoesNotAdvanceKeepsAndBooksNothing)
 {
-  const ContactElement<Tabulated, Spring> element{tabulated(1.0), Spring(8e9, 0.3, 0.0)};
+  const ContactElement<Tabulated, Spring> element{tabulated(1.0), Spring(ShearPair::of(8e9, 0.3, 0.0))};
   std::vector<double> kept(element.values, 0.0);
   Ledger books;
   ContactMotion m{{1e-3, 1e-6, 1.0, true}, mass, 1e-8, {0, 0, 1}, {1, 0, 0}};
