@@ -1,6 +1,6 @@
 #pragma once
 
-#include "characterise/atlas.hpp"
+#include "atlas/atlas.hpp"
 
 namespace granulaw {
 

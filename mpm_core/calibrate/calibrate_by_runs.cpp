@@ -1,5 +1,7 @@
 #include "calibrate/calibrate_by_runs.hpp"
 
+#include "characterise/build_options.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

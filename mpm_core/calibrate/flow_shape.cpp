@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/scales.hpp"
-#include "characterise/interpolation.hpp"
+#include "atlas/interpolation.hpp"
 #include "solver/material/law_table.hpp"
 
 namespace granulaw {

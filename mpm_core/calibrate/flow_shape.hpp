@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "calibrate/parameters.hpp"
-#include "characterise/atlas.hpp"
+#include "atlas/atlas.hpp"
 #include "contact/curve.hpp"
 
 namespace granulaw {

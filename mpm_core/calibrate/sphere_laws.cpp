@@ -7,8 +7,8 @@
 #include "base/gauss.hpp"
 #include "base/scales.hpp"
 #include "calibrate/flow_shape.hpp"
-#include "characterise/overlap_at_work.hpp"
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/overlap_at_work.hpp"
+#include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
 

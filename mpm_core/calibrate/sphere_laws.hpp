@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "calibrate/parameters.hpp"
-#include "characterise/atlas.hpp"
-#include "characterise/impacts_by_speed.hpp"
+#include "atlas/atlas.hpp"
+#include "atlas/impacts_by_speed.hpp"
 #include "contact/curve.hpp"
 
 namespace granulaw {

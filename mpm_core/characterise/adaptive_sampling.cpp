@@ -1,5 +1,7 @@
 #include "characterise/adaptive_sampling.hpp"
 
+#include "characterise/sampling_plan.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "characterise/build_options.hpp"
 #include "characterise/build_runs.hpp"
 #include "characterise/fit_curve.hpp"
 #include "characterise/onset_similarity.hpp"

@@ -1,5 +1,7 @@
 #include "characterise/atlas_build.hpp"
 
+#include "characterise/sampling_plan.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +12,8 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/fit_curve.hpp"
-#include "characterise/interpolation.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/interpolation.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "characterise/shape_prior.hpp"
 #include "law/replay.hpp"
 
@@ -32,11 +34,6 @@ std::vector<MaterialRatios> all_materials(const AtlasGrid& grid)
 CharacterisedBody sphere_of(const MaterialRatios& m)
 {
   return characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
-}
-
-double onset_of(const MaterialRatios& m)
-{
-  return sphere_of(m).onset;
 }
 
 /// A slow press without yield, for the finite-sphere correction.
@@ -240,7 +237,7 @@ std::vector<AtlasCheck> check_atlas(const Atlas& atlas, Farm& farm, int count, u
     c.speed = between(1.5 * onset, fastest);
     const double velocity = c.speed * std::sqrt(body.yield);
     const Material& m = body.particle.materials[0];
-    BuildOptions options;
+    LawRange options;
     options.depth = Atlas::depth;
     const BodyLaw law = law_from(
         atlas, {"check", m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "characterise/atlas.hpp"
+#include "atlas/atlas.hpp"
 #include "characterise/sampling_plan.hpp"
 #include "farm/farm.hpp"
 

@@ -1,3 +1,5 @@
+#include "characterise/atlas_file.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
-#include "characterise/atlas.hpp"
 #include "law/h5.hpp"
 #include "law/h5_checksum.hpp"
 #include "law/layout.hpp"

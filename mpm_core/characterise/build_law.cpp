@@ -1,5 +1,9 @@
 #include "characterise/build_law.hpp"
 
+#include "characterise/sampling_plan.hpp"
+
+#include "characterise/build_options.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,14 +14,14 @@
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "characterise/adaptive_sampling.hpp"
-#include "characterise/finish_curve.hpp"
+#include "atlas/finish_curve.hpp"
 #include "characterise/fit_curve.hpp"
 #include "characterise/onset_of_yield.hpp"
 #include "characterise/onset_similarity.hpp"
-#include "characterise/overlap_at_work.hpp"
+#include "atlas/overlap_at_work.hpp"
 #include "characterise/refinement.hpp"
 #include "characterise/resolution_choice.hpp"
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/tabulate_curve.hpp"
 #include "characterise/verification.hpp"
 
 namespace granulaw {
@@ -326,7 +330,7 @@ void Build::plastic()
 
   certify(sampled);
   const LawShape& shape = sampled.fitted.shape;
-  law_.certificate.interpolation_error = finish_curve(law_, shape, body_, options_, setting.shape_end());
+  law_.certificate.interpolation_error = finish_curve(law_, shape, numbers_of(body_), options_, setting.shape_end());
   built_.change_of_restitution = change_of_restitution(shape, body_.onset, setting.shape_end(), law_.curve);
   if (options_.fastest > 0) verify_impacts(sampled.records);
   built_.runs = runs_.count() - before;

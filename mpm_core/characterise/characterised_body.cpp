@@ -184,6 +184,11 @@ CharacterisedBody characterised_body_of(const Material& material)
   return s;
 }
 
+BodyNumbers numbers_of(const CharacterisedBody& body)
+{
+  return {body.onset, body.yield, body.mass, body.scale.length, body.rate_dependent()};
+}
+
 double pole_onset(const CharacterisedBody& s)
 {
   const Material& m = s.particle.materials[static_cast<std::size_t>(s.pole_material)];

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "atlas/body_numbers.hpp"
 #include "base/scales.hpp"
 #include "solver/shape/particle.hpp"
 
@@ -38,6 +39,8 @@ struct CharacterisedBody
   CharacterisedBody elastic() const;
   CharacterisedBody rate_free() const;
 };
+
+BodyNumbers numbers_of(const CharacterisedBody& body);
 
 /// Every number of a material, on one line.
 std::string description_of(const Material& material);

@@ -1,5 +1,7 @@
 #include "characterise/corrected_law.hpp"
 
+#include "characterise/build_options.hpp"
+
 #include <algorithm>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
@@ -10,7 +12,7 @@
 #include "base/larger.hpp"
 #include "characterise/build_runs.hpp"
 #include "characterise/grid_convergence.hpp"
-#include "characterise/overlap_at_work.hpp"
+#include "atlas/overlap_at_work.hpp"
 #include "characterise/refinement.hpp"
 #include "characterise/resolution_choice.hpp"
 #include "characterise/two_body_runs.hpp"

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "characterise/composed_law.hpp"
+#include "characterise/build_options.hpp"
+#include "atlas/composed_law.hpp"
 #include "characterise/reduction_error.hpp"
 
 namespace granulaw {

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/larger.hpp"
-#include "characterise/shape_function.hpp"
+#include "atlas/shape_function.hpp"
 #include "characterise/smooth_spline.hpp"
 
 namespace granulaw {

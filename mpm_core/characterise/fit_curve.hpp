@@ -2,10 +2,10 @@
 
 #include <span>
 
-#include "characterise/law_shape.hpp"
+#include "atlas/law_shape.hpp"
 #include "characterise/sampling_plan.hpp"
 #include "characterise/shape_prior.hpp"
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
 
@@ -19,11 +19,6 @@ ElasticCorrection measured_elastic(const ContactRecord& press, std::span<const C
 /// The same of a body that never yields, through presses of several depths, and how well it fits: the largest
 /// relative deviation of the force, averaged over parts of a press as long as the grid noise of the contact
 /// edge.
-struct ElasticFit
-{
-  ElasticCorrection correction;
-  double error = 0;
-};
 ElasticFit fit_elastic(std::span<const ContactRecord> presses);
 
 /// How well a shape represents the runs it was fitted to; relative numbers.

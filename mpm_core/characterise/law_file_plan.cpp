@@ -1,5 +1,7 @@
 #include "characterise/law_file_plan.hpp"
 
+#include "characterise/build_options.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "characterise/build_law.hpp"
-#include "characterise/composed_law.hpp"
+#include "atlas/composed_law.hpp"
 #include "characterise/law_material.hpp"
 
 namespace granulaw {
@@ -134,40 +136,16 @@ bool can_be_composed(const LawFilePlan::Body& body, const LawFileRequest& r)
   return m.yields() && r.atlas->why_not({m.e_star() / m.yield_stress, m.poisson_ratio, 0}).empty();
 }
 
-/// Partner's radius over the yielding body's, so close that half a step changes F by 0.4 % and e by 0.002 at
-/// most: even steps in R_s/(R_s + R_h).
-std::vector<double> composed_ratios(const LawFileRequest& r, bool one_material)
-{
-  constexpr double step = 0.05, like = 0.5;
-  const double range = like - 1 / (1 + r.radius_ratio);
-  const int steps = static_cast<int>(std::ceil(range / step - 1e-9));
-  std::vector<double> ratios;
-  if (r.thick_walls && !one_material) ratios.push_back(0);
-  for (int k = one_material ? 1 : -steps; k <= steps; ++k) {
-    const double share = steps > 0 ? like - range * k / steps : like;
-    ratios.push_back(1 / share - 1);
-  }
-  if (r.thick_walls) ratios.push_back(std::numeric_limits<double>::infinity());
-  return ratios;
-}
-
 LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
 {
-  LawFilePlan::Pair pair;
-  pair.a = names.first;
-  pair.b = names.second;
   const LawFileRequest& r = plan.request;
-  if (pair.b == wall_name) return pair;
-  const LawBody &a = plan.bodies.at(pair.a).body, &b = plan.bodies.at(pair.b).body;
-  const bool one_material = pair.a == pair.b;
-  const double rule_ratio = r.rule_radius_ratio > 0 ? r.rule_radius_ratio : r.radius_ratio;
-  if (!one_material || rule_ratio > 1)
-    pair.by_rule = pair.stated = pair_rule_error(a.material, b.material, rule_ratio);
-  if (can_be_composed(plan.bodies.at(pair.a), r) && can_be_composed(plan.bodies.at(pair.b), r)) {
-    pair.composed_at = composed_ratios(r, one_material);
-    pair.stated = {};  // each composed law states its own
-  }
-  if (one_material || !a.is_plain_sphere() || !b.is_plain_sphere()) return pair;
+  const LawFilePlan::Body& first = plan.bodies.at(names.first);
+  if (names.second == wall_name) return {granulaw::plan_pair(first.body.material, nullptr, r, false)};
+  const LawFilePlan::Body& second = plan.bodies.at(names.second);
+  const LawBody &a = first.body, &b = second.body;
+  LawFilePlan::Pair pair{granulaw::plan_pair(a.material, &b.material, r,
+                                             can_be_composed(first, r) && can_be_composed(second, r))};
+  if (pair.a == pair.b || !a.is_plain_sphere() || !b.is_plain_sphere()) return pair;
   const UnlikePair bodies = unlike_pair(a.material, b.material);
   const ComposedError composed = composed_error(bodies.partner.e_star() / bodies.yielding.e_star());
   const double by_rule = larger(pair.by_rule.force, pair.by_rule.restitution);
@@ -175,26 +153,8 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   pair.worth_own_law = bodies.yielding.yields() && stated > r.tolerance;
   pair.own_law = r.own_laws && bodies.yielding.yields() && by_rule > r.tolerance;
   if (pair.own_law && pair.composed_at.empty())
-    pair.stated = own_law_error(a.material, b.material, rule_ratio, own_law_radius_ratio);
+    pair.stated = own_law_error(a.material, b.material, r.largest_for_rule(), own_law_radius_ratio);
   return pair;
-}
-
-/// The larger error of the pair at either body being the larger one. `estimate(pair, velocity)`.
-template <class Estimate>
-ReductionError either_way(const LawMaterial& a, const LawMaterial& b, double radius_ratio, Estimate estimate)
-{
-  constexpr double measured_to =
-      0.002;  // rho V^2/Y of the one body that stands for the pair: docs/evidence/pairs.md
-  ReductionError worst;
-  for (const double ratio : {radius_ratio, 1 / radius_ratio}) {
-    const UnlikePair pair = unlike_pair(a, b, ratio);
-    if (!pair.yielding.yields()) return worst;
-    const ReductionError one = estimate(pair, fastest_of_law(pair, measured_to));
-    worst.force = larger(worst.force, one.force);
-    worst.restitution = larger(worst.restitution, one.restitution);
-    worst.within_measured = worst.within_measured && one.within_measured;
-  }
-  return worst;
 }
 
 }  // namespace
@@ -230,25 +190,6 @@ LawFilePlan plan_law_file(LawFileRequest request)
       require_reachable(body.body.material, body.body.characterised, plan.build_options());
   for (const Names& names : pairs) plan.pairs.push_back(plan_pair(names, plan));
   return plan;
-}
-
-UnlikePair unlike_pair(const LawMaterial& a, const LawMaterial& b, double radius_ratio)
-{
-  const bool a_yields = yields_first(a, b);
-  return {a_yields ? a : b, a_yields ? b : a, radius_ratio};
-}
-
-ReductionError pair_rule_error(const LawMaterial& a, const LawMaterial& b, double radius_ratio)
-{
-  return either_way(a, b, radius_ratio, estimate_reduction_error);
-}
-
-ReductionError own_law_error(const LawMaterial& a, const LawMaterial& b, double radius_ratio,
-                             double law_radius_ratio)
-{
-  return either_way(a, b, radius_ratio, [&](const UnlikePair& pair, double velocity) {
-    return estimate_remaining_error(pair, law_radius_ratio, velocity);
-  });
 }
 
 }  // namespace granulaw

@@ -1,5 +1,7 @@
 #include "characterise/make_law_file.hpp"
 
+#include "characterise/build_options.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,10 +10,9 @@
 
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "atlas/law_without_runs.hpp"
 #include "characterise/build_law.hpp"
-#include "characterise/composed_law.hpp"
 #include "characterise/corrected_law.hpp"
-#include "characterise/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "characterise/two_body_law.hpp"
 
@@ -103,18 +104,49 @@ class Maker
 
   MadeLawFile make()
   {
+    add_without_runs();
     for (const auto& [name, planned] : plan_.bodies) add_body(name, planned);
-    for (const LawFilePlan::Pair& pair : plan_.pairs) add_pair(pair);
+    for (const LawFilePlan::Pair& pair : plan_.pairs)
+      if (!is_without_runs(pair)) add_pair(pair);
+    in_order_of_plan();
     add_provenance();
     return std::move(file_);
   }
 
  private:
+  bool is_from_atlas(const std::string& name) const
+  {
+    return name == wall_name || plan_.bodies.at(name).from_atlas();
+  }
+  bool is_without_runs(const LawFilePlan::Pair& pair) const
+  {
+    return is_from_atlas(pair.a) && is_from_atlas(pair.b) && !pair.own_law;
+  }
+
+  /// All that the atlas has.
+  void add_without_runs()
+  {
+    std::vector<LawMaterial> materials;
+    for (const auto& [name, planned] : plan_.bodies)
+      if (planned.from_atlas()) materials.push_back(planned.body.material);
+    std::vector<PlannedPair> pairs;
+    for (const LawFilePlan::Pair& pair : plan_.pairs)
+      if (is_without_runs(pair)) pairs.push_back(pair);
+    if (materials.empty()) return;
+    file_.law = law_without_runs(*plan_.request.atlas, materials, pairs, options_);
+  }
+
+  void in_order_of_plan()
+  {
+    std::vector<LawPair> ordered;
+    for (const LawFilePlan::Pair& pair : plan_.pairs) ordered.push_back(*file_.law.find_pair(pair.a, pair.b));
+    file_.law.pairs = std::move(ordered);
+  }
+
   void add_body(const std::string& name, const LawFilePlan::Body& planned)
   {
     const LawBody& body = planned.body;
-    BodyLaw law = planned.from_atlas() ? law_from(*plan_.request.atlas, body.material, options_)
-                                       : body_by_runs(name, body);
+    BodyLaw law = planned.from_atlas() ? std::move(file_.law.bodies.at(name)) : body_by_runs(name, body);
     law.body = body.body;
     if (!law.is_sphere()) {
       law.pole_radius = body.characterised.scale.length;
@@ -155,43 +187,26 @@ class Maker
 
   void add_pair(const LawFilePlan::Pair& pair)
   {
-    if (!pair.composed_at.empty())
-      add_pair_laws(pair, pair.own_law ? corrected_or_composed(pair) : composed(pair));
-    else if (pair.own_law)
-      add_law_by_runs(pair);
-    const bool follows_rule = file_.not_composed.contains(pair.name());
-    const ReductionError& stated = follows_rule ? pair.by_rule : pair.stated;
-    file_.law.pairs.push_back({pair.a, pair.b, stated.force, stated.restitution});
+    ComposedLaws made;
+    if (pair.composed_at.empty() && pair.own_law)
+      made.laws = law_by_runs(pair);
+    else if (!pair.composed_at.empty())
+      made = pair.own_law ? corrected_or_composed(pair) : composed(pair);
+    add_pair_laws(file_.law, pair, std::move(made));
   }
 
-  void add_pair_laws(const LawFilePlan::Pair& pair, std::vector<TwoBodyLaw> laws)
-  {
-    if (!laws.empty()) file_.law.pair_laws[pair.name()] = std::move(laws);
-  }
-
-  /// At a ratio that cannot be composed the law at the nearest one stands in, or the pair rule where there is
-  /// none.
-  std::vector<TwoBodyLaw> composed(const LawFilePlan::Pair& pair)
+  ComposedLaws composed(const LawFilePlan::Pair& pair)
   {
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b));
-    const Atlas& atlas = *plan_.request.atlas;
-    std::vector<TwoBodyLaw> laws;
-    for (const double ratio : pair.composed_at)
-      try {
-        laws.push_back(
-            compose_law(atlas, pair_body(bodies.yielding), pair_body(bodies.partner), ratio, options_));
-      } catch (const Error& error) {
-        file_.not_composed[pair.name()].push_back(ratio);
-        file_.law.provenance[fmt::format("not_composed.{}.{:.4g}", pair.name(), ratio)] = error.what();
-      }
-    return laws;
+    return compose_laws(*plan_.request.atlas, pair_body(bodies.yielding), pair_body(bodies.partner),
+                        pair.composed_at, options_);
   }
 
   /// Where an impact of the two bodies fails, what is composed stands.
-  std::vector<TwoBodyLaw> corrected_or_composed(const LawFilePlan::Pair& pair)
+  ComposedLaws corrected_or_composed(const LawFilePlan::Pair& pair)
   {
     try {
-      return corrected(pair);
+      return {corrected(pair), {}};
     } catch (const Error& error) {
       file_.law.provenance["not_corrected." + pair.name()] = error.what();
       file_.runs[pair.name()] = {};
@@ -219,14 +234,14 @@ class Maker
     return pair_bodies_.try_emplace(m.name, atlas, m, file_.law.bodies.at(m.name).curve).first->second;
   }
 
-  void add_law_by_runs(const LawFilePlan::Pair& pair)
+  std::vector<TwoBodyLaw> law_by_runs(const LawFilePlan::Pair& pair)
   {
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b), own_law_radius_ratio);
     BuiltLaw built = build_two_body_law(bodies, options_named(pair.name()));
     note_holes(pair.name(), built.holes, file_.law.provenance);
     file_.runs[pair.name()] = {built.runs, built.runs_full, built.sampling_error, {}};
-    file_.law.pair_laws[pair.name()].push_back({std::move(built.law), own_law_radius_ratio});
     ++finished_;
+    return {{std::move(built.law), own_law_radius_ratio}};
   }
 
   void add_provenance()

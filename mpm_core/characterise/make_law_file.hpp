@@ -19,8 +19,6 @@ struct MadeLawFile
   };
   Law law;                           ///< write_law() writes it
   std::map<std::string, Runs> runs;  ///< by name of the body, or of the pair ("a:b") whose own law it is
-  /// By name of the pair: ratios of radii (TwoBodyLaw::radius_ratio) at which its law cannot be composed.
-  std::map<std::string, std::vector<double>> not_composed;
 };
 
 /// Makes every law of the plan, from the atlas or by runs of the solver, with certificates, what each pair

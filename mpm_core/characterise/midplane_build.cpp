@@ -1,5 +1,7 @@
 #include "characterise/midplane_build.hpp"
 
+#include "characterise/sampling_plan.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,7 @@
 #include <random>
 
 #include "characterise/fit_curve.hpp"
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "characterise/atlas.hpp"
+#include "characterise/sampling_plan.hpp"
+#include "atlas/atlas.hpp"
 #include "farm/farm.hpp"
 
 namespace granulaw {

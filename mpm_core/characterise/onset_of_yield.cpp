@@ -1,5 +1,7 @@
 #include "characterise/onset_of_yield.hpp"
 
+#include "characterise/sampling_plan.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

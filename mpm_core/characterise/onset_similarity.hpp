@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "characterise/atlas.hpp"
+#include "atlas/atlas.hpp"
 #include "characterise/sampling_plan.hpp"
 #include "characterise/shape_prior.hpp"
 

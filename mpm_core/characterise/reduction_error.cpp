@@ -10,8 +10,6 @@ namespace granulaw {
 
 namespace {
 
-constexpr double unit_mass = 4.0 / 3.0 * M_PI;
-
 /// `m` in units of the yielding body's E* and density.
 Material scaled(const LawMaterial& m, const LawMaterial& unit)
 {
@@ -24,35 +22,6 @@ Material scaled(const LawMaterial& m, const LawMaterial& unit)
     material.hardening_modulus = m.hardening_modulus / unit.e_star();
   }
   return material;
-}
-
-}  // namespace
-
-double UnlikePair::m_eff() const
-{
-  const double inverse_partner = 1.0 / (std::pow(radius_ratio, 3) * partner.density / yielding.density);
-  return unit_mass / (1.0 + inverse_partner);
-}
-
-double UnlikePair::one_body_density() const
-{
-  // lambda m* = rho 4/3 pi (lambda R*)^3
-  const double lambda = mapping().length(1.0);
-  return m_eff() / (unit_mass * lambda * lambda * std::pow(r_eff(), 3));
-}
-
-double UnlikePair::yield_velocity() const
-{
-  return granulaw::yield_velocity(yielding.e_star(), yielding.yield_stress,
-                                  yielding.density * one_body_density());
-}
-
-namespace {
-
-/// sqrt(E*_s/rho_s), m/s: velocities of the runs are over this.
-double wave_speed(const UnlikePair& pair)
-{
-  return std::sqrt(pair.yielding.e_star() / pair.yielding.density);
 }
 
 Particle one_body(const UnlikePair& pair)
@@ -93,13 +62,13 @@ struct TwoBodies
 
 RunSummary run_as_one_body(const UnlikePair& pair, double velocity, const RunOptions& options)
 {
-  return of_pair(impact(one_body(pair), {velocity / wave_speed(pair)}, {}, options).summary, pair);
+  return of_pair(impact(one_body(pair), {velocity / pair.wave_speed()}, {}, options).summary, pair);
 }
 
 RunResult two_body_impact(const UnlikePair& pair, double velocity, const RunOptions& options)
 {
   const TwoBodies bodies(pair);
-  return impact(bodies.first, {velocity / wave_speed(pair)}, bodies.partner, options);
+  return impact(bodies.first, {velocity / pair.wave_speed()}, bodies.partner, options);
 }
 
 RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOptions& options)
@@ -139,95 +108,6 @@ RunSummary press_two_bodies(const UnlikePair& pair, double depth, double ramp, c
   plan.depth = depth * pair.mapping().length(pair.r_eff());
   plan.ramp = ramp * std::max(1.0, pair.radius_ratio) / bodies.first.radius;
   return press(bodies.first, plan, bodies.partner, options).summary;
-}
-
-double UnlikePair::axis_speed_ratio() const
-{
-  const double sqrt_lambda = mapping().sqrt_lambda;
-  const double density =
-      radius_ratio == 0 ? partner.density / yielding.density * std::pow(sqrt_lambda, -4) : one_body_density();
-  return std::sqrt(density) * sqrt_lambda;
-}
-
-double fastest_of_law(const UnlikePair& pair, double axis_speed2)
-{
-  const double density = pair.yielding.density * pair.one_body_density();
-  return std::sqrt(axis_speed2 * pair.yielding.yield_stress / density);
-}
-
-namespace {
-
-/// The four causes of reduction_error.hpp, without their coefficients.
-struct Causes
-{
-  double share = 0, unshared = 0;  // 1
-  double finite = 0;               // 2, signed
-  double uneven = 0, waves = 0;    // 3, 4
-  double e = 1;
-  bool within_measured = true;
-};
-
-Causes causes_of(const UnlikePair& pair, double velocity)
-{
-  const LawMaterial &s = pair.yielding, &h = pair.partner;
-  const double stiffness = h.e_star() / s.e_star(), yield = s.yield_stress / s.e_star();
-  const double mapping = pair.mapping().sqrt_lambda, r = pair.r_eff();
-  // The one body's impact in its own units: overlap, Hertz's or at a mean pressure of 2.8 Y; and about its
-  // e (5 % high near the onset, up to 16 % low at E*/Y = 1000: low is the safe side).
-  const double v_over_c = velocity / wave_speed(pair);
-  const double v = v_over_c * std::sqrt(pair.one_body_density());
-  const double hertz = std::pow(15.0 / 16.0 * unit_mass * v * v, 0.4);
-  const double depth = std::max(hertz, v * std::sqrt(unit_mass / (5.6 * M_PI * yield)));
-  const double e = std::min(1.0, 1.3 * std::pow(velocity / pair.yield_velocity(), -0.2));
-
-  // 1. Elastic partner: the share of the overlap that is the partner's. Partly where it yields soon after:
-  // at Y_h/Y_s = 1.1 the error is 0.4 of an elastic partner's, from 1.5 on all of it.
-  Causes c;
-  c.e = e;
-  c.share = 1 - 1 / mapping;
-  c.unshared = std::min(1.0, std::sqrt(std::max(0.0, h.yield_stress / s.yield_stress - 1) / 0.5));
-  // 2. Each centre comes nearer by k F/(E* R) less, k = 0.45; the rule has k F/(E*_s R*). Over the overlap:
-  const double force_per_overlap = std::min(17.6 * yield, 4.0 / 3.0 * std::sqrt(depth));
-  c.finite = 0.45 * force_per_overlap * (1 - r - r / (pair.radius_ratio * stiffness));
-  // 3. The smaller body's contact is larger against its radius; it matters as far as the other gives way.
-  const double unlike = (1 - 1 / pair.radius_ratio) / (1 + 1 / pair.radius_ratio);
-  c.uneven = unlike * unlike * depth * std::min(1.0, 2 * c.share);
-  // 4. A half-space takes 1.25 (V/c)^0.6 of the energy of a like sphere (docs/evidence/solver-accuracy.md;
-  // Hunter 1957), and as 1/(E c) of the larger body.
-  const double radiating =
-      pair.radius_ratio >= 1 ? std::pow(stiffness, -1.5) * std::sqrt(h.density / s.density) : 1.0;
-  c.waves = 1.3 * unlike * unlike * std::pow(v_over_c, 0.6) * radiating / (2 * e * e);
-
-  const bool radii =
-      !std::isfinite(pair.radius_ratio) || (pair.radius_ratio >= 0.1 && pair.radius_ratio <= 10);
-  c.within_measured = radii && stiffness >= 0.3 && h.yield_stress >= s.yield_stress &&
-                      v * v / yield <= 0.003 && hertz * mapping * mapping <= 0.13;
-  return c;
-}
-
-}  // namespace
-
-ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity)
-{
-  const Causes c = causes_of(pair, velocity);
-  const double finite = std::abs(c.finite);
-  // Coefficients: bounds of what docs/evidence/pairs.md shows, cause by cause.
-  return {0.002 + 0.10 * c.share * c.unshared + 0.65 * finite + 5 * c.uneven + 0.25 * c.waves,
-          0.002 + 0.11 * std::pow(c.share, 0.7) * c.unshared + 3.2 * finite * (1 - c.e * c.e) + 4 * c.uneven +
-              c.waves,
-          c.within_measured};
-}
-
-ReductionError estimate_remaining_error(const UnlikePair& pair, double law_radius_ratio, double velocity)
-{
-  UnlikePair made = pair;
-  made.radius_ratio = law_radius_ratio;
-  const Causes here = causes_of(pair, velocity), there = causes_of(made, velocity);
-  const double finite = std::abs(here.finite - there.finite), uneven = std::abs(here.uneven - there.uneven),
-               waves = std::abs(here.waves - there.waves);
-  return {0.65 * finite + 5 * uneven + 0.25 * waves,
-          3.2 * finite * (1 - here.e * here.e) + 4 * uneven + waves,
-          here.within_measured && there.within_measured};
 }
 
 MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocity)

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/larger.hpp"
-#include "characterise/shape_function.hpp"
-#include "characterise/speed_interpolation.hpp"
+#include "atlas/shape_function.hpp"
+#include "atlas/speed_interpolation.hpp"
 
 namespace granulaw {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "characterise/law_shape.hpp"
+#include "atlas/law_shape.hpp"
 #include "characterise/sampling_plan.hpp"
 #include "contact/axis.hpp"
 

@@ -78,11 +78,6 @@ double velocity_to(double x, const CharacterisedBody& s)
                   x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
 }
 
-double negligible_damage_number(double tolerance)
-{
-  return 0.16 * std::min(tolerance, 0.01);
-}
-
 double loading_ramp(const CharacterisedBody& s, double depth, double tolerance)
 {
   if (!s.yields() || tolerance <= 0) return 0;

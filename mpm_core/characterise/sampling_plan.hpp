@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "atlas/law_range.hpp"
 #include "characterise/characterised_body.hpp"
 #include "characterise/contact_record.hpp"
-#include "characterise/law_shape.hpp"
+#include "atlas/law_shape.hpp"
 #include "farm/run_queue.hpp"
 
 namespace granulaw {
@@ -89,10 +90,6 @@ SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedB
 /// - A rate, which goes by the logarithm of the speed: five at equal factors, as the interpolation is cubic.
 std::vector<double> first_inertia_speeds(double fastest, double tolerance);
 std::vector<double> first_rate_speeds(double slowest, double fastest);
-
-/// Damage number whose inertia adds less than the tolerance to F and e (docs/decisions.md): a press may load,
-/// and an impact count as slow, at up to 0.16 of the tolerance. One over 1 % counts as 1 %.
-double negligible_damage_number(double tolerance);
 
 /// Loading time of a slow press, in R/c*, that a tolerance of F and e allows; 0, the solver's own: of a body
 /// that never yields, or where no tolerance is asked for. A ramp adds to F and e

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "characterise/law_shape.hpp"
+#include "atlas/law_shape.hpp"
 
 namespace granulaw {
 

@@ -1,5 +1,7 @@
 #include "characterise/two_body_law.hpp"
 
+#include "characterise/build_options.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

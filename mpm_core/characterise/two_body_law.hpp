@@ -1,5 +1,6 @@
 #pragma once
 
+#include "characterise/build_options.hpp"
 #include "characterise/build_law.hpp"
 #include "characterise/reduction_error.hpp"
 

@@ -1,5 +1,7 @@
 #include "characterise/verification.hpp"
 
+#include "characterise/sampling_plan.hpp"
+
 #include <algorithm>
 #include <cmath>
 

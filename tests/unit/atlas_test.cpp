@@ -1,4 +1,6 @@
-#include "characterise/atlas.hpp"
+#include "characterise/atlas_file.hpp"
+
+#include "characterise/sampling_plan.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,8 +9,8 @@
 #include <cmath>
 
 #include "characterise/atlas_build.hpp"
-#include "characterise/interpolation.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/interpolation.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
@@ -93,7 +95,7 @@ TEST(Atlas, ALawLosesWhatItsImpactsLostWhateverTheirTime)
   for (const Atlas::Node& node : shipped().nodes()) {
     const MaterialRatios& m = node.material;
     if (m.stiffness > 60 || m.poisson_ratio < 0.4 || m.hardening > 0.01) continue;
-    BuildOptions options;
+    LawRange options;
     options.depth = Atlas::depth;
     const Curve& law = law_from(shipped(), material(m), options).curve;
     for (const LawShape::VelocityEffect& impact : node.shape.velocity_effects) {
@@ -116,7 +118,7 @@ TEST(Atlas, AnElasticLawKeepsItsClaim)
 {
   LawMaterial elastic = material({1, 0.23, 0});
   elastic.yield_stress = std::numeric_limits<double>::infinity();
-  BuildOptions options;
+  LawRange options;
   options.depth = 0.4;
   const BodyLaw law = law_from(shipped(), elastic, options);
   EXPECT_NEAR(law.curve.end(), ElasticSphere::depth, 0.02);  // not beyond what was pressed

@@ -1,4 +1,7 @@
 // What the builder asks for and makes of it, with runs that are replays of a known law.
+#include "characterise/sampling_plan.hpp"
+#include "characterise/build_options.hpp"
+#include "characterise/atlas_file.hpp"
 #include "characterise/build_law.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "base/larger.hpp"
-#include "characterise/composed_law.hpp"
+#include "atlas/composed_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "base/error.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "law/radiation.hpp"
 #include "law/replay.hpp"
 #include "own_atlas.hpp"
@@ -35,14 +35,14 @@ const Atlas& atlas()
 
 TwoBodyLaw composed(const LawMaterial& s, const LawMaterial& h, double radius_ratio, double fastest = 0)
 {
-  BuildOptions options;
+  LawRange options;
   options.fastest = fastest;
   return compose_law(atlas(), PairBody(atlas(), s), PairBody(atlas(), h), radius_ratio, options);
 }
 
 BodyLaw alone(const LawMaterial& s)
 {
-  BuildOptions options;
+  LawRange options;
   options.fastest = 0;
   return law_from(atlas(), s, options);
 }
@@ -208,7 +208,7 @@ TEST(ComposedLaw, OfABodyThatTheAtlasDoesNotKnow)
   unknown.hardening_modulus = 0;
   const PairBody known(atlas(), hardening), told(atlas(), unknown, alone(hardening).curve),
       perfect(atlas(), unknown), partner(atlas(), glass);
-  BuildOptions options;
+  LawRange options;
   options.fastest = 0;
   for (const double ratio : {0.5, 1.0, 3.0}) {
     const auto law = [&](const PairBody& body) {

@@ -6,7 +6,7 @@
 
 #include "base/larger.hpp"
 #include "base/scales.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "law/replay.hpp"
 #include "own_atlas.hpp"
 
@@ -41,7 +41,7 @@ double worst_error(double share)
 {
   const Atlas atlas = testing::own_atlas();
   const double radius = 1e-3, mass = 4.0 / 3.0 * M_PI * 1000 * radius * radius * radius;
-  BuildOptions options;
+  LawRange options;
   options.depth = 0.5, options.fastest = 0.3;
   double worst = 0;
   for (const double ratio : {30.0, 100.0, 1000.0}) {

@@ -1,4 +1,4 @@
-#include "characterise/impacts_by_speed.hpp"
+#include "atlas/impacts_by_speed.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+#include "characterise/atlas_file.hpp"
 #include "characterise/law_file_plan.hpp"
 
 #include "characterise/law_material.hpp"

@@ -1,4 +1,4 @@
-#include "characterise/node_slopes.hpp"
+#include "atlas/node_slopes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 // Where a body begins to yield, by what its elastic press says.
+#include "characterise/sampling_plan.hpp"
 #include "characterise/onset_of_yield.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "characterise/atlas_file.hpp"
 #include "characterise/onset_similarity.hpp"
 
 #include <gtest/gtest.h>

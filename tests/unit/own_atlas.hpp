@@ -1,6 +1,6 @@
 #pragma once
 
-#include "characterise/atlas.hpp"
+#include "characterise/atlas_file.hpp"
 
 namespace granulaw::testing {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "own_atlas.hpp"
 #include "solver/shape/shapes.hpp"
@@ -24,7 +24,7 @@ Material powder()
 
 BodyLaw law()
 {
-  BuildOptions options;
+  LawRange options;
   options.depth = 0.5;
   return law_from(testing::own_atlas(), law_material("powder", powder()), options);
 }

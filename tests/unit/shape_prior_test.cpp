@@ -1,4 +1,5 @@
 #include "base/larger.hpp"
+#include "characterise/characterised_body.hpp"
 #include "characterise/shape_prior.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "characterise/atlas.hpp"
+#include "characterise/atlas_file.hpp"
 
 namespace granulaw {
 namespace {

@@ -1,4 +1,4 @@
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/tabulate_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "characterise/shape_function.hpp"
+#include "atlas/shape_function.hpp"
 
 namespace granulaw {
 namespace {

@@ -1,13 +1,13 @@
-#include "characterise/tabulate_velocity_axis.hpp"
+#include "atlas/tabulate_velocity_axis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/larger.hpp"
-#include "characterise/atlas.hpp"
+#include "characterise/atlas_file.hpp"
 #include "characterise/characterised_body.hpp"
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
 namespace {

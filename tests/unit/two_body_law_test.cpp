@@ -1,5 +1,7 @@
 // Laws of pairs of their own: how they are looked up and kept in a file; `slow`: that one agrees with a fresh
 // impact.
+#include "characterise/reduction_error.hpp"
+#include "characterise/build_options.hpp"
 #include "characterise/two_body_law.hpp"
 
 #include <gtest/gtest.h>

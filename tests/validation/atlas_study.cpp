@@ -15,6 +15,7 @@
 #include <cmath>
 #include <vector>
 
+#include "characterise/atlas_file.hpp"
 #include "base/error.hpp"
 #include "characterise/atlas_build.hpp"
 

@@ -10,12 +10,13 @@
 #include <cstdio>
 #include <random>
 
+#include "characterise/atlas_file.hpp"
 #include "base/scales.hpp"
 #include "calibrate/calibrate.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
 #include "characterise/characterised_body.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "law/replay.hpp"
 
 namespace {
@@ -56,7 +57,7 @@ LawMaterial random_material(Chance& chance, bool hardens)
 
 Measurement drops(const Atlas& atlas, const LawMaterial& m, Chance& chance, int count, double noise)
 {
-  BuildOptions options;
+  LawRange options;
   options.depth = Atlas::depth;
   options.fastest = SphereLaws::fastest;
   const BodyLaw law = law_from(atlas, m, options);

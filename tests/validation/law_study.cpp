@@ -17,11 +17,13 @@
 #include <cmath>
 #include <random>
 
+#include "farm/farm.hpp"
+#include "characterise/sampling_plan.hpp"
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "base/scales.hpp"
-#include "characterise/atlas.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "characterise/atlas_file.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "law/replay.hpp"
 
 namespace {
@@ -78,7 +80,7 @@ void study(const Atlas& atlas, const MaterialRatios& m, const References& refere
 {
   const LawMaterial material = dimensionless(m);
   const CharacterisedBody body = characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
-  BuildOptions options;
+  LawRange options;
   options.depth = 0.2, options.fastest = 0.25;
   const BodyLaw law = law_from(atlas, material, options);
   const PairLaw pair = wall_pair(law);

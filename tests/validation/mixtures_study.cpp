@@ -17,8 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "characterise/atlas_file.hpp"
 #include "base/error.hpp"
-#include "characterise/composed_law.hpp"
+#include "atlas/composed_law.hpp"
 #include "characterise/reduction_error.hpp"
 #include "farm/run_cache.hpp"
 #include "law/radiation.hpp"

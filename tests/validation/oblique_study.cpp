@@ -15,9 +15,9 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/atlas.hpp"
+#include "characterise/atlas_file.hpp"
 #include "characterise/characterised_body.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "farm/farm.hpp"
 #include "oblique_replay.hpp"
@@ -179,7 +179,7 @@ int main(int argc, char** argv)
   CLI11_PARSE(app, argc, argv);
   try {
     const Atlas atlas = read_atlas(atlas_file);
-    BuildOptions options;
+    LawRange options;
     options.depth = 0.3, options.fastest = 0.25;
     const BodyLaw law = law_from(atlas, law_material("material", material_of(setting)), options);
     ThreadFarm farm(threads, RunCache(folder));

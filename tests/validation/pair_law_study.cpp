@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "characterise/fit_curve.hpp"
 #include "characterise/reduction_error.hpp"
 #include "law/replay.hpp"
 

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "characterise/sampling_plan.hpp"
+#include "characterise/atlas_file.hpp"
 #include "base/error.hpp"
 #include "characterise/atlas_build.hpp"
 #include "characterise/midplane_build.hpp"

@@ -1,3 +1,4 @@
+#include "characterise/atlas_file.hpp"
 #include "atlas_path.hpp"
 
 #include <cstdlib>

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "characterise/atlas.hpp"
+#include "atlas/atlas.hpp"
 
 namespace granulaw {
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 
+#include "characterise/reduction_error.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/law_body.hpp"

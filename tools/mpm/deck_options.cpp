@@ -9,7 +9,7 @@
 
 #include "atlas_path.hpp"
 #include "base/error.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "deck/hertz.hpp"
 #include "law/contact_step.hpp"
@@ -208,7 +208,7 @@ class LawsAtHand
                     material.yield_stress, material.hardening_modulus);
     const auto [found, is_new] = made_.try_emplace(key);
     if (is_new && (!material.yields() || atlas_->why_not(MaterialRatios::of(material)).empty())) {
-      BuildOptions options;
+      LawRange options;
       options.depth = 0.5, options.fastest = 0.3;
       found->second = law_from(*atlas_, material, options);
     }

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "characterise/composed_law.hpp"
+#include "atlas/composed_law.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "json_output.hpp"

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "atlas_path.hpp"
+#include "characterise/characterised_body.hpp"
+#include "characterise/build_options.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "characterise/law_material.hpp"
 #include "characterise/shape_certificate.hpp"
 #include "command.hpp"

@@ -119,12 +119,14 @@ bool has_own_laws(const LawFilePlan::Pair& pair, const Law& law)
 /// Ratios of radii that have no law of their own.
 void print_not_composed(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
-  const auto found = file.not_composed.find(pair.name());
-  if (found == file.not_composed.end()) return;
+  std::vector<double> missing = pair.composed_at;
+  if (has_own_laws(pair, file.law))
+    for (const TwoBodyLaw& own : file.law.pair_laws.at(pair.name())) std::erase(missing, own.radius_ratio);
+  if (missing.empty()) return;
   const auto material = [&](const std::string& name) { return file.law.bodies.at(name).material; };
   const std::string& yielding = yields_first(material(pair.a), material(pair.b)) ? pair.a : pair.b;
   fmt::print("{}: cannot be composed where the partner's radius over that of '{}' is {:.4g} (mpm info says why): {}\n",
-             pair.name(), yielding, fmt::join(found->second, ", "),
+             pair.name(), yielding, fmt::join(missing, ", "),
              has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in, within the pair rule's error"
                                           : "the pair rule stands in");
 }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "calibrate/sphere_laws.hpp"
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/tabulate_curve.hpp"
 #include "contact/pair.hpp"
 #include "law/replay.hpp"
 
@@ -113,7 +113,7 @@ ComposedModel::Node ComposedModel::compute(const LawMaterial& asked) const
   const LawMaterial fitted = within_atlas(*atlas_, asked);
   const PairBody own(*atlas_, fitted), other(*atlas_, counterpart_on(fitted));
   if (measured_->indenter_radius == 0) return {{}, 0, 0, changes(own, other)};
-  BuildOptions options;
+  LawRange options;
   options.depth = Atlas::depth, options.fastest = 0;
   const double ratio = std::isfinite(measured_->radius) ? measured_->indenter_radius / measured_->radius : 0;
   const ComposedShape composed = compose_shape(*atlas_, own, other, ratio, options);
@@ -129,7 +129,7 @@ std::vector<double> ComposedModel::changes(const PairBody& own, const PairBody& 
                  &wall = measured_->counterpart_is_ball ? own : other;
   const double radius = measured_->radius, density = sphere.material().density;
   const double per_speed = std::sqrt(density / fitted.yield_stress);
-  BuildOptions options;
+  LawRange options;
   options.depth = Atlas::depth;
   options.fastest = std::clamp(1.2 * measured_->largest_x() * per_speed, 0.03, SphereLaws::fastest);
   Law law;

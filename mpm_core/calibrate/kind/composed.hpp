@@ -6,7 +6,7 @@
 
 #include "calibrate/measurement.hpp"
 #include "calibrate/parameters.hpp"
-#include "characterise/composed_law.hpp"
+#include "atlas/composed_law.hpp"
 
 namespace granulaw {
 

@@ -3,7 +3,7 @@
 
 #include "calibrate/calibrate.hpp"
 #include "calibrate/measurement_file.hpp"
-#include "characterise/atlas.hpp"
+#include "characterise/atlas_file.hpp"
 
 int main(int, char** argv)
 {

@@ -1,3 +1,4 @@
+#include "characterise/atlas_file.hpp"
 #include "calibrate/calibrate.hpp"
 
 #include <gmock/gmock.h>
@@ -9,7 +10,7 @@
 #include "calibrate/design.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
-#include "characterise/composed_law.hpp"
+#include "atlas/composed_law.hpp"
 
 namespace granulaw {
 namespace {
@@ -124,7 +125,7 @@ Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, doubl
   measured.counterpart = indenter;
   measured.fit_offset = true;
   const TwoBodyLaw law = compose_law(atlas(), PairBody(atlas(), m), PairBody(atlas(), indenter),
-                                     indenter_radius / radius, {.depth = 0.2, .fastest = 0, .progress = {}});
+                                     indenter_radius / radius, {.depth = 0.2, .fastest = 0});
   const PairMapping mapping = PairMapping::deformable_partner(m.e_star(), indenter.e_star());
   const double r_eff = measured.effective_radius(), deepest = depth * r_eff;
   const auto add = [&](double d, double delta_max) {

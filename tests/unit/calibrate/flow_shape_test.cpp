@@ -1,3 +1,4 @@
+#include "characterise/atlas_file.hpp"
 #include "calibrate/flow_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +7,7 @@
 
 #include "base/scales.hpp"
 #include "calibrate/sphere_laws.hpp"
-#include "characterise/tabulate_curve.hpp"
+#include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
 namespace {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "characterise/atlas_file.hpp"
 #include "calibrate/calibrate.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/kind/composed.hpp"

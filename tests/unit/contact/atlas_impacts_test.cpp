@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/larger.hpp"
-#include "characterise/atlas.hpp"
-#include "characterise/law_from_atlas.hpp"
+#include "characterise/atlas_file.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "law/replay.hpp"
 
 namespace granulaw {
@@ -28,7 +28,7 @@ TEST(Atlas, LawsAgreeWithImpactsOfOtherMaterials)
     std::istringstream text(line);
     for (double& value : v) text >> value, text.ignore();
     const double yield = 1 / v[0], young = 1 - v[1] * v[1];
-    BuildOptions options;
+    LawRange options;
     options.depth = Atlas::depth;
     const BodyLaw law = law_from(atlas, {"m", 1, young, v[1], yield, v[2] * young}, options);
     const Replay replay = replay_on_wall(law, 1, 4. / 3 * M_PI, v[3] * std::sqrt(yield));

@@ -1,0 +1,108 @@
+#include "atlas/law_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlas/shape_function.hpp"
+#include "atlas/tabulate_curve.hpp"
+
+namespace granulaw {
+
+namespace {
+
+void add_to(std::vector<double>& sum, double weight, const std::vector<double>& values)
+{
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * values[k];
+}
+
+}  // namespace
+
+LawShape LawShape::zero()
+{
+  const std::vector<double> none(nodes, 0.0);
+  LawShape shape{{}, none, none, none, none, none, {}};
+  for (const double v : impact_speeds)
+    shape.velocity_effects.push_back({v, 0, 0, 0, std::vector<double>(VelocityEffect::shares, 0.0)});
+  return shape;
+}
+
+const std::array<std::vector<double> LawShape::*, 5> LawShape::functions = {
+    &LawShape::force_reduction, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
+    &LawShape::hertz_share};
+
+void ElasticCorrection::add(double weight, const ElasticCorrection& other)
+{
+  c1 += weight * other.c1, c2 += weight * other.c2, c3 += weight * other.c3;
+  d1 += weight * other.d1;
+}
+
+void LawShape::add(double weight, const LawShape& other)
+{
+  add_loading(weight, other);
+  add_unloading(weight, other);
+}
+
+void LawShape::add_loading(double weight, const LawShape& other)
+{
+  elastic.add(weight, other.elastic);
+  add_to(force_reduction, weight, other.force_reduction);
+  add_to(widening, weight, other.widening);
+}
+
+void LawShape::add_unloading(double weight, const LawShape& other)
+{
+  add_to(residual, weight, other.residual);
+  add_to(dissipation, weight, other.dissipation);
+  add_to(hertz_share, weight, other.hertz_share);
+  for (std::size_t k = 0; k < velocity_effects.size(); ++k) {
+    velocity_effects[k].log_overlap += weight * other.velocity_effects[k].log_overlap;
+    velocity_effects[k].dissipation += weight * other.velocity_effects[k].dissipation;
+    velocity_effects[k].residual += weight * other.velocity_effects[k].residual;
+    add_to(velocity_effects[k].force, weight, other.velocity_effects[k].force);
+  }
+}
+
+LawShape LawShape::rescaled(double share) const
+{
+  LawShape result = zero();
+  result.elastic = elastic;
+  for (const auto member : functions) {
+    const ShapeFunction function(this->*member, 1.0);
+    for (int k = 0; k < nodes; ++k)
+      (result.*member)[static_cast<std::size_t>(k)] = function.value(std::min(1.0, share * k / (nodes - 1)));
+  }
+  return result;
+}
+
+LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const
+{
+  const Curve sphere = tabulate(*this, onset, end, known);
+  const double at_onset = std::pow(onset, 0.25);
+  const double difference = body.measured  // of c1
+                                ? (elastic.force_ratio(at_onset) - body.force_ratio(at_onset)) / std::sqrt(onset)
+                                : elastic.c1 - body.c1;
+  const double compliance = 2.0 / 3.0 * difference;
+  const double range = std::log(end / onset);
+  LawShape result = *this;
+  result.elastic = body;
+  result.velocity_effects = zero().velocity_effects;
+  for (std::size_t k = 1; k < nodes; ++k) {
+    const double x = onset * std::exp(range * static_cast<double>(k) / (nodes - 1));
+    if (x > known) {
+      for (const auto member : functions) (result.*member)[k] = (result.*member)[k - 1];
+      continue;
+    }
+    double skin = x;  // x'
+    for (int round = 0; round < 20; ++round) skin = x - compliance * sphere.loading(skin).force;
+    const double s = std::pow(x, 0.25), force = sphere.force(skin);
+    const double below = 0.5 * compliance * force * force;  // work
+    const double work = sphere.work(skin), returned = work * sphere.kept(skin);
+    result.force_reduction[k] = -std::log(force / (std::pow(x, 1.5) * body.force_ratio(s)));
+    result.widening[k] = std::log(sphere.radius(skin) / (std::sqrt(x) * body.radius_ratio(s)));
+    result.residual[k] = -std::log1p(-sphere.reversal(skin).residual() / x);
+    result.dissipation[k] = -std::log((returned + below) / (work + below));
+  }
+  return result;
+}
+
+}  // namespace granulaw

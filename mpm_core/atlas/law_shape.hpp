@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "atlas/shape_function.hpp"
+#include "contact/unloading.hpp"
+
+namespace granulaw {
+
+/// F/F_Hertz = 1 + c1 sqrt(x) + c2 x + c3 x^1.5 and a/a_Hertz = 1 + d1 sqrt(x) of the elastic body: the
+/// finite sphere. c3 is that of a law without yield, which goes on elastically to its end; 0 where yield
+/// comes first.
+struct ElasticCorrection
+{
+  double c1 = 0, c2 = 0, d1 = 0, c3 = 0;
+  /// Of a body of several materials, whose stiffness changes where the contact is as wide as a layer is thick:
+  /// ln of the force as computed over that of the terms, by s. Null: the terms are all.
+  std::shared_ptr<const ShapeFunction> measured{};
+
+  double force_ratio(double s) const { return terms(s) * beside_terms(s); }
+  double force_ratio_slope(double s) const
+  {
+    const double of_terms = s * (2 * c1 + s * s * (4 * c2 + s * s * 6 * c3));
+    return measured ? beside_terms(s) * (of_terms + terms(s) * measured->slope(s)) : of_terms;
+  }
+  double radius_ratio(double s) const { return 1 + d1 * s * s; }
+  double radius_ratio_slope(double s) const { return 2 * d1 * s; }
+  /// this += weight * other, of which neither has a measured part.
+  void add(double weight, const ElasticCorrection& other);
+  /// Of unloading from s along the elastic curve itself (c3 = 0): x^1.5 (1 + c1 sqrt(x) + c2 x).
+  UnloadingShape unloading(double s) const
+  {
+    const double a = 1 / force_ratio(s), b = a * c1 * s * s, c = 1 - a - b;
+    return {1.5 * a + 2 * b + 2.5 * c, a};
+  }
+
+ private:
+  double terms(double s) const { return 1 + s * s * (c1 + s * s * (c2 + s * s * c3)); }
+  double beside_terms(double s) const { return measured ? std::exp(measured->value(s)) : 1.0; }
+};
+
+/// An elastic correction fitted to presses, and the largest relative deviation of the force.
+struct ElasticFit
+{
+  ElasticCorrection correction;
+  double error = 0;
+};
+
+/// The law of a yielding body in the coordinates in which materials resemble each other: what the runs are
+/// fitted to, what the atlas keeps and interpolates, and what a Curve is tabulated from.
+///
+/// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero
+/// slope at the onset:
+///     force_reduction  -ln(F_L/F_elastic)       residual     -ln(1 - delta_r/delta_m)
+///     widening         ln(a/a_elastic)         dissipation  -ln(W_u/W_L) = -2 ln e
+///     hertz_share      A - A_elastic of the unloading's shape
+/// Differences and means of shapes are shapes again: that is how they are interpolated between materials.
+struct LawShape
+{
+  static constexpr int nodes = 49;
+
+  /// What an impact at speed v = sqrt(rho V^2/Y) changes, against the slow press to the same overlap.
+  struct VelocityEffect
+  {
+    static constexpr int shares = 12;  ///< xi = x/X = 0, 1/11, ..., 1
+
+    double speed = 0;           ///< v
+    double log_overlap = 0;     ///< ln(X/v), X the overlap/R reached
+    double dissipation = 0;     ///< -ln(W_u/W_L) less that of the press
+    double residual = 0;        ///< -ln(1 - delta_r/delta_m) less that of the press
+    std::vector<double> force;  ///< ln(F_impact/F_press) at the shares
+  };
+
+  ElasticCorrection elastic;
+  std::vector<double> force_reduction, widening, residual, dissipation, hertz_share;
+  static const std::array<std::vector<double> LawShape::*, 5> functions;  ///< these
+  std::vector<VelocityEffect> velocity_effects;                           ///< ascending speed
+
+  /// this += weight * other, whose speeds are the same; or only what loading is (elastic body, force
+  /// reduction, widening), or the reversal and what inertia changes.
+  void add(double weight, const LawShape& other);
+  void add_loading(double weight, const LawShape& other);
+  void add_unloading(double weight, const LawShape& other);
+  /// Its functions of u as functions of u/share: of the same delta/delta_onset in a range of overlaps whose
+  /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is
+  /// dropped.
+  LawShape rescaled(double share) const;
+  /// Of a sphere, with its own elastic correction: that of a body with the same skin, which differs
+  /// elastically further below. A contact small against the skin adds to its overlap x' what the rest of the
+  /// body yields to its force F, x = x' + C F, C by the two corrections' c1; so its losses are those of the
+  /// sphere at x'. Functions of u end at `end`; beyond `known`, where nothing is known of the sphere, the
+  /// last value is kept. Inertia is dropped.
+  LawShape as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const;
+  /// All zero at all impact_speeds, ready for add().
+  static LawShape zero();
+};
+
+/// Speeds sqrt(I) at which the atlas knows the effect of inertia.
+inline constexpr double impact_speeds[] = {0.005, 0.015, 0.03,  0.045, 0.06,  0.08, 0.1,
+                                           0.125, 0.15,  0.175, 0.2,   0.225, 0.25, 0.3};
+
+}  // namespace granulaw

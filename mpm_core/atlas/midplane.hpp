@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "atlas/law_shape.hpp"
+#include "atlas/material_ratios.hpp"
+#include "atlas/shape_function.hpp"
+
+namespace granulaw {
+
+/// Materials of which the atlas has run midplane presses. A main plane at one Poisson's ratio, and a coarser
+/// block that tells what another one changes.
+struct MidplaneGrid
+{
+  double main_poisson_ratio = 0.3;
+  std::vector<double> stiffnesses{20, 28, 40, 60, 100, 200, 600, 5000};  ///< E*/Y
+  std::vector<double> hardenings{0, 0.005, 0.02, 0.08, 0.3};             ///< H/E
+  std::vector<double> block_stiffnesses{20, 60, 200, 600};
+  std::vector<double> block_hardenings{0, 0.02, 0.3};
+  std::vector<double> block_poisson_ratios{0, 0.49};  ///< besides the main one
+
+  std::vector<double> poisson_ratios() const;  ///< all, ascending
+  /// The main plane, then the block: by stiffness, hardening, Poisson's ratio.
+  std::vector<MaterialRatios> materials() const;
+  bool operator==(const MidplaneGrid&) const = default;
+};
+
+/// A fresh midplane press of a random material, and what the atlas said.
+struct MidplaneCheck
+{
+  MaterialRatios material;
+  double depth = 0;              ///< overlap/R
+  double error_force = 0;        ///< rms over the loading beyond a third of the depth, relative
+  double error_restitution = 0;  ///< of sqrt(W_u/W_L), absolute, signed
+  double error_recovery = 0;     ///< of the recovery, largest overlap less residual, relative, signed
+};
+
+/// What holding the equator plane, in place of the whole sphere, changes of a contact: a particle between two
+/// platens.
+///
+/// While the contact is small the change is elastic: the half between contact and equator is a series
+/// compliance (LawShape::as_skin_of, with the midplane press's own elastic correction). What presses show
+/// beyond that, where the two plastic zones meet, is kept as a function of ln(overlap/R) for each material of
+/// the grid.
+class MidplaneShapes
+{
+ public:
+  struct Node
+  {
+    MaterialRatios material;
+    double onset = 0;  ///< overlap/R; the change's functions of u begin there and end at Atlas::depth
+    LawShape change;   ///< the press's shape less the free sphere's with a series compliance
+  };
+
+  MidplaneShapes() = default;
+  /// `nodes` of grid.materials(); `elastic` of grid.poisson_ratios(). Throws Error if they are not.
+  MidplaneShapes(MidplaneGrid grid, std::vector<ElasticCorrection> elastic, std::vector<Node> nodes,
+                 std::vector<MidplaneCheck> checks = {});
+
+  /// Overlap/R up to which the shapes are laws for any material; beyond, soft ones unload like no sphere.
+  static constexpr double depth = 0.33;
+
+  bool empty() const { return nodes_.empty(); }
+  const MidplaneGrid& grid() const { return grid_; }
+  const std::vector<ElasticCorrection>& elastic_corrections() const { return elastic_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<MidplaneCheck>& checks() const { return checks_; }
+  MidplaneShapes with_checks(std::vector<MidplaneCheck> checks) const;
+
+  ElasticCorrection elastic(double poisson_ratio) const;
+  /// The midplane shape of a material whose free sphere has the shape `free`; no velocity effects.
+  LawShape shape(const MaterialRatios& m, const LawShape& free) const;
+
+  /// 95 % of midplane presses lie within, by the checks: of F, of e, of the recovery (largest overlap less
+  /// residual, relative).
+  double claimed_force() const { return claimed_force_; }
+  double claimed_restitution() const { return claimed_restitution_; }
+  double claimed_recovery() const { return claimed_recovery_; }
+
+ private:
+  MidplaneGrid grid_;
+  std::vector<ElasticCorrection> elastic_;
+  std::vector<Node> nodes_;
+  std::vector<std::array<ShapeFunction, 5>> changes_;  ///< of each node, over u from 0 to 1
+  std::vector<MidplaneCheck> checks_;
+  double claimed_force_ = 0, claimed_restitution_ = 0, claimed_recovery_ = 0;
+};
+
+}  // namespace granulaw

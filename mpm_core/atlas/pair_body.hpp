@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "atlas/atlas.hpp"
+#include "contact/curve.hpp"
+#include "law/law_material.hpp"
+
+namespace granulaw {
+
+/// How far a contact's pressure has gone from Hertz's (0) to uniform (1), and what follows for an elastic
+/// half-space under a mean pressure p over a circle of radius a (Johnson, Contact Mechanics, sect. 3.2
+/// and 3.4).
+struct PressureShape
+{
+  /// By the residual overlap over the recovered one. Measured: the recovered overlaps of the atlas's laws
+  /// follow 1 - exp(-ratio/0.4) within 0.02 up to a ratio of 1.1, whatever E*/Y, nu and H.
+  static double flatness_of(double residual_over_recovered);
+
+  /// Displacement of the middle, over pi p a/E*: 3/4 to 2/pi.
+  static double displacement(double flatness);
+  /// What the edge lies above the middle, over pi p a/E*: 3/8 to 2/pi - 4/pi^2.
+  static double sag(double flatness);
+  /// Mean pressure at which material under this shape yields as much as under Hertz's: 1 to 1.25. At first
+  /// yield a uniform pressure's is 1.5 Y, Hertz's 1.07 Y; in full plasticity both are hardness. The mean of
+  /// the two ends.
+  static double strength(double flatness);
+};
+
+/// One sphere of a pair, pressed by a partner of any curvature.
+///
+/// A partner shows a sphere of radius R a surface that is not flat. Only the curvature 1/r between the two
+/// counts for what happens near the contact, of radius a: kappa = a/r; and alpha = a/R for the sphere as a
+/// whole. A sphere on a rigid flat has kappa = alpha. Strains go as kappa, the solution depends on kappa E*/Y
+/// and alpha: so the sphere is as its twin on a rigid flat, of the same Y, nu, H and alpha and of the
+/// stiffness E* kappa/alpha: with the same pressure, and overlaps kappa/alpha times the twin's. The atlas
+/// knows the twins.
+class PairBody
+{
+ public:
+  /// Throws Error if the atlas does not know the material.
+  PairBody(const Atlas& atlas, const LawMaterial& material);
+  /// Of a body whose flow law the atlas does not know, homogeneous and rate-independent, with its `own` slow
+  /// law on a rigid flat. Twins are those of the linearly hardening material that comes nearest; by what the
+  /// body's own contact departs from this one's at the strain kappa E*/Y, each twin does at the same strain.
+  /// Known up to the strain where the own law ends.
+  PairBody(const Atlas& atlas, const LawMaterial& material, const Curve& own);
+
+  /// At contact radius a.
+  struct State
+  {
+    double pressure = 0;           ///< Pa, mean
+    double residual = 0;           ///< residual overlap over a
+    double recovered = 0;          ///< recovered overlap over a
+    double flatness = 0;           ///< of the pressure
+    double log_yield_overlap = 0;  ///< ln(overlap/overlap at first yield); elastic: below 0
+    bool known = true;             ///< within what the atlas tells
+  };
+  /// `curvature`: kappa > 0; `contact`: alpha, 0 for a thick wall.
+  State at(double curvature, double contact) const;
+
+  /// How the twin unloads where its residual overlap is this over the recovered one: dents of one shape are
+  /// reloaded with one shape of the pressure.
+  struct Unloading
+  {
+    double work = 0.4;       ///< given back, over F times the recovered overlap
+    double hertz_share = 1;  ///< of the unloading
+  };
+  Unloading unloading(double curvature, double contact, double residual_over_recovered) const;
+
+  /// The same sphere, if it never yielded.
+  PairBody elastic() const;
+
+  const LawMaterial& material() const { return material_; }
+  /// Of the material in the atlas that stands for it: its own, but for the hardening.
+  const MaterialRatios& ratios() const { return ratios_; }
+  bool yields() const { return !twins_.empty(); }
+  /// k of the finite sphere: its centre comes nearer by k F/(E* R) less than its half-space's.
+  double finite_body() const { return finite_body_; }
+
+ private:
+  /// Of one stiffness, at equal steps of ln(overlap/overlap at first yield).
+  struct Twin
+  {
+    double log_stiffness = 0, log_end = 0;  // ln(E*/Y); where the atlas ends
+    std::vector<double> log_contact, log_pressure, log_overlap, log_lost, unloading_work, hertz_share;
+  };
+  /// The twin of a stiffness between those kept.
+  struct Mixed
+  {
+    double share;       // of its stiffness in the body's own
+    std::size_t first;  // of the kept ones between which it lies
+    std::array<double, 4> weights;
+    bool is_clipped;  // nearest to one that the atlas does not know
+  };
+  /// What a body's contact departs from its stand-in's by, at ascending ln(kappa E*/Y). Empty: by nothing.
+  struct Departure
+  {
+    std::vector<double> log_strain, log_pressure, log_overlap, log_lost, unloading_work, hertz_share;
+
+    double at(double log_strain, const std::vector<double> Departure::*member) const;
+    double rms() const;  // of ln(pressure)
+  };
+
+  void make_twins(const Atlas& atlas);
+  static Twin tabulated(const Curve& curve, const ElasticCorrection& elastic, double stiffness,
+                        double onset, double depth);
+  Twin twin(const Atlas& atlas, double stiffness) const;
+  Twin stand_in(const Atlas& atlas, double hardening) const;
+  static Departure departure(const Twin& own, const Twin& stand_in);
+  Mixed twin_at(double curvature, double contact) const;
+  double value(const Mixed& twin, const std::vector<double> Twin::*member, int node) const;
+  /// Node below which a rising function of the twin is `wanted`, with its fraction.
+  double place(const Mixed& twin, const std::vector<double> Twin::*member, double wanted) const;
+  double value(const Mixed& twin, const std::vector<double> Twin::*member, double place) const;
+  double elastic_overlap(double contact) const;
+  State elastic_at(double curvature, double contact) const;
+
+  LawMaterial material_;
+  MaterialRatios ratios_;
+  Departure departure_;
+  ElasticCorrection elastic_;
+  double finite_body_ = 0;
+  std::vector<Twin> twins_;
+  std::vector<double> log_stiffnesses_;
+};
+
+}  // namespace granulaw
