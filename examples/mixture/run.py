@@ -45,8 +45,8 @@ def law_files(args):
     rule = composed.with_name("rule.h5")
     shutil.copyfile(composed, rule)
     with h5py.File(rule, "r+") as file:
-        del file.attrs["checksum"]  # of the whole file; one of minor version 1 has none
-        file.attrs.modify("version_minor", np.int32(1))
+        del file.attrs["checksum"]  # of the whole file; one of minor version 0 has none
+        file.attrs.modify("version_minor", np.int32(0))
         del file["pair_laws"]
     return {"rule": rule, "composed": composed}
 

@@ -83,6 +83,8 @@ struct alignas(64) CubicPair
   double first(double t) const { return (c[0][0] + t * c[1][0]) + t * t * (c[2][0] + t * c[3][0]); }
   double first_slope(double t) const { return c[1][0] + t * (2.0 * c[2][0] + t * (3.0 * c[3][0])); }
   Two slope_of_both(double t) const { return c[1] + t * (2.0 * c[2] + t * (3.0 * c[3])); }
+  /// Straight on from t.
+  CubicPair continued(double t) const { return {{both(t), slope_of_both(t), Two{}, Two{}}}; }
 };
 
 }  // namespace granulaw

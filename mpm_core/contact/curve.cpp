@@ -210,11 +210,12 @@ Curve::Curve(CurveTable table, std::optional<AxisTable> axis)
     loading_[k].set(1, c);
   }
   const double at_end = end_ * per_unit_;
-  const auto last = static_cast<double>(intervals - 1);
-  const Place p{loading_.back(), at_end - table_.node(static_cast<std::size_t>(last)) * per_unit_,
-                intervals - 1};
+  const Place p{loading_.back(), at_end - table_.node(intervals - 1) * per_unit_, intervals - 1};
   const Two now = p.loading.both(p.t);
   last_ = {now[0], p.loading.first_slope(p.t) * per_unit_, now[1]};
+  // an end that is a node begins an interval
+  const double width = (table_.node(intervals) - table_.node(intervals - 1)) * per_unit_;
+  loading_.push_back(loading_.back().continued(width)), work_.push_back(work);
 
   if (table_.yields()) {
     yields_from_ = table_.onset;
@@ -237,6 +238,8 @@ Curve::Curve(CurveTable table, std::optional<AxisTable> axis)
       cubic_of(span, k, length, width, c), turns_[k].losses.set(1, c);
       cubic_of(table_.hertz_share, k, length, width, turns_[k].share);
     }
+    const Turn& end = turns_.back();
+    turns_.push_back({end.losses.continued(width), {cubic(end.share, width), cubic_slope(end.share, width), 0, 0}});
   }
   if (axis_table_) add_axis();
 }

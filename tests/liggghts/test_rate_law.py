@@ -49,8 +49,8 @@ class RateLaw(Deck):
         return slow, fast, stats
 
     def test_slower_impacts_than_the_law_knows_are_counted(self):
-        """The fixture's axis ends at V sqrt(rho/Y) = 0.245 on the rigid wall (twice that V for a like pair) and begins at 1/40 of it."""
-        fastest = 0.245 * math.sqrt(POWDER.yield_stress / POWDER.density)
+        """The fixture's axis ends at V sqrt(rho/Y) = 0.066 on the rigid wall (twice that V for a like pair) and begins at 1/40 of it."""
+        fastest = 0.066 * math.sqrt(POWDER.yield_stress / POWDER.density)
         words = f"{self.words} stats s.json"
         for share, slow, fast in ((0.97 / 40, 1, 0), (1.03 / 40, 0, 0), (1.03, 0, 1)):
             speed = share * fastest

@@ -155,6 +155,27 @@ TEST(CurveTest, IsContinuousAtNodesOnsetReversalPointAndEnd)
   EXPECT_NEAR(loading.contact_radius, unloading.contact_radius, 1e-10 * loading.contact_radius);
 }
 
+/// An end that is a node begins no interval of the table.
+TEST(CurveTest, GoesOnWithoutAJumpWhereTheEndIsANode)
+{
+  SyntheticTables law;
+  law.end = 128 * law.onset;
+  for (const Curve& curve : {law.curve(), law.curve_with_axis(), SyntheticTables::elastic()})
+    for (const double latched : {0.0, curve.axis() ? 0.4 * curve.end() : 0.0}) {
+      const double x = curve.end(), below = x * (1 - 1e-12);
+      const Curve::Loading at = curve.loading(x, latched), before = curve.loading(below, latched);
+      // 1e-10: slopes times the step
+      EXPECT_NEAR(at.force / before.force, 1, 1e-10);
+      EXPECT_NEAR(at.stiffness / before.stiffness, 1, 1e-10);
+      EXPECT_NEAR(at.radius / before.radius, 1, 1e-10);
+      EXPECT_NEAR(curve.force(x, latched) / before.force, 1, 1e-10);
+      EXPECT_NEAR(curve.work(x, latched) / curve.work(below, latched), 1, 1e-10);
+      EXPECT_NEAR(curve.kept(x, latched) / curve.kept(below, latched), 1, 1e-10);
+      const Reversal top = curve.reversal(x, latched), near = curve.reversal(below, latched);
+      EXPECT_NEAR(top.force(0.97 * x) / near.force(0.97 * x), 1, 1e-9);
+    }
+}
+
 TEST(CurveTest, ElasticBodyReturnsEverything)
 {
   const Curve glass = SyntheticTables::elastic();

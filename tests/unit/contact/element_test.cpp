@@ -63,13 +63,14 @@ TEST(ContactElement, BooksWhatACollisionLoses)
     const double lost = 0.5 * mass * (speed * speed - end.speed * end.speed);
     EXPECT_EQ(end.books[Mechanism::waves] > 0, waves > 0);
     EXPECT_EQ(end.books[Mechanism::friction], 0);
-    // velocity Verlet's error at some thousand steps a contact
-    EXPECT_NEAR(end.books[Mechanism::plastic] + end.books[Mechanism::waves], lost, 1e-4 * lost);
+    // the work of loading with a velocity axis is a table, between its levels as good as least_loss
+    EXPECT_NEAR(end.books[Mechanism::plastic] + end.books[Mechanism::waves], lost,
+                Curve::least_loss * 0.5 * mass * speed * speed);
   }
   const ContactElement<Thornton> thornton{Thornton({1e9, 1.6e7}, 1.0)};
   const Collision end = collide(thornton, speed, 0.0, 2e-9);
   const double lost = 0.5 * mass * (speed * speed - end.speed * end.speed);
-  EXPECT_NEAR(end.books[Mechanism::plastic], lost, 1e-4 * lost);
+  EXPECT_NEAR(end.books[Mechanism::plastic], lost, 1e-4 * lost);  // velocity Verlet, some thousand steps
 }
 
 TEST(ContactElement, BooksWhatFrictionTakes)

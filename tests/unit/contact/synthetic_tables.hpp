@@ -31,6 +31,8 @@ struct SyntheticTables
   double depth = 1.1;            ///< -ln kept = 2.9 depth q^2/(1 + q)
   double span_share = 0.9;       ///< ln span = span_share ln kept
   double bend = 0.05;            ///< Hertz share: less bend q^2/(1 + q^2)
+  double speed_end = 0.245;      ///< of the velocity axis
+  double impact_loss = 0.05;     ///< share of `kept` that the fastest impact loses beyond the slow press
 
   static constexpr double finite_sphere = 0.9;  ///< F_elastic = F_Hertz (1 + finite_sphere sqrt(x))
 
@@ -79,7 +81,7 @@ struct SyntheticTables
   AxisTable axis(int levels = 8, int nodes = 25) const
   {
     AxisTable t;
-    t.speed_end = 0.245;
+    t.speed_end = speed_end;
     t.share_end = 1.5;
     for (int j = 0; j <= 16; ++j) {
       const double r = j / 16.0;
@@ -88,7 +90,7 @@ struct SyntheticTables
     for (int k = 1; k <= levels; ++k) {
       const double part = static_cast<double>(k) / levels, latched = end * part;
       t.level.push_back(latched);
-      t.kept.push_back(kept(latched) * (1 - 0.05 * part));
+      t.kept.push_back(kept(latched) * (1 - impact_loss * part));
       t.span.push_back(span(latched) * (1 - 0.01 * part));
       for (int l = 0; l < nodes; ++l) {
         const double xi = t.share_end * l / (nodes - 1), rest = 1 - xi / t.share_end, cross = 1 - xi / 0.65;
