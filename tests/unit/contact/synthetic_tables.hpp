@@ -88,7 +88,7 @@ struct SyntheticTables
       t.reach.add(end * r * (0.6 + 0.4 * r), end * (0.6 + 0.8 * r) / t.speed_end);
     }
     for (int k = 1; k <= levels; ++k) {
-      const double part = static_cast<double>(k) / levels, latched = end * part;
+      const double root = static_cast<double>(k) / levels, part = root * root, latched = end * part;
       t.level.push_back(latched);
       t.kept.push_back(kept(latched) * (1 - impact_loss * part));
       t.span.push_back(span(latched) * (1 - 0.01 * part));
