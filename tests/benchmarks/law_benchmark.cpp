@@ -18,6 +18,7 @@
 #include <random>
 #include <vector>
 
+#include "base/larger.hpp"
 #include "contact/contact.hpp"
 #include "synthetic_law.hpp"
 
@@ -64,7 +65,7 @@ void time(benchmark::State& state, const std::vector<Contact>& flow, const Curve
     k = (k + 1) & (contacts - 1);
   }
   double error = 0;
-  for (const Contact& c : flow) error = std::max(error, std::abs(curve.force(c.x) / law.force(c.x) - 1));
+  for (const Contact& c : flow) error = granulaw::larger(error, std::abs(curve.force(c.x) / law.force(c.x) - 1));
   state.counters["error_F"] = error;
   state.counters["bytes"] = static_cast<double>(curve.bytes());
 }

@@ -242,22 +242,5 @@ RC_GTEST_PROP(ContactPaths, SameBitsForEitherSideAndAnyOrder, ())
   }
 }
 
-/// The branch says what touches, not the sign of the force.
-TEST(ContactPaths, TheBranchSaysWhatTouches)
-{
-  const Curve curve = SyntheticLaw{}.curve();
-  const PairContact pair{&curve, unit_pair};
-  ContactState state;
-  using Branch = Answer::Branch;
-  EXPECT_EQ(answer(pair, 1, 0.0, state).branch, Branch::apart);
-  EXPECT_EQ(answer(pair, 1, 1e-5, state).branch, Branch::loading);
-  EXPECT_EQ(answer(pair, 1, 1e-2, state).branch, Branch::loading);
-  EXPECT_EQ(answer(pair, 1, 9.9e-3, state).branch, Branch::unloading);
-  EXPECT_EQ(answer(pair, 1, 1e-5, state).branch, Branch::apart);  // left in its dent
-  EXPECT_EQ(state.deepest, 1e-2);
-  answer(pair, 1, -1e-5, state);
-  EXPECT_EQ(state.deepest, 0);
-}
-
 }  // namespace
 }  // namespace granulaw

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/larger.hpp"
 #include "contact/contact.hpp"
 #include "law/law_file.hpp"
 #include "synthetic_law.hpp"
@@ -29,7 +30,7 @@ double worst_error(const SyntheticLaw& shape, const granulaw::Curve& curve)
   double worst = 0;
   for (int k = 0; k < 200000; ++k) {
     const double x = std::exp(log_x(random));
-    worst = std::max(worst, std::abs(curve.force(x) / shape.force(x) - 1));
+    worst = granulaw::larger(worst, std::abs(curve.force(x) / shape.force(x) - 1));
   }
   return worst;
 }
@@ -75,7 +76,7 @@ double four(const char* file, const std::vector<double>& ratios, bool pair_laws 
     result.material.youngs_modulus = youngs_modulus;
     // of four materials the first yields against the others
     result.material.yield_stress = result.material.e_star() / modulus_over_yield * std::sqrt(onset / 3e-4);
-    worst = std::max(worst, worst_error(shape, result.curve));
+    worst = granulaw::larger(worst, worst_error(shape, result.curve));
     return result;
   };
   for (const std::string& name : names) {
