@@ -7,7 +7,7 @@ if(NOT TARGET liggghts-mpm OR NOT GRANULAW_LIGGGHTS_ROOT STREQUAL "")
 endif()
 set(GRANULAW_PACKAGE ON)
 set(GRANULAW_MAINTAINER "The Granulaw developers <granulaw@granulaw.invalid>" CACHE STRING "Of the Debian packages: NAME <ADDRESS>")
-# The plug-in is compiled from LIGGGHTS's headers and refuses every other version (liggghts_plugin/checks.cpp).
+# The plug-in is compiled from LIGGGHTS's headers and refuses every other version (liggghts_plugin/run/checks.cpp).
 set(liggghts_range "liggghts (>= 3.8.0), liggghts (<< 3.8.1~)")
 
 set(CPACK_GENERATOR DEB)

@@ -4,9 +4,9 @@
 #include <regex>
 #include <set>
 
-#include "liggghts_plugin/fix_style.hpp"
+#include "liggghts_plugin/engine/fix_style.hpp"
+#include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/plan/planner.hpp"
-#include "liggghts_plugin/private_members.hpp"
 #include "output.h"
 #include "variable.h"
 

@@ -1,7 +1,7 @@
-#include "liggghts_plugin/command.hpp"
+#include "liggghts_plugin/engine/private_members.hpp"
+#include "liggghts_plugin/loop/command.hpp"
 #include "liggghts_plugin/plan/dry_run.hpp"
 #include "liggghts_plugin/plan/planner.hpp"
-#include "liggghts_plugin/private_members.hpp"
 
 namespace granulaw::plugin {
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/engine/liggghts.hpp"
 #include "liggghts_plugin/plan/record.hpp"
 
 // `liggghts-mpm -plan FILE -in DECK`: LIGGGHTS reads the deck and sets up every run, but takes two of its

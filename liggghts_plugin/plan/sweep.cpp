@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fix_move_mesh.h"
-#include "liggghts_plugin/private_members.hpp"
+#include "liggghts_plugin/engine/private_members.hpp"
 #include "mesh_mover_linear.h"
 #include "mesh_mover_rotation.h"
 

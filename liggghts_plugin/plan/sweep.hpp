@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "liggghts_plugin/liggghts.hpp"
+#include "liggghts_plugin/engine/liggghts.hpp"
 #include "liggghts_plugin/plan/record.hpp"
 
 namespace granulaw::plugin::plan {

@@ -1,35 +1,34 @@
-"""Each folder of the solver includes only headers of those above it in the table of docs/reference/source-tree.md."""
+"""Each folder of the solver and of the plug-in includes only headers of those above it in the table of docs/reference/source-tree.md."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOLVER = ROOT / "mpm_core" / "solver"
+TREES = {"mpm_core/solver": "solver", "liggghts_plugin": "liggghts_plugin"}  # folder: its name in an #include
 
 
-def folders(page):
-    return re.findall(r"\| `mpm_core/solver/(\w+)` \|", page)
+def folders(page, tree):
+    return re.findall(rf"\| `{tree}/(\w+)` \|", page)
 
 
-def upward(order, files):
-    """Includes that point down the table; `files`: (folder, name, text)."""
-    found = []
-    for folder, name, text in files:
-        for to in re.findall(r'#include "solver/(\w+)/', text):
-            if order.index(to) > order.index(folder):
-                found.append(f"{folder}/{name} includes a header of {to}/")
-        if "solver/runs.hpp" in text and folder != order[-1]:
-            found.append(f"{folder}/{name} includes runs.hpp")
-    return found
+def upward(order, name, files):
+    """Includes that point down the table; `files`: (folder, file, text)."""
+    return [f"{folder}/{file} includes a header of {to}/" for folder, file, text in files
+            for to in re.findall(rf'#include "{name}/(\w+)/', text) if order.index(to) > order.index(folder)]
 
 
 def main():
-    order = folders((ROOT / "docs/reference/source-tree.md").read_text())
-    present = sorted(p.name for p in SOLVER.iterdir() if p.is_dir())
-    assert sorted(order) == present, f"folders on the page: {order}, in the tree: {present}"
-    assert upward(order, [(order[0], "x.hpp", f'#include "solver/{order[1]}/y.hpp"')]), "an upward include is not found"
-    files = [(p.parent.name, p.name, p.read_text()) for p in SOLVER.glob("*/*.[ch]pp")]
-    found = upward(order, files)
+    page = (ROOT / "docs/reference/source-tree.md").read_text()
+    found = []
+    for tree, name in TREES.items():
+        order = folders(page, tree)
+        present = sorted({p.parent.name for p in (ROOT / tree).glob("*/*.[ch]pp")})
+        assert sorted(order) == present, f"folders on the page: {order}, in the tree: {present}"
+        assert upward(order, name, [(order[0], "x.hpp", f'#include "{name}/{order[1]}/y.hpp"')]), "an upward include is not found"
+        files = [(p.parent.name, p.name, p.read_text()) for p in (ROOT / tree).glob("*/*.[ch]pp")]
+        found += upward(order, name, files)
+        if name == "solver":
+            found += [f"{folder}/{file} includes runs.hpp" for folder, file, text in files if "solver/runs.hpp" in text and folder != order[-1]]
     assert not found, "\n".join(found)
 
 

@@ -9,7 +9,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
-NOT_COPIED = {"launcher.cpp", "register_hertz.cpp"}  # a main of its own; a yardstick for benchmarks
+NOT_COPIED = {"register_hertz.cpp"}  # a yardstick for benchmarks
 
 
 class CopyToSrc(unittest.TestCase):
@@ -33,12 +33,13 @@ class CopyToSrc(unittest.TestCase):
         before = {path.name for path in self.src.iterdir()}
         (self.src / "granulaw_old.cpp").write_text("of an earlier version")
         self.copy()
-        expected = {f"granulaw_{name}_{path.name}" for folder, name in (("liggghts_plugin", "liggghts_plugin"), ("mpm_core/law", "law"), ("mpm_core/contact", "contact"),
-                                                                        ("mpm_core/base", "base"))
-                    for path in (ROOT / folder).glob("*.cpp") if path.name not in NOT_COPIED} | {"granulaw_base_version.cpp"}
-        expected |= {f"granulaw_liggghts_plugin_register_{model}.cpp" for model in ("mpm", "thornton")}  # of models.list
+        folders = {path.parent for path in (ROOT / "liggghts_plugin").glob("*/*.hpp")} - {ROOT / "liggghts_plugin/plan"}
+        folders |= {ROOT / "mpm_core" / name for name in ("law", "contact", "base")}
+        expected = {"granulaw_" + str(path.relative_to(ROOT)).replace("/", "_") for folder in folders for path in folder.glob("*.cpp") if path.name not in NOT_COPIED}
+        expected |= {"granulaw_mpm_core_base_version.cpp"}
+        expected |= {f"granulaw_liggghts_plugin_loop_register_{model}.cpp" for model in ("mpm", "thornton")}  # of models.list
         self.assertEqual({path.name for path in self.src.iterdir()} - before, expected | {"granulaw"})
-        for filled_in in ("granulaw_base_version.cpp", "granulaw_liggghts_plugin_register_mpm.cpp"):
+        for filled_in in ("granulaw_mpm_core_base_version.cpp", "granulaw_liggghts_plugin_loop_register_mpm.cpp"):
             self.assertNotIn("@", (self.src / filled_in).read_text())
 
     def test_what_is_copied_includes_what_is_copied(self):
@@ -53,7 +54,7 @@ class CopyToSrc(unittest.TestCase):
         """One file of each folder (docs/guide/own-liggghts.md: the whole of LIGGGHTS, done once)."""
         words = dict(line.split(" = ", 1) for line in self.copy().splitlines() if " = " in line)
         flags = words["MPI_CCFLAGS_USR"].split() + ["-O2", "-std=c++17"] + words["LMP_INC"].split()  # as Makefile.auto orders them
-        for name in ("law_law.cpp", "liggghts_plugin_options.cpp", "base_version.cpp"):
+        for name in ("mpm_core_law_law.cpp", "liggghts_plugin_deck_options.cpp", "mpm_core_base_version.cpp"):
             done = subprocess.run(["mpicxx", *flags, "-fsyntax-only", str(self.src / f"granulaw_{name}")], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, f"{name}: {done.stderr[:2000]}")
 
@@ -69,7 +70,7 @@ class CopyToSrc(unittest.TestCase):
         (self.src / "uses_hdf5.cpp").write_text("#include <hdf5.h>\nint version() { return H5open(); }\n")
         flags = words["MPI_CCFLAGS_USR"].split() + ["-std=c++17"] + words["LMP_INC"].split() + ["-fPIC", "-shared", "-Wl,--no-undefined"]
         libraries = ["-L" + words["MPI_LIB_USR"]] + words["MPI_ADDLIBS_USR"].split()
-        done = subprocess.run(["mpicxx", *flags, "-o", "libtest.so", "uses_hdf5.cpp", "granulaw_base_error.cpp", *libraries],
+        done = subprocess.run(["mpicxx", *flags, "-o", "libtest.so", "uses_hdf5.cpp", "granulaw_mpm_core_base_error.cpp", *libraries],
                               capture_output=True, text=True, cwd=self.src)
         self.assertEqual(done.returncode, 0, done.stderr[:2000])
 

@@ -131,7 +131,7 @@ class Guards(Deck):
         # refused anyway; of other tangential and rolling models; of superquadrics
         foreign = {"computeElasticPotential", "heating_tangential_no_history", "tangential_reduce", "torsionTorque", "meanCurvature", "gaussianCurvature", "curvatureLimitFactor"}
         sources = pathlib.Path(__file__).resolve().parents[2] / "liggghts_plugin"
-        said = {word for name in ("keywords.hpp", "mpm_physics.hpp") for word in re.findall(r'Keyword(?: beyond_range)?\{\.name = "(\w+)"', (sources / name).read_text())}
+        said = {word for name in ("deck/keywords.hpp", "contact/mpm_physics.hpp") for word in re.findall(r'Keyword(?: beyond_range)?\{\.name = "(\w+)"', (sources / name).read_text())}
         self.assertEqual(said - foreign, meaning.keys() | sizes.keys() | free.keys())
         other = self.folder / "other.h5"
         self.fixture("write", other, "depth", 0.8)

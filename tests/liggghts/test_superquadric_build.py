@@ -65,7 +65,7 @@ class Configure(unittest.TestCase):
         words = ["-std=c++20", "-O0", "-c", "-o", str(self.folder / "object.o"), "-DOMPI_SKIP_MPICXX", "-DMPICH_SKIP_MPICXX",
                  "-DSUPERQUADRIC_ACTIVE_FLAG", "-DNONSPHERICAL_ACTIVE_FLAG", f"-I{ROOT}", f"-I{ROOT / 'mpm_core'}",
                  f"-isystem{STYLES}", f"-isystem{HEADERS}"]
-        for source in (*(ROOT / "liggghts_plugin" / f"{name}.cpp" for name in ("checks", "registration", "particle_sizes")),
+        for source in (*(ROOT / "liggghts_plugin" / f"{name}.cpp" for name in ("run/checks", "loop/registration", "deck/particle_sizes")),
                        STYLES / "register_thornton.cpp"):
             done = subprocess.run(["mpicxx", *words, str(source)], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, f"{source.name}: {done.stderr[:2000]}")

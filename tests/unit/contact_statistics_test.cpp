@@ -1,4 +1,4 @@
-#include "liggghts_plugin/contact_statistics.hpp"
+#include "liggghts_plugin/books/contact_statistics.hpp"
 
 #include <gtest/gtest.h>
 

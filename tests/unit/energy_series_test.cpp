@@ -1,5 +1,5 @@
 // The energies of a run over time: a run of any length leaves a few hundred rows, first and last among them.
-#include "liggghts_plugin/energy_series.hpp"
+#include "liggghts_plugin/books/energy_series.hpp"
 
 #include <gtest/gtest.h>
 

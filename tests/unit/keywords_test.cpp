@@ -5,9 +5,9 @@
 #include <set>
 #include <vector>
 
-#include "liggghts_plugin/mpm_physics.hpp"
-#include "liggghts_plugin/options.hpp"
-#include "liggghts_plugin/thornton_physics.hpp"
+#include "liggghts_plugin/contact/mpm_physics.hpp"
+#include "liggghts_plugin/contact/thornton_physics.hpp"
+#include "liggghts_plugin/deck/options.hpp"
 
 namespace granulaw::plugin {
 namespace {

@@ -1,4 +1,4 @@
-#include "liggghts_plugin/options.hpp"
+#include "liggghts_plugin/deck/options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "liggghts_plugin/mpm_physics.hpp"
-#include "liggghts_plugin/thornton_physics.hpp"
+#include "liggghts_plugin/contact/mpm_physics.hpp"
+#include "liggghts_plugin/contact/thornton_physics.hpp"
 
 namespace granulaw::plugin {
 namespace {

@@ -1,8 +1,8 @@
-#include "liggghts_plugin/restart_record.hpp"
+#include "liggghts_plugin/books/restart_record.hpp"
 
 #include <gtest/gtest.h>
 
-#include "liggghts_plugin/contact_statistics.hpp"
+#include "liggghts_plugin/books/contact_statistics.hpp"
 
 namespace granulaw::plugin {
 namespace {

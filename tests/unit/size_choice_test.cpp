@@ -1,4 +1,4 @@
-#include "liggghts_plugin/size_choice.hpp"
+#include "liggghts_plugin/deck/size_choice.hpp"
 
 #include <gtest/gtest.h>
 

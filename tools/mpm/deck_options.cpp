@@ -15,7 +15,7 @@
 #include "law/contact_step.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
-#include "liggghts_plugin/mpm_physics.hpp"
+#include "liggghts_plugin/contact/mpm_physics.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
 

@@ -1,7 +1,7 @@
 #include "plain_hertz_physics.hpp"
 
 #include "base/scales.hpp"
-#include "liggghts_plugin/session.hpp"
+#include "liggghts_plugin/deck/session.hpp"
 
 namespace granulaw::plugin {
 

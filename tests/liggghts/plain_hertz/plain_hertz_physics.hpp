@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "liggghts_plugin/normal_physics.hpp"
+#include "liggghts_plugin/contact/normal_physics.hpp"
 
 namespace granulaw::plugin {
 

@@ -1,6 +1,6 @@
 // A tangential law of ours for the model plain_hertz: `tangential own_spring` is LIGGGHTS's `history` by
 // Spring.
-#include "liggghts_plugin/registration.hpp"
+#include "liggghts_plugin/loop/registration.hpp"
 #include "plain_hertz_physics.hpp"
 
 namespace granulaw::plugin {

@@ -1,0 +1,193 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/element.hpp"
+#include "liggghts_plugin/books/energy_tally.hpp"
+#include "liggghts_plugin/contact/normal_physics.hpp"
+#include "liggghts_plugin/deck/session.hpp"
+#include "liggghts_plugin/engine/shapes.hpp"
+#include "liggghts_plugin/particles/bodies.hpp"
+
+namespace granulaw::plugin {
+
+/// A contact that begins deeper than so many times what the motion of a step can bring did not begin by
+/// motion: particles were inserted into each other, or an edge of a mesh handed a pressed sphere over. Walls
+/// may move at another point of the step than spheres, so that twice the motion is possible.
+inline constexpr double sudden_start = 2.0;
+
+/// Counts what contacts do in the statistics, in the steps that take them deeper than they were. `Entry`: of
+/// a PairTable.
+template <class Entry>
+class ContactCounts
+{
+  using SurfacesIntersectData = cm::SurfacesIntersectData;
+
+ public:
+  void connect(LAMMPS_NS::LAMMPS* lmp, Session& session)
+  {
+    lmp_ = lmp;
+    bodies_ = &session.bodies;
+    energy_ = session.energy;
+  }
+  /// Places in a contact's history, -1: none. Of R* at the largest overlap (superquadrics), and of the
+  /// approach speed at first touch (`contactMap on`).
+  void keep_radius_at(int offset) { radius_offset_ = offset; }
+  void keep_speed_at(int offset) { speed_offset_ = offset; }
+
+  /// Part of a contact that this rank accounts for, 1 or 0.5: see ContactStatistics. Without a branch: which
+  /// neighbours are ghosts no processor can foresee.
+  double weight(const cm::SurfacesCloseData& contact) const
+  {
+    const bool whole = contact.is_wall | (contact.j < lmp_->atom->nlocal);
+    return 0.5 + 0.5 * static_cast<double>(whole);
+  }
+
+  /// A step that takes the contact deeper than it ever was: from `delta_max`, which is 0 if it begins.
+  /// `kept`: of the law.
+  void deepen(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
+              double delta_max, double* kept) const
+  {
+    ContactStatistics::Pair& counts = *entry.counts;
+    const double weight = this->weight(contact), delta = contact.deltan;
+    bool sudden = false;
+    if (delta_max == 0.0) [[unlikely]]
+      sudden = begin(counts, contact, entry, r_eff, weight);
+    if (delta > counts.overlap_max * r_eff) counts.overlap_max = delta / r_eff;
+    if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
+      if (delta_max <= near_edge * entry.largest_overlap * r_eff) counts.near += weight;
+      if (delta > entry.largest_overlap * r_eff && delta_max <= entry.largest_overlap * r_eff)
+        counts.past += weight;
+    }
+    // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
+    if (r_eff * delta > counts.hardest * contact.meff * contact.meff) [[unlikely]] {
+      counts.hardest = r_eff * delta / (contact.meff * contact.meff);
+      counts.run_frequency2 =
+          std::max(counts.run_frequency2,
+                   entry.contact.stiffness(r_eff, delta, impact_overlap) / contact_mass(*bodies_, contact));
+      counts.frequency2 = std::max(counts.frequency2, counts.run_frequency2);
+    }
+    move_in_histogram(counts, contact.contact_history, delta_max, delta, r_eff, weight);
+    if (sudden) [[unlikely]] {  // no motion paid for what it holds
+      counts.sudden += weight;
+      counts.brought += weight * entry.contact.stored_energy(r_eff, delta, delta, impact_overlap);
+    } else {
+      const double dissipated = dissipation_of(entry.contact, r_eff, delta_max, delta, impact_overlap, kept);
+      counts.taken[Mechanism::plastic] += weight * dissipated;
+      if (energy_) [[unlikely]]
+        energy_->share(contact, EnergyTally::dissipated, dissipated, lmp_->atom->nlocal);
+    }
+  }
+
+  /// Books what waves take in a step. Work that this misses stands with the other forces, which are measured,
+  /// waves among them.
+  void radiate(const SurfacesIntersectData& contact, const Entry& entry, double waves_force,
+               double normal_force) const
+  {
+    if (!contact.computeflag || !contact.shearupdate) return;
+    const double taken = weight(contact) * work_of_waves(waves_force, -contact.vn, normal_force, contact.meff,
+                                                         lmp_->update->dt);
+    entry.counts->taken[Mechanism::waves] += taken;
+    if (energy_) [[unlikely]]
+      entry.counts->other_work -= taken;
+  }
+
+  /// A contact that ended stays in the histogram, at its largest overlap.
+  void forget_speed(double* history) const
+  {
+    if (speed_offset_ >= 0) [[unlikely]]
+      history[speed_offset_] = 0.0;
+  }
+
+  /// Takes a contact that is open out of the histograms.
+  void take_out(ContactStatistics::Pair& counts, const double* history, double delta_max, double r_eff,
+                double weight) const
+  {
+    count(counts, history, delta_max, radius_at_largest(history, r_eff), -weight);
+  }
+
+ private:
+  /// Counts a contact in its first step. True if it began deeper than motion can bring it.
+  [[gnu::noinline]] bool begin(ContactStatistics::Pair& counts, SurfacesIntersectData contact,
+                               const Entry& entry, double r_eff, double weight) const
+  {
+    const double speed = std::max(0.0, -contact.vn);
+    counts.touches += weight;
+    counts.speed.add(speed, weight);
+    counts.speed_min = std::min(counts.speed_min, speed);
+    counts.speed_max = std::max(counts.speed_max, speed);
+    counts.damage_number_max =
+        std::max(counts.damage_number_max, entry.damage_number_per_speed2 * speed * speed);
+    const double mass = contact_mass(*bodies_, contact);
+    if (speed > entry.contact.max_speed(r_eff, mass)) counts.too_fast += weight;
+    // one without approach follows the law at no rate: the file holds that
+    if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, mass)) counts.too_slow += weight;
+    if (speed_offset_ >= 0) [[unlikely]]
+      contact.contact_history[speed_offset_] = speed;
+    // of superquadrics rotations bring overlap, too
+    return !contact.is_non_spherical && contact.deltan > sudden_start * overlap_of_a_step(contact);
+  }
+
+  /// The largest overlap that the motion of the last step can have brought two spheres to that did not touch
+  /// before: of |d n + v dt|^2 >= (d + delta)^2, with the velocities of the half step behind.
+  double overlap_of_a_step(const SurfacesIntersectData& contact) const
+  {
+    double speed2 = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const double v = contact.v_i[c] - contact.v_j[c];
+      speed2 += v * v;
+    }
+    const double dt = lmp_->update->dt;
+    return std::abs(contact.vn) * dt + 0.5 * speed2 * dt * dt / contact.r;
+  }
+
+  /// R* at the contact's largest overlap, where that of superquadrics was another.
+  double radius_at_largest(const double* history, double r_eff) const
+  {
+    return superquadrics_built && radius_offset_ >= 0 ? history[radius_offset_] : r_eff;
+  }
+
+  /// Moves a contact that grows from `from` to `to` (0: it begins) to its bin: see
+  /// ContactStatistics::Pair::overlap.
+  void move_in_histogram(ContactStatistics::Pair& counts, double* history, double from, double to,
+                         double r_eff, double weight) const
+  {
+    // most steps stay within a bin; R* of superquadrics may change
+    const double per_edge = per_lowest_edge(counts, r_eff);
+    const bool stays =
+        !superquadrics_built && from > 0.0 &&
+        LogHistogram::ends_above_ratio(LogHistogram::bin_of_ratio(from * per_edge), to * per_edge);
+    if (!stays) [[unlikely]]
+      change_bin(counts, history, from, to, r_eff, weight);
+  }
+  /// 1/m: 1 over R* times the lowest edge of the histogram of overlap/R*. A contact leaves the bin that it
+  /// entered, as every overlap is multiplied by this.
+  static double per_lowest_edge(const ContactStatistics::Pair& counts, double r_eff)
+  {
+    return 1.0 / (r_eff * counts.overlap.first);
+  }
+
+  [[gnu::noinline]] void change_bin(ContactStatistics::Pair& counts, double* history, double from, double to,
+                                    double r_eff, double weight) const
+  {
+    if (from > 0.0) count(counts, history, from, radius_at_largest(history, r_eff), -weight);
+    count(counts, history, to, r_eff, weight);
+    if (superquadrics_built && radius_offset_ >= 0) history[radius_offset_] = r_eff;
+  }
+
+  /// Counts a contact of largest overlap `delta` in the histograms: see ContactStatistics::Pair::overlap.
+  void count(ContactStatistics::Pair& counts, const double* history, double delta, double r_eff,
+             double weight) const
+  {
+    counts.count(LogHistogram::bin_of_ratio(delta * per_lowest_edge(counts, r_eff)),
+                 speed_offset_ >= 0 ? history[speed_offset_] : -1.0, weight);
+  }
+
+  LAMMPS_NS::LAMMPS* lmp_ = nullptr;
+  const Bodies* bodies_ = nullptr;
+  const EnergyTally* energy_ = nullptr;  // null: energy off
+  int radius_offset_ = -1, speed_offset_ = -1;
+};
+
+}  // namespace granulaw::plugin

@@ -1,0 +1,299 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "law/contact_step.hpp"
+#include "contact/pair.hpp"
+#include "contact/tangential.hpp"
+#include "liggghts_plugin/contact/normal_physics.hpp"
+#include "liggghts_plugin/contact/superquadric.hpp"
+#include "liggghts_plugin/deck/session.hpp"
+
+namespace granulaw::plugin {
+
+/// What the deck says of the tangential force.
+struct TangentialChoice
+{
+  double damping = 0.0;   ///< fraction of critical
+  bool computed = false;  ///< stiffness from the law's contact radius, not from Hertz's
+};
+
+/// Which pair of types a contact belongs to; at a wall `jtype` is the wall's.
+inline PairKey pair_key(const Setup& setup, int itype, int jtype)
+{
+  if (!setup.wall) return {PairKey::particles, std::min(itype, jtype), std::max(itype, jtype)};
+  return {setup.options.deformable_wall ? PairKey::deformable_wall : PairKey::rigid_wall, itype, jtype};
+}
+
+/// What the contact loop reads of each pair of atom types: the law, and what follows from the moduli. In the
+/// deck's units, stretched.
+template <NormalPhysics Physics>
+class PairTable
+{
+ public:
+  using Contact = typename Physics::Contact;
+
+  // What every step reads comes first.
+  struct alignas(64) Entry
+  {
+    double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
+    double tangential = 0.0;          // k_t over the contact radius: 8 G* (Mindlin), stretched
+    double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
+    double tangential_damping = 0.0;  // Mindlin's, over the same
+    double yield_overlap = 0.0;       // over R*
+    ContactStatistics::Pair* counts = nullptr;  // this pair of types in the contact statistics
+    Contact contact;
+    double damage_number_per_speed2 =
+        0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
+  };
+
+  /// The law of a contact: one for as long as it lasts, as radii do not change. At a wall radius_j is not
+  /// looked at.
+  const Entry& of(int itype, int jtype, double radius_i, double radius_j) const
+  {
+    const std::size_t pair = pair_of(itype, jtype);
+    if (laws_ == 1) return entries_[pair];
+    return entries_[pair * laws_ + finders_[pair].nearest(radius_i, radius_j)];
+  }
+
+  /// True if waves take a part of the contacts of any pair. One answer for all, as a contact loop cannot
+  /// foresee which types meet next.
+  bool radiates() const { return radiates_; }
+
+  /// `damping_ratio`: of each pair of types, at [i * (count + 1) + j].
+  void resolve(const Physics& physics, const Setup& setup, const Types& types, const ParticleSizes& sizes,
+               const TangentialChoice& tangential, const std::vector<double>& damping_ratio)
+  {
+    const bool is_wall = setup.wall != nullptr;
+    stride_ = types.count + 1;
+    find_choices(physics, setup, types.count, sizes);
+    entries_.assign(choices_.size() * laws_, Entry{});
+    for (int i = 1; i <= types.count; ++i)
+      for (int j = 1; j <= types.count; ++j) {
+        if (std::isnan(types.youngs_modulus[i]) || std::isnan(types.youngs_modulus[j])) continue;
+        try {
+          resolve_types(physics, setup, sizes, i, j);
+        } catch (const granulaw::Error&) {
+          if (types.can_meet(i, j, is_wall)) throw;
+          continue;  // PlasticModel::beyond_table says so if such particles meet after all
+        }
+        each_entry(i, j, [&](Entry& entry) {
+          complete(entry, setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
+                   damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+        });
+      }
+    radiates_ = any_contact([](const Contact& contact) {
+      if constexpr (Radiates<Contact>) return contact.radiation > 0.0;
+      return false;
+    });
+  }
+
+  /// True if the law of any pair asks for the mass of the bodies.
+  bool needs_mass() const
+  {
+    return any_contact([](const Contact& contact) { return contact.needs_mass(); });
+  }
+
+  /// Finds each pair of types its line in the statistics, and writes there what the law says about it.
+  void enter(LAMMPS_NS::LAMMPS* lmp, const Physics& physics, const Setup& setup, const Types& types,
+             const ParticleSizes& sizes)
+  {
+    const bool is_wall = setup.wall != nullptr;
+    for (int i = 1; i <= types.count; ++i)
+      for (int j = 1; j <= types.count; ++j) {
+        const Entry& usual = usual_entry(i, j);
+        if (usual.largest_overlap < 0) continue;
+        const PairKey key = pair_key(setup, i, j);
+        ContactStatistics::Pair& counts = setup.session->statistics.pairs[key];
+        each_entry(i, j, [&](Entry& entry) { entry.counts = &counts; });
+        if (!is_wall && j < i) continue;  // described as i, j
+        std::optional<PairInfo> all;
+        each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t k) {
+          const PairInfo one = describe(physics, entry.contact, key, is_wall, k, sizes);
+          if (all)
+            all->include(one);
+          else
+            all = one;
+        });
+        PairInfo& info = *all;
+        info.needed = types.can_meet(i, j, is_wall);
+        info.onset_speed = std::numeric_limits<double>::infinity();
+        each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t) {
+          add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j), lmp->update->dt);
+          if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
+          if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
+        });
+        counts.info = info;
+      }
+  }
+
+ private:
+  /// Of law `k` of the pair, with the error of the sizes that follow it.
+  PairInfo describe(const Physics& physics, const Contact& contact, const PairKey& key, bool is_wall,
+                    std::size_t k, const ParticleSizes& sizes) const
+  {
+    PairInfo info = physics.describe(contact, key);
+    if constexpr (HasLawsBySize<Physics>)
+      if (!is_wall && info.kind == name_of(info.stated.kind)) {  // no elastic types
+        const SizeChoice& choice = choices_[pair_of(key.i, key.j)];
+        info.stated = info.stated.at_distance(choice.distance(k, sizes.of_type(key.i), sizes.of_type(key.j)));
+        info.kind = name_of(info.stated.kind);
+      }
+    return info;
+  }
+
+  /// How contacts of each pair of types choose among its laws.
+  void find_choices(const Physics& physics, const Setup& setup, int count, const ParticleSizes& sizes)
+  {
+    const SizeChoice one_law(ShareOf::smaller, {0.5});
+    choices_.assign(static_cast<std::size_t>(stride_ * stride_), one_law);
+    if constexpr (HasLawsBySize<Physics>)
+      if (!setup.wall)
+        for (int i = 1; i <= count; ++i)
+          for (int j = 1; j <= count; ++j) choices_[pair_of(i, j)] = physics.laws_by_size(i, j);
+    finders_.assign(choices_.size(), LawFinder{});
+    laws_ = 1;
+    for (int i = 1; i <= count; ++i)
+      for (int j = 1; j <= count; ++j) {
+        const SizeChoice& choice = choices_[pair_of(i, j)];
+        laws_ = std::max(laws_, choice.count());
+        finders_[pair_of(i, j)] = choice.finder(choice.usual(sizes.of_type(i), sizes.of_type(j)));
+      }
+  }
+
+  /// Finds the law or laws of types i and j.
+  void resolve_types(const Physics& physics, const Setup& setup, const ParticleSizes& sizes, int i, int j)
+  {
+    const bool rigid = setup.wall && !setup.options.deformable_wall;
+    Entry* entries = first_entry(i, j);
+    if constexpr (!HasLawsBySize<Physics>)
+      entries[0].contact = physics.resolve(i, j, rigid, setup.where);
+    else if (setup.wall)
+      entries[0].contact =
+          physics.resolve(i, j, rigid, setup.where, 1.0, std::numeric_limits<double>::infinity());
+    else {
+      const SizeChoice& choice = choices_[pair_of(i, j)];
+      for (std::size_t k = 0; k < choice.count(); ++k) {
+        const auto [radius_i, radius_j] = choice.radii_of(k, sizes.of_type(i), sizes.of_type(j));
+        entries[k].contact = physics.resolve(i, j, rigid, setup.where, radius_i, radius_j);
+      }
+    }
+  }
+
+  std::size_t pair_of(int itype, int jtype) const
+  {
+    return static_cast<std::size_t>(itype * stride_ + jtype);
+  }
+  Entry* first_entry(int i, int j) { return &entries_[pair_of(i, j) * laws_]; }
+  const Entry* first_entry(int i, int j) const { return &entries_[pair_of(i, j) * laws_]; }
+
+  /// An entry that particles of the known sizes follow.
+  const Entry& usual_entry(int i, int j) const { return first_entry(i, j)[finders_[pair_of(i, j)].usual]; }
+
+  /// Whether `holds` of the law of any pair.
+  bool any_contact(const auto& holds) const
+  {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+      return entry.largest_overlap >= 0.0 && holds(entry.contact);
+    });
+  }
+
+  /// Each entry of the pair of types.
+  template <class Visit>
+  void each_entry(int i, int j, Visit&& visit)
+  {
+    for (std::size_t k = 0; k < choices_[pair_of(i, j)].count(); ++k) visit(first_entry(i, j)[k]);
+  }
+  /// The usual one, and each other that particles of the known sizes follow.
+  template <class Visit>
+  void each_entry_in_use(int i, int j, const ParticleSizes& sizes, Visit&& visit) const
+  {
+    const Entry& usual = usual_entry(i, j);
+    const SizeChoice& choice = choices_[pair_of(i, j)];
+    for (std::size_t k = 0; k < choice.count(); ++k) {
+      const Entry& entry = first_entry(i, j)[k];
+      if (&entry == &usual || choice.serves(k, sizes.of_type(i), sizes.of_type(j))) visit(entry, k);
+    }
+  }
+
+  /// R* and m* of the smallest particles that can meet; 0: none is known.
+  struct Smallest
+  {
+    double r_eff = 0.0, m_eff = 0.0;
+  };
+
+  /// `j` 0: at a wall.
+  static Smallest smallest(const ParticleSizes& sizes, int i, int j)
+  {
+    Smallest found{sizes.radius[i], sizes.mass[i]};
+    if (j > 0)
+      found = {granulaw::effective_radius(sizes.radius[i], sizes.radius[j]),
+               granulaw::effective_mass(sizes.mass[i], sizes.mass[j])};
+    return std::isfinite(found.r_eff) && std::isfinite(found.m_eff) ? found : Smallest{};
+  }
+
+  /// Lowers the speed of first yield, the largest time step, and the overlap that the step `dt` is short enough
+  /// for, to what this law allows.
+  static void add_limits(PairInfo& info, const Contact& contact, const Smallest& spheres, double dt)
+  {
+    const auto [r_eff, m_eff] = spheres;
+    if (!(r_eff > 0)) return;
+    const double onset = contact.yield_overlap() * r_eff;
+    if (contact.yield_overlap() < contact.largest_overlap())
+      info.onset_speed = std::min(info.onset_speed,
+                                  std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff));
+    const auto stiffness = [&](double delta) {
+      if constexpr (requires { contact.planned_stiffness(r_eff, delta); })
+        return contact.planned_stiffness(r_eff, delta);
+      else
+        return contact.stiffness(r_eff, delta, 0.0);
+    };
+    const double deepest = contact.stiffness_range() * r_eff;
+    const double dt_limit = largest_step_to(deepest, m_eff, stiffness);
+    const double dt_overlap = overlap_of_step(dt, m_eff, deepest, stiffness) / r_eff;
+    const bool is_first = info.dt_limit == 0;
+    info.dt_limit = is_first ? dt_limit : std::min(info.dt_limit, dt_limit);
+    info.dt_overlap = is_first ? dt_overlap : std::min(info.dt_overlap, dt_overlap);
+  }
+
+  /// Pa, 8 G* of Mindlin's tangential stiffness.
+  static double eight_shear_moduli(const Types& types, int i, int j)
+  {
+    const auto compliance = [&](int t) {
+      return shear_compliance(types.youngs_modulus[t], types.poisson_ratio[t]);
+    };
+    return 8.0 / (compliance(i) + compliance(j)) / types.units.pressure();
+  }
+
+  /// What follows from the law and the moduli.
+  static void complete(Entry& entry, double stretch, const TangentialChoice& tangential, double shear_moduli,
+                       double damping_ratio)
+  {
+    entry.largest_overlap = entry.contact.largest_overlap();
+    if (stretch > 1.0) entry.largest_overlap = std::min(entry.largest_overlap, stretched_overlap_limit);
+    entry.yield_overlap = entry.contact.yield_overlap();
+    entry.damage_number_per_speed2 = entry.contact.damage_number_per_speed2();
+    // k_t,s(d) = k_t(d/s)/s^2; Mindlin's radius is of the stretched overlap: another 1/sqrt(s)
+    entry.tangential = shear_moduli * std::pow(stretch, tangential.computed ? -2.0 : -2.5);
+    entry.tangential_damping = 2.0 * tangential.damping * std::sqrt(entry.tangential);
+    // sqrt(5) Z sqrt(k m) d^(1/4) makes e = exp(-pi Z/sqrt(1 - Z^2)) at every speed (Antypov & Elliott
+    // 2011); k = 4/3 E* sqrt(R*), stretched 1/s^2.5
+    entry.damping = std::sqrt(5.0) * damping_ratio * std::sqrt(4.0 / 3.0 * entry.contact.pair_modulus()) *
+                    std::pow(stretch, -1.25);
+  }
+
+  std::vector<Entry> entries_;  // laws_ for each pair of types; a pair with fewer leaves the last ones empty
+  std::vector<SizeChoice> choices_;  // of each pair
+  std::vector<LawFinder> finders_;   // of each pair
+  std::size_t laws_ = 1;
+  bool radiates_ = false;
+  int stride_ = 0;
+};
+
+}  // namespace granulaw::plugin

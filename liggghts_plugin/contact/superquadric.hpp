@@ -1,0 +1,93 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "contact/pair.hpp"
+#include "liggghts_plugin/deck/session.hpp"
+#include "liggghts_plugin/engine/shapes.hpp"
+
+// What a contact of superquadrics needs beyond one of spheres (shapes.hpp says where they are built).
+namespace granulaw::plugin {
+
+/// R*, m. Superquadrics have a local one: 1/(k_i + k_j), with the curvatures k (1/m) at the point of contact.
+inline double effective_radius(const cm::SurfacesIntersectData& sidata)
+{
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+  if (sidata.is_non_spherical) return sidata.reff;
+#endif
+  return sidata.is_wall ? sidata.radi : granulaw::effective_radius(sidata.radi, sidata.radj);
+}
+
+/// Adds the torque of the normal force (N, along en) about the centres. That of a sphere is zero.
+inline void add_normal_torque(const cm::SurfacesIntersectData& sidata, const double* const* x, double force,
+                              cm::ForceData& i_forces, cm::ForceData& j_forces)
+{
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+  if (!sidata.is_non_spherical) return;
+  const auto add = [&](int particle, double along_normal, double* torque) {
+    double arm[3];
+    for (int c = 0; c < 3; ++c) arm[c] = sidata.contact_point[c] - x[particle][c];
+    for (int c = 0; c < 3; ++c) {
+      const int d = (c + 1) % 3, e = (c + 2) % 3;
+      torque[c] += along_normal * (arm[d] * sidata.en[e] - arm[e] * sidata.en[d]);
+    }
+  };
+  add(sidata.i, force, i_forces.delta_torque);
+  if (!sidata.is_wall) add(sidata.j, -force, j_forces.delta_torque);
+#else
+  (void)sidata, (void)x, (void)force, (void)i_forces, (void)j_forces;
+#endif
+}
+
+/// Throws Error where a law of one size (`rated`) meets particles that have another radius at each point.
+inline void refuse_rated(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, bool rated)
+{
+  if (superquadrics_built && lmp->atom->superquadric_flag && rated)
+    fail(setup.where,
+         "the law depends on the strain rate and holds for spheres of one radius: superquadrics have another "
+         "at each point");
+}
+
+/// Takes the surface model's own words out of `words`. Throws Error unless they ask for the local curvature:
+/// without it LIGGGHTS gives R* of spheres of the same volume, whatever the shape.
+inline std::vector<std::string> take_curvature_words(const std::string& where, std::vector<char*>& words)
+{
+  std::vector<std::string> taken;
+  const auto take = [&](const char* key) {
+    const auto found =
+        std::find_if(words.begin(), words.end(), [&](const char* w) { return std::string(w) == key; });
+    if (found == words.end() || found + 1 == words.end()) return std::string();
+    const std::string value = *(found + 1);
+    taken.insert(taken.end(), {key, value});
+    words.erase(found, found + 2);
+    return value;
+  };
+  const bool mean = take("meanCurvature") == "yes", gaussian = take("gaussianCurvature") == "yes";
+  const std::string limit = take("curvatureLimitFactor");
+  char* end = nullptr;
+  if (mean == gaussian || !(std::strtod(limit.c_str(), &end) > 0) || *end)
+    fail(where,
+         "'surface superquadric' needs the local curvature, which the contact law depends on: say either "
+         "'meanCurvature yes' or 'gaussianCurvature yes', and 'curvatureLimitFactor F' with F > 0, the "
+         "largest R* over that of spheres of the same volume");
+  return taken;
+}
+
+/// Throws Error where a surface model meets particles that it is not for, or a keyword what it cannot serve.
+inline void refuse_shape(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, bool superquadric_surface)
+{
+  if constexpr (superquadrics_built) {
+    if (!superquadric_surface && lmp->atom->superquadric_flag)
+      fail(setup.where, "atom_style superquadric needs 'surface superquadric' behind the other models");
+    if (superquadric_surface && setup.session->energy)
+      fail(setup.where,
+           "'energy on' is for spheres: of superquadrics the normal force does work on rotations, too, which "
+           "these books do not hold");
+  }
+}
+
+}  // namespace granulaw::plugin

@@ -1,0 +1,63 @@
+#include "liggghts_plugin/contact/thornton_physics.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/scales.hpp"
+#include "law/law.hpp"
+#include "liggghts_plugin/deck/session.hpp"
+#include "liggghts_plugin/engine/liggghts.hpp"
+
+namespace granulaw::plugin {
+
+namespace {
+
+VectorProperty* create_yield_stress(PropertyRegistry& registry, const char* caller, bool)
+{
+  return MODEL_PARAMS::createPerTypeProperty(registry, "yieldStress", caller);
+}
+
+}  // namespace
+
+void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, const Setup& setup,
+                              const Types& types)
+{
+  registry.registerProperty("yieldStress", &create_yield_stress);
+  const double* yield_stress = registry.getVectorProperty("yieldStress", setup.where.c_str())->data;
+  e_star_.assign(static_cast<std::size_t>(types.count + 1), 0.0);
+  yield_stress_ = e_star_;
+  stretch_ = setup.options.stretch.value_or(1.0);
+  for (int t = 1; t <= types.count; ++t) {
+    if (std::isnan(types.youngs_modulus[t])) continue;
+    if (!(yield_stress[t] > 0))
+      fail(setup.where, fmt::format("yieldStress of type {} is out of range", t),
+           fmt::format("{:.6g} Pa", yield_stress[t] * types.units.pressure()), "over 0");
+    e_star_[t] =
+        plane_strain_modulus(types.youngs_modulus[t], types.poisson_ratio[t]) / types.units.pressure();
+    yield_stress_[t] = yield_stress[t];
+  }
+}
+
+Thornton ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
+{
+  const ThorntonPair law = rigid ? ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}
+                                 : ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
+                                                1.6 * std::min(yield_stress_[i], yield_stress_[j])};
+  return {law, stretch_};
+}
+
+PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) const
+{
+  PairInfo info{.a = "-",
+                .b = key.kind == PairKey::rigid_wall ? wall_name : "-",
+                .law = name,
+                .kind = "closed form",
+                .note = "error bound not stated"};
+  info.stiffness_ratio = 1.6 * contact.law.e_star / contact.law.yield_pressure;
+  info.overlap_limit = std::numeric_limits<double>::infinity();
+  return info;
+}
+
+}  // namespace granulaw::plugin

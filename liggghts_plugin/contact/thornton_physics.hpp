@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/thornton.hpp"
+#include "liggghts_plugin/contact/normal_physics.hpp"
+
+namespace granulaw::plugin {
+
+/// Model `thornton`: yield stress of each type from `fix property/global yieldStress peratomtype`.
+class ThorntonPhysics : public FormulaPhysics
+{
+ public:
+  static constexpr const char* name = "thornton";
+  static constexpr int id = 41;
+  using Contact = Thornton;
+
+  void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
+  Contact resolve(int i, int j, bool rigid, const std::string& where) const;
+  PairInfo describe(const Contact& contact, const PairKey& key) const;
+
+ private:
+  std::vector<double> e_star_, yield_stress_;  // the deck's units, by type
+  double stretch_ = 1.0;
+};
+
+static_assert(NormalPhysics<ThorntonPhysics>);
+
+}  // namespace granulaw::plugin

@@ -1,0 +1,18 @@
+#include "liggghts_plugin/deck/session.hpp"
+
+#include <map>
+
+namespace granulaw::plugin {
+
+const Setup* Setup::current = nullptr;
+
+std::shared_ptr<Session> Session::of(LAMMPS_NS::LAMMPS* lmp)
+{
+  static std::map<LAMMPS_NS::LAMMPS*, std::weak_ptr<Session>> sessions;
+  std::weak_ptr<Session>& slot = sessions[lmp];
+  std::shared_ptr<Session> session = slot.lock();
+  if (!session) slot = session = std::make_shared<Session>();
+  return session;
+}
+
+}  // namespace granulaw::plugin

@@ -1,0 +1,210 @@
+#include "liggghts_plugin/loop/command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "liggghts_plugin/contact/superquadric.hpp"
+#include "liggghts_plugin/engine/fix_style.hpp"
+#include "liggghts_plugin/engine/private_members.hpp"
+#include "liggghts_plugin/run/contact_history.hpp"
+#include "liggghts_plugin/run/contact_list.hpp"
+#include "liggghts_plugin/run/heat_conduction.hpp"
+#include "liggghts_plugin/run/runaway.hpp"
+
+namespace granulaw::plugin {
+
+GRANULAW_EXPOSE(RestartIds, LAMMPS_NS::Modify, id_restart_global);
+GRANULAW_EXPOSE(RestartStates, LAMMPS_NS::Modify, state_restart_global);
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// What a wall's command leaves open comes from the pair style; LIGGGHTS's own words of it go to `rest`.
+void inherit(Setup& setup, Words& rest)
+{
+  Options& options = setup.options;
+  const bool own_switch = options.tangential_damping_on.has_value();
+  options.inherit(*setup.session->pair_options);
+  if (!own_switch && options.tangential_damping_on)
+    rest.insert(rest.end(), {"tangential_damping", *options.tangential_damping_on ? "on" : "off"});
+}
+
+/// What walls and the statistics take from the pair style.
+void share_with_session(Setup& setup)
+{
+  Session& session = *setup.session;
+  Options& options = setup.options;
+  session.dissipated_energy = options.dissipated_energy;
+  options.energy = options.energy || options.dissipated_energy;
+  session.pair_options = options;
+  session.pair_law = setup.law;
+  session.energy = options.energy ? &session.tally : nullptr;
+  session.contact_map = options.contact_map;
+}
+
+/// Reads our own words; `rest` stays for LIGGGHTS.
+void read_setup(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setup, const Words& words,
+                Words& rest)
+{
+  const bool is_wall = setup.wall != nullptr;
+  Session& session = *setup.session;
+  setup.own = setup.options = parse_options(models.normal, is_wall, setup.where, words, rest);
+  if (is_wall && session.pair_options) inherit(setup, rest);
+  if (models.read_keywords) models.read_keywords(lmp, setup);
+  if (setup.options.dissipated_energy && is_wall && !session.dissipated_energy)
+    fail(setup.where, "'computeDissipatedEnergy on' counts walls with the pair style's: say it there");
+  if (!is_wall) share_with_session(setup);
+  setup.energy = session.energy != nullptr;
+  setup.contact_map = session.contact_map;
+}
+
+/// Notes the command's models and words, as restart files keep them.
+void note_meaning(const CommandModels& models, Setup& setup)
+{
+  const Options& options = setup.options;
+  const auto bit = [](bool said, long bit) { return said ? bit : 0l; };
+  setup.meaning = {models.ids.hash() | bit(setup.energy, HistoryMeaning::energy) |
+                       bit(setup.contact_map, HistoryMeaning::contact_map) |
+                       bit(options.deformable_wall, HistoryMeaning::deformable_wall) |
+                       bit(options.tangential_computed.value_or(false), HistoryMeaning::computed_stiffness),
+                   options.stretch.value_or(1.0)};
+  setup.session->meanings[setup.wall ? setup.wall->id : "pair"] = setup.meaning;
+}
+
+/// The energy tally counts what happens in contact.
+void refuse_out_of_reach(const CommandModels& models, const Setup& setup)
+{
+  if (models.ids.has_bridges() && setup.energy)
+    fail(setup.where,
+         "'energy on' does not book the work of liquid bridges that pull across a gap: leave it out");
+}
+
+/// no_history is a dashpot capped at the Coulomb limit: without the dashpot there is no friction at all.
+void refuse_no_friction(const CommandModels& models, const Setup& setup, const Words& rest)
+{
+  if (models.ids.tangential != cm::TANGENTIAL_NO_HISTORY) return;
+  const auto off = std::find(rest.begin(), rest.end(), "tangential_damping");
+  if ((off != rest.end() && *(off + 1) == "off") || setup.options.tangential_damping == 0.0)
+    fail(setup.where, "'tangential no_history' without tangential damping has no friction at all");
+}
+
+void warn_stretched_cohesion(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, const Setup& setup)
+{
+  const double s = setup.options.stretch.value_or(1.0);
+  if (models.ids.cohesion == cm::COHESION_OFF || s <= 1.0) return;
+  if (!setup.session->first_time("stretched cohesion") || lmp->comm->me != 0) return;
+  lmp->error->warning(
+      FLERR,
+      fmt::format("{}: 'stretch {:g}' does not reach into the cohesion model: cohesionEnergyDensity must "
+                  "be the real one divided by {:g}, the square of the factor",
+                  setup.where, s, s * s)
+          .c_str());
+}
+
+/// A restart file whose contacts keep another number of values. LIGGGHTS refuses it, too, but names no cause.
+/// Contacts with meshes it refuses alone.
+void refuse_other_histories(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+{
+  auto* pair = dynamic_cast<PairGran*>(lmp->force->pair);
+  if (!setup.wall && !pair) return;  // pair_style hybrid
+  const std::string history = setup.wall ? std::string("history_") + setup.wall->id : "contacthistory";
+  const int values = setup.wall ? setup.wall->dnum() : pair->dnum_pair();
+  for (int k = 0; k < lmp->modify->nfix_restart_global; ++k) {
+    if (history != (lmp->modify->*exposed(RestartIds{}))[k]) continue;
+    double written = 0.0;  // both kinds of fixes write the number first
+    std::memcpy(&written, (lmp->modify->*exposed(RestartStates{}))[k], sizeof written);
+    if (static_cast<int>(written) != values)
+      fail(setup.where,
+           "the restart file has another number of values for each contact: it is of other models or words, "
+           "or of a version of the plug-in that kept others; go on with those",
+           std::to_string(static_cast<int>(written)), std::to_string(values));
+  }
+}
+
+/// Calls LIGGGHTS's own settings() with `words`, our setup being current for the model's postSettings.
+void with_setup(const Setup& setup, Words words, const std::function<void(int, char**)>& call)
+{
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  Setup::current = &setup;
+  call(static_cast<int>(words.size()), pointers.data());
+  Setup::current = nullptr;
+}
+
+/// The fixes and computes of ours that a deck may name.
+void provide_observers(LAMMPS_NS::LAMMPS* lmp)
+{
+  provide_heat_conduction(lmp);
+  provide_contact_list(lmp);
+  provide_stats_fix(lmp);
+}
+
+/// The fixes that come with our models.
+void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
+{
+  provide_contact_histories(lmp);
+  provide_observers(lmp);
+  provide_runaway_fix(lmp);
+}
+
+}  // namespace
+
+CommandStyle::CommandStyle(LAMMPS_NS::LAMMPS* lmp, FixWallGran* wall) : lmp_(lmp) { setup_.wall = wall; }
+
+CommandStyle::~CommandStyle()
+{
+  if (!setup_.session) return;
+  setup_.session->one_size.erase(&setup_);
+  const auto own = setup_.session->styles.find(setup_.wall);
+  if (own != setup_.session->styles.end() && own->second == this) setup_.session->styles.erase(own);
+}
+
+void CommandStyle::read(const CommandModels& models, int nargs, char** args,
+                        const std::function<void(int, char**)>& call)
+{
+  std::optional<UnfinishedFix> unfinished;  // the constructor of a wall's fix is running
+  if (setup_.wall) unfinished.emplace(lmp_, setup_.wall);
+  setup_.session = Session::of(lmp_);
+  setup_.where = setup_.wall ? fmt::format("fix {} wall/gran model {}", setup_.wall->id, models.normal.name)
+                             : fmt::format("pair_style gran model {}", models.normal.name);
+  // The factory counts the words down but leaves `args` on the last one where nothing is left.
+  std::vector<char*> pointers(args, args + std::max(0, nargs));
+  Words of_surface, rest;
+  if (models.ids.superquadric()) of_surface = take_curvature_words(setup_.where, pointers);
+  read_setup(lmp_, models, setup_, Words(pointers.begin(), pointers.end()), rest);
+  rest.insert(rest.end(), of_surface.begin(), of_surface.end());
+  note_meaning(models, setup_);
+  setup_.session->styles[setup_.wall] = this;
+  if (!models.read_keywords) {
+    DeckUnits::of(lmp_->update->unit_style, setup_.where);
+    return provide_observers(lmp_);
+  }
+  refuse_out_of_reach(models, setup_);
+  refuse_shape(lmp_, setup_, models.ids.superquadric());
+  refuse_no_friction(models, setup_, rest);
+  warn_stretched_cohesion(lmp_, models, setup_);
+  with_setup(setup_, rest, call);
+  refuse_other_histories(lmp_, setup_);
+  provide_fixes(lmp_);
+}
+
+void CommandStyle::plan(const ModelInfo& normal, std::int64_t hash, int nargs, char** args)
+{
+  guarded(lmp_, [&] { read({normal, nullptr, ModelIds::of(hash)}, nargs, args, {}); });
+}
+
+void CommandStyle::begin_run(const std::function<void()>& init)
+{
+  guarded(lmp_, [&] {
+    init();
+    check_run(lmp_, setup_);
+    if (!setup_.wall) provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
+  });
+}
+
+}  // namespace granulaw::plugin

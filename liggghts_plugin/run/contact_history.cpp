@@ -1,0 +1,202 @@
+#include "liggghts_plugin/run/contact_history.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "liggghts_plugin/deck/session.hpp"
+#include "liggghts_plugin/engine/fix_style.hpp"
+
+namespace granulaw::plugin {
+
+namespace {
+
+template <class Style>
+LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
+{
+  return new Style(lmp, narg, arg);
+}
+
+/// The numbers of all ranks, one rank's behind the other's. Collective.
+std::vector<int> gather(const std::vector<int>& own, MPI_Comm world)
+{
+  int ranks = 0, count = static_cast<int>(own.size());
+  MPI_Comm_size(world, &ranks);
+  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(counts.size(), 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
+  std::vector<int> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  if (!all.empty())
+    MPI_Allgatherv(own.data(), count, MPI_INT, all.data(), counts.data(), starts.data(), MPI_INT, world);
+  return all;
+}
+
+}  // namespace
+
+PairHistory::PairHistory(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
+    : Base(lmp_, narg, arg), number_(static_cast<std::size_t>(atom->nmax), 0)
+{
+}
+
+int PairHistory::setmask()
+{
+  return FixContactHistory::setmask() | LAMMPS_NS::FixConst::PRE_NEIGHBOR;
+}
+
+void PairHistory::init()
+{
+  if (!force->pair_match("gran", 1))
+    stop_all(lmp,
+             "pair_style hybrid: LIGGGHTS keeps the contact histories of one sub-style gran alone, and this deck has "
+             "several: use one");
+  FixContactHistory::init();
+}
+
+void PairHistory::save()
+{
+  if (!*computeflag_) return;
+  FixContactHistory::pre_exchange();  // sets the flag to 0 until the next forces
+  std::copy_n(atom->tag, atom->nlocal, number_.begin());
+  reserve_exchange();
+}
+
+void PairHistory::reserve_exchange() const
+{
+  comm->maxexchange_fix = std::max(comm->maxexchange_fix, (dnum_ + 1) * maxtouch_ + 2);
+}
+
+void PairHistory::pre_exchange()
+{
+  save();
+}
+
+void PairHistory::post_run()
+{
+  save();
+}
+
+void PairHistory::setup_pre_exchange()
+{
+  save();
+  reserve_exchange();
+  follow_numbers();
+  // LIGGGHTS compares the present sizes with those before the last neigh_modify, and would make all lists
+  // anew whenever a command begins
+  neighbor->old_pgsize = neighbor->pgsize;
+  neighbor->old_oneatom = neighbor->oneatom;
+}
+
+void PairHistory::write_restart(FILE* file)
+{
+  save();  // a file that a run writes on its way
+  FixContactHistory::write_restart(file);
+}
+
+void PairHistory::grow_arrays(int nmax)
+{
+  FixContactHistory::grow_arrays(nmax);
+  number_.resize(static_cast<std::size_t>(nmax), 0);
+}
+
+void PairHistory::copy_arrays(int i, int j, int delflag)
+{
+  FixContactHistory::copy_arrays(i, j, delflag);
+  number_[static_cast<std::size_t>(j)] = number_[static_cast<std::size_t>(i)];
+}
+
+void PairHistory::set_arrays(int i)
+{
+  FixContactHistory::set_arrays(i);
+  number_[static_cast<std::size_t>(i)] = 0;
+}
+
+int PairHistory::pack_exchange(int i, double* buffer)
+{
+  const int n = FixContactHistory::pack_exchange(i, buffer);
+  buffer[n] = number_[static_cast<std::size_t>(i)];
+  return n + 1;
+}
+
+int PairHistory::unpack_exchange(int i, double* buffer)
+{
+  const int n = FixContactHistory::unpack_exchange(i, buffer);
+  number_[static_cast<std::size_t>(i)] = static_cast<int>(buffer[n]);
+  return n + 1;
+}
+
+void PairHistory::unpack_restart(int i, int nth)
+{
+  FixContactHistory::unpack_restart(i, nth);
+  number_[static_cast<std::size_t>(i)] = atom->tag[i];
+}
+
+void PairHistory::follow_numbers()
+{
+  std::vector<int> own;  // old and new number of each particle that changed its, in turn
+  for (int i = 0; i < atom->nlocal; ++i) {
+    int& number = number_[static_cast<std::size_t>(i)];
+    if (number == atom->tag[i]) continue;
+    own.insert(own.end(), {number, atom->tag[i]});
+    number = atom->tag[i];
+  }
+  const std::vector<int> changed = gather(own, world);
+  if (changed.empty()) return;
+  std::unordered_map<int, int> now;
+  std::unordered_set<int> taken;
+  for (std::size_t k = 0; k < changed.size(); k += 2) {
+    if (changed[k] != 0) now[changed[k]] = changed[k + 1];
+    taken.insert(changed[k + 1]);
+  }
+  for (int i = 0; i < atom->nlocal; ++i) {
+    int kept = 0;
+    for (int n = 0; n < npartner_[i]; ++n) {
+      const auto renamed = now.find(partner_[i][n]);
+      if (renamed == now.end() && taken.contains(partner_[i][n])) continue;
+      partner_[i][kept] = renamed == now.end() ? partner_[i][n] : renamed->second;
+      std::copy_n(contacthistory_[i] + n * dnum_, dnum_, contacthistory_[i] + kept++ * dnum_);
+    }
+    npartner_[i] = kept;
+  }
+}
+
+void MeshHistory::pre_force(int vflag)
+{
+  FixContactHistoryMesh::pre_force(vflag);
+  a_place_for_each_neighbour_ = true;
+}
+
+int MeshHistory::places(int i) const
+{
+  // what a restart file brings has a place for each partner until the first forces
+  return a_place_for_each_neighbour_ ? std::max(nneighs(i), npartner_[i]) : npartner_[i];
+}
+
+void MeshHistory::remade()
+{
+  lengthen(dpage1_);
+  lengthen(dpage2_);
+  // flags of this step, not looked at before the next; they are swapped with the contacts
+  for (int i = 0; i < atom->nlocal && a_place_for_each_neighbour_; ++i) {
+    keepflag_[i] = keeppage_[0]->get(places(i));
+    intersectflag_[i] = intersectpage_[0]->get(places(i));
+    std::fill_n(keepflag_[i], places(i), false);
+    std::fill_n(intersectflag_[i], places(i), false);
+  }
+}
+
+void provide_contact_histories(LAMMPS_NS::LAMMPS* lmp)
+{
+  replace_fix_style(lmp, "contacthistory", &make_fix<PairHistory>);
+  replace_fix_style(lmp, "contacthistory/mesh", &make_fix<MeshHistory>);
+  replace_fix_style(lmp, "contactproperty/atom", &make_fix<LastingPages<LAMMPS_NS::FixContactPropertyAtom>>);
+  replace_fix_style(lmp, "contactproperty/atom/wall",
+                    &make_fix<LastingPages<LAMMPS_NS::FixContactPropertyAtomWall>>);
+}
+
+}  // namespace granulaw::plugin
+
+void granulaw_provide_contact_histories(LAMMPS_NS::LAMMPS* lmp)
+{
+  granulaw::plugin::provide_contact_histories(lmp);
+}
