@@ -1,6 +1,6 @@
 #include "calibrate/calibrate_by_runs.hpp"
 
-#include "characterise/build_options.hpp"
+#include "characterise/run/request.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "calibrate/fit.hpp"
 #include "calibrate/flow_shape.hpp"
 #include "calibrate/kind/kind.hpp"
-#include "characterise/build_law.hpp"
-#include "characterise/law_material.hpp"
+#include "characterise/build/build_law.hpp"
+#include "characterise/body/law_material.hpp"
 
 namespace granulaw {
 

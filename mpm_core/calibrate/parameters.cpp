@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "characterise/law_material.hpp"
+#include "characterise/body/law_material.hpp"
 #include "solver/material/law_table.hpp"
 
 namespace granulaw {

@@ -1,6 +1,6 @@
 #include "characterise/atlas_build.hpp"
 
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/sampling_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/fit_curve.hpp"
+#include "characterise/fit/fit_curve.hpp"
 #include "atlas/interpolation.hpp"
 #include "atlas/law_from_atlas.hpp"
 #include "characterise/shape_prior.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "atlas/atlas.hpp"
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/sampling_plan.hpp"
 #include "farm/farm.hpp"
 
 namespace granulaw {

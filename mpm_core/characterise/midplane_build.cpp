@@ -1,6 +1,6 @@
 #include "characterise/midplane_build.hpp"
 
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/sampling_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "characterise/fit_curve.hpp"
+#include "characterise/fit/fit_curve.hpp"
 #include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/sampling_plan.hpp"
 #include "atlas/atlas.hpp"
 #include "farm/farm.hpp"
 

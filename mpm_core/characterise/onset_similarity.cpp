@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "characterise/fit_curve.hpp"
+#include "characterise/fit/fit_curve.hpp"
 #include "solver/material/law_table.hpp"
 
 namespace granulaw {
@@ -80,11 +80,6 @@ void require_thick_skin(const CharacterisedBody& body, double first)
 }
 
 }  // namespace
-
-SamplingPlan::Press elastic_press_of(const CharacterisedBody& body, int cells)
-{
-  return {std::clamp(1.5 * body.onset, 0.02, 0.04), {}, cells, 2};
-}
 
 OnsetSimilarity::OnsetSimilarity(const CharacterisedBody& body, const Needs& needs, const Atlas* atlas)
     : body_(body), needs_(needs), atlas_(atlas), is_sphere_(body.particle.is_homogeneous_sphere())

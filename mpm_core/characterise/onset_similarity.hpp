@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "atlas/atlas.hpp"
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/onset_of_yield.hpp"
+#include "characterise/run/sampling_plan.hpp"
 #include "characterise/shape_prior.hpp"
 
 namespace granulaw {
@@ -67,8 +68,5 @@ class OnsetSimilarity
   bool knows_term_ = false;      ///< the atlas tells what stiffness changes
   std::string how_;
 };
-
-/// The press that tells the finite body's elastic correction; of a body without yield.
-SamplingPlan::Press elastic_press_of(const CharacterisedBody& body, int cells);
 
 }  // namespace granulaw

@@ -1,10 +1,10 @@
-"""Each folder of the solver and of the plug-in includes only headers of those above it in the table of docs/reference/source-tree.md."""
+"""Each folder of the solver, of characterise and of the plug-in includes only headers of those above it in the table of docs/reference/source-tree.md."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TREES = {"mpm_core/solver": "solver", "liggghts_plugin": "liggghts_plugin"}  # folder: its name in an #include
+TREES = {"mpm_core/solver": "solver", "mpm_core/characterise": "characterise", "liggghts_plugin": "liggghts_plugin"}  # folder: its name in an #include
 
 
 def folders(page, tree):

@@ -1,6 +1,6 @@
 #include "characterise/atlas_file.hpp"
 
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/sampling_plan.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

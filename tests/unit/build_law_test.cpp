@@ -1,8 +1,8 @@
 // What the builder asks for and makes of it, with runs that are replays of a known law.
-#include "characterise/sampling_plan.hpp"
-#include "characterise/build_options.hpp"
+#include "characterise/run/sampling_plan.hpp"
+#include "characterise/run/request.hpp"
 #include "characterise/atlas_file.hpp"
-#include "characterise/build_law.hpp"
+#include "characterise/build/build_law.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "characterise/grid_convergence.hpp"
-#include "characterise/resolution_choice.hpp"
+#include "characterise/run/grid_convergence.hpp"
+#include "characterise/run/resolution_choice.hpp"
 #include "law/replay.hpp"
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"

@@ -1,7 +1,7 @@
 // Composed laws that a few impacts of the two bodies correct; `slow`: against a fresh impact.
-#include "characterise/reduction_error.hpp"
-#include "characterise/build_options.hpp"
-#include "characterise/corrected_law.hpp"
+#include "characterise/pair/reduction_error.hpp"
+#include "characterise/run/request.hpp"
+#include "characterise/pair/corrected_law.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What an impact takes from the rigid motion, and what it gives back.
-#include "characterise/energetic_restitution.hpp"
+#include "characterise/shape/energetic_restitution.hpp"
 
 #include <gtest/gtest.h>
 

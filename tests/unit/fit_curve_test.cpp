@@ -1,5 +1,5 @@
 #include "base/larger.hpp"
-#include "characterise/fit_curve.hpp"
+#include "characterise/fit/fit_curve.hpp"
 
 #include <gtest/gtest.h>
 

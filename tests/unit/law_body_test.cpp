@@ -1,6 +1,6 @@
-#include "characterise/law_body.hpp"
+#include "characterise/body/law_body.hpp"
 
-#include "characterise/law_material.hpp"
+#include "characterise/body/law_material.hpp"
 #include "scratch_folder.hpp"
 #include "solver/shape/shapes.hpp"
 #include "some_materials.hpp"

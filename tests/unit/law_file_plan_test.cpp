@@ -1,7 +1,7 @@
 #include "characterise/atlas_file.hpp"
-#include "characterise/law_file_plan.hpp"
+#include "characterise/file/law_file_plan.hpp"
 
-#include "characterise/law_material.hpp"
+#include "characterise/body/law_material.hpp"
 #include "own_atlas.hpp"
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"

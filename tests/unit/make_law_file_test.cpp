@@ -1,5 +1,5 @@
 #include "characterise/atlas_file.hpp"
-#include "characterise/make_law_file.hpp"
+#include "characterise/file/make_law_file.hpp"
 
 #include <set>
 

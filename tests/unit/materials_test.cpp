@@ -1,4 +1,4 @@
-#include "characterise/materials.hpp"
+#include "characterise/body/materials.hpp"
 
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"

@@ -1,6 +1,6 @@
 // Where a body begins to yield, by what its elastic press says.
-#include "characterise/sampling_plan.hpp"
-#include "characterise/onset_of_yield.hpp"
+#include "characterise/run/sampling_plan.hpp"
+#include "characterise/run/onset_of_yield.hpp"
 
 #include <gtest/gtest.h>
 

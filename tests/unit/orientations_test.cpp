@@ -1,5 +1,5 @@
 // Directions of impact, and the mass that takes part in it.
-#include "characterise/orientations.hpp"
+#include "characterise/shape/orientations.hpp"
 
 #include <gtest/gtest.h>
 

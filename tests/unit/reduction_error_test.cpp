@@ -1,7 +1,7 @@
 // The estimate of what the pair rule costs, against the two-body collisions that were measured
 // (tests/validation/pairs.csv, made by pairs_study.cpp).
-#include "characterise/fit_curve.hpp"
-#include "characterise/reduction_error.hpp"
+#include "characterise/fit/fit_curve.hpp"
+#include "characterise/pair/reduction_error.hpp"
 
 #include <gtest/gtest.h>
 

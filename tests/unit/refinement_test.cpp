@@ -1,12 +1,12 @@
 // Which runs a law is still missing, from records alone.
-#include "characterise/refinement.hpp"
+#include "characterise/run/refinement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "characterise/sampling_plan.hpp"
-#include "characterise/verification.hpp"
+#include "characterise/run/sampling_plan.hpp"
+#include "characterise/build/verification.hpp"
 
 namespace granulaw {
 namespace {

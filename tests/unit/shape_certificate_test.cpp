@@ -1,5 +1,5 @@
 // What the law of spheres is wrong by for a body of any shape.
-#include "characterise/shape_certificate.hpp"
+#include "characterise/shape/shape_certificate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "atlas/law_from_atlas.hpp"
-#include "characterise/law_material.hpp"
+#include "characterise/body/law_material.hpp"
 #include "own_atlas.hpp"
 #include "solver/shape/shapes.hpp"
 

@@ -1,5 +1,5 @@
 #include "base/larger.hpp"
-#include "characterise/characterised_body.hpp"
+#include "characterise/body/characterised_body.hpp"
 #include "characterise/shape_prior.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "characterise/materials.hpp"
+#include "characterise/body/materials.hpp"
 
 namespace granulaw {
 

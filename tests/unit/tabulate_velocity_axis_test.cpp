@@ -6,7 +6,7 @@
 
 #include "base/larger.hpp"
 #include "characterise/atlas_file.hpp"
-#include "characterise/characterised_body.hpp"
+#include "characterise/body/characterised_body.hpp"
 #include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {

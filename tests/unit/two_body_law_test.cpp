@@ -1,8 +1,8 @@
 // Laws of pairs of their own: how they are looked up and kept in a file; `slow`: that one agrees with a fresh
 // impact.
-#include "characterise/reduction_error.hpp"
-#include "characterise/build_options.hpp"
-#include "characterise/two_body_law.hpp"
+#include "characterise/pair/reduction_error.hpp"
+#include "characterise/run/request.hpp"
+#include "characterise/pair/two_body_law.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "characterise/build_options.hpp"
+#include "characterise/run/request.hpp"
 #include "atlas/law_from_atlas.hpp"
 #include "oblique_replay.hpp"
 #include "own_atlas.hpp"

@@ -15,7 +15,7 @@
 #include "calibrate/calibrate.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
-#include "characterise/characterised_body.hpp"
+#include "characterise/body/characterised_body.hpp"
 #include "atlas/law_from_atlas.hpp"
 #include "law/replay.hpp"
 

@@ -18,7 +18,7 @@
 #include <random>
 
 #include "farm/farm.hpp"
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/sampling_plan.hpp"
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "base/scales.hpp"

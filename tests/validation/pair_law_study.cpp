@@ -11,8 +11,8 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/fit_curve.hpp"
-#include "characterise/reduction_error.hpp"
+#include "characterise/fit/fit_curve.hpp"
+#include "characterise/pair/reduction_error.hpp"
 #include "law/replay.hpp"
 
 namespace {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "characterise/reduction_error.hpp"
+#include "characterise/pair/reduction_error.hpp"
 #include "farm/run_cache.hpp"
 #include "solver/solver_id.hpp"
 

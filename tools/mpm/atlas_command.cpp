@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "characterise/sampling_plan.hpp"
+#include "characterise/run/sampling_plan.hpp"
 #include "characterise/atlas_file.hpp"
 #include "base/error.hpp"
 #include "characterise/atlas_build.hpp"

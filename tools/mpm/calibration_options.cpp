@@ -10,7 +10,7 @@
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
-#include "characterise/law_material.hpp"
+#include "characterise/body/law_material.hpp"
 #include "materials_file.hpp"
 #include "option_checks.hpp"
 #include "plausible.hpp"

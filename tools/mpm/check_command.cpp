@@ -8,12 +8,12 @@
 #include <optional>
 #include <random>
 
-#include "characterise/reduction_error.hpp"
+#include "characterise/pair/reduction_error.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/law_body.hpp"
-#include "characterise/law_file_plan.hpp"
-#include "characterise/law_material.hpp"
+#include "characterise/body/law_body.hpp"
+#include "characterise/file/law_file_plan.hpp"
+#include "characterise/body/law_material.hpp"
 #include "command.hpp"
 #include "law/error_bound.hpp"
 #include "law/law_file.hpp"

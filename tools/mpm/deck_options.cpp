@@ -10,7 +10,7 @@
 #include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "atlas/law_from_atlas.hpp"
-#include "characterise/law_material.hpp"
+#include "characterise/body/law_material.hpp"
 #include "deck/hertz.hpp"
 #include "law/contact_step.hpp"
 #include "law/law_file.hpp"

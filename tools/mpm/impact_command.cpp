@@ -10,9 +10,9 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/energetic_restitution.hpp"
-#include "characterise/law_material.hpp"
-#include "characterise/orientations.hpp"
+#include "characterise/shape/energetic_restitution.hpp"
+#include "characterise/body/law_material.hpp"
+#include "characterise/shape/orientations.hpp"
 #include "command.hpp"
 #include "law/damage_number.hpp"
 #include "plausible.hpp"

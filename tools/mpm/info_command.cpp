@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "characterise/law_material.hpp"
-#include "characterise/support_ratio.hpp"
+#include "characterise/body/law_material.hpp"
+#include "characterise/build/support_ratio.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
 #include "pair_lines.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "characterise/materials.hpp"
+#include "characterise/body/materials.hpp"
 
 namespace granulaw {
 

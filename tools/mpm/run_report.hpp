@@ -15,7 +15,7 @@ struct CentreMotion
 {
   double approach = 0;                          ///< towards the wall, before
   double tangential = 0, tangential_after = 0;  ///< along +x of the wall
-  int contacts = 1;  ///< that follow each other (characterise/energetic_restitution.hpp)
+  int contacts = 1;  ///< that follow each other (characterise/shape/energetic_restitution.hpp)
 };
 
 /// After it: writes the trace if one is asked for, and prints the summary or its JSON.

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "atlas_path.hpp"
-#include "characterise/characterised_body.hpp"
-#include "characterise/build_options.hpp"
+#include "characterise/body/characterised_body.hpp"
+#include "characterise/run/request.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "atlas/law_from_atlas.hpp"
-#include "characterise/law_material.hpp"
-#include "characterise/shape_certificate.hpp"
+#include "characterise/body/law_material.hpp"
+#include "characterise/shape/shape_certificate.hpp"
 #include "command.hpp"
 #include "farm_options.hpp"
 #include "json_output.hpp"

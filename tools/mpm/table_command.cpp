@@ -11,8 +11,8 @@
 
 #include "atlas_path.hpp"
 #include "base/error.hpp"
-#include "characterise/build_law.hpp"
-#include "characterise/make_law_file.hpp"
+#include "characterise/build/build_law.hpp"
+#include "characterise/file/make_law_file.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "farm_options.hpp"

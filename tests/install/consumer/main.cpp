@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/fit_curve.hpp"
+#include "characterise/fit/fit_curve.hpp"
 #include "contact/curve.hpp"
 #include "law/law_file.hpp"
 #include "solver/runs.hpp"

@@ -1,6 +1,6 @@
 // docs/reference/library.md: the contact law of a powder, for LIGGGHTS. make_law ATLAS LAW.h5
 #include "characterise/atlas_file.hpp"
-#include "characterise/make_law_file.hpp"
+#include "characterise/file/make_law_file.hpp"
 #include "law/law_file.hpp"
 
 int main(int, char** argv)

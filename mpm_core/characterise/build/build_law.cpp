@@ -1,0 +1,389 @@
+#include "characterise/build/build_law.hpp"
+
+#include "characterise/run/sampling_plan.hpp"
+
+#include "characterise/run/request.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/larger.hpp"
+#include "characterise/build/adaptive_sampling.hpp"
+#include "atlas/finish_curve.hpp"
+#include "characterise/fit/fit_curve.hpp"
+#include "characterise/run/onset_of_yield.hpp"
+#include "characterise/onset_similarity.hpp"
+#include "atlas/overlap_at_work.hpp"
+#include "characterise/run/refinement.hpp"
+#include "characterise/run/resolution_choice.hpp"
+#include "atlas/tabulate_curve.hpp"
+#include "characterise/build/verification.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Onset of yield over the law's depth: later, too little of the law is left to be fitted.
+constexpr double latest_onset = 0.2;
+
+/// sqrt(I) of the slowest impact on a rate axis.
+double slowest_of(const CharacterisedBody& body, const BuildOptions& o)
+{
+  const double onset = onset_velocity(1.0, body.yield, 1.0, body.poisson_ratio) / std::sqrt(body.yield);
+  const double wanted = o.slowest > 0 ? o.slowest : o.fastest / 50;
+  return std::min(std::max(wanted, onset), 0.5 * o.fastest);
+}
+
+/// rms of a press's loading force about a curve, over the upper half of its overlaps.
+double scatter_about(const Curve& curve, const ContactRecord& press)
+{
+  double sum = 0;
+  int count = 0;
+  for (const auto& [x, f, a] : press.loading) {
+    if (x <= 0.5 * press.depth) continue;
+    sum += std::pow(f / curve.loading(x).force - 1, 2);
+    ++count;
+  }
+  return count ? std::sqrt(sum / count) : 0;
+}
+
+/// One build: what it shares between its steps.
+class Build
+{
+ public:
+  Build(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
+        const RunSource& source);
+  void elastic();
+  void plastic();
+  BuiltLaw take();
+  void require_reachable() const;
+  ExpectedRuns expected() const;
+
+ private:
+  void require_lawful() const;
+  SamplingRange widest_range() const;
+  SamplingPlan first_plan() const;
+  std::size_t most_runs(const std::optional<OnsetSimilarity>& guide) const;
+
+  void resolve(const SamplingPlan& plan);
+  std::vector<Probe> probes(const SamplingPlan& plan);
+  void find_onset();
+  void note_solver_error(const ResolutionChoice& choice);
+
+  double first_overlap(const SamplingPlan& plan) const;
+  std::optional<OnsetSimilarity> onset_similarity(double first) const;
+  void certify(const Sampled& sampled);
+  double slowest_verification() const;
+  void verify_impacts(const ContactRecords& records);
+
+  BuiltLaw built_;
+  BodyLaw& law_ = built_.law;
+  CharacterisedBody body_;  ///< its onset is that of the elastic press
+  CharacterisedBody
+      slow_;  ///< the body at no rate: its law is the rate-free one, the speed axis brings the rate in
+  const BuildOptions& options_;
+  const RunSource& source_;
+  BuildRuns runs_;
+  std::optional<LawShape> known_;  ///< a rate-dependent body's law at no rate, where the atlas tells it
+  ElasticCorrection elastic_;
+  std::optional<ContactRecord> elastic_press_;  ///< of a body of several materials
+  int press_cells_ = first_resolution, impact_cells_ = first_resolution;
+};
+
+Build::Build(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
+             const RunSource& source)
+    : body_(body),
+      slow_(body.rate_dependent() ? body.rate_free() : body),
+      options_(options),
+      source_(source),
+      runs_(options)
+{
+  law_.material = material;
+  if (!body.rate_dependent() || !slow_.is_plain()) return;
+  if (!options.atlas || options.tolerance < options.atlas->claimed_force()) return;
+  if (const MaterialRatios ratios = MaterialRatios::of(material); options.atlas->why_not(ratios).empty())
+    known_ = options.atlas->shape(ratios);
+}
+
+BuiltLaw Build::take()
+{
+  built_.holes = runs_.holes();
+  return std::move(built_);
+}
+
+// -- plan --
+
+void Build::require_lawful() const
+{
+  const std::string where = fmt::format("material '{}'", law_.material.name);
+  if (body_.onset > latest_onset * options_.depth)
+    fail(where, "yields too late in the overlaps that a law covers",
+         fmt::format("onset at delta/R = {:.3g}", body_.onset),
+         fmt::format("up to {:.3g}", latest_onset * options_.depth));
+  if (body_.rate_dependent() && options_.fastest == 0)
+    fail(where, "depends on the rate: its law needs impacts, not the rate-free law alone", "I = 0", "over 0");
+}
+
+/// The runs to begin with: two reversal points a press, the fewest impacts.
+SamplingPlan Build::first_plan() const
+{
+  std::vector<double> speeds;
+  if (body_.rate_dependent())
+    speeds = first_rate_speeds(slowest_of(body_, options_), options_.fastest);
+  else if (options_.fastest > 0)
+    speeds = first_inertia_speeds(options_.fastest, options_.tolerance);
+  SamplingRange range = widest_range();
+  range.stops = 2;
+  range.speeds = speeds;
+  return plan_sampling(slow_, range);
+}
+
+/// How many runs the densest plan has: a rate's impacts as near to each other as refinement puts them.
+std::size_t Build::most_runs(const std::optional<OnsetSimilarity>& guide) const
+{
+  SamplingRange range = widest_range();
+  if (body_.rate_dependent()) range.speeds = {};
+  std::size_t runs = plan_sampling(slow_, range).runs();
+  if (body_.rate_dependent())
+    runs += 1 + static_cast<std::size_t>(std::log(options_.fastest / slowest_of(body_, options_)) /
+                                         least_interval(options_.tolerance));
+  if (guide)
+    for (const OnsetSimilarity::Sphere& sphere : guide->spheres()) runs += sphere.plan.runs();
+  return runs;
+}
+
+SamplingRange Build::widest_range() const
+{
+  SamplingRange range;
+  range.depth = options_.depth;
+  range.fastest = options_.fastest;
+  range.tolerance = options_.tolerance;
+  return range;
+}
+
+// -- resolve --
+
+/// What shows the error of a plan's runs: a fast impact, which rings and may want more cells than a press,
+/// but costs less, and the cheapest of its presses on shifted grids, which the sampling takes over.
+std::vector<Probe> Build::probes(const SamplingPlan& plan)
+{
+  std::vector<Probe> probes;
+  const double speed = options_.fastest > 0 ? std::min(ringing, options_.fastest) : ringing;
+  // two shifted grids leave so much grid noise that their difference is chance
+  probes.push_back({[this, velocity = speed * std::sqrt(body_.yield)](int cells) {
+                      return impact_job(body_, velocity, cells, fast_shifted_grids, source_);
+                    },
+                    &impact_cells_});
+  const auto cost = [&](const SamplingPlan::Press& press) {
+    return press.shifted_grids > 1 ? press_job(slow_, press, source_).cost
+                                   : std::numeric_limits<double>::infinity();
+  };
+  const auto cheapest = std::min_element(plan.presses.begin(), plan.presses.end(),
+                                         [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
+  if (cheapest != plan.presses.end())
+    probes.push_back({[this, press = *cheapest](int cells) mutable {
+                        press.resolution = cells;
+                        return press_job(slow_, press, source_);
+                      },
+                      &press_cells_});
+  return probes;
+}
+
+void Build::note_solver_error(const ResolutionChoice& choice)
+{
+  law_.certificate.solver_error_force = choice.error.force;
+  law_.certificate.solver_error_restitution = choice.error.restitution;
+}
+
+/// Of a body of several materials, or with pores, the elastic press comes first: it tells the onset of yield.
+/// If it was not deep enough, a second one goes as deep as a law's onset may be.
+void Build::find_onset()
+{
+  if (body_.is_uniform()) return;
+  const auto press = [&](double depth) {
+    const RunJob job = elastic_press_job(body_, first_resolution, source_, depth);
+    return runs_.make_needed({job}, runs_.done(), "the elastic press").front().result;
+  };
+  const RunResult first = press(0);
+  elastic_press_ = contact_record_of(first);
+  elastic_ = fit_elastic(*elastic_press_);
+  body_.onset = onset_of_yield(body_, first);
+  const double latest = latest_onset * options_.depth;
+  if (std::isinf(body_.onset) && first.summary.delta_max < latest)
+    body_.onset = onset_of_yield(body_, press(latest));
+  slow_.onset = body_.onset;
+}
+
+/// The resolution of each kind of run, and the elastic correction at that of the presses.
+void Build::resolve(const SamplingPlan& plan)
+{
+  std::vector<RunJob> beside;
+  if (!known_ && body_.is_uniform()) beside.push_back(elastic_press_job(body_, first_resolution, source_));
+  const ResolutionChoice choice = choose_resolutions(probes(plan), beside, options_.tolerance, runs_);
+  note_solver_error(choice);
+  if (!beside.empty()) elastic_ = fit_elastic(contact_record_of(choice.beside.front().result));
+  if (known_ || press_cells_ == first_resolution) return;
+  const RunJob finer = elastic_press_job(body_, press_cells_, source_);
+  const RunOutcome press = runs_.make_needed({finer}, runs_.done() + 0.05, "the elastic press").front();
+  if (elastic_press_) elastic_press_ = contact_record_of(press.result);
+  elastic_ = fit_elastic(contact_record_of(press.result));
+}
+
+/// What tells the law below `first`, the overlap of the shallowest run planned, if that is far from the
+/// onset.
+std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
+{
+  if (known_ || !needs_prior(first, body_.onset)) return {};
+  OnsetSimilarity::Needs needs;
+  needs.first = first, needs.depth = options_.depth;
+  needs.tolerance = options_.tolerance, needs.press_cells = press_cells_;
+  return OnsetSimilarity(body_, needs, options_.atlas);
+}
+
+// -- certify, tabulate, verify --
+
+/// What the runs and their fit say of the law's errors.
+void Build::certify(const Sampled& sampled)
+{
+  Certificate& c = law_.certificate;
+  c.damage_number_max = options_.fastest * options_.fastest;
+  c.reload_loop_area = sampled.records.reload_loop;
+  c.residual_scatter = sampled.fitted.quality.scatter;
+  c.held_out_error = largest_miss_of_restitution(sampled.slow);
+  built_.sampling_error = largest_miss(sampled.slow);
+  if (!known_) return;
+  built_.rate_free = "from the atlas";
+  c.atlas_error_force = options_.atlas->claimed_force();
+  c.atlas_error_restitution = options_.atlas->claimed_restitution();
+}
+
+/// sqrt(I) of an impact within four onsets, where layers show: twice as deep as the onset, or as the
+/// shallowest runs.
+double Build::slowest_verification() const
+{
+  const double overlap = 2 * std::max(body_.onset, SamplingRange{}.shallowest);
+  return std::sqrt(law_.curve.work(overlap) / energy_unit(body_.mass, body_.yield));
+}
+
+void Build::verify_impacts(const ContactRecords& records)
+{
+  constexpr std::size_t of_inertia = 3, of_rate = 4;  // impacts; a rate's axis is the longer one
+  const double fastest = std::sqrt(law_.certificate.damage_number_max);
+  std::vector<double> speeds = verification_speeds(records.fast, fastest, axis_kind_of(body_),
+                                                   body_.rate_dependent() ? of_rate : of_inertia);
+  if (!body_.is_uniform()) speeds.insert(speeds.begin(), slowest_verification());
+  const double error = verify(law_, body_, speeds, impact_cells_, source_, runs_);
+  built_.sampling_error = larger(built_.sampling_error, error);
+}
+
+/// Overlap of the shallowest run planned.
+double Build::first_overlap(const SamplingPlan& plan) const
+{
+  return plan.slow_impacts.empty() ? plan.presses.front().stops.front()
+                                   : expected_depth(plan.slow_impacts.front(), slow_);
+}
+
+void Build::require_reachable() const
+{
+  if (!body_.yields() || !body_.is_uniform()) return;  // else a press tells the onset
+  require_lawful();
+  onset_similarity(first_overlap(first_plan()));
+}
+
+ExpectedRuns Build::expected() const
+{
+  if (!body_.yields()) return {2, 2, 2 * press_job(body_, {options_.depth, {}, press_cells_, 2}, source_).cost};
+  SamplingPlan plan = first_plan();
+  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
+  ExpectedRuns expected{plan.runs(), most_runs({}), 0};
+  for (const RunJob& job : sampling_jobs(slow_, plan, source_)) expected.first_cpu_s += job.cost;
+  return expected;
+}
+
+void Build::plastic()
+{
+  find_onset();
+  require_lawful();
+  SamplingPlan plan = first_plan();
+  const double first = first_overlap(plan);
+  onset_similarity(first);  // refuses, before the runs, an onset that it does not reach
+  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
+  resolve(plan);
+  for (SamplingPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
+  std::optional<OnsetSimilarity> guide = onset_similarity(first);
+  // the first impact would show what is known then, for a third of the time
+  if (guide && guide->spares_first() && !plan.slow_impacts.empty())
+    plan.slow_impacts.erase(plan.slow_impacts.begin());
+
+  const std::size_t before = runs_.count();
+  const SamplingSetting setting{body_,    slow_,        options_,     source_, known_ ? &*known_ : nullptr,
+                                elastic_, elastic_press_ ? &*elastic_press_ : nullptr,
+                                press_cells_, impact_cells_};
+  const Sampled sampled = sample(plan, setting, guide ? &*guide : nullptr, runs_);
+  built_.runs_full = most_runs(guide);
+  if (guide) built_.shallow = guide->how();
+
+  certify(sampled);
+  const LawShape& shape = sampled.fitted.shape;
+  law_.certificate.interpolation_error = finish_curve(law_, shape, numbers_of(body_), options_, setting.shape_end());
+  built_.change_of_restitution = change_of_restitution(shape, body_.onset, setting.shape_end(), law_.curve);
+  if (options_.fastest > 0) verify_impacts(sampled.records);
+  built_.runs = runs_.count() - before;
+}
+
+// -- an elastic body --
+
+void Build::elastic()
+{
+  const auto press = [&](double share, int cells) {
+    return press_job(body_, {share * options_.depth, {}, cells, 2}, source_);
+  };
+  note_solver_error(choose_resolutions({{[&](int cells) { return press(1.0, cells); }, &press_cells_}}, {},
+                                       options_.tolerance, runs_));
+  // the contact of the deep press begins with too few cells
+  const std::vector<RunJob> jobs{press(0.15, press_cells_), press(1.0, press_cells_)};
+  std::vector<ContactRecord> presses;
+  for (const RunOutcome& outcome : runs_.make_needed(jobs, 1.0, "the elastic press"))
+    presses.push_back(contact_record_of(outcome.result));
+  const ElasticFit fit = fit_elastic(presses);
+  law_.curve = tabulate_elastic(fit.correction, options_.depth);
+  Certificate& c = law_.certificate;
+  c.interpolation_error = fit.error;
+  c.residual_scatter = scatter_about(law_.curve, presses.back());
+  c.damage_number_max = std::numeric_limits<double>::infinity();
+  built_.runs = built_.runs_full = runs_.count();
+}
+
+}  // namespace
+
+void require_reachable(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options)
+{
+  const RunSource source;
+  Build(material, body, options, source).require_reachable();
+}
+
+ExpectedRuns expected_runs(const LawMaterial& material, const CharacterisedBody& body,
+                           const BuildOptions& options)
+{
+  const RunSource source;
+  return Build(material, body, options, source).expected();
+}
+
+BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
+                   const RunSource& source)
+{
+  check(options);
+  Build build(material, body, options, source);
+  if (body.yields())
+    build.plastic();
+  else
+    build.elastic();
+  return build.take();
+}
+
+}  // namespace granulaw

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "atlas/atlas.hpp"
+#include "characterise/run/request.hpp"
+#include "characterise/body/law_body.hpp"
+#include "atlas/law_without_runs.hpp"
+#include "characterise/shape/shape_certificate.hpp"
+
+namespace granulaw {
+
+/// What a law file shall hold. The defaults are those of `mpm table`.
+struct LawFileRequest : SceneSizes
+{
+  Materials materials;
+  /// Names of materials or particles, each pair once; one of the two may be wall_name, the rigid wall. Empty:
+  /// every material with every other, itself and the wall.
+  std::vector<std::pair<std::string, std::string>> pairs;
+
+  double depth = 0.2;             ///< largest overlap/R that the laws must reach: over 0, up to 0.5
+  double damage_number = 0.0625;  ///< largest rho V^2/Y that they must reach: 0 (rate-free) to 0.09
+  double slowest = 0;  ///< m/s on a wall, of the slowest impact that the law of a rate-dependent particle
+                       ///< must know; 0: a fiftieth of the fastest, or the onset of yield
+  double tolerance = 0.01;  ///< relative, of F and e (BuildOptions::tolerance): 1e-4 to 0.5
+  bool own_laws =
+      false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
+  ShapeQuestion shapes{};        ///< of bodies of any shape; no velocities: usual_velocity()
+  const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan
+
+  /// What the caller calls these things, for messages.
+  struct Words
+  {
+    std::string pair = "pair", slowest = "slowest", damage_number = "damage_number";
+    std::string no_atlas = "no atlas was given";  ///< why `atlas` is null
+  } words;
+};
+
+/// What will be made, decided before anything is computed.
+struct LawFilePlan
+{
+  struct Body
+  {
+    LawBody body;
+    std::string why_runs;  ///< why its law needs runs of the solver; empty: it comes from the atlas
+    bool from_atlas() const { return why_runs.empty(); }
+  };
+  struct Pair : PlannedPair
+  {
+    bool worth_own_law = false;  ///< two plain spheres whose stated error is above the tolerance
+    bool own_law = false;  ///< runs of the two bodies will correct what is composed, or make its own law
+  };
+
+  LawFileRequest request;
+  std::map<std::string, Body> bodies;  ///< by name
+  std::vector<Pair> pairs;
+
+  /// How the laws that need runs are made.
+  BuildOptions build_options() const;
+  bool needs_runs() const;  ///< of the solver, which takes from seconds to minutes of CPU for each law
+};
+
+/// Partner's radius over the yielding body's in the runs of a pair's own law.
+inline constexpr double own_law_radius_ratio = 1;
+
+/// Checks the request and says what it takes. Throws Error, one sentence for the user: an unknown name (with
+/// the nearest), a pair named twice, two different bodies of which one is no homogeneous sphere, a material
+/// whose law needs a particle, numbers out of range.
+LawFilePlan plan_law_file(LawFileRequest request);
+
+}  // namespace granulaw

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <span>
+
+#include "atlas/law_shape.hpp"
+#include "characterise/run/sampling_plan.hpp"
+#include "characterise/shape_prior.hpp"
+#include "atlas/tabulate_curve.hpp"
+
+namespace granulaw {
+
+/// Weighted least squares through one elastic press, up to which the body yields: c3 = 0.
+ElasticCorrection fit_elastic(const ContactRecord& press);
+/// The same of a body of several materials: its force is that of the press itself, and further below that of
+/// its slow runs up to the onset of yield.
+ElasticCorrection measured_elastic(const ContactRecord& press, std::span<const ContactRecord> slow,
+                                   double onset);
+
+/// The same of a body that never yields, through presses of several depths, and how well it fits: the largest
+/// relative deviation of the force, averaged over parts of a press as long as the grid noise of the contact
+/// edge.
+ElasticFit fit_elastic(std::span<const ContactRecord> presses);
+
+/// How well a shape represents the runs it was fitted to; relative numbers.
+struct FitQuality
+{
+  double scatter = 0;         ///< rms of loading samples of the presses, over the upper half of each
+  double reversal_error = 0;  ///< largest residual of e at the reversal depths of the fit
+};
+
+struct FittedShape
+{
+  LawShape shape;
+  FitQuality quality;
+};
+
+/// The law of a yielding sphere from its records, by smooth splines that start with zero value and slope at
+/// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `prior`: what
+/// is known over the same range without the runs; may be null where they begin near the onset.
+FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
+                      double x_end, const ShapePrior* prior = nullptr);
+
+/// The same from presses alone, tabulated: a rate-free curve to x_end.
+struct FittedCurve
+{
+  Curve curve;
+  FitQuality quality;
+  double table_error = 0;  ///< largest relative difference of F between table and fit
+};
+FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,
+                        double onset, double x_end);
+
+/// What impacts change of a body whose slow presses have this shape, its own inertia apart; at the impacts'
+/// speeds.
+std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const ContactRecords::Impact> impacts,
+                                                           const LawShape& slow, double onset, double x_end);
+
+}  // namespace granulaw

@@ -1,0 +1,423 @@
+#include "characterise/pair/corrected_law.hpp"
+
+#include "characterise/run/request.hpp"
+
+#include <algorithm>
+#include <boost/math/interpolators/makima.hpp>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/larger.hpp"
+#include "characterise/run/build_runs.hpp"
+#include "characterise/run/grid_convergence.hpp"
+#include "atlas/overlap_at_work.hpp"
+#include "characterise/run/refinement.hpp"
+#include "characterise/run/resolution_choice.hpp"
+#include "characterise/pair/two_body_runs.hpp"
+#include "law/radiation.hpp"
+#include "law/replay.hpp"
+#include "solver/run/accuracy.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// What an impact of the two bodies departs from the composed law by, at its place
+/// ln(overlap/onset)/ln(end/onset).
+struct Departure
+{
+  double place = 0;
+  double force = 0;        // ln of the loading force, run over law
+  double dissipation = 0;  // -ln(W_u/W_L), run less law
+  double residual = 0;     // -ln(1 - delta_r/delta_m), run less law
+};
+
+/// One part of the departures as a function of the place: 0 up to the onset, which it leaves with slope 0, so
+/// it is interpolated as an even function; beyond the last impact it keeps its value.
+double at(const std::vector<Departure>& departures, double Departure::*part, double place)
+{
+  if (place <= 0) return 0;
+  if (place >= departures.back().place) return departures.back().*part;
+  std::vector<double> places{0}, values{0};
+  for (const Departure& d : departures)
+    for (const double side : {-1.0, 1.0}) {
+      const auto where = side < 0 ? places.begin() : places.end();
+      values.insert(values.begin() + (where - places.begin()), d.*part);
+      places.insert(where, side * d.place);
+    }
+  if (departures.size() == 1) {  // makima needs four
+    places.push_back(2 * places.back());
+    values.push_back(values.back());
+  }
+  return boost::math::interpolators::makima(std::move(places), std::move(values))(place);
+}
+
+/// The impacts of the two bodies at one ratio of radii, beside the composed law.
+class PairImpacts
+{
+ public:
+  PairImpacts(const UnlikePair& pair, ComposedShape composed, const BuildOptions& options, Farm& farm)
+      : pair_(pair),
+        composed_(std::move(composed)),
+        guide_(law_of(composed_, options)),
+        body_(yielding_body(pair)),
+        options_(options),
+        farm_(farm, pair),
+        source_(two_body_runs(pair))
+  {
+    options_.farm = &farm_;
+  }
+
+  /// Impacts until each is predicted by the others, or there are enough of them.
+  void sample();
+
+  double radius_ratio() const { return pair_.radius_ratio; }
+  const std::vector<Departure>& departures() const { return departures_; }
+  const DiscretisationError& solver_error() const { return solver_error_; }
+  /// Of an impact left out: of F and, relative, of e; and the larger as it counts for the tolerance.
+  struct Miss
+  {
+    double force = 0, restitution = 0, counted = 0;
+  };
+  Miss largest_miss() const;
+  std::size_t count() const { return runs_.count(); }
+  const std::vector<std::string>& holes() const { return runs_.holes(); }
+
+ private:
+  double overlap_at(double place) const { return onset() * std::pow(composed_.end / onset(), place); }
+  double place_of(double overlap) const
+  {
+    return std::log(overlap / onset()) / std::log(composed_.end / onset());
+  }
+  double onset() const { return composed_.body.onset; }
+  double speed_to(double overlap) const;
+  double last_place() const;
+  RunJob job(double place, int cells) const;
+  void begin();
+  void check_onset();
+  Departure departure(double place, const RunResult& run) const;
+  void take(double place, const RunResult& run);
+  Replay replay(double speed) const;
+  Miss miss(std::size_t left_out) const;
+  std::vector<double> bisections() const;
+
+  UnlikePair pair_;
+  ComposedShape composed_;
+  TwoBodyLaw guide_;
+  CharacterisedBody body_;
+  BuildOptions options_;
+  PairFarm farm_;
+  RunSource source_;
+  BuildRuns runs_{options_};
+  std::vector<Departure> departures_;  // ascending place
+  std::vector<double> restitutions_;   // of the runs
+  int cells_ = first_resolution;
+  Miss at_onset_;
+  DiscretisationError solver_error_;
+};
+
+constexpr int grids = 2;  // shifted against each other
+
+/// sqrt(I) of the impact whose energy is the law's loading work up to this overlap.
+double PairImpacts::speed_to(double overlap) const
+{
+  return std::sqrt(guide_.law.curve.work(overlap) / energy_unit(body_.mass, body_.yield));
+}
+
+/// Of the deepest impact: at the end of the law, or as fast as it goes without ringing, which no cells of a
+/// cheap run resolve in two bodies, or as deep as no body is squeezed flat.
+double PairImpacts::last_place() const
+{
+  const double fastest = std::min(ringing, options_.fastest > 0 ? options_.fastest : slow_speed);
+  const double flattest = deepest_of_two_bodies(pair_);
+  const auto reached = [&](double place) {
+    return overlap_at(place) <= flattest && speed_to(overlap_at(place)) <= fastest;
+  };
+  double low = 0.1, high = 0.98;
+  if (reached(high)) return high;
+  for (int round = 0; round < 30; ++round) {
+    const double middle = 0.5 * (low + high);
+    (reached(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+RunJob PairImpacts::job(double place, int cells) const
+{
+  const double velocity = speed_to(overlap_at(place)) * std::sqrt(body_.yield);
+  return impact_job(body_, velocity, cells, grids, source_);
+}
+
+Replay PairImpacts::replay(double speed) const
+{
+  const PairLaw law{{&guide_.law.curve, pair_.mapping(),
+                     radiation(pair_.yielding, 1.0, pair_.partner, pair_.radius_ratio)},
+                    &guide_.law};
+  return replay_collision(law, pair_.r_eff(), pair_.m_eff() * pair_.yielding.density,
+                          fastest_of_law(pair_, speed * speed));
+}
+
+/// Mean of ln(F_run/F_law) over the upper part of the loading that both have: there the force is the peak's,
+/// and what the grid and vibrations add cancels.
+double force_departure(const ContactRecord& run, const Replay& law, double length, double force)
+{
+  constexpr double from = 0.8, to = 1.0;
+  const double reach = std::min(run.depth, law.delta_max / length);
+  double sum = 0;
+  int count = 0;
+  std::size_t k = 0;
+  for (const ContactRecord::Sample& sample : run.loading) {
+    if (sample.x < from * reach || sample.x > to * reach) continue;
+    while (k + 2 < law.samples.size() && law.samples[k + 1].delta / length < sample.x) ++k;
+    const Replay::Sample &a = law.samples[k], &b = law.samples[k + 1];
+    const double share = (sample.x * length - a.delta) / (b.delta - a.delta);
+    sum += std::log(sample.force * force / (a.force + share * (b.force - a.force)));
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+/// Of a run at the speed that belongs to `place`; it reaches one nearby.
+Departure PairImpacts::departure(double place, const RunResult& run) const
+{
+  const ContactRecord record = contact_record_of(run);
+  const Replay law = replay(speed_to(overlap_at(place)));
+  const double length = pair_.mapping().length(pair_.r_eff()), force = pair_.mapping().force(pair_.r_eff());
+  return {place_of(record.depth), force_departure(record, law, length, force),
+          -2 * std::log(run.summary.restitution / law.restitution),
+          -std::log((1 - record.residual / record.depth) / (1 - law.delta_residual / law.delta_max))};
+}
+
+void PairImpacts::take(double place, const RunResult& run)
+{
+  const Departure d = departure(place, run);
+  const auto where =
+      std::upper_bound(departures_.begin(), departures_.end(), d.place,
+                       [](double value, const Departure& other) { return value < other.place; });
+  restitutions_.insert(restitutions_.begin() + (where - departures_.begin()), run.summary.restitution);
+  departures_.insert(where, d);
+}
+
+PairImpacts::Miss PairImpacts::miss(std::size_t left_out) const
+{
+  std::vector<Departure> others = departures_;
+  const Departure d = others[left_out];
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+  const double force = std::abs(std::expm1(at(others, &Departure::force, d.place) - d.force));
+  const double e = std::abs(std::expm1(0.5 * (at(others, &Departure::dissipation, d.place) - d.dissipation)));
+  return {force, e, std::max(force, counted(e, restitutions_[left_out]))};
+}
+
+PairImpacts::Miss PairImpacts::largest_miss() const
+{
+  Miss largest = at_onset_;
+  for (std::size_t k = 0; k + 1 < departures_.size(); ++k) {  // the deepest would be extrapolated
+    const Miss one = miss(k);
+    largest = {std::max(largest.force, one.force), std::max(largest.restitution, one.restitution),
+               std::max(largest.counted, one.counted)};
+  }
+  return largest;
+}
+
+/// Places half-way between each impact that is missed and its neighbours.
+std::vector<double> PairImpacts::bisections() const
+{
+  std::vector<double> places;
+  for (std::size_t k = 0; k + 1 < departures_.size(); ++k) {
+    if (miss(k).counted <= options_.tolerance) continue;
+    const double here = departures_[k].place;
+    if (k > 0) places.push_back(0.5 * (departures_[k - 1].place + here));
+    places.push_back(0.5 * (here + departures_[k + 1].place));
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+/// Grid convergence index of what is taken from a run.
+DiscretisationError index_between(const Departure& fine, const Departure& coarse, double cell_ratio)
+{
+  return {convergence_index(std::abs(std::expm1(coarse.force - fine.force)), cell_ratio),
+          convergence_index(std::abs(std::expm1(0.5 * (coarse.dissipation - fine.dissipation))), cell_ratio)};
+}
+
+/// The first three impacts, with cells so many that they are known within the tolerance, or the most; the
+/// deepest as deep as the solver follows it.
+void PairImpacts::begin()
+{
+  constexpr double shallower = 0.7;  // of the overlap, where a run failed
+  constexpr double shallowest = 0.3;
+  double last = last_place();
+  for (const int cells : {first_resolution, 34, 48}) {
+    cells_ = cells;
+    const int coarse_cells = coarse_partner(cells);
+    std::vector<RunOutcome> outcomes;
+    const auto failed = [&] {
+      return std::any_of(outcomes.begin(), outcomes.end(), [](const RunOutcome& o) { return o.failed(); });
+    };
+    for (bool first = true; first || failed(); first = false) {
+      if (!first) last = place_of(shallower * overlap_at(last));
+      if (last < shallowest) fail("an impact of the two bodies", outcomes.back().error);
+      outcomes = runs_.make(
+          {job(0.4 * last, cells), job(0.7 * last, cells), job(last, cells), job(last, coarse_cells)}, 0.7);
+    }
+    departures_.clear();
+    restitutions_.clear();
+    take(0.4 * last, outcomes[0].result);
+    take(0.7 * last, outcomes[1].result);
+    take(last, outcomes[2].result);
+    solver_error_ = index_between(departures_.back(), departure(last, outcomes[3].result),
+                                  static_cast<double>(cells) / coarse_cells);
+    if (std::max(solver_error_.force, counted(solver_error_.restitution, restitutions_.back())) <=
+        options_.tolerance)
+      return;
+  }
+}
+
+/// An impact to the onset of yield, up to which nothing is corrected: what the law is off by there.
+void PairImpacts::check_onset()
+{
+  constexpr double barely = 0.02;  // a place: the overlap is the onset's, as good as
+  const RunOutcome outcome =
+      runs_.make_needed({job(barely, cells_)}, 0.8, "an impact to the onset of yield").front();
+  const Departure d = departure(barely, outcome.result);
+  const double force = std::abs(std::expm1(d.force)), e = std::abs(std::expm1(0.5 * d.dissipation));
+  at_onset_ = {force, e, std::max(force, counted(e, outcome.result.summary.restitution))};
+}
+
+void PairImpacts::sample()
+{
+  constexpr std::size_t most = 9;
+  begin();
+  check_onset();
+  for (std::vector<double> places = bisections(); !places.empty(); places = bisections()) {
+    if (departures_.size() + places.size() > most) return;
+    std::vector<RunJob> jobs;
+    for (const double place : places) jobs.push_back(job(place, cells_));
+    const std::vector<RunOutcome> outcomes = runs_.make_needed(jobs, 1.0, "an impact of the two bodies");
+    for (std::size_t k = 0; k < places.size(); ++k) take(places[k], outcomes[k].result);
+  }
+}
+
+/// The impacts' departures at any ratio of radii, linear in the share of sizes between those that were made.
+class Correction
+{
+ public:
+  explicit Correction(const std::deque<PairImpacts>& impacts) : impacts_(impacts) {}
+
+  double at(double size_share, double Departure::*part, double place) const
+  {
+    const auto [low, high, share] = between(size_share);
+    const double first = granulaw::at(impacts_[low].departures(), part, place);
+    const double second = granulaw::at(impacts_[high].departures(), part, place);
+    return first + share * (second - first);
+  }
+
+  /// Of the ratios between which it lies.
+  std::vector<const PairImpacts*> neighbours(double size_share) const
+  {
+    const Between b = between(size_share);
+    if (b.low == b.high) return {&impacts_[b.low]};
+    return {&impacts_[b.low], &impacts_[b.high]};
+  }
+
+ private:
+  struct Between
+  {
+    std::size_t low, high;
+    double share;
+  };
+  static double share_of(const PairImpacts& impacts) { return 1 / (1 + impacts.radius_ratio()); }
+
+  /// Impacts descend in their share of sizes.
+  Between between(double size_share) const
+  {
+    std::size_t k = 0;
+    while (k < impacts_.size() && share_of(impacts_[k]) > size_share) ++k;
+    if (k == 0) return {0, 0, 0};
+    if (k == impacts_.size()) return {k - 1, k - 1, 0};
+    const double low = share_of(impacts_[k - 1]), high = share_of(impacts_[k]);
+    if (high == size_share) return {k, k, 0};
+    return {k - 1, k, (size_share - low) / (high - low)};
+  }
+
+  const std::deque<PairImpacts>& impacts_;
+};
+
+/// Ascending ratios at which impacts are made.
+std::vector<double> sampled_ratios(std::span<const double> ratios)
+{
+  std::vector<double> chosen;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  for (const double ratio : ratios) {
+    if (ratio == 0 || std::isinf(ratio)) continue;
+    smallest = std::min(smallest, ratio);
+    largest = larger(largest, ratio);
+  }
+  if (largest > 0) chosen = {smallest, std::clamp(1.0, smallest, largest), largest};
+  for (const double ratio : ratios)
+    if (std::isinf(ratio)) chosen.push_back(ratio);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
+void correct(ComposedShape& composed, const Correction& correction)
+{
+  const double size_share = 1 / (1 + composed.radius_ratio);
+  for (int k = 1; k < LawShape::nodes; ++k) {
+    const double place = static_cast<double>(k) / (LawShape::nodes - 1);
+    const auto node = static_cast<std::size_t>(k);
+    composed.shape.force_reduction[node] -= correction.at(size_share, &Departure::force, place);
+    composed.shape.dissipation[node] += correction.at(size_share, &Departure::dissipation, place);
+    composed.shape.residual[node] += correction.at(size_share, &Departure::residual, place);
+  }
+}
+
+void certify(Certificate& c, const std::vector<const PairImpacts*>& neighbours)
+{
+  for (const PairImpacts* impacts : neighbours) {
+    const PairImpacts::Miss miss = impacts->largest_miss();
+    c.verification_error_force = larger(c.verification_error_force, miss.force);
+    c.verification_error_restitution = larger(c.verification_error_restitution, miss.restitution);
+    c.verification_impacts += static_cast<double>(impacts->departures().size()) - 1;
+    c.solver_error_force = larger(c.solver_error_force, impacts->solver_error().force);
+    c.solver_error_restitution = larger(c.solver_error_restitution, impacts->solver_error().restitution);
+  }
+}
+
+}  // namespace
+
+CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, const PairBody& partner,
+                             std::span<const double> ratios, const BuildOptions& options)
+{
+  check(options);
+  ThreadFarm alone(1);
+  Farm& farm = options.farm ? *options.farm : alone;
+  CorrectedLaws made;
+  std::deque<PairImpacts> impacts;  // which stay where they are: jobs refer to them
+  const std::vector<double> sampled = sampled_ratios(ratios);
+  for (const double ratio : sampled) {
+    UnlikePair at_ratio = pair;
+    at_ratio.radius_ratio = ratio;
+    impacts.emplace_back(at_ratio, compose_shape(*options.atlas, yielding, partner, ratio, options), options,
+                         farm);
+    impacts.back().sample();
+    made.runs += impacts.back().count();
+    made.holes.insert(made.holes.end(), impacts.back().holes().begin(), impacts.back().holes().end());
+    made.sampling_error = larger(made.sampling_error, impacts.back().largest_miss().counted);
+  }
+  const Correction correction(impacts);
+  for (const double ratio : ratios) {
+    ComposedShape composed = compose_shape(*options.atlas, yielding, partner, ratio, options);
+    correct(composed, correction);
+    const double fastest = ringing / composed.speed_ratio;  // of the impacts; ringing: v of the velocity axis
+    composed.damage_number_max = std::max(composed.damage_number_max, fastest * fastest);
+    made.laws.push_back(law_of(composed, options));
+    certify(made.laws.back().law.certificate, correction.neighbours(1 / (1 + ratio)));
+  }
+  return made;
+}
+
+}  // namespace granulaw

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "characterise/run/request.hpp"
+#include "atlas/composed_law.hpp"
+#include "characterise/pair/reduction_error.hpp"
+
+namespace granulaw {
+
+/// The laws of a pair at several radius ratios, composed and then corrected, and what it took.
+struct CorrectedLaws
+{
+  std::vector<TwoBodyLaw> laws;    ///< in the order of the ratios asked for
+  std::size_t runs = 0;            ///< impacts of the two bodies
+  std::vector<std::string> holes;  ///< runs that failed twice, each with its sentence
+  double sampling_error = 0;       ///< largest of an impact left out, as it counts for the tolerance
+};
+
+/// A pair's own laws: composed of its bodies' (composed_law.hpp), then corrected by a few impacts of the two
+/// bodies.
+///
+/// A composed law departs from the truth by little, and evenly in ln(overlap/onset): below the onset by
+/// nothing. So three impacts tell how: ln of the loading force, and of the share of the work that is given
+/// back. Each is left out in turn; where the others predict it worse than options.tolerance, an impact is
+/// added beside it. That error, what the law is off by at the onset, up to which nothing is corrected, and
+/// what the cells cost is what the certificate states. Impacts are made at
+/// equal radii, at the smallest and the largest of the ratios, and on a thick wall where one is asked for;
+/// between them the correction is linear in R_s/(R_s + R_h). A thick wall that yields first takes that of the
+/// smallest ratio.
+///
+/// Homogeneous spheres, elastic or hardening linearly, of which pair.yielding yields. options: depth,
+/// fastest, tolerance, atlas, farm, progress. Throws Error as compose_law and choose_resolutions do.
+CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, const PairBody& partner,
+                             std::span<const double> ratios, const BuildOptions& options);
+
+}  // namespace granulaw

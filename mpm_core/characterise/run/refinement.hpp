@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "atlas/law_shape.hpp"
+#include "characterise/run/sampling_plan.hpp"
+#include "contact/axis.hpp"
+
+namespace granulaw {
+
+/// Force and coefficient of restitution of a contact that reverses.
+struct AtReversal
+{
+  double force = 0;  ///< in any unit, the same for what is compared; 0: not known
+  double restitution = 0;
+};
+
+/// A run, slow or fast, beside what the law fitted without it predicts.
+struct LeftOutRun
+{
+  double coordinate = 0;  ///< in which the law is smooth: ln(overlap) of a slow run; of an impact sqrt(I) for
+                          ///< inertia, ln(sqrt(I)) for a rate
+  double overlap = 0;     ///< over the length, where the run reverses
+  AtReversal measured;
+  std::optional<AtReversal> predicted;  ///< none: the law without the run would be extrapolated
+};
+
+/// An error relative to e as it counts for the tolerance: below e = 0.5 it is relative to 0.5.
+double counted(double error, double restitution);
+
+/// Error of a prediction as it counts for the tolerance, of F or e, whichever is larger.
+double miss(const LeftOutRun& run);
+double largest_miss(std::span<const LeftOutRun> runs);
+/// Largest relative error of a predicted e.
+double largest_miss_of_restitution(std::span<const LeftOutRun> runs);
+
+/// ln of the ratio of two overlaps nearer than which no run is put between them. A straight line through ln F
+/// over an interval w of ln(overlap) misses by up to w^2/8 times the curvature, which is about 1 at most: d
+/// ln F/d ln(overlap) falls from 3/2 to 1 while the overlap grows e-fold. In a shorter interval than that of
+/// the tolerance the runs scatter, which no further run mends.
+double least_interval(double tolerance);
+
+/// Where the law needs runs: half-way between each run that is missed by more than the tolerance and its
+/// neighbours; ascending coordinates. `runs` ascend. `least_speed` is given for inertia, which is known to
+/// change nothing at standstill, coordinate 0; that interval is bisected down to this speed.
+std::vector<double> bisections(std::span<const LeftOutRun> runs, double tolerance,
+                               std::optional<double> least_speed = {});
+
+/// Slow runs, each left out of the law that `fit` makes of the others. An impact is left out whole. A press
+/// loses one reversal point: its loading is continuous, and belongs to its other reversal points too. The
+/// deepest run has no prediction. `onset`, `x_end`: as in fit_shape().
+using ShapeOf = std::function<LawShape(const ContactRecords&)>;
+std::vector<LeftOutRun> leave_out_slow(const ContactRecords& records, const ShapeOf& fit, double onset,
+                                       double x_end);
+
+/// Fast impacts, each left out of the interpolation between the others' velocity effects. The ends of the
+/// axis have no prediction; the lower end of inertia's is the standstill.
+std::vector<LeftOutRun> leave_out_fast(std::span<const ContactRecords::Impact> impacts,
+                                       std::span<const LawShape::VelocityEffect> effects,
+                                       AxisTable::By kind);
+
+}  // namespace granulaw

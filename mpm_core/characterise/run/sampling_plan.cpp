@@ -1,0 +1,239 @@
+#include "characterise/run/sampling_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/solver_id.hpp"
+
+namespace granulaw {
+
+namespace {
+
+constexpr double slowest_press = 1e-3;  // overlap: below, slow impacts are cheaper than presses
+
+/// Depth of a press over its shallowest partial unloading, whose contact then spans half the cells.
+constexpr double press_span = 4;
+/// Ends of the presses, about press_span apart.
+constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
+
+/// Overlap beyond which no pair law is exact, so that fewer cells and one grid will do.
+constexpr double exact_end = 0.2;
+
+/// Single precision changes e and F by less than 1e-6 and takes two thirds of the time.
+constexpr Precision precision = Precision::single;
+
+std::string key(const CharacterisedBody& s, int resolution, int shifted_grids, const std::string& what)
+{
+  return fmt::format("{} {} resolution={} phases={} single solver={}", what, s.description, resolution,
+                     shifted_grids, solver_id());
+}
+
+RunOptions own(RunOptions options, int resolution, int shifted_grids)
+{
+  options.resolution = resolution;
+  options.shifted_grids = shifted_grids;
+  options.precision = precision;
+  return options;
+}
+
+/// CPU seconds, about: cells are a share of the contact radius, steps a share of a cell over the wave speed,
+/// which grows towards nu = 1/2.
+double cost_of(const CharacterisedBody& s, double depth, double duration, int resolution, int shifted_grids)
+{
+  const double nu = s.poisson_ratio;
+  const double wave = std::sqrt((1 - nu) * (1 - nu) / (1 - 2 * nu));  // dilatational, over c*
+  const double cell = std::sqrt(2 * depth) / resolution;
+  const double rectilinear = s.particle.is_homogeneous_sphere() ? 1.0 : 3.0;
+  return 1.1e-4 * rectilinear * duration * wave / cell * resolution * resolution / 576.0 * shifted_grids;
+}
+
+/// `count` overlaps from `low` on, by equal factors, the next of which would be `high`.
+std::vector<double> between(double low, double high, int count)
+{
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k)
+    values.push_back(low * std::pow(high / low, static_cast<double>(k) / count));
+  return values;
+}
+
+/// Loading time whose largest speed squared, over E*/rho, is this.
+double top_speed_ramp(double depth, double speed_squared)
+{
+  return 0.5 * M_PI * depth / std::sqrt(speed_squared);
+}
+
+}  // namespace
+
+double expected_depth(double velocity, const CharacterisedBody& s)
+{
+  const double hertz = std::pow(15.0 / 16.0 * s.mass * velocity * velocity, 0.4);
+  return s.yields() ? std::max(hertz, velocity * std::sqrt(s.mass / (5.6 * M_PI * s.yield))) : hertz;
+}
+
+double velocity_to(double x, const CharacterisedBody& s)
+{
+  return std::min(std::sqrt(std::pow(x, 2.5) * 16.0 / (15.0 * s.mass)),
+                  x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
+}
+
+double loading_ramp(const CharacterisedBody& s, double depth, double tolerance)
+{
+  if (!s.yields() || tolerance <= 0) return 0;
+  const double allowed = std::min(tolerance, 0.01);
+  const double inertial = top_speed_ramp(depth, negligible_damage_number(tolerance) * s.yield);
+  const double vibrational = 42.0 * std::pow(0.01 / s.yield, 0.25) * std::pow(0.01 / allowed, 0.2);
+  return std::max({60.0, vibrational, inertial});
+}
+
+RunJob press_job(const CharacterisedBody& body, const SamplingPlan::Press& press, const RunSource& source)
+{
+  std::string path;
+  for (const double stop : press.stops) path += fmt::format(" unload={:.17g}", stop);
+  if (press.ramp > 0) path += fmt::format(" ramp={:.17g}", press.ramp);
+  const double ramp = press.ramp > 0 ? press.ramp : default_press_ramp(press.depth, body.yield);
+  const auto stops = static_cast<double>(press.stops.size());  // off and on again takes 0.4 of the ramp each
+  return {fmt::format("press to {:.3g} R", press.depth),
+          key(body, press.resolution, press.shifted_grids,
+              fmt::format("press {} depth={:.17g}{}", press.support == Support::free ? "free" : "midplane",
+                          press.depth, path)),
+          cost_of(body, press.depth, (1.4 + 0.8 * stops) * ramp, press.resolution, press.shifted_grids),
+          [body, press, &source](const RunOptions& options) {
+            PressPlan plan{press.depth * body.scale.length, press.support, press.stops, press.ramp};
+            for (double& stop : plan.partial_unloads) stop *= body.scale.length;
+            return dimensionless(
+                source.press(body.particle, plan, own(options, press.resolution, press.shifted_grids)),
+                body.scale);
+          }};
+}
+
+RunJob impact_job(const CharacterisedBody& body, double velocity, int resolution, int shifted_grids,
+                  const RunSource& source)
+{
+  const double depth = expected_depth(velocity, body);
+  // an elastic contact lasts 2.94 depth/velocity; what does not rebound, pi/2
+  const bool yields_much = depth > 20 * body.onset;
+  return {fmt::format("impact at {:.3g} c*", velocity),
+          key(body, resolution, shifted_grids, fmt::format("impact velocity={:.17g}", velocity)),
+          cost_of(body, depth, (yields_much ? 1.6 : 2.9) * depth / velocity, resolution, shifted_grids),
+          [body, velocity, resolution, shifted_grids, &source](const RunOptions& options) {
+            return dimensionless(source.impact(body.particle, velocity * body.scale.velocity(),
+                                               own(options, resolution, shifted_grids)),
+                                 body.scale);
+          }};
+}
+
+RunJob with_estimate(RunJob job)
+{
+  job.key += " estimated";
+  job.run = [plain = std::move(job.run)](const RunOptions& options) {
+    RunOptions both = options;
+    both.estimate_error = true;
+    return plain(both);
+  };
+  return job;
+}
+
+SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& range)
+{
+  SamplingPlan plan;
+  const double first = std::max(range.shallowest, range.from_onset * body.onset);
+  double done = std::max(slowest_press, first);
+  for (double depth : press_depths) {
+    depth = std::min(depth, range.depth);
+    if (range.depth <= exact_end && range.depth < 1.6 * depth)
+      depth = range.depth;  // one that goes a little deeper spares the next
+    if (depth < 1.3 * done) continue;
+    SamplingPlan::Press press{depth, between(done, depth, range.stops), 24, 2,
+                              loading_ramp(body, depth, range.tolerance)};
+    if (depth > exact_end) press.resolution = 20, press.shifted_grids = 1;
+    plan.presses.push_back(press);
+    done = depth;
+  }
+  if (first < slowest_press) {
+    const double factor = range.stops > 2 ? 1.8 : 3.0;
+    const int count =
+        std::max(1, static_cast<int>(std::lround(std::log(slowest_press / first) / std::log(factor))));
+    for (const double x : between(first, slowest_press, count))
+      plan.slow_impacts.push_back(velocity_to(x, body));
+  }
+  for (const double speed : range.speeds)
+    if (speed <= range.fastest * 1.0001) plan.fast_speeds.push_back(speed);
+  return plan;
+}
+
+SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedBody& body, double tolerance,
+                          int press_cells)
+{
+  SamplingPlan plan;
+  for (std::size_t k = overlaps.size(); k-- > 0;) {
+    const double x = overlaps[k];
+    if (x < slowest_press) {
+      plan.slow_impacts.push_back(velocity_to(x, body));
+    } else if (plan.presses.empty() || press_span * x < plan.presses.back().depth) {
+      plan.presses.push_back({x, {}, press_cells, 2, loading_ramp(body, x, tolerance)});
+    } else {
+      auto& stops = plan.presses.back().stops;
+      stops.insert(stops.begin(), x);
+    }
+  }
+  return plan;
+}
+
+std::vector<double> first_inertia_speeds(double fastest, double tolerance)
+{
+  constexpr std::size_t most = 3;
+  const double least = std::sqrt(negligible_damage_number(tolerance));
+  std::vector<double> speeds{fastest};
+  while (speeds.size() < most && 0.5 * speeds.front() >= least)
+    speeds.insert(speeds.begin(), 0.5 * speeds.front());
+  return speeds;
+}
+
+std::vector<double> first_rate_speeds(double slowest, double fastest)
+{
+  constexpr int intervals = 4;
+  std::vector<double> speeds;
+  for (int k = 0; k <= intervals; ++k)
+    speeds.push_back(slowest * std::pow(fastest / slowest, static_cast<double>(k) / intervals));
+  return speeds;
+}
+
+std::vector<RunJob> sampling_jobs(const CharacterisedBody& body, const SamplingPlan& plan,
+                                  const RunSource& source)
+{
+  std::vector<RunJob> jobs;
+  for (const SamplingPlan::Press& press : plan.presses) jobs.push_back(press_job(body, press, source));
+  for (const double v : plan.slow_impacts)
+    jobs.push_back(impact_job(body, v, plan.resolution, plan.shifted_grids, source));
+  for (const double v : plan.fast_speeds)
+    jobs.push_back(impact_job(body, v * std::sqrt(body.yield), plan.cells_at(v), fast_shifted_grids, source));
+  return jobs;
+}
+
+void add_to(ContactRecords& records, const SamplingPlan& plan, const std::vector<RunOutcome>& outcomes)
+{
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < plan.presses.size(); ++k) {
+    const RunOutcome& run = outcomes[next++];
+    if (run.failed()) continue;
+    for (ContactRecord& reversal : partial_unloadings(run.result, records.reload_loop))
+      records.slow.push_back(std::move(reversal));
+    records.slow.push_back(contact_record_of(run.result));
+    records.slow.back().of_press = true;
+  }
+  for (std::size_t k = 0; k < plan.slow_impacts.size(); ++k)
+    if (const RunOutcome& run = outcomes[next++]; !run.failed())
+      records.slow.push_back(contact_record_of(run.result));
+  for (const double speed : plan.fast_speeds)
+    if (const RunOutcome& run = outcomes[next++]; !run.failed())
+      records.fast.push_back({speed, contact_record_of(run.result)});
+  std::sort(records.slow.begin(), records.slow.end(),
+            [](const ContactRecord& a, const ContactRecord& b) { return a.depth < b.depth; });
+  std::sort(
+      records.fast.begin(), records.fast.end(),
+      [](const ContactRecords::Impact& a, const ContactRecords::Impact& b) { return a.speed < b.speed; });
+}
+
+}  // namespace granulaw
