@@ -7,8 +7,8 @@
 
 namespace granulaw {
 
-/// What a user did or gave that cannot be used: one sentence, no stack trace.
-/// Errors of the programmer are assertions, not this.
+/// Input or a user's action that cannot be used: one sentence, no stack trace. Errors of the programmer are
+/// assertions.
 class Error : public std::runtime_error
 {
  public:

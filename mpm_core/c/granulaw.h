@@ -29,7 +29,7 @@ extern "C" {
 typedef struct granulaw_law granulaw_law;                   /* a law file in memory */
 typedef struct granulaw_contact_law granulaw_contact_law;   /* the law of one pair of bodies */
 
-/* What a call returns. */
+/* Return codes of the calls. */
 enum {
   GRANULAW_OK = 0,
   GRANULAW_NO_FILE = 1,     /* the file cannot be read, or is no law file */

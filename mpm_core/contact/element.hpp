@@ -14,7 +14,7 @@ inline double work_of_waves(double waves, double approach, double force, double 
   return waves * dt * (approach - 0.5 * dt * force / m_eff);
 }
 
-/// What a contact does to body i; j gets the opposite.
+/// Force of a contact on body i; j gets the opposite.
 struct ContactForce
 {
   double normal = 0;          ///< N, along the normal

@@ -5,7 +5,7 @@
 
 namespace granulaw {
 
-/// Where the work on a contact goes that it does not give back.
+/// Mechanisms that dissipate the work on a contact.
 enum class Mechanism : std::size_t { plastic, waves, friction, count };
 
 /// A mechanism in words. Sums over ranks, restart files, JSON, thermo values and the line at a run's end

@@ -68,7 +68,7 @@ concept NormalLaw =
   { law.min_speed(r_eff, m_eff) } -> std::same_as<double>;
   /// s^2/m^2: rho V^2/Y of the yielding body over the square of the approach speed; 0: not stated.
   { law.damage_number_per_speed2() } -> std::same_as<double>;
-  /// Whether the law depends on the mass of the bodies.
+  /// True if the law depends on the mass of the bodies.
   { law.needs_mass() } -> std::same_as<bool>;
 };
 
@@ -115,8 +115,8 @@ double dissipation_of(const Law& law, double r_eff, double from, double to, doub
   return law.dissipated(r_eff, from, to, impact_overlap);
 }
 
-/// Where the values of a normal law stand among those of a contact: the largest overlap first, X where the
-/// law latches it, the law's own behind.
+/// Positions of a normal law's values among those of a contact: first the largest overlap, then X if the law
+/// latches it, then the law's other values.
 template <NormalLaw Law>
 struct NormalState
 {
@@ -130,7 +130,7 @@ struct NormalState
 
   static double largest(const double* kept) { return kept[0]; }
   static double impact_overlap(const double* kept) { return LatchesImpact<Law> ? kept[1] : 0.0; }
-  /// What follows from the other values and the law, for a law that may have changed.
+  /// Resets the values that follow from the others and from the law, for a law that may have changed.
   static void forget_derived(double* kept)
   {
     for (const Kept& one : keeps) {

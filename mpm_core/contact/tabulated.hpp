@@ -150,7 +150,7 @@ struct Tabulated
     if (!curve->axis()) return 0.0;
     return curve->reach(per_speed(r_eff, m_eff) * (speed * scale.length));
   }
-  /// Where the law's velocity axis ends; infinity without one.
+  /// Largest speed of the law's velocity axis; infinity without one.
   double max_speed(double r_eff, double m_eff) const
   {
     if (!curve->axis()) return std::numeric_limits<double>::infinity();

@@ -4,15 +4,14 @@
 
 namespace granulaw {
 
-/// How a yielded contact unloads and reloads: F = F_m phi(u), u = (delta - delta_r)/(delta_m - delta_r) from
+/// Unloading and reloading of a yielded contact: F = F_m phi(u), u = (delta - delta_r)/(delta_m - delta_r) from
 /// 0 where the force ends to 1 at the reversal,
 ///     phi = A u^1.5 + B u^2 + C u^2.5,   A + B + C = 1.
 ///
-/// Why this form. Hertz's u^1.5 with the finite sphere's next two terms: the elastic sphere's own curve is
-/// one of them, F_Hertz (1 + c1 sqrt(x) + c2 x), so that unloading passes through the onset of yield without
-/// a jump in work or stiffness. Over the reference presses (E*/Y 20 to 500, to 0.2 R) it lies within 0.1 to
-/// 0.4 % of F_m, u^n within 0.2 to 1.5 %; and it needs one square root, no power.
-///
+/// Reasons for this form: it is Hertz's u^1.5 with the finite sphere's next two terms. The elastic sphere's
+/// curve is one of them, F_Hertz (1 + c1 sqrt(x) + c2 x), so unloading passes through the onset of yield
+/// without a jump in work or stiffness. Over the reference presses (E*/Y 20 to 500, to 0.2 R) it lies within
+/// 0.1 to 0.4 % of F_m, u^n within 0.2 to 1.5 %. It needs one square root, no power.
 /// Two numbers say which:
 ///     exponent n = d ln F/d ln u at the reversal = phi'(1)        B = 5 - 2 A - 2 n,  C = A + 2 n - 4
 ///     Hertz share     A = F/(F_m u^1.5) as u -> 0

@@ -13,7 +13,7 @@ namespace granulaw {
 /// thread that called Farm::run. May throw to stop.
 using Progress = std::function<void(double done, const std::string& what)>;
 
-/// What a farm has spent and saved since it was made.
+/// Runs and CPU time that a farm has spent and saved since it was made.
 struct FarmCount
 {
   long made = 0;           ///< runs, whether they failed or not

@@ -24,7 +24,7 @@ class RunCache
 
   /// True if the run was found; it is then marked `from_cache`.
   bool load(const std::string& key, RunOutcome& outcome) const;
-  /// Where this is not possible (disk full, no right to write), the run is not kept: that only costs time.
+  /// If this is not possible (disk full, no right to write), the run is not cached, which only costs time.
   void store(const std::string& key, double cost, const RunOutcome& outcome) const;
   const std::string& folder() const { return folder_; }
 

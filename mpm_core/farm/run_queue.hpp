@@ -20,7 +20,7 @@ struct RunJob
   std::function<RunResult(const RunOptions&)> run;  ///< obeys RunOptions::refine; Error: the run has failed
 };
 
-/// What became of a job.
+/// Outcome of a job.
 struct RunOutcome
 {
   RunResult result;         ///< empty if the run failed

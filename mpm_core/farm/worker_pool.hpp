@@ -32,7 +32,7 @@ class WorkerPool
     RunOutcome outcome;
     std::exception_ptr broken;  ///< what perform() let through
   };
-  /// What has ended since the last call; waits for something to end, at most `patience`. Empty at once if
+  /// Jobs that have ended since the last call. Waits at most `patience` for one to end; empty at once if
   /// nothing is under way.
   std::vector<Finished> wait(std::chrono::milliseconds patience);
 

@@ -23,7 +23,7 @@ constexpr auto report_every = std::chrono::milliseconds(100);
 /// Time for the runs under way to notice that they shall stop, before the rest goes on without them.
 constexpr auto stop_patience = std::chrono::seconds(30);
 
-/// What a message is, as its MPI tag.
+/// Kind of a message, its MPI tag.
 enum Kind : int {
   // from rank 0
   job,   ///< index: make this run

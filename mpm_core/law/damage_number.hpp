@@ -12,7 +12,7 @@ inline double damage_number(const LawMaterial& yielding, const PairMapping& mapp
   return ImpactMeasure{yielding.density, yielding.yield_stress}.damage_number(mapping, speed);
 }
 
-/// Of a resolved pair. 0: the bodies are elastic.
+/// Damage number of a resolved pair. 0: the bodies are elastic.
 inline double damage_number(const PairLaw& pair, double speed)
 {
   return pair.measure().damage_number(pair.mapping, speed);

@@ -18,7 +18,7 @@ struct ErrorBound
   double relative_restitution = 0;  ///< of e, relative: laws by runs and the pair rule state it so
 
   bool stated() const { return force > 0 || restitution > 0 || relative_restitution > 0; }
-  /// Of an impact whose coefficient of restitution is `e`, absolute.
+  /// Absolute error bound of e for an impact whose coefficient of restitution is `e`.
   double restitution_at(double e) const { return std::hypot(restitution, relative_restitution * e); }
   /// With an error of another cause: independent ones add as squares.
   ErrorBound with(const ErrorBound& other) const
@@ -56,7 +56,7 @@ inline constexpr double size_share_step = 0.025;
 /// F changes by 0.4 % and e by 0.002 at most, and beyond in proportion.
 ErrorBound size_error(double off);
 
-/// How a pair's law came about.
+/// Origin of a pair's law.
 enum class LawKind {
   single,     ///< of one body: a rigid wall, like bodies of like size
   two_body,   ///< from runs of the two bodies
@@ -85,7 +85,7 @@ struct PairStatement
   PairStatement at_distance(double off) const;
 };
 
-/// Of a law that resolve_pair() gave for `a` and `b`, at its own ratio of radii.
+/// Statement of a law that resolve_pair() gave for `a` and `b`, at its ratio of radii.
 PairStatement statement_of(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b);
 /// Distance in R_s/(R_s + R_h) of bodies of these radii (m, or both in another unit; infinity: a thick
 /// deformable wall) from that law; 0 at a rigid wall.

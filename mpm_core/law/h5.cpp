@@ -85,7 +85,7 @@ void require_stored(hid_t set, const std::string& file, const char* name)
           "values are declared but not stored in", name);
 }
 
-/// Of a list of texts, each with its end.
+/// Adds a list of texts, each with its terminator.
 void add_texts(const char* name, const std::vector<std::string>& texts)
 {
   std::string all;

@@ -45,7 +45,7 @@ struct Part
   std::uint64_t size;
 };
 
-/// Where a group's entries and their names stand.
+/// Addresses of a group's entries and of their names.
 struct SymbolTable
 {
   Address tree, heap;
@@ -214,7 +214,7 @@ std::map<Message, Part> Walk::messages(Address at)
   return all;
 }
 
-/// Where a dataset's values stand (IV.A.2.i, version 3).
+/// Address of a dataset's values (IV.A.2.i, version 3).
 void Walk::dataset(const Part& type, const Part& space, const Part& layout)
 {
   const std::uint64_t size = value_bytes(type) * value_count(space);
@@ -301,7 +301,7 @@ std::uint64_t Walk::value_bytes(const Part& type) const
   return size;
 }
 
-/// How many values (IV.A.2.b, version 1).
+/// Number of values (IV.A.2.b, version 1).
 std::uint64_t Walk::value_count(const Part& space) const
 {
   require(space.size >= 8 && number(space.at, 1) == 1, "another version of an extent", space.at);

@@ -32,7 +32,7 @@ std::string shortened(const std::string& text)
   return text.size() <= most ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, most));
 }
 
-/// Of the curve and its axis: each costs about the same.
+/// Nodes of the curve and of its axis: each costs about the same.
 std::size_t node_count(const Curve& curve)
 {
   const std::size_t own = curve.table().force.size();
@@ -63,7 +63,7 @@ void check_name(const std::string& name, const std::string& where)
          fmt::format("{}, and not '{}'", name_rule, wall_name));
 }
 
-/// What must hold between the numbers of one body, beyond what Curve::fault() finds of its own nodes.
+/// Conditions between the numbers of one body, beyond what Curve::fault() finds in its nodes.
 void check_body(const BodyLaw& body, const std::string& where)
 {
   const LawMaterial& m = body.material;

@@ -49,7 +49,8 @@ inline constexpr const char* kind_rate = "logarithmic rate";
 
 // Laws of pairs of their own, if there are any
 inline constexpr const char* pair_laws = "pair_laws";  ///< group; one subgroup "a:b" for each, as in `pairs`
-/// Of a pair with several ratios each stands in a subgroup "1", "2", ...; absent: against a thick wall.
+/// Ratios of a pair; with several, each law stands in a subgroup "1", "2", ...; absent: against a deformable
+/// wall.
 inline constexpr Field radius_ratio_of_runs{"radius_ratio_of_runs", "1",
                                             "partner's radius over the yielding body's"};
 

@@ -6,7 +6,7 @@
 
 namespace granulaw {
 
-/// What a contact does in one impact: by the solver, or by a sphere's law.
+/// Result of a contact in one impact: by the solver, or by a sphere's law.
 struct ContactAnswer
 {
   double force_max = 0;  ///< N
@@ -50,8 +50,8 @@ struct ErrorQuantiles
   double median = 0, largest = 0;  ///< largest: of 95 % of the directions
 };
 
-/// What a sphere's law with the local radius of curvature is wrong by for one body, direction by direction:
-/// whether spheres' laws serve a DEM code's clumps or superquadrics of this shape.
+/// Errors, by direction, of a sphere's law with the local radius of curvature for one body. They show if
+/// spheres' laws serve a DEM code's clumps or superquadrics of this shape.
 struct ShapeCertificate
 {
   std::string shape;                     ///< which body it is of, on one line

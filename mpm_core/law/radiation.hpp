@@ -4,7 +4,7 @@
 
 namespace granulaw {
 
-/// What waves take with them that leave a contact into its two bodies and do not come back in time.
+/// Energy that waves carry from a contact into its two bodies and that does not return in time.
 ///
 /// A half-space radiates 0.665/(rho c^3) (dF/dt)^2, W, of a force F(t) on its surface, c = sqrt(E*/rho) (the
 /// form: Miller and Pursey, Proc. R. Soc. A 223, 1954; Hunter, J. Mech. Phys. Solids 5, 1957; the number: six

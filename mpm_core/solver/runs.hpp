@@ -14,13 +14,13 @@
 
 namespace granulaw {
 
-/// How the pressed body is held.
+/// Support of the pressed body.
 enum class Support {
   free,     ///< the whole sphere, its centre of mass driven by a uniform body force: as in a collision
   midplane  ///< half a sphere whose equator plane is driven: as finite-element references do
 };
 
-/// How a body is cut into cells (docs/theory/method.md).
+/// Division of a body into cells (docs/theory/method.md).
 enum class GridKind {
   automatic,    ///< what the scene needs: `mapped` for homogeneous spheres, else `rectilinear`
   mapped,       ///< fitted to the sphere: fastest and most exact
@@ -35,7 +35,7 @@ const char* name_of(GridKind grid);
 /// Precision of the material points; nodes are double always.
 enum class Precision { full, single };
 
-/// What the particle meets; nothing given: the rigid, frictionless plane.
+/// Partner of the particle; nothing given: the rigid, frictionless plane.
 struct Partner
 {
   std::optional<Particle> particle{};  ///< a second particle, pole against pole
@@ -66,8 +66,8 @@ struct RunOptions
   CheckpointStore checkpoints{};  ///< where the runs keep their state (checkpoint.hpp); not with `fields`
 };
 
-/// How a particle comes in. All but `velocity` as left out: head-on along its axis, for which two dimensions
-/// do. Anything else is computed in three, against the rigid plane.
+/// Approach of a particle. With the defaults of all but `velocity`: head-on along its axis, for which two
+/// dimensions suffice. Any other approach is computed in three, against the rigid plane.
 struct Approach
 {
   double velocity = 0;             ///< m/s, over 0: towards the plane or the partner

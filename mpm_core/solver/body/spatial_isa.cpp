@@ -148,7 +148,7 @@ struct Grid
   }
 };
 
-/// How many cells from `first` on, at most `most`, are filled and follow each other along x; at least 1.
+/// Number of filled cells that follow each other along x from `first` on: 1 to `most`.
 GRANULAW_INLINE int row_length(const SpatialCell* cells, int first, int most)
 {
   int n = 1;

@@ -18,7 +18,7 @@ struct Plane
   int copies = 1;
 };
 
-/// What a plane has done since it was last read; of the part of the body that is computed.
+/// Work and momentum of a plane since the last read, for the computed part of the body.
 struct PlaneTally
 {
   Vector3 impulse = Vector3::Zero();  ///< on the body

@@ -35,7 +35,7 @@ class Moments
   double of(const double (&x)[3], const double (&y)[3], const double (&z)[3]) const;
 };
 
-/// What an octant holds: pieces of each phase, and its patch of the outer surface.
+/// Content of an octant: pieces of each phase, and its patch of the outer surface.
 struct OctantContent
 {
   std::vector<Moments> phases;

@@ -80,7 +80,7 @@ Rectangle quarter_of(const SplineAxis& r_axis, int c, int right, const SplineAxi
   return {r_axis.lines()[c] + right * hr, z_axis.lines()[d] + upper * hz, hr, hz};
 }
 
-/// What a quarter holds of each phase: by 2 x 2 Gauss points if it is whole, by a raster if it is cut;
+/// Content of a quarter, by phase: by 2 x 2 Gauss points if it is whole, by a raster if it is cut;
 /// nothing if it lies outside the body.
 std::vector<PieceSum> sums_over(const CutSection& s, const Rectangle& q, const SplineAxis& r_axis,
                                 const SplineAxis& z_axis)

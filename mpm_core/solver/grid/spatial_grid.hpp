@@ -17,8 +17,8 @@ struct SpatialSection
   /// Signed distance to the outer surface, positive inside, and the unit vector out of the body.
   std::function<double(const Vector3&)> depth;
   std::function<Vector3(const Vector3&)> normal;
-  /// Of a body of several materials: index of the phase at a place inside the outer surface (-1: a pore), and
-  /// the distance from there to the nearest interface. Empty: phase 0 everywhere.
+  /// Phases of a body of several materials: index of the phase at a place inside the outer surface (-1: a
+  /// pore), and the distance from there to the nearest interface. Empty: phase 0 everywhere.
   std::function<int(const Vector3&)> phase_at{};
   std::function<double(const Vector3&)> interface_distance{};
   std::array<std::vector<double>, 3> lines;

@@ -9,7 +9,7 @@
 
 namespace granulaw::flow {
 
-// What a flow law must have. Stresses are in the unit of the yield stress that the law is given, rates in the
+// Requirements on a flow law. Stresses are in the unit of the yield stress that the law is given, rates in the
 // unit of its reference rate; strains are equivalent plastic strains, logarithmic, 0 or more. Both functions
 // are defined from 0 on, positive, and never fall (a law that softens has no unique return). They are
 // GRANULAW_MEMBER: kernels inline them into loops over material points, so they have no branch with a call.
@@ -94,7 +94,7 @@ concept RateLaw = NamedLaw<Law> &&
     } -> std::same_as<double>;
 };
 
-/// Where a material yields and which way it flows.
+/// Yield surface and direction of plastic flow of a material.
 ///     from(values)                 the surface with its parameters, in the order of `parameters`
 ///     surface.dilates()            its flow changes the volume: `dilation` is filled, too
 ///     surface.find(trials, count, plastic_strain, moduli, shear, bulk, flow_stress, per_dt)

@@ -27,7 +27,7 @@ struct DruckerPrager
     return v[1] > v[0] ? "'dilatancy_angle' is larger than 'friction_angle': the flow would create energy"
                        : nullptr;
   }
-  /// Of the angles' sines, as flow_of() leaves them.
+  /// Surface from the angles' sines, as flow_of() leaves them.
   static GRANULAW_MEMBER DruckerPrager from(const double* v) { return {slope(v[0]), slope(v[1])}; }
   GRANULAW_MEMBER bool dilates() const { return friction > 0.0; }
   template <class Real>

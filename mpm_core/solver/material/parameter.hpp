@@ -19,7 +19,7 @@ struct ValueAndSlope
 /// 1, Pa, 1/s, degrees: how a parameter is made dimensionless and named; of an angle the sine is kept.
 enum class Quantity { number, stress, rate, angle };
 
-/// Where a fit of a parameter begins, by the flow stress (1 + gain) Y that a law reaches at about a strain:
+/// Start of a parameter's fit, by the flow stress (1 + gain) Y that a law reaches at about a strain:
 /// (per_yield + per_gain gain) Y + per_strain strain + number. All 0: the flow stress goes in proportion to
 /// the parameter, and the yield stress sets it; it is not fitted.
 struct Start

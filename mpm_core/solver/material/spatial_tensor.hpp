@@ -57,7 +57,7 @@ struct LogarithmicStrain
   Real trace;
 };
 
-/// Of b = 1 + x. With m = 1 + tr(x)/3 and d the deviator of x, b = m + d:
+/// Logarithm ln(b)/2 of b = 1 + x. With m = 1 + tr(x)/3 and d the deviator of x, b = m + d:
 ///
 ///     ln(b)/2 = ln(m)/2 + artanh(s),    s = d (d + 2 m)^-1 = (I3 + w^2 d - w d^2)/(w^3 + w I2 + I3),  w = 2
 ///     m,

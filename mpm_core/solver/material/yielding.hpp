@@ -21,7 +21,7 @@ struct Yielding
 
 namespace granulaw::GRANULAW_ISA_NAMESPACE {
 
-/// Of a material: compiled apart from the tensors, once for each instruction set (yielding_isa.cpp).
+/// Yielding of a material: compiled apart from the tensors, once for each instruction set (yielding_isa.cpp).
 kernel::Yielding<double> yielding_in_double(const Moduli& moduli);
 kernel::Yielding<float> yielding_in_float(const Moduli& moduli);
 

@@ -10,15 +10,15 @@ namespace granulaw {
 
 class StateArchive;
 
-/// Where runs keep their state so that they can go on after they were killed; the solver knows nothing of
-/// files. One request makes several runs (shifted grids, two resolutions), each under its own key, and they
-/// may call at the same time from several threads. A state belongs to one request: the same particles,
-/// partner, drive and RunOptions (but for threads), the same program and instruction set. Then the run that
-/// goes on has the identical trace, bit for bit.
+/// Store of the state of runs, from which they go on after they were killed; the solver contains no file
+/// handling. One request makes several runs (shifted grids, two resolutions), each under a key. They may call
+/// at the same time from several threads. A state belongs to one request: the same particles, partner, drive
+/// and RunOptions (except threads), the same program and instruction set. The continued run then has the
+/// identical trace, bit for bit.
 struct CheckpointStore
 {
   std::string name;  ///< leads the sentences about a state that cannot be used
-  /// What was saved last under `key`, empty if nothing was.
+  /// Text saved last under `key`, empty if nothing was.
   std::function<std::string(const std::string& key)> load;
   /// Keeps `state` under `key`, in place of what it held. May throw to stop the run.
   std::function<void(const std::string& key, std::string state)> save;

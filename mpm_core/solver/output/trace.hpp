@@ -25,7 +25,7 @@ struct TraceSample
   int segment;  ///< 0, 1, 2, ...: counts up at every reversal of the loading programme
 };
 
-/// What one run found. With a single grid force and works are the treated ones (contact-edge grid noise
+/// Results of one run. With a single grid force and works are the treated ones (contact-edge grid noise
 /// removed by a fit, grid_noise.hpp), the raw ones stand in the trace; with more they are those of the mean
 /// trace, but for the force of a press, which is always treated.
 struct RunSummary
@@ -92,7 +92,7 @@ inline constexpr std::array<SummaryNumber, 14> summary_numbers{{
     {&RunSummary::hourglass, Combine::largest, Unit::one, "hourglass"},
 }};
 
-/// What one plane did over a sample of the trace; three-dimensional runs, SI.
+/// Values of one plane at a sample of the trace; three-dimensional runs, SI.
 struct PlaneSample
 {
   double delta;  ///< m, way of the plane into the body's first place; of an impact its overlap
@@ -115,7 +115,7 @@ struct PlaneTrace
   std::vector<PlaneSample> samples;  ///< one for each sample of the trace
 };
 
-/// How a body leaves a plane; three-dimensional impacts, SI.
+/// Motion of a body that leaves a plane; three-dimensional impacts, SI.
 struct Rebound
 {
   double normal = 0;              ///< restitution of the centre's normal velocity

@@ -8,7 +8,7 @@ namespace granulaw {
 
 class StateArchive;
 
-/// Where an elastic body would begin to yield: the overlap at which the von Mises stress first reaches a
+/// Onset of yield in an elastic body: the overlap at which the von Mises stress first reaches a
 /// given yield stress at a point of each material. Solver units.
 class YieldWatch
 {

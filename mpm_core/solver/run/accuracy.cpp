@@ -23,14 +23,14 @@ double fitted_force(const RunResult& run)
   return treated.valid() ? treated.largest_force(run.summary.delta_max) : run.summary.force_max;
 }
 
-/// Of the fitted force and e.
+/// Difference of two runs, the larger one of force and e, both fitted.
 double difference(const RunResult& a, const RunResult& b)
 {
   return std::max(std::abs(fitted_force(b) / fitted_force(a) - 1),
                   std::abs(b.summary.restitution / a.summary.restitution - 1));
 }
 
-/// What grid noise may have done to a run's force or e: half of it, or the scatter of e between its grids.
+/// Bound on the effect of grid noise on a run's force or e: half of it, or the scatter of e between its grids.
 double noise_of(const RunSummary& s)
 {
   return std::max(0.5 * s.grid_noise, s.restitution_spread / s.restitution / std::max(1, s.grids));
@@ -121,7 +121,7 @@ class ToleranceSearch
 
   /// The scheme is of second order in the step: half the step leaves a quarter of the error.
   void shorten_step() { refine(&RunOptions::courant, 0.5, 0.1, found_.step_error); }
-  /// What the ramp adds falls like its inverse square (inertia) or faster.
+  /// The ramp's error falls like its inverse square (inertia) or faster.
   void lengthen_ramp() { refine(&RunOptions::slowness, 2, 16, found_.ramp_error); }
 
   ToleranceResult raise_resolution()

@@ -22,7 +22,7 @@ double error_between(const RunResult& fine, const RunResult& coarse);
 /// cost of all counted.
 RunResult run_with_estimate(const RunOptions& options, const Run& run);
 
-/// What run_to_tolerance found.
+/// Result of run_to_tolerance.
 struct ToleranceResult
 {
   RunResult result;

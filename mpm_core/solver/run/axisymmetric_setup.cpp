@@ -307,7 +307,7 @@ int Collision::cells(const RunOptions& options, double deepest) const
   return cells_of(options, std::round(20 * (1 + std::min(1.0, deepest / 0.15))), 200, "");
 }
 
-/// Of two bodies the fewer.
+/// Cells made; for two bodies the smaller number.
 int Collision::cells_made(double deepest, int cells) const
 {
   const auto made = [&](const Particle& p) {

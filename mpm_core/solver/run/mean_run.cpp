@@ -56,7 +56,7 @@ std::vector<double> mean_yield_overlaps(const std::vector<RunResult>& members)
   return mean;
 }
 
-/// Of three-dimensional impacts.
+/// Mean rebound of three-dimensional impacts.
 std::optional<Rebound> mean_rebound(const std::vector<RunResult>& members)
 {
   if (!members.front().rebound) return {};

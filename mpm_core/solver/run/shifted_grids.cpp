@@ -60,17 +60,17 @@ struct Between
 
   double operator()(double a, double b) const { return (1 - t) * a + t * b; }
 };
-/// What one sample of the mean is made of: for each member, where in its trace.
+/// Parts of one sample of the mean: for each member, the place in its trace.
 using MeanSample = std::vector<Between>;
 
-/// Where the samples of `segment` begin in a trace.
+/// Index of the first sample of `segment` in a trace.
 std::size_t begin_of(int segment, const std::vector<TraceSample>& trace)
 {
   const auto before = [segment](const TraceSample& t) { return t.segment < segment; };
   return static_cast<std::size_t>(std::partition_point(trace.begin(), trace.end(), before) - trace.begin());
 }
 
-/// Of all segments; each has as many samples as the shortest member's.
+/// Samples of the mean, all segments; each segment has as many as the shortest member's.
 std::vector<MeanSample> mean_samples(const std::vector<RunResult>& members)
 {
   std::vector<MeanSample> samples;

@@ -92,7 +92,7 @@ void SpatialSetup::find_mirrors(const std::array<bool, 3>& may_mirror)
   }
 }
 
-/// Of mirrored bodies the part on the upper side is computed, with the planes that meet it.
+/// Planes that meet the computed upper part of mirrored bodies stay; the others are dropped.
 void SpatialSetup::drop_mirrored_planes()
 {
   given_ = planes_;

@@ -41,7 +41,7 @@ class SpatialSetup : public Setup
   Scene build(double deepest, int cells, double shift) const override;
 
  private:
-  /// Where a plane touches, and what the surface is like there.
+  /// Place where a plane touches, and the surface there.
   struct Touch
   {
     Vector3 place;

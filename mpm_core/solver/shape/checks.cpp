@@ -1,4 +1,4 @@
-// What a particle's geometry must be to be used: validate(Particle).
+// Conditions on a particle's geometry: validate(Particle).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -22,7 +22,7 @@ TriangleMesh read_triangle_mesh(const std::string& path, double scale);
 /// cross itself is not checked.
 void check_closed(const TriangleMesh& mesh, const std::string& where);
 
-/// Of the enclosed body, exactly: a sum of tetrahedra about the origin.
+/// Mass properties of the enclosed body, exact: a sum of tetrahedra about the origin.
 MassProperties mass_properties_of(const TriangleMesh& mesh);
 
 }  // namespace granulaw

@@ -9,7 +9,7 @@ namespace granulaw {
 
 using Vector3 = Eigen::Vector3d;
 
-/// Of a body of density 1 kg/m^3; times the density for the real ones.
+/// Mass properties of a body of density 1 kg/m^3; multiplied by the density for the real ones.
 struct MassProperties
 {
   double volume;            ///< m^3
@@ -45,7 +45,7 @@ class Shape
   /// Largest n.x over the body, m, n the unit vector `direction`. `where`, if not null, becomes a point that
   /// reaches it: the contact point with a plane of outward normal -n.
   virtual double support(const Vector3& direction, Vector3* where) const = 0;
-  /// Of the surface at the support point of the unit vector `direction`.
+  /// Radii of the surface at the support point of the unit vector `direction`.
   virtual PrincipalRadii principal_radii(const Vector3& direction) const = 0;
   /// Smallest radius of curvature of a convex part of the surface that a grid must resolve, m; infinity:
   /// none.
