@@ -57,7 +57,8 @@ mathjax2_config = {"tex2jax": {"inlineMath": [["\\(", "\\)"]], "displayMath": [[
                                "processEnvironments": False, "ignoreClass": "mathjax_ignore", "processClass": "math"},
                    "SVG": {"font": "TeX", "linebreaks": {"automatic": True}},
                    "showMathMenu": False, "messageStyle": "none"}
-# What the pages load of MathJax's 54 MB: TeX input and SVG output, which needs no font files: browsers refuse those of file:// pages.
+# Part of MathJax's 54 MB that the pages load: TeX input and SVG output, which needs no font files: browsers
+# refuse those of file:// pages.
 MATHJAX_PARTS = ("MathJax.js", "config/TeX-AMS_SVG-full.js", "extensions", "jax/input/TeX", "jax/element", "jax/output/SVG/jax.js",
                  "jax/output/SVG/config.js", "jax/output/SVG/autoload", "jax/output/SVG/fonts/TeX", "localization/en")
 

@@ -80,7 +80,7 @@ def visited(folders, share=1.0):
 
 
 def body(speeds):
-    """Of the yielding body: each of a like pair has half the relative speed."""
+    """Speed of the yielding body: each of a like pair has half the relative speed."""
     return max(speeds["pair"] / 2, speeds["wall"])
 
 

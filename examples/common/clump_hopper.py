@@ -19,7 +19,7 @@ def program(name):
 
 
 def inertia_words(tensor):
-    """Of a 3 x 3 matrix, in the order of fix particletemplate/multisphere."""
+    """Elements of a 3 x 3 matrix, in the order of fix particletemplate/multisphere."""
     return " ".join(f"{tensor[a][b]:.9g}" for a, b in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)))
 
 

@@ -9,7 +9,7 @@ COLOURS = {"hertz": "0.35", "thornton": "tab:orange", "mpm": "tab:blue"}
 
 
 def colour(name):
-    """Of a model, or of a variant of it, as they come."""
+    """Colour of a model, or of a variant of it, in the order in which they come."""
     return COLOURS.setdefault(name, f"C{2 + len(COLOURS)}")
 
 

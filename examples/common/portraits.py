@@ -28,7 +28,7 @@ def solid(figure, place, title, reach):
 
 
 def triangles(path):
-    """Of a binary STL file: 80 bytes, their number, then normal, three corners and two bytes each."""
+    """Triangles of a binary STL file: 80 bytes, their number, then normal, three corners and two bytes each."""
     data = path.read_bytes()
     record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     return np.frombuffer(data, record, count=int(np.frombuffer(data, "<u4", 1, 80)[0]), offset=84)["corners"]

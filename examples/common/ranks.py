@@ -29,7 +29,7 @@ def options(description, out, steps):
 
 
 def once(deck, model, ranks, folder, variables):
-    """Of the deck's last `run`: (wall-clock s of the loop, CPU s of all ranks from start to end, processor grid, mean over largest number of
+    """Timing of the deck's last `run`: (wall-clock s of the loop, CPU s of all ranks from start to end, processor grid, mean over largest number of
     particles a rank, ghosts/particles)."""
     launcher = sweep.program("liggghts" if model == "hertz" else "liggghts-mpm")
     command = ["mpirun", "--oversubscribe", "-np", str(ranks), launcher, "-in", str(deck), "-log", str(folder / "log")]

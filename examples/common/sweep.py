@@ -40,7 +40,7 @@ def program(name):
 
 
 def digest(*things):
-    """Of files (paths that exist) and words."""
+    """Hash of files (paths that exist) and words."""
     sum_ = hashlib.sha256()
     for thing in things:
         path = pathlib.Path(str(thing))

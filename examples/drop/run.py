@@ -94,7 +94,7 @@ def expected(model, case, law, args):
 
 
 def shallow(case, law, args):
-    """Whether the stretched overlap stays below DEEPEST."""
+    """True if the stretched overlap stays below DEEPEST."""
     radius = RADIUS / 2 if case[0] == "pair" else RADIUS
     return args.stretch == 1 or args.stretch * collide(case, law, args.material)["delta_max_m"] / radius < DEEPEST
 
@@ -148,7 +148,7 @@ def main(argv=None):
 
 
 def selection(samples, cases, seeds):
-    """Of every model and seed, a few collisions that stand for the rest: for the table over all examples."""
+    """A few collisions of every model and seed that represent the rest, for the table over all examples."""
     wall = [k for k, c in enumerate(cases) if c[0] == "wall"]
     chosen = {}
     for target in (0.1, 0.3, 1.0, 3.0):

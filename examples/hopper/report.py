@@ -95,7 +95,7 @@ def verdict(value, base):
 
 
 def sentences(runs, table):
-    """What may be said, and no more."""
+    """Conclusions that the numbers support."""
     out = []
     for model in runs:
         if model == "hertz" or "hertz" not in runs:

@@ -92,7 +92,7 @@ def clump(vertices, faces, count, least_radius=0.25, tolerance=0.05):
     gaps = np.linalg.norm(vertices[None] - centres[:, None], axis=2) - radii[:, None]
     chosen, left = [], np.full(len(vertices), np.inf)
     for _ in range(count):
-        # How many vertices come within the tolerance, and by how much all come nearer.
+        # Number of vertices that come within the tolerance, and the distance by which all come nearer.
         best = max(range(len(radii)), key=lambda k: ((gaps[k] < tolerance) & (left >= tolerance)).sum() + np.minimum(
             left, 1).sum() - np.minimum(np.minimum(left, gaps[k]), 1).sum())
         chosen.append(best)

@@ -26,7 +26,7 @@ def corners_of_stl(path):
 
 
 def mass_and_inertia(corners):
-    """Of the body inside the triangles, at DENSITY: a sum of tetrahedra about the origin, its centre of mass."""
+    """Mass properties of the body inside the triangles, at DENSITY: a sum of tetrahedra about the origin, its centre of mass."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     parts = DENSITY * np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
     second = sum(np.einsum("n,ni,nj->ij", parts, v, v) for v in (a, b, c, a + b + c)) / 20
@@ -34,7 +34,7 @@ def mass_and_inertia(corners):
 
 
 def certify(out, orientations):
-    """What the law of spheres is wrong by for the clump, hit from all around at 1 m/s: finished runs are not made again."""
+    """Error of the law of spheres for the clump, hit from all around at 1 m/s; finished runs are not made again."""
     law = out / "clump.h5"
     subprocess.run([program("mpm"), "table", HERE / "materials.toml", "--pair", "clump:clump", "--pair", "clump:wall", "--orientations",
                     str(orientations), "--velocity", "1", "-o", law], check=True)

@@ -136,7 +136,7 @@ def changes(samples):
 
 
 def draw(path, samples, curves, scene):
-    """What changes with the law; the granular temperature of lactose over time."""
+    """Quantities that change with the law; the granular temperature of lactose over time."""
     figure, axes = pictures.panels(2, width=5.6, height=3.6)
     found = changes(samples)
     place = -np.arange(len(found))

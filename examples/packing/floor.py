@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How fast clouds of several sizes and densities hit the floor, beside what `mpm plan` says (docs/guide/plan.md: a cloud shields its floor).
+"""Speeds at which clouds of several sizes and densities hit the floor, beside those that `mpm plan` gives (docs/guide/plan.md).
 
     floor.py [-o out/floor] [--quick]     # model thornton, wax and elastic; ten runs of 0.4 s
 

@@ -24,7 +24,7 @@ def cap(height, radius):
 
 
 def solid_fraction(bed, side):
-    """Of the middle of the bed, two diameters off floor and surface, spheres cut exactly; overlaps counted twice."""
+    """Mean over the middle of the bed, two diameters off floor and surface, spheres cut exactly; overlaps counted twice."""
     z, r = bed["z"], bed["radius"]
     low, high = 4 * RADIUS, np.percentile(z, 95) - 4 * RADIUS
     if high - low < 2 * RADIUS:

@@ -4,8 +4,8 @@
 
 namespace granulaw {
 
-/// Unloading and reloading of a yielded contact: F = F_m phi(u), u = (delta - delta_r)/(delta_m - delta_r) from
-/// 0 where the force ends to 1 at the reversal,
+/// Unloading and reloading of a yielded contact: F = F_m phi(u), u = (delta - delta_r)/(delta_m - delta_r)
+/// from 0 where the force ends to 1 at the reversal,
 ///     phi = A u^1.5 + B u^2 + C u^2.5,   A + B + C = 1.
 ///
 /// Reasons for this form: it is Hertz's u^1.5 with the finite sphere's next two terms. The elastic sphere's

@@ -50,8 +50,8 @@ struct BodyLaw
   std::string body = sphere_name;  ///< else the name of a layered or shaped particle: wall and like pair only
   double pole_radius = 0;          ///< m, radius of curvature at the pole, as computed; 0: any (spheres)
   double mass_ratio = 1;           ///< mass over rho 4/3 pi R^3, R the radius of curvature at the pole
-  /// Certificate of a particle of any shape: errors, by direction, of its material's law of a sphere, used with
-  /// the radius of curvature at the contact.
+  /// Certificate of a particle of any shape: errors, by direction, of its material's law of a sphere, used
+  /// with the radius of curvature at the contact.
   std::optional<ShapeCertificate> shape{};
 
   bool is_sphere() const { return body == sphere_name; }

@@ -1,9 +1,9 @@
-// What the velocity axis of a contact law costs and buys: bytes and nanoseconds a lookup against the error in
+// Cost and benefit of the velocity axis of a contact law: bytes and nanoseconds a lookup against the error in
 // force and e of the law without it.
 //
 //   law_size_benchmark LAW.h5 [-o OUT.json]
 //
-// Against: the law as the file has it. That law's own errors (`mpm info LAW.h5`) come on top. Of each
+// Against: the law as the file has it. That law's own errors (`mpm info LAW.h5`) come on top. Columns of each
 // variant:
 //     nodes, slices, ratio_nodes   of the curve, levels of the axis and their nodes (0: the axis is left out)
 //     bytes                        that evaluation reads

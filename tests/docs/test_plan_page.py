@@ -48,7 +48,7 @@ class PlanPage(unittest.TestCase):
             self.assertAlmostEqual(float(number), pair["speed_max_m_per_s"], delta=0.5 * last_digit, msg=pair)
 
     def test_templates(self):
-        """What LIGGGHTS refuses ends the plan with LIGGGHTS's own sentence."""
+        """Decks that LIGGGHTS refuses end the plan with LIGGGHTS's own sentence."""
         self.assertIn("What LIGGGHTS refuses ends the plan with LIGGGHTS's own sentence", PAGE)
         for radius, taken in (("constant 0.002", True), ("uniform 0.001 0.002", False), ("gaussian number 0.002 0.0001", False)):
             deck = TEMPLATES + f"fix t all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius {radius}\n"

@@ -15,7 +15,7 @@ def ask(mpm, command, words, *more):
 
 
 def key(pair):
-    """Of an entry of the plan or of the statistics."""
+    """Number of an entry of the plan or of the statistics."""
     return (pair["wall"] if "wall" in pair else pair["kind"] != "particles", *pair["types"])
 
 
@@ -46,7 +46,7 @@ def check(test, mpm, words, stats, screen):
     soft = ask(mpm, "soften", words)
     test.assertAlmostEqual(soft["time_step_s"] / (soft["stretch"] * shortest(plan)), 1, delta=1e-12)
 
-    # What the plug-in says that the step in use is short enough for, the plan says of that overlap.
+    # Overlap for which the plug-in calls the step in use short enough: the plan gives the same step for it.
     used = stats["time_step_used_s"]
     at_limit = steps_at(mpm, words, stats, "overlap_over_radius_limit_of_time_step")
     at_visited = steps_at(mpm, words, stats, "overlap_over_radius_max")

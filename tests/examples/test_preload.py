@@ -59,7 +59,8 @@ fix push all addforce 0.0 0.0 -{rest}
 run {steps}
 print "RELIEVED ${{d}}"
 """
-# Of the deflection: the law is the free, finite sphere's, at d/R < 5e-4 up to 1 + 1.3 % stiffer than Hertz's (free support).
+# Relative tolerance of the deflection: the law is the free, finite sphere's, at d/R < 5e-4 up to 1 + 1.3 %
+# stiffer than Hertz's (free support).
 CURVE = 0.02
 REST = 0.02  # of the load, left on: a sphere with none would creep to its residual overlap for ever
 

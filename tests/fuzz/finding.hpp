@@ -15,7 +15,7 @@ namespace granulaw::testing {
   std::abort();
 }
 
-/// What is wrong with the sentence of an Error about the file `path`; "" if nothing.
+/// Fault of the sentence of an Error about the file `path`; "" if none.
 inline std::string unclear(const std::string& sentence, const std::string& path)
 {
   if (!sentence.starts_with(path)) return "does not name the file";
@@ -25,7 +25,7 @@ inline std::string unclear(const std::string& sentence, const std::string& path)
   return "";
 }
 
-/// Where targets write the files that they read: in memory if there is such a folder.
+/// Folder in which targets write the files that they read: in memory if there is such a folder.
 inline std::filesystem::path scratch()
 {
   namespace fs = std::filesystem;

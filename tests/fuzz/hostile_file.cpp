@@ -296,7 +296,7 @@ void Collector::storage(const std::string& path)
   }
 }
 
-/// What can stand in place of any dataset or group.
+/// Objects that can stand in place of any dataset or group.
 void Collector::entry(const std::string& path)
 {
   const auto instead = [&](const std::string& name, std::function<void(hid_t, const char*)> make) {

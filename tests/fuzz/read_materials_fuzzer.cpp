@@ -14,7 +14,7 @@ using namespace granulaw;
 
 namespace {
 
-/// What is wrong with accepted materials; "" if nothing.
+/// Fault of accepted materials; "" if none.
 std::string unusable(const MaterialsFile& file)
 {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0; };

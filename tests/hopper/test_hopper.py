@@ -75,8 +75,9 @@ class Hopper(unittest.TestCase):
             s = run.series
             closed = s["time"] <= run.opened
             energy = (s["kinetic"] + s["rotational"] + s["potential"])[closed]
-            # What contacts store elastically (not in this sum) can come back; at most what they held: 1e-3 of the
-            # initial energy bounds it at the peak of the impacts. Velocity Verlet adds less than that.
+            # Energy that contacts store elastically (not in this sum) can come back; at most what they held:
+            # 1e-3 of the initial energy bounds it at the peak of the impacts. Velocity Verlet adds less than
+            # that.
             self.assertLess(np.max(np.diff(energy)), 1e-3 * energy[0])
             self.assertGreater(energy[-1], 0)
             self.assertLess(energy[-1], 0.8 * energy[0], "the fall must have been dissipated")

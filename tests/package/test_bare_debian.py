@@ -19,7 +19,7 @@ import time
 
 SKIPPED = 77
 MIRROR = os.environ.get("GRANULAW_DEBIAN_MIRROR", "http://deb.debian.org/debian")
-# What changes whether or not a package comes or goes.
+# Files that change independently of a package's coming or going.
 BOOKKEEPING = re.compile(r"/(proc|sys|dev|tmp|run|root/work|var/(log|cache|lib/(apt|dpkg|systemd|python)))(/|$)"
                          r"|/etc/ld\.so\.cache$|/var/lib/apt$")
 # Ordinary words of a user, line by line; the hopper is the example's own small one.
@@ -84,7 +84,8 @@ def examine(root, package):
     for name in ("resolv.conf", "hosts"):
         shutil.copy(f"/etc/{name}", root / "etc" / name)
     shutil.copy(package, root / "tmp")
-    # Of what it recommends, not of what those recommend in turn: half a gigabyte less. dpkg need not survive a power cut here.
+    # Recommended packages only, without those that they recommend in turn: half a gigabyte less. dpkg need not
+    # survive a power cut here.
     (root / "etc/dpkg/dpkg.cfg.d/unsafe").write_text("force-unsafe-io\n")
     recommended = subprocess.run(["dpkg-deb", "--field", package, "Recommends"], capture_output=True, text=True, check=True).stdout
     for line in last_stage():

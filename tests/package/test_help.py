@@ -64,7 +64,7 @@ class Manual(unittest.TestCase):
 
 class Completion(unittest.TestCase):
     def offered(self, *words, folder="."):
-        """What a Tab behind the last of `words` offers."""
+        """Completions that a Tab behind the last of `words` offers."""
         script = f'. "{MADE}/mpm.bash"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _mpm; printf "%s\\n" "${{COMPREPLY[@]}}"'
         shown = subprocess.run(["bash", "-c", script, "bash", *words], capture_output=True, text=True, cwd=folder)
         self.assertEqual(shown.stderr, "", words)

@@ -107,7 +107,7 @@ Measurement platens(const Atlas& atlas, const LawMaterial& m, Chance& chance, do
   return measured;
 }
 
-/// What the laboratories tell of one parameter.
+/// Counts over the synthetic data sets for one parameter.
 struct Tally
 {
   int labs = 0, told = 0, within = 0, all_within = 0;

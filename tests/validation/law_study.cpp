@@ -69,7 +69,7 @@ PathErrors path_errors(const PairLaw& law, const RunResult& run)
   return {errors.loading / largest, errors.unloading / largest};
 }
 
-/// What the law is compared with.
+/// References that the law is compared with.
 struct References
 {
   int impacts = 50, cells = 24, press_cells = 24, press_grids = 4;

@@ -1,10 +1,10 @@
-// What composed laws of unlike pairs are worth: random mixtures against two-body impacts.
+// Errors of composed laws of unlike pairs: random mixtures against two-body impacts.
 //
 //   granulaw_mixtures_study ATLAS FOLDER SEED COUNT    runs are kept in FOLDER and not made again; prints
 //   each case and
 //                                                      the summary, writes FOLDER/mixtures_SEED.csv
 //
-// Of a mixture at random, evenly in the logarithm: E* ratio 0.1 to 1000, Y ratio 1 to 10 or elastic (3 of
+// Random mixtures, uniform in the logarithm: E* ratio 0.1 to 1000, Y ratio 1 to 10 or elastic (3 of
 // 10), density ratio 0.3 to 10, radius ratio 0.1 to 10, E*/Y of the yielding body 30 to 1000, nu 0.1 to 0.45,
 // hardening 0.001 to 0.1 of E in 3 of 10, V/V_y 2 to 100; up to I = 0.003 and Hertz's overlap of 0.13 R*.
 #include <fmt/format.h>

@@ -16,7 +16,7 @@ QUANTITIES = {"e": "e", "tangential": "tangential velocity after / before", "spi
 
 
 def value(row, key, angle):
-    """Of the picture: the tangential velocity over the one before."""
+    """Quantity of the picture: the tangential velocity over the one before."""
     return row[key] / np.tan(np.radians(angle)) if key == "tangential" else row[key]
 
 

@@ -70,7 +70,7 @@ ObliqueAnswer collide(Contact& contact, const ObliqueThrow& thrown, double dt, l
   fail("replay of an oblique impact", "the collision did not end");
 }
 
-/// What the replays of one throw share.
+/// Data common to the replays of one impact.
 struct Replay
 {
   PairLaw pair;

@@ -5,7 +5,7 @@
 
 namespace granulaw {
 
-/// How one contact of a particle code resists sliding: LIGGGHTS's `tangential history`.
+/// Resistance to sliding of one contact of a particle code: LIGGGHTS's `tangential history`.
 struct TangentialSpring
 {
   double friction = 0;  ///< Coulomb's coefficient

@@ -1,6 +1,6 @@
-// What friction and LIGGGHTS's tangential spring make of a plastic oblique impact, against the solver in
-// three dimensions: a sphere of one material without spin hits a rigid wall at one normal velocity, at
-// several angles from the wall's normal and with several coefficients of friction.
+// Plastic oblique impacts with friction and LIGGGHTS's tangential spring, against the solver in three
+// dimensions: a sphere of one material without spin hits a rigid wall at one normal velocity, at several
+// angles from the wall's normal and with several coefficients of friction.
 //
 //   oblique_study FOLDER OUTPUT.json --atlas ATLAS.h5 [--cells N] [--grids N] [--stiffness E*/Y]
 //                 [--hardening H/E] [--velocity V/V_y] [--angles A,A,...] [--frictions MU,MU,...]

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""What a pair's own law, made at equal radii, costs at other radii: pair_law_radii.py MPM OUT.csv (in an empty folder).
+"""Error of a corrected pair law, made at equal radii, at other radii: pair_law_radii.py MPM OUT.csv (in an empty folder).
 
-The law of its own reproduces the two bodies at equal radii; at another ratio it says what the pair rule says, times
-what it corrected at equal radii and the same I of the one body. So two-body impacts and the rule's replays tell it:
+The corrected law reproduces the two bodies at equal radii. At another ratio it gives the pair rule's value, times
+the correction at equal radii and the same I of the one body. So two-body impacts and the rule's replays determine its
 error = (rule/two bodies at the ratio)/(rule/two bodies at equal radii) - 1. Some five CPU minutes; the rows of
 docs/evidence/pairs.md and of tests/unit/reduction_error_test.cpp are in pair_law_radii.csv.
 """

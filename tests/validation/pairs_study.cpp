@@ -1,4 +1,4 @@
-// What the pair rule costs: two-body collisions against the one-body law carried to the pair.
+// Errors of the pair rule: two-body collisions against the one-body law carried to the pair.
 //
 //   pairs_study FOLDER [GROUP]     runs are kept in FOLDER and not made again; writes FOLDER/pairs.csv
 //

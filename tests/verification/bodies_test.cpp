@@ -266,8 +266,8 @@ TEST(Wall, IsThickEnough)
   const auto [e60, f60] = run_with(60);
   const RunResult used = impact(ball, {v}, wall(0), o);
   const double force = TreatedLoading(used.trace).force(0.015);
-  // What the wall's own recoil takes falls with its mass, what its far side adds to the stiffness with
-  // 1/extent. Measured e .98615, .98511, .98498 and F 1.3023e-3, 1.3019e-3, 1.3018e-3 at 15, 30, 60 R.
+  // Loss by the wall's own recoil falls with its mass, stiffness added by its far side with 1/extent.
+  // Measured e .98615, .98511, .98498 and F 1.3023e-3, 1.3019e-3, 1.3018e-3 at 15, 30, 60 R.
   EXPECT_NEAR(used.summary.restitution_raw, e60, 3e-4);
   EXPECT_NEAR(force, f60, 3e-4 * f60);
   EXPECT_GT(std::abs(e15 - e60),

@@ -5,7 +5,7 @@
 
 #include "solver/runs.hpp"
 
-/// How results change as cells and time steps shrink. Units R = rho = E* = 1, nu = 0.3.
+/// Convergence of results as cells and time steps shrink. Units R = rho = E* = 1, nu = 0.3.
 namespace granulaw::verification {
 
 struct Job

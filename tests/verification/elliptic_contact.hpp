@@ -32,7 +32,7 @@ class EllipticContact
   double semi_minor(double force) const;        ///< m, b
   double peak_pressure(double force) const;     ///< Pa, 3 P/(2 pi a b)
   double axis_ratio() const { return ratio_; }  ///< b/a
-  /// Of the sphere with the same force over overlap on a rigid wall: R_e/F2^3, m.
+  /// Radius of the sphere with the same force over overlap on a rigid wall: R_e/F2^3, m.
   double equivalent_radius() const;
 
  private:

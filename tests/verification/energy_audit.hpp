@@ -5,7 +5,7 @@
 #include "solver/shape/particle.hpp"
 #include "solver/output/trace.hpp"
 
-/// Where the energy of an impact is, computed from outside: from what `--fields` writes, by none of the
+/// Energy of an impact by its place, computed from outside: from what `--fields` writes, by none of the
 /// solver's own sums.
 namespace granulaw::verification {
 

@@ -236,11 +236,10 @@ TEST(FlowLaws, RateDependenceUnderConstantRate)
       }
 }
 
-/// What the Newton steps of a search leave of the local equation, over all laws and far beyond what runs
+/// Residual of the local equation after the Newton steps of a search, over all laws and far beyond what runs
 /// meet: Y/E* from 2e-4 to 0.1, trial stresses from 1e-7 to 1 above the flow stress, exponents 0.05 to 1, any
-/// time step.
-/// `tangent`, if given: the largest that tangent_increment leaves where it says that it converged, and the
-/// share of cases in which it did.
+/// time step. `tangent`, if given: the largest residual of tangent_increment where it reports convergence,
+/// and the fraction of cases in which it did.
 template <class MakeHardening, class MakeRate>
 double worst_residual(MakeHardening hardening, MakeRate rate, std::pair<double, double>* tangent = nullptr)
 {

@@ -53,7 +53,7 @@ inline AxisStress on_axis(double z_over_a, double nu)
   return {-decay, -(1 + nu) * (1 - z_over_a * std::atan(1 / z_over_a)) + 0.5 * decay};
 }
 
-/// Where the von Mises stress on the axis is largest: depth over a, and p0/Y when it reaches Y.
+/// Place of the largest von Mises stress on the axis: depth over a, and p0/Y when it reaches Y.
 struct Onset
 {
   double depth, pressure_ratio;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What must hold to rounding on every grid (asserted in identities_test.cpp): what is left of it.
+/// Residuals of identities that hold to rounding on every grid (asserted in identities_test.cpp).
 namespace granulaw::verification {
 
 struct Identities

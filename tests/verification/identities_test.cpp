@@ -1,4 +1,4 @@
-// What must hold to rounding, whatever the resolution.
+// Identities that hold to rounding, whatever the resolution.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -75,8 +75,8 @@ TEST(EnergyBalance, IsOfSecondOrderInTheStep)
   EXPECT_GT(deep_impact(12, 0.8).energy_error / deep_impact(12, 0.4).energy_error, 3.0);
 }
 
-/// What nodes lose when they reach the plane belongs to the grid: it falls with the cell size, and the step
-/// has nothing to do with it.
+/// Energy that nodes lose when they reach the plane belongs to the grid: it falls with the cell size, and
+/// does not depend on the step.
 TEST(EnergyBalance, ContactLossFallsWithTheCellSize)
 {
   const double coarse = deep_impact(12, 0.8).contact_loss;

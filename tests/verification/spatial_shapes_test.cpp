@@ -283,7 +283,7 @@ TEST(SpatialShapesSlow, TurningTheBodyAgainstTheGridChangesLittle)
   }
 }
 
-/// Where a body that flows sees no more than its yield stress, the written fields show no more.
+/// The written fields show no more than the yield stress where a body flows.
 TEST(SpatialFields, PerfectPlasticityStaysAtYield)
 {
   double largest = 0, strain = 0;

@@ -9,10 +9,11 @@
 
 namespace granulaw::flow {
 
-// Requirements on a flow law. Stresses are in the unit of the yield stress that the law is given, rates in the
-// unit of its reference rate; strains are equivalent plastic strains, logarithmic, 0 or more. Both functions
-// are defined from 0 on, positive, and never fall (a law that softens has no unique return). They are
-// GRANULAW_MEMBER: kernels inline them into loops over material points, so they have no branch with a call.
+// Requirements on a flow law. Stresses are in the unit of the yield stress that the law is given, rates in
+// the unit of its reference rate; strains are equivalent plastic strains, logarithmic, 0 or more. Both
+// functions are defined from 0 on, positive, and never fall (a law that softens has no unique return). They
+// are GRANULAW_MEMBER: kernels inline them into loops over material points, so they have no branch with a
+// call.
 
 /// A law as the materials file names it: `name` and one Parameter for each key.
 template <class Law>

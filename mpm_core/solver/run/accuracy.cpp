@@ -30,7 +30,8 @@ double difference(const RunResult& a, const RunResult& b)
                   std::abs(b.summary.restitution / a.summary.restitution - 1));
 }
 
-/// Bound on the effect of grid noise on a run's force or e: half of it, or the scatter of e between its grids.
+/// Bound on the effect of grid noise on a run's force or e: half of it, or the scatter of e between its
+/// grids.
 double noise_of(const RunSummary& s)
 {
   return std::max(0.5 * s.grid_noise, s.restitution_spread / s.restitution / std::max(1, s.grids));

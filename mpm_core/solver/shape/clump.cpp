@@ -196,8 +196,8 @@ class Clump : public Shape
   }
 
  private:
-  /// Circle in which the surfaces of two balls meet: centre + radius (cos(angle) along + sin(angle) across), on
-  /// the surface of the union for the angles of `exposed`, pairs (from, to).
+  /// Circle in which the surfaces of two balls meet: centre + radius (cos(angle) along + sin(angle) across),
+  /// on the surface of the union for the angles of `exposed`, pairs (from, to).
   struct Groove
   {
     Vector3 centre, along, across;

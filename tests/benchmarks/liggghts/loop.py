@@ -31,7 +31,7 @@ ONSETS = {"mpm": 6.4e-4, "mpm_soft": 6.4e-6}  # E*/Y = 100; and one tenth of tha
 
 
 def properties(youngs_modulus, yield_stress, types=1):
-    """What any of the models asks for; thornton_ning and hooke/hysteresis yield near the others' onset."""
+    """Properties that any of the models requires; thornton_ning and hooke/hysteresis yield near the others' onset."""
     def each(name, value):
         return f"fix {name} all property/global {name} peratomtype" + types * f" {value}" + "\n"
 
