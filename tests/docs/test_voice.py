@@ -199,7 +199,7 @@ class BadTexts(unittest.TestCase):
                            ("# A\n\nThe law knows its speed.\n", "house word in a page"),
                            ("# A\n\nData that tell the\nmodulus.\n", "house word in a page"),
                            ("# A\n\n| a |\n|---|\n| the foot |\n", "house word in a page")):
-            self.assertEqual(self.rules(of_page, "docs/a.md", text), [rule], text)
+            self.assertEqual(self.rules(of_page, "a.md", text), [rule], text)
 
     def test_source(self):
         for name, text, rule in (("a.hpp", "int a;\n// What a is.\nint b;\n", "headless comment"),
@@ -215,7 +215,7 @@ class BadTexts(unittest.TestCase):
     def test_good(self):
         page = ("# What it is\n\n" + "Word " * 29 + "end. " + "Word " * 29 + "end.\n\nWhat is a law?\n\nSee `the twin that tells the share`.\n\n"
                 "```\nWhat a twin tells.\n```\n\nThe unknown fraction is identified. You know LIGGGHTS.\n")
-        self.assertEqual(self.rules(of_page, "docs/a.md", page), [])
+        self.assertEqual(self.rules(of_page, "a.md", page), [])
         self.assertEqual(self.rules(of_page, GLOSSARY, "# A\n\nTwin: equivalent sphere.\n"), [])
         self.assertEqual(self.rules(of_source, "a.cpp", '// Force in newton.\n// Of the contact.\nf("https://a.b // What"); g("told");\n'), [])
 
