@@ -6,7 +6,8 @@ if(NOT TARGET liggghts-mpm OR NOT GRANULAW_LIGGGHTS_ROOT STREQUAL "")
   return()
 endif()
 set(GRANULAW_PACKAGE ON)
-set(GRANULAW_MAINTAINER "The Granulaw developers <granulaw@granulaw.invalid>" CACHE STRING "Of the Debian packages: NAME <ADDRESS>")
+include(${CMAKE_CURRENT_LIST_DIR}/Maintainer.cmake)
+set(GRANULAW_MAINTAINER "${maintainer_of_citation}" CACHE STRING "Of the Debian packages: NAME <ADDRESS>")
 # The plug-in is compiled from LIGGGHTS's headers and refuses every other version (liggghts_plugin/run/checks.cpp).
 set(liggghts_range "liggghts (>= 3.8.0), liggghts (<< 3.8.1~)")
 

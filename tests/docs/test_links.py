@@ -1,11 +1,12 @@
-"""Every relative link and anchor of the pages exists: docs, README.md, examples, tests/README.md. Pages begin with a heading and what they are for. No network."""
+"""Every relative link and anchor of the pages exists: docs, the top folder, examples, tests/README.md. Pages begin with a heading and what they are for. No network."""
 import re
 import unittest
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-PAGES = sorted({*TOP.glob("docs/*.md"), *TOP.glob("docs/guide/**/*.md"), *TOP.glob("docs/theory/**/*.md"), *TOP.glob("docs/reference/**/*.md"),
-                *TOP.glob("docs/evidence/**/*.md"), *TOP.glob("examples/**/README.md"), TOP / "README.md", TOP / "tests/README.md"})
+FOLDERS = ("guide", "theory", "reference", "evidence", "develop", "project")
+PAGES = sorted({*TOP.glob("*.md"), *TOP.glob("docs/*.md"), *(page for folder in FOLDERS for page in TOP.glob(f"docs/{folder}/**/*.md")),
+                *TOP.glob("examples/**/README.md"), TOP / "tests/README.md"})
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^(```+).*?^\1\s*$", re.MULTILINE | re.DOTALL)
 # A page of the book that a comment, a message or another page names by its path.

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A bare Debian 12 (debootstrap, minbase): the package of FOLDER is installed by apt, by the words of
-the container's recipe (tools/package/Containerfile), makes a law, runs a small hopper, and goes
+the container's recipe (Dockerfile), makes a law, runs a small hopper, and goes
 without a trace. Needs root, debootstrap and a Debian mirror; skipped (77) where one of them is missing.
 
     test_bare_debian.py FOLDER [--root DIR]
@@ -76,7 +76,7 @@ def require(condition, what):
 
 def last_stage():
     """The commands by which the container gets the package."""
-    recipe = (pathlib.Path(__file__).resolve().parents[2] / "tools/package/Containerfile").read_text()
+    recipe = (pathlib.Path(__file__).resolve().parents[2] / "Dockerfile").read_text()
     return re.findall(r"^RUN (.*)$", recipe[recipe.rindex("\nFROM "):], re.MULTILINE)
 
 

@@ -1,5 +1,5 @@
 # Granulaw on Debian 12, for systems that are none. From the top folder, with podman or docker:
-#     podman build -f tools/package/Containerfile -t granulaw .
+#     podman build -t granulaw .
 #     podman run --rm -v "$PWD:/work" granulaw mpm --version
 FROM debian:12 AS made
 COPY . /src
