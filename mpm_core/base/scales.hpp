@@ -5,7 +5,7 @@
 namespace granulaw {
 
 /// The three scales that make a collision dimensionless; everything else follows from them.
-/// The solver works in length R = 1, density rho = 1, stress E* = 1 (DESIGN: c* = sqrt(E*/rho) = 1).
+/// The solver works in length R = 1, density rho = 1, stress E* = 1 (docs/theory/method.md: c* = sqrt(E*/rho) = 1).
 struct Scales
 {
   double length = 1;   ///< m: radius R

@@ -21,7 +21,7 @@ struct Answer
   Branch branch = Branch::loading;
 };
 
-/// The one rule that carries a one-body law (a sphere on a rigid wall) to every pair (DESIGN section 4).
+/// The one rule that carries a one-body law (a sphere on a rigid wall) to every pair (docs/theory/pairs.md).
 ///
 /// A yielding body s touches a partner h:
 ///     F = lambda Y_s R*^2 Phi(d/(lambda R*)),   sqrt(lambda) = 1 + E*_s/E*_h,   R* = R_i R_j/(R_i + R_j).

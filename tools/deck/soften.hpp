@@ -7,7 +7,7 @@
 
 namespace granulaw::deck {
 
-/// What a stretched law F(delta/s)/s may cost (DESIGN: plan and soften).
+/// What a stretched law F(delta/s)/s may cost (docs/guide/plan.md).
 struct SoftenLimits
 {
   double overlap = 0.2;         ///< largest s delta_max/R*

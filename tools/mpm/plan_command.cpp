@@ -290,7 +290,7 @@ extern const Command plan_command{
     "What a LIGGGHTS deck needs of a contact law: pairs, speeds, overlaps, time step, cost, and the mpm "
     "table\n"
     "command. LIGGGHTS reads the deck (liggghts-mpm); what the deck lacks is asked for as an option\n"
-    "(docs/guide/plan.md).\n"
+    "(docs/guide/plan.md). Limits of the laws: docs/guide/limits.md.\n"
     "Example: mpm plan in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
     define};
 
