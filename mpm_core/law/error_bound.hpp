@@ -42,7 +42,7 @@ struct ErrorBound
 /// - Composed of the two bodies' laws: the bound of two-body impacts that took no part in the rule
 ///   (docs/evidence/pairs.md).
 /// - By runs, or corrected by impacts: the largest error of its verification, impacts that took no part in
-///   the fit, and the error of their cells (grid_convergence.hpp). Without impacts, the errors of fit and
+///   the fit, and the error of their cells (solver/run/accuracy.hpp). Without impacts, the errors of fit and
 ///   table.
 ErrorBound bound_of(const Certificate& certificate);
 /// The same of a body's law. Of a particle with a shape: that of its orientations, each compared with a fresh

@@ -22,12 +22,35 @@ RunResult made(int cells)
 TEST(Accuracy, OneGridSaysNothingOfItsError)
 {
   EXPECT_TRUE(std::isinf(error_between(made(24), made(24))));
-  // the index's extrapolation, whatever the ratio of the cells: the true error is 0.0099
-  for (const int coarse : {12, 17, 21}) {
-    const double error = error_between(made(24), made(coarse));
-    EXPECT_GT(error, 0.0099) << coarse;
-    EXPECT_LT(error, 2.5 * 0.0099 * std::pow(24. / coarse, 1.65)) << coarse;
-  }
+  // the true error is 0.0099, whatever the ratio of the cells; the safety is 1.25
+  for (const int coarse : {12, 17, 21})
+    EXPECT_NEAR(error_between(made(24), made(coarse)), 1.25 * 0.01 / 1.01, 1e-12) << coarse;
+}
+
+TEST(Accuracy, TheErrorOfForceAndRestitutionIsOneRule)
+{
+  RunResult coarse = made(17);
+  coarse.summary.restitution = 0.501;  // 0.2 %; the force differs by 0.76 %
+  CellsError found = error_of_cells(made(24), coarse);
+  EXPECT_NEAR(found.force, 1.25 * 0.01 / 1.01, 1e-12);
+  EXPECT_EQ(found.restitution, found.force);  // two e may agree by chance
+  coarse.summary.restitution = 0.51;
+  found = error_of_cells(made(24), coarse);
+  EXPECT_NEAR(found.restitution, rule_of_revolution.left(0.02, 24. / 17), 1e-12);
+  EXPECT_EQ(error_between(made(24), coarse), found.restitution);
+  RunResult noisy = made(24);
+  noisy.summary.grid_noise = 0.06;  // of which a half is more than the change of e
+  EXPECT_NEAR(error_between(noisy, coarse), rule_of_revolution.left(0.03, 24. / 17), 1e-12);
+  EXPECT_EQ(error_of_cells(noisy, coarse).restitution, found.restitution);  // a fit goes through the noise
+  RunResult spatial = made(24);
+  spatial.planes.resize(1);
+  EXPECT_NEAR(error_of_cells(spatial, made(12)).force, std::abs(made(12).summary.force_max / 1.01 - 1), 1e-12);
+}
+
+TEST(Accuracy, ExtrapolatesTheMeanOfChangesAndKeepsTheirScatter)
+{
+  EXPECT_NEAR(spatial_rule.left(std::vector<double>{0.02, 0.02, 0.02}, 1.5), 0.04, 1e-12);
+  EXPECT_NEAR(spatial_rule.left(std::vector<double>{0.01, -0.01}, 1.5), std::sqrt(2 * 2e-4), 1e-12);
 }
 
 /// Thin layers make one grid of all cells from 15 to 24.

@@ -11,7 +11,6 @@
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "characterise/run/build_runs.hpp"
-#include "characterise/run/grid_convergence.hpp"
 #include "atlas/overlap_at_work.hpp"
 #include "characterise/run/refinement.hpp"
 #include "characterise/run/resolution_choice.hpp"
@@ -75,7 +74,7 @@ class PairImpacts
 
   double radius_ratio() const { return pair_.radius_ratio; }
   const std::vector<Departure>& departures() const { return departures_; }
-  const DiscretisationError& solver_error() const { return solver_error_; }
+  const CellsError& solver_error() const { return solver_error_; }
   /// Of an impact left out: of F and, relative, of e; and the larger as it counts for the tolerance.
   struct Miss
   {
@@ -115,7 +114,7 @@ class PairImpacts
   std::vector<double> restitutions_;   // of the runs
   int cells_ = first_resolution;
   Miss at_onset_;
-  DiscretisationError solver_error_;
+  CellsError solver_error_;
 };
 
 constexpr int grids = 2;  // shifted against each other
@@ -236,11 +235,11 @@ std::vector<double> PairImpacts::bisections() const
   return places;
 }
 
-/// Grid convergence index of what is taken from a run.
-DiscretisationError index_between(const Departure& fine, const Departure& coarse, double cell_ratio)
+/// Error of the cells of what is taken from a run.
+CellsError index_between(const Departure& fine, const Departure& coarse, double cell_ratio)
 {
-  return {convergence_index(std::abs(std::expm1(coarse.force - fine.force)), cell_ratio),
-          convergence_index(std::abs(std::expm1(0.5 * (coarse.dissipation - fine.dissipation))), cell_ratio)};
+  return {rule_of_revolution.left(std::abs(std::expm1(coarse.force - fine.force)), cell_ratio),
+          rule_of_revolution.left(std::abs(std::expm1(0.5 * (coarse.dissipation - fine.dissipation))), cell_ratio)};
 }
 
 /// The first three impacts, with cells so many that they are known within the tolerance, or the most; the
@@ -250,7 +249,7 @@ void PairImpacts::begin()
   constexpr double shallower = 0.7;  // of the overlap, where a run failed
   constexpr double shallowest = 0.3;
   double last = last_place();
-  for (const int cells : {first_resolution, 34, 48}) {
+  for (int cells = first_resolution; cells < last_resolution; cells = finer_rung(cells)) {
     cells_ = cells;
     const int coarse_cells = coarse_partner(cells);
     std::vector<RunOutcome> outcomes;

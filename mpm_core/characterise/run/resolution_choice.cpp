@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/larger.hpp"
 #include "characterise/run/refinement.hpp"
 #include "solver/run/accuracy.hpp"
 
@@ -13,62 +12,72 @@ namespace granulaw {
 
 namespace {
 
-/// A square root of two apart: u halves about every other time.
-constexpr int resolutions[] = {first_resolution, 34, 48, 68};
-
 constexpr double share_of_progress = 0.05;
 
-DiscretisationError larger(const DiscretisationError& a, const DiscretisationError& b)
+CellsError larger(const CellsError& a, const CellsError& b)
 {
   return {std::max(a.force, b.force), std::max(a.restitution, b.restitution)};
 }
 
-/// `coarse`, or where thin layers give it the grid of `fine` the next coarser run whose grid is another.
-RunResult of_another_grid(const Probe& probe, const RunResult& fine, RunResult coarse, int cells,
-                          BuildRuns& runs)
+/// A probe on its way up the ladder.
+struct Climb
 {
-  for (int next = coarse_partner(cells); coarse.summary.resolution >= fine.summary.resolution && next < cells;
+  const Probe* probe;
+  RunResult fine, coarse;
+};
+
+/// Where thin layers give the coarser run the grid of the fine one: the next coarser run whose grid is another.
+void compare_with_another_grid(Climb& climb, int cells, BuildRuns& runs)
+{
+  for (int next = coarse_partner(cells);
+       climb.coarse.summary.resolution >= climb.fine.summary.resolution && next < cells;
        next = coarse_partner(cells)) {
-    coarse = runs.make_needed({probe.run(next)}, share_of_progress, "one of the first runs").front().result;
+    climb.coarse = runs.make_needed({climb.probe->run(next)}, share_of_progress, "one of the first runs").front().result;
     cells = next;
   }
-  return coarse;
 }
 
 }  // namespace
 
-ResolutionChoice choose_resolutions(std::vector<Probe> probes, const std::vector<RunJob>& beside,
+ResolutionChoice choose_resolutions(const std::vector<Probe>& probes, const std::vector<RunJob>& beside,
                                     double tolerance, BuildRuns& runs)
 {
   ResolutionChoice choice;
+  const int below = coarse_partner(first_resolution);
+  std::vector<RunJob> jobs = beside;
+  for (const Probe& probe : probes) jobs.push_back(probe.run(below));
+  std::vector<Climb> open;
+  for (const Probe& probe : probes) open.push_back({&probe, {}, {}});
   double reached = 0;
-  for (const int resolution : resolutions) {
-    std::vector<RunJob> jobs;
-    for (const Probe& probe : probes)
-      for (const int cells : {resolution, coarse_partner(resolution)}) jobs.push_back(probe.run(cells));
-    const auto probed = static_cast<std::ptrdiff_t>(jobs.size());
-    if (resolution == first_resolution) jobs.insert(jobs.end(), beside.begin(), beside.end());
-    const std::vector<RunOutcome> outcomes =
-        runs.make_needed(jobs, share_of_progress, "one of the first runs");
-    choice.beside.insert(choice.beside.end(), outcomes.begin() + probed, outcomes.end());
-
-    std::vector<Probe> open;
-    for (std::size_t k = 0; k < probes.size(); ++k) {
-      const RunResult& fine = outcomes[2 * k].result;
-      const RunResult coarse =
-          of_another_grid(probes[k], fine, outcomes[2 * k + 1].result, coarse_partner(resolution), runs);
-      const DiscretisationError found = grid_convergence(fine, coarse);
-      const double error = larger(found.force, counted(found.restitution, fine.summary.restitution));
+  for (int cells = first_resolution, coarser = below; cells <= last_resolution;
+       coarser = cells, cells = finer_rung(cells)) {
+    for (const Climb& climb : open) jobs.push_back(climb.probe->run(cells));
+    std::vector<RunOutcome> outcomes = runs.make_needed(jobs, share_of_progress, "one of the first runs");
+    if (cells == first_resolution) {
+      const auto end = outcomes.begin() + static_cast<std::ptrdiff_t>(beside.size());
+      choice.beside.assign(outcomes.begin(), end);
+      for (std::size_t k = 0; k < open.size(); ++k) open[k].fine = std::move(outcomes[beside.size() + k].result);
+    }
+    jobs.clear();
+    const std::size_t before = outcomes.size() - open.size();
+    std::vector<Climb> left;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      Climb& climb = open[k];
+      climb.coarse = std::move(climb.fine);
+      climb.fine = std::move(outcomes[before + k].result);
+      compare_with_another_grid(climb, coarser, runs);
+      const CellsError found = error_of_cells(climb.fine, climb.coarse);
+      const double error = std::max(found.force, counted(found.restitution, climb.fine.summary.restitution));
       if (!(error <= tolerance)) {  // an error that is no number is not met
-        open.push_back(probes[k]);
         reached = error;
+        left.push_back(std::move(climb));
         continue;
       }
-      *probes[k].cells = resolution;
+      *climb.probe->cells = cells;
       choice.error = larger(choice.error, found);
     }
-    probes = open;
-    if (probes.empty()) return choice;
+    open = std::move(left);
+    if (open.empty()) return choice;
   }
   fail("--tolerance", "not reached at the finest resolution: two resolutions still differ",
        fmt::format("{:.2g}", reached), fmt::format("{:.2g} or more", reached));

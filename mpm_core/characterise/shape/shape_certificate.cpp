@@ -99,18 +99,6 @@ RunJob job_of(const Particle& particle, const std::string& body, const Certified
   return job;
 }
 
-/// Relative error of runs of `cells`, by what `other` cells changed in some of them. The mean of the changes
-/// is what all runs share and falls like h: h/(H - h) of it is left. Their scatter is the noise of two single
-/// grids, of which one has a share of 1/sqrt(2); twice that bounds 95 % of the runs.
-double error_of_cells(const std::vector<double>& changes, double cells, double other)
-{
-  const auto count = static_cast<double>(changes.size());
-  double mean = 0, squares = 0;
-  for (const double change : changes) mean += change / count;
-  for (const double change : changes) squares += (change - mean) * (change - mean);
-  return std::hypot(other / (cells - other) * mean, std::sqrt(2 * squares / (count - 1)));
-}
-
 /// Largest force and e of the contact: the centre's velocities say little of it.
 ContactAnswer answer_of(const RunResult& run, const CertifiedImpact& impact, const MassProperties& of_one,
                         double density)
@@ -130,8 +118,8 @@ double solver_error(const std::vector<ContactAnswer>& answers, const std::vector
     in_force.push_back(other.force_max / own.force_max - 1);
     in_restitution.push_back(other.restitution / own.restitution - 1);
   }
-  const double cells = resolution, other = compared_resolution(resolution);
-  return std::max(error_of_cells(in_force, cells, other), error_of_cells(in_restitution, cells, other));
+  const double ratio = static_cast<double>(resolution) / compared_resolution(resolution);
+  return std::max(spatial_rule.left(in_force, ratio), spatial_rule.left(in_restitution, ratio));
 }
 
 /// The law's answer; nothing where the overlap leaves its table.

@@ -37,25 +37,27 @@ double noise_of(const RunSummary& s)
   return std::max(0.5 * s.grid_noise, s.restitution_spread / s.restitution / std::max(1, s.grids));
 }
 
-/// The error of the finer of two runs: `factor` times their difference and its noise.
-struct ErrorRule
+/// Largest relative change of the fitted loading force; of the peak where a loading has too few samples.
+double change_of_loading(const RunResult& fine, const RunResult& coarse)
 {
-  double factor;
-  bool noise_of_both;  ///< beside the difference; else the fine run's, which bounds it from below
-};
+  const TreatedLoading a(fine.trace), b(coarse.trace);
+  if (!a.valid() || !b.valid()) return std::abs(coarse.summary.force_max / fine.summary.force_max - 1);
+  double most = 0;
+  for (const double share : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+    const double x = share * fine.summary.delta_max;
+    most = larger(most, std::abs(b.force(x) / a.force(x) - 1));
+  }
+  return most;
+}
 
-/// Errors of a body of revolution fall faster than h, as h^1.65 (grid_convergence.hpp), so that the difference
-/// to 1/1.4 of the resolution is at least half of them, and that of cells that differ by less a smaller part.
-/// Two runs may agree by chance: hence the bound. In three dimensions the cut surface
-/// lets errors fall like h and no faster: they are h/(H - h) of the difference. That is two to three, and it
-/// multiplies the noise of both runs, too.
-ErrorRule rule_of(const RunResult& fine, const RunResult& coarse)
+bool is_spatial(const RunResult& run)
 {
-  const int h = coarse.summary.resolution, finer = fine.summary.resolution - h;
-  const bool spatial = !fine.planes.empty();
-  if (spatial) return {static_cast<double>(h) / std::max(1, finer), true};
-  const auto part = [](double ratio) { return std::pow(ratio, 1.65) - 1; };
-  return {2 * larger(1.0, part(1.4) / part(fine.summary.resolution / static_cast<double>(h))), false};
+  return !run.planes.empty();
+}
+
+double cell_ratio(const RunResult& fine, const RunResult& coarse)
+{
+  return static_cast<double>(fine.summary.resolution) / coarse.summary.resolution;
 }
 
 void add_cost(RunSummary& s, const RunSummary& other)
@@ -73,15 +75,44 @@ int coarse_partner(int resolution)
   return std::max(fewest_cells, static_cast<int>(std::lround(0.7 * resolution)));
 }
 
+int finer_rung(int resolution)
+{
+  return static_cast<int>(std::lround(resolution / 0.7));
+}
+
+double CellsRule::left(double change, double cell_ratio) const
+{
+  return safety * change / (std::pow(cell_ratio, order) - 1);
+}
+
+double CellsRule::left(std::span<const double> changes, double cell_ratio) const
+{
+  const auto count = static_cast<double>(changes.size());
+  double mean = 0, squares = 0;
+  for (const double change : changes) mean += change / count;
+  for (const double change : changes) squares += (change - mean) * (change - mean);
+  return std::hypot(left(mean, cell_ratio), std::sqrt(2 * squares / (count - 1)));
+}
+
+CellsError error_of_cells(const RunResult& fine, const RunResult& coarse)
+{
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  const double ratio = cell_ratio(fine, coarse);
+  if (!(ratio > 1)) return {unknown, unknown};
+  const CellsRule& rule = is_spatial(fine) ? spatial_rule : rule_of_revolution;
+  const double force = change_of_loading(fine, coarse);
+  const double e = std::abs(coarse.summary.restitution / fine.summary.restitution - 1);
+  return {rule.left(force, ratio), rule.left(larger(force, e), ratio)};
+}
+
 double error_between(const RunResult& fine, const RunResult& coarse)
 {
-  const RunSummary& s = fine.summary;
-  const double peak = std::abs(coarse.summary.force_max / s.force_max - 1);
-  const double largest = larger(difference(fine, coarse), peak), noise = noise_of(s);
-  if (coarse.summary.resolution >= s.resolution) return std::numeric_limits<double>::infinity();
-  const ErrorRule rule = rule_of(fine, coarse);
-  return rule.factor * (rule.noise_of_both ? std::hypot(largest, noise, noise_of(coarse.summary))
-                                           : std::max(largest, noise));
+  const double of_change = error_of_cells(fine, coarse).restitution, ratio = cell_ratio(fine, coarse);
+  if (std::isinf(of_change)) return of_change;
+  // In three dimensions both runs are single grids, whose noise is multiplied, too.
+  if (is_spatial(fine))
+    return std::hypot(of_change, spatial_rule.left(std::hypot(noise_of(fine.summary), noise_of(coarse.summary)), ratio));
+  return larger(of_change, rule_of_revolution.left(noise_of(fine.summary), ratio));
 }
 
 RunResult run_with_estimate(const RunOptions& options, const Run& run)
@@ -130,7 +161,7 @@ class ToleranceSearch
     int cells = std::max(range_.first, options_.resolution);
     RunResult coarse = run_at(options_, coarse_partner(cells));
     add_cost(spent_, coarse.summary);
-    for (;; cells = static_cast<int>(std::lround(cells / 0.7))) {
+    for (;; cells = finer_rung(cells)) {
       options_.resolution = cells;
       found_.result = run_(options_);
       RunSummary& s = found_.result.summary;
