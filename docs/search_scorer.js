@@ -3,7 +3,7 @@
 var Scorer = {
   score: (result) => {
     const [docname, title, anchor, descr, score, filename] = result;
-    const parts = [["guide/", 4], ["reference/", 3], ["theory/", 2], ["examples/", 1], ["decisions", -12]];
+    const parts = [["guide/", 4], ["reference/", 3], ["theory/", 2], ["examples/", 1], ["develop/", -12]];
     const found = parts.find(([start]) => docname.startsWith(start));
     return score + (found ? found[1] : 0);
   },

@@ -18,10 +18,10 @@ FlowCurve flow_curve(const CandidateMaterial& material);
 /// A contact shows the flow stress at one strain (Tabor 1951): representative_strain times what the contact's
 /// radius has grown by since the onset of yield, over R. So at each overlap the law is the linearly hardening
 /// one whose flow stress at that strain is the same. `stiffness`, `poisson_ratio`: of the material. It is
-/// within 3 % of F (docs/decisions.md); differences between near materials are far better: what a fit
+/// within 3 % of F (docs/develop/calibration.md); differences between near materials are far better: what a fit
 /// needs.
 LawShape flow_shape(const Atlas& atlas, double stiffness, double poisson_ratio, const FlowCurve& flow);
-/// Tabor has 0.2; this one serves Voce's, Swift's and Johnson and Cook's laws best (docs/decisions.md).
+/// Tabor has 0.2; this one serves Voce's, Swift's and Johnson and Cook's laws best (docs/develop/calibration.md).
 inline constexpr double representative_strain = 0.23;
 
 /// What a law of the material's own departs from its flow_shape() by: a shape that is added. Both are of the

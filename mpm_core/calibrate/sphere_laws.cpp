@@ -25,7 +25,7 @@ MaterialRatios within(const Atlas& atlas, MaterialRatios m)
 /// The linear hardening that stands for another one where a curve between platens departs from a free
 /// sphere's: the two plastic zones meet, and spread as the tangent of the flow stress says, when the contact
 /// is as wide as at an overlap of a fifth of the radius. So F of two presses to 0.1 R is within 0.4 %
-/// (docs/decisions.md).
+/// (docs/develop/calibration.md).
 MaterialRatios stand_in(const Atlas& atlas, const CandidateMaterial& m)
 {
   MaterialRatios ratios = MaterialRatios::of(m);

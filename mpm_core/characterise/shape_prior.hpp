@@ -19,7 +19,7 @@ struct ShapePrior
   std::vector<double> error;
 
   /// A law up to the overlap `known`. Fitted to several runs it errs half as much as one: its e by 0.0012 to
-  /// 0.0015 (rms), be it of the atlas or of runs (docs/decisions.md).
+  /// 0.0015 (rms), be it of the atlas or of runs (docs/develop/runs-and-laws.md).
   static constexpr double law_error = 0.5;
   static ShapePrior of(LawShape shape, double onset, double end, double known);
   /// At an overlap: the larger one of the nodes beside it.

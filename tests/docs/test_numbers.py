@@ -28,7 +28,7 @@ def table_with(text, head):
 
 
 class Accuracy(unittest.TestCase):
-    PAGE = page("docs/evidence/solver-accuracy-3d.md")
+    PAGE = page("docs/evidence/solver-accuracy.md")
 
     def count(self, rows, errors, stated):
         """(rows that hold, rows, true over stated) of a table: `errors`: columns of true errors."""
@@ -42,17 +42,17 @@ class Accuracy(unittest.TestCase):
         return held, len(ratios), ratios
 
     def test_four_grids(self):
-        seen = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | cells | e % | F % | stated % |"), (3, 4), 5)
-        fresh = self.count(table_with(self.PAGE, "| job | cells | e % | F % | stated % |"), (2, 3), 4)
-        self.assertIn(f"It held in all {seen[0]}, but", self.PAGE)
+        seen = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | cells | e % | F % | estimate % |"), (3, 4), 5)
+        fresh = self.count(table_with(self.PAGE, "| job | cells | e % | F % | estimate % |"), (2, 3), 4)
+        self.assertIn(f"The estimate held in all {seen[0]}, but", self.PAGE)
         self.assertEqual(seen[0], seen[1])
         self.assertIn(f"It held in {fresh[0]} of {fresh[1]}. Over all {seen[1] + fresh[1]} the true error is "
-                      f"{statistics.median(seen[2] + fresh[2]):.1f} of what is stated", self.PAGE)
+                      f"{statistics.median(seen[2] + fresh[2]):.1f} of the estimate", self.PAGE)
         self.assertIn(f"it held in {seen[0] + fresh[0]} of {seen[1] + fresh[1]} runs on four grids", self.PAGE)
 
     def test_one_grid(self):
-        held, count, ratios = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | e % | F % | stated % | CPU s |"), (2, 3), 4)
-        self.assertIn(f"It held in all {held}. The true error is {statistics.median(ratios):.1f} of what is stated", self.PAGE)
+        held, count, ratios = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | e % | F % | estimate % | CPU s |"), (2, 3), 4)
+        self.assertIn(f"It held in all {held}. The true error is {statistics.median(ratios):.1f} of the estimate", self.PAGE)
         self.assertEqual(held, count)
         self.assertIn(f"in {held} of {count} on one", self.PAGE)
 

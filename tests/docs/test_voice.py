@@ -26,7 +26,7 @@ HOUSE = {
     r"tells?|told|tellable": "determine, identify, distinguish, print",
     THINGS + r" (?:knows?|sees?|feels?|forgets?|asks?|answers?)": "contain, cover, depend on, require, reset, return",
     r"knows no\w*|feels?|felt|forgets?|forgot(?:ten)?": "contain, cover, depend on, require, reset",
-    r"pairs? by runs|laws? by runs": "two-body law",
+    r"pairs? by runs": "two-body law",
     r"stated errors?|claims?|claimed|honest(?:ly|y)?": "error bound (law), error estimate (run)",
     r"flatness|flattenings?": "pressure uniformity, overlap per sphere",
     r"(?:the|an?|its|this|that|each|every|of|their|same|whose|by|in|no|largest|smallest|size|Hertz) shares?": "fraction, size ratio, part",
@@ -95,7 +95,7 @@ def paragraphs(text):
 
 def sentences(text):
     text = re.sub(r"\b(e\.g|i\.e|cf|vs|approx|no|Fig|Eq|Sec|al|Dr)\.", r"\1", text)
-    return [s for s in re.split(r"(?<=[.!?])[\"')]*\s+(?=[\"'(]*[A-Z0-9])", text) if s.strip()]
+    return [s for s in re.split(r"(?<=[.!?])[\"')]*\s+(?=[\"'(]*(?:[A-Z0-9]|(?:[a-z]|mu|mpm)\b))", text) if s.strip()]
 
 
 def words(text):

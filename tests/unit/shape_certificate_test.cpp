@@ -57,7 +57,7 @@ TEST(ShapeCertificate, OfASphereIsTheSolversError)
     EXPECT_NEAR(check.effective_mass, 1, 1e-9);
     EXPECT_NEAR(check.local_radius(), 1e-3, 1e-9);
   }
-  // a single grid of 6 cells: 2 % of F and 1 % of e (docs/evidence/solver-accuracy-3d.md)
+  // a single grid of 6 cells: 2 % of F and 1 % of e (docs/evidence/solver-accuracy.md)
   EXPECT_LT(certificate.force().largest, 0.03);
   EXPECT_LT(certificate.restitution().largest, 0.02);
   EXPECT_GT(certificate.solver_error, 0);

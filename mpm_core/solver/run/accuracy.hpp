@@ -28,7 +28,7 @@ struct CellsRule
   double left(std::span<const double> changes, double cell_ratio) const;
 };
 /// Bodies of revolution: order measured with 17, 24 and 48 cells, 25 impacts and presses, E*/Y 30 to 2000
-/// (docs/decisions.md).
+/// (docs/develop/runs-and-laws.md).
 inline constexpr CellsRule rule_of_revolution{1.25, 1.65};
 /// Three dimensions: errors of a cut surface fall like h.
 inline constexpr CellsRule spatial_rule{1, 1};
@@ -48,7 +48,7 @@ CellsError error_of_cells(const RunResult& fine, const RunResult& coarse);
 
 /// Error of the finer run itself, of F_max and e, the larger: by the same rule, from a change not below the grid
 /// noise. Measured on the cases of tests/validation/error_study.cpp (docs/evidence/solver-accuracy.md), in three
-/// dimensions on those of docs/evidence/solver-accuracy-3d.md.
+/// dimensions on those of docs/evidence/solver-accuracy.md.
 double error_between(const RunResult& fine, const RunResult& coarse);
 
 /// Runs the job and its coarse partner, or the next coarser one whose grid is another; error_estimate filled,
