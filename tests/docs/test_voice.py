@@ -12,8 +12,8 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 WORDS = 30  # the longest sentence of a page
 # Counts that remain, by rule. A count that rises fails; lower the number here when a count falls.
-STORED = {"long sentence": 131, "this page": 34, "headless paragraph": 4, "headless comment": 258, "headless message": 1,
-          "house word in a page": 137, "house word in a comment": 425, "house word in a message": 50}
+STORED = {"long sentence": 95, "this page": 23, "headless paragraph": 3, "headless comment": 258, "headless message": 1,
+          "house word in a page": 99, "house word in a comment": 425, "house word in a message": 50}
 
 # The glossary defines terms and may name the words that it replaces; these files hold the words as the rules' examples.
 GLOSSARY = "docs/reference/glossary.md"
