@@ -118,6 +118,7 @@ Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere>
          std::to_string(expected.size()));
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (!(nodes_[k].material == expected[k])) fail("atlas", fmt::format("material {} is not the grid's", k));
+  for (Node& node : nodes_) node.shape.onset = onset_of(node.material), node.shape.end = depth;
   std::vector<double> force, restitution, solver;
   for (const AtlasCheck& c : checks_) {
     force.push_back(std::abs(c.error_force));
@@ -159,7 +160,7 @@ ElasticSphere Atlas::elastic(double poisson_ratio) const
 
 LawShape Atlas::main_shape(double stiffness, double hardening) const
 {
-  LawShape result = LawShape::zero();
+  LawShape result = LawShape::zero(onset_of({stiffness, grid_.main_poisson_ratio, hardening}), depth);
   std::size_t next = 0;
   const std::vector<double> along = interpolation_weights(logarithms(grid_.stiffnesses), std::log(stiffness));
   for (std::size_t i = 0; i < grid_.stiffnesses.size(); ++i) {
@@ -188,6 +189,7 @@ LawShape Atlas::partner(const MaterialRatios& m) const
 LawShape Atlas::shape(const MaterialRatios& m) const
 {
   LawShape result = partner(m);
+  result.onset = onset_of(m);
   const std::vector<double> ratios = grid_.poisson_ratios();
   const std::vector<double> by_ratio = interpolation_weights(ratios, m.poisson_ratio);
   const std::vector<double>& stiffnesses = grid_.block_stiffnesses;

@@ -335,7 +335,7 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
     dissipation.push_back(-std::log1p(-lost / work));
     hertz_share.push_back(now.hertz_share - elastic.unloading(s).hertz_share);
   }
-  LawShape shape = LawShape::zero();
+  LawShape shape = LawShape::zero(x0, end);
   shape.elastic = elastic;
   const auto fill = [&](std::vector<double> LawShape::*member, std::vector<double> values) {
     const double at_onset = values.front();  // rounding of the fitted elastic part
@@ -448,8 +448,8 @@ ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const 
   if (range.fastest > 0) {
     const LawShape own = atlas.shape(ratios);
     composed.shape.velocity_effects =
-        velocity_effects(own, tabulate(own, composed.body.onset, Atlas::depth, Atlas::depth),
-                         tabulate(composed.shape, onset, end, end), composed.body, speed_ratio);
+        velocity_effects(own, tabulate(own, Atlas::depth),
+                         tabulate(composed.shape, end), composed.body, speed_ratio);
   }
   composed.body.onset = onset;
   return composed;
@@ -470,7 +470,7 @@ TwoBodyLaw law_of(const ComposedShape& composed, const LawRange& range)
   if (!composed.shape.velocity_effects.empty())
     of_pair.fastest = std::min(of_pair.fastest, composed.shape.velocity_effects.back().speed);
   law.certificate.interpolation_error =
-      finish_curve(law, composed.shape, composed.body, of_pair, composed.end);
+      finish_curve(law, composed.shape, composed.body, of_pair);
   double& limit = law.certificate.damage_number_max;  // so far v^2 of the axis
   limit = std::min(limit / (composed.speed_ratio * composed.speed_ratio), composed.damage_number_max);
   return result;

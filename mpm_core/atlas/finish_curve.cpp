@@ -37,11 +37,10 @@ double note_axis_cost(BodyLaw& law, const Curve& slow, const AxisTable& axis,
 
 }  // namespace
 
-double finish_curve(BodyLaw& law, const LawShape& shape, const BodyNumbers& body,
-                    const LawRange& range, double shape_end)
+double finish_curve(BodyLaw& law, const LawShape& shape, const BodyNumbers& body, const LawRange& range)
 {
-  const Curve slow = tabulate(shape, body.onset, shape_end, range.depth);
-  const double error = table_error(shape, body.onset, shape_end, slow);
+  const Curve slow = tabulate(shape, range.depth);
+  const double error = table_error(shape, slow);
   if (range.fastest == 0) {
     law.curve = slow;
     return error;

@@ -31,10 +31,8 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const LawRange
   const MaterialRatios ratios = MaterialRatios::of(material);
   if (const std::string why = atlas.why_not(ratios); !why.empty())
     fail(fmt::format("material '{}'", material.name), "is not in the atlas: " + why);
-  const BodyNumbers body =
-      body_numbers(ratios);
   c.damage_number_max = range.fastest * range.fastest;
-  c.interpolation_error = finish_curve(law, atlas.shape(ratios), body, range, Atlas::depth);
+  c.interpolation_error = finish_curve(law, atlas.shape(ratios), body_numbers(ratios), range);
   c.atlas_error_force = atlas.claimed_force();
   c.atlas_error_restitution = atlas.claimed_restitution();
   c.solver_error_force = c.solver_error_restitution = atlas.solver_error();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atlas/shape_function.hpp"
+#include "atlas/rising_root.hpp"
 #include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
@@ -17,10 +17,10 @@ void add_to(std::vector<double>& sum, double weight, const std::vector<double>& 
 
 }  // namespace
 
-LawShape LawShape::zero()
+LawShape LawShape::zero(double onset, double end)
 {
   const std::vector<double> none(nodes, 0.0);
-  LawShape shape{{}, none, none, none, none, none, {}};
+  LawShape shape{{}, none, none, none, none, none, {}, onset, end};
   for (const double v : impact_speeds)
     shape.velocity_effects.push_back({v, 0, 0, 0, std::vector<double>(VelocityEffect::shares, 0.0)});
   return shape;
@@ -62,38 +62,38 @@ void LawShape::add_unloading(double weight, const LawShape& other)
   }
 }
 
-LawShape LawShape::rescaled(double share) const
+LawShape LawShape::at_range(double other_onset, double other_end) const
 {
-  LawShape result = zero();
+  LawShape result = zero(other_onset, other_end);
   result.elastic = elastic;
+  const double ratio = onset / other_onset;
   for (const auto member : functions) {
-    const ShapeFunction function(this->*member, 1.0);
-    for (int k = 0; k < nodes; ++k)
-      (result.*member)[static_cast<std::size_t>(k)] = function.value(std::min(1.0, share * k / (nodes - 1)));
+    const Spline function = by_q(member);
+    for (std::size_t k = 0; k < nodes; ++k)
+      (result.*member)[k] = function.value(q(std::min(end, ratio * result.overlap(k))));
   }
   return result;
 }
 
-LawShape LawShape::as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const
+LawShape LawShape::as_skin_of(const ElasticCorrection& body, double known) const
 {
-  const Curve sphere = tabulate(*this, onset, end, known);
+  const Curve sphere = tabulate(*this, known);
   const double at_onset = std::pow(onset, 0.25);
   const double difference = body.measured  // of c1
                                 ? (elastic.force_ratio(at_onset) - body.force_ratio(at_onset)) / std::sqrt(onset)
                                 : elastic.c1 - body.c1;
   const double compliance = 2.0 / 3.0 * difference;
-  const double range = std::log(end / onset);
   LawShape result = *this;
   result.elastic = body;
   result.velocity_effects = zero().velocity_effects;
   for (std::size_t k = 1; k < nodes; ++k) {
-    const double x = onset * std::exp(range * static_cast<double>(k) / (nodes - 1));
+    const double x = overlap(k);
     if (x > known) {
       for (const auto member : functions) (result.*member)[k] = (result.*member)[k - 1];
       continue;
     }
-    double skin = x;  // x'
-    for (int round = 0; round < 20; ++round) skin = x - compliance * sphere.loading(skin).force;
+    const double skin =  // x', the root of x' + C F(x') = x
+        rising_root([&](double at) { return at + compliance * sphere.force(at) - x; }, 0.0, x, 50);
     const double s = std::pow(x, 0.25), force = sphere.force(skin);
     const double below = 0.5 * compliance * force * force;  // work
     const double work = sphere.work(skin), returned = work * sphere.kept(skin);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "atlas/shape_function.hpp"
+#include "atlas/spline.hpp"
 #include "contact/unloading.hpp"
 
 namespace granulaw {
@@ -18,7 +18,7 @@ struct ElasticCorrection
   double c1 = 0, c2 = 0, d1 = 0, c3 = 0;
   /// Of a body of several materials, whose stiffness changes where the contact is as wide as a layer is thick:
   /// ln of the force as computed over that of the terms, by s. Null: the terms are all.
-  std::shared_ptr<const ShapeFunction> measured{};
+  std::shared_ptr<const Spline> measured{};
 
   double force_ratio(double s) const { return terms(s) * beside_terms(s); }
   double force_ratio_slope(double s) const
@@ -49,11 +49,11 @@ struct ElasticFit
   double error = 0;
 };
 
-/// The law of a yielding body in the coordinates in which materials resemble each other: what the runs are
-/// fitted to, what the atlas keeps and interpolates, and what a Curve is tabulated from.
+/// The law of a yielding body in the coordinates in which materials resemble each other, its master curve:
+/// runs are fitted to it, the atlas keeps and interpolates it, a Curve is tabulated from it.
 ///
-/// With s = x^(1/4), nodes uniform in u = ln(s/s_onset)/ln(s_end/s_onset), u = 0..1. Each is 0 with zero
-/// slope at the onset:
+/// Nodes uniform in u = ln(x/onset)/ln(end/onset), u = 0..1, x the overlap/R. Each function is 0 with zero slope
+/// at the onset:
 ///     force_reduction  -ln(F_L/F_elastic)       residual     -ln(1 - delta_r/delta_m)
 ///     widening         ln(a/a_elastic)         dissipation  -ln(W_u/W_L) = -2 ln e
 ///     hertz_share      A - A_elastic of the unloading's shape
@@ -62,7 +62,7 @@ struct LawShape
 {
   static constexpr int nodes = 49;
 
-  /// What an impact at speed v = sqrt(rho V^2/Y) changes, against the slow press to the same overlap.
+  /// The change by an impact at speed v = sqrt(rho V^2/Y), against the slow press to the same overlap.
   struct VelocityEffect
   {
     static constexpr int shares = 12;  ///< xi = x/X = 0, 1/11, ..., 1
@@ -78,27 +78,38 @@ struct LawShape
   std::vector<double> force_reduction, widening, residual, dissipation, hertz_share;
   static const std::array<std::vector<double> LawShape::*, 5> functions;  ///< these
   std::vector<VelocityEffect> velocity_effects;                           ///< ascending speed
+  double onset = 0, end = 0;  ///< overlap/R of first yield; where the functions end
 
-  /// this += weight * other, whose speeds are the same; or only what loading is (elastic body, force
-  /// reduction, widening), or the reversal and what inertia changes.
+  /// Overlap/R of a node.
+  double overlap(std::size_t node) const
+  {
+    return onset * std::exp(std::log(end / onset) * static_cast<double>(node) / (nodes - 1));
+  }
+  /// One function by q = ln(s/s_onset), s = x^(1/4).
+  Spline by_q(std::vector<double> LawShape::*function) const
+  {
+    return Spline::through(this->*function, q(end));
+  }
+  double q(double x) const { return 0.25 * std::log(x / onset); }
+
+  /// this += weight * other, node by node, whose speeds are the same; or only the loading (elastic body, force
+  /// reduction, widening), or the reversal and the effects of inertia. Onset and end stay.
   void add(double weight, const LawShape& other);
   void add_loading(double weight, const LawShape& other);
   void add_unloading(double weight, const LawShape& other);
-  /// Its functions of u as functions of u/share: of the same delta/delta_onset in a range of overlaps whose
-  /// logarithm is `share` times as long. What lies beyond its own end keeps its last value; inertia is
+  /// The same functions of x/onset between other ends. Beyond its own end each keeps its last value; inertia is
   /// dropped.
-  LawShape rescaled(double share) const;
-  /// Of a sphere, with its own elastic correction: that of a body with the same skin, which differs
-  /// elastically further below. A contact small against the skin adds to its overlap x' what the rest of the
-  /// body yields to its force F, x = x' + C F, C by the two corrections' c1; so its losses are those of the
-  /// sphere at x'. Functions of u end at `end`; beyond `known`, where nothing is known of the sphere, the
-  /// last value is kept. Inertia is dropped.
-  LawShape as_skin_of(const ElasticCorrection& body, double onset, double end, double known) const;
+  LawShape at_range(double other_onset, double other_end) const;
+  /// Of a sphere, with its own elastic correction: the shape of a body with the same skin, which differs
+  /// elastically further below. A contact small against the skin adds to its overlap x' the approach of the
+  /// rest of the body under its force F, x = x' + C F, C by the two corrections' c1; so its losses are those of
+  /// the sphere at x'. Beyond `known`, where the sphere's law ends, the last value is kept. Inertia is dropped.
+  LawShape as_skin_of(const ElasticCorrection& body, double known) const;
   /// All zero at all impact_speeds, ready for add().
-  static LawShape zero();
+  static LawShape zero(double onset = 0, double end = 0);
 };
 
-/// Speeds sqrt(I) at which the atlas knows the effect of inertia.
+/// Speeds sqrt(I) at which the atlas holds the effect of inertia.
 inline constexpr double impact_speeds[] = {0.005, 0.015, 0.03,  0.045, 0.06,  0.08, 0.1,
                                            0.125, 0.15,  0.175, 0.2,   0.225, 0.25, 0.3};
 

@@ -106,10 +106,10 @@ MidplaneShapes::MidplaneShapes(MidplaneGrid grid, std::vector<ElasticCorrection>
     if (!(nodes_[k].material == expected[k]))
       fail("atlas", fmt::format("midplane material {} is not the grid's", k));
   for (const Node& node : nodes_)
-    changes_.push_back({ShapeFunction(node.change.force_reduction, 1.0),
-                        ShapeFunction(node.change.widening, 1.0), ShapeFunction(node.change.residual, 1.0),
-                        ShapeFunction(node.change.dissipation, 1.0),
-                        ShapeFunction(node.change.hertz_share, 1.0)});
+    changes_.push_back({Spline::through(node.change.force_reduction, 1.0),
+                        Spline::through(node.change.widening, 1.0), Spline::through(node.change.residual, 1.0),
+                        Spline::through(node.change.dissipation, 1.0),
+                        Spline::through(node.change.hertz_share, 1.0)});
   std::vector<double> force, restitution, recovery;
   for (const MidplaneCheck& c : checks_) {
     force.push_back(std::abs(c.error_force));
@@ -137,7 +137,7 @@ ElasticCorrection MidplaneShapes::elastic(double poisson_ratio) const
 LawShape MidplaneShapes::shape(const MaterialRatios& m, const LawShape& free) const
 {
   const double onset = onset_of(m), range = std::log(Atlas::depth / onset);
-  LawShape result = free.as_skin_of(elastic(m.poisson_ratio), onset, Atlas::depth, Atlas::depth);
+  LawShape result = free.as_skin_of(elastic(m.poisson_ratio), Atlas::depth);
   std::vector<double> weights(nodes_.size(), 0.0);
   for (const Weighted& w : weights_of(grid_, m)) weights[w.node] += w.weight;
   for (std::size_t node = 0; node < nodes_.size(); ++node) {

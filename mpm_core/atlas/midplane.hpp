@@ -5,7 +5,6 @@
 
 #include "atlas/law_shape.hpp"
 #include "atlas/material_ratios.hpp"
-#include "atlas/shape_function.hpp"
 
 namespace granulaw {
 
@@ -82,7 +81,7 @@ class MidplaneShapes
   MidplaneGrid grid_;
   std::vector<ElasticCorrection> elastic_;
   std::vector<Node> nodes_;
-  std::vector<std::array<ShapeFunction, 5>> changes_;  ///< of each node, over u from 0 to 1
+  std::vector<std::array<Spline, 5>> changes_;  ///< of each node, over u from 0 to 1
   std::vector<MidplaneCheck> checks_;
   double claimed_force_ = 0, claimed_restitution_ = 0, claimed_recovery_ = 0;
 };

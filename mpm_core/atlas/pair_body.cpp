@@ -147,7 +147,7 @@ PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
   const MaterialRatios ratios{stiffness, ratios_.poisson_ratio, ratios_.hardening};
   const LawShape shape = atlas.shape(ratios);
   const double onset = onset_of(ratios);
-  Twin t = tabulated(tabulate(shape, onset, Atlas::depth, Atlas::depth), shape.elastic, stiffness, onset,
+  Twin t = tabulated(tabulate(shape, Atlas::depth), shape.elastic, stiffness, onset,
                      Atlas::depth);
   for (std::size_t node = 0; node < t.log_contact.size(); ++node) {
     const double log_strain = t.log_contact[node] + t.log_stiffness;
@@ -170,7 +170,7 @@ PairBody::Twin PairBody::stand_in(const Atlas& atlas, double hardening) const
 {
   const LawShape shape = atlas.shape({ratios_.stiffness, ratios_.poisson_ratio, hardening});
   const double onset = onset_of(ratios_);
-  return tabulated(tabulate(shape, onset, Atlas::depth, Atlas::depth), shape.elastic, ratios_.stiffness,
+  return tabulated(tabulate(shape, Atlas::depth), shape.elastic, ratios_.stiffness,
                    onset, Atlas::depth);
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "atlas/shape_function.hpp"
 
 namespace granulaw {
 
@@ -72,23 +71,22 @@ Curve fitted_curve(CurveTable table, std::optional<AxisTable> axis)
   return Curve(std::move(table), std::move(axis));
 }
 
-Curve tabulate(const LawShape& shape, double onset, double shape_end, double x_end)
+Curve tabulate(const LawShape& shape, double x_end)
 {
-  using Kind = ShapeFunction::Kind;
-  const double q_end = 0.25 * std::log(shape_end / onset);
-  const ShapeFunction reduction(shape.force_reduction, q_end), widening(shape.widening, q_end),
-      residual(shape.residual, q_end, Kind::rising), dissipation(shape.dissipation, q_end, Kind::rising),
-      share(shape.hertz_share, q_end);
+  const double onset = shape.onset;
+  const Spline reduction = shape.by_q(&LawShape::force_reduction), widening = shape.by_q(&LawShape::widening),
+               residual = shape.by_q(&LawShape::residual), dissipation = shape.by_q(&LawShape::dissipation),
+               share = shape.by_q(&LawShape::hertz_share);
   CurveTable table(onset, x_end);
   for (const double x : table.nodes()) {
     Loads loads;
-    if (const double q = 0.25 * std::log(x / onset); x > onset)
+    if (const double q = shape.q(x); x > onset)
       loads = {reduction.value(q), reduction.slope(q), widening.value(q), widening.slope(q)};
     add_loading(table, shape.elastic, x, loads);
   }
   const std::vector<double> yielding = table.yielding_nodes();
   for (const double x : yielding) {
-    const double s = std::pow(x, 0.25), q = 0.25 * std::log(x / onset), per_q = 0.25 / x;
+    const double s = std::pow(x, 0.25), q = shape.q(x), per_q = 0.25 / x;
     const double kept = std::exp(-dissipation.value(q)), span = std::exp(-residual.value(q)),
                  elastic_share = shape.elastic.unloading(s).hertz_share;
     table.kept.add(kept, -kept * dissipation.slope(q) * per_q);
@@ -110,29 +108,27 @@ Curve tabulate_elastic(const ElasticCorrection& elastic, double x_end)
   return fitted_curve(std::move(table));
 }
 
-double change_of_restitution(const LawShape& shape, double onset, double shape_end, const Curve& curve)
+double change_of_restitution(const LawShape& shape, const Curve& curve)
 {
-  const double q_end = 0.25 * std::log(shape_end / onset);
-  const ShapeFunction fitted(shape.dissipation, q_end);
+  const Spline fitted = shape.by_q(&LawShape::dissipation);
   double most = 0;
   for (int k = 1; k < 1000; ++k) {
-    const double q = q_end * k / 1000, x = onset * std::exp(4 * q);
+    const double q = shape.q(shape.end) * k / 1000, x = shape.onset * std::exp(4 * q);
     if (x >= curve.end()) break;
     most = std::max(most, std::abs(std::sqrt(curve.kept(x)) * std::exp(0.5 * fitted.value(q)) - 1));
   }
   return most;
 }
 
-double table_error(const LawShape& shape, double onset, double shape_end, const Curve& curve)
+double table_error(const LawShape& shape, const Curve& curve)
 {
-  const double s_onset = std::pow(onset, 0.25), s_end = std::pow(std::min(curve.end(), shape_end), 0.25);
-  const ShapeFunction force_reduction(shape.force_reduction, 0.25 * std::log(shape_end / onset));
+  const double s_end = std::pow(std::min(curve.end(), shape.end), 0.25);
+  const Spline force_reduction = shape.by_q(&LawShape::force_reduction);
   double worst = 0;
   for (int k = 1; k < 2000; ++k) {
     const double s = s_end * k / 2000, x = s * s * s * s;
-    const double q = s > s_onset ? std::log(s / s_onset) : 0.0;
     const double exact =
-        std::pow(x, 1.5) * shape.elastic.force_ratio(s) * std::exp(-force_reduction.value(q));
+        std::pow(x, 1.5) * shape.elastic.force_ratio(s) * std::exp(-force_reduction.value(shape.q(x)));
     worst = std::max(worst, std::abs(curve.force(x) / exact - 1));
   }
   return worst;

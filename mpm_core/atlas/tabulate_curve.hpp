@@ -5,9 +5,9 @@
 
 namespace granulaw {
 
-/// The law with this shape, whose functions end at `shape_end`, up to `x_end`. Force and radius are made to
+/// The law with this shape up to `x_end`. Force and radius are made to
 /// rise, kept and span never to rise: no closed cycle gains energy.
-Curve tabulate(const LawShape& shape, double onset, double shape_end, double x_end);
+Curve tabulate(const LawShape& shape, double x_end);
 
 /// The law of a body that never yields.
 Curve tabulate_elastic(const ElasticCorrection& elastic, double x_end);
@@ -15,11 +15,11 @@ Curve tabulate_elastic(const ElasticCorrection& elastic, double x_end);
 /// The curve of this table and axis; throws Error where it is no law: the runs are too coarse.
 Curve fitted_curve(CurveTable table, std::optional<AxisTable> axis = {});
 
-/// Largest relative difference between e of `curve` and of the shape it was tabulated from: what making it
-/// rise took.
-double change_of_restitution(const LawShape& shape, double onset, double shape_end, const Curve& curve);
+/// Largest relative difference between e of `curve` and of the shape it was tabulated from: the
+/// cost of making it rise.
+double change_of_restitution(const LawShape& shape, const Curve& curve);
 
 /// Largest relative error of the loading force of `curve` against the shape it was tabulated from.
-double table_error(const LawShape& shape, double onset, double shape_end, const Curve& curve);
+double table_error(const LawShape& shape, const Curve& curve);
 
 }  // namespace granulaw

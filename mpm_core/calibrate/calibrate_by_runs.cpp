@@ -9,7 +9,6 @@
 
 #include "base/larger.hpp"
 #include "calibrate/fit.hpp"
-#include "calibrate/flow_shape.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "characterise/build/build_law.hpp"
 #include "characterise/body/law_material.hpp"
@@ -82,7 +81,7 @@ CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, con
     const Miss miss = miss_of(laws.free(), own, depth);
     result.miss_force = miss.force, result.miss_restitution = miss.restitution;
     const SphereLaws coarse(atlas, material);
-    problem.laws().set_departure(departure(own, coarse.free()));
+    problem.laws().set_departure(Departure::between(own, coarse.shape()));
     q = polished(problem, q).q;
     if (miss.is_small()) break;
   }

@@ -15,8 +15,8 @@ struct CalibrationByRuns
 };
 
 /// Fits a hardening law that is not linear, by space mapping (Bandler et al., IEEE Trans. Microw. Theory
-/// Tech. 42, 1994): flow_shape() is the coarse model. The law of the material that it finds is made by runs
-/// of the solver; what it departs from the coarse one by is added to all materials, and the fit goes on. It
+/// Tech. 42, 1994): stand_in() is the coarse model. The law of the material that it finds is made by runs
+/// of the solver; its departure from the coarse one is added to all materials, and the fit goes on. It
 /// ends where the law by runs is within `close_enough` of what was fitted; after `most_laws` in any case.
 CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, const Progress& progress = {});
 

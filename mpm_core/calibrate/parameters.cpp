@@ -97,6 +97,12 @@ Material solver_material(const CandidateMaterial& m)
   return material;
 }
 
+FlowCurve flow_curve(const CandidateMaterial& m)
+{
+  if (m.hardens_linearly()) return {};
+  return [solid = solver_material(m)](double strain) { return flow_stress(solid, strain) / solid.yield_stress; };
+}
+
 std::vector<std::string> fitted_hardening_laws()
 {
   std::vector<std::string> names;

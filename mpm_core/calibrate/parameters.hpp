@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "atlas/stand_in.hpp"
 #include "law/law_material.hpp"
 #include "solver/material/material.hpp"
 
@@ -45,6 +46,8 @@ struct CandidateMaterial : LawMaterial
 
 /// The solver's material.
 Material solver_material(const CandidateMaterial& material);
+/// Its flow curve; null: it hardens linearly.
+FlowCurve flow_curve(const CandidateMaterial& material);
 
 /// Hardening laws that can be fitted: the solver's whose keys are all numbers. "linear" is among them.
 std::vector<std::string> fitted_hardening_laws();

@@ -5,8 +5,6 @@
 
 #include "base/error.hpp"
 #include "base/gauss.hpp"
-#include "base/scales.hpp"
-#include "calibrate/flow_shape.hpp"
 #include "atlas/overlap_at_work.hpp"
 #include "atlas/tabulate_curve.hpp"
 
@@ -22,29 +20,21 @@ MaterialRatios within(const Atlas& atlas, MaterialRatios m)
   return m;
 }
 
-/// The linear hardening that stands for another one where a curve between platens departs from a free
-/// sphere's: the two plastic zones meet, and spread as the tangent of the flow stress says, when the contact
-/// is as wide as at an overlap of a fifth of the radius. So F of two presses to 0.1 R is within 0.4 %
-/// (docs/develop/calibration.md).
-MaterialRatios stand_in(const Atlas& atlas, const CandidateMaterial& m)
+/// The linearly hardening material whose midplane departs from its free sphere as this one's does.
+MaterialRatios ratios_of(const Atlas& atlas, const CandidateMaterial& m)
 {
-  MaterialRatios ratios = MaterialRatios::of(m);
-  if (!m.hardens_linearly()) {
-    const FlowCurve flow = flow_curve(m);
-    const double strain = representative_strain * std::sqrt(2 * 0.2);  // a^2 = 2 R delta
-    constexpr double step = 0.05;
-    const double tangent = (flow((1 + step) * strain) - flow((1 - step) * strain)) / (2 * step * strain);
-    ratios.hardening = tangent * m.yield_stress / m.youngs_modulus;
-  }
-  return within(atlas, ratios);
+  const MaterialRatios ratios = within(atlas, MaterialRatios::of(m));
+  const FlowCurve flow = flow_curve(m);
+  return flow ? stand_in_at_equator(atlas, ratios.stiffness, ratios.poisson_ratio, flow) : ratios;
 }
 
-LawShape shape_of(const Atlas& atlas, const CandidateMaterial& m, const LawShape* departure)
+LawShape shape_of(const Atlas& atlas, const CandidateMaterial& m, const Departure* departure)
 {
-  const MaterialRatios ratios = stand_in(atlas, m);
-  if (m.hardens_linearly()) return atlas.shape(ratios);
-  LawShape shape = flow_shape(atlas, ratios.stiffness, ratios.poisson_ratio, flow_curve(m));
-  if (departure) shape.add(1, *departure);
+  const MaterialRatios ratios = within(atlas, MaterialRatios::of(m));
+  const FlowCurve flow = flow_curve(m);
+  if (!flow) return atlas.shape(ratios);
+  LawShape shape = stand_in(atlas, ratios.stiffness, ratios.poisson_ratio, flow);
+  if (departure) departure->add_to(shape);
   return shape;
 }
 
@@ -57,8 +47,7 @@ SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawSh
       atlas_(&atlas),
       energy_unit_(energy_unit(sphere_mass, 1 / material.stiffness)),
       shape_(std::move(shape)),
-      free_(tabulate(shape_, onset_overlap(material.stiffness, 1.0, material.poisson_ratio), Atlas::depth,
-                     Atlas::depth)),
+      free_(tabulate(shape_, Atlas::depth)),
       impacts_(shape_, free_, energy_unit_, AxisTable::By::inertia)
 {
 }
@@ -68,8 +57,8 @@ SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& m)
 {
 }
 
-SphereLaws::SphereLaws(const Atlas& atlas, const CandidateMaterial& m, const LawShape* departure)
-    : SphereLaws(atlas, stand_in(atlas, m), shape_of(atlas, m, departure))
+SphereLaws::SphereLaws(const Atlas& atlas, const CandidateMaterial& m, const Departure* departure)
+    : SphereLaws(atlas, ratios_of(atlas, m), shape_of(atlas, m, departure))
 {
 }
 
@@ -111,12 +100,12 @@ const Curve& SphereLaws::midplane() const
 {
   if (!midplane_) {
     if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew with mpm atlas");
-    midplane_ = tabulate(atlas_->midplane().shape(material_, shape_), onset(), Atlas::depth, MidplaneShapes::depth);
+    midplane_ = tabulate(atlas_->midplane().shape(material_, shape_), MidplaneShapes::depth);
   }
   return *midplane_;
 }
 
-void SphereLawsCache::set_departure(LawShape departure)
+void SphereLawsCache::set_departure(Departure departure)
 {
   departure_ = std::move(departure);
   kept_.clear();

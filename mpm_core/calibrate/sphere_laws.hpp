@@ -6,6 +6,7 @@
 
 #include "calibrate/parameters.hpp"
 #include "atlas/atlas.hpp"
+#include "atlas/departure.hpp"
 #include "atlas/impacts_by_speed.hpp"
 #include "contact/curve.hpp"
 
@@ -17,9 +18,9 @@ namespace granulaw {
 class SphereLaws
 {
  public:
-  /// Ratios outside the atlas count as those at its edge. Of hardening that is not linear: flow_shape(), and
-  /// the departure of the material's own law from it, if that is known.
-  SphereLaws(const Atlas& atlas, const CandidateMaterial& material, const LawShape* departure = nullptr);
+  /// Ratios outside the atlas count as those at its edge. Of hardening that is not linear: stand_in(), and
+  /// the departure of the material's own law from it, if there is one.
+  SphereLaws(const Atlas& atlas, const CandidateMaterial& material, const Departure* departure = nullptr);
   SphereLaws(const Atlas& atlas, const MaterialRatios& material);
   SphereLaws(const SphereLaws&) = delete;  // impacts_ points into it
   SphereLaws& operator=(const SphereLaws&) = delete;
@@ -37,6 +38,7 @@ class SphereLaws
   Impact impact(double v) const;
   static constexpr double fastest = 0.3;
 
+  const LawShape& shape() const { return shape_; }
   const Curve& free() const { return free_; }  ///< slow press of a free sphere
   const Curve& midplane() const;               ///< of one held at its equator; made when asked for
 
@@ -62,13 +64,13 @@ class SphereLawsCache
   const SphereLaws& of(const CandidateMaterial& material);
   const Atlas& atlas() const { return atlas_; }
   /// The departure of all laws whose hardening is not linear, from now on.
-  void set_departure(LawShape departure);
+  void set_departure(Departure departure);
 
  private:
   using Key = std::vector<double>;  // ratios: stresses over the yield stress
   static constexpr std::size_t most = 32;
   const Atlas& atlas_;
-  std::optional<LawShape> departure_;
+  std::optional<Departure> departure_;
   std::list<std::pair<Key, SphereLaws>> kept_;
 };
 

@@ -55,7 +55,7 @@ RunJob elastic_job(double poisson_ratio, const RunSource& source)
 
 LawShape skin_of(const Atlas& free, const MaterialRatios& m, const ElasticCorrection& elastic)
 {
-  return free.shape(m).as_skin_of(elastic, sphere_of(m).onset, Atlas::depth, Atlas::depth);
+  return free.shape(m).as_skin_of(elastic, Atlas::depth);
 }
 
 }  // namespace
@@ -105,9 +105,7 @@ namespace {
 /// How far the atlas's curve is off a press.
 MidplaneCheck compare(MidplaneCheck check, const Atlas& atlas, const RunResult& run)
 {
-  const CharacterisedBody body = sphere_of(check.material);
-  const Curve curve =
-      tabulate(atlas.midplane_shape(check.material), body.onset, Atlas::depth, MidplaneShapes::depth);
+  const Curve curve = tabulate(atlas.midplane_shape(check.material), MidplaneShapes::depth);
   const ContactRecord record = contact_record_of(run);
   double sum = 0;
   int count = 0;

@@ -194,7 +194,7 @@ ShapePrior OnsetSimilarity::prior(const ElasticCorrection& elastic) const
     of_sphere_alone = fit_elastic(press.front());
   }
   ShapePrior prior = of_sphere(&of_sphere_alone);
-  if (!is_sphere_) prior.shape = prior.shape.as_skin_of(elastic, prior.onset, prior.end, 2 * needs_.first);
+  if (!is_sphere_) prior.shape = prior.shape.as_skin_of(elastic, 2 * needs_.first);
   prior.end_at(needs_.first);
   return prior;
 }

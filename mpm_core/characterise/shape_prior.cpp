@@ -20,9 +20,8 @@ struct Part
 ShapePrior sum(double onset, double end, std::initializer_list<Part> parts, double left)
 {
   const double range = std::log(end / onset);
-  ShapePrior prior{LawShape::zero(), onset, end, {}};
-  for (const auto& [weight, law] : parts)
-    prior.shape.add(weight, law->shape.rescaled(range / std::log(law->end / law->onset)));
+  ShapePrior prior{LawShape::zero(onset, end), onset, end, {}};
+  for (const auto& [weight, law] : parts) prior.shape.add(weight, law->shape.at_range(onset, end));
   for (int k = 0; k < LawShape::nodes; ++k) {
     const double r = std::exp(range * k / (LawShape::nodes - 1));
     double variance = std::pow(r * left / ShapePrior::run_error, 2);
@@ -36,6 +35,7 @@ ShapePrior sum(double onset, double end, std::initializer_list<Part> parts, doub
 
 ShapePrior ShapePrior::of(LawShape shape, double onset, double end, double known)
 {
+  shape.onset = onset, shape.end = end;
   ShapePrior prior{std::move(shape), onset, end, std::vector<double>(LawShape::nodes, law_error)};
   prior.end_at(known);
   return prior;

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "characterise/smooth_spline.hpp"
+#include "atlas/spline.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw {
@@ -137,9 +137,9 @@ TEST(FitElastic, OfSeveralMaterialsFollowsThePressesOwnPoints)
 }
 
 /// Shape of a body that yields: numbers like those of E*/Y = 500.
-LawShape sphere_shape()
+LawShape sphere_shape(double onset = 2.6e-5, double end = 0.1)
 {
-  LawShape shape = LawShape::zero();
+  LawShape shape = LawShape::zero(onset, end);
   shape.elastic = finite_sphere;
   for (int k = 0; k < LawShape::nodes; ++k) {
     const double u = k / (LawShape::nodes - 1.0);
@@ -152,10 +152,9 @@ LawShape sphere_shape()
 
 TEST(LawShape, ASkinOnTheSameBodyIsTheSphere)
 {
-  const double onset = 2.6e-5, end = 0.1, known = 4e-4, range = std::log(end / onset);
-  const LawShape sphere = sphere_shape(), skin = sphere.as_skin_of(sphere.elastic, onset, end, known);
-  for (std::size_t k = 0; onset * std::exp(range * static_cast<double>(k) / (LawShape::nodes - 1)) < known;
-       ++k) {
+  const double known = 4e-4;
+  const LawShape sphere = sphere_shape(), skin = sphere.as_skin_of(sphere.elastic, known);
+  for (std::size_t k = 0; sphere.overlap(k) < known; ++k) {
     // 1e-3: of losses, the 2e-4 of the work that a table spares for rounding, and its cubics
     EXPECT_NEAR(skin.force_reduction[k], sphere.force_reduction[k], 1e-4) << k;
     EXPECT_NEAR(skin.widening[k], sphere.widening[k], 1e-4) << k;
@@ -167,13 +166,13 @@ TEST(LawShape, ASkinOnTheSameBodyIsTheSphere)
 /// On a softer body the same force needs more overlap, and loses the same energy.
 TEST(LawShape, ASkinOnASofterBodyLosesTheSameAtTheSameForce)
 {
-  const double onset = 2.6e-5, end = 0.1, known = 4e-4;
+  const double known = 4e-4;
   const LawShape sphere = sphere_shape();
   ElasticCorrection body = sphere.elastic;
   body.c1 = -4.5;
   const double compliance = 2.0 / 3.0 * (sphere.elastic.c1 - body.c1);
-  const Curve on_sphere = tabulate(sphere, onset, end, known),
-                     on_body = tabulate(sphere.as_skin_of(body, onset, end, known), onset, end, known);
+  const Curve on_sphere = tabulate(sphere, known),
+                     on_body = tabulate(sphere.as_skin_of(body, known), known);
   for (const double x : {8e-5, 1.4e-4, 1.9e-4}) {  // to half of what is known, as it is used
     const double force = on_sphere.loading(x).force, deeper = x + compliance * force;
     // 1e-3: a cubic in x between 49 nodes over eight e-folds
@@ -193,14 +192,14 @@ TEST(LawShape, AnUnloadingMayMeetTheBoundsOfOneThatRisesBetweenNodes)
   for (const double residual : {1.0, 1.5, 2.0})
     for (const double dissipation : {2.0, 3.0})
       for (const double hertz_share : {-1.0, 0.0, 2.0}) {
-        LawShape shape = sphere_shape();
+        LawShape shape = sphere_shape(2.6e-7, 0.2);
         for (int k = 0; k < LawShape::nodes; ++k) {
           const double u = k / (LawShape::nodes - 1.0);
           const auto n = static_cast<std::size_t>(k);
           shape.residual[n] = residual * u * u, shape.dissipation[n] = dissipation * u * u;
           shape.hertz_share[n] = hertz_share * u;
         }
-        EXPECT_NO_THROW(tabulate(shape, 2.6e-7, 0.2, 0.2))
+        EXPECT_NO_THROW(tabulate(shape, 0.2))
             << residual << ' ' << dissipation << ' ' << hertz_share;
       }
 }
@@ -277,14 +276,14 @@ TEST(FitCurve, RefusesRunsThatContradictEachOther)
   EXPECT_THROW(fit_plastic(all, finite_sphere, truth.onset(), 0.1), Error);
 }
 
-TEST(SmoothSpline, StartsWithZeroValueAndSlopeAndReproducesACubic)
+TEST(Spline, StartsWithZeroValueAndSlopeAndReproducesACubic)
 {
-  std::vector<SmoothSpline::Sample> samples;
+  std::vector<Spline::Sample> samples;
   for (int k = 1; k <= 60; ++k) {
     const double q = 1.5 * k / 60;
     samples.push_back({q, 2 * q * q - 0.5 * q * q * q, 1.0});
   }
-  const SmoothSpline spline(1.5, 8, samples, 1e-9);
+  const Spline spline = Spline::fit(samples, 1.5, 8, 1e-9);
   EXPECT_NEAR(spline.value(0.0), 0, 1e-12);
   EXPECT_NEAR(spline.slope(1e-9), 0, 1e-7);
   for (const double q : {0.1, 0.5, 1.0, 1.5}) {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "atlas/shape_function.hpp"
+#include "atlas/spline.hpp"
 
 namespace granulaw {
 namespace {
@@ -17,7 +17,7 @@ constexpr double onset = 1e-4, end = 0.1;
 LawShape shape_with(const std::function<double(double)>& residual,
                     const std::function<double(double)>& dissipation)
 {
-  LawShape shape = LawShape::zero();
+  LawShape shape = LawShape::zero(onset, end);
   shape.elastic.c1 = 0.9, shape.elastic.d1 = 0.1;
   for (std::size_t k = 1; k < LawShape::nodes; ++k) {
     const double u = static_cast<double>(k) / (LawShape::nodes - 1);
@@ -31,17 +31,15 @@ LawShape shape_with(const std::function<double(double)>& residual,
 TEST(TabulateCurve, HasTheShapesFunctions)
 {
   const LawShape shape = shape_with([](double u) { return 2 * u * u; }, [](double u) { return 2.2 * u * u; });
-  const Curve curve = tabulate(shape, onset, end, end);
-  const double q_end = 0.25 * std::log(end / onset);
-  const ShapeFunction residual(shape.residual, q_end), dissipation(shape.dissipation, q_end);
+  const Curve curve = tabulate(shape, end);
+  const Spline residual = shape.by_q(&LawShape::residual), dissipation = shape.by_q(&LawShape::dissipation);
   // 3.2e-6: a cubic over the last interval, whose far node lies beyond the end, where the functions go straight
-  EXPECT_LT(table_error(shape, onset, end, curve), 4e-6);
-  EXPECT_LT(change_of_restitution(shape, onset, end, curve),
+  EXPECT_LT(table_error(shape, curve), 4e-6);
+  EXPECT_LT(change_of_restitution(shape, curve),
             1e-5);  // the same, and the spline's first interval
   for (double x = 1.4 * onset; x < end; x *= 1.07) {
-    const double q = 0.25 * std::log(x / onset);
-    EXPECT_NEAR(std::sqrt(curve.kept(x)), std::exp(-0.5 * dissipation.value(q)), 1e-6) << x;
-    EXPECT_NEAR(curve.top(x).span, std::exp(-residual.value(q)), 1e-5) << x;
+    EXPECT_NEAR(std::sqrt(curve.kept(x)), std::exp(-0.5 * dissipation.value(shape.q(x))), 1e-6) << x;
+    EXPECT_NEAR(curve.top(x).span, std::exp(-residual.value(shape.q(x))), 1e-5) << x;
   }
 }
 
@@ -53,7 +51,7 @@ TEST(TabulateCurve, LosesNoLessFurtherOnWhateverTheLosses)
                jumping = [](double u) { return u < 0.5 ? 0.0 : 0.5; }, nothing = [](double) { return 0.0; },
                falling = [](double u) { return 3 * u * std::exp(-4 * u); };
   for (const Losses& dissipation : {scattering, jumping, nothing, falling}) {
-    const Curve curve = tabulate(shape_with(nothing, dissipation), onset, end, end);
+    const Curve curve = tabulate(shape_with(nothing, dissipation), end);
     double before = 0;
     for (double x = onset * (1 + 1e-9); x < end; x *= 1.003) {
       EXPECT_GE(curve.lost(x), before * (1 - 1e-14)) << x;  // rounding
@@ -66,7 +64,7 @@ TEST(TabulateCurve, LosesNoLessFurtherOnWhateverTheLosses)
 TEST(TabulateCurve, UnloadsNoSofterThanItLoads)
 {
   const Curve curve = tabulate(
-      shape_with([](double u) { return 2 * u * u; }, [](double u) { return 2.2 * u * u; }), onset, end, end);
+      shape_with([](double u) { return 2 * u * u; }, [](double u) { return 2.2 * u * u; }), end);
   for (double x = onset * (1 + 1e-9); x < end; x *= 1.01)
     // 1e-4: the share between nodes
     EXPECT_GE(curve.reversal(x).stiffness(x), curve.loading(x).stiffness * (1 - 1e-4)) << x;
@@ -76,7 +74,7 @@ TEST(TabulateCurve, MakesALoadingForceRise)
 {
   LawShape shape = shape_with([](double u) { return u; }, [](double u) { return u; });
   shape.force_reduction.back() = 4;  // the last node falls
-  const Curve curve = tabulate(shape, onset, end, end);
+  const Curve curve = tabulate(shape, end);
   double before = 0;
   for (double x = 0.5 * end; x < end; x *= 1.001) {
     EXPECT_GE(curve.force(x), before);

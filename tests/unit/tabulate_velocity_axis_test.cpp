@@ -21,7 +21,7 @@ TEST(TabulateInertia, LosesNoLessFurtherOn)
     for (const double hardening : {0.0, 0.15}) {
       const CharacterisedBody body = characterised_body_of(stiffness, 0.3, hardening);
       const LawShape shape = atlas.shape({stiffness, 0.3, hardening});
-      const Curve slow = tabulate(shape, body.onset, Atlas::depth, 0.2);
+      const Curve slow = tabulate(shape, 0.2);
       const Curve curve =
           fitted_curve(slow.table(), tabulate_inertia(shape, slow, stiffness, body.mass, 0.25));
       for (const double latched : curve.examined_levels()) {
@@ -42,7 +42,7 @@ TEST(TabulateRate, RisesToThePeakOfImpactsWhoseForceFallsBeforeTheyReverse)
   const double stiffness = 300, mass = 4. / 3 * M_PI, fastest = 0.25;
   LawShape sphere = read_atlas(GRANULAW_ATLAS_FILE).shape({stiffness, 0.3, 0});
   sphere.velocity_effects.clear();
-  const Curve slow = tabulate(sphere, characterised_body_of(stiffness, 0.3, 0).onset, Atlas::depth, 0.3);
+  const Curve slow = tabulate(sphere, 0.3);
   for (const double raised : {0.1, 0.6, 1.6}) {  // at the fastest, over the force at no rate
     LawShape shape = sphere;
     for (double v = 0.005; v < 1.01 * fastest; v *= std::pow(50.0, 0.2)) {

@@ -168,11 +168,12 @@ ComposedModel::IndenterLaw ComposedModel::make(const LawMaterial& specimen) cons
            mean.shape.add(weight, node.shape);
            mean.log_onset += weight * node.log_onset, mean.log_end += weight * node.log_end;
          });
-  const double onset = std::exp(mean.log_onset), end = std::exp(mean.log_end);
+  const double end = std::exp(mean.log_end);
+  mean.shape.onset = std::exp(mean.log_onset), mean.shape.end = end;
   const PairMapping mapping =
       PairMapping::deformable_partner(specimen.e_star(), counterpart_on(specimen).e_star());
   const double r_eff = measured_->effective_radius();
-  return {specimen, tabulate(mean.shape, onset, end, end), mapping.length(r_eff), mapping.force(r_eff)};
+  return {specimen, tabulate(mean.shape, end), mapping.length(r_eff), mapping.force(r_eff)};
 }
 
 const ComposedModel::IndenterLaw& ComposedModel::law(const LawMaterial& asked) const

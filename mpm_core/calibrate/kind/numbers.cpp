@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/scales.hpp"
-#include "calibrate/flow_shape.hpp"
+#include "atlas/stand_in.hpp"
 #include "calibrate/kind/kind.hpp"
 
 namespace granulaw {

@@ -330,8 +330,8 @@ void Build::plastic()
 
   certify(sampled);
   const LawShape& shape = sampled.fitted.shape;
-  law_.certificate.interpolation_error = finish_curve(law_, shape, numbers_of(body_), options_, setting.shape_end());
-  built_.change_of_restitution = change_of_restitution(shape, body_.onset, setting.shape_end(), law_.curve);
+  law_.certificate.interpolation_error = finish_curve(law_, shape, numbers_of(body_), options_);
+  built_.change_of_restitution = change_of_restitution(shape, law_.curve);
   if (options_.fastest > 0) verify_impacts(sampled.records);
   built_.runs = runs_.count() - before;
 }

@@ -8,8 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/larger.hpp"
-#include "atlas/shape_function.hpp"
-#include "characterise/smooth_spline.hpp"
+#include "atlas/spline.hpp"
 
 namespace granulaw {
 
@@ -66,7 +65,7 @@ double elastic_hertz_share(const ElasticCorrection& elastic, double x)
   return elastic.unloading(std::pow(x, 0.25)).hertz_share;
 }
 
-using Samples = std::vector<SmoothSpline::Sample>;
+using Samples = std::vector<Spline::Sample>;
 
 /// Adds what a prior knows of one function below the first run.
 void add_prior(Samples& samples, const ShapePrior* prior, std::vector<double> LawShape::*function,
@@ -82,7 +81,7 @@ void add_prior(Samples& samples, const ShapePrior* prior, std::vector<double> La
 
 /// A reversal point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
 /// is only enough to bridge gaps.
-SmoothSpline reversal_spline(std::span<const ContactRecord> presses, double onset, double q_end,
+Spline reversal_spline(std::span<const ContactRecord> presses, double onset, double q_end,
                              const auto& of, const ShapePrior* prior, std::vector<double> LawShape::*function,
                              double smoothing = 0.03)
 {
@@ -94,14 +93,7 @@ SmoothSpline reversal_spline(std::span<const ContactRecord> presses, double onse
   }
   add_prior(samples, prior, function, q_first, q_end, 1.0);
   const int intervals = std::max(4, static_cast<int>(samples.size()) - 2);
-  return {q_end, std::min(intervals, 24), samples, smoothing};
-}
-
-std::vector<double> sampled(const SmoothSpline& spline, double q_end)
-{
-  std::vector<double> values;
-  for (int k = 0; k < LawShape::nodes; ++k) values.push_back(spline.value(q_end * k / (LawShape::nodes - 1)));
-  return values;
+  return Spline::fit(samples, q_end, std::min(intervals, 24), smoothing);
 }
 
 /// ln(F/F_press) of an impact at shares of its overlap: a least-squares polynomial in sqrt(share), which
@@ -199,10 +191,7 @@ ElasticCorrection measured_elastic(const ContactRecord& press, std::span<const C
   // a layer of 0.01 R or more is as thick as several knots.
   constexpr int intervals = 24;
   const double end = std::pow(press.depth, 0.25);
-  const SmoothSpline spline(end, intervals, samples, 0.02);
-  std::vector<double> values;
-  for (int k = 0; k <= 2 * intervals; ++k) values.push_back(spline.value(0.5 * end * k / intervals));
-  elastic.measured = std::make_shared<const ShapeFunction>(std::move(values), end);
+  elastic.measured = std::make_shared<const Spline>(Spline::fit(samples, end, intervals, 0.02));
   return elastic;
 }
 
@@ -230,8 +219,10 @@ std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const Conta
                                                            const LawShape& slow, double onset, double x_end)
 {
   const double q_end = q_of(x_end, onset);
-  const ShapeFunction force_reduction(slow.force_reduction, q_end), residual(slow.residual, q_end),
-      dissipation(slow.dissipation, q_end), hertz_share(slow.hertz_share, q_end);
+  const Spline force_reduction = Spline::through(slow.force_reduction, q_end),
+               residual = Spline::through(slow.residual, q_end),
+               dissipation = Spline::through(slow.dissipation, q_end),
+               hertz_share = Spline::through(slow.hertz_share, q_end);
   const auto press_force = [&](double x) { return press_force_at(x, slow.elastic, force_reduction, onset); };
   std::vector<LawShape::VelocityEffect> all;
   for (const auto& [speed, impact] : impacts) {
@@ -261,7 +252,7 @@ struct ShapeFit
   const ElasticCorrection& elastic;
   double onset, x_end, q_end;
   const ShapePrior* prior;
-  SmoothSpline force_reduction, widening;
+  Spline force_reduction, widening;
   std::vector<ContactRecord> reversals;  ///< those beyond the onset
 
   ShapeFit(const ContactRecords& found, const ElasticCorrection& correction, double begin, double end,
@@ -272,7 +263,7 @@ struct ShapeFit
   double press_force(double x) const { return press_force_at(x, elastic, force_reduction, onset); }
   void fit_loading();
   void correct_reversals();
-  SmoothSpline dissipation(std::span<const ContactRecord> points) const
+  Spline dissipation(std::span<const ContactRecord> points) const
   {
     return reversal_spline(points, onset, q_end, dissipation_measure, prior, &LawShape::dissipation);
   }
@@ -303,7 +294,8 @@ void ShapeFit::fit_loading()
     add_prior(radius, prior, &LawShape::widening, q_first, q_end, weight);
   }
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
-  force_reduction = {q_end, intervals, force, 0.02}, widening = {q_end, intervals, radius, 0.05};
+  force_reduction = Spline::fit(force, q_end, intervals, 0.02);
+  widening = Spline::fit(radius, q_end, intervals, 0.05);
 }
 
 /// What is given back follows the force at the reversal, and that swings with the contact edge about the law:
@@ -322,21 +314,22 @@ void ShapeFit::correct_reversals()
 
 LawShape ShapeFit::shape() const
 {
-  LawShape shape = LawShape::zero();
+  LawShape shape = LawShape::zero(onset, x_end);
   shape.elastic = elastic;
-  shape.force_reduction = sampled(force_reduction, q_end);
-  shape.widening = sampled(widening, q_end);
+  shape.force_reduction = force_reduction.values(LawShape::nodes);
+  shape.widening = widening.values(LawShape::nodes);
   const auto residual = [](const ContactRecord& p) { return residual_measure(p.residual / p.depth); };
   const auto hertz_share = [&](const ContactRecord& p) {
     return p.hertz_share - elastic_hertz_share(elastic, p.depth);
   };
   shape.residual =
-      sampled(reversal_spline(reversals, onset, q_end, residual, prior, &LawShape::residual), q_end);
-  shape.dissipation = sampled(dissipation(reversals), q_end);
+      reversal_spline(reversals, onset, q_end, residual, prior, &LawShape::residual).values(LawShape::nodes);
+  shape.dissipation = dissipation(reversals).values(LawShape::nodes);
   // The contact edge's grid noise of a per cent of F moves a Hertz share by 0.3.
   constexpr double smoothing = 0.1;
-  shape.hertz_share = sampled(
-      reversal_spline(reversals, onset, q_end, hertz_share, prior, &LawShape::hertz_share, smoothing), q_end);
+  shape.hertz_share =
+      reversal_spline(reversals, onset, q_end, hertz_share, prior, &LawShape::hertz_share, smoothing)
+          .values(LawShape::nodes);
   shape.velocity_effects = fit_velocity_effects(records.fast, shape, onset, x_end);
   return shape;
 }
@@ -359,7 +352,7 @@ FitQuality ShapeFit::quality() const
 {
   FitQuality quality;
   quality.scatter = scatter();
-  const SmoothSpline fitted = dissipation(reversals);
+  const Spline fitted = dissipation(reversals);
   for (const ContactRecord& p : reversals) {
     const double missed = fitted.value(q_of(p.depth, onset)) - dissipation_measure(p);
     quality.reversal_error = larger(quality.reversal_error, std::abs(std::expm1(-0.5 * missed)));
@@ -393,8 +386,8 @@ FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const Elastic
   ContactRecords records;
   records.slow = presses;
   const FittedShape fitted = fit_shape(records, elastic, onset, x_end);
-  const Curve curve = tabulate(fitted.shape, onset, x_end, x_end);
-  return {curve, fitted.quality, table_error(fitted.shape, onset, x_end, curve)};
+  const Curve curve = tabulate(fitted.shape, x_end);
+  return {curve, fitted.quality, table_error(fitted.shape, curve)};
 }
 
 }  // namespace granulaw

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/larger.hpp"
-#include "atlas/shape_function.hpp"
+#include "atlas/law_shape.hpp"
 #include "atlas/speed_interpolation.hpp"
 
 namespace granulaw {
@@ -32,8 +32,8 @@ AtReversal at_reversal(const LawShape& shape, double onset, double x_end, double
 {
   const double q = 0.25 * std::log(x / onset), q_end = 0.25 * std::log(x_end / onset);
   const double elastic = x * std::sqrt(x) * shape.elastic.force_ratio(std::pow(x, 0.25));
-  const double reduction = ShapeFunction(shape.force_reduction, q_end).value(q);
-  const double dissipation = ShapeFunction(shape.dissipation, q_end).value(q);
+  const double reduction = Spline::through(shape.force_reduction, q_end).value(q);
+  const double dissipation = Spline::through(shape.dissipation, q_end).value(q);
   return {elastic * std::exp(-reduction), std::exp(-0.5 * dissipation)};
 }
 

@@ -1,0 +1,73 @@
+#include "atlas/departure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlas/tabulate_curve.hpp"
+
+namespace granulaw {
+
+namespace {
+
+double coordinate(double over_onset)
+{
+  return std::pow(std::max(1.0, over_onset), 0.25) - 1;
+}
+
+}  // namespace
+
+Departure::Departure(const Points& points)
+{
+  constexpr int intervals = 24;
+  /// Penalty over the mean weight: it bridges a factor of three between runs and follows each within 1e-3 of a
+  /// difference.
+  constexpr double stiffness = 0.02;
+  for (std::size_t f = 0; f < points.size(); ++f) {
+    if (points[f].empty()) continue;
+    std::vector<Spline::Sample> samples;
+    double last = 0;
+    for (const Point& p : points[f]) {
+      samples.push_back({coordinate(p.over_onset), p.value, p.weight});
+      last = std::max(last, samples.back().q);
+      end_ = std::max(end_, p.over_onset);
+    }
+    if (samples.size() == 1) {
+      Spline::Sample half = samples.front();
+      half.q *= 0.5, half.value *= 0.25;
+      samples.push_back(half);
+    }
+    functions_[f] = {Spline::fit(samples, last, intervals, stiffness, 2), last};
+  }
+}
+
+Departure Departure::between(const Curve& own, const LawShape& guide)
+{
+  constexpr int places = 96;
+  const double onset = guide.onset, end = std::min(own.end(), guide.end);
+  const Curve curve = tabulate(guide, end);
+  Points points;
+  for (int k = 1; k <= places; ++k) {
+    const double over_onset = std::pow(end / onset, static_cast<double>(k) / places);
+    const double x = std::min(end, onset * over_onset);
+    const Curve::Top a = own.top(x), b = curve.top(x);
+    const double difference[] = {-std::log(a.force / b.force), std::log(own.radius(x) / curve.radius(x)),
+                                 -std::log(a.span / b.span), -std::log(a.kept / b.kept), a.share - b.share};
+    for (std::size_t f = 0; f < points.size(); ++f) points[f].push_back({over_onset, difference[f]});
+  }
+  return Departure(points);
+}
+
+double Departure::at(std::size_t function, double over_onset) const
+{
+  const Function& f = functions_[function];
+  return f.spline.value(std::min(coordinate(over_onset), f.end));
+}
+
+void Departure::add_to(LawShape& master) const
+{
+  for (std::size_t f = 0; f < functions_.size(); ++f)
+    for (std::size_t k = 1; k < LawShape::nodes; ++k)
+      (master.*LawShape::functions[f])[k] += at(f, master.overlap(k) / master.onset);
+}
+
+}  // namespace granulaw

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "atlas/law_shape.hpp"
+#include "contact/curve.hpp"
+
+namespace granulaw {
+
+/// Difference between a law and its guide, a law that needs no run: by overlap/onset, in which it is small, smooth
+/// and hardly depends on the stiffness. So few runs show it, and spheres of other stiffness share it.
+///
+/// Each of the five functions (LawShape::functions) is a cubic spline by (x/onset)^(1/4) in 24 intervals that
+/// leaves the onset with zero value and slope, by penalised least squares on second differences. Knots even in
+/// ln x, or a penalty on third differences, swing between the onset and the first run. Beyond the last point it
+/// keeps its value.
+class Departure
+{
+ public:
+  /// One difference: ln or value as LawShape has it, of the law less the guide.
+  struct Point
+  {
+    double over_onset, value;  ///< overlap/onset, over 1
+    double weight = 1;
+  };
+  using Points = std::array<std::vector<Point>, 5>;  ///< in the order of LawShape::functions
+
+  /// None: 0.
+  Departure() = default;
+  /// A function with a single point, or none, is proportional to the square of the coordinate, or 0.
+  explicit Departure(const Points& points);
+  /// Of a slow law from its guide, up to where one of them ends.
+  static Departure between(const Curve& own, const LawShape& guide);
+
+  /// Adds it to a master at the same overlap/onset; velocity effects stay.
+  void add_to(LawShape& master) const;
+  double at(std::size_t function, double over_onset) const;
+  /// Overlap/onset of the last point; 0 of none.
+  double end() const { return end_; }
+
+ private:
+  struct Function
+  {
+    Spline spline;
+    double end = 0;  // by the coordinate
+  };
+  std::array<Function, 5> functions_;
+  double end_ = 0;
+};
+
+}  // namespace granulaw
