@@ -119,8 +119,8 @@ void refuse_other_histories(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
     std::memcpy(&written, (lmp->modify->*exposed(RestartStates{}))[k], sizeof written);
     if (static_cast<int>(written) != values)
       fail(setup.where,
-           "the restart file has another number of values for each contact: it is of other models or words, "
-           "or of a version of the plug-in that kept others; go on with those",
+           "the restart file has another number of values for each contact (other models, keywords or version of the "
+           "plug-in); use those",
            std::to_string(static_cast<int>(written)), std::to_string(values));
   }
 }

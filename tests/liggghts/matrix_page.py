@@ -8,7 +8,7 @@ from matrix_known import KNOWN
 
 INTRO = """# The matrix: LIGGGHTS's commands with the models mpm and thornton
 
-This page says which of LIGGGHTS's commands work with the models `mpm` and `thornton`. Search it for your command. Of {count} commands, options and situations that touch a contact, a particle or a wall, {same} work as with
+LIGGGHTS's commands with the models `mpm` and `thornton`. Search for your command. Of {count} commands, options and situations that touch a contact, a particle or a wall, {same} work as with
 stock `hertz`. If a model refuses a word, the run stops with a sentence.
 
 {counts}
@@ -18,7 +18,7 @@ The test `liggghts_matrix` fails if a command gets another outcome than these. `
 
 HOW = """## How they are tried
 
-Eighteen spheres (R = 1.7 mm, powder and glass) are thrown at each other over a floor, 600 steps of 0.2 us. Each command or option changes or adds some lines (`tests/liggghts/matrix_*.py`), and runs {runs} times with both
+Eighteen spheres (R = 1.7 mm, powder and glass) collide over a floor, 600 steps of 0.2 us. Each command or option changes or adds some lines (`tests/liggghts/matrix_*.py`), and runs {runs} times with both
 models beside stock `hertz`; fewer times where LIGGGHTS refuses the plain deck:
 
 | runs | what must hold |
@@ -27,7 +27,7 @@ models beside stock `hertz`; fewer times where LIGGGHTS refuses the plain deck:
 | elastic and plastic with `energy on` | The sum of kinetic energy, gravity, energy held, energy dissipated and energy that waves took is constant within {energy:g}, unless the command does work |
 | plastic, all three words, on 1 and 2 ranks; mpm also with composed pair laws and `waves on` | The run ends well; every value is a number; both ranks give the same trajectory within {ranks:g} |
 
-Not tried: `fix external` and `couple/cfd`, which need a second program; `sph`, bonds and superquadrics, which are not contacts of spheres or not built; commands that only move numbers about (`echo`, `group`, `variable`).
+Not tried: `fix external` and `couple/cfd`, which need a second program; `sph`, bonds and superquadrics, which are not contacts of spheres or not built. Nor were commands tried that only move numbers about (`echo`, `group`, `variable`).
 
 To try one: `python3 tests/liggghts/matrix.py WORDS` with the environment of the tests. It runs those whose group or name holds one of the words.
 """
@@ -35,7 +35,7 @@ To try one: `python3 tests/liggghts/matrix.py WORDS` with the environment of the
 # outcome of a cell: title, what it says
 KINDS = {
     "DEFECT": ("Defects", "Anything else than the outcomes below."),
-    "refused": ("Refused", "The models refuse these, with the sentence of mpm; thornton's differs in the model's name. With stock Hertz they work, or crash."),
+    "refused": ("Refused", "The models refuse these, with the message of mpm; thornton's differs in the model's name. With stock Hertz they work, or crash."),
     "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these with every model, or crashes."),
     "kept": ("Works where stock hertz loses histories", "Stock LIGGGHTS gives the histories of contacts to other pairs here, or writes them one step old. `liggghts-mpm` mends this, for hertz as well. "
              "All comparisons of the [last section](#how-they-are-tried) hold, with hertz in `liggghts-mpm`."),

@@ -16,7 +16,7 @@ RUNS = (("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_
 
 INTRO = """# Trials of the LIGGGHTS models
 
-This page shows that LIGGGHTS's bookkeeping leaves forces and trajectories alone under the models `mpm` and `thornton`: exchange between ranks, rebuilt neighbour lists, restarts, meshes, moving walls. Every trial stays
+LIGGGHTS's bookkeeping does not change forces and trajectories under the models `mpm` and `thornton`: exchange between ranks, rebuilt neighbour lists, restarts, meshes, moving walls. Every trial stays
 within its limit. The first table has the limit that the test sets, and the largest value that it found.
 
 `mpm` follows the synthetic law of `tests/unit/synthetic_law.hpp` (E*/Y = 100), R = 1.7 mm. `hertz` (without damping) and `thornton_ning` are LIGGGHTS's own, at `contact_distance_factor 1.01`.
@@ -102,14 +102,14 @@ def of_each_kind(rows):
     for row in rows:
         if row["ranks"] == 1:
             kinds.setdefault(re.sub(r"\(.*?\)|[-+.\de]*\d", "#", row["line"]), row["line"])
-    return [["the line"]] + [[cell(line)] for line in kinds.values()]
+    return [["message"]] + [[f"`{cell(line)}`"] for line in kinds.values()]
 
 
 # table: title, note, how its rows are shown
 TABLES = {
     "drop worst": ("Drops at 50 velocities", "One run has drops of 0.03 to 12 m/s, with 50 time steps in the shortest contact.",
                    list_of(("partner", "kind"), ("drops", "count"), ("largest error of e", "worst"))),
-    "forces": ("Forces under exchange, rebuild and sorting", "27 spheres are thrown together with friction. The table has the largest difference of a force component over 100 steps, over the "
+    "forces": ("Forces under exchange, rebuild and sorting", "27 spheres collide with friction. The table has the largest difference of a force component over 100 steps, over the "
                "largest force.", grid_of((("way", "way"),), "model", ("", "difference"))),
     "collapse": ("Collapse of 500 spheres", "All runs start from one restart file with open contacts, without viscous damping, and go on for 10,000 steps. The table has the largest difference of a coordinate "
                  "from the first run, over R. The yardstick is the same run with each sphere moved by one unit in the last place: rounding alone takes the spheres so far apart. A lost history lies far above it, as stock "
@@ -136,7 +136,7 @@ TABLES = {
     "steps": ("Steps in a contact", "The table has e of one impact under mpm at 10, 20, 50 and 100 steps a contact. The error falls with the square of the step.",
               grid_of((("partner", "kind"), ("V m/s", "speed"), ("law", "law")), "steps", ("", "e"))),
     "ratios": ("Extreme ratios", "Each pair is run in both orders, because a pair law must not depend on which particle comes first.", both_orders),
-    "rest": ("A bed comes down", "27 frictionless spheres are thrown into a box at 1 m/s, without any damping. *Growth* is the largest rise of kinetic plus potential energy over the start's, without and with the dissipated energy.",
+    "rest": ("A bed comes down", "27 frictionless spheres enter a box at 1 m/s, without any damping. *Growth* is the largest rise of kinetic plus potential energy over the start's, without and with the dissipated energy.",
              list_of(("model", "model"), ("steps", "steps"), ("growth", "mechanical"), ("growth with dissipated", "gained"), ("kinetic energy: start J", "kinetic_start"),
                      ("half-way J", "kinetic_half"), ("end J", "kinetic_end"))),
     "default damping": ("A bed comes to rest", "The same bed settles under 100 g with the default `elasticDamping`. The mechanical energy is kinetic energy + gravity + what contacts hold. *Rise* is its largest rise above its least value "
@@ -147,7 +147,7 @@ TABLES = {
                 list_of(("model", "model"), ("elasticDamping", "damping"), ("steps", "steps"), ("rise", "growth"), ("motion", "moves"))),
     "shaken": ("A shaken bed", "The floor shakes at 1 kHz by 0.2 mm.",
                list_of(("model", "model"), ("floor, peak m/s", "floor"), ("fastest sphere, up, m/s", "fastest"), ("kinetic J", "kinetic"))),
-    "stops": ("What stops a run", "Under `thermo_modify lost ignore` LIGGGHTS drops a lost particle without a word. `fix granulaw/runaway`, which comes with the models, ends the run instead, on one rank as on two. "
+    "stops": ("Messages that stop a run", "Under `thermo_modify lost ignore` LIGGGHTS drops a lost particle without a message. `fix granulaw/runaway`, which comes with the models, ends the run instead, on one rank as on two. "
               "The table has one line of each kind.", of_each_kind),
 }
 

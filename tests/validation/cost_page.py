@@ -56,7 +56,7 @@ def main():
 
 INTRO = """# Cost: error against CPU seconds
 
-This page shows how many CPU seconds a run costs for how small an error, on one core of: {processor} (a virtual machine that names no model).
+Error of a run against CPU seconds, on one core of: {processor} (a virtual machine that names no model).
 
 ![L2 error of the loading force against CPU seconds](cost.png)
 

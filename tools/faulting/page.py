@@ -67,9 +67,8 @@ def page(results, seed, picked):
     by = lambda verdict: [r for r in results if r["verdict"] == verdict]
     done = f"{len(results)} of {picked} are done" if len(results) < picked else f"All {picked} are done"
     lines = ["# Faults put in by hand: what the quick tests notice", "",
-             "This page shows how many one-line faults in the code the quick tests catch.", "",
-             f"**The tests catch {caught} of the {changing} faults that change a result ({100 * caught / max(1, changing):.0f} %).** Tests have been added for faults of this seed that got",
-             "through. Only a seed that nobody has worked on can say how many of all faults are caught.", "",
+             "One-line faults in the code, and the quick tests that catch them.", "",
+             f"**{caught} of the {changing} faults that change a result are caught ({100 * caught / max(1, changing):.0f} %).** Some tests were written for faults of this seed. The rate on an unused seed is not known.", "",
              "| | " + " | ".join(VERDICTS) + " |", "|---|" + "---|" * len(VERDICTS)]
     for name, numbers in counts(results, "kind", KINDS) + counts(results, "folder", FOLDERS) + [total(results)]:
         lines.append(f"| {name} | " + " | ".join(map(str, numbers)) + " |")
@@ -81,7 +80,7 @@ def page(results, seed, picked):
               "- *Not compiled*: the compiler is the test.", "",
               f"`tools/faults --seed {seed}` puts faults into a copy of the sources, one line and one fault at a time, and runs the quick",
               f"tests on each. The seed picks the places; {sum(r['named'] for r in results)} faults are chosen by hand. {done}. `build/faults/results.jsonl` has each",
-              "fault, and the test that caught it. `--page` writes this page."]
+              "fault, and the test that caught it. `--page` writes the table."]
     for verdict, head, last in (("survived", "changes", lambda r: ", ".join(r["changed"])), ("no change seen", "", None)):
         if by(verdict):
             heads = ["kind", "file", "line", "with the fault"] + ([head] if last else [])

@@ -41,7 +41,7 @@ void check(const PressRequest& r)
 void check_numbers(const PressRequest& r)
 {
   require(r.depth >= shallowest && r.depth <= 0.8, "--depth",
-          fmt::format("{:g} (a share of the radius)", r.depth), fmt::format("{:g} to 0.8", shallowest));
+          fmt::format("{:g} (a fraction of the radius)", r.depth), fmt::format("{:g} to 0.8", shallowest));
   if (r.ramp)
     require(*r.ramp >= 1 && *r.ramp <= 1e6, "--ramp", fmt::format("{:g} R/c*", *r.ramp), "1 to 1e6");
 }
@@ -95,7 +95,7 @@ void define(Options& command)
 {
   const auto r = std::make_shared<PressRequest>();
   r->run.add_to(command);
-  command.add_option("--depth", r->depth, "deepest overlap, as a share of the radius")->required();
+  command.add_option("--depth", r->depth, "deepest overlap, as a fraction of the radius")->required();
   command.add_option("--support", r->support,
                      "free (as in a collision) or midplane (as in finite-element references)");
   command.add_option("--ramp", r->ramp,

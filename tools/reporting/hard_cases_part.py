@@ -32,7 +32,7 @@ def write(page, found, path):
                   f"{len(failed)} failed, {len(refused)} refused" + (f"\nenergy error at most {energy:.0e}" if energy is not None else "")]])
     page.text(f"{len(rows)} cases: {len(rows) - len(failed) - len(refused)} stable with their energy balance closed, {len(refused)} refused with a "
               f"sentence, {len(failed)} failed" + (": **" + "**, **".join(failed) + "**." if failed else "."))
-    page.table(["case", "what it stresses", "e", "from grid to grid", "deviation from reference", "reference", "energy error", "δ_max/R", "steps",
+    page.table(["case", "stressed by", "e", "from grid to grid", "deviation from reference", "reference", "energy error", "δ_max/R", "steps",
                 "CPU s", "verdict"],
                [[r["name"], r["stress"], "" if r.get("e") is None else f"{r['e']:.4f}", percent(r.get("change")), percent(r.get("deviation")),
                  r.get("reference", ""), small(r.get("energy_error")), "" if r.get("depth") is None else f"{r['depth']:.3g}",
