@@ -49,7 +49,7 @@ class PlanPage(unittest.TestCase):
 
     def test_templates(self):
         """Decks that LIGGGHTS refuses end the plan with LIGGGHTS's own sentence."""
-        self.assertIn("What LIGGGHTS refuses ends the plan with LIGGGHTS's own sentence", PAGE)
+        self.assertIn("An error of LIGGGHTS ends the plan with LIGGGHTS's message", PAGE)
         for radius, taken in (("constant 0.002", True), ("uniform 0.001 0.002", False), ("gaussian number 0.002 0.0001", False)):
             deck = TEMPLATES + f"fix t all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius {radius}\n"
             (self.folder / "in.t").write_text(deck)
