@@ -3,7 +3,7 @@
 
     planned.py out [--write]      # --write: into examples/README.md, between its marks
 
-Largest speeds over all seeds; "the scene" compares the speed of the yielding body (half a like pair's, a wall's own)."""
+Largest speeds over all seeds; "yielding body": ratio of its speeds (half a like pair's, a wall's own)."""
 import json
 import pathlib
 import shlex
@@ -95,7 +95,7 @@ def compare(deck, share=1.0):
 
 
 def table(out):
-    lines = ["| deck | model (runs) | pairs: planned, visited m/s | ratio | walls: planned, visited m/s | ratio | the scene |",
+    lines = ["| deck | model (runs) | pairs: planned, visited m/s | ratio | walls: planned, visited m/s | ratio | yielding body |",
              "|---|---|---|---|---|---|---|"]
     rows = [(deck.name, *row) for deck in sorted(p for p in out.iterdir() if p.is_dir()) for row in compare(deck)]
     for name, model, runs, bound, seen, plan in rows:

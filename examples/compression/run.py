@@ -33,9 +33,9 @@ def measure(folder, die):
     for f in FRACTIONS:
         if curve["fraction"][-1] >= f:
             found[f"stress at solid fraction {f}, Pa"] = float(np.interp(f, curve["fraction"], curve["stress"]))
-            found[f"largest flattening/R at {f}"] = float(np.interp(f, curve["fraction"], curve["overlap"]))
+            found[f"largest overlap per sphere/R at {f}"] = float(np.interp(f, curve["fraction"], curve["overlap"]))
     pressed = curve["fraction"] > 0.5  # before: the fall
-    for name, reached in (("flattening/R = 0.1", curve["overlap"] > OVERLAP), ("the end of the law's table", curve["beyond"] > 0)):
+    for name, reached in (("overlap per sphere/R = 0.1", curve["overlap"] > OVERLAP), ("the end of the law's table", curve["beyond"] > 0)):
         where = np.flatnonzero(reached & pressed)
         if len(where):
             found[f"solid fraction at {name}"] = float(curve["fraction"][where[0]])

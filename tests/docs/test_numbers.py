@@ -66,7 +66,7 @@ class Times(unittest.TestCase):
                 self.assertTrue(0.9 * min(seconds) <= float(low) <= min(seconds) and max(seconds) <= float(high) <= 1.1 * max(seconds), (name, low, high))
 
     def test_three_dimensions(self):
-        fast, slow, die = table_with(page("docs/guide/shapes.md"), "| run | CPU s | stated error |")
+        fast, slow, die = table_with(page("docs/guide/shapes.md"), "| run | CPU s | error estimate |")
         told = re.search(r"three dimensions \| (\d+) to (\d+) CPU seconds at 100 V_y, (\d+) to (\d+) at 15 V_y", page("docs/guide/when-it-stops.md"))
         for row, low, high in ((fast, told[1], told[2]), (slow, told[3], told[4])):
             for seconds in row[1].split(","):

@@ -173,7 +173,7 @@ class Compression(Run):
 
     def test_it_goes_where_pair_laws_end(self):
         for model in ("hertz", "thornton", "mpm"):
-            self.assertIn("solid fraction at flattening/R = 0.1", self.result[model])
+            self.assertIn("solid fraction at overlap per sphere/R = 0.1", self.result[model])
 
 
 class Hopper(Run):
