@@ -190,8 +190,8 @@ void Planner::after_command()
     cleared_ = record_.count();
     has_box_ = false;
   } else if (!has_box_) {
-    record_.domain.include(domain.boxlo);
-    record_.domain.include(domain.boxhi);
+    record_.domain.include(Box::Point{domain.boxlo[0], domain.boxlo[1], domain.boxlo[2]});
+    record_.domain.include(Box::Point{domain.boxhi[0], domain.boxhi[1], domain.boxhi[2]});
     has_box_ = true;
   }
   if (lmp_->atom->natoms != natoms_) atoms_where_ = where_;
@@ -392,7 +392,7 @@ void Planner::find_atoms()
         include_radius(s, now.radius);
         s.density = std::max(s.density, now.density);
         if (now.v != old.v) s.speed = std::max(s.speed, norm(now.v));
-        if (moved) s.centres.include(now.x.data());
+        if (moved) s.centres.include(now.x);
         s.together.clear();
       }
       if (found) continue;
@@ -412,7 +412,7 @@ void Planner::find_atoms()
       s.together.clear();
     include_radius(s, now.radius);
     s.density = std::max(s.density, now.density);
-    s.centres.include(now.x.data());
+    s.centres.include(now.x);
     s.speed = std::max(s.speed, norm(now.v));
     if (known == atoms_.end()) s.count += 1;  // else its type is new, and it was counted
   }

@@ -59,31 +59,6 @@ void add(std::vector<std::string>& list, const std::string& text)
 
 }  // namespace
 
-void Box::include(const double* point)
-{
-  for (std::size_t k = 0; k < 3; ++k) {
-    low[k] = std::min(low[k], point[k]);
-    high[k] = std::max(high[k], point[k]);
-  }
-}
-
-void Box::include(const Box& other)
-{
-  if (other.empty()) return;
-  include(other.low.data());
-  include(other.high.data());
-}
-
-Box Box::within(const Box& other) const
-{
-  Box result = *this;
-  for (std::size_t k = 0; k < 3; ++k) {
-    result.low[k] = std::max(low[k], other.low[k]);
-    result.high[k] = std::min(high[k], other.high[k]);
-  }
-  return result;
-}
-
 double Record::count() const
 {
   double sum = 0;

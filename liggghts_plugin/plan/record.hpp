@@ -1,25 +1,15 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/box.hpp"
+
 // A deck's scene as LIGGGHTS holds it in memory, in the deck's units. tools/deck reads it (deck/scene.hpp).
 namespace granulaw::plugin::plan {
-
-struct Box
-{
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-
-  bool empty() const { return low[0] > high[0]; }
-  void include(const double* point);
-  void include(const Box& other);
-  Box within(const Box& other) const;
-};
 
 struct Material
 {

@@ -88,8 +88,8 @@ MeshView look_at(lmp::FixMeshSurface& fix)
   lmp::TriMesh& mesh = *fix.triMesh();
   for (int i = 0; i < mesh.sizeLocal(); ++i)
     for (int j = 0; j < 3; ++j) {
-      double node[3];
-      mesh.node(i, j, node);
+      Box::Point node;
+      mesh.node(i, j, node.data());
       view.box.include(node);
     }
   if (NodeVectors* v = velocities_of(mesh))

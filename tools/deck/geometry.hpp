@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "base/box.hpp"
 
 namespace granulaw::deck {
 
@@ -31,22 +31,9 @@ inline double norm(const Vec3& a)
 }
 
 /// Volume of a sphere.
-double ball_volume(double radius);
-
-/// A box with edges along the axes; as made it is empty. Sides may be infinite.
-struct Box
+inline double ball_volume(double radius)
 {
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-
-  bool empty() const { return low[0] > high[0] || low[1] > high[1] || low[2] > high[2]; }
-  void include(const Vec3& p);
-  void include(const Box& other);
-  Box within(const Box& other) const;  ///< the part of this in `other`
-  Vec3 size() const { return high - low; }
-  /// Largest and smallest coordinate along the unit vector `axis`.
-  double top(const Vec3& axis) const;
-  double bottom(const Vec3& axis) const;
-};
+  return 4.0 / 3.0 * M_PI * radius * radius * radius;
+}
 
 }  // namespace granulaw::deck

@@ -156,7 +156,7 @@ class LawsAtHand
   {
     if (follows_hertz(m)) return {};
     for (const bool own : {true, false})
-      if (const auto pair = own ? by_deck(m, 1, m.wall ? deck::Box::infinity : 1) : by_atlas(m)) {
+      if (const auto pair = own ? by_deck(m, 1, m.wall ? Box::infinity : 1) : by_atlas(m)) {
         const Replay replay = replay_collision(*pair, r_eff, m_eff, speed, 2000);
         if (own && replay.left_range) continue;
         // past the table the force is extrapolated: still an answer about depth, capped by whoever builds
