@@ -57,7 +57,7 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
     peratom_flag = 1;
     size_peratom_cols = EnergyTally::columns;
     peratom_freq = 1;
-    atom->add_callback(0);  // behind the property's own, which exists already: grow_arrays() finds it moved
+    atom->add_callback(0);
     grow_arrays(atom->nmax);
   }
   read_keywords(narg, arg);
@@ -65,14 +65,36 @@ FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)
 
 FixStats::~FixStats()
 {
-  if (peratom_flag) atom->delete_callback(id, 0);
+  if (!peratom_flag) return;
+  atom->delete_callback(id, 0);
+  memory->destroy(kept_energies_);
 }
 
-void FixStats::grow_arrays(int)
+void FixStats::grow_arrays(int nmax)
+{
+  memory->grow(kept_energies_, nmax, EnergyTally::columns, "granulaw/stats:energies");
+  in_run_ ? find_energies() : keep_energies();
+}
+
+void FixStats::copy_arrays(int from, int to, int)
+{
+  std::copy_n(kept_energies_[from], EnergyTally::columns, kept_energies_[to]);
+}
+
+void FixStats::find_energies()
 {
   EnergyTally& tally = session_->tally;
   tally.find(lmp, session_->dissipated_energy);
-  array_atom = tally.per_atom ? tally.per_atom.rows() : nullptr;
+  array_atom = tally.per_atom ? tally.per_atom.rows() : kept_energies_;
+}
+
+void FixStats::keep_energies()
+{
+  const ParticleColumns now = ParticleColumns::find(lmp, EnergyTally::energies);
+  for (int a = 0; a < atom->nlocal; ++a)
+    for (int column = 0; column < EnergyTally::columns; ++column)
+      kept_energies_[a][column] = now ? now.rows()[a][column] : 0.0;
+  array_atom = kept_energies_;
 }
 
 void FixStats::read_keywords(int narg, char** arg)
@@ -283,9 +305,10 @@ void FixStats::pre_force(int)
 {
   session_->bodies.update(lmp);
   step_of_rows_ = -1;
+  in_run_ = true;
   if (!session_->energy) return;
-  EnergyTally& tally = session_->tally;
-  tally.find(lmp, session_->dissipated_energy);
+  find_energies();
+  const EnergyTally& tally = session_->tally;
   for (int a = 0; tally.per_atom && a < atom->nlocal; ++a) tally.per_atom.rows()[a][EnergyTally::stored] = 0.0;
 }
 
@@ -306,9 +329,10 @@ ContactStatistics FixStats::total() const
 
 double FixStats::stored_energy() const
 {
-  if (!session_->energy || !session_->tally.per_atom) return 0.0;
+  if (!session_->energy) return 0.0;
+  const ParticleColumns now = ParticleColumns::find(lmp, EnergyTally::energies);
   double sum = 0.0;
-  for (int a = 0; a < atom->nlocal; ++a) sum += session_->tally.per_atom.rows()[a][EnergyTally::stored];
+  for (int a = 0; now && a < atom->nlocal; ++a) sum += now.rows()[a][EnergyTally::stored];
   return sum;
 }
 
@@ -397,6 +421,8 @@ void FixStats::end_of_step()
 
 void FixStats::post_run()
 {
+  in_run_ = false;
+  if (peratom_flag) keep_energies();
   largest_dt_ = std::max(largest_dt_, update->dt);
   warn_of_long_steps();
   if (writes_stats()) add_energies();

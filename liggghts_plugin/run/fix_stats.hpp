@@ -60,6 +60,7 @@ class FixStats : public LAMMPS_NS::Fix
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
   void grow_arrays(int nmax) override;
+  void copy_arrays(int from, int to, int delete_flag) override;
 
  private:
   void read_keywords(int narg, char** arg);
@@ -68,6 +69,10 @@ class FixStats : public LAMMPS_NS::Fix
   /// `with_open`: as the ranks keep it, with the contacts that are open (ContactStatistics::Pair::overlap).
   ContactStatistics sum_of_ranks(bool with_open) const;
   double stored_energy() const;
+  /// LIGGGHTS reads the energies of the particles by an address: in a run that of the property, between runs
+  /// that of a copy, since a command may remove the property.
+  void find_energies();
+  void keep_energies();
   bool writes_stats() const;
   /// A row of the energies over time. Collective.
   void add_energies();
@@ -93,6 +98,8 @@ class FixStats : public LAMMPS_NS::Fix
 
   std::shared_ptr<Session> session_;
   std::string path_, last_table_;
+  double** kept_energies_ = nullptr;  // of the particles, between runs
+  bool in_run_ = false;
   double largest_dt_ = 0;
   int every_ = 0;  ///< steps between two files; 0: at the end of a run alone
   EnergySeries energies_;

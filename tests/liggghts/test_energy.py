@@ -90,6 +90,24 @@ class Energy(Deck):
             self.assertLess(abs(error), 2e-5, f"{tangential} {ranks}")
             self.assertGreater(other, 0.05 * dissipated)
 
+    def test_property_removed_between_runs(self):
+        """`unfix granulaw_energy`: what a dump, a variable and the thermo value read is a number of the particle, not what was freed."""
+        data_file(self.folder / "bed.data")
+        deck = start() + model(f"law {self.law} materials powder energy on", "history", 0.3) + SUM
+        deck += ("dump end all custom 5000 end.dump id f_granulaw[1] f_granulaw[2] f_granulaw[3]\ndump_modify end format \"%d %.17g %.17g %.17g\"\n"
+                 "variable one equal f_granulaw[1][2]\n" + f"run 15000\n{PRINT}unfix granulaw_energy\n"
+                 'print "BETWEEN ${one} ${s}"\n' + f"run 0\n{PRINT}run 5000\n{PRINT}")
+        text = self.run_deck(deck, environment={"MALLOC_PERTURB_": "85"})  # what is freed becomes 0xaa
+        before, start_again, after = self.results(text, "ENERGY")
+        self.assertEqual(self.result(text, "BETWEEN")[1], 0.0)  # no property, nothing held
+        self.assertGreater(before[5], 0.0)
+        self.assertEqual(start_again[5:], [0.0, 0.0])  # a new property begins at zero
+        self.assertAlmostEqual(start_again[4], start_again[2], delta=1e-9 * before[2])
+        self.assertGreater(after[5], 0.0)
+        rows = (self.folder / "end.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
+        for column, total in zip((1, 2, 3), after[4:]):
+            self.assertAlmostEqual(sum(float(row.split()[column]) for row in rows), total, delta=1e-9 * abs(total))
+
     def test_off_by_default(self):
         """Without `energy on` nothing is stored, and switching it on does not change a single digit of the motion."""
         data_file(self.folder / "bed.data")
