@@ -372,7 +372,7 @@ class Particles(Geometry):
         self.assertGreater(after, before)  # it came back or was slowed
         self.assertGreater(last[3], 0)
         loss = first[0] + first[1] - last[0] - last[1]
-        # some 50 steps a contact: 3e-4 of e (test_hard_cases.py, TimeStep), twice that of the energy
+        # some 50 steps a contact: 3e-4 of e (test_restitution.py, LIMITS), twice that of the energy
         self.assertAlmostEqual(loss / last[2], 1.0, delta=1e-3)
         self.assertLess(worst(abs(v) for row in rows for v in row), 3 * abs(before))
 

@@ -7,7 +7,7 @@ import os
 import subprocess
 import unittest
 
-from collisions import pair_deck
+from collisions import pair_deck, wall_deck
 from harness import GLASS, POWDER, Deck
 
 RADII = {"powder": 1.7e-3, "glass": 3.4e-3}
@@ -20,8 +20,10 @@ class Drops:
     """Of whatever law setUp wrote to self.law."""
 
     def tool(self, first, second, speed):
-        done = subprocess.run([os.environ["GRANULAW_MPM"], "law", str(self.law), "--pair", f"{first.name}:{second.name}", "--radius",
-                               str(RADII[first.name]), "--radius2", str(RADII[second.name]), "--velocity", repr(speed), "--json"],
+        return self.tool_of(f"{first.name}:{second.name}", speed, "--radius", str(RADII[first.name]), "--radius2", str(RADII[second.name]))
+
+    def tool_of(self, pair, speed, *radii):
+        done = subprocess.run([os.environ["GRANULAW_MPM"], "law", str(self.law), "--pair", pair, *radii, "--velocity", repr(speed), "--json"],
                               capture_output=True, text=True, check=True)
         return json.loads(done.stdout)
 
@@ -39,6 +41,17 @@ class Drops:
             for ((first, _), speed), law, (after,) in zip(cases, laws, found):
                 self.assertAlmostEqual(after / speed, law["e"], delta=TOLERANCE, msg=f"{first.name} first, {speed} m/s, {ranks} ranks")
         self.assertLess(laws[1]["e"], 0.97)
+
+    def test_of_one_body(self):
+        """On the rigid wall and against its like, of the same radius and of another."""
+        words, radius = f"law {self.law} materials powder elasticDamping off", RADII["powder"]
+        for pair, radius2 in (("powder:wall", None), ("powder:powder", radius), ("powder:powder", 2 * radius)):
+            laws = [self.tool_of(pair, speed, "--radius", str(radius), *(["--radius2", str(radius2)] if radius2 else [])) for speed in SPEEDS]
+            steps = [law["contact_time_s"] / 50 for law in laws]
+            found = self.run_each((wall_deck("mpm", words, POWDER, radius, v, dt) if pair == "powder:wall" else
+                                   pair_deck("mpm", words, (POWDER, POWDER), (radius, radius2), v, dt) for v, dt in zip(SPEEDS, steps)), "SPEED")
+            for speed, law, (after,) in zip(SPEEDS, laws, found):
+                self.assertAlmostEqual(after / speed, law["e"], delta=1e-3, msg=f"{pair} {radius2} {speed} m/s")  # test_restitution.LIMITS[50]
 
 
 class Synthetic(Drops, Deck):
@@ -68,7 +81,7 @@ class Computed(Drops, Deck):
         materials.write_text("".join(
             f"[material.{m.name}]\ndensity = {m.density}\nyoungs_modulus = {m.youngs_modulus}\npoisson_ratio = {m.poisson_ratio}\n" +
             (f"yield_stress = {m.yield_stress}\n" if m is POWDER else "") for m in (POWDER, GLASS)))
-        pairs = [word for pair in ("powder:glass", "powder:powder", "glass:glass") for word in ("--pair", pair)]
+        pairs = [word for pair in ("powder:glass", "powder:powder", "glass:glass", "powder:wall") for word in ("--pair", pair)]
         done = subprocess.run([os.environ["GRANULAW_MPM"], "table", materials, *pairs, "--own-law", "-o", self.law], check=True,
                               capture_output=True, text=True)
         self.assertIn("powder:glass: by ", done.stdout + done.stderr)

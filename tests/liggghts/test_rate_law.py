@@ -1,10 +1,10 @@
-"""A law of a rate-dependent material in LIGGGHTS: for particles of its own size only, and then as `mpm law` replays it."""
+"""A law of a rate-dependent material in LIGGGHTS: for particles of its own size only (test_restitution.py: as the replay has it)."""
 import json
 import math
 import unittest
 
 from collisions import pair_deck, wall_deck
-from harness import GLASS, POWDER, Deck, sphere_mass
+from harness import GLASS, POWDER, Deck
 
 RADIUS = 1.7e-3
 
@@ -14,11 +14,6 @@ class RateLaw(Deck):
         super().setUp()
         self.fixture("write", self.law, "rate", RADIUS)
         self.words = f"law {self.law} materials powder elasticDamping off"
-
-    def test_its_own_size(self):
-        found = self.result(self.run_deck(wall_deck("mpm", self.words, POWDER, RADIUS, 1.0, 2e-8).replace("run 120", "run 3000")), "SPEED")[0]
-        e, _, _ = self.fixture("mpm", self.law, "powder", "wall", RADIUS, sphere_mass(RADIUS, POWDER.density), 1.0)
-        self.assertAlmostEqual(found, e, delta=1e-3)  # of the step, a hundred a contact
 
     def test_another_size_is_refused(self):
         for factor, units in ((1.2, "si"), (0.9, "si")):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """docs/evidence/trials.md from the tests themselves: trials_page.py DOCS_FOLDER (the target trials_page sets the environment).
 
-Runs test_drop50, test_invariance (full: 10,000 steps), test_geometry and test_hard_cases (full: a million steps), keeps what they measured in
+Runs test_restitution, test_drop50, test_invariance (full: 10,000 steps), test_geometry and test_hard_cases (full: a million steps), keeps what they measured in
 trials_rows/rows.jsonl and writes it. trials_page.py DOCS_FOLDER ROWS.jsonl makes the page from rows that are there."""
 import json
 import os
@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-RUNS = (("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_invariance.py", "full", "Collapse"),
+RUNS = (("test_restitution.py",), ("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_invariance.py", "full", "Collapse"),
         ("test_geometry.py",), ("test_hard_cases.py", "full"))
 
 INTRO = """# Trials of the LIGGGHTS models
