@@ -1,4 +1,4 @@
-"""The book: one HTML site that needs no network. Built by Sphinx with MyST from Debian's packages:
+"""The documentation: one HTML site that needs no network. Built by Sphinx with MyST from Debian's packages:
 
     apt-get install python3-sphinx python3-myst-parser libjs-mathjax
     cmake --build build/release --target book      # build/release/book/html/index.html
@@ -49,7 +49,7 @@ SearchEnglish.stopwords |= {"how", "do", "does", "i", "my", "me", "can", "may", 
 # Pygments has no LIGGGHTS; an indented block is shown as it is.
 highlight_language = "none"
 
-# MathJax is copied into the site (copy_mathjax), because the book is read without a network.
+# MathJax is copied into the site (copy_mathjax), because the documentation is read without a network.
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG-full"
 # MyST marks each page to be left alone but for its elements of class "math".
 myst_update_mathjax = False
@@ -82,7 +82,7 @@ def copy_mathjax(app, exception):
 
 
 def link_examples(app, docname, source):
-    """Pages link to ../../examples and examples to ../../docs, as the tree has them; the book has the examples within (the link docs/examples)."""
+    """Pages link to ../../examples and examples to ../../docs, as the tree has them; the documentation has the examples within (the link docs/examples)."""
     to_root = "../" * docname.count("/")
     source[0] = re.sub(r"\]\((?:\.\./)+examples/", f"]({to_root}examples/", source[0])
     source[0] = re.sub(r"\]\((?:\.\./)+docs/", f"]({to_root}", source[0])

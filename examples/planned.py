@@ -59,7 +59,7 @@ def planned(folder):
 
 
 def quantile(contacts, share):
-    """Speed that this share of a side's contacts does not exceed, of its statistics: evenly in ln(speed) within a bin; 0 of none."""
+    """Speed that this fraction of a side's contacts does not exceed, of its statistics: evenly in ln(speed) within a bin; 0 of none."""
     largest, seen = contacts["impact_speed_max_m_per_s"] or 0.0, contacts["impact_speed"]
     left = share * sum(seen["count"])
     for low, count in zip(seen["lower_edge"], seen["count"]):
@@ -70,7 +70,7 @@ def quantile(contacts, share):
 
 
 def visited(folders, share=1.0):
-    """{"pair": m/s, "wall": m/s} that this share of the contacts of each run did not exceed."""
+    """{"pair": m/s, "wall": m/s} that this fraction of the contacts of each run did not exceed."""
     speeds = {"pair": 0.0, "wall": 0.0}
     for folder in folders:
         stats = json.loads((folder / "stats.json").read_text())

@@ -1,6 +1,6 @@
 """Importing this makes a script end with one sentence and exit code 1 where Python would print a traceback.
 
-Import it before numpy and the like, so that a missing one is told in a sentence, too. GRANULAW_TRACEBACK=1 keeps Python's traceback."""
+Import it before numpy and the like, so that a missing one is named in a sentence, too. GRANULAW_TRACEBACK=1 keeps Python's traceback."""
 import os
 import pathlib
 import subprocess

@@ -1,7 +1,7 @@
 """MPI efficiency: the same short stretch of a deck on 1 and 2 ranks, in turn, under each model; the table of it.
 
 Efficiency: seconds on 1 rank / (2 x seconds on 2 ranks), of the same round. It needs two idle cores: where others compute too, a rank waits for
-the other's turn, and burns CPU while it waits. What no load changes is the share of the work: particles of the fuller rank over the mean bound the
+the other's turn, and burns CPU while it waits. What no load changes is the fraction of the work: particles of the fuller rank over the mean bound the
 efficiency, and each rank computes its pairs with the ghosts itself."""
 import argparse
 import csv

@@ -16,7 +16,7 @@ std::uint64_t checksum(std::string_view bytes, std::uint64_t start = 14695981039
 ///     void visit_state(StateArchive& a) { a.value(time_), a.values(vr_i); }
 /// that names it once for both ways, so that saving and loading cannot drift apart. What follows from the
 /// request (grid, weights, materials) is built anew and not stored. Numbers keep every bit; the bytes are in
-/// the order of the machine. The solver knows nothing of files (checkpoint.hpp).
+/// the order of the machine. The solver contains no file handling (checkpoint.hpp).
 class StateArchive
 {
  public:

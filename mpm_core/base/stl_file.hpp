@@ -9,7 +9,7 @@ namespace granulaw {
 /// The bytes of a mesh file, up to 512 MB. Throws Error naming the path if it cannot be read.
 std::string read_mesh_bytes(const std::string& path);
 
-/// The length tells a binary STL from text: some binary ones begin with "solid", too.
+/// The length distinguishes a binary STL from text: some binary ones begin with "solid", too.
 bool is_binary_stl(const std::string& bytes);
 
 /// Corners of the triangles of an STL, three for each, in its unit of length. A text is read by its words

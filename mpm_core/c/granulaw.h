@@ -47,7 +47,7 @@ typedef struct {
 /* A pair of bodies. All zero but the names is a head-on contact of like sizes in SI. */
 typedef struct {
   const char *a, *b;         /* materials of the file; b "wall": a rigid one */
-  double radius_a, radius_b; /* chooses among laws by size; infinity: a thick wall that deforms; both 0: like sizes */
+  double radius_a, radius_b; /* chooses among laws by size; infinity: a deformable wall; both 0: like sizes */
   double length, mass;       /* SI values of the caller's units, m and kg; time is the second; 0: 1 */
   double stretch;            /* S: overlaps are S times the real ones, forces 1/S; 0: 1 */
   double friction;           /* coefficient; 0: no tangential force, and three values less */

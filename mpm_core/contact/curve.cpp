@@ -371,7 +371,7 @@ Reversal Curve::reversal_with_other_span(double x_max, const Top& t)
   const double span = std::min(1.0, returned / std::clamp(returned / t.span, least, most)),
                mean = returned / span;
   double share = t.share;
-  if (mean > most)  // not even over all of x: a stiffer foot
+  if (mean > most)  // not even over all of x: stiffer at small forces
     share = std::min(UnloadingShape::largest_hertz_share,
                      UnloadingShape::hertz_share_of(mean, UnloadingShape::least_exponent));
   const UnloadingShape shape{UnloadingShape::exponent_of(mean, share), share};

@@ -175,7 +175,7 @@ class Curve
   };
   Top top(double x_max, double latched = 0) const
   {
-    // beyond the onset, within the table and without an axis: all that most contacts ask for
+    // beyond the onset, within the table and without an axis: all that most contacts need
     if (corrected_from_ > 1.0 && x_max > yields_from_ && x_max <= end_) [[likely]] {
       const Place p = at(x_max * per_unit_);
       const Turn& turn = turns_[p.k - first_turn_];

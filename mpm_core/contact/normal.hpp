@@ -49,7 +49,7 @@ concept NormalLaw =
   { law.contact_radius(r_eff, delta, delta_max, impact_overlap) } -> std::same_as<double>;
   /// Overlap/R* of first yield; infinity: never. Contacts that came no deeper are damped (`elasticDamping`).
   { law.yield_overlap() } -> std::same_as<double>;
-  /// Overlap/R* up to which the law answers; the largest double: everywhere.
+  /// Overlap/R* up to which the law holds; the largest double: everywhere.
   { law.largest_overlap() } -> std::same_as<double>;
   /// Pa, E* of the pair: 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j.
   { law.pair_modulus() } -> std::same_as<double>;

@@ -25,7 +25,7 @@ struct Answer
 ///
 /// A yielding body s touches a partner h:
 ///     F = lambda Y_s R*^2 Phi(d/(lambda R*)),   sqrt(lambda) = 1 + E*_s/E*_h,   R* = R_i R_j/(R_i + R_j).
-/// Rigid partner: lambda = 1. Same material: lambda = 4, so that each sphere sees a rigid symmetry plane
+/// Rigid partner: lambda = 1. Same material: lambda = 4, so that each sphere meets a rigid symmetry plane
 /// at half the overlap. In the Hertz limit this is exactly Hertz with 1/E* = 1/E*_s + 1/E*_h for every pair.
 struct PairMapping
 {

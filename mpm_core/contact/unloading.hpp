@@ -14,7 +14,7 @@ namespace granulaw {
 /// 0.1 to 0.4 % of F_m, u^n within 0.2 to 1.5 %. It needs one square root, no power.
 /// Two numbers say which:
 ///     exponent n = d ln F/d ln u at the reversal = phi'(1)        B = 5 - 2 A - 2 n,  C = A + 2 n - 4
-///     Hertz share     A = F/(F_m u^1.5) as u -> 0
+///     Hertz coefficient     A = F/(F_m u^1.5) as u -> 0
 /// phi rises from 0 to 1, so that no force is negative, where A >= 0, A + 4 n <= 10 and n >= 0 (phi' is
 /// sqrt(u)/2 times a quadratic in sqrt(u) whose Bernstein coefficients are 3 A, 10 - A - 4 n and 2 n).
 struct UnloadingShape

@@ -13,7 +13,7 @@
 namespace granulaw {
 
 /// Threads that make runs for one thread that directs them: so that progress, cache and messages between
-/// ranks are the business of that one alone, and a run knows nothing of them.
+/// ranks are the business of that one alone, and a run is independent of them.
 class WorkerPool
 {
  public:

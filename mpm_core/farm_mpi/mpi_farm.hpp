@@ -14,10 +14,10 @@ namespace granulaw {
 /// (FUNNELED), looks for messages every 2 ms: about 1 % of a core (every 1 ms: 1.8 %, measured), where a
 /// blocking MPI call would spin on one, and at most some 4 ms from the end of a run to the start of the next.
 ///
-/// `progress` is told of the whole batch on rank 0; on the others it gets 0 and the rank's own run, only to
-/// be asked whether to stop. If a rank has to stop (its `progress` throws, or a run ends in another exception
-/// than Error), that exception goes through there, and every other rank throws Error with its sentence.
-/// A rank that dies is the launcher's business: mpirun ends the others.
+/// `progress` gets the fraction of the whole batch on rank 0; on the others it gets 0 and the rank's own run,
+/// only to be asked whether to stop. If a rank has to stop (its `progress` throws, or a run ends in another
+/// exception than Error), that exception goes through there, and every other rank throws Error with its
+/// sentence. A rank that dies is the launcher's business: mpirun ends the others.
 class MpiFarm : public Farm
 {
  public:

@@ -10,7 +10,7 @@ namespace granulaw::h5 {
 /// libhdf5's default and h5py's). Every part lies within the file, belongs to one owner, and leads to no part
 /// before it.
 ///
-/// Why: libhdf5 1.10 trusts what it parses. One flipped byte makes it ask for gigabytes or exabytes, and
+/// Why: libhdf5 1.10 trusts what it parses. One flipped byte makes it allocate gigabytes or exabytes, and
 /// crafted ones make it crash. After this check it only meets lengths and addresses that were seen to be
 /// sound. Numbers and names are the reader's matter. Reads the whole file, at most 32 MiB.
 void check_structure(const std::string& path);

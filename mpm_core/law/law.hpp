@@ -30,7 +30,7 @@ struct Certificate
   double axis_cost_force =
       0;  ///< F_max without the velocity axis over F_max with it, less 1, at its end; 0: none
   double axis_cost_restitution = 0;    ///< the same of e (both signed)
-  double atlas_error_force = 0;        ///< of what the atlas tells, relative; 0: computed by runs
+  double atlas_error_force = 0;        ///< of the atlas's values, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
   std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas; or ...
 };
@@ -122,7 +122,7 @@ struct PairLaw : PairContact  // its curve is the Law's
   {
     return answer(*curve, mapping, r_eff, delta, delta_max, impact_overlap);
   }
-  /// Largest overlap the table answers for, m.
+  /// Largest overlap of the table, m.
   double max_overlap(double r_eff) const { return curve->end() * mapping.length(r_eff); }
 
   /// v = sqrt(I) of a collision at this relative normal speed, m/s: see AxisTable. The yielding body
@@ -142,8 +142,8 @@ struct PairLaw : PairContact  // its curve is the Law's
   {
     return curve->axis() ? curve->reach(speed_coordinate(r_eff, m_eff) * speed) : 0.0;
   }
-  /// Least approach speed that the law knows, m/s: slower impacts are answered as this one. 0 without a rate
-  /// axis.
+  /// Least approach speed that that the law covers, m/s: slower impacts are answered as this one. 0 without a
+  /// rate axis.
   double min_speed(double r_eff, double m_eff) const
   {
     return curve->axis() ? curve->axis()->speed_begin / speed_coordinate(r_eff, m_eff) : 0.0;
@@ -158,7 +158,7 @@ struct PairLaw : PairContact  // its curve is the Law's
   }
 
   /// Effective mass, kg, of a usual pair with this R*: the yielding body and its like, each of radius 2 R*;
-  /// with a rigid partner the body alone. For tables and examples; a particle code knows better.
+  /// with a rigid partner the body alone. For tables and examples; a particle code has better ones.
   double usual_mass(double r_eff) const;
 
  private:
@@ -174,7 +174,7 @@ PairLaw wall_pair(const BodyLaw& body);
 
 /// Resolves materials `a` and `b` (b may be "wall": rigid), in either order: the pair's own law if the file
 /// has one, of several that at the nearest size_share(), else the law of the body that yields
-/// (`yields_first`). The radii (m; or both in another unit) choose; infinity: a thick deformable wall. Throws
+/// (`yields_first`). The radii (m; or both in another unit) choose; infinity: a deformable wall. Throws
 /// Error naming `where` where the law has no such material or was not built for the pair, or where a body
 /// that is no homogeneous sphere would meet another body than its like or the rigid wall.
 PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b, const std::string& where,
@@ -186,7 +186,7 @@ inline constexpr double size_tolerance = 0.05;
 
 /// Throws Error naming `where` where the pair's law holds for one size of its yielding body and that body's
 /// radius (of curvature at the pole, m) is another: its strain rates would be others, and an impact at the
-/// same rate would not reach the same share of it.
+/// same rate would not reach the same fraction of it.
 void check_size(const PairLaw& pair, double radius, const std::string& where);
 
 }  // namespace granulaw

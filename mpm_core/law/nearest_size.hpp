@@ -14,8 +14,8 @@ inline std::vector<double> half_ways(std::span<const double> shares)
   return bounds;
 }
 
-/// Index of the share nearest to own/sum, by half_ways() of all shares; half-way itself goes to the lower
-/// one. No division: contact loops call it.
+/// Index of the size ratio nearest to own/sum, by half_ways() of all ratios; half-way itself goes to the
+/// lower one. No division: contact loops call it.
 inline std::size_t nearest_share(const std::vector<double>& bounds, double own, double sum)
 {
   std::size_t k = 0;

@@ -21,7 +21,7 @@ struct ContactAnswer
 struct OrientationCheck
 {
   enum class Local {
-    curved,     ///< the law answers
+    curved,     ///< the law applies
     edge,       ///< a radius of curvature is 0: no sphere is like it
     flat,       ///< a radius is infinite, or the surface is hollow
     beyond_law  ///< the overlap leaves the law's table
@@ -44,7 +44,7 @@ struct OrientationCheck
 /// "curved", "edge", "flat", "beyond the law".
 const char* name_of(OrientationCheck::Local local);
 
-/// Two quantiles of the errors' magnitudes over the directions where the law answers.
+/// Two quantiles of the errors' magnitudes over the directions where the law applies.
 struct ErrorQuantiles
 {
   double median = 0, largest = 0;  ///< largest: of 95 % of the directions

@@ -8,7 +8,7 @@ namespace granulaw {
 ///
 /// A half-space radiates 0.665/(rho c^3) (dF/dt)^2, W, of a force F(t) on its surface, c = sqrt(E*/rho) (the
 /// form: Miller and Pursey, Proc. R. Soc. A 223, 1954; Hunter, J. Mech. Phys. Solids 5, 1957; the number: six
-/// elastic impacts on thick walls by the solver, 0.658 to 0.706). A sphere of radius R gives back what
+/// elastic impacts on deformable walls by the solver, 0.658 to 0.706). A sphere of radius R gives back what
 /// returns while the contact lasts: there remains G = 1/(1 + (c t/(4 R))^4) of it.
 ///
 /// With dF/dt = K d(delta)/dt, K the contact's stiffness, it is a dashpot: F_waves = C K^2 d(delta)/dt, which
@@ -19,7 +19,7 @@ inline constexpr double radiation_number = 0.665, return_times = 4.0;
 /// 0.003).
 inline constexpr double negligible_radiation = 0.05;
 
-/// C of two solid spheres, s^3/kg; radius (m): infinity for a thick wall. Only ratios of radii count.
+/// C of two solid spheres, s^3/kg; radius (m): infinity for a deformable wall. Only ratios of radii count.
 ///
 /// The contact's duration t: that of a plastic contact, sqrt(m*/(R* Y)), which does not depend on the speed,
 /// but no less than Hertz's at a twentieth of the softer one's wave speed: a soft partner lengthens it, and

@@ -39,7 +39,7 @@ enum class Precision { full, single };
 struct Partner
 {
   std::optional<Particle> particle{};  ///< a second particle, pole against pole
-  std::optional<Material> wall{};      ///< a thick deformable wall with a flat, frictionless face
+  std::optional<Material> wall{};      ///< a deformable wall with a flat, frictionless face
 };
 
 struct RunOptions
@@ -57,7 +57,7 @@ struct RunOptions
   int samples = 800;      ///< trace length aimed at
   bool estimate_error =
       false;  ///< run a second, coarser resolution and fill error_estimate (accuracy.hpp; costs 1/3 more)
-  /// Pa, by the particle's materials; given for an elastic body: its run tells where each would begin to
+  /// Pa, by the particle's materials; given for an elastic body: its run finds where each would begin to
   /// yield (RunResult::yield_overlaps). Infinity: not asked for. Empty: none.
   std::vector<double> yield_stresses{};
   FieldObserver fields;  ///< who wants to see the body while the run goes on (fields.hpp)
@@ -125,7 +125,7 @@ RunResult press(const Particle& particle, const PressPlan& plan, const Partner& 
 double force_at_depth(const RunResult& press, std::size_t plane);
 
 /// Loading time, R/c*, that a press to `depth` (over R) takes where its plan names none: slow enough for the
-/// rate-free law. `yield_over_e_star`: Y/E* of the weakest body; infinity: elastic.
+/// rate-independent law. `yield_over_e_star`: Y/E* of the weakest body; infinity: elastic.
 double default_press_ramp(double depth, double yield_over_e_star);
 
 /// The grid that `GridKind::automatic` takes for a particle, and why, as the end of a sentence.

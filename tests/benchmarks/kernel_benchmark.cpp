@@ -50,7 +50,7 @@ double rate_of(long points, Step step)
   return best;
 }
 
-/// Squeezed under the contact: along z by `size` times a share that falls with the depth.
+/// Squeezed under the contact: along z by `size` times a fraction that falls with the depth.
 double rate_of_body(Body body, InstructionSet set, double pole)
 {
   const Kernels& k = kernels(body, set);

@@ -13,7 +13,7 @@ TOP = Path(__file__).resolve().parents[2]
 WORDS = 30  # the longest sentence of a page
 # Counts that remain, by rule. A count that rises fails; lower the number here when a count falls.
 STORED = {"long sentence": 2, "this page": 1, "headless paragraph": 0, "headless comment": 257, "headless message": 1,
-          "house word in a page": 3, "house word in a comment": 422, "house word in a message": 48}
+          "house word in a page": 3, "house word in a comment": 258, "house word in a message": 48}
 
 # The glossary defines terms and may name the words that it replaces; these files hold the words as the rules' examples.
 GLOSSARY = "docs/reference/glossary.md"
@@ -27,21 +27,31 @@ HOUSE = {
     THINGS + r" (?:knows?|sees?|feels?|forgets?|asks?|answers?)": "contain, cover, depend on, require, reset, return",
     r"knows no\w*|feels?|felt|forgets?|forgot(?:ten)?": "contain, cover, depend on, require, reset",
     r"pairs? by runs": "two-body law",
-    r"stated errors?|claims?|claimed|honest(?:ly|y)?": "error bound (law), error estimate (run)",
+    r"stated errors?|honest(?:ly|y)?": "error bound (law), error estimate (run)",
     r"flatness|flattenings?": "pressure uniformity, overlap per sphere",
-    r"(?:the|an?|its|this|that|each|every|of|their|same|whose|by|in|no|largest|smallest|size|Hertz) shares?": "fraction, size ratio, part",
+    r"(?:the|an?|its|this|each|every|of|their|same|whose|by|in|no|largest|smallest|size|Hertz) shares?": "fraction, size ratio, part",
     r"foot": "Hertz coefficient A",
     r"twins?|stand-ins?": "equivalent sphere",
     r"slices? of (?:the|an?) (?:law|axis)": "row of the velocity axis",
     r"(?:inertia|speed) ax[ei]s": "velocity axis",
     r"main planes?": "reference set (nu = 0.3)",
     r"rate-free|at no rate": "rate-independent",
-    r"thrown (?:at|against|on|onto|into|together|by)|throws? (?:the|a) bod(?:y|ies)": "impact, collision",
     r"thick walls?|half balls?": "deformable wall",
-    r"scenes?|laborator(?:y|ies)": "deck, simulation, test case, synthetic data set",
     r"the book|this book": "the documentation",
 }
-HOUSE_ANY = re.compile(r"(?<![\w`-])(?:" + "|".join(HOUSE) + r")(?![\w-])", re.IGNORECASE)
+# In pages and messages only: in code these are names, or plain words.
+HOUSE_TEXT = {
+    r"scenes?|laborator(?:y|ies)": "deck, simulation, test case, synthetic data set",
+    r"claims?|claimed": "error bound (law), error estimate (run)",
+    r"thrown (?:at|against|on|onto|into|together|by)|throws? (?:the|a) bod(?:y|ies)": "impact, collision",
+}
+
+
+def any_of(patterns):
+    return re.compile(r"(?<![\w`-])(?:" + "|".join(patterns) + r")(?![\w-])", re.IGNORECASE)
+
+
+HOUSE_ANY, HOUSE_CODE = any_of([*HOUSE, *HOUSE_TEXT]), any_of(HOUSE)
 
 FENCE = re.compile(r"^([ ]*)(```+|~~~+).*?^\1\2\s*$", re.MULTILINE | re.DOTALL)
 
@@ -163,7 +173,7 @@ def of_source(name, text):
     for line, comment in comments(name, text):
         if re.match(r"\W*" + OPENING_COMMENT, comment) and not question(comment):
             yield "headless comment", line, comment.strip()[:120]
-        for match in HOUSE_ANY.finditer(comment):
+        for match in HOUSE_CODE.finditer(comment):
             yield "house word in a comment", line, f"{match.group(0)}: {comment[max(0, match.start() - 50):match.end() + 30]}"
     if name.endswith((".cpp", ".hpp")) and not name.startswith("tests/"):
         for line, message in messages(text):

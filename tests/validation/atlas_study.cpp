@@ -4,7 +4,7 @@
 //   atlas_study FOLDER --atlas ATLAS.h5 [--count N] [--seed N] [--threads N]
 //
 // Runs are kept in FOLDER and not made again; a larger --count begins with the same materials. With the seed
-// that `mpm atlas` drew the atlas's own checks with (1 if not told) nothing new would be learned.
+// that `mpm atlas` drew the atlas's own checks with (1 if not given) nothing new would be learned.
 //
 // Exit 0: the certificate of its laws is true of F_max and of e in at least 95 % of the impacts, and no error
 // exceeds twice what it claims.

@@ -1,4 +1,4 @@
-// How honest is error_estimate? Every case is run at two resolutions with its estimate, and once at a
+// Is error_estimate right? Every case is run at two resolutions with its estimate, and once at a
 // reference resolution (finer cells, more shifted grids, a smaller time step and, for a press, a ramp twice
 // as long); the true error is the deviation from that, of F_max or e, the larger.
 //

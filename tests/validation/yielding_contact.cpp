@@ -29,7 +29,7 @@ bool YieldingContact::overloaded(double delta, double depth, double q) const
 
 /// Lets the contact flow from the elastic force `stretched` back to the yield curve while the surfaces stick;
 /// the tangential force there. One unknown, q: what the spring loses is the flow's sliding, the normal of the
-/// curve tells the deepening.
+/// curve gives the deepening.
 double YieldingContact::flow(double delta, double k, double stretched, double strength)
 {
   const double from = depth_, slope = sliding_slope(strength);

@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Grids, TwoBodies, testing::Values(GridKind::mapped, Gri
                            return p.param == GridKind::mapped ? "mapped" : "rectilinear";
                          });
 
-/// Two like spheres see a plane of symmetry: each does what it would against the rigid plane at half the
+/// Two like spheres have a plane of symmetry: each does what it would against the rigid plane at half the
 /// relative velocity.
 TEST(LikeSpheres, AreTheRigidPlaneAtHalfTheVelocity)
 {

@@ -95,7 +95,7 @@ TEST(Hertz, PressureSumsToTheForce)
 }
 
 /// Hertz is the limit of small contacts: his error is proportional to a/R, so from two depths, one four times
-/// the other, the limit follows; and its share is the one that the surface's motion predicts.
+/// the other, the limit follows; and its fraction is the one that the surface's motion predicts.
 TEST(HertzSlow, SmallContactLimit)
 {
   const PressedSphere shallow = press_elastic(0.3, 5e-4, 32), deep = press_elastic(0.3, 2e-3, 32);

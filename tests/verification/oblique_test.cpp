@@ -96,7 +96,7 @@ TEST(Oblique, TheLeverIsTheCentresHeight)
   EXPECT_LT(off, 5e-3 * largest);
 }
 
-/// Thrown with the spin of a body that rolls, it feels no friction to first order, and keeps both.
+/// Thrown with the spin of a body that rolls, no friction acts on it to first order, and keeps both.
 TEST(Oblique, ARollingBallKeepsRolling)
 {
   const Rebound r = *thrown(0.3, 0.2, 0.2 * velocity / radius).rebound;

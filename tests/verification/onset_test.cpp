@@ -81,7 +81,7 @@ TEST_P(Onset, FreeImpact)
 
 INSTANTIATE_TEST_SUITE_P(Poisson, Onset, testing::ValuesIn(cases), name_of);
 
-/// A slow elastic press tells the overlap at which a yield stress is reached. Hertz neglects terms of the
+/// A slow elastic press gives the overlap at which a yield stress is reached. Hertz neglects terms of the
 /// order a/R, 0.05 here. On the grid of bodies that are no homogeneous spheres this needs nu of about 0.3 or
 /// more: with less Hertz's stress at the contact edge, where the grid's is too high, is near the largest.
 TEST(OnsetByPress, IsHertzs)

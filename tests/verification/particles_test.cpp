@@ -249,7 +249,8 @@ TEST(Hard, PoreBelowThePole)
             std::string::npos);
 }
 
-/// A hard, stiff shell on a soft core, and a soft one on a hard core: energies add up, and the shell is felt.
+/// A hard, stiff shell on a soft core, and a soft one on a hard core: energies add up, and the shell has an
+/// effect.
 TEST(Hard, ThinShells)
 {
   const double v = 20 * yield_velocity(1, 0.01, 1);

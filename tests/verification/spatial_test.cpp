@@ -241,7 +241,7 @@ double highest_frequency(Body b)
 }
 
 /// Nodes that little of the body reaches shear their slivers, as under a plane: the step follows the body's
-/// highest frequency, which power iteration tells.
+/// highest frequency, by power iteration.
 TEST(SpatialStep, IsStableWhereSliversFlow)
 {
   Body b = ball(elastic, 0.1);

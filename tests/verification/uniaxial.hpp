@@ -16,7 +16,8 @@ struct StressStrain
   double strain, stress, plastic_strain;
 };
 
-/// The solver's kernel, to the strain `last` in equal steps, at the strain rate `rate` (c*/R; 0: rate-free).
+/// The solver's kernel, to the strain `last` in equal steps, at the strain rate `rate` (c*/R; 0:
+/// rate-independent).
 std::vector<StressStrain> compress(const Material& material, double last, int steps, double rate = 0);
 
 /// A law written out again, independent of the solver's own: stress(ep) and, for rate-dependent materials,

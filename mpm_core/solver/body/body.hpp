@@ -122,7 +122,7 @@ struct SplineCells
   std::vector<SpatialCell> cells;
   CellWeights<double> full;
   CellWeights<float> single;
-  /// [cut cell][octant]: stiffness of a cut piece over the masses of its nodes, as a share of a filled
+  /// [cut cell][octant]: stiffness of a cut piece over the masses of its nodes, as a fraction of a filled
   /// octant's. If the piece's own omega^2 grows by x, the body's highest grows by at most share times x
   /// (Weyl's inequality).
   AlignedVector<double> step_share;

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set, as body/axisymmetric_isa.cpp, under the same rules.
 //
-// A force evaluation goes through each region of the body, eight cells at a time, in three stages that know
-// nothing of each other: gather (grid: displacement gradients), stress (material), scatter (grid: forces).
+// A force evaluation goes through each region of the body, eight cells at a time, in three independent
+// stages: gather (grid: displacement gradients), stress (material), scatter (grid: forces).
 // The eight octants of a cell are the lanes of a vector.
 #include <type_traits>
 

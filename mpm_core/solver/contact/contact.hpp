@@ -61,8 +61,8 @@ class Side
   virtual void visit_state(StateArchive& archive) = 0;
 };
 
-/// Sweeps over the rows of a step: most of them, the change (as a share of the largest impulse) that ends
-/// them sooner, and the share of its way that a marker behind the other side comes back in a step.
+/// Sweeps over the rows of a step: most of them, the change (as a fraction of the largest impulse) that ends
+/// them sooner, and the fraction of its way that a marker behind the other side comes back in a step.
 struct SweepRule
 {
   int most;

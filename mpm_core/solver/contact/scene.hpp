@@ -42,7 +42,7 @@ struct Scene
     for (const Body& b : bodies) sum += outward.dot(mean_velocity(b));
     return sum;
   }
-  /// Mass that the relative motion feels: m, or m1 m2/(m1 + m2).
+  /// Mass of the relative motion: m, or m1 m2/(m1 + m2).
   double reduced_mass() const
   {
     double inverse = 0;

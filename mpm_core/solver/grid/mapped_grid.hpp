@@ -39,8 +39,8 @@ struct MappedGrid
   /// meet the contact edge at different phases, and their mean is free of the grid noise's lower harmonics.
   static MappedGrid build(int cells_across, double block, bool full, double shift = 0);
 
-  /// A thick wall: half a ball of radius `extent` with its flat side, z = 0, in contact; the same block and
-  /// rings without the conformal map. Its far side is free: a wave needs 2 extent/c to come back.
+  /// A deformable wall: half a ball of radius `extent` with its flat side, z = 0, in contact; the same block
+  /// and rings without the conformal map. Its far side is free: a wave needs 2 extent/c to come back.
   static MappedGrid wall(int cells_across, double block, double extent, double shift = 0);
 
   /// The same grid of a body `factor` times as large.

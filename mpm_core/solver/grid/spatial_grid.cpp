@@ -11,10 +11,10 @@ namespace granulaw {
 
 namespace {
 
-/// Pieces of less than this share of an octant are left out.
+/// Pieces of less than this fraction of an octant are left out.
 constexpr double least_share = 1e-6;
-/// No node weighs less than this share of a finest cell. Nodes that only slivers reach fly far off otherwise,
-/// and take the slivers with them. A hundredth takes 0.4 % off e.
+/// No node weighs less than this fraction of a finest cell. Nodes that only slivers reach fly far off
+/// otherwise, and take the slivers with them. A hundredth takes 0.4 % off e.
 constexpr double least_mass = 0.001;
 /// V sum_k |b_k|^2/m_k of a filled octant amid filled cells of edge 1 and density 1
 /// (SplineCells::step_share).

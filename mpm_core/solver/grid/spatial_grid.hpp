@@ -37,7 +37,7 @@ struct FineZone
 {
   double low, high;  ///< fine between these
   double edge;
-  double growth;  ///< an edge gains this share of its way from the zone
+  double growth;  ///< an edge gains this fraction of its way from the zone
 };
 
 /// Lines of one axis over [low, high]: edges `edge` in the zones, growing away from them up to

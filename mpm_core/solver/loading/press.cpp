@@ -41,7 +41,7 @@ void Press::start_loading(double time, double overlap)
   phase_ = Phase::load;
   start_ = time;
   from_ = overlap;
-  // Reloading covers a short way: give it the time an unloading gets, plus its share of virgin loading.
+  // Reloading covers a short way: give it the time an unloading gets, plus its part of virgin loading.
   const double depth = plan_.stops.back(), stop = plan_.stops[stop_];
   const double share = (stop - std::max(0.0, deepest_)) / depth;
   duration_ = deepest_ > 0 ? plan_.unload_ramp + plan_.ramp * share : plan_.ramp * std::sqrt(stop / depth);

@@ -101,7 +101,7 @@ concept RateLaw = NamedLaw<Law> &&
 ///     surface.find(trials, count, plastic_strain, moduli, shear, bulk, flow_stress, per_dt)
 ///                                  fills the flow of the points of a block (flow_trials.hpp); false: none
 ///                                  flows. shear, bulk: G and K of `moduli`, which flow_stress takes; per_dt:
-///                                  1 over the time since the last update, 0: rate-free
+///                                  1 over the time since the last update, 0: rate-independent
 template <class Surface>
 concept YieldSurface = std::size(Surface::parameters)
 <= surface_room&& requires(const Surface surface, const double* values, kernel::FlowTrials<double>& trials,

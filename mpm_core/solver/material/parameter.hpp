@@ -40,7 +40,7 @@ struct Parameter
   double least, most;          ///< allowed, both included
   bool list = false;           ///< a list of numbers, which is not fitted; else one number
   Start start{};               ///< of a fit (mpm calibrate)
-  double least_per_yield = 0;  ///< of a stress: allowed from this share of the yield stress on
+  double least_per_yield = 0;  ///< of a stress: allowed from this fraction of the yield stress on
 
   constexpr bool is_fitted() const { return !list && start != Start{}; }
 };

@@ -122,8 +122,8 @@ GRANULAW_INLINE Yielding<Real> yielding_of(const Moduli& moduli)
 }
 
 /// Stress and state of `count` points from their displacement gradients. `per_dt`: 1 over the time since the
-/// last update, 0: rate-free. `since_last`: the gradients are those of the last step (`updated`), and J is
-/// that of the elastic strain.
+/// last update, 0: rate-independent. `since_last`: the gradients are those of the last step (`updated`), and
+/// J is that of the elastic strain.
 template <class Tensor, class Real = typename Tensor::Number>
 static void update_stress(const BlockState<Tensor> state, const Moduli& moduli,
                           const Yielding<Real>& yielding, double per_dt, bool since_last, int count,

@@ -28,7 +28,7 @@ struct FieldFrame
 };
 
 /// Who wants to see the body while a run goes on. Of the shifted grids only one is shown: the one with the
-/// shift nearest to zero (four grids: the unshifted one). The solver knows nothing of files.
+/// shift nearest to zero (four grids: the unshifted one). The solver contains no file handling.
 struct FieldObserver
 {
   int frames =

@@ -191,7 +191,7 @@ class ToleranceSearch
     return probed;
   }
   /// Changes an option by `factor`, again and again up to `last`, until the probe with the next value differs
-  /// by no more than its share of the tolerance; `error` becomes the error that is left.
+  /// by no more than its fraction of the tolerance; `error` becomes the error that is left.
   void refine(double RunOptions::*option, double factor, double last, double& error)
   {
     for (;;) {

@@ -22,9 +22,9 @@ struct CellsRule
   double safety, order;
 
   double left(double change, double cell_ratio) const;
-  /// Of runs of which several were repeated: u^2 = (left of the mean change)^2 + 2 variance. The mean is shared
-  /// by all runs and extrapolated; the scatter is the noise of two single grids, of which one has a share of
-  /// 1/sqrt(2); twice that bounds 95 % of the runs.
+  /// Error of the cells if several runs were repeated: u^2 = (left of the mean change)^2 + 2 variance. The mean is shared
+  /// by all runs and extrapolated; the scatter is the noise of two single grids, of which one
+  /// has 1/sqrt(2); twice that bounds 95 % of the runs.
   double left(std::span<const double> changes, double cell_ratio) const;
 };
 /// Bodies of revolution: order measured with 17, 24 and 48 cells, 25 impacts and presses, E*/Y 30 to 2000

@@ -17,9 +17,9 @@ namespace granulaw {
 
 namespace {
 
-/// Radius of the half ball that stands for a thick wall, in R: its far side changes the stiffness by about
-/// 2 a/(pi extent), and a wave that is thrown back there comes when most impacts are over. e and F of elastic
-/// impacts differ by 1e-4 from those with 60.
+/// Radius of the half ball that stands for a deformable wall, in R: its far side changes the stiffness by
+/// about 2 a/(pi extent), and a wave that is thrown back there comes when most impacts are over. e and F of
+/// elastic impacts differ by 1e-4 from those with 60.
 constexpr double wall_extent = 30;
 
 /// Modulus of the hourglass control: 0.05 G keeps the one-point cells in shape while elastic; where the

@@ -13,7 +13,7 @@ namespace granulaw {
 
 namespace {
 
-/// Grid noise, as a share of the force, beyond which the fit does not describe the loading: fast, deep
+/// Grid noise, as a fraction of the force, beyond which the fit does not describe the loading: fast, deep
 /// impacts, where inertia makes the early force the largest.
 constexpr double most_noise = 0.05;
 
@@ -118,7 +118,7 @@ RunResult mean_of_shifted_grids(const RunOptions& options, int cells, int cells_
                                 bool rings, const SingleRun& single)
 {
   const auto one = [&](double shift, const std::function<void(double)>& report) {
-    // all that tells the runs of one request from each other
+    // all differences between the runs of one request
     const CheckpointSlot slot(options.checkpoints,
                               fmt::format("{} cells, shift {}, courant {}, slowness {}", cells, shift,
                                           options.courant, options.slowness));

@@ -19,7 +19,7 @@ std::vector<RunResult> run_on_shifted_grids(
     int shifted_grids, int threads, const std::function<void(double)>& progress,
     const std::function<RunResult(double shift, const std::function<void(double)>&)>& job);
 
-/// Mean of the members' traces, segment by segment of the programme, each at the same share of its way
+/// Mean of the members' traces, segment by segment of the programme, each at the same fraction of its way
 /// through the segment: the members reverse a few steps apart, and none of them loses its reversal.
 std::vector<TraceSample> mean_trace(const std::vector<RunResult>& members);
 /// The planes' samples that go with it.

@@ -20,8 +20,8 @@ constexpr double same = 1e-9;  ///< directions closer than this are one
 /// Radii of curvature between these count for the size of a contact, in R.
 constexpr double sharpest = 1e-3, flattest = 5;
 /// A cell at the distance d from the block, of half width b, has an edge of (b + growth d)/cells, at most
-/// this share of the body's smallest half width over cells. So all edges shrink as one: two resolutions tell
-/// the error of every part.
+/// this fraction of the body's smallest half width over cells. So all edges shrink as one: two resolutions
+/// show the error of every part.
 constexpr double growth = 3, coarsest_share = 1.5;
 /// Cells in a rounded edge that touches: with fewer the force creeps.
 constexpr double cells_in_edge = 4;

@@ -41,7 +41,7 @@ void add_arc(Points& profile, ProfilePoint centre, double radius, double from, d
   }
 }
 
-/// Share of the radius: no grid tells a smaller rounding from a sharp edge.
+/// Share of the radius: no grid distinguishes a smaller rounding from a sharp edge.
 constexpr double least_share = 1e-4;
 
 void check_size(const char* key, double value, double radius, const std::string& where)

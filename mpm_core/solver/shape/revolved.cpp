@@ -69,7 +69,7 @@ class Profile::Segments
     double r, z, dr, dz, inverse_length2;
   };
 
-  /// Normal into the body at point k; its length is of no meaning. There neither neighbour alone tells the
+  /// Normal into the body at point k; its length is of no meaning. There neither neighbour alone gives the
   /// side; the sum of their unit normals does. On the axis the neighbour is the mirror image.
   ProfilePoint corner_normal(std::size_t k) const
   {

@@ -37,7 +37,7 @@ double norm(double x, double y, double n)
   return most == 0 ? 0 : most * root(raised(x / most, n) + raised(y / most, n), n);
 }
 
-/// The share that x has of the norm, to the power n - 1: derivative of the norm.
+/// The fraction that x has of the norm, to the power n - 1: derivative of the norm.
 double slope(double x, double whole, double n)
 {
   return whole == 0 ? 0 : raised(x / whole, n - 1);
