@@ -8,7 +8,7 @@
 #include "solver/material/flow_trials.hpp"
 
 // The flow that brings points back to their flow stress, one scalar equation for each: the part of the stress
-// update that depends on hardening and rate, not for the yield surface or the dimension. As with the flow laws,
+// update that depends on hardening and rate, not on the yield surface or dimension. As with the flow laws,
 // every function must be always_inline (flow/parts.hpp).
 
 namespace granulaw::flow {

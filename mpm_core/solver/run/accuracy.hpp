@@ -22,8 +22,8 @@ struct CellsRule
   double safety, order;
 
   double left(double change, double cell_ratio) const;
-  /// Error of the cells if several runs were repeated: u^2 = (left of the mean change)^2 + 2 variance. The mean is shared
-  /// by all runs and extrapolated; the scatter is the noise of two single grids, of which one
+  /// Error of the cells if several runs were repeated: u^2 = (left of the mean change)^2 + 2 variance. The
+  /// mean is shared by all runs and extrapolated; the scatter is the noise of two single grids, of which one
   /// has 1/sqrt(2); twice that bounds 95 % of the runs.
   double left(std::span<const double> changes, double cell_ratio) const;
 };
