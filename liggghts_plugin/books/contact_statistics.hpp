@@ -41,7 +41,7 @@ constexpr int row_of_types(const PairKey& key, int types)
   return types * (types + 1) / 2 + (key.i - 1) * types + key.j - 1;
 }
 
-/// What the law says about a pair of types when a run begins. Not counted, not reduced: alike on all ranks.
+/// Law of a pair of types when a run begins. Not counted, not reduced: alike on all ranks.
 struct PairInfo
 {
   bool needed = false;             ///< particles (or templates) and walls of these types exist
@@ -69,7 +69,7 @@ inline constexpr double near_edge = 0.9;
 /// Rule by which the numbers of pairs of types, and of ranks, make the number of all contacts.
 enum class Combine { sum, largest, least };
 
-/// What the contacts of this rank did since the pair style was set. Filled by the contact loops.
+/// Counts of the contacts of this rank since the pair style was set. Filled by the contact loops.
 ///
 /// A pair of a local particle and a ghost is computed on both ranks (or twice on one, across a periodic
 /// boundary): it counts with `weight` 1/2 each time, so that sums over ranks are right.
@@ -116,7 +116,7 @@ struct ContactStatistics
       if (map.empty()) open_map();
       map[speed.bin(touch_speed) * LogHistogram::bins + overlap_bin] += weight;
     }
-    /// What follows from the histogram, summed over ranks, once the open contacts are out.
+    /// Counts derived from the histogram, summed over ranks, once the open contacts are out.
     void count_ended();
     /// Fills bins of this that hold less than none out of `other`'s: open contacts that began there, before
     /// `set type` made them this pair's, and were taken out here.

@@ -26,7 +26,8 @@ class EnergyTally
                                                   .restart = true,
                                                   .to_ghosts = false,
                                                   .from_ghosts = false};
-  /// Of `computeDissipatedEnergy on`, as LIGGGHTS's own models make it: energy, and six places that they work
+  /// Column of `computeDissipatedEnergy on`, as LIGGGHTS's own models make it: energy, and six places that
+  /// they work
   /// with.
   static constexpr ParticleColumns::Spec lost{.name = "dissipated_energy",
                                               .columns = 7,

@@ -40,7 +40,7 @@ struct LogHistogram
 
  private:
   static constexpr std::size_t octaves = 64;
-  /// Of each bin's upper edge to `first`; infinity from the last bin on.
+  /// Ratio of each bin's upper edge to `first`; infinity from the last bin on.
   static const std::array<double, bins + 2> upper_ratio;
   static const std::array<std::size_t, octaves> first_of_octave;  ///< bin of 2^octave
 };

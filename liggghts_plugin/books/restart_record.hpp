@@ -24,7 +24,7 @@ struct HistoryMeaning
   bool operator==(const HistoryMeaning&) const = default;
 };
 
-/// What fix granulaw/stats leaves in a restart file.
+/// Record of fix granulaw/stats in a restart file.
 struct RestartRecord
 {
   std::vector<double> counts;                      ///< ContactStatistics::pack
@@ -33,7 +33,7 @@ struct RestartRecord
   /// As numbers: how many counts, the counts, how many entries; then for each a number, the length of its
   /// name and the letters. A command has two: its combination under its name, its stretch behind it.
   std::vector<double> numbers() const;
-  /// What numbers() gave. Of a record that is cut short, as much as is whole.
+  /// Record from the result of numbers(). If it is cut short, as much as is whole.
   static RestartRecord from(const std::vector<double>& numbers);
 };
 

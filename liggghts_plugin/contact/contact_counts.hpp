@@ -121,7 +121,7 @@ class ContactCounts
         std::max(counts.damage_number_max, entry.damage_number_per_speed2 * speed * speed);
     const double mass = contact_mass(*bodies_, contact);
     if (speed > entry.contact.max_speed(r_eff, mass)) counts.too_fast += weight;
-    // one without approach follows the law at no rate: the file holds that
+    // one without approach follows the rate-independent law: the file holds that
     if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, mass)) counts.too_slow += weight;
     if (speed_offset_ >= 0) [[unlikely]]
       contact.contact_history[speed_offset_] = speed;

@@ -10,7 +10,7 @@
 #include "liggghts_plugin/deck/size_choice.hpp"
 #include "liggghts_plugin/deck/types.hpp"
 
-// What a normal model is: NAME_physics.hpp, NAME_physics.cpp and a line in models.list.
+// Parts of a normal model: NAME_physics.hpp, NAME_physics.cpp and a line in models.list.
 // docs/guide/new-contact-model.md shows one. PlasticModel adds history, damping, tangential stiffness and
 // statistics, and LIGGGHTS's loops call it.
 //
@@ -24,7 +24,7 @@ namespace granulaw::plugin {
 template <class Physics>
 concept HasLawsBySize = requires(const Physics& prepared, const std::string& where, int i, int j, bool rigid,
                                  double radius_i, double radius_j) {
-  /// Where the laws stand.
+  /// Position of the laws.
   { prepared.laws_by_size(i, j) } -> std::same_as<SizeChoice>;
   /// resolve() for particles of these radii, over any length; infinity: a wall.
   { prepared.resolve(i, j, rigid, where, radius_i, radius_j) } -> std::same_as<typename Physics::Contact>;
@@ -58,7 +58,7 @@ concept NormalPhysics =
   { prepared.resolve(i, j, rigid, where) } -> std::same_as<typename Physics::Contact>;
   /// Throws Error if the law of types i and j does not hold for particles of these sizes.
   { prepared.check_sizes(i, j, is_wall, contact, sizes) } -> std::same_as<void>;
-  /// What the start-up table and the statistics say of the law; PairTable adds the rest of PairInfo.
+  /// Description of the law for the start-up table and the statistics; PairTable adds the rest of PairInfo.
   { prepared.describe(contact, key) } -> std::same_as<PairInfo>;
 };
 

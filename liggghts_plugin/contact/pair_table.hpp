@@ -17,7 +17,7 @@
 
 namespace granulaw::plugin {
 
-/// What the deck says of the tangential force.
+/// Tangential force as the deck sets it.
 struct TangentialChoice
 {
   double damping = 0.0;   ///< fraction of critical
@@ -31,7 +31,7 @@ inline PairKey pair_key(const Setup& setup, int itype, int jtype)
   return {setup.options.deformable_wall ? PairKey::deformable_wall : PairKey::rigid_wall, itype, jtype};
 }
 
-/// What the contact loop reads of each pair of atom types: the law, and what follows from the moduli. In the
+/// Data of each pair of atom types for the contact loop: the law, and numbers derived from the moduli. In the
 /// deck's units, stretched.
 template <NormalPhysics Physics>
 class PairTable
@@ -39,7 +39,7 @@ class PairTable
  public:
   using Contact = typename Physics::Contact;
 
-  // What every step reads comes first.
+  // Members read at every step come first.
   struct alignas(64) Entry
   {
     double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
@@ -134,7 +134,7 @@ class PairTable
   }
 
  private:
-  /// Of law `k` of the pair, with the error of the sizes that follow it.
+  /// Description of law `k` of the pair, with the error of the sizes that follow it.
   PairInfo describe(const Physics& physics, const Contact& contact, const PairKey& key, bool is_wall,
                     std::size_t k, const ParticleSizes& sizes) const
   {
@@ -148,7 +148,7 @@ class PairTable
     return info;
   }
 
-  /// How contacts of each pair of types choose among its laws.
+  /// Choice of contacts of each pair of types among its laws.
   void find_choices(const Physics& physics, const Setup& setup, int count, const ParticleSizes& sizes)
   {
     const SizeChoice one_law(ShareOf::smaller, {0.5});
@@ -196,7 +196,7 @@ class PairTable
   /// An entry that particles of the known sizes follow.
   const Entry& usual_entry(int i, int j) const { return first_entry(i, j)[finders_[pair_of(i, j)].usual]; }
 
-  /// Whether `holds` of the law of any pair.
+  /// True if `holds` is true of the law of any pair.
   bool any_contact(const auto& holds) const
   {
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
@@ -271,7 +271,7 @@ class PairTable
     return 8.0 / (compliance(i) + compliance(j)) / types.units.pressure();
   }
 
-  /// What follows from the law and the moduli.
+  /// Completes an entry with numbers that follow from the law and the moduli.
   static void complete(Entry& entry, double stretch, const TangentialChoice& tangential, double shear_moduli,
                        double damping_ratio)
   {

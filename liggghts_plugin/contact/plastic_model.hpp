@@ -161,7 +161,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
   }
   double* kept_of(double* history) const { return history + history_offset_; }
-  /// Of the mechanisms in the statistics; what they take is no other work.
+  /// Books the mechanisms in the statistics; their work is no other work.
   void book(const SurfacesIntersectData& sidata, const Entry& entry, const Ledger& books) const
   {
     for (const MechanismText& m : mechanisms) {
@@ -197,7 +197,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   using Law = typename Physics::Contact;
   using State = NormalState<Law>;
 
-  /// What advance_normal asks for in the steps that take a contact deeper than it was.
+  /// Books that advance_normal requires in the steps that take a contact deeper than it was.
   struct Books
   {
     const PlasticModel& model;

@@ -10,7 +10,7 @@
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/shapes.hpp"
 
-// What a contact of superquadrics needs beyond one of spheres (shapes.hpp says where they are built).
+// Parts of a contact of superquadrics beyond one of spheres (shapes.hpp says where they are built).
 namespace granulaw::plugin {
 
 /// R*, m. Superquadrics have a local one: 1/(k_i + k_j), with the curvatures k (1/m) at the point of contact.

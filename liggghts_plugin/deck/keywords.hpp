@@ -16,7 +16,7 @@ struct Keyword
   bool in_pair_style = true, in_wall = true;  ///< where it may stand
   std::array<std::string_view, 2> words{};
   double least = 0.0, most = -1.0;  ///< least > most: no number
-  /// What follows up to the next keyword where that is one word or more: "one name for each atom type".
+  /// List up to the next keyword, if one word or more: "one name for each atom type".
   std::string_view list{};
 
   constexpr bool takes_words() const { return !words[0].empty(); }
@@ -60,7 +60,7 @@ inline constexpr std::array surface_keywords{
     Keyword{.name = "curvatureLimitFactor"},
 };
 
-/// What names a model, in LIGGGHTS's order; all keywords stand behind.
+/// Keywords that name a model, in LIGGGHTS's order; all others stand behind.
 inline constexpr std::array<std::string_view, 5> model_kinds{"model", "tangential", "cohesion",
                                                              "rolling_friction", "surface"};
 

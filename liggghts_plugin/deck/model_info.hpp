@@ -7,7 +7,7 @@
 
 namespace granulaw::plugin {
 
-/// What a normal model is called. normal_physics.hpp makes it from the model's physics.
+/// Names of a normal model. normal_physics.hpp makes them from the model's physics.
 struct ModelInfo
 {
   const char* name;                   ///< behind `model` in a deck

@@ -51,7 +51,7 @@ class KnownKeywords
     return names;
   }
 
-  /// Whether a list of names ends before this word.
+  /// True if a list of names ends before this word.
   bool ends_list(const std::string& word) const
   {
     return find(word) || is_among(surface_keywords, word) || contains(model_kinds, word) ||
@@ -109,7 +109,7 @@ void check_value(const Keyword& keyword, const std::string& value, const std::st
     fail(where, fmt::format("'{}' is out of range", keyword.name), value, range);
 }
 
-/// What a command says: each keyword with the words behind it.
+/// Words of a command: each keyword with the words behind it.
 using Said = std::map<std::string, Words>;
 
 /// Throws Error on an unknown or misplaced keyword, a missing or bad value. Keywords of LIGGGHTS go to
@@ -142,7 +142,7 @@ ElasticDamping elastic_damping(const std::string& value)
   return {*number(value)};
 }
 
-/// What is said of the keywords of all models.
+/// Options of the keywords of all models.
 Options shared_options(const Said& said)
 {
   const auto value = [&](const char* key) -> const std::string* {

@@ -21,7 +21,7 @@ struct ElasticDamping
 /// Fraction of R* at which a stretched contact stops the run: deeper, spheres slip through each other.
 inline constexpr double stretched_overlap_limit = 0.5;
 
-/// What the plug-in's own words in `pair_style gran` and `fix wall/gran` say. See
+/// The plug-in's own keywords in `pair_style gran` and `fix wall/gran`. See
 /// docs/reference/pair_gran_model_mpm.md.
 struct Options
 {
@@ -44,7 +44,7 @@ struct Options
   bool operator==(const Options&) const = default;
   /// The words behind one of the model's own keywords; none: it was not said.
   const std::vector<std::string>& own_words(const std::string& key) const;
-  /// What a wall's command leaves open is taken from the pair style's.
+  /// Takes options that a wall's command leaves open from the pair style's.
   void inherit(const Options& pair);
 };
 

@@ -24,7 +24,7 @@ class FixWallGran;
 
 namespace granulaw::plugin {
 
-/// What one contact is in, out of its history. Lengths and energies in the deck's units.
+/// State of one contact, from its history. Lengths and energies in the deck's units.
 struct ContactState
 {
   double contact_radius = 0;   ///< the law's own, of the real, unstretched contact
@@ -89,7 +89,7 @@ struct Setup;
 /// True: the process reads a deck for a plan (plan/planner.hpp), and writes nothing.
 inline bool is_planning = false;
 
-/// What the pair style, the walls and the statistics fix of one LIGGGHTS instance share.
+/// Data common to the pair style, the walls and the statistics fix of one LIGGGHTS instance.
 class Session
 {
  public:
@@ -103,7 +103,7 @@ class Session
   EnergyTally tally;
   Bodies bodies;
 
-  /// What walls inherit: set by the pair style.
+  /// Options that walls inherit: set by the pair style.
   std::optional<Options> pair_options;
   std::shared_ptr<const LoadedLaw> pair_law;
 
@@ -116,8 +116,8 @@ class Session
     return found == styles.end() ? nullptr : found->second->contacts();
   }
 
-  /// Of atom types whose law holds for one radius, by command and type: throws Error at another one, in the
-  /// deck's units. Radii and types may change in a run.
+  /// Checks of atom types whose law holds for one radius, by command and type: each throws Error at another
+  /// radius, in the deck's units. Radii and types may change in a run.
   std::map<const Setup*, std::map<int, std::function<void(double radius)>>> one_size;
 
   /// The histories of the restart file that this deck continues, by command: "pair" or the wall's id. A

@@ -19,13 +19,11 @@ struct Radii
   bool known() const { return least <= largest; }
 };
 
-/// Body of a pair of types i, j whose share R/(R_i + R_j) of the radii tells the pair's laws apart.
+/// Body of a pair of types i, j whose fraction R/(R_i + R_j) of the radii tells the pair's laws apart.
 enum class ShareOf { i, j, smaller };
 
-/// How a contact finds its law by the two radii, as a contact loop reads it.
-///
-/// Where each type has one size, the answer is the usual law each time: a processor foresees that, and need
-/// not wait for the comparison.
+/// Choice of a contact's law by the two radii, as a contact loop reads it. If each type has one size, the
+/// result never changes and the branch is predicted.
 struct LawFinder
 {
   double weight_i = 1.0, weight_j = 1.0;  ///< infinity: that radius does not count
@@ -42,8 +40,9 @@ struct LawFinder
   }
 };
 
-/// The laws of a pair of types by size, and which of them a contact follows: the one whose share is nearest
-/// to the share of the two particles. i and j may change places: the same law is found, to the bit.
+/// The laws of a pair of types by size, and which of them a contact follows: the one whose fraction is
+/// nearest to the fraction of the two particles. i and j may change places: the same law is found, to the
+/// bit.
 class SizeChoice
 {
  public:
@@ -91,23 +90,24 @@ class SizeChoice
     return {least, may_be_alike ? 0.5 : std::min(share(i.largest, j.least), share(j.largest, i.least))};
   }
 
-  /// Whether particles of these types follow law k.
+  /// True if particles of these types follow law k.
   bool serves(std::size_t k, const Radii& i, const Radii& j) const
   {
     if (!i.known() || !j.known()) return false;
     const Range range = shares_of(i, j);
     return lower(k, range) <= upper(k, range);
   }
-  /// Largest distance in the share between law k and particles of these types that follow it; 0: none do.
+  /// Largest distance in the fraction between law k and particles of these types that follow it; 0: none do.
   double distance(std::size_t k, const Radii& i, const Radii& j) const
   {
     if (!serves(k, i, j)) return 0.0;
     const Range range = shares_of(i, j);
     return std::max(std::abs(lower(k, range) - shares_[k]), std::abs(upper(k, range) - shares_[k]));
   }
-  /// Two radii, over any length, for which law k is resolved: in the middle of the shares for which it serves
-  /// particles of these types, which are their own radii where each type has one size. Where it serves none:
-  /// at the law's own share, as particles that grow in the run may come to it. Infinity: a thick wall.
+  /// Two radii, over any length, for which law k is resolved: in the middle of the fractions for which it
+  /// serves particles of these types, which are their own radii where each type has one size. Where it serves
+  /// none: at the law's own share, as particles that grow in the run may come to it. Infinity: a deformable
+  /// wall.
   std::pair<double, double> radii_of(std::size_t k, const Radii& i, const Radii& j) const
   {
     double share = shares_[k];
@@ -124,7 +124,7 @@ class SizeChoice
   }
 
  private:
-  // The shares between which law k is the nearest one, as far as they are in `range`.
+  // The fractions between which law k is the nearest one, as far as they are in `range`.
   double lower(std::size_t k, const Range& range) const
   {
     return k == 0 ? range.least : std::max(range.least, bounds_[k - 1]);

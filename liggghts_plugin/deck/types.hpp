@@ -13,7 +13,7 @@ namespace granulaw::plugin {
 
 struct Setup;
 
-/// What a law needs to know about the atom types when a run begins. Index 0 is unused: types count from 1.
+/// Properties of the atom types that a law requires when a run begins. Index 0 is unused: types count from 1.
 struct Types
 {
   int count = 0;
@@ -23,7 +23,7 @@ struct Types
   std::vector<int> of_wall;                           ///< type of this wall (walls only)
   std::vector<double> density_low, density_high;      ///< kg/m^3, templates included; low > high: none
 
-  /// Whether a contact of types i and j can happen; at a wall j is the wall's.
+  /// True if a contact of types i and j can happen; at a wall j is the wall's.
   bool can_meet(int i, int j, bool is_wall) const
   {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);

@@ -17,7 +17,7 @@ struct DeckUnits
   double density() const { return mass / (length * length * length); }  ///< kg/m^3
   double energy() const { return mass * length * length; }              ///< J
 
-  /// Of LIGGGHTS's `units STYLE`. Throws Error, starting with `where`, unless it is si or cgs.
+  /// Units of LIGGGHTS's `units STYLE`. Throws Error, starting with `where`, unless it is si or cgs.
   static DeckUnits of(std::string_view style, const std::string& where)
   {
     if (style == "si") return {};

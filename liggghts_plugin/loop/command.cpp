@@ -23,7 +23,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What a wall's command leaves open comes from the pair style; LIGGGHTS's own words of it go to `rest`.
+/// Options that a wall's command leaves open come from the pair style; LIGGGHTS's own words of it go to
+/// `rest`.
 void inherit(Setup& setup, Words& rest)
 {
   Options& options = setup.options;
@@ -33,7 +34,7 @@ void inherit(Setup& setup, Words& rest)
     rest.insert(rest.end(), {"tangential_damping", *options.tangential_damping_on ? "on" : "off"});
 }
 
-/// What walls and the statistics take from the pair style.
+/// Options that walls and the statistics take from the pair style.
 void share_with_session(Setup& setup)
 {
   Session& session = *setup.session;

@@ -9,11 +9,11 @@
 #include "liggghts_plugin/contact/pair_table.hpp"
 #include "liggghts_plugin/deck/session.hpp"
 
-// How `pair_style gran` and `fix wall/gran` with a model of ours are read: our keywords into a Setup, the
+// Reading of `pair_style gran` and `fix wall/gran` with a model of ours: our keywords into a Setup, the
 // others to LIGGGHTS.
 namespace granulaw::plugin {
 
-/// What of a command depends on its models.
+/// Parts of a command that depend on its models.
 struct CommandModels
 {
   ModelInfo normal;

@@ -145,7 +145,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     bool newton;    // forces on ghosts count
     bool observed;  // tell_observers
   };
-  /// Whether spheres that do not touch may feel each other (liquid bridges): all within LIGGGHTS's contact
+  /// True if spheres that do not touch may act on each other (liquid bridges): all within LIGGGHTS's contact
   /// distance are visited then.
   bool acts_at_distance() const
   {
@@ -159,10 +159,9 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   /// So many are collected before their forces are computed: what was read of them is still in the cache.
   static constexpr std::size_t batch = 256;
 
-  /// What inlining makes of this is the inner loop of the simulation.
-  ///
-  /// Collected first, because which neighbours touch no processor can foresee: as a branch around the force
-  /// it was wrong once for each contact. In collect() it is none.
+  /// The inner loop of the simulation, once inlined. Contacts are collected first, because no processor can
+  /// predict which neighbours touch: a branch around the force was mispredicted once for each contact.
+  /// collect() has no such branch.
   [[gnu::flatten]] void walk(PairGran* pair, bool observed, int addflag)
   {
     walk_body(pair, observed, addflag);
@@ -380,7 +379,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     }
   }
 
-  /// Of fix contactproperty/atom, in its layout: force and torque; force and the partner's index.
+  /// Row of fix contactproperty/atom, in its layout: force and torque; force and the partner's index.
   void store_force(LAMMPS_NS::FixContactPropertyAtom& fix, int i, int j, const ForceData& on_i) const
   {
     const int tag = lmp_->atom->tag[j];

@@ -46,7 +46,7 @@ bool overlaps_itself(LAMMPS_NS::FixTemplateMultisphere& clump)
   return false;
 }
 
-/// Whether spheres of one body overlap, of those on this rank.
+/// True if spheres of one body overlap, of those on this rank.
 bool any_overlaps_itself(LAMMPS_NS::FixMultisphere& clumps, const LAMMPS_NS::Atom& atom)
 {
   std::map<int, std::vector<int>> of_body;

@@ -28,8 +28,8 @@ class ParticleColumns
 
   ParticleColumns() = default;
   explicit operator bool() const { return fix_ != nullptr; }
-  /// Of the particles of this rank, then its ghosts. Asked for where it is used, and never kept over a
-  /// command: it moves when particles come in.
+  /// Rows of the particles of this rank, then of its ghosts. Fetched at each use, never kept over a command:
+  /// the array moves when particles come in.
   double** rows() const { return fix_->array_atom; }
   /// Owners to ghosts. Collective.
   void send() const { fix_->do_forward_comm(); }

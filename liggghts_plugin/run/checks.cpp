@@ -28,7 +28,7 @@ constexpr const char* built_shapes =
   stop_all(lmp, fmt::format("granulaw was built for {} {}: {}", built_for, built_shapes, why));
 }
 
-/// Whether the LIGGGHTS that made `parent`, an object with virtual functions, has superquadrics: the class is
+/// True if the LIGGGHTS that made `parent`, an object with virtual functions, has superquadrics: the class is
 /// then in the file that has the parent's own functions (a second LIGGGHTS may have been loaded with us).
 bool has_superquadrics(const void* parent)
 {

@@ -83,7 +83,7 @@ class FixStats : public LAMMPS_NS::Fix
   void warn(const std::string& what, const std::string& text) const;
   void warn_of_clumps() const;
   void warn_of_lost_contacts() const;
-  /// Where a contact of this run was stiffer than the time step allows, once for each step. Collective.
+  /// Warns if a contact of this run was stiffer than the time step allows, once for each step. Collective.
   void warn_of_long_steps() const;
   void warn_of_sizes() const;
   void warn_of_laws_without_checksum() const;

@@ -9,7 +9,7 @@
 
 namespace granulaw {
 
-/// The materials that an atlas holds shapes of. A main plane at one Poisson's ratio, every stiffness with its
+/// The materials that an atlas holds shapes of. A reference set at one Poisson's ratio, every stiffness with its
 /// hardenings; and a coarser block that tells what another Poisson's ratio changes, which is little and
 /// smooth.
 struct AtlasGrid
@@ -98,9 +98,10 @@ class Atlas
 
  private:
   LawShape main_shape(double stiffness, double hardening) const;
-  /// What the main plane knows of a material with another Poisson's ratio. What inertia changes goes with the
-  /// sphere's ringing: its period with the shear wave's, E*/rho (1 - nu)/2, and the contact's time with
-  /// rho/Y; so it is that of the stiffness E*/Y (1 - nu) in the main plane.
+  /// Law shape of a material with another Poisson's ratio, from the reference set (nu = 0.3). Inertia acts
+  /// through the sphere's ringing: its period goes with the shear wave's, E*/rho (1 - nu)/2, and the
+  /// contact's time with rho/Y. So the effect of inertia is that at the stiffness E*/Y (1 - nu) in the
+  /// reference set.
   LawShape partner(const MaterialRatios& m) const;
 
   AtlasGrid grid_;

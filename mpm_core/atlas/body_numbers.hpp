@@ -17,7 +17,7 @@ struct BodyNumbers
   bool rate_dependent = false;
 };
 
-/// Of a homogeneous, rate-independent sphere.
+/// Numbers of a homogeneous, rate-independent sphere.
 BodyNumbers body_numbers(const MaterialRatios& ratios);
 
 }  // namespace granulaw

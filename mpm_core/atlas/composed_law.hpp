@@ -24,15 +24,15 @@ struct ComposedState
   bool known = true;
 };
 
-/// The law of two unlike spheres, or of a sphere and a thick wall, from what the atlas knows of each alone:
+/// The law of two unlike spheres, or of a sphere and a deformable wall, from what the atlas knows of each alone:
 /// no run.
 ///
 /// At a contact radius a the two bodies share the interface's curvature, kappa_s + kappa_h = a/R*, the mean
-/// pressure and the pressure's shape. Each is a twin (PairBody) whose own pressure has another shape: under
+/// pressure and the pressure's shape. Each is a equivalent sphere (PairBody) whose own pressure has another shape: under
 /// the common one
-///     p       = p_twin strength(common)/strength(own)                       it yields as much as the twin
+///     p       = p_twin strength(common)/strength(own)                       it yields as much as the equivalent sphere
 ///     kappa   = kappa_twin + 2 pi/E* [sag(common) p - sag(own) p_twin]       its elastic surface curves
-///     otherwise overlap = that of the twin + pi a/E* [displacement(common) p - displacement(own) p_twin]
+///     otherwise overlap = that of the equivalent sphere + pi a/E* [displacement(common) p - displacement(own) p_twin]
 ///               - k pi a^2 (p - p_twin)/(E* R)                               the finite sphere's
 /// The common shape follows from the residual over the recovered overlaps of both. An elastic body yields
 /// nothing: the second line then says what curvature a flatter pressure gives it. Measured against two-body
@@ -40,7 +40,7 @@ struct ComposedState
 class ComposedPair
 {
  public:
-  /// Radii in one unit; infinity: a thick wall. The bodies outlive this.
+  /// Radii in one unit; infinity: a deformable wall. The bodies outlive this.
   ComposedPair(const PairBody& yielding, double radius, const PairBody& partner, double partner_radius);
 
   ComposedState at(double contact_radius) const;
@@ -65,10 +65,10 @@ struct ComposedError
 /// (docs/theory/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.
 ComposedError composed_error(double e_star_ratio);
 
-/// sqrt(I) up to which speed changes nothing: an impact shows the rate-free law.
+/// sqrt(I) up to which speed changes nothing: an impact shows the rate-independent law.
 inline constexpr double slow_speed = 0.02;
 
-/// What the law of a yielding pair is tabulated from.
+/// Input of the tabulation of a yielding pair's law.
 struct ComposedShape
 {
   LawMaterial material;    ///< the yielding body's
@@ -82,7 +82,7 @@ struct ComposedShape
 };
 
 /// The shape of a pair that yields at this ratio of the partner's radius to the yielding body's; infinity:
-/// the partner is a thick wall; 0: the yielding body is. Velocity effects are those of the yielding body.
+/// the partner is a deformable wall; 0: the yielding body is. Velocity effects are those of the yielding body.
 /// range: depth, fastest. Throws Error where it begins to yield too near to where the atlas ends.
 ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
                             double radius_ratio, const LawRange& range);

@@ -6,7 +6,7 @@
 
 namespace granulaw {
 
-/// What 95 % of all errors lie within, said with a confidence of 95 %, from those of some: the k-th smallest
+/// Bound on 95 % of all errors, with a confidence of 95 %, from those of some: the k-th smallest
 /// of n is too low only if at least k of n lay within, a binomial of n and 0.95 (Wilks 1941): the largest of
 /// 59 to 92, the 99th of 100, the 196th of 200; of fewer than 59 not even the largest is enough. At least
 /// half the largest, since none may exceed twice what is claimed. 0 of none.

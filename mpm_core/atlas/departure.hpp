@@ -30,7 +30,7 @@ class Departure
   Departure() = default;
   /// A function with a single point, or none, is proportional to the square of the coordinate, or 0.
   explicit Departure(const Points& points);
-  /// Of a slow law from its guide, up to where one of them ends.
+  /// Departure of a quasi-static law from its guide, up to where one of them ends.
   static Departure between(const Curve& own, const LawShape& guide);
 
   /// Adds it to a master at the same overlap/onset; velocity effects stay.

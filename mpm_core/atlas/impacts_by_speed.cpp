@@ -51,7 +51,7 @@ LawShape::VelocityEffect ImpactsBySpeed::effect(double v) const
   return effect;
 }
 
-/// Where the rate-free law's work is the kinetic energy.
+/// Overlap at which the rate-independent law's work is the kinetic energy.
 double ImpactsBySpeed::slow_impact_overlap(double v) const
 {
   return overlap_at_work(slow_, energy_unit_ * v * v);

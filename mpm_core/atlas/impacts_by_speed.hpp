@@ -21,7 +21,7 @@ class ImpactsBySpeed
   double impact_overlap(double v) const;
   /// Its inverse, between `slowest` and `fastest`.
   double speed(double impact_overlap, double slowest, double fastest) const;
-  /// What an impact changes, at any speed; its log_overlap is left out.
+  /// Effect of an impact at any speed; its log_overlap is left out.
   LawShape::VelocityEffect effect(double v) const;
 
  private:
@@ -31,7 +31,7 @@ class ImpactsBySpeed
   const Curve& slow_;
   double energy_unit_;
   SpeedInterpolation between_;
-  std::vector<double> log_overlap_ratio_;  // over the rate-free law's, by the shape's speeds
+  std::vector<double> log_overlap_ratio_;  // over the rate-independent law's, by the shape's speeds
 };
 
 }  // namespace granulaw

@@ -2,12 +2,12 @@
 
 namespace granulaw {
 
-/// What a law must reach, and how exactly.
+/// Range and tolerance of a law.
 struct LawRange
 {
   double depth = 0.2;  ///< overlap/length that the law must reach, up to 0.5; beyond 0.1 no single pair law
                        ///< exists: the support matters (the certificate says how much)
-  double fastest = 0.25;  ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-free
+  double fastest = 0.25;  ///< sqrt(I), I = rho V^2/Y, that the law must reach, up to 0.3; 0: rate-independent
   double slowest = 0;  ///< of a rate-dependent body: sqrt(I) of the slowest impact that its law must hold for;
                        ///< 0: a fiftieth of `fastest`. Not below the onset of yield, where rates change nothing
   /// Relative, of force and of e, but of an e below 0.5 over 0.5: an e of 0.07 is then known to 0.005. Two

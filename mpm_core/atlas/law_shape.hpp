@@ -16,8 +16,8 @@ namespace granulaw {
 struct ElasticCorrection
 {
   double c1 = 0, c2 = 0, d1 = 0, c3 = 0;
-  /// Of a body of several materials, whose stiffness changes where the contact is as wide as a layer is thick:
-  /// ln of the force as computed over that of the terms, by s. Null: the terms are all.
+  /// Measured factor for a body of several materials, whose stiffness changes where the contact is as wide as
+  /// a layer is thick: ln of the force as computed over that of the terms, by s. Null: the terms alone.
   std::shared_ptr<const Spline> measured{};
 
   double force_ratio(double s) const { return terms(s) * beside_terms(s); }
@@ -30,7 +30,7 @@ struct ElasticCorrection
   double radius_ratio_slope(double s) const { return 2 * d1 * s; }
   /// this += weight * other, of which neither has a measured part.
   void add(double weight, const ElasticCorrection& other);
-  /// Of unloading from s along the elastic curve itself (c3 = 0): x^1.5 (1 + c1 sqrt(x) + c2 x).
+  /// Unloading from s along the elastic curve itself (c3 = 0): x^1.5 (1 + c1 sqrt(x) + c2 x).
   UnloadingShape unloading(double s) const
   {
     const double a = 1 / force_ratio(s), b = a * c1 * s * s, c = 1 - a - b;
@@ -71,7 +71,7 @@ struct LawShape
     double log_overlap = 0;     ///< ln(X/v), X the overlap/R reached
     double dissipation = 0;     ///< -ln(W_u/W_L) less that of the press
     double residual = 0;        ///< -ln(1 - delta_r/delta_m) less that of the press
-    std::vector<double> force;  ///< ln(F_impact/F_press) at the shares
+    std::vector<double> force;  ///< ln(F_impact/F_press) at the fractions
   };
 
   ElasticCorrection elastic;
@@ -100,10 +100,11 @@ struct LawShape
   /// The same functions of x/onset between other ends. Beyond its own end each keeps its last value; inertia is
   /// dropped.
   LawShape at_range(double other_onset, double other_end) const;
-  /// Of a sphere, with its own elastic correction: the shape of a body with the same skin, which differs
-  /// elastically further below. A contact small against the skin adds to its overlap x' the approach of the
-  /// rest of the body under its force F, x = x' + C F, C by the two corrections' c1; so its losses are those of
-  /// the sphere at x'. Beyond `known`, where the sphere's law ends, the last value is kept. Inertia is dropped.
+  /// Law shape of a body with the same skin, from that of a sphere with its own elastic correction; the body
+  /// differs elastically further below. A contact small against the skin adds to its overlap x' the approach
+  /// of the rest of the body under its force F, x = x' + C F, C by the two corrections' c1. So its losses are
+  /// those of the sphere at x'. Beyond `known`, where the sphere's law ends, the last value is kept. Inertia
+  /// is dropped.
   LawShape as_skin_of(const ElasticCorrection& body, double known) const;
   /// All zero at all impact_speeds, ready for add().
   static LawShape zero(double onset = 0, double end = 0);

@@ -17,7 +17,7 @@ struct SceneSizes
 {
   double radius_ratio = 1;  ///< largest ratio of two spheres' radii, 1 or more: pairs are composed up to it
   double rule_radius_ratio = 0;  ///< that for which the pair rule's error is stated; 0: radius_ratio
-  bool thick_walls = true;       ///< either of two bodies may also be a thick deformable wall
+  bool thick_walls = true;       ///< either of two bodies may also be a deformable wall
 
   double largest_for_rule() const { return rule_radius_ratio > 0 ? rule_radius_ratio : radius_ratio; }
 };
@@ -32,7 +32,7 @@ struct PlannedPair
   /// own law; 0 of composed laws.
   ReductionError stated{};
   /// Partner's radius over the yielding body's of each law that will be composed, ascending
-  /// (composed_law.hpp); infinity: a thick wall; 0: the yielding body is one. None: the pair follows the
+  /// (composed_law.hpp); infinity: a deformable wall; 0: the yielding body is one. None: the pair follows the
   /// rule, or has its own law by runs.
   std::vector<double> composed_at{};
 
@@ -41,7 +41,7 @@ struct PlannedPair
 };
 
 /// Plans the pair of two homogeneous spheres, or of one and the rigid wall (no `b`). `composable`: the atlas
-/// holds the twins of both (PairBody).
+/// holds the equivalent spheres of both (PairBody).
 PlannedPair plan_pair(const LawMaterial& a, const LawMaterial* b, const SceneSizes& sizes, bool composable);
 
 /// Laws of one pair.

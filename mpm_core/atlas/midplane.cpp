@@ -39,7 +39,7 @@ void add_weights(std::vector<Weighted>& sum, const MaterialRatios& m, const std:
   }
 }
 
-/// The main plane at m's stiffness and hardening, and for another Poisson's ratio what the block says it
+/// The reference set at m's stiffness and hardening, and for another Poisson's ratio what the block says it
 /// changes.
 std::vector<Weighted> weights_of(const MidplaneGrid& grid, const MaterialRatios& m)
 {

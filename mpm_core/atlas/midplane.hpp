@@ -8,8 +8,8 @@
 
 namespace granulaw {
 
-/// Materials of which the atlas has run midplane presses. A main plane at one Poisson's ratio, and a coarser
-/// block that tells what another one changes.
+/// Materials of which the atlas has run midplane presses. A reference set at one Poisson's ratio, and a
+/// coarser block that tells what another one changes.
 struct MidplaneGrid
 {
   double main_poisson_ratio = 0.3;
@@ -20,7 +20,7 @@ struct MidplaneGrid
   std::vector<double> block_poisson_ratios{0, 0.49};  ///< besides the main one
 
   std::vector<double> poisson_ratios() const;  ///< all, ascending
-  /// The main plane, then the block: by stiffness, hardening, Poisson's ratio.
+  /// The reference set, then the block: by stiffness, hardening, Poisson's ratio.
   std::vector<MaterialRatios> materials() const;
   bool operator==(const MidplaneGrid&) const = default;
 };
@@ -35,7 +35,7 @@ struct MidplaneCheck
   double error_recovery = 0;     ///< of the recovery, largest overlap less residual, relative, signed
 };
 
-/// What holding the equator plane, in place of the whole sphere, changes of a contact: a particle between two
+/// Effect of a held equator plane, in place of the whole sphere, on a contact: a particle between two
 /// platens.
 ///
 /// While the contact is small the change is elastic: the half between contact and equator is a series

@@ -15,12 +15,12 @@ namespace granulaw {
 
 namespace {
 
-// Twins: the atlas's spacing in ln(E*/Y), over curvatures 14 times the flat's either way (radii 1:10 and a
+// Equivalent spheres: the atlas's spacing in ln(E*/Y), over curvatures 14 times the flat's either way (radii 1:10 and a
 // partner that takes a tenth of the curvature).
 constexpr double farthest_twin = 14;
 constexpr int twins_made = 9;
 
-// Nodes of a twin in ln(overlap/overlap at first yield): up to that, and from there to where the atlas ends,
+// Nodes of a equivalent sphere in ln(overlap/overlap at first yield): up to that, and from there to where the atlas ends,
 // in which laws of different stiffness resemble each other (LawShape).
 constexpr double first_log_overlap = -8;
 constexpr int elastic_intervals = 80, plastic_intervals = 240;
@@ -33,7 +33,7 @@ double log_overlap_of(double node, double end)
                                   : end * (node - elastic_intervals) / plastic_intervals;
 }
 
-/// Of a thick wall, which has no finite body, in place of alpha = 0.
+/// Curvature of a deformable wall, which has no finite body, in place of alpha = 0.
 constexpr double flat = 1e-6;
 
 /// Between the values at 0 and 1.
@@ -118,7 +118,7 @@ PairBody PairBody::elastic() const
   return body;
 }
 
-/// A twin from its slow law on a rigid flat, up to the overlap `depth`.
+/// A equivalent sphere from its slow law on a rigid flat, up to the overlap `depth`.
 PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& elastic,
                                    double stiffness, double onset, double depth)
 {
@@ -134,7 +134,7 @@ PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& 
     t.log_contact.push_back(std::log(radius));
     t.log_pressure.push_back(std::log(force * stiffness / (M_PI * radius * radius)));
     t.log_overlap.push_back(std::log(x));
-    // -ln of the share that is recovered
+    // -ln of the fraction that is recovered
     t.log_lost.push_back(is_elastic ? 0.0 : -std::log1p(-top.residual() / x));
     t.unloading_work.push_back(unloading.work());
     t.hertz_share.push_back(unloading.hertz_share);
@@ -165,7 +165,7 @@ PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
   return t;
 }
 
-/// Of the body's own stiffness, with this H/E.
+/// Equivalent sphere with the body's stiffness and this H/E.
 PairBody::Twin PairBody::stand_in(const Atlas& atlas, double hardening) const
 {
   const LawShape shape = atlas.shape({ratios_.stiffness, ratios_.poisson_ratio, hardening});
@@ -283,8 +283,8 @@ PairBody::State PairBody::at(double curvature, double contact) const
 {
   if (!yields()) return elastic_at(curvature, contact);
   const Mixed twin = twin_at(curvature, contact);
-  // Of a twin that the atlas does not know: the nearest one that it knows, at the same kappa; what the finite
-  // sphere takes off the overlap is put right.
+  // Equivalent sphere beyond the atlas: the nearest one within it, at the same kappa; the overlap is
+  // corrected for the finite size of that sphere.
   const double alpha = twin.is_clipped ? curvature / twin.share : contact;
   const double node = place(twin, &Twin::log_contact, std::log(alpha));
   double log_end = 0;
@@ -293,7 +293,7 @@ PairBody::State PairBody::at(double curvature, double contact) const
 
   State state;
   state.log_yield_overlap = log_overlap_of(node, log_end);
-  // A twin put in the place of one that is too stiff for the atlas is soft for lack of a body, not of
+  // A equivalent sphere put in the place of one that is too stiff for the atlas is soft for lack of a body, not of
   // pressure.
   constexpr double widest_stand_in = 0.35;
   const double log_strain = std::log(curvature * ratios_.stiffness);

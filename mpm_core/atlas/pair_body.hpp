@@ -9,7 +9,7 @@
 
 namespace granulaw {
 
-/// How far a contact's pressure has gone from Hertz's (0) to uniform (1), and what follows for an elastic
+/// Position of a contact's pressure between Hertz's (0) and uniform (1), and its consequences for an elastic
 /// half-space under a mean pressure p over a circle of radius a (Johnson, Contact Mechanics, sect. 3.2
 /// and 3.4).
 struct PressureShape
@@ -20,7 +20,7 @@ struct PressureShape
 
   /// Displacement of the middle, over pi p a/E*: 3/4 to 2/pi.
   static double displacement(double flatness);
-  /// What the edge lies above the middle, over pi p a/E*: 3/8 to 2/pi - 4/pi^2.
+  /// Height of the edge above the middle, over pi p a/E*: 3/8 to 2/pi - 4/pi^2.
   static double sag(double flatness);
   /// Mean pressure at which material under this shape yields as much as under Hertz's: 1 to 1.25. At first
   /// yield a uniform pressure's is 1.5 Y, Hertz's 1.07 Y; in full plasticity both are hardness. The mean of
@@ -33,18 +33,18 @@ struct PressureShape
 /// A partner shows a sphere of radius R a surface that is not flat. Only the curvature 1/r between the two
 /// counts for what happens near the contact, of radius a: kappa = a/r; and alpha = a/R for the sphere as a
 /// whole. A sphere on a rigid flat has kappa = alpha. Strains go as kappa, the solution depends on kappa E*/Y
-/// and alpha: so the sphere is as its twin on a rigid flat, of the same Y, nu, H and alpha and of the
-/// stiffness E* kappa/alpha: with the same pressure, and overlaps kappa/alpha times the twin's. The atlas
-/// knows the twins.
+/// and alpha: so the sphere is as its equivalent sphere on a rigid flat, of the same Y, nu, H and alpha and of the
+/// stiffness E* kappa/alpha: with the same pressure, and overlaps kappa/alpha times the equivalent sphere's. The atlas
+/// knows the equivalent spheres.
 class PairBody
 {
  public:
   /// Throws Error if the atlas does not know the material.
   PairBody(const Atlas& atlas, const LawMaterial& material);
-  /// Of a body whose flow law the atlas does not know, homogeneous and rate-independent, with its `own` slow
-  /// law on a rigid flat. Twins are those of the linearly hardening material that comes nearest; by what the
-  /// body's own contact departs from this one's at the strain kappa E*/Y, each twin does at the same strain.
-  /// Known up to the strain where the own law ends.
+  /// Homogeneous, rate-independent body whose flow law is not in the atlas, with its `own` quasi-static law
+  /// on a rigid plane. Equivalent spheres are those of the linearly hardening material that comes nearest.
+  /// Each is corrected by the departure of the body's own contact from this one's at the same strain kappa
+  /// E*/Y. Defined up to the strain where the own law ends.
   PairBody(const Atlas& atlas, const LawMaterial& material, const Curve& own);
 
   /// At contact radius a.
@@ -57,10 +57,11 @@ class PairBody
     double log_yield_overlap = 0;  ///< ln(overlap/overlap at first yield); elastic: below 0
     bool known = true;             ///< within what the atlas tells
   };
-  /// `curvature`: kappa > 0; `contact`: alpha, 0 for a thick wall.
+  /// `curvature`: kappa > 0; `contact`: alpha, 0 for a deformable wall.
   State at(double curvature, double contact) const;
 
-  /// How the twin unloads where its residual overlap is this over the recovered one: dents of one shape are
+  /// Unloading of the equivalent sphere whose residual overlap is this over the recovered one: dents of one
+  /// shape are
   /// reloaded with one shape of the pressure.
   struct Unloading
   {
@@ -73,20 +74,20 @@ class PairBody
   PairBody elastic() const;
 
   const LawMaterial& material() const { return material_; }
-  /// Of the material in the atlas that stands for it: its own, but for the hardening.
+  /// Ratios of the material in the atlas that represents it: its own, but for the hardening.
   const MaterialRatios& ratios() const { return ratios_; }
   bool yields() const { return !twins_.empty(); }
   /// k of the finite sphere: its centre comes nearer by k F/(E* R) less than its half-space's.
   double finite_body() const { return finite_body_; }
 
  private:
-  /// Of one stiffness, at equal steps of ln(overlap/overlap at first yield).
+  /// Equivalent sphere of one stiffness, at equal steps of ln(overlap/overlap at first yield).
   struct Twin
   {
     double log_stiffness = 0, log_end = 0;  // ln(E*/Y); where the atlas ends
     std::vector<double> log_contact, log_pressure, log_overlap, log_lost, unloading_work, hertz_share;
   };
-  /// The twin of a stiffness between those kept.
+  /// The equivalent sphere of a stiffness between those kept.
   struct Mixed
   {
     double share;       // of its stiffness in the body's own
@@ -94,7 +95,7 @@ class PairBody
     std::array<double, 4> weights;
     bool is_clipped;  // nearest to one that the atlas does not know
   };
-  /// What a body's contact departs from its stand-in's by, at ascending ln(kappa E*/Y). Empty: by nothing.
+  /// Departure of a body's contact from its equivalent sphere's, at ascending ln(kappa E*/Y). Empty: none.
   struct Departure
   {
     std::vector<double> log_strain, log_pressure, log_overlap, log_lost, unloading_work, hertz_share;
@@ -111,7 +112,7 @@ class PairBody
   static Departure departure(const Twin& own, const Twin& stand_in);
   Mixed twin_at(double curvature, double contact) const;
   double value(const Mixed& twin, const std::vector<double> Twin::*member, int node) const;
-  /// Node below which a rising function of the twin is `wanted`, with its fraction.
+  /// Node below which a rising function of the equivalent sphere is `wanted`, with its fraction.
   double place(const Mixed& twin, const std::vector<double> Twin::*member, double wanted) const;
   double value(const Mixed& twin, const std::vector<double> Twin::*member, double place) const;
   double elastic_overlap(double contact) const;

@@ -30,8 +30,8 @@ void add_loading(CurveTable& table, const ElasticCorrection& el, double x, const
       radius, radius / x * 0.25 * (2 + s * el.radius_ratio_slope(s) / el.radius_ratio(s) + l.widening_slope));
 }
 
-/// The share that the shape wants, where the unloading rises and is not less stiff than loading; the work is
-/// the same with any.
+/// The fraction that the shape wants, where the unloading rises and is not less stiff than loading; the work
+/// is the same with any.
 double admissible_hertz_share(double wanted, const Curve::Top& top, double x, double stiffness)
 {
   const double mean = top.kept * top.work / (top.force * x * top.span);

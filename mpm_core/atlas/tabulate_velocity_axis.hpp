@@ -5,7 +5,7 @@
 
 namespace granulaw {
 
-/// What inertia changes of `slow`, the shape's own rate-free law, up to the speed sqrt(I) = `fastest` (at
+/// Effect of inertia on `slow`, the shape's own rate-independent law, up to the speed sqrt(I) = `fastest` (at
 /// most the shape's last) of a body of this `mass` (over rho R^3). Beyond the overlap that an impact reaches
 /// the force goes over to the press's within half of it. The axis ends before `fastest` where that would go
 /// deeper than `slow`'s table.

@@ -78,7 +78,7 @@ Causes causes_of(const UnlikePair& pair, double velocity)
   const double depth = std::max(hertz, v * std::sqrt(unit_mass / (5.6 * M_PI * yield)));
   const double e = std::min(1.0, 1.3 * std::pow(velocity / pair.yield_velocity(), -0.2));
 
-  // 1. Elastic partner: the share of the overlap that is the partner's. Partly where it yields soon after:
+  // 1. Elastic partner: the fraction of the overlap that is the partner's. Partly where it yields soon after:
   // at Y_h/Y_s = 1.1 the error is 0.4 of an elastic partner's, from 1.5 on all of it.
   Causes c;
   c.e = e;

@@ -5,7 +5,7 @@
 
 namespace granulaw {
 
-/// Two spheres of different make, or sizes, that touch pole against pole; or a sphere and a thick wall. Only
+/// Two spheres of different make, or sizes, that touch pole against pole; or a sphere and a deformable wall. Only
 /// ratios count: lengths over the first one's radius.
 struct UnlikePair
 {
@@ -28,12 +28,12 @@ struct UnlikePair
   double yield_velocity() const;
 };
 
-/// What the pair rule costs one pair at one velocity, relative (0.01 is 1 %).
+/// Error of the pair rule for one pair at one velocity, relative (0.01 is 1 %).
 struct ReductionError
 {
   double force = 0;        ///< of F_max
   double restitution = 0;  ///< of e
-  /// Of an estimate: the pair and its velocity lie where the rule was held against two-body runs.
+  /// True if the pair and its velocity lie where the rule was compared with two-body runs.
   bool within_measured = true;
 };
 

@@ -12,8 +12,8 @@ struct AtlasErrors
   double restitution = 0;     ///< of e, absolute, against runs
   double force = 0;           ///< relative, the runs' own included
   double midplane_force = 0;  ///< relative, the runs' own included
-  /// Of an unloading, relative to the largest overlap less the residual, by midplane presses. It goes as e^2:
-  /// the runs' own counts twice.
+  /// Error of an unloading, relative to the largest overlap less the residual, by midplane presses. It goes
+  /// as e^2: the runs' own error counts twice.
   double recovery = 0;
   double solver = 0;  ///< of the runs, relative, of F and of e
 };

@@ -98,7 +98,8 @@ void add_compliances(Calibration& c, const CalibrationProblem& problem)
           profile_likelihood(problem, c.minimum, u, c.interval_scale).within95;
 }
 
-/// Of the problem in which all curves' machines give way, at the minimum of the one in which none does.
+/// Shift of Young's modulus if all curves' machines give way, at the minimum of the problem in which none
+/// does.
 double machine_shift_of(const CalibrationProblem& problem, const Calibration& c)
 {
   CalibrationRequest request = problem.request();

@@ -6,7 +6,7 @@
 
 namespace granulaw {
 
-/// Where the sum of squares is least.
+/// Minimum of the sum of squares.
 struct Minimum
 {
   Coordinates q;
@@ -68,8 +68,8 @@ struct Calibration
   std::vector<MachineState> machines;  ///< by measurement
   /// By measurement: of the machine's compliance, m/N, 95 %; none where it is not fitted.
   std::vector<std::optional<Interval>> compliances;
-  /// Of Young's modulus, where it is fitted to curves of machines that are taken as rigid: relative change by
-  /// a compliance of stiff_machine, to first order.
+  /// Relative change of a Young's modulus fitted to curves of machines that are taken as rigid, by a
+  /// compliance of stiff_machine, to first order.
   double machine_shift = 0;
   std::vector<Misfit> misfits;
   Minimum minimum;
@@ -92,9 +92,9 @@ struct Band
 {
   std::vector<double> low, high;
 };
-/// Of one parameter: the fits at both ends of its interval. Of several: their departures h from the fit,
-/// over the square root of h' R^-1 h with the correlations R, as an ellipsoid that touches all intervals has.
-/// Empty where the fit lies at an end of the method's range.
+/// Band of a measurement's prediction. One parameter: the fits at both ends of its interval. Several: their
+/// departures h from the fit, over the square root of h' R^-1 h with the correlations R, as an ellipsoid that
+/// touches all intervals has. Empty if the fit lies at an end of the method's range.
 Band band_of(const CalibrationProblem& problem, const Calibration& calibration, std::size_t measurement);
 
 /// Values, bounds and misfits as sentences; the last of all says whether the model fits.

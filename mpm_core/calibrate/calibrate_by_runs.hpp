@@ -10,7 +10,7 @@ struct CalibrationByRuns
 {
   Calibration calibration;
   int laws = 0;  ///< made by runs
-  /// How far the last of them is off what the fit went by, relative: of force, and of e.
+  /// Relative difference between the last run and the fit: of force, and of e.
   double miss_force = 0, miss_restitution = 0;
 };
 

@@ -11,7 +11,7 @@ struct DesignCandidate
   double place = 0;  ///< of the kind's column x, SI: a speed; the largest displacement of a curve
 };
 
-/// Expected half width of the 95 % interval of each wanted parameter, as a share of it (hardening: of H +
+/// Expected half width of the 95 % interval of each wanted parameter, as a fraction of it (hardening: of H +
 /// Y/2).
 using ExpectedIntervals = std::vector<double>;
 

@@ -27,7 +27,7 @@ std::vector<CandidateMaterial> draw_materials(const CalibrationProblem& problem,
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
   const auto unknowns = static_cast<double>(problem.count());
-  // the share of the covariance at which a random walk gets about fastest (Roberts, Gelman and Gilks 1997)
+  // the fraction of the covariance at which a random walk gets about fastest (Roberts, Gelman and Gilks 1997)
   const Eigen::MatrixXd step = 2.4 / std::sqrt(unknowns) * std::sqrt(c.interval_scale) * steps_of(c.minimum);
   Coordinates q = c.minimum.q;
   double cost = c.minimum.cost;

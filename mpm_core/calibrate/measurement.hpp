@@ -30,7 +30,7 @@ struct Datum
   double y = 0;            ///< the value
   double sd = 0;           ///< its standard deviation; 0: not stated
   int line = 0;            ///< of the file
-  double relative_sd = 0;  ///< over 0: none was stated, and it is this share of the true value
+  double relative_sd = 0;  ///< over 0: none was stated, and it is this fraction of the true value
 
   /// Noise about an assumed true value: a measured value that is far too low has no smaller noise.
   double sd_at(double value) const { return relative_sd > 0 ? relative_sd * std::abs(value) : sd; }
@@ -45,9 +45,9 @@ struct Measurement
   double radius = 0;           ///< m, of the sphere; infinity: a thick flat specimen, which an indenter meets
   double indenter_radius = 0;  ///< m; over 0: of a spherical indenter
   ImpactPartner partner = ImpactPartner::wall;
-  /// Material of the body that is not fitted: an indenter, a thick wall or the ball; none: rigid.
+  /// Material of the body that is not fitted: an indenter, a deformable wall or the ball; none: rigid.
   std::optional<LawMaterial> counterpart;
-  bool counterpart_is_ball = false;  ///< the ball is the counterpart, and a thick wall is fitted
+  bool counterpart_is_ball = false;  ///< the ball is the counterpart, and a deformable wall is fitted
   bool fit_offset = false;           ///< curves: the displacement of first touch is unknown
   bool fit_compliance = false;       ///< curves: the machine gives way in proportion to the force
   /// Known before the data: 95 % of the ratio of the value to the yield stress lie between, in place of the

@@ -13,7 +13,8 @@ namespace granulaw {
 
 namespace {
 
-/// What a force is off the cubic through its neighbours, over what unit scatter of all five would make of it.
+/// Residual of a force from the cubic through its four neighbours, over the residual for unit scatter of all
+/// five.
 struct PseudoResidual
 {
   double force, residual;
@@ -49,7 +50,7 @@ double ForceScatter::at(double force) const
 
 ForceScatter scatter_of(const Measurement& curve)
 {
-  constexpr double least = 1e-4, most = 0.3;  // of the largest force, and of the share
+  constexpr double least = 1e-4, most = 0.3;  // of the largest force, and of the fraction
   constexpr int steps = 32;
   const std::vector<PseudoResidual> residuals = pseudo_residuals(curve);
   const double unit = curve.largest_y();

@@ -55,7 +55,7 @@ std::vector<std::string> fitted_hardening_laws();
 std::vector<Parameter> parameters_of(const std::string& hardening_law);
 /// Range of a parameter of the material's hardening law that the solver takes.
 Range range_of(const CandidateMaterial& material, Parameter parameter);
-/// Where a search for it begins: the flow stress is (1 + gain) Y at about `strain`.
+/// Start of the search: the flow stress is (1 + gain) Y at about `strain`.
 double start_of(const CandidateMaterial& material, Parameter parameter, double gain, double strain);
 
 double value_of(const CandidateMaterial& material, Parameter parameter);  ///< 0: not given

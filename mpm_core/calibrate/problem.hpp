@@ -18,7 +18,7 @@ struct LawShape;
 struct MachineState;
 struct Prediction;
 
-/// What shall be found, and from what. SI.
+/// Parameters to be found, and the data. SI.
 struct CalibrationRequest
 {
   std::vector<Measurement> measurements;  ///< with all standard deviations
@@ -85,7 +85,7 @@ class CalibrationProblem
     double beyond = 0;  ///< Prediction::beyond
   };
   Comparison compare(const Coordinates& q, std::size_t measurement) const;
-  /// How far data, priors and model errors scatter about the fit, as the loss counts them.
+  /// Scatter of data, priors and model errors about the fit, as the loss counts it.
   struct Scatter
   {
     double chi_squared = 0;   ///< a robust fit counts an outlier as a value at its limit of three sd
@@ -107,7 +107,7 @@ class CalibrationProblem
   using Sentence = std::function<std::string()>;
   void limits(const CandidateMaterial& material, double beyond,
               const std::function<void(double outside, const Sentence&)>& use) const;
-  /// Of the data, in their order: no loss has tempered them yet.
+  /// Residuals of the data, in their order, before any loss has tempered them.
   struct Misses
   {
     std::vector<double> data;

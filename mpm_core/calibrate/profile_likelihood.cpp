@@ -40,7 +40,7 @@ class Side
     Coordinates all;  ///< the other unknowns as they fit there
   };
   const std::optional<Coordinates>& better() const { return better_; }
-  /// Where the square root of the rise reaches `wanted`.
+  /// Place at which the square root of the rise reaches `wanted`.
   End reach(double wanted)
   {
     const double length = std::abs(end_ - start_);

@@ -42,7 +42,7 @@ RunJob elastic_job(double poisson_ratio, double depth, const RunSource& source)
   return press_job(characterised_body_of(1.0, poisson_ratio, 0.0).elastic(), {depth, {}, 24, 2}, source);
 }
 
-/// Of a material that is known, else null.
+/// Shape of a known material, else null.
 const LawShape* shape_in(const KnownAtlas& known, const MaterialRatios& m)
 {
   if (!known.atlas) return nullptr;
@@ -155,7 +155,7 @@ LawShape Assembly::fitted(const MaterialRatios& m, const ContactRecords& records
   return fit_shape(records, elastic, onset, Atlas::depth, prior ? &*prior : nullptr).shape;
 }
 
-/// From the nodes made so far at one stiffness of the main plane.
+/// From the nodes made so far at one stiffness of the reference set.
 LawShape Assembly::main_shape(double stiffness, double hardening) const
 {
   std::vector<double> z;
@@ -191,7 +191,7 @@ ShapePrior Assembly::prior_in_main_plane(const MaterialRatios& m) const
                         main_prior(at[-2], m.hardening));
 }
 
-/// From the block's next less stiff material, and what stiffness changes in the main plane.
+/// From the block's next less stiff material, and what stiffness changes in the reference set.
 ShapePrior Assembly::prior_in_block(const MaterialRatios& m) const
 {
   const auto at = std::find(grid_.block_stiffnesses.begin(), grid_.block_stiffnesses.end(), m.stiffness);

@@ -6,7 +6,7 @@
 
 namespace granulaw {
 
-/// What is known before an atlas is built.
+/// Data at hand before an atlas is built.
 struct KnownAtlas
 {
   const Atlas* atlas = nullptr;  ///< whose materials stay, are not run again; null: none

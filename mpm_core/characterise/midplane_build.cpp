@@ -102,7 +102,7 @@ MidplaneShapes midplane_from(const Atlas& free, const MidplaneGrid& grid,
 
 namespace {
 
-/// How far the atlas's curve is off a press.
+/// Deviation of the atlas's curve from a press.
 MidplaneCheck compare(MidplaneCheck check, const Atlas& atlas, const RunResult& run)
 {
   const Curve curve = tabulate(atlas.midplane_shape(check.material), MidplaneShapes::depth);

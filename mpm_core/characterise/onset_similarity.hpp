@@ -43,8 +43,8 @@ class OnsetSimilarity
   /// Those to be run.
   std::vector<Sphere>& spheres() { return spheres_; }
   const std::vector<Sphere>& spheres() const { return spheres_; }
-  /// Whether the prior's error at the shallowest run planned is below the tolerance: then it is spared. Under
-  /// a skin it is not: e would be 0.0045 off.
+  /// True if the prior's error at the shallowest run planned is below the tolerance: then that run is spared.
+  /// Under a skin it is not: e would be 0.0045 off.
   bool spares_first() const;
   /// The prior, which ends at the shallowest run planned; `elastic`: the body's own correction. Needs the
   /// runs' findings.

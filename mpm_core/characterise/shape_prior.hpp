@@ -6,8 +6,8 @@
 
 namespace granulaw {
 
-/// What is known of a body's law without its own runs, and how well. The fit takes its nodes below the first
-/// run beside the runs' samples.
+/// Prior of a body's law without its own runs, and its error. The fit takes its nodes below the first run
+/// beside the runs' samples.
 struct ShapePrior
 {
   /// Standard error of F and e of a run of 24 cells on two grids (docs/evidence/atlas.md).
@@ -28,7 +28,7 @@ struct ShapePrior
   void end_at(double overlap);
 };
 
-/// Whether a law whose shallowest run reverses at the overlap `first` needs a prior. Up to twice the onset's
+/// True if a law whose shallowest run reverses at the overlap `first` needs a prior. Up to twice the onset's
 /// overlap a fit that leaves the onset with zero slope follows the law.
 inline bool needs_prior(double first, double onset)
 {

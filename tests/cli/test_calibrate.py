@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What mpm calibrate and mpm design print, write and refuse. Run one case: test_calibrate.py MPM CASE."""
+"""Output, files and refusals of mpm calibrate and mpm design. Run one case: test_calibrate.py MPM CASE."""
 import json
 import subprocess
 import sys
@@ -58,7 +58,7 @@ def material():
 
 
 def verdicts():
-    """What cannot be told is said."""
+    """Parameters that the data do not determine are named."""
     slow = drops([0.01, 0.02, 0.03])
     found = answer("calibrate", slow, *KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress", "hardening_modulus",
                    "--json")

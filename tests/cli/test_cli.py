@@ -110,7 +110,7 @@ def case_press():
         assert abs(result["delta_max_m"] / 1e-4 - 1) < 1e-4, result
         assert 0 < result["delta_residual_m"] < result["delta_max_m"] and 0 < result["e"] < 1
         assert list(result)[:len(KEYS)] == KEYS
-    # three quarters of the default ramp (60 R/c*) is still the rate-free law: at most, I = rho v^2/Y is
+    # three quarters of the default ramp (60 R/c*) is still the rate-independent law: at most, I = rho v^2/Y is
     # (pi/2 0.05/45)^2 100 = 3e-4, where inertia takes less than 0.5 % of e (docs/theory/damage-number.md)
     words = ["press", "m.toml", "--particle", "grain", "--depth", "0.05", "--resolution", "8", "--json"]
     slow, fast = Run(*words).json(), Run(*words, "--ramp", "45").json()
@@ -499,7 +499,7 @@ def case_law():
 
 
 def case_claims():
-    """What a law's file states, number for number, in `mpm info` and in the error of `mpm law`."""
+    """Errors that a law's file states, number for number, in `mpm info` and in the error of `mpm law`."""
     stated = {"solver_error_force": 0.011, "solver_error_restitution": 0.023, "verification_error_force": 0.037,
               "verification_error_restitution": 0.041, "atlas_error_force": 0.053, "atlas_error_restitution": 0.0067, "interpolation_error": 0.0071,
               "held_out_error": 0.0083, "residual_scatter": 0.0097, "reload_loop_area": 0.0012, "verification_impacts": 5, "max_inertia": 0.029,
@@ -534,7 +534,7 @@ def case_claims():
     expect("powder:wall", (0.037, 0.011), (0.041, 0.023))
     expect("powder:powder", (0.037, 0.011), (0.041, 0.023))  # like sizes: no rule
     expect("powder:powder", (0.037, 0.011, 0.059), (0.041, 0.023, 0.061), radius2=("--radius2", "3e-3"))
-    # Of the atlas: the bound of its checks, absolute of e, holds all that.
+    # Error bound of the atlas: the bound of its checks, absolute of e, holds all that.
     assert Run("table", materials(), "--pair", "powder:wall", "--depth", "0.2", "-o", "told.h5").code == 0
     with h5py.File("told.h5", "r+") as file:
         without_checksum(file)

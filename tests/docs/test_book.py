@@ -1,4 +1,4 @@
-"""Sphinx builds the book without a warning, and the site needs no network. Skipped (77) where python3-sphinx or python3-myst-parser is absent."""
+"""Sphinx builds the documentation without a warning, and the site needs no network. Skipped (77) where python3-sphinx or python3-myst-parser is absent."""
 import importlib.util
 import os
 import re

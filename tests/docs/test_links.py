@@ -9,7 +9,7 @@ PAGES = sorted({*TOP.glob("*.md"), *TOP.glob("docs/*.md"), *(page for folder in 
                 *TOP.glob("examples/**/README.md"), TOP / "tests/README.md"})
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^(```+).*?^\1\s*$", re.MULTILINE | re.DOTALL)
-# A page of the book that a comment, a message or another page names by its path.
+# A page of the documentation that a comment, a message or another page names by its path.
 NAMED = re.compile(r"docs/[\w/-]+\.(?:md|png|json)\b")
 SOURCES = ("mpm_core", "liggghts_plugin", "tools", "tests", "examples", "cmake", "docs")
 

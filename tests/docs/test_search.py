@@ -1,4 +1,4 @@
-"""A LIGGGHTS user who never saw the project finds these answers by the book's search: within the first three results a page whose first screen has
+"""A LIGGGHTS user who never saw the project finds these answers by the documentation's search: within the first three results a page whose first screen has
 the answer. The search is the site's own, run by node. Skipped (77) where Sphinx, MyST or node is absent."""
 import html
 import importlib.util

@@ -38,7 +38,7 @@ def run(ranks, *words):
 
 
 def own_lines(text):
-    """What the program says, without what mpirun adds."""
+    """Output of the program without the lines that mpirun adds."""
     return [line for line in text.splitlines() if line.startswith(("farm_ranks:", "mpm:"))]
 
 

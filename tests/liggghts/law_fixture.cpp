@@ -12,7 +12,7 @@
 //   law_fixture write FILE by_size ORIGIN                    laws of this origin by radius ratio:
 //                       powder:gum at 1, 3 and, if `composed`, infinity; powder:powder at 3 and infinity
 //   law_fixture write FILE composed                          composed laws that radiate at like sizes:
-//                       powder:glass where either is a thick wall and at 1, powder:powder at infinity
+//                       powder:glass where either is a deformable wall and at 1, powder:powder at infinity
 //   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
 //   law_fixture radius FILE A B R_EFF DELTA DELTA_MAX X      prints contact radius (m)
 //   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X of a contact

@@ -37,7 +37,7 @@ YIELDING = (("plastic", PLASTIC), ("composed", COMPOSED))
 
 
 class Row:
-    """What became of one feature: outcome of Hertz, of mpm, of thornton, each {words: where}; 'same' where nothing else is said."""
+    """Outcome of one feature under Hertz, mpm and thornton, each {words: where}; 'same' where nothing else is said."""
 
     def __init__(self, feature):
         self.feature, self.runs, self.worst = feature, 0, {"mpm": 0.0, "thornton": 0.0}
@@ -66,7 +66,7 @@ class Row:
                 self.note(model, "DEFECT: stock hertz is as hertz in liggghts-mpm: its feature is not `kept`", "elastic, plain, ranks 1")
 
     def outcome(self, run, stock):
-        """What is to be said about a run that ended with an error, or that shows what is no number; None: nothing."""
+        """Sentence about a run that ended with an error, or that shows what is no number; None: nothing."""
         if run.status == 0:
             wrong = run.not_numbers()
             if wrong and not (stock and stock.not_numbers()):
@@ -157,7 +157,7 @@ class Row:
 
 
 def states_apart(one, two):
-    """Where the trajectory on two ranks is not that on one; None: it is."""
+    """Difference between the trajectory on two ranks and that on one; None: equal."""
     return difference({"state": two.tables.get("state.txt", [])}, {"state": one.tables.get("state.txt", [])}, RANKS)[0]
 
 

@@ -21,7 +21,7 @@ LAWS = {"powder.h5": (), "composed.h5": ("composed",)}  # file, words of law_fix
 
 @functools.cache
 def law_folder():
-    """Where the synthetic laws lie, written once."""
+    """Folder of the synthetic laws, written once."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="granulaw-matrix-law-"))
     for name, words in LAWS.items():
         subprocess.run([FIXTURE, "write", str(folder / name), *words], check=True)
@@ -145,7 +145,7 @@ def in_order(table):
 
 
 def difference(tables, wanted, tolerance, skip=()):
-    """Where two runs differ by more than `tolerance` of the largest value of a column: a sentence, else None; and the largest difference."""
+    """Difference of two runs by more than `tolerance` of the largest value of a column: a sentence, else None; and the largest difference."""
     worst = 0.0
     for name in sorted(wanted.keys() | tables.keys()):
         if any(re.fullmatch(pattern, name) for pattern in skip):

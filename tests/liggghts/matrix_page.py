@@ -55,7 +55,7 @@ Tried: {tried}.
 |---|---|
 {others}
 """
-# Of a sentence the page shows so many characters: the rest lists what is allowed, as the run does.
+# Characters of a sentence that the page shows: the rest lists what is allowed, as the run does.
 SHOWN = 240
 
 
@@ -73,7 +73,7 @@ def kind_of_row(row):
 
 
 def sentence(row, kind):
-    """What mpm says; thornton's outcome where it is of another kind. Within a kind the sentences differ in the model's name and in numbers only."""
+    """Outcome of mpm; thornton's where it is of another kind. Within a kind the sentences differ in the model's name and in numbers only."""
     first, second = row["cells"].values()
     text = plain(first) + (f"; thornton: {plain(second)}" if kind_of(second) != kind_of(first) else "")
     text = text.removeprefix(kind + ": ").removeprefix("ERROR: ")

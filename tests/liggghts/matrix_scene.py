@@ -13,9 +13,9 @@ LAW_FILES = {"elastic": "powder.h5", "plastic": "powder.h5", "composed": "compos
 STEP = 2e-7     # s; 40 steps in the shortest contact
 SPEED = 2.0     # m/s
 STRETCH = 3.0
-RESTITUTION = 0.5  # of the damped twin
+RESTITUTION = 0.5  # of the damped equivalent sphere
 
-# model: hertz, mpm, thornton. law: elastic (the twin of Hertz), plastic, or composed (plastic with composed pair laws, waves on). stretch, energy: whether the deck says so.
+# model: hertz, mpm, thornton. law: elastic (the equivalent sphere of Hertz), plastic, or composed (plastic with composed pair laws, waves on). stretch, energy: whether the deck says so.
 Variant = collections.namedtuple("Variant", "model law stretch energy ranks")
 
 PARTS = ("units", "hard", "atom_style", "atom_modify", "boundary", "newton", "communicate", "processors", "first", "box", "neighbor",
@@ -41,8 +41,8 @@ class Feature:
     """One line of the matrix. `parts` replaces lines of the scene; the other arguments say what can be asked of it.
 
     models: the models behind `model NAME`. columns, dump: further thermo values and columns of the dump of particles. files: what the deck
-    reads, {name: text}. twin: compare with Hertz number by number; "plain": not with `stretch`. conserved: energy is conserved but for the contacts' losses. alike: one rank
-    and two give the same trajectory. refused: part of the sentence that refuses it. damped: the twin has e = 0.5. skip: files not compared.
+    reads, {name: text}. equivalent sphere: compare with Hertz number by number; "plain": not with `stretch`. conserved: energy is conserved but for the contacts' losses. alike: one rank
+    and two give the same trajectory. refused: part of the sentence that refuses it. damped: the equivalent sphere has e = 0.5. skip: files not compared.
     kept: stock LIGGGHTS loses or shifts the contacts' histories here; the reference is Hertz in liggghts-mpm, which keeps them.
     both: words behind the pair style and behind each wall. own: words behind the pair style of
     mpm and thornton alone. alone: each deck in a process of its own. tolerance: at least this one. ranks: on which it runs."""

@@ -1,4 +1,4 @@
-"""What a user can get wrong: each ends with one clear sentence and a non-zero status."""
+"""Input that a user can get wrong: each ends with one clear sentence and a non-zero status."""
 import unittest
 
 from collisions import wall_deck

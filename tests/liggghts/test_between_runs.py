@@ -47,7 +47,7 @@ class Between(Deck):
         return worst(abs(a - b) / s for k in common for a, b, s in zip(ours[k], theirs[k], scale))
 
     def check(self, model, ranks, rows, whole=f"run {between.BEFORE + between.AFTER}\n", one_process=True, **more):
-        """Each row's bed against the unbroken run, or against its own twin."""
+        """Each row's bed against the unbroken run, or against its own equivalent sphere."""
         decks = [self.deck(model, whole, "whole.txt", **more)]
         for k, (_, lines, twin) in enumerate(rows):
             decks.append(self.deck(model, SPLIT.format(lines), f"{k}.txt", **more))
@@ -76,7 +76,7 @@ class Commands(Between):
         self.check("mpm", 2, [row for row in between.rows() if row[0] in TOUCHING or "coord/atom" in row[1]])
 
     def test_histories_matter(self):
-        """What the rows would show: beds whose contacts begin anew are others."""
+        """The rows would show it: beds whose contacts begin anew are others."""
         for model in MODELS:
             self.run_deck(self.deck(model, SPLIT.format(""), "whole.txt"))
             self.run_deck(self.deck(model, SPLIT.format("neigh_modify exclude group all all\nrun 0\nneigh_modify exclude none"), "lost.txt"))

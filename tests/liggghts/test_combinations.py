@@ -1,4 +1,4 @@
-"""What a deck may combine: models, units, materials, elastic and plastic types, radii, laws for walls and pairs."""
+"""Combinations that a deck may have: models, units, materials, elastic and plastic types, radii, laws for walls and pairs."""
 import itertools
 import unittest
 

@@ -148,7 +148,7 @@ class Sizes(Composed):
 
     def test_an_unforeseen_size(self):
         """A sphere that grows within a run, beyond what was known when the run began: its contacts follow the nearest law all the same."""
-        for radius2, share in ((5.0 * RADIUS, 0.25), (10.0 * RADIUS, 0.0)):  # at the law's own ratio, 3 and a thick wall: it served no known particle
+        for radius2, share in ((5.0 * RADIUS, 0.25), (10.0 * RADIUS, 0.0)):  # at the law's own ratio, 3 and a deformable wall: it served no known particle
             with self.subTest(share=share):
                 self.grows(radius2, share)
 
@@ -167,7 +167,7 @@ class Sizes(Composed):
         self.assertAlmostEqual(after / speed, law[0], delta=TOLERANCE)
 
     def test_wall_without_a_law(self):
-        """No law for a thick wall: that of the largest ratio."""
+        """No law for a deformable wall: that of the largest ratio."""
         self.fixture("write", self.law, "by_size", "runs")
         speed = 5.0
         mass = sphere_mass(RADIUS, POWDER.density)
@@ -217,7 +217,7 @@ class Ledger(Composed):
     """Energy before = after + all that was lost."""
 
     def test_one_collision(self):
-        """What is booked as waves is what the replay says, and the rest closes the balance: dissipated and waves are all that is lost."""
+        """Work booked as waves equals the replay's, and the rest closes the balance: dissipated and waves are all that is lost."""
         speed, radius2 = 5.0, LARGE
         share = RADIUS / (RADIUS + radius2)
         mass = effective(sphere_mass(RADIUS, POWDER.density), sphere_mass(radius2, GUM.density))

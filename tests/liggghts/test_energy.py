@@ -77,13 +77,13 @@ class Energy(Deck):
             self.assertLess(abs(other), 1e-9 * dissipated)
 
     def test_elastic_damping(self):
-        """What damping below yield takes stands in the other work, and the balance stays closed to the same bound."""
+        """Work of damping below yield stands in the other work, and the balance stays closed to the same bound."""
         error, dissipated, stored, other = self.balance("off", 0.0, 1, more="elasticDamping 0.05")
         self.assertLess(abs(error), 2e-5)
         self.assertGreater(other, 1e-3 * dissipated)
 
     def test_friction(self):
-        """Sliding, tangential springs, rolling resistance: the same bound, with a share that matters."""
+        """Sliding, tangential springs, rolling resistance: the same bound, with a fraction that matters."""
         for tangential, ranks in (("history", 1), ("history", 2), ("no_history", 1),
                                   ("history rolling_friction epsd2", 1)):
             error, dissipated, stored, other = self.balance(tangential, 0.3, ranks)

@@ -192,7 +192,7 @@ class Curved(Geometry):
 
 
 class Ridge(Geometry):
-    """What a convex edge of a mesh costs. LIGGGHTS gives the edge to one of its two triangles: passing from that one to the other, a pressed
+    """Effect of a convex edge of a mesh. LIGGGHTS gives the edge to one of its two triangles: passing from that one to the other, a pressed
     sphere begins a contact at full depth beside the one that it has; the other way, one vanishes at full depth."""
 
     def energy(self, model, text, name):

@@ -70,7 +70,7 @@ class Energy(Trial):
               "thermo_modify norm no lost error format float %.17g\n")
 
     def energies(self, text, steps):
-        """Of each output: motion (kinetic + held by contacts), mechanical (+ gravity), all (+ taken by contacts), kinetic. J"""
+        """Energies of each output: motion (kinetic + held by contacts), mechanical (+ gravity), all (+ taken by contacts), kinetic. J"""
         rows = self.series(text)
         self.assertGreaterEqual(len(rows), steps // 200)
         return [(k + r + s, k + r + s + p, k + r + s + p + d + o, k + r) for _, k, r, p, s, d, o in rows]

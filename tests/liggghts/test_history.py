@@ -1,4 +1,4 @@
-"""What a contact remembers must not depend on how LIGGGHTS keeps its lists."""
+"""History of a contact, which must not depend on how LIGGGHTS keeps its lists."""
 import math
 import unittest
 
@@ -56,7 +56,7 @@ def thornton_unloading(r, delta, largest):
 
 
 class KeptReversal(Deck):
-    """What a contact keeps of its reversal is the law's answer of now, not of when it was worked out."""
+    """The reversal values that a contact keeps are the present law's, not those of the time when they were worked out."""
 
     PRINT = "dump d all custom 1 now.txt fz z radius f_history_w[1] f_history_w[2]\ndump_modify d format \"%.15g %.15g %.15g %.15g %.15g\"\n"
 

@@ -1,4 +1,4 @@
-"""What can be asked of single contacts and of pairs of types: compute pair/gran/local and wall/gran/local, f_ID[row][column],
+"""Outputs of single contacts and of pairs of types: compute pair/gran/local and wall/gran/local, f_ID[row][column],
 computeDissipatedEnergy, contacts that begin overlapping."""
 import json
 import math

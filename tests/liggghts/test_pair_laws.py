@@ -17,7 +17,7 @@ TOLERANCE = 1e-6           # of e: the step's error, 1e-3 at 50 steps (test_rest
 
 
 class Drops:
-    """Of whatever law setUp wrote to self.law."""
+    """Entry of whatever law setUp wrote to self.law."""
 
     def tool(self, first, second, speed):
         return self.tool_of(f"{first.name}:{second.name}", speed, "--radius", str(RADII[first.name]), "--radius2", str(RADII[second.name]))

@@ -76,7 +76,7 @@ class Restitution(Trial):
         self.compare(table + self.rows(MODULI, FEW, replay="elastic"))
 
     def test_default_damping(self):
-        """Of the elastic part: e within 1 % of the law's."""
+        """e of the elastic part within 1 % of the law's."""
         self.compare(self.rows((WALL, PAIR, *MIXED), SPEEDS, limit=0.01), relative=True, damping="")
 
     def test_velocity_axis(self):

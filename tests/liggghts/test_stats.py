@@ -67,7 +67,7 @@ class Stats(Deck):
         self.assertLess(above, 1 - 1e-4)
 
     def test_start_table(self):
-        """What the log says of the powder on a wall before the run: its law's errors and limits, number for number."""
+        """Lines of the log about the powder on a wall before the run: its law's errors and limits, number for number."""
         m = sphere_mass(RADIUS, POWDER.density)
         for words, error in ((("runs", 3), "F_max 1.2 %, e 3.4 %"), (("atlas", 3), "F_max 5.6 %, e 0.078"), (("atlas", 0), "F_max 5.6 %, e 0.078"),
                              (("composed", 3), "F_max 1.2 %, e 3.4 %"), (("composed", 0), "F_max 5.6 %, e 0.078")):
@@ -111,7 +111,7 @@ class Stats(Deck):
             self.assertEqual("WARNING: granulaw: contacts left what a law of one contact covers" in text, contacts > 0)
 
     def test_sizes_off_the_laws_are_warned_of(self):
-        """powder:powder has laws at radii 1:1, 1:3 and on a thick wall."""
+        """powder:powder has laws at radii 1:1, 1:3 and on a deformable wall."""
         self.fixture("write", self.law, "by_size", "composed")
         for ratio in (1, 2, 3):
             deck = head(half=20 * RADIUS) + properties([POWDER])
@@ -121,7 +121,7 @@ class Stats(Deck):
                          f"set group a{k} diameter {2 * radius!r} density {POWDER.density}\n")
             text = self.run_deck(deck + "fix i all nve/sphere\ntimestep 1e-9\nrun 1\n")
             rule = json.loads((self.folder / "s.json").read_text())["pairs"][0]["rule"]
-            # two particles of unlike size in one type: every share between theirs and one half may come
+            # two particles of unlike size in one type: every fraction between theirs and one half may come
             warned = re.findall(r"WARNING: granulaw: R_i/\(R_i \+ R_j\) of types 1 and 1 is up to (\S+) off", text)
             self.assertEqual(len(warned), int(ratio > 1), text[-2000:])
             if ratio == 1:

@@ -1,4 +1,4 @@
-"""What a build against a LIGGGHTS with superquadrics decides when it is configured, by libraries that have only the symbols; and
+"""Decisions of a build against a LIGGGHTS with superquadrics when it is configured, by libraries that have only the symbols; and
 that the plug-in's sources compile with the flags, against the headers at hand. Runs without such a LIGGGHTS."""
 import os
 import pathlib

@@ -58,7 +58,7 @@ class TimeStep(Deck):
         self.assertAlmostEqual(wall["time_step_limit_of_law_s"] / allowed, 1.0, delta=1e-4)
 
     def test_largest_step_used(self):
-        """Of two runs the longer step is stated, whichever was the first."""
+        """The longer step of two runs is stated, whichever was the first."""
         words = f"law {self.law} materials powder stats s.json"
         for first, second in ((1e-8, 4e-9), (4e-9, 1e-8)):
             deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, first)

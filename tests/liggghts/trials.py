@@ -1,4 +1,4 @@
-"""What the trials share: models side by side, dumps, and rows for docs/evidence/trials.md.
+"""Common parts of the trials: models side by side, dumps, and rows for docs/evidence/trials.md.
 
 With GRANULAW_TRIALS=FOLDER a test also writes what it measured to FOLDER/rows.jsonl (trials_page.py makes the page)."""
 import json

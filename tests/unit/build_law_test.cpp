@@ -1,4 +1,4 @@
-// What the builder asks for and makes of it, with runs that are replays of a known law.
+// Runs that the builder requests, and its law, with runs that are replays of a known law.
 #include "characterise/run/sampling_plan.hpp"
 #include "characterise/run/request.hpp"
 #include "characterise/atlas_file.hpp"
@@ -189,7 +189,8 @@ TEST(BuildLaw, ABodyOfSeveralMaterialsIsVerifiedNearTheOnset)
     EXPECT_NEAR(built.law.curve.force(x) / sphere.curve().force(x), 1, 0.01) << x;
 }
 
-/// Of one kind of runs 24 cells were not enough and 34 were, of the other 24. `least`: runs of 34 cells.
+/// Runs of one kind needed more than 24 cells, and 34 sufficed; those of the other kind 24. `least`: runs of
+/// 34 cells.
 void expect_more_cells(const std::vector<KnownSphere::Asked>& finer,
                        const std::vector<KnownSphere::Asked>& other, long least)
 {
@@ -268,7 +269,7 @@ TEST(PlanSampling, CoarsePressesBeginBeyondTheOthers)
   }
 }
 
-/// The inertia of a press's loading is a share of the tolerance; beyond 1 % nothing gets faster.
+/// The inertia of a press's loading is a fraction of the tolerance; beyond 1 % nothing gets faster.
 TEST(BuildLaw, RampsFollowFromTheTolerance)
 {
   const auto ramps = [](double tolerance) {

@@ -38,7 +38,7 @@ class CheckpointFileTest : public testing::Test
     file.store().save("b", std::string("b\0\n", 3));
     return contents(path_);
   }
-  /// What is said about a file of these bytes; it must not be touched.
+  /// Message about a file of these bytes; it must not be touched.
   std::string said_about(const std::string& bytes, const RunIdentity& asked)
   {
     std::ofstream(path_, std::ios::binary) << bytes;

@@ -1,4 +1,4 @@
-// What holds for every law the library accepts, on any path of a contact: RapidCheck draws the law and the
+// Properties of every law the library accepts, on any path of a contact: RapidCheck draws the law and the
 // path.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -35,7 +35,7 @@ class Contact
     delta_max_ = f.delta_max;
     return f;
   }
-  /// What move() would return; the state stays.
+  /// Return value of move(); the state stays.
   Answer probe(double delta) const { return answer(*curve_, pair_, r_eff_, delta, delta_max_); }
   double reached() const { return delta_max_; }
 

@@ -86,7 +86,7 @@ TEST(ContactStep, TheLargestStepKeepsRestitution)
   }
 }
 
-/// Of Hertz k = 2 E* sqrt(R* d) grows with depth: rule and inverse in closed form.
+/// Hertz's k = 2 E* sqrt(R* d) grows with depth: rule and inverse in closed form.
 TEST(ContactStep, OverlapOfStepIsTheInverse)
 {
   const double e_star = 1e8, r = 1e-3, m = 1e-6;

@@ -1,4 +1,4 @@
-// What an impact takes from the rigid motion, and what it gives back.
+// Energy that an impact takes from the rigid motion, and that it returns.
 #include "characterise/shape/energetic_restitution.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ RunResult run_of(Force force, const Vector3& arm)
 
 const RigidBody body{mass, Vector3(0.5, 0.7, 0.9).asDiagonal()};
 
-/// Of a contact that stays at its place, the ratio of its normal velocities: J = m_e V (1 + e).
+/// Ratio of the normal velocities of a contact that stays at its place: J = m_e V (1 + e).
 TEST(EnergeticRestitution, OfAFixedContactIsTheRatioOfVelocities)
 {
   for (const Vector3& arm : {Vector3(0, 0, -1), Vector3(0.4, 0.3, -1)})

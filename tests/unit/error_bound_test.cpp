@@ -53,7 +53,8 @@ TEST(ErrorBound, NamesWhetherItIsOfItself)
   EXPECT_EQ(ErrorBound{}.text(), "not stated");
 }
 
-/// A law of like sizes, and one for a thick wall: what `mpm table` makes where no --radius-ratio is given.
+/// A law of like sizes, and one for a deformable wall: what `mpm table` makes where no --radius-ratio is
+/// given.
 class PairStatements : public ::testing::Test
 {
  protected:
@@ -123,7 +124,7 @@ TEST_F(PairStatements, ThePairRulesBoundHoldsForAllSizes)
   EXPECT_DOUBLE_EQ(s.bound.force, std::hypot(0.0072, 0.05));
 }
 
-/// One definition: density and yield stress of the yielding body, its share of the approach.
+/// One definition: density and yield stress of the yielding body, its fraction of the approach.
 TEST_F(PairStatements, TheDamageNumberIsThatOfTheYieldingBodysShare)
 {
   const LawMaterial& m = law_.bodies.at("powder").material;

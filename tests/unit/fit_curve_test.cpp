@@ -73,7 +73,7 @@ TEST(FitCurve, RecoversALawFromSmoothPresses)
   const FittedCurve fitted = fit_plastic(presses(truth, 0.0), finite_sphere, truth.onset(), 0.1);
   const Curve& curve = fitted.curve;
   const Errors errors = compare(curve, truth);
-  // What ten reversal points a factor 1.67 apart resolve; the issue asks for 1 %.
+  // Resolution of ten reversal points a factor 1.67 apart; the tolerance of laws is 1 %.
   EXPECT_LT(errors.force, 1e-3);
   EXPECT_LT(errors.e, 1e-3);  // the same, and 1e-4: the work spared for rounding (law_shape.cpp)
   EXPECT_LT(errors.residual, 3e-3);
@@ -185,7 +185,7 @@ TEST(LawShape, ASkinOnASofterBodyLosesTheSameAtTheSameForce)
   }
 }
 
-/// A Hertz share that runs between its bounds (an unloading that rises, losses as computed) meets them
+/// A Hertz coefficient that runs between its bounds (an unloading that rises, losses as computed) meets them
 /// anywhere between two nodes: none of these stiff bodies may be refused for it.
 TEST(LawShape, AnUnloadingMayMeetTheBoundsOfOneThatRisesBetweenNodes)
 {
@@ -241,7 +241,7 @@ TEST(ContactRecord, UnloadingOfTheLawsShapeIsRecovered)
        {UnloadingShape{1.2, 1.5}, {1.5, 1.0}, {1.5, 0.3}, {1.9, 0.1}, {2.0, 0}}) {
     const UnloadingPath path = path_of(shape, 0.06, 0.06);
     const UnloadingFit fit = fit_unloading(path, 1);
-    // the path's straight pieces leave 2e-7; a Hertz share is 50 times as sensitive
+    // the path's straight pieces leave 2e-7; a Hertz coefficient is 50 times as sensitive
     EXPECT_NEAR(fit.residual, 0.06, 1e-6);
     EXPECT_NEAR(fit.hertz_share, shape.hertz_share, 1e-3);
     EXPECT_NEAR(residual_as_long(path, 1, shape.hertz_share), 0.06, 1e-6);

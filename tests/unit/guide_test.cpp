@@ -58,7 +58,7 @@ MaterialRatios of_hardening(double h)
   return {stiffness, poisson_ratio, h};
 }
 
-/// What is measured at one stiffness is added there and at others.
+/// A departure measured at one stiffness is added there and at others.
 TEST(Departure, IsAddedToTheGuideToGetTheOwnLaw)
 {
   const LawShape guide = atlas().shape(of_hardening(0)), own = atlas().shape(of_hardening(0.005));

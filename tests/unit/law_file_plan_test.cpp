@@ -142,7 +142,7 @@ TEST(LawFilePlan, AnOwnLawBesideTheAtlasIsComposedFirst)
   EXPECT_EQ(plan.pairs[0].stated.force, 0);
 }
 
-/// The atlas's twins serve a homogeneous sphere of any rate-independent flow law.
+/// The atlas's equivalent spheres serve a homogeneous sphere of any rate-independent flow law.
 TEST(LawFilePlan, AFlowLawOfAnyKindIsComposedOnceItsOwnLawIsMade)
 {
   LawFileRequest r = request({{"powder", "glass"}});

@@ -87,7 +87,7 @@ TEST_F(MakeLawFile, APairWithASoftElasticPartnerIsComposed)
   EXPECT_EQ(made.law.pairs.at(0).reduction_error_force, 0);
 }
 
-/// A rough, shallow, rate-free law: two presses, some seconds.
+/// A rough, shallow, rate-independent law: two presses, some seconds.
 TEST_F(MakeLawFile, ByRunsThatTheFarmCounts)
 {
   LawFileRequest request;

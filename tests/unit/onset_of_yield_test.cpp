@@ -1,4 +1,4 @@
-// Where a body begins to yield, by what its elastic press says.
+// Onset of yield of a body, by its elastic press.
 #include "characterise/run/sampling_plan.hpp"
 #include "characterise/run/onset_of_yield.hpp"
 

@@ -25,7 +25,7 @@ Words words_of(const std::string& text)
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// What a command says, and what is left for LIGGGHTS.
+/// Options of a command, and the words left for LIGGGHTS.
 struct Parsed
 {
   Options options;

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// powder:glass has composed laws for like radii and for a thick wall.
+/// powder:glass has composed laws for like radii and for a deformable wall.
 Law some_law()
 {
   Law law = testing::SyntheticLaw{}.law_with_axis();

@@ -97,7 +97,7 @@ void expect_surface(const Particle& p, const Distance& distance, const char* nam
 {
   validate(p, name);
   for (std::size_t k = 0; k + 1 < p.profile.size(); ++k)
-    for (const double t : {0.0, 0.5})  // points lie on the curve, chords within the stated error
+    for (const double t : {0.0, 0.5})  // points lie on the curve, chords within the error bound
       ASSERT_NEAR(distance(p.profile[k].r + t * (p.profile[k + 1].r - p.profile[k].r),
                            p.profile[k].z + t * (p.profile[k + 1].z - p.profile[k].z)),
                   0, t == 0 ? 1e-14 * p.height() : 1e-6 * p.radius)

@@ -11,7 +11,7 @@ class RunAndReport : public ScratchFolder
 {
  protected:
   RunAndReport() { request_.json = true; }
-  /// What the command prints.
+  /// Output of the command.
   std::string reported(const granulaw::Run& run)
   {
     testing::internal::CaptureStdout();

@@ -1,4 +1,4 @@
-// What the law of spheres is wrong by for a body of any shape.
+// Error of the law of spheres for a body of any shape.
 #include "characterise/shape/shape_certificate.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ ShapeQuestion question(double velocity)
   return q;
 }
 
-/// Of a sphere the law is the body's own, in every direction.
+/// The law is a sphere's own, in every direction.
 TEST(ShapeCertificate, OfASphereIsTheSolversError)
 {
   ThreadFarm farm(2);

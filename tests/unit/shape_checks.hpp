@@ -1,5 +1,5 @@
 #pragma once
-// What every shape must fulfil, and points to ask at.
+// Conditions that every shape must fulfil, and points to evaluate it at.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -42,7 +42,8 @@ double largest_difference(const ShapePrior& a, const ShapePrior& b)
   return largest;
 }
 
-/// What is linear in Y/E* is met by both ways. By two laws of other ranges the dissipation, 2.6 at its end,
+/// Quantities linear in Y/E* are met by both ways. By two laws of other ranges the dissipation, 2.6 at its
+/// end,
 /// goes through cubics between nodes: 1e-3. What cancels or stays leaves rounding: 1e-9.
 TEST(ShapePrior, MeetsWhatIsLinearInYOverEStar)
 {

@@ -34,7 +34,7 @@ class ShapeReader : public testing::Test
     std::ofstream(path_) << text;
     return read_materials(path_);
   }
-  /// What is said of [particle.grain] with these lines, from line 6 on; without the folder.
+  /// Message about [particle.grain] with these lines, from line 6 on; without the folder.
   std::string sentence(const std::string& lines) const
   {
     try {

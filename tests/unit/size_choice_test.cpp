@@ -8,7 +8,7 @@
 namespace granulaw::plugin {
 namespace {
 
-const std::vector<double> shares{0.0, 0.1, 0.25, 0.5};  // a thick wall, ratios 9, 3 and 1
+const std::vector<double> shares{0.0, 0.1, 0.25, 0.5};  // a deformable wall, ratios 9, 3 and 1
 
 std::size_t nearest_by_search(double share)
 {
@@ -37,7 +37,7 @@ TEST(SizeChoice, ParticlesMayChangePlaces)
   std::mt19937 random(2);
   std::uniform_real_distribution<double> radius(1e-4, 1e-2);
   for (int n = 0; n < 10000; ++n) {
-    // half of them within rounding of a bound: radii 7:1 have the share half-way between 0 and 0.25
+    // half of them within rounding of a bound: radii 7:1 have the fraction half-way between 0 and 0.25
     const double a = radius(random), b = n % 2 ? radius(random) : a * (0.825 / 0.175);
     EXPECT_EQ(of_i.finder(1).nearest(a, b), of_j.finder(1).nearest(b, a));
     EXPECT_EQ(of_smaller.finder(1).nearest(a, b), of_smaller.finder(1).nearest(b, a));
@@ -57,7 +57,7 @@ TEST(SizeChoice, ParticlesMayChangePlaces)
 TEST(SizeChoice, LawThatServesNobodyIsResolvedAtItsOwnShare)
 {
   constexpr double wall = std::numeric_limits<double>::infinity();
-  const std::vector<double> with_walls{0.0, 0.25, 1.0};  // thick walls of the partner's material and of its own
+  const std::vector<double> with_walls{0.0, 0.25, 1.0};  // deformable walls of the partner's material and of its own
   const Radii alike{1e-3, 1e-3};
   const SizeChoice of_i(ShareOf::i, with_walls), of_j(ShareOf::j, with_walls);
   EXPECT_EQ(of_i.radii_of(0, alike, alike), std::pair(1.0, wall));

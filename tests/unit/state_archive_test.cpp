@@ -1,4 +1,4 @@
-// What goes into an archive comes out, to the last bit; what does not fit is one sentence.
+// An archive returns its content to the last bit; content that does not fit gives one sentence.
 #include "base/state_archive.hpp"
 
 #include <gtest/gtest.h>

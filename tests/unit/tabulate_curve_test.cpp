@@ -66,7 +66,7 @@ TEST(TabulateCurve, UnloadsNoSofterThanItLoads)
   const Curve curve = tabulate(
       shape_with([](double u) { return 2 * u * u; }, [](double u) { return 2.2 * u * u; }), end);
   for (double x = onset * (1 + 1e-9); x < end; x *= 1.01)
-    // 1e-4: the share between nodes
+    // 1e-4: the fraction between nodes
     EXPECT_GE(curve.reversal(x).stiffness(x), curve.loading(x).stiffness * (1 - 1e-4)) << x;
 }
 

@@ -15,7 +15,7 @@ TEST(Terminal, NothingIsInterruptedAtFirst)
   EXPECT_NO_THROW(stop_if_interrupted());
 }
 
-/// What the signal leaves, as an exit code: the flag stays for the rest of the process.
+/// Exit code after the signal: the flag stays for the rest of the process.
 [[noreturn]] void interrupted_by(int signal)
 {
   catch_interrupts();

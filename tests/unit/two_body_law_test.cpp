@@ -53,7 +53,7 @@ TEST(TwoBodyLaw, AnswersForItsPairInEitherOrderAndForNoOther)
   EXPECT_EQ(resolve_pair(law, "glass", "glass", "test").curve, &law.bodies.at("glass").curve);
 }
 
-/// Of several laws that at the nearest sizes, whoever comes first, to the bit; a wall has size infinity.
+/// The law at the nearest sizes is chosen, whoever comes first, to the bit; a wall has size infinity.
 TEST(TwoBodyLaw, IsChosenByTheRadii)
 {
   Law law = law_with_pair();

@@ -85,7 +85,7 @@ TEST(YieldingContact, TheForcesStayWithinFrictionAndTheYieldCurve)
   EXPECT_GT(work, 0);  // a closed path takes work, it gives none
 }
 
-/// Of the solver in three dimensions (docs/evidence/oblique.md).
+/// Results of the solver in three dimensions (docs/evidence/oblique.md).
 struct Known
 {
   double hardening, velocity, friction, angle, e, tangential, spin;

@@ -32,7 +32,7 @@ void set_material(AtomType& t, const Scene& scene, const PlanOptions& options)
   t.known_yield = given->second.yield_stress.has_value();
 }
 
-/// Whether its moduli are known. Asks for them.
+/// True if its moduli are known; adds the questions if not.
 bool has_moduli(const AtomType& t, std::vector<Question>& questions)
 {
   if (t.material.youngs_modulus > 0) return true;
@@ -64,7 +64,7 @@ void complete(Source& s, const PlanOptions& options)
     s.density = m->second.density;
 }
 
-/// Whether size and density are known. Asks for them.
+/// True if size and density are known; adds the questions if not.
 bool is_complete(const Source& s, const Scene& scene, std::vector<Question>& questions)
 {
   if (s.radius_max <= 0) {

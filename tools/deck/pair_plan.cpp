@@ -19,7 +19,7 @@ struct Effective
   double radius_a, radius_b, radius, mass;
 };
 
-/// Of the deck's own density: the materials file may have another one.
+/// Mass by the deck's own density: the materials file may have another one.
 double mass_of(const AtomType& t, double radius)
 {
   return t.density * ball_volume(radius);

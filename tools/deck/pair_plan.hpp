@@ -11,7 +11,7 @@ namespace granulaw::deck {
 
 struct PlanOptions;
 
-/// What one pair of the scene needs.
+/// Requirements of one pair of the simulation.
 struct PairPlan
 {
   Meeting meeting;

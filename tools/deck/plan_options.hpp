@@ -24,7 +24,7 @@ using Collide =
 using Stiffness = std::function<std::optional<double>(const Meeting&, double radius_a, double radius_b,
                                                       double r_eff, double overlap)>;
 
-/// What the deck does not say, or says otherwise; SI units.
+/// Values that the deck does not give, or that replace its own; SI units.
 struct PlanOptions
 {
   std::optional<double> drop_height;                      ///< m, of every particle to the lowest wall

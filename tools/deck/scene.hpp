@@ -11,7 +11,7 @@
 
 namespace granulaw::deck {
 
-/// What one atom type is made of; an empty value is not in the deck.
+/// Material of one atom type; an empty value is not in the deck.
 struct TypeMaterial
 {
   std::optional<double> youngs_modulus;  ///< Pa
@@ -53,7 +53,7 @@ struct Run
   double steps = 0, time_step = 0, particles = 0;  ///< time step, s; particles: mean of begin and end
 };
 
-/// What a deck says about its scene, SI units.
+/// Content of a deck, SI units.
 struct Scene
 {
   std::string deck;

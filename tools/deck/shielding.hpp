@@ -19,7 +19,7 @@ struct Cloud
   std::array<bool, 3> periodic{};
 };
 
-/// Whether the spheres of each column lie aside of each other as chance would have it (at most 0.1 between
+/// True if the spheres of each column lie aside of each other as chance would have it (at most 0.1 between
 /// the cumulative shares of squared distances and even ones; 100 pairs at least): not so in a lattice, where
 /// hits are head-on or miss.
 bool at_random(const Cloud& cloud);
@@ -29,7 +29,7 @@ bool at_random(const Cloud& cloud);
 ///
 /// A sphere with m others in its column (centres below its own, less than a diameter aside) reaches the floor
 /// through m collisions. In one of equal spheres, with the line of centres at random over the cross-section,
-/// one leaves with the share x of the vertical speed and the other with 1 - x, x uniform in 0..1 (elastic:
+/// one leaves with the fraction x of the vertical speed and the other with 1 - x, x uniform in 0..1 (elastic:
 /// sin^2 of the angle of impact; inelastic ones spread less). So each sphere becomes 2^m carriers of its
 /// speed v, each the product of m uniform numbers: 2^m P(m, ln(v/u)) of them exceed u, P the regularised
 /// incomplete gamma function. A sphere with none below lands at v itself. Left out: falling on from where

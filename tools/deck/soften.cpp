@@ -91,7 +91,7 @@ double yield_load(const Meeting& m, double r_eff)
   return m.mapping.force(r_eff) * x * std::sqrt(x);
 }
 
-/// What one pair allows, within the limits.
+/// Stretch of one pair within the limits.
 PairStretch stretch_of(const PairPlan& p, const Plan& plan, const Softening& scene, double g,
                        const SoftenLimits& limits)
 {

@@ -7,7 +7,7 @@
 
 namespace granulaw::deck {
 
-/// What a stretched law F(delta/s)/s may cost (docs/guide/plan.md).
+/// Limits on the error of a stretched law F(delta/s)/s (docs/guide/plan.md).
 struct SoftenLimits
 {
   double overlap = 0.2;         ///< largest s delta_max/R*
@@ -17,7 +17,7 @@ struct SoftenLimits
   double solid_fraction = 0.6;  ///< of the bed
 };
 
-/// What one pair allows.
+/// Stretch that one pair allows.
 struct PairStretch
 {
   const PairPlan* pair = nullptr;

@@ -15,7 +15,7 @@ bool is_flat(const Wall& wall, std::size_t axis)
   return wall.box.low[axis] == wall.box.high[axis];
 }
 
-/// Whether all of the scene's particles are known, equal, start together and at rest.
+/// True if all of the deck's particles are known, equal, start together and at rest.
 bool starts_as_cloud(const Scene& scene)
 {
   return scene.sources.size() == 1 && !scene.sources[0].together.empty() && scene.sources[0].radius_max > 0 &&
@@ -103,7 +103,7 @@ void SpeedBound::follow_sources(const std::map<int, AtomType>& types)
   for (const auto& [type, t] : types) flights_.try_emplace(type, Flight{0, 0, g_ == 0});
 }
 
-/// Of all that particles reach, thrown upwards at their first speed.
+/// Greatest height that particles reach if they start upwards at their first speed.
 double SpeedBound::highest() const
 {
   if (g_ == 0) return Box::infinity;

@@ -12,7 +12,8 @@ namespace granulaw::deck {
 
 struct PlanOptions;
 
-/// How fast two bodies of a scene can meet. Each particle starts at its source and falls to the lowest point
+/// Bound on the speed at which two bodies of a deck can meet. Each particle starts at its source and falls to
+/// the lowest point
 /// of the walls, losing nothing; a wall that moves at U gives it up to 2U more (an elastic rebound), one that
 /// drags its surface U; two particles meet at most with the sum of their speeds. The floor under a cloud of
 /// equal spheres at rest is shielded by the lowest of them: `landing_speed` (deck/shielding.hpp).
@@ -32,7 +33,7 @@ class SpeedBound
     double speed = 0;  ///< m/s
     bool shielded = false;
   };
-  /// Of a particle of this type to a wall.
+  /// Approach of a particle of this type to a wall.
   Approach to(const Wall& wall, int type) const;
 
   /// Those that particles can reach.
@@ -41,7 +42,7 @@ class SpeedBound
   double fall() const;
 
  private:
-  /// How high the centres of a type come without a wall's help, and how fast they are there.
+  /// Greatest height of a type's centres without a wall's help, and their speed there.
   struct Flight
   {
     double top = 0, speed = 0;

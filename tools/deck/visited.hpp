@@ -7,7 +7,7 @@
 
 namespace granulaw::deck {
 
-/// What a run visited (JSON of fix granulaw/stats).
+/// Ranges that a run visited (JSON of fix granulaw/stats).
 struct Visited
 {
   struct Range
@@ -19,8 +19,8 @@ struct Visited
   std::optional<Range> pair, wall;
   std::map<std::pair<int, int>, Range> pairs, walls;  ///< by types, the particle's first; pairs: a <= b
 
-  /// Of a particle of type `a` with one of type `b`, or with a wall of type `b`; empty: the file does not
-  /// say.
+  /// Range of a particle of type `a` with one of type `b`, or with a wall of type `b`; empty: not in the
+  /// file.
   std::optional<Range> range(int a, int b, bool is_wall) const;
 };
 

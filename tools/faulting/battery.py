@@ -246,7 +246,7 @@ def told(text):
 
 
 def run(tools, folder, env, say, of=""):
-    """What each command whose name begins so (a pattern) printed and wrote. `tools`: {program: path}."""
+    """Output of each command whose name begins so (a pattern): printed and written. `tools`: {program: path}."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     (folder / "m.toml").write_text(MATERIALS)

@@ -42,7 +42,7 @@ def code(text):
 
 
 def change(before, after):
-    """What differs between the two lines, with its surroundings up to a word's end on both sides."""
+    """Difference between the two lines, with its surroundings up to a word's end on both sides."""
     start = 0
     while start < min(len(before), len(after)) and before[start] == after[start]:
         start += 1

@@ -141,7 +141,7 @@ class Workshop:
         return None if status == 0 else text or "took too long"
 
     def fingerprint(self):
-        """Of everything that is compiled or decides what the battery runs."""
+        """Hash of everything that is compiled or decides what the battery runs."""
         hasher = hashlib.sha256()
         for folder in ("mpm_core", "tools", "liggghts_plugin", "cmake"):
             for path in sorted(p for p in (self.source / folder).rglob("*") if p.is_file()):

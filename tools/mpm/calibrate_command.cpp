@@ -77,7 +77,7 @@ void check_outputs(const CalibrateRequest& r)
   if (!r.output.empty() && !r.options.density) fail("--density", "is missing: a materials file holds it");
 }
 
-/// Of hardening that the atlas does not know; says what it took.
+/// Fit of hardening that is not in the atlas; prints its cost.
 Calibration fit_by_runs(const CalibrateRequest& r, CalibrationProblem& problem, nlohmann::ordered_json& runs)
 {
   const std::unique_ptr<Farm> farm = r.farm.farm();
@@ -97,7 +97,7 @@ Calibration fit_by_runs(const CalibrateRequest& r, CalibrationProblem& problem, 
   return std::move(fit.calibration);
 }
 
-/// Of a fit at an end of the method's range no material is written.
+/// Message in place of a material for a fit at an end of the method's range.
 void state_bound(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& result,
                  const nlohmann::ordered_json& json)
 {

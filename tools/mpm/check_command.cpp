@@ -144,7 +144,7 @@ class Throws
  public:
   Throws(unsigned seed, int each) : random_(seed), each_(each) {}
 
-  /// Some velocities between `slow` and the end of the law's rate-free range, evenly in the logarithm.
+  /// Some velocities between `slow` and the end of the law's rate-independent range, evenly in the logarithm.
   /// True if `agrees` says so of all.
   bool agree(double slow, const BodyLaw& body, const std::function<bool(double)>& agrees)
   {
@@ -183,7 +183,7 @@ bool bodies_agree(const Law& law, const CheckRequest& r, Throws& throws)
   return good;
 }
 
-/// Of a pair's laws that of the least unlike sizes.
+/// Law of the least unlike sizes among a pair's.
 const TwoBodyLaw& least_unlike(const std::vector<TwoBodyLaw>& laws)
 {
   return *std::min_element(laws.begin(), laws.end(), [](const TwoBodyLaw& a, const TwoBodyLaw& b) {

@@ -11,7 +11,7 @@
 
 namespace granulaw {
 
-/// What a run was asked for, by whom: names and values, to the last digit. Runs of equal identity have the
+/// Request of a run and its program: names and values, to the last digit. Runs of equal identity have the
 /// identical trace.
 using RunIdentity = std::vector<std::pair<std::string, std::string>>;
 

@@ -37,7 +37,7 @@ PlannedDeck plan_deck(const std::string& deck, const DeckOptions& options);
 /// The same of a deck that was read.
 PlannedDeck plan_scene(deck::Scene scene, const DeckOptions& options);
 
-/// What is left to be asked, one line each.
+/// Open questions, one line each.
 std::string questions_text(const deck::Plan& plan);
 
 /// Throws Error with the first question that is left, unless it only matters for the cost.

@@ -21,7 +21,7 @@ struct FarmOptions
   std::unique_ptr<Farm> farm() const;
 };
 
-/// What the farm spent and saved, as one line.
+/// Runs that the farm spent and saved, as one line.
 void print_count(const FarmCount& count);
 
 }  // namespace granulaw

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a frame's group holds beside its geometry; one table for HDF5 and XDMF.
+/// Content of a frame's group beside its geometry; one table for HDF5 and XDMF.
 struct NodeField
 {
   h5::Field field;

@@ -75,7 +75,7 @@ void check_velocity(double velocity, double wave_speed)
   check_plausible("mpm impact", "velocity", "--velocity", velocity);
 }
 
-/// Of the body that yields first; 0: neither does.
+/// Damage number of the body that yields first; 0: neither does.
 double damage_number_of(const Meeting& m, double velocity)
 {
   const LawMaterial own = law_material("particle", m.particle.materials.front());

@@ -13,7 +13,7 @@ inline nlohmann::ordered_json json_number(double value)
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// What --json prints: one object, its keys in the order in which they were put in.
+/// Output of --json: one object, its keys in the order in which they were put in.
 inline void print_json(const nlohmann::ordered_json& object, int indent)
 {
   fmt::print("{}\n", object.dump(indent));

@@ -27,7 +27,8 @@ struct LawRequest : PairOptions
   bool json = false;
 };
 
-/// Past the table's last overlap the force goes on with its last stiffness: good enough for this share of it.
+/// Past the table's last overlap the force goes on with its last stiffness: good enough for this fraction of
+/// it.
 constexpr double overlap_margin = 0.05;
 
 /// Two bodies about to collide: SI.

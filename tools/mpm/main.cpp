@@ -39,7 +39,7 @@ constexpr const char* summary =
     "  mpm plot law.h5 -o law.png                                       what the law looks like\n"
     "Each command explains itself: mpm impact --help";
 
-/// What went wrong, for the caller of the program.
+/// Error for the caller of the program.
 struct Outcome
 {
   int code = 0;
@@ -109,7 +109,7 @@ void add_commands(CLI::App& app)
   }
 }
 
-/// Whether the first word is a command whose runs the processes of mpirun share.
+/// True if the first word is a command whose runs are spread over the processes of mpirun.
 bool runs_on_ranks(const std::string& word)
 {
   return std::any_of(commands.begin(), commands.end(),

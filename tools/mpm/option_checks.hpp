@@ -60,7 +60,7 @@ inline Check above_zero()
       0);
 }
 
-/// What a validator cannot say, as Error "--depth: cannot be used: found FOUND, allowed is ALLOWED".
+/// Check beyond the validators, as Error "--depth: cannot be used: found FOUND, allowed is ALLOWED".
 inline void require(bool good, const char* option, const std::string& found, const std::string& allowed)
 {
   if (!good) fail(option, "cannot be used", found, allowed);

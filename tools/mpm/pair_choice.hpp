@@ -20,8 +20,9 @@ struct PairOptions
 struct ChosenPair
 {
   PairNames names;
-  double radius, radius2;  ///< of the second: infinity: a thick wall; no meaning where it is the rigid wall
-  PairLaw law;             ///< refers to the Law that it was chosen of
+  double radius,
+      radius2;  ///< of the second: infinity: a deformable wall; no meaning where it is the rigid wall
+  PairLaw law;  ///< refers to the Law that it was chosen of
   double r_eff, m_eff;
 
   bool has_rigid_wall() const { return names.second == wall_name; }

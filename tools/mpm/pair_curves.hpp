@@ -7,7 +7,7 @@
 
 namespace granulaw {
 
-/// What plot_pair.py draws of a pair, SI:
+/// Curves that plot_pair.py draws of a pair, SI:
 ///
 ///     {"title": "a (R = 1 mm) against b (R = 2 mm)",
 ///      "force":       [{"name", "role", "overlap_m", "force_N",

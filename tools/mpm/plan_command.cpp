@@ -35,8 +35,7 @@ std::string verdict(const deck::PairPlan& p)
   return "yields: table";
 }
 
-/// What is known of an atom type's material: by its name in the materials file, else by the deck; null: no
-/// such name.
+/// Material of an atom type: by its name in the materials file, else by the deck; null: no such name.
 const LawMaterial* named_material(const PlannedDeck& d, int type)
 {
   const auto named = d.options.materials.find(type);
@@ -61,14 +60,14 @@ ordered_json types_json(const PlannedDeck& d)
   return types;
 }
 
-/// Whether the pair's law is composed of two bodies' laws, if the atlas knows both.
+/// True if the pair's law is composed of two bodies' laws, if the atlas holds both.
 bool is_unlike(const deck::PairPlan& p)
 {
   const deck::Meeting& m = p.meeting;
   return p.needs_table && p.visited && (m.wall ? m.deformable : m.name_a != m.name_b);
 }
 
-/// What such a law would state.
+/// Error bound of such a law.
 ComposedError law_error(const deck::PairPlan& p)
 {
   return composed_error(1 / (p.meeting.mapping.sqrt_lambda - 1));
@@ -200,7 +199,7 @@ void print_pair(const deck::PairPlan& p)
              p.overlap_basis.empty() ? "-" : p.overlap_basis, verdict(p));
 }
 
-/// What the laws of unlike pairs would be off by.
+/// Errors of the laws of unlike pairs.
 void print_law_errors(const std::vector<deck::PairPlan>& pairs)
 {
   for (const deck::PairPlan& p : pairs) {
@@ -231,7 +230,7 @@ void print_pairs(const PlannedDeck& d)
                  p.meeting.a, p.meeting.b, std::sqrt(2 * deck::norm(d.scene.gravity) * d.plan.fall));
 }
 
-/// What the law and the run must be.
+/// Requirements on the law and on the simulation.
 void print_needs(const PlannedDeck& d)
 {
   const deck::Plan& plan = d.plan;
@@ -252,7 +251,7 @@ void print_needs(const PlannedDeck& d)
                plan.hours, d.options.rate);
 }
 
-/// What the plan could not follow, what it asks for, and the command that makes the law.
+/// Deck lines that the plan could not follow, its questions, and the command that makes the law.
 void print_next(const PlannedDeck& d, const std::string& command)
 {
   for (const std::string& note : d.scene.notes) fmt::print("not followed: {}\n", note);

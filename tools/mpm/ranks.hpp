@@ -15,7 +15,7 @@ namespace granulaw {
 /// that runs in one only, or MPI is not built in. Ranks other than the first print nothing from here on.
 void join_ranks(const std::string& command, bool shares_runs);
 
-/// Of the launcher's processes, by its environment if join_ranks has not been called or has thrown.
+/// Rank among the launcher's processes, by its environment if join_ranks has not been called or has thrown.
 int rank();
 int ranks();
 

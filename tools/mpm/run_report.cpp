@@ -38,7 +38,7 @@ nlohmann::ordered_json plane_json(const RunResult& result, std::size_t k)
   return out;
 }
 
-/// Of three-dimensional runs.
+/// Adds the results of three-dimensional runs.
 void put_three_dimensions(nlohmann::ordered_json& out, const RunResult& result, const CentreMotion& centre)
 {
   if (result.rebound) {

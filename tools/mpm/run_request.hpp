@@ -8,7 +8,7 @@
 
 namespace granulaw {
 
-/// What `mpm impact` and `mpm press` take: the bodies, how the run is made, and what it writes.
+/// Request of `mpm impact` and `mpm press`: the bodies, the options of the run, and the files it writes.
 struct RunRequest
 {
   std::string materials, particle, against, wall;
@@ -46,7 +46,7 @@ std::string grid_name(const RunRequest& request, const Particle& particle);
 /// another grid is asked for.
 void require_three_dimensions(RunRequest& request, const std::string& option);
 
-/// Whether the run is three-dimensional; throws Error where particle, partner and grid do not go together.
+/// True if the run is three-dimensional; throws Error where particle, partner and grid do not go together.
 bool in_three_dimensions(const RunRequest& request, const Particle& particle);
 
 }  // namespace granulaw

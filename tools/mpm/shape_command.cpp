@@ -36,7 +36,7 @@ struct ShapeRequest
   bool json = false;
 };
 
-/// Of the sphere of the particle's material: from the law file that is given, else from the atlas.
+/// Law of the sphere of the particle's material: from the law file that is given, else from the atlas.
 BodyLaw sphere_law(const Particle& particle, const ShapeRequest& r)
 {
   const LawMaterial material = law_material(r.particle, particle.materials.front());

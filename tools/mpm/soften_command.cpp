@@ -56,7 +56,7 @@ ordered_json pairs_json(const deck::Softening& s)
   return pairs;
 }
 
-/// What lowering E instead would do to e.
+/// Effect on e of a lowered modulus instead.
 ordered_json lowered_modulus_json(const deck::Softening& s)
 {
   ordered_json restitution = ordered_json::array();

@@ -131,7 +131,7 @@ void print_not_composed(const LawFilePlan::Pair& pair, const MadeLawFile& file)
                                           : "the pair rule stands in");
 }
 
-/// How the pair's laws came about, where that is worth a line.
+/// Origin of the pair's laws, if it is worth a line.
 void print_origin(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
   print_not_composed(pair, file);
@@ -238,7 +238,7 @@ void make_table(const TableRequest& r, const std::vector<deck::PairPlan>& of_dec
   warn_of_fast_pairs(file.law, of_deck);
 }
 
-/// Of --deck: only what its scene needs.
+/// Table for --deck: only the pairs of its simulation.
 void make_table_for_deck(TableRequest& r, const Options& command)
 {
   const std::vector<deck::PairPlan> yielding = take_from_deck(r, command);

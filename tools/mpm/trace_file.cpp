@@ -41,7 +41,7 @@ struct PlaneColumn
   std::vector<double> values;
 };
 
-/// Of an impact the force, torque and place of contact; of planes the force of each.
+/// Force, torque and place of contact of an impact; of planes the force of each.
 std::vector<PlaneColumn> plane_columns(const RunResult& result)
 {
   std::vector<PlaneColumn> found;

@@ -1,4 +1,4 @@
-"""What `mpm --help` and `mpm COMMAND --help` say, as data: the source of the manual pages and of the shell completion."""
+"""Texts of `mpm --help` and `mpm COMMAND --help`, as data: the source of the manual pages and of the shell completion."""
 import dataclasses
 import os
 import re
@@ -32,7 +32,7 @@ class Help:
 
 
 def said_by(program, *words, success=0):
-    """What `program words` prints. "~" stands for the home folder, so that no default holds a path of whoever builds."""
+    """Output of `program words`. "~" stands for the home folder, so that no default holds a path of whoever builds."""
     environment = {k: v for k, v in os.environ.items() if k != "XDG_CACHE_HOME"} | {"HOME": "~"}
     done = subprocess.run([program, *words], capture_output=True, text=True, env=environment, stdin=subprocess.DEVNULL)
     if done.returncode != success:

@@ -29,7 +29,8 @@ _mpm_options()
   esac
 }
 
-# What stands behind an option or at the place of an argument: files, files:ENDING, heading:KIND, words:WORDS, nothing.
+# Value behind an option or at the place of an argument: files, files:ENDING, heading:KIND, words:WORDS,
+# nothing.
 _mpm_value()
 {
   case $1:$2 in

@@ -52,7 +52,7 @@ def prose(lines):
 
 
 def sentence_of(entry):
-    """What the entry means, and what its head says of it."""
+    """Meaning of the entry, and the note in its head."""
     parts = [entry.text]
     if entry.required:
         parts.append("Required.")

@@ -1,4 +1,4 @@
-"""Where in (V/V_y, delta/R) the contacts of the flow lived, over the law they used: from the plug-in's stats.json and the law file. Of
+"""Map of (V/V_y, delta/R) in which the contacts of the flow lived, over the law they used: from the plug-in's stats.json and the law file. Of
 decks that are no example also the energies over time and the speeds."""
 import math
 import pathlib
@@ -19,7 +19,7 @@ ENERGIES = {"kinetic_J": "kinetic", "rotational_J": "rotation", "elastic_J": "el
 
 
 class Law:
-    """What the map needs of a law file (docs/reference/law-format.md): E*/Y, the onset, and the curve of a head-on impact. Of two materials
+    """Data of a law file for the map (docs/reference/law-format.md): E*/Y, the onset, and the curve of a head-on impact. Of two materials
     it is the one whose yield stress is lower."""
 
     def __init__(self, path, materials):
@@ -142,7 +142,7 @@ class Contacts:
         return min(found, (self.speed_max if which == "speed" else self.overlap_max) or found)
 
     def elastic_share(self):
-        """Of the contacts, those slower than the onset of yield (the bin of the onset is cut in proportion)."""
+        """Fraction of the contacts that were slower than the onset of yield (the bin of the onset is cut in proportion)."""
         edges, counts = self.histogram("speed")
         if not self.law:
             return 1.0
@@ -248,7 +248,7 @@ def name_of(contacts):
 
 
 def draw_law(middle, contacts, x_low, x_high, y_low):
-    """Where the law ends, where yield begins, and how deep a head-on impact goes."""
+    """End of the law, onset of yield, and the overlap of a head-on impact."""
     end = contacts.fastest or x_high
     middle.set_facecolor("#efe9e4")
     middle.fill_between([x_low, end], y_low, contacts.limit, color="white", lw=0)
@@ -336,7 +336,7 @@ def picture_of_run(run):
 
 
 def write_runs(page, runs, left_out):
-    """Of the user's own decks."""
+    """Part for the user's own decks."""
     for k, run in enumerate(runs, 1):
         page.heading(f"Energies and speeds of {run.title}")
         page.figure(picture_of_run(run), f"run-{k}", f"Run of `{run.path}`. Dashed: the speed at which yield begins, between the smallest particles.")

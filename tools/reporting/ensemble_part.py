@@ -116,7 +116,7 @@ def band(values):
 
 
 def feels(ensemble, quantity):
-    """Whether the observable follows a parameter beyond chance, and which: (name, rho) or None."""
+    """Parameter that the observable follows beyond chance: (name, rho) or None."""
     found = [(n, c[0]) for n, c in ensemble.correlations(quantity).items() if c and c[1] < SMALLEST_P]
     return max(found, key=lambda entry: abs(entry[1])) if found else None
 
@@ -136,7 +136,7 @@ def read_all(folder):
 
 
 def is_member(path, folder):
-    """Whether a file under `folder` belongs to a member."""
+    """True if a file under `folder` belongs to a member."""
     return any((parent / NAME).exists() for parent in pathlib.Path(path).parents if folder in (parent, *parent.parents))
 
 

@@ -15,7 +15,8 @@ from .page import legend_below, number, plt, with_error
 
 REFERENCE = "mpm"
 DECKS = ("drop", "packing", "heap", "compression", "hopper", "silo")
-# What the flow part is about, by the decks' own names; all other quantities of a deck stand in its second table.
+# Observables of the flow part, by the decks' own names; all other quantities of a deck stand in its second
+# table.
 OBSERVABLES = (("discharge rate", r"^discharge rate"), ("energy dissipated", r"^energy dissipated"),
                ("dissipated in normal contacts", r"^(dissipated in normal contacts|of it in normal contacts)"),
                ("heap angle", r"^angle, degrees"), ("packing fraction", r"^(solid fraction$|bulk density)"),
@@ -44,12 +45,12 @@ def differs(a, b):
 
 
 def unit_of(quantity):
-    """Of a deviation: an angle's in degrees (a share of an angle says nothing), else percent of the reference."""
+    """Text of a deviation: an angle's in degrees (a fraction of an angle says nothing), else percent of the reference."""
     return "degrees" if re.search(r"angle.*degrees", quantity) else "%"
 
 
 def deviation(a, b, unit):
-    """(deviation of a from b, its standard error or None); None where it would be a share of 0."""
+    """(deviation of a from b, its standard error or None); None where it would be a fraction of 0."""
     if unit != "%":
         return a.mean - b.mean, None if a.error is None or b.error is None else math.hypot(a.error, b.error)
     if b.mean == 0:
@@ -59,7 +60,7 @@ def deviation(a, b, unit):
 
 
 class Cost:
-    """Of the runs of one model: seconds and time step, as far as the files tell."""
+    """Times of the runs of one model: seconds and time step, as far as the files tell."""
 
     def __init__(self):
         self.wall, self.cpu, self.steps, self.ranks = [], [], set(), set()

@@ -1,4 +1,4 @@
-"""Where and with what the page was made."""
+"""Machine and programs with which the page was made."""
 import platform
 import re
 import subprocess

@@ -91,7 +91,7 @@ class Page:
         self._add(f"<p>{_inline(text)}</p>", text)
 
     def origin(self, text):
-        """Where the numbers are from: small print."""
+        """Origin of the numbers: small print."""
         self._add(f'<p class="origin">{_inline(text)}</p>', text)
 
     def commands(self, lines):

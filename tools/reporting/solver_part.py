@@ -58,7 +58,7 @@ def cheapest(rows, target, keys=("L2_force",)):
 
 
 def single_precision(study):
-    """What single precision changes, over all runs that were made in both: a sentence, or nothing."""
+    """Effect of single precision, over all runs that were made in both: a sentence, or nothing."""
     key = lambda r: (r["job"], r["grid"], r["cells"], r["grids"])
     rows = [r for job in study["jobs"] for r in job["rows"]]
     double = {key(r): r for r in rows if r["precision"] == "double"}

@@ -71,7 +71,7 @@ void ComposedModel::around(const LawMaterial& wanted, Use use) const
                           std::log1p(2 * wanted.hardening_modulus / wanted.yield_stress)};
   Steps below{};
   double share[3] = {};
-  constexpr double rounding = 1e-9;  // of a share, and of a weight
+  constexpr double rounding = 1e-9;  // of a fraction, and of a weight
   for (std::size_t k = 0; k < 3; ++k) {
     if (!varies_[k]) continue;
     below[k] = static_cast<int>(std::floor(place[k] / spacing));

@@ -11,7 +11,7 @@
 namespace granulaw {
 
 /// A measurement of two bodies, of which one is known and the other is fitted: an indenter on a specimen, a
-/// sphere on a thick wall that gives way. Its law is composed of those that the atlas has of both
+/// sphere on a deformable wall that gives way. Its law is composed of those that the atlas has of both
 /// (docs/theory/pairs.md). A composed law takes 10 to 30 ms. So it is made at the materials of a lattice, E,
 /// Y and Y + 2 H whole powers of a factor, and interpolated, linear in the logarithms: e is within 0.001.
 class ComposedModel

@@ -24,7 +24,7 @@ struct CurveModel
   double recovery_error;  ///< of the unloading, over the largest overlap less the residual
 };
 
-/// Unloading from `top` where the overlap is this share of the recovery, the largest overlap less the
+/// Unloading from `top` where the overlap is this fraction of the recovery, the largest overlap less the
 /// residual, above the residual.
 double unloading_force(const Reversal& top, double share)
 {
@@ -44,8 +44,8 @@ Prediction predict_curve(const Measurement& m, const CurveModel& model, const Ma
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
   x_m += std::max(0.0, machine.beyond) / m.kind->contacts / model.length;
   const Reversal top = model.curve.reversal(std::max(x_m, 1e-12));
-  // The checks' errors are each one curve's: smooth. Unloading is off by a share of what it recovers, however
-  // far the press went.
+  // The checks' errors are each one curve's: smooth. Unloading is off by a fraction of what it recovers,
+  // however far the press went.
   const double factor_error = model.force_error, recovery_error = model.recovery_error,
                recovery = x_m - top.residual();
   constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured

@@ -81,7 +81,7 @@ struct Kind
   void (*check_rows)(const Measurement&) = [](const Measurement&) {};
   void (*check_request)(const Measurement&, const CalibrationRequest&,
                         const Atlas&) = [](const Measurement&, const CalibrationRequest&, const Atlas&) {};
-  /// Standard deviations of values whose file states none: a share of the value.
+  /// Standard deviations of values whose file states none: a fraction of the value.
   void (*complete)(Measurement&, double relative_sd) = [](Measurement& m, double relative_sd) {
     for (Datum& d : m.data)
       if (d.sd == 0) d.sd = relative_sd * d.y, d.relative_sd = relative_sd;

@@ -16,7 +16,7 @@ LawBody body_of_material(const std::string& name, const Material& material)
   return {law_material(name, material), characterised, sphere_name, material_hash(characterised, material)};
 }
 
-/// Of any shape: the sphere of its material, at whatever radius touches.
+/// Body of any shape: the sphere of its material, at whatever radius touches.
 LawBody body_of_shape(const std::string& name, const Particle& particle, const std::string& where)
 {
   const bool uniform =

@@ -21,7 +21,7 @@ struct LawBody
   /// contact; a certificate over orientations says what that is wrong by.
   std::optional<Particle> shape{};
 
-  /// Whether the atlas and the pair rule may serve it: a homogeneous sphere of five numbers.
+  /// True if the atlas and the pair rule may be used: a homogeneous sphere of five numbers.
   bool is_plain_sphere() const { return body == sphere_name && characterised.is_plain(); }
 };
 

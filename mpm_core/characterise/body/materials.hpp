@@ -8,7 +8,7 @@
 
 namespace granulaw {
 
-/// What contact laws are made of: materials, and particles of them, by name. SI.
+/// Input of contact laws: materials, and particles of them, by name. SI.
 ///
 /// A material stands for the homogeneous sphere of it. A particle is needed where the law depends on more
 /// than the material: layers, inclusions, a profile, or a rate, which makes the law depend on the size.

@@ -9,24 +9,24 @@
 
 namespace granulaw {
 
-/// What the sampling of a body's law needs to know.
+/// Input of the sampling of a body's law.
 struct SamplingSetting
 {
   const CharacterisedBody& body;
   const CharacterisedBody&
-      slow;  ///< the same at no rate: its presses and slow impacts give the rate-free law
+      slow;  ///< the same at no rate: its presses and slow impacts give the rate-independent law
   const BuildOptions& options;
   const RunSource& source;
-  const LawShape* known;  ///< the law at no rate, to Atlas::depth, where no run is needed for it; else null
+  const LawShape* known;  ///< the rate-independent law, to Atlas::depth, where no run is needed for it; else null
   ElasticCorrection elastic;
   const ContactRecord* elastic_press;  ///< of a body of several materials; else null
   int press_cells, impact_cells;
 
-  /// Where the shape's functions of u end.
+  /// End of the shape's functions of u.
   double shape_end() const { return known ? Atlas::depth : options.depth; }
 };
 
-/// What was run, the law's shape by it, and what that shape would be without each run.
+/// Runs made, the law's shape by them, and that shape without each run.
 struct Sampled
 {
   ContactRecords records;

@@ -85,11 +85,11 @@ class Build
   BodyLaw& law_ = built_.law;
   CharacterisedBody body_;  ///< its onset is that of the elastic press
   CharacterisedBody
-      slow_;  ///< the body at no rate: its law is the rate-free one, the speed axis brings the rate in
+      slow_;  ///< the body at no rate: its law is the rate-independent one, the speed axis brings the rate in
   const BuildOptions& options_;
   const RunSource& source_;
   BuildRuns runs_;
-  std::optional<LawShape> known_;  ///< a rate-dependent body's law at no rate, where the atlas tells it
+  std::optional<LawShape> known_;  ///< a rate-dependent body's rate-independent law, where the atlas tells it
   ElasticCorrection elastic_;
   std::optional<ContactRecord> elastic_press_;  ///< of a body of several materials
   int press_cells_ = first_resolution, impact_cells_ = first_resolution;
@@ -143,7 +143,7 @@ SamplingPlan Build::first_plan() const
   return plan_sampling(slow_, range);
 }
 
-/// How many runs the densest plan has: a rate's impacts as near to each other as refinement puts them.
+/// Number of runs of the densest plan: a rate's impacts as near to each other as refinement puts them.
 std::size_t Build::most_runs(const std::optional<OnsetSimilarity>& guide) const
 {
   SamplingRange range = widest_range();
@@ -168,7 +168,7 @@ SamplingRange Build::widest_range() const
 
 // -- resolve --
 
-/// What shows the error of a plan's runs: a fast impact, which rings and may want more cells than a press,
+/// Runs that show the error of a plan: a fast impact, which rings and may need more cells than a press,
 /// but costs less, and the cheapest of its presses on shifted grids, which the sampling takes over.
 std::vector<Probe> Build::probes(const SamplingPlan& plan)
 {
@@ -200,8 +200,8 @@ void Build::note_solver_error(const ResolutionChoice& choice)
   law_.certificate.solver_error_restitution = choice.error.restitution;
 }
 
-/// Of a body of several materials, or with pores, the elastic press comes first: it tells the onset of yield.
-/// If it was not deep enough, a second one goes as deep as a law's onset may be.
+/// The elastic press determines the onset of yield of a body of several materials, or with pores, so it comes
+/// first. If it was not deep enough, a second one goes as deep as a law's onset may be.
 void Build::find_onset()
 {
   if (body_.is_uniform()) return;
@@ -234,8 +234,7 @@ void Build::resolve(const SamplingPlan& plan)
   elastic_ = fit_elastic(contact_record_of(press.result));
 }
 
-/// What tells the law below `first`, the overlap of the shallowest run planned, if that is far from the
-/// onset.
+/// Source of the law below `first`, the overlap of the shallowest run planned, if that is far from the onset.
 std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
 {
   if (known_ || !needs_prior(first, body_.onset)) return {};
@@ -247,7 +246,7 @@ std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
 
 // -- certify, tabulate, verify --
 
-/// What the runs and their fit say of the law's errors.
+/// Errors of the law by its runs and their fit.
 void Build::certify(const Sampled& sampled)
 {
   Certificate& c = law_.certificate;

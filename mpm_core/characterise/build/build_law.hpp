@@ -13,7 +13,7 @@ struct BuiltLaw
   std::vector<std::string>
       holes;              ///< runs that failed twice, each with its sentence: the law has no sample there
   std::string shallow;    ///< where the law comes from at overlaps too small to be run; empty: there are none
-  std::string rate_free;  ///< where a rate-dependent body's law at no rate comes from; empty: from runs
+  std::string rate_free;  ///< where a rate-dependent body's rate-independent law comes from; empty: from runs
   double change_of_restitution = 0;  ///< largest relative change of the fitted e that admissibility took
   double sampling_error = 0;         ///< largest where nothing was sampled, as it counts for the tolerance
   std::size_t runs = 0;              ///< that the adaptive sampling asked for
@@ -35,7 +35,7 @@ ExpectedRuns expected_runs(const LawMaterial& material, const CharacterisedBody&
 
 /// The law of one body on a rigid wall, by the material point method.
 ///
-/// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-free law; fast
+/// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-independent law; fast
 /// impacts give what inertia or a rate changes. Sampling starts coarse and is refined where the law fitted
 /// without a run misses it by more than the tolerance (refinement.hpp). Impacts that took no part verify the
 /// law in the end. Throws Error if it is not admissible, or if the tolerance is not reached.

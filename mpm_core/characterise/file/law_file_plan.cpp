@@ -127,7 +127,8 @@ void check_slowest(const LawFileRequest& r, const std::map<std::string, LawFileP
   if (!used) fail(r.words.slowest, "no body of the pairs depends on the rate: leave it out");
 }
 
-/// Whether the atlas tells the body's twins (PairBody): a homogeneous sphere without rate dependence.
+/// True if the atlas holds the body's equivalent spheres (PairBody): a homogeneous sphere without rate
+/// dependence.
 bool can_be_composed(const LawFilePlan::Body& body, const LawFileRequest& r)
 {
   if (!r.atlas || body.body.body != sphere_name || body.body.characterised.rate_dependent()) return false;

@@ -13,7 +13,7 @@
 
 namespace granulaw {
 
-/// What a law file shall hold. The defaults are those of `mpm table`.
+/// Requested content of a law file. The defaults are those of `mpm table`.
 struct LawFileRequest : SceneSizes
 {
   Materials materials;
@@ -22,7 +22,7 @@ struct LawFileRequest : SceneSizes
   std::vector<std::pair<std::string, std::string>> pairs;
 
   double depth = 0.2;             ///< largest overlap/R that the laws must reach: over 0, up to 0.5
-  double damage_number = 0.0625;  ///< largest rho V^2/Y that they must reach: 0 (rate-free) to 0.09
+  double damage_number = 0.0625;  ///< largest rho V^2/Y that they must reach: 0 (rate-independent) to 0.09
   double slowest = 0;  ///< m/s on a wall, of the slowest impact that the law of a rate-dependent particle
                        ///< must know; 0: a fiftieth of the fastest, or the onset of yield
   double tolerance = 0.01;  ///< relative, of F and e (BuildOptions::tolerance): 1e-4 to 0.5
@@ -31,7 +31,7 @@ struct LawFileRequest : SceneSizes
   ShapeQuestion shapes{};        ///< of bodies of any shape; no velocities: usual_velocity()
   const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan
 
-  /// What the caller calls these things, for messages.
+  /// The caller's names of these options, for messages.
   struct Words
   {
     std::string pair = "pair", slowest = "slowest", damage_number = "damage_number";
@@ -39,7 +39,7 @@ struct LawFileRequest : SceneSizes
   } words;
 };
 
-/// What will be made, decided before anything is computed.
+/// Plan of a law file, decided before anything is computed.
 struct LawFilePlan
 {
   struct Body
@@ -50,7 +50,7 @@ struct LawFilePlan
   };
   struct Pair : PlannedPair
   {
-    bool worth_own_law = false;  ///< two plain spheres whose stated error is above the tolerance
+    bool worth_own_law = false;  ///< two plain spheres whose error bound is above the tolerance
     bool own_law = false;  ///< runs of the two bodies will correct what is composed, or make its own law
   };
 
@@ -58,7 +58,7 @@ struct LawFilePlan
   std::map<std::string, Body> bodies;  ///< by name
   std::vector<Pair> pairs;
 
-  /// How the laws that need runs are made.
+  /// Options of the laws that need runs.
   BuildOptions build_options() const;
   bool needs_runs() const;  ///< of the solver, which takes from seconds to minutes of CPU for each law
 };

@@ -58,7 +58,7 @@ void note_holes(const std::string& name, const std::vector<std::string>& holes, 
     provenance[fmt::format("hole.{}.{}", name, k + 1)] = holes[k];
 }
 
-/// How a body's law was made from runs.
+/// Records the runs from which a body's law was made.
 void note_runs(const std::string& name, const BuiltLaw& built, Provenance& provenance)
 {
   note_holes(name, built.holes, provenance);
@@ -70,7 +70,7 @@ void note_runs(const std::string& name, const BuiltLaw& built, Provenance& prove
       fmt::format("the fitted e changed by {:.2g} % at most", 100 * built.change_of_restitution);
 }
 
-/// What a material has beyond the numbers that the file keeps of it.
+/// Records properties of a material beyond the numbers that the file stores.
 void note_flow_laws(const std::string& name, const std::vector<Material>& materials, Provenance& provenance)
 {
   if (materials.size() != 1) return;
@@ -202,7 +202,7 @@ class Maker
                         pair.composed_at, options_);
   }
 
-  /// Where an impact of the two bodies fails, what is composed stands.
+  /// The composed law stays if an impact of the two bodies fails.
   ComposedLaws corrected_or_composed(const LawFilePlan::Pair& pair)
   {
     try {

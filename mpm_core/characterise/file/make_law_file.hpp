@@ -8,7 +8,7 @@ namespace granulaw {
 /// A law file in memory, and what it took to make it.
 struct MadeLawFile
 {
-  /// Of one law that came from runs of the solver.
+  /// Runs of the solver for one law.
   struct Runs
   {
     std::size_t made = 0;       ///< runs that the sampling asked for

@@ -227,7 +227,7 @@ std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const Conta
   std::vector<LawShape::VelocityEffect> all;
   for (const auto& [speed, impact] : impacts) {
     const double q = q_of(impact.depth, onset);
-    // an impact's unloading swings with the body: it has the press's Hertz share
+    // an impact's unloading swings with the body: it has the press's Hertz coefficient
     double residual_overlap = impact.residual;
     if (!impact.unloading.empty())
       residual_overlap = std::max(
@@ -298,8 +298,8 @@ void ShapeFit::fit_loading()
   widening = Spline::fit(radius, q_end, intervals, 0.05);
 }
 
-/// What is given back follows the force at the reversal, and that swings with the contact edge about the law:
-/// only the share that is lost depends on it.
+/// The recovered work follows the force at the reversal, which swings with the contact edge about the law:
+/// only the fraction that is lost depends on it.
 void ShapeFit::correct_reversals()
 {
   for (const ContactRecord& p : records.slow)
@@ -325,7 +325,7 @@ LawShape ShapeFit::shape() const
   shape.residual =
       reversal_spline(reversals, onset, q_end, residual, prior, &LawShape::residual).values(LawShape::nodes);
   shape.dissipation = dissipation(reversals).values(LawShape::nodes);
-  // The contact edge's grid noise of a per cent of F moves a Hertz share by 0.3.
+  // The contact edge's grid noise of a per cent of F moves a Hertz coefficient by 0.3.
   constexpr double smoothing = 0.1;
   shape.hertz_share =
       reversal_spline(reversals, onset, q_end, hertz_share, prior, &LawShape::hertz_share, smoothing)

@@ -21,7 +21,7 @@ ElasticCorrection measured_elastic(const ContactRecord& press, std::span<const C
 /// edge.
 ElasticFit fit_elastic(std::span<const ContactRecord> presses);
 
-/// How well a shape represents the runs it was fitted to; relative numbers.
+/// Deviations of a shape from the runs it was fitted to; relative numbers.
 struct FitQuality
 {
   double scatter = 0;         ///< rms of loading samples of the presses, over the upper half of each
@@ -40,7 +40,7 @@ struct FittedShape
 FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
                       double x_end, const ShapePrior* prior = nullptr);
 
-/// The same from presses alone, tabulated: a rate-free curve to x_end.
+/// The same from presses alone, tabulated: a rate-independent curve to x_end.
 struct FittedCurve
 {
   Curve curve;
@@ -50,8 +50,8 @@ struct FittedCurve
 FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,
                         double onset, double x_end);
 
-/// What impacts change of a body whose slow presses have this shape, its own inertia apart; at the impacts'
-/// speeds.
+/// Velocity effects of a body whose quasi-static presses have this shape, its own inertia apart; at the
+/// impacts' speeds.
 std::vector<LawShape::VelocityEffect> fit_velocity_effects(std::span<const ContactRecords::Impact> impacts,
                                                            const LawShape& slow, double onset, double x_end);
 

@@ -23,7 +23,7 @@ namespace granulaw {
 
 namespace {
 
-/// What an impact of the two bodies departs from the composed law by, at its place
+/// Departure of an impact of the two bodies from the composed law, at its place
 /// ln(overlap/onset)/ln(end/onset).
 struct Departure
 {
@@ -75,7 +75,8 @@ class PairImpacts
   double radius_ratio() const { return pair_.radius_ratio; }
   const std::vector<Departure>& departures() const { return departures_; }
   const CellsError& solver_error() const { return solver_error_; }
-  /// Of an impact left out: of F and, relative, of e; and the larger as it counts for the tolerance.
+  /// Leave-one-out error: of F, of e (both relative), and the larger of the two on the scale of the
+  /// tolerance.
   struct Miss
   {
     double force = 0, restitution = 0, counted = 0;
@@ -125,8 +126,8 @@ double PairImpacts::speed_to(double overlap) const
   return std::sqrt(guide_.law.curve.work(overlap) / energy_unit(body_.mass, body_.yield));
 }
 
-/// Of the deepest impact: at the end of the law, or as fast as it goes without ringing, which no cells of a
-/// cheap run resolve in two bodies, or as deep as no body is squeezed flat.
+/// Place of the deepest impact: at the end of the law, or as fast as it goes without ringing, which no cells
+/// of a cheap run resolve in two bodies, or as deep as no body is squeezed flat.
 double PairImpacts::last_place() const
 {
   const double fastest = std::min(ringing, options_.fastest > 0 ? options_.fastest : slow_speed);
@@ -178,7 +179,7 @@ double force_departure(const ContactRecord& run, const Replay& law, double lengt
   return count > 0 ? sum / count : 0;
 }
 
-/// Of a run at the speed that belongs to `place`; it reaches one nearby.
+/// Departure of a run at the speed that belongs to `place`; it reaches one nearby.
 Departure PairImpacts::departure(double place, const RunResult& run) const
 {
   const ContactRecord record = contact_record_of(run);
@@ -300,7 +301,7 @@ void PairImpacts::sample()
   }
 }
 
-/// The impacts' departures at any ratio of radii, linear in the share of sizes between those that were made.
+/// The impacts' departures at any ratio of radii, linear in the fraction of sizes between those that were made.
 class Correction
 {
  public:
@@ -314,7 +315,7 @@ class Correction
     return first + share * (second - first);
   }
 
-  /// Of the ratios between which it lies.
+  /// Impacts of the ratios between which it lies.
   std::vector<const PairImpacts*> neighbours(double size_share) const
   {
     const Between b = between(size_share);
@@ -330,7 +331,7 @@ class Correction
   };
   static double share_of(const PairImpacts& impacts) { return 1 / (1 + impacts.radius_ratio()); }
 
-  /// Impacts descend in their share of sizes.
+  /// Impacts descend in their fraction of sizes.
   Between between(double size_share) const
   {
     std::size_t k = 0;

@@ -17,10 +17,10 @@ struct MeasuredReduction
 };
 MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocity);
 
-/// What the rule says of a pair's collision, by the solver: F = lambda Y R*^2 Phi(d/(lambda R*)) with m*
+/// Collision of a pair by the rule, computed by the solver. F = lambda Y R*^2 Phi(d/(lambda R*)) with m*
 /// moves like a sphere of radius lambda R* and mass lambda m* on the rigid wall under lambda F. So one free
-/// impact of that sphere at the relative velocity is the rule's answer, with the solver's errors and the
-/// inertia of a one-body impact, and without those of a fitted curve. `run_two_bodies` is the truth it is
+/// impact of that sphere at the relative velocity is the rule's result. It has the solver's errors and the
+/// inertia of a one-body impact, and none of a fitted curve. `run_two_bodies` is the reference
 /// held against. Both in units of the yielding body: R_s = E*_s = rho_s = 1; `velocity` in sqrt(E*_s/rho_s).
 RunSummary run_as_one_body(const UnlikePair& pair, double velocity, const RunOptions& options);
 RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOptions& options);

@@ -73,8 +73,8 @@ class Unloaded
     return {top - high, hertz_share_of(high)};
   }
 
-  /// The Hertz share that comes nearest to the path where it ends `span` below the reversal: phi = phi_0 + A
-  /// psi with the work kept, so one linear unknown.
+  /// The Hertz coefficient that comes nearest to the path where it ends `span` below the reversal: phi =
+  /// phi_0 + A psi with the work kept, so one linear unknown.
   double nearest_hertz_share(double span) const
   {
     const double work = work_ / (reversal_force_ * span), end = path_.front().x - span;
@@ -122,7 +122,7 @@ double residual_as_long(const UnloadingPath& path, double reversal_force, double
 
 namespace {
 
-/// Residual, Hertz share and path of an unloading whose force ended at the overlap `touched`.
+/// Residual, Hertz coefficient and path of an unloading whose force ended at the overlap `touched`.
 void set_unloading(ContactRecord& press, std::span<const TraceSample> unloading, double touched)
 {
   press.residual = std::max(0.0, touched);

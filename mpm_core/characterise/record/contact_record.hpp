@@ -16,8 +16,8 @@ using UnloadingPath = std::vector<PathPoint>;
 /// A computed unloading as the law has it: F = F_m phi(u), u = (x - r)/(x_m - r), phi an UnloadingShape.
 /// The exponent gives the same work back. The residual r is the one with which a free body needs the same
 /// time for it as for the computed one: contact times are what a particle code sees, and the last touch of a
-/// faint force falls here or there with the body's vibrations. The Hertz share comes nearest to the path
-/// (least squares over the overlap), or is given.
+/// faint force falls here or there with the body's vibrations. The Hertz coefficient comes nearest to the
+/// path (least squares over the overlap), or is given.
 struct UnloadingFit
 {
   double residual, hertz_share;
@@ -53,10 +53,10 @@ struct ContactRecords
     double speed = 0;  ///< sqrt(I)
     ContactRecord path;
   };
-  std::vector<ContactRecord> slow;  ///< rate-free: presses (a partial unloading has no loading of its own)
-                                    ///< and slow impacts; ascending depth
-  std::vector<Impact> fast;         ///< ascending speed
-  double reload_loop = 0;  ///< largest area between a partial unloading and its reloading, over the work
+  std::vector<ContactRecord> slow;  ///< rate-independent: presses (a partial unloading has no loading of its
+                                    ///< own) and slow impacts; ascending depth
+  std::vector<Impact> fast;  ///< ascending speed
+  double reload_loop = 0;    ///< largest area between a partial unloading and its reloading, over the work
 };
 
 /// Takes a run of a sphere of unit radius, density and E* apart: its loading and its last unloading.

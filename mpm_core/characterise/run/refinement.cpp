@@ -27,7 +27,7 @@ double force_error(const LeftOutRun& run)
                                                  : 0.0;
 }
 
-/// What a law's shape says of a slow contact that reverses at overlap x.
+/// Values of a law's shape for a quasi-static contact that reverses at overlap x.
 AtReversal at_reversal(const LawShape& shape, double onset, double x_end, double x)
 {
   const double q = 0.25 * std::log(x / onset), q_end = 0.25 * std::log(x_end / onset);

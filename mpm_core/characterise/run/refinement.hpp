@@ -43,7 +43,7 @@ double largest_miss_of_restitution(std::span<const LeftOutRun> runs);
 /// the tolerance the runs scatter, which no further run mends.
 double least_interval(double tolerance);
 
-/// Where the law needs runs: half-way between each run that is missed by more than the tolerance and its
+/// Places that need runs: half-way between each run that is missed by more than the tolerance and its
 /// neighbours; ascending coordinates. `runs` ascend. `least_speed` is given for inertia, which is known to
 /// change nothing at standstill, coordinate 0; that interval is bisected down to this speed.
 std::vector<double> bisections(std::span<const LeftOutRun> runs, double tolerance,

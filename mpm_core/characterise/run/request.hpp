@@ -6,7 +6,7 @@
 
 namespace granulaw {
 
-/// What a law made of runs must reach, and who makes the runs.
+/// Range and tolerance of a law made of runs, and the farm that makes the runs.
 struct BuildOptions : LawRange
 {
   const Atlas* atlas = nullptr;  ///< spares runs where a stiff body begins to yield; none: nothing but runs

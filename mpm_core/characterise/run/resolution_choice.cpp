@@ -26,7 +26,7 @@ struct Climb
   RunResult fine, coarse;
 };
 
-/// Where thin layers give the coarser run the grid of the fine one: the next coarser run whose grid is another.
+/// Next coarser run with another grid, if thin layers give the coarser run the grid of the fine one.
 void compare_with_another_grid(Climb& climb, int cells, BuildRuns& runs)
 {
   for (int next = coarse_partner(cells);

@@ -38,8 +38,8 @@ RunOptions own(RunOptions options, int resolution, int shifted_grids)
   return options;
 }
 
-/// CPU seconds, about: cells are a share of the contact radius, steps a share of a cell over the wave speed,
-/// which grows towards nu = 1/2.
+/// CPU seconds, about: cells are a fraction of the contact radius, steps a fraction of a cell over the wave
+/// speed, which grows towards nu = 1/2.
 double cost_of(const CharacterisedBody& s, double depth, double duration, int resolution, int shifted_grids)
 {
   const double nu = s.poisson_ratio;

@@ -14,7 +14,7 @@
 
 namespace granulaw {
 
-/// Where the runs come from: the solver, or a test's own model.
+/// Source of the runs: the solver, or a test's own model.
 struct RunSource
 {
   std::function<RunResult(const Particle&, const PressPlan&, const RunOptions&)> press =
@@ -64,7 +64,7 @@ struct SamplingPlan
 /// per cent of the loss, as is the contact-edge grid noise of two grids.
 inline constexpr int fast_shifted_grids = 4;
 
-/// How far a law must reach, and how densely it is sampled.
+/// Range of a law, and the density of its samples.
 struct SamplingRange
 {
   double depth = 0.5;        ///< overlap of the deepest press, up to 0.5

@@ -16,7 +16,7 @@ struct Orientation
 };
 
 /// Quasi-uniform directions over the part of the sphere that the body's mirror planes leave: a Fibonacci
-/// lattice, equal areas in z and angle, so that each stands for the same share of all directions.
+/// lattice, equal areas in z and angle, so that each stands for the same fraction of all directions.
 std::vector<Vector3> contact_directions(const Shape& solid, int count = 30);
 
 std::vector<Orientation> orientations_of(const Shape& solid, int count = 30);

@@ -113,7 +113,7 @@ TEST(Calibrate, ACurveGivesBackModulusYieldStressAndOffset)
   EXPECT_THAT(c.misfits, IsEmpty());
 }
 
-/// Of an elastic indenter, by the composed law itself.
+/// Measurement with an elastic indenter, by the composed law itself.
 Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, double indenter_radius,
                         double depth)
 {

@@ -113,7 +113,7 @@ TEST(ContactElement, AStepThatDoesNotAdvanceKeepsAndBooksNothing)
   EXPECT_EQ(element.advance(m, kept.data(), books).normal, asked.normal);
 }
 
-/// What of the state follows from the rest may be dropped at any step, as at a restart.
+/// Parts of the state that follow from the rest may be dropped at any step, as at a restart.
 TEST(ContactElement, WorksOutAnewWhatFollowsFromTheRest)
 {
   const auto element = ContactElement<Tabulated>{tabulated(1.0)};

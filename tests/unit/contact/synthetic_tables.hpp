@@ -30,7 +30,7 @@ struct SyntheticTables
   double force_reduction = 1.6;  ///< ln(F/F_elastic) = -force reduction q^2/(1 + q)
   double depth = 1.1;            ///< -ln kept = 2.9 depth q^2/(1 + q)
   double span_share = 0.9;       ///< ln span = span_share ln kept
-  double bend = 0.05;            ///< Hertz share: less bend q^2/(1 + q^2)
+  double bend = 0.05;            ///< Hertz coefficient: less bend q^2/(1 + q^2)
   double speed_end = 0.245;      ///< of the velocity axis
   double impact_loss = 0.05;     ///< share of `kept` that the fastest impact loses beyond the slow press
 
