@@ -19,7 +19,7 @@ from spread import write_tables  # noqa: E402
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 SPEED = 0.2                    # m/s of the lid: rho V^2/Y = 4e-5, far from inertia
 FRACTIONS = (0.60, 0.65, 0.70, 0.75, 0.80)  # volume of the spheres / volume of the die, where stresses are read
-OVERLAP = 0.1  # flattening of a sphere over R (half the overlap): beyond it no single pair law holds (docs/evidence/pairs.md)
+OVERLAP = 0.1  # overlap of a sphere over R (half the overlap): beyond it no single pair law holds (docs/evidence/pairs.md)
 
 
 def measure(folder, die):

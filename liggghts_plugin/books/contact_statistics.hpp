@@ -96,9 +96,9 @@ struct ContactStatistics
     double overlap_min = std::numeric_limits<double>::infinity();  ///< lower edge of the lowest bin of
                                                                    ///< `overlap` that holds an ended one
     LogHistogram speed{1e-6};                                      ///< approach speed at first touch, m/s
-    /// Largest overlap/R* so far of each contact, ended or open: LIGGGHTS does not always tell when one ends.
-    /// The open ones are taken out when the contact statistics are read (take_out_open), which leaves those
-    /// that ended.
+    /// Largest overlap/R* so far of each contact, ended or open: LIGGGHTS does not always report the end of
+    /// one. The open ones are taken out when the contact statistics are read (take_out_open), which leaves
+    /// those that ended.
     LogHistogram overlap{1e-10};
     /// Each contact by both, at [bin of speed * bins + bin of overlap]; empty: `contactMap off`.
     std::vector<double> map;
@@ -147,7 +147,7 @@ struct ContactStatistics
   /// Everything that counts as plain numbers, for restart files, and back. Restoring replaces what is there,
   /// but keeps each side's info; `sums` false: only largest and least values (all ranks but one). A side is
   /// a key, its numbers and histograms; a map follows as a record of its own, of the bins that hold
-  /// something. The first number tells the layout: unpack() of another one changes nothing and is false.
+  /// something. The first number gives the layout: unpack() of another one changes nothing and is false.
   std::vector<double> pack() const;
   bool unpack(const double* values, std::size_t count, bool sums);
 };

@@ -23,7 +23,7 @@ struct LogHistogram
   /// grows deeper asks, and no processor can foresee which of an octave's bins it is in.
   static std::size_t bin_of_ratio(double ratio)
   {
-    // floor(log2 ratio), the exponent of the number, tells the bin but for the two behind it
+    // floor(log2 ratio), the exponent of the number, gives the bin but for the two behind it
     const auto octave =
         static_cast<std::size_t>((std::bit_cast<std::uint64_t>(std::max(1.0, ratio)) >> 52) - 1023);
     const std::size_t lowest = first_of_octave[std::min(octave, octaves - 1)];

@@ -70,7 +70,7 @@ class ComposedContact final : public cm::ContactModelBase
   void tally_pp(double value, int i, int j, int index) override { surface_->tally_pp(value, i, j, index); }
   void tally_pw(double value, int i, int j, int index) override { surface_->tally_pw(value, i, j, index); }
 
-  /// True: particles that do not touch may feel each other.
+  /// True: particles that do not touch may act on each other.
   bool acts_at_distance() const
   {
     if constexpr (requires { Cohesion::always_off; })

@@ -42,7 +42,7 @@ class PairTable
   // Members read at every step come first.
   struct alignas(64) Entry
   {
-    double largest_overlap = -1.0;    // over R*, that the law answers for; -1: no law for this pair of types
+    double largest_overlap = -1.0;    // over R*, that the law holds for; -1: no law for this pair of types
     double tangential = 0.0;          // k_t over the contact radius: 8 G* (Mindlin), stretched
     double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
     double tangential_damping = 0.0;  // Mindlin's, over the same
@@ -94,7 +94,7 @@ class PairTable
     });
   }
 
-  /// True if the law of any pair asks for the mass of the bodies.
+  /// True if the law of any pair requires the mass of the bodies.
   bool needs_mass() const
   {
     return any_contact([](const Contact& contact) { return contact.needs_mass(); });

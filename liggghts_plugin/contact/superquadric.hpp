@@ -52,7 +52,7 @@ inline void refuse_rated(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, bool rated)
          "at each point");
 }
 
-/// Takes the surface model's own words out of `words`. Throws Error unless they ask for the local curvature:
+/// Takes the surface model's own words out of `words`. Throws Error unless they require the local curvature:
 /// without it LIGGGHTS gives R* of spheres of the same volume, whatever the shape.
 inline std::vector<std::string> take_curvature_words(const std::string& where, std::vector<char*>& words)
 {

@@ -19,7 +19,7 @@ struct Radii
   bool known() const { return least <= largest; }
 };
 
-/// Body of a pair of types i, j whose fraction R/(R_i + R_j) of the radii tells the pair's laws apart.
+/// Body of a pair of types i, j whose fraction R/(R_i + R_j) of the radii distinguishes the pair's laws.
 enum class ShareOf { i, j, smaller };
 
 /// Choice of a contact's law by the two radii, as a contact loop reads it. If each type has one size, the

@@ -13,7 +13,7 @@ namespace granulaw::plugin {
 /// LIGGGHTS finds the contacts (fix wall/gran) and calls compute_force for each.
 ///
 /// A sphere beside the wall is none: where another model registers a contact distance (liquid bridges), fix
-/// wall/gran calls for spheres that do not touch, too. They may feel a force of that model; heat, `compute
+/// wall/gran calls for spheres that do not touch, too. They may have a force of that model; heat, `compute
 /// wall/gran/local` and the law itself see only those that touch.
 ///
 /// Left out: the energies of `computeElasticPotential` and `computeDissipatedEnergy`, which our models

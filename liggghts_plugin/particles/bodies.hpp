@@ -16,7 +16,7 @@ class Bodies
   static void provide(LAMMPS_NS::LAMMPS* lmp, bool inertia);
 
   /// True if spheres of one clump overlap, of templates or of clumps on this rank: a partner that touches
-  /// both there feels both. Not collective.
+  /// both there meets both. Not collective.
   static bool overlap_themselves(LAMMPS_NS::LAMMPS* lmp);
 
   /// Before the forces of each step. Collective.

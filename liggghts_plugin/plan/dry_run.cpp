@@ -29,7 +29,7 @@ void DryRun::run(int steps)
       planner.hold_insertions();
       planner.move_meshes(steps - 2);
       update->ntimestep = last - 1;
-      // the values that the deck asks for behind the run are of its last step
+      // the values that the deck requires behind the run are of its last step
       output->next = output->*exposed(NextThermo{}) = last;
       modify->addstep_compute_all(last);
       Verlet::run(1);

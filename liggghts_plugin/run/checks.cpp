@@ -47,7 +47,7 @@ void check_liggghts(LAMMPS_NS::LAMMPS* lmp, const void* parent, std::size_t pare
   if (has_superquadrics(parent) != superquadrics_built)
     refuse(lmp, superquadrics_built ? "this LIGGGHTS was built without superquadrics"
                                     : "this LIGGGHTS was built with superquadrics");
-  // Allocators round up, each in its own way: an object of the expected size tells by how much. glibc's may
+  // Allocators round up, each in its own way: an object of the expected size shows by how much. glibc's may
   // leave 24 bytes more to the one that it finds first.
   const std::size_t block = malloc_usable_size(const_cast<void*>(parent));
   const std::unique_ptr<char[]> alike(new char[parent_size]);

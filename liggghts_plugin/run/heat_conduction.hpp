@@ -21,7 +21,7 @@ class FixHeatConduction : public LAMMPS_NS::FixHeatGranCond
 
  private:
   bool by_law() const;
-  /// `list`: only tell compute pair/gran/local.
+  /// `list`: only report to compute pair/gran/local.
   void conduct(LAMMPS_NS::ComputePairGranLocal* list);
 };
 

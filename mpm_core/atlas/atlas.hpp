@@ -9,8 +9,8 @@
 
 namespace granulaw {
 
-/// The materials that an atlas holds shapes of. A reference set at one Poisson's ratio, every stiffness with its
-/// hardenings; and a coarser block that tells what another Poisson's ratio changes, which is little and
+/// The materials that an atlas holds shapes of. A reference set at one Poisson's ratio, every stiffness with
+/// its hardenings; and a coarser block that gives what another Poisson's ratio changes, which is little and
 /// smooth.
 struct AtlasGrid
 {
@@ -20,8 +20,8 @@ struct AtlasGrid
   std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.15, 0.3};
 
   std::vector<double> block_stiffnesses{20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 400, 600, 900, 5000};
-  /// Up to here the block tells unloading and velocity effects; stiffer ones the loading alone. Their e is known to
-  /// 0.003 (24 cells, two grids), which is what another ratio changes there.
+  /// Up to here the block gives unloading and velocity effects; stiffer ones the loading alone. Their e is
+  /// known to 0.003 (24 cells, two grids), which is what another ratio changes there.
   static constexpr double block_unloading_end = 900;
   std::vector<double> block_hardenings{0, 0.005, 0.02, 0.1, 0.3};
   std::vector<double> block_poisson_ratios{0, 0.15, 0.42, 0.49};  ///< besides the main one
@@ -89,7 +89,7 @@ class Atlas
   /// The shape of one; no velocity effects. Needs why_not() empty and midplane() not.
   LawShape midplane_shape(const MaterialRatios& m) const { return midplane_.shape(m, shape(m)); }
 
-  /// Errors that the atlas claims for its laws: 95 % of all impacts lie within, as its checks tell with a
+  /// Error bounds of the atlas's laws: 95 % of all impacts lie within, as its checks give with a
   /// confidence of 95 %; none of the checks exceeds twice the claim.
   double claimed_force() const { return claimed_force_; }
   double claimed_restitution() const { return claimed_restitution_; }

@@ -94,8 +94,8 @@ class BodyAtContact
             least.log_yield_overlap, least.known};
   }
 
-  // Curvatures from 1/12000 of the whole on; up to twice, as a equivalent sphere under its own shape may have more than
-  // its fraction.
+  // Curvatures from 1/12000 of the whole on; up to twice, as a equivalent sphere under its own shape may have
+  // more than its fraction.
   static constexpr int nodes = 96;
   static constexpr double range_below = 9.4, range = 10.1, spacing = range / (nodes - 1);
   /// d ln p/d ln kappa, at least: two bodies in full plasticity, whose hardness no longer depends on kappa,
@@ -400,9 +400,9 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
 }
 
 /// Damage number up to which impacts of two bodies have shown that a composed law keeps its error. Of spheres
-/// v^2 = 0.003, v of the velocity axis. Of a deformable wall the waves that leave while the force rises are not
-/// modelled, and the wall's own damage number, by its fraction of the approach, measures them: 0.003, too; a
-/// stiff wall's stays small at any speed.
+/// v^2 = 0.003, v of the velocity axis. Of a deformable wall the waves that leave while the force rises are
+/// not modelled, and the wall's own damage number, by its fraction of the approach, measures them: 0.003,
+/// too; a stiff wall's stays small at any speed.
 double measured_damage_number(const LawMaterial& yielding, const LawMaterial& partner, double radius_ratio,
                               double speed_ratio)
 {

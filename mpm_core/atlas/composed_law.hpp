@@ -24,15 +24,16 @@ struct ComposedState
   bool known = true;
 };
 
-/// The law of two unlike spheres, or of a sphere and a deformable wall, from what the atlas knows of each alone:
-/// no run.
+/// The law of two unlike spheres, or of a sphere and a deformable wall, from what the atlas holds of each
+/// alone: no run.
 ///
 /// At a contact radius a the two bodies share the interface's curvature, kappa_s + kappa_h = a/R*, the mean
-/// pressure and the pressure's shape. Each is a equivalent sphere (PairBody) whose own pressure has another shape: under
-/// the common one
-///     p       = p_twin strength(common)/strength(own)                       it yields as much as the equivalent sphere
-///     kappa   = kappa_twin + 2 pi/E* [sag(common) p - sag(own) p_twin]       its elastic surface curves
-///     otherwise overlap = that of the equivalent sphere + pi a/E* [displacement(common) p - displacement(own) p_twin]
+/// pressure and the pressure's shape. Each is a equivalent sphere (PairBody) whose own pressure has another
+/// shape: under the common one
+///     p       = p_twin strength(common)/strength(own)                       it yields as much as the
+///     equivalent sphere kappa   = kappa_twin + 2 pi/E* [sag(common) p - sag(own) p_twin]       its elastic
+///     surface curves otherwise overlap = that of the equivalent sphere + pi a/E* [displacement(common) p -
+///     displacement(own) p_twin]
 ///               - k pi a^2 (p - p_twin)/(E* R)                               the finite sphere's
 /// The common shape follows from the residual over the recovered overlaps of both. An elastic body yields
 /// nothing: the second line then says what curvature a flatter pressure gives it. Measured against two-body
@@ -82,8 +83,8 @@ struct ComposedShape
 };
 
 /// The shape of a pair that yields at this ratio of the partner's radius to the yielding body's; infinity:
-/// the partner is a deformable wall; 0: the yielding body is. Velocity effects are those of the yielding body.
-/// range: depth, fastest. Throws Error where it begins to yield too near to where the atlas ends.
+/// the partner is a deformable wall; 0: the yielding body is. Velocity effects are those of the yielding
+/// body. range: depth, fastest. Throws Error where it begins to yield too near to where the atlas ends.
 ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
                             double radius_ratio, const LawRange& range);
 

@@ -15,9 +15,9 @@ constexpr double spacing = share_spacing;
 
 constexpr double usual_share_end = 1.5;  // xi where the force is the press's again
 
-/// ln(F_impact/F_press) of an impact over xi <= 1: the spline through its fractions. At the end it has the slope of
-/// four shares before. The last shares scatter: with the slope of the cubic through them F_max of the atlas's
-/// checks is .0025 off (rms) in place of .0022.
+/// ln(F_impact/F_press) of an impact over xi <= 1: the spline through its fractions. At the end it has the
+/// slope of four shares before. The last shares scatter: with the slope of the cubic through them F_max of
+/// the atlas's checks is .0025 off (rms) in place of .0022.
 boost::math::interpolators::cardinal_cubic_b_spline<double> log_force(const LawShape::VelocityEffect& effect)
 {
   constexpr int last = LawShape::VelocityEffect::shares - 1;

@@ -9,7 +9,7 @@
 namespace granulaw {
 
 /// Materials of which the atlas has run midplane presses. A reference set at one Poisson's ratio, and a
-/// coarser block that tells what another one changes.
+/// coarser block that gives what another one changes.
 struct MidplaneGrid
 {
   double main_poisson_ratio = 0.3;

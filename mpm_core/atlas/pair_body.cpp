@@ -15,13 +15,13 @@ namespace granulaw {
 
 namespace {
 
-// Equivalent spheres: the atlas's spacing in ln(E*/Y), over curvatures 14 times the flat's either way (radii 1:10 and a
-// partner that takes a tenth of the curvature).
+// Equivalent spheres: the atlas's spacing in ln(E*/Y), over curvatures 14 times the flat's either way (radii
+// 1:10 and a partner that takes a tenth of the curvature).
 constexpr double farthest_twin = 14;
 constexpr int twins_made = 9;
 
-// Nodes of a equivalent sphere in ln(overlap/overlap at first yield): up to that, and from there to where the atlas ends,
-// in which laws of different stiffness resemble each other (LawShape).
+// Nodes of a equivalent sphere in ln(overlap/overlap at first yield): up to that, and from there to where the
+// atlas ends, in which laws of different stiffness resemble each other (LawShape).
 constexpr double first_log_overlap = -8;
 constexpr int elastic_intervals = 80, plastic_intervals = 240;
 constexpr int overlap_nodes = elastic_intervals + plastic_intervals + 1;
@@ -293,8 +293,8 @@ PairBody::State PairBody::at(double curvature, double contact) const
 
   State state;
   state.log_yield_overlap = log_overlap_of(node, log_end);
-  // A equivalent sphere put in the place of one that is too stiff for the atlas is soft for lack of a body, not of
-  // pressure.
+  // A equivalent sphere put in the place of one that is too stiff for the atlas is soft for lack of a body,
+  // not of pressure.
   constexpr double widest_stand_in = 0.35;
   const double log_strain = std::log(curvature * ratios_.stiffness);
   state.known = node < overlap_nodes && !(twin.is_clipped && alpha > std::max(contact, widest_stand_in)) &&

@@ -33,9 +33,9 @@ struct PressureShape
 /// A partner shows a sphere of radius R a surface that is not flat. Only the curvature 1/r between the two
 /// counts for what happens near the contact, of radius a: kappa = a/r; and alpha = a/R for the sphere as a
 /// whole. A sphere on a rigid flat has kappa = alpha. Strains go as kappa, the solution depends on kappa E*/Y
-/// and alpha: so the sphere is as its equivalent sphere on a rigid flat, of the same Y, nu, H and alpha and of the
-/// stiffness E* kappa/alpha: with the same pressure, and overlaps kappa/alpha times the equivalent sphere's. The atlas
-/// knows the equivalent spheres.
+/// and alpha: so the sphere is as its equivalent sphere on a rigid flat, of the same Y, nu, H and alpha and
+/// of the stiffness E* kappa/alpha: with the same pressure, and overlaps kappa/alpha times the equivalent
+/// sphere's. The atlas holds the equivalent spheres.
 class PairBody
 {
  public:
@@ -55,7 +55,7 @@ class PairBody
     double recovered = 0;          ///< recovered overlap over a
     double flatness = 0;           ///< of the pressure
     double log_yield_overlap = 0;  ///< ln(overlap/overlap at first yield); elastic: below 0
-    bool known = true;             ///< within what the atlas tells
+    bool known = true;             ///< within what the atlas gives
   };
   /// `curvature`: kappa > 0; `contact`: alpha, 0 for a deformable wall.
   State at(double curvature, double contact) const;

@@ -5,8 +5,8 @@
 
 namespace granulaw {
 
-/// Two spheres of different make, or sizes, that touch pole against pole; or a sphere and a deformable wall. Only
-/// ratios count: lengths over the first one's radius.
+/// Two spheres of different make, or sizes, that touch pole against pole; or a sphere and a deformable wall.
+/// Only ratios count: lengths over the first one's radius.
 struct UnlikePair
 {
   LawMaterial yielding;     ///< whose law the pair rule takes: the lower yield stress

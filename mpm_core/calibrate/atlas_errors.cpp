@@ -39,7 +39,7 @@ AtlasErrors compute(const Atlas& atlas, double stiffness)
 
 AtlasErrors errors_of(const Atlas& atlas, double asked)
 {
-  // a fit asks for one material many times
+  // a fit requires one material many times
   static thread_local const Atlas* known = nullptr;
   static thread_local double at = 0;
   static thread_local AtlasErrors errors;

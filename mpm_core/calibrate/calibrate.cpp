@@ -14,7 +14,8 @@ namespace granulaw {
 
 namespace {
 
-constexpr double widest = 1.5;  // a parameter known to less than this factor, 20 % either way, is told
+constexpr double widest =
+    1.5;  // a parameter known to less than this factor, 20 % either way, is identifiable
 
 /// An end at no hardening is one: nothing lies beyond.
 bool ends_below(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
@@ -128,7 +129,7 @@ double machine_shift_of(const CalibrationProblem& problem, const Calibration& c)
   const Eigen::MatrixXd jacobian = jacobian_at(gives_way, q);
   const Eigen::MatrixXd free = jacobian(Eigen::all, kept);
   Eigen::MatrixXd information = free.transpose() * free;
-  information.diagonal().array() += 1e-6;  // what nothing tells
+  information.diagonal().array() += 1e-6;  // what nothing determines
   const Eigen::VectorXd shift = -information.ldlt().solve(free.transpose() * (jacobian * direction));
   return std::expm1(shift[modulus - request.fit.begin()]);
 }

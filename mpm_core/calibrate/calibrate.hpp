@@ -14,7 +14,7 @@ struct Minimum
   Eigen::MatrixXd jacobian;  ///< of the residuals, at q
 };
 
-/// The answer of the data on one parameter, SI. An end that no data tell is the end of what is allowed.
+/// The answer of the data on one parameter, SI. An end that no data determine is the end of what is allowed.
 struct Interval
 {
   double low = 0, high = 0;
@@ -83,7 +83,7 @@ Calibration calibrate(const CalibrationProblem& problem);
 /// The same from a minimum that is known.
 Calibration calibrate(const CalibrationProblem& problem, const Coordinates& start);
 
-/// A parameter is told where its 95 % interval ends on both sides and is narrower than a factor of 1.5
+/// A parameter is identifiable if its 95 % interval ends on both sides and is narrower than a factor of 1.5
 /// (hardening: of 1 + 2 H/Y); else bounded on the side where it ends.
 Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& profile);
 

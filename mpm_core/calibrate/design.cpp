@@ -82,7 +82,7 @@ Design::Design(const Atlas& atlas, CalibrationRequest request, const CandidateMa
   };
   const std::size_t rows_there = first_rows[static_cast<std::size_t>(given)], data = problem.data_count();
   there_ = block(0, rows_there) + block(data, static_cast<std::size_t>(jacobian.rows()) - data);
-  there_.diagonal().array() += 1e-6;  // of directions that nothing tells
+  there_.diagonal().array() += 1e-6;  // of directions that nothing determines
   for (const Rows& r : rows)
     information_.push_back(block(first_rows[static_cast<std::size_t>(r.measurement)] + r.first, r.count));
 }

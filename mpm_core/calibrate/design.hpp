@@ -15,7 +15,7 @@ struct DesignCandidate
 /// Y/2).
 using ExpectedIntervals = std::vector<double>;
 
-/// The candidates that would tell most of a material, by the Fisher information at an assumed one: the fit's,
+/// The candidates that would give most of a material, by the Fisher information at an assumed one: the fit's,
 /// or a guess. Data that are there count, as do the model's own errors: no number of drops goes below these.
 class Design
 {

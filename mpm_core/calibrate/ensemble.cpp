@@ -8,7 +8,7 @@ namespace granulaw {
 
 namespace {
 
-/// A square root of the covariance over what is free, with steps along what no data tell kept short.
+/// A square root of the covariance over what is free, with steps along what no data determine kept short.
 Eigen::MatrixXd steps_of(const Minimum& minimum)
 {
   constexpr double longest = 1;  // of a step along one direction

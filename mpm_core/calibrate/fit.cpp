@@ -32,7 +32,7 @@ int evaluate(const gsl_vector* x, void* data, gsl_vector* f)
 {
   const auto& problem = *static_cast<const FreeProblem*>(data);
   const Coordinates q = problem.at(x);
-  if (!q.allFinite()) return GSL_EDOM;  // a step along a direction that nothing tells
+  if (!q.allFinite()) return GSL_EDOM;  // a step along a direction that nothing determines
   const Eigen::VectorXd r = problem.problem.residuals(q);
   if (!r.allFinite()) return GSL_EDOM;
   for (Eigen::Index k = 0; k < r.size(); ++k) gsl_vector_set(f, static_cast<std::size_t>(k), r[k]);
@@ -87,7 +87,8 @@ Minimum minimise(const CalibrationProblem& problem, const Coordinates& start, co
   gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
   settings.trs = gsl_multifit_nlinear_trs_lm;
   settings.scale = gsl_multifit_nlinear_scale_more;
-  settings.solver = gsl_multifit_nlinear_solver_svd;  // what the data do not tell leaves the matrix singular
+  settings.solver =
+      gsl_multifit_nlinear_solver_svd;  // what the data do not determine leaves the matrix singular
   gsl_multifit_nlinear_fdf functions{};
   functions.f = evaluate, functions.df = derive;
   functions.n = static_cast<std::size_t>(free.rows), functions.p = free.free.size();

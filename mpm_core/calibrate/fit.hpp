@@ -18,7 +18,7 @@ Minimum polished(const CalibrationProblem& problem, const Coordinates& start);
 /// Derivatives of the residuals by all unknowns.
 Eigen::MatrixXd jacobian_at(const CalibrationProblem& problem, const Coordinates& q);
 
-/// Covariance of the unknowns by the Jacobian; directions that no residual tells have a variance of 1e6.
+/// Covariance of the unknowns by the Jacobian; directions that no residual determines have a variance of 1e6.
 Eigen::MatrixXd covariance(const Minimum& minimum);
 
 }  // namespace granulaw

@@ -69,7 +69,7 @@ Columns read_header(const std::vector<std::string>& words, const std::string& wh
 {
   const std::string found = fmt::format("{}", fmt::join(words, ","));
   for (const Kind* kind : kinds()) {
-    // kinds of the same columns are told apart by who calls
+    // kinds of the same columns are distinguished by who calls
     const Kind* chosen = kind->header() == curves.header() ? &curves : kind;
     if (found == kind->header()) return {chosen, false};
     for (const std::string& sd : {std::string(kind->y.quantity), kind->y.name()})

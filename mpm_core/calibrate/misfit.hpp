@@ -54,7 +54,7 @@ class Inspection
   double model_error() const;
   /// The model's own errors as fitted, over their sd.
   std::vector<double> model_errors() const;
-  /// Standard deviations by which the values that tell of the strength lie above the fit.
+  /// Standard deviations by which the values that depend on the strength lie above the fit.
   double above() const;
   void look_for_outliers();
 

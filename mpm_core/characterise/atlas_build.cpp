@@ -21,7 +21,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr double elastic_depth = 0.03;  // overlap/R of the presses that tell the finite-sphere correction
+constexpr double elastic_depth = 0.03;  // overlap/R of the presses that give the finite-sphere correction
 
 std::vector<MaterialRatios> all_materials(const AtlasGrid& grid)
 {

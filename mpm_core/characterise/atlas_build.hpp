@@ -20,7 +20,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
 /// The atlas from these runs' results, in the order of atlas_jobs() with the same `known`. Very stiff
 /// materials yield at overlaps where no run is affordable: there the law of a less stiff one at the same
 /// delta/delta_onset holds, but for a term that goes as sqrt(delta/R), that is as Y/E*: two less stiff shapes
-/// tell it.
+/// give it.
 Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
                  const KnownAtlas& known = {});
 

@@ -15,8 +15,8 @@ namespace granulaw {
 
 namespace {
 
-constexpr double elastic_depth = 0.03;  // overlap/R of the presses that tell the elastic correction
-/// Overlap below which the series compliance tells all: no press is needed there.
+constexpr double elastic_depth = 0.03;  // overlap/R of the presses that give the elastic correction
+/// Overlap below which the series compliance gives all: no press is needed there.
 constexpr double least_stop = 0.0075;
 constexpr double press_depths[] = {0.03, 0.13, 0.5};
 constexpr int stops = 3;  // partial unloadings a press

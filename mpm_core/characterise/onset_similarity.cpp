@@ -16,7 +16,7 @@ namespace {
 /// E*/Y of the spheres that are run.
 constexpr double less_stiff = 170, least_stiff = 85;
 
-/// Their slow impact costs the most and tells the least: at 1.25 onsets e is 0.9994. At 2.5, with 17 cells,
+/// Their slow impact costs the most and shows the least: at 1.25 onsets e is 0.9994. At 2.5, with 17 cells,
 /// it takes a sixth of the time; laws differ by 0.0008 in e, 0.45 % in F (E*/Y = 500, yield stress as
 /// ep^0.3, from 9e-5 to 1.5e-3 R) and are no further off fresh impacts: 0.0015, 0.57 %.
 constexpr double from_onset = 2.5;
@@ -31,7 +31,7 @@ const Material& pole_material(const CharacterisedBody& s)
   return s.particle.materials[static_cast<std::size_t>(s.pole_material)];
 }
 
-/// A sphere `share` times as stiff, of the same yield stress at no rate. Strains go as 1/E*, plastic ones
+/// A sphere `share` times as stiff, of the same yield stress without rate. Strains go as 1/E*, plastic ones
 /// too: hardening is the same at strains over Y/E*.
 CharacterisedBody softer_sphere(Material m, double share)
 {
@@ -67,7 +67,7 @@ NearlyLinear linear_hardening(const Material& m, double strain)
 
 void require_thick_skin(const CharacterisedBody& body, double first)
 {
-  // Contact radii to the skin: what lies below changes the elastic part, which the body's own press tells.
+  // Contact radii to the skin: what lies below changes the elastic part, which the body's own press gives.
   constexpr double least_skin = 3;
   const double skin = least_skin * std::sqrt(2 * first);
   if (body.skin < skin || pole_onset(body) > body.onset)

@@ -11,10 +11,10 @@
 namespace granulaw {
 
 /// Prior of a body's law near the onset of yield, where runs would need cells a thousandth of R: less stiff
-/// spheres' laws at the same delta/delta_onset (shape_prior.hpp). Of a body of another shape the contact sees
-/// the curvature at the pole only, of one of several materials its skin. The atlas tells what stiffness
-/// changes without runs, and all of the law if hardening is linear as far as these overlaps strain the
-/// material.
+/// spheres' laws at the same delta/delta_onset (shape_prior.hpp). Of a body of another shape the contact
+/// depends on the curvature at the pole only, of one of several materials its skin. The atlas gives what
+/// stiffness changes without runs, and all of the law if hardening is linear as far as these overlaps strain
+/// the material.
 ///
 /// Made before the runs of the body itself, so that its own spheres' runs go with them in one batch.
 class OnsetSimilarity
@@ -65,7 +65,7 @@ class OnsetSimilarity
   MaterialRatios ratios_;        ///< of the pole's material, hardening as if linear
   std::vector<Sphere> spheres_;  ///< the less stiff ones to be run, and ...
   bool runs_elastic_ = false;    ///< ... last, whether the elastic press of one
-  bool knows_term_ = false;      ///< the atlas tells what stiffness changes
+  bool knows_term_ = false;      ///< the atlas gives what stiffness changes
   std::string how_;
 };
 

@@ -132,14 +132,14 @@ def rated():
     assert "holds for one size" in mpm("export", "law.h5", "-o", "law.csv", "--effective-radius", 2e-3, ok=False)
     slow = json.loads(mpm("law", "law.h5", "--velocity", 0.01, "--json"))  # its radius is the law's own
     assert slow["below_velocity_axis"] and slow["e"] > 0.999  # elastic at that speed, at any rate
-    # The force falls by a seventh before this one turns; at no rate the atlas tells its law. 0.1 % seen.
+    # The force falls by a seventh before this one turns; without rate the atlas gives its law. 0.1 % seen.
     end_to_end("viscous", 12, 0.2, 0.0625, 0.01, 0.01)
     assert "rate_free.viscous = from the atlas" in mpm("info", "law.h5")
 
 
 def stiff():
     # E*/Y = 500: the contact yields below the overlaps that runs resolve (2e-4 R), where the atlas, or less stiff
-    # spheres, tell the law. At 0.04 m/s the impact turns just above, at 2.3e-4 R, so that most of its work is theirs.
+    # spheres, give the law. At 0.04 m/s the impact turns just above, at 2.3e-4 R, so that most of its work is theirs.
     # Both bounds: the table's tolerance; 0.4 % seen.
     for name, source in (("stiff", "atlas, at linear hardening H/E = 0.01"), ("steeper", "of a sphere of E*/Y = 170, its difference from")):
         end_to_end(name, 0.04, 0.05, 0.01, 0.01, 0.01)

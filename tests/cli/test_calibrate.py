@@ -73,7 +73,7 @@ def verdicts():
 
 
 def design():
-    """Plastic impacts tell more of Y than elastic ones."""
+    """Plastic impacts give more of Y than elastic ones."""
     table = answer("design", "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN,
                    "--speeds", "0.01..5", "--displacements", "2e-5..1e-4", "--places", 5, "--json")
     widths = [c["expected95"]["yield_stress"] for c in table["candidates"]]

@@ -17,7 +17,7 @@ FLOWS, WRITE = MODE == "flows", MODE == "write"
 
 
 def blocks():
-    """[(commands, what the page says they answer or None)]."""
+    """[(commands, the output on the page or None)]."""
     found = re.findall(r"```(sh|text)\n(.*?)```", CASES, re.DOTALL)
     return [(text.strip().splitlines(), found[k + 1][1].strip() if found[k + 1:] and found[k + 1][0] == "text" else None)
             for k, (kind, text) in enumerate(found) if kind == "sh"]

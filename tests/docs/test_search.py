@@ -18,7 +18,7 @@ if not shutil.which("sphinx-build") or not importlib.util.find_spec("myst_parser
     print("skipped: the book's search needs Debian's python3-sphinx, python3-myst-parser and nodejs")
     sys.exit(77)
 
-# Question; what users type; the page that answers; words of the answer.
+# Question; what users type; the page with the answer; words of the answer.
 QUESTIONS = (
     ("How do I convert my deck?", ("how do I convert my deck", "convert hertz deck", "from hertz"), "guide/convert-hertz", "+pair_style gran model mpm"),
     ("Which yield stress?", ("which yield stress", "yield stress", "measure yield stress"), "guide/yield-stress", "Y is the uniaxial yield stress"),

@@ -12,8 +12,8 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 WORDS = 30  # the longest sentence of a page
 # Counts that remain, by rule. A count that rises fails; lower the number here when a count falls.
-STORED = {"long sentence": 2, "this page": 1, "headless paragraph": 0, "headless comment": 257, "headless message": 1,
-          "house word in a page": 3, "house word in a comment": 258, "house word in a message": 48}
+STORED = {"long sentence": 1, "this page": 1, "headless paragraph": 0, "headless comment": 0, "headless message": 1,
+          "house word in a page": 3, "house word in a comment": 2, "house word in a message": 48}
 
 # The glossary defines terms and may name the words that it replaces; these files hold the words as the rules' examples.
 GLOSSARY = "docs/reference/glossary.md"

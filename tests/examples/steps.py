@@ -20,7 +20,7 @@ def key(pair):
 
 
 def shortest(plan):
-    """s, unstretched, of the pair that asks for the shortest step."""
+    """s, unstretched, of the pair that requires the shortest step."""
     return min(p["time_step_s"] for p in plan["pairs"] if p["time_step_s"])
 
 
@@ -60,7 +60,7 @@ def check(test, mpm, words, stats, screen):
         else:
             test.assertGreater(at_limit[key(pair)], 0.999 * used, pair["types"])
         # The plan takes the smallest particles, and the stiffest up to the overlap, pressed or hit. 0.5 %: a contact that others turn back
-        # latched a higher speed than its overlap tells of, and is stiffer (0.14 % of the step in examples/packing).
+        # latched a higher speed than its overlap corresponds to, and is stiffer (0.14 % of the step in examples/packing).
         if pair["overlap_over_radius_max"]:
             test.assertLess(at_visited[key(pair)], 1.005 * pair["time_step_allowed_s"], pair["types"])
     # a run that visited what its step is short enough for is not warned of

@@ -166,7 +166,7 @@ class Compression(Run):
         for model in ("hertz", "thornton", "mpm"):
             s = [self.mean(model, f"stress at solid fraction {f}, Pa") for f in (0.65, 0.7)]
             self.assertLess(s[0], s[1])
-        # at the same flattening (0.1 R) thornton's force is below a quarter of hertz's, mpm's below a half
+        # at the same overlap (0.1 R) thornton's force is below a quarter of hertz's, mpm's below a half
         for model in ("thornton", "mpm"):
             self.assertLess(self.mean(model, "stress at solid fraction 0.7, Pa"),
                             0.6 * self.mean("hertz", "stress at solid fraction 0.7, Pa"))

@@ -93,7 +93,7 @@ class Preload(unittest.TestCase):
         pair = f"pair_style gran model {model} tangential history {own} elasticDamping off stretch {s}"
         if model == "thornton":
             pair = f"fix Y all property/global yieldStress peratomtype {Y}\n" + pair
-        # Stiffest on the way, k = 2 E* a at the load as the unstretched law sees it, over s^2; the drag is aperiodic there,
+        # Stiffest on the way, k = 2 E* a at the load as the unstretched law has it, over s^2; the drag is aperiodic there,
         # so the load is never overshot. A ramp takes 300 of its time constants, a hold another 300.
         k = 2 * E_STAR * math.sqrt(R * hertz(s * load)) / s**2
         dt = 0.1 * math.sqrt(MASS / k)

@@ -49,7 +49,7 @@ void set_major(const char* path, int major)
   H5Fclose(file);
 }
 
-/// The powder's law with other residuals, by which it is told from others, for a pair of this size.
+/// The powder's law with other residuals, that distinguish it from others, for a pair of this size.
 granulaw::TwoBodyLaw law_of_size(const granulaw::BodyLaw& powder, double radius_ratio, double depth,
                                  const std::string& origin)
 {

@@ -174,7 +174,7 @@ class Clumps(Trial):
             latched = {row[4] for row in rows}
             self.assertEqual(len(latched), 1)
             expected = self.fixture("impact", self.law, "powder", "wall", RADIUS, mass, speed)[0]
-            self.assertAlmostEqual(latched.pop() / expected, 1.0, delta=1e-6)  # the first step's force is not felt yet
+            self.assertAlmostEqual(latched.pop() / expected, 1.0, delta=1e-6)  # the first step's force does not act yet
 
     def test_a_frozen_partner_of_the_same_mass(self):
         """A rigid pair of spheres hits a frozen one beside its centre: the frozen mass does not count, least of all where it equals the body's."""

@@ -8,7 +8,7 @@ from harness import GLASS, POWDER, Deck, Material, head, properties, sphere_mass
 RADIUS = 1.7e-3
 MASS = sphere_mass(RADIUS, POWDER.density)
 STEEL = Material("steel", 7800.0, 2.1e11, 0.3, 1e30)
-# what cohesion and the epsd models ask for besides
+# what cohesion and the epsd models require besides
 MORE = ("fix p7 all property/global cohesionEnergyDensity peratomtypepair 1 1000\n"
         "fix p8 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.1\n"
         "fix p9 all property/global rollingStiffness scalar 50\nfix p1")

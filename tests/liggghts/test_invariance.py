@@ -61,7 +61,7 @@ class Invariance(Trial):
 
     def deck(self, model, start="read_data column.data", sort="sort 0 0.0", neigh="delay 0", run=f"run {STEPS}\n",
              output="", friction=0.3):
-        """contact_distance_factor 1.01: stock models need it to forget contacts that have parted."""
+        """contact_distance_factor 1.01: stock models need it to drop contacts that have parted."""
         extra = {"hertz": ELASTIC, "thornton_ning": NING}.get(model, "")
         return (f"units si\nhard_particles yes\natom_style granular\natom_modify map array {sort}\nboundary f f f\n"
                 f"newton off\ncommunicate single vel yes\n{start}\nneighbor {RADIUS / 5!r} bin\n"

@@ -70,7 +70,7 @@ class TimeStep(Deck):
         return text, next(p for p in stats["pairs"] if p["kind"] == "rigid wall")
 
     def test_warning(self):
-        """A contact that asks for a shorter step earns one warning with both numbers; before there is one, a step that the table's end
+        """A contact that requires a shorter step earns one warning with both numbers; before there is one, a step that the table's end
         would ask to be shorter is none. The smallest particle counts.
 
         3 %: of 13 steps a contact none need hit the largest overlap, which costs 1 % of it and 0.3 % of the step; the powder's
@@ -101,7 +101,7 @@ class TimeStep(Deck):
         self.assertNotIn("was so deep that", text)
 
     def test_overlap_of_the_step(self):
-        """The synthetic glass in closed form: where k(d) asks for just this step."""
+        """The synthetic glass in closed form: where k(d) requires just this step."""
         words = f"law {self.law} materials glass stats s.json"
         r, m = RADIUS / 2, sphere_mass(RADIUS, GLASS.density) / 2
         for depth in (0.01, 0.1):

@@ -222,7 +222,7 @@ TEST(BuildLaw, PressesGetTheCellsThatTheirErrorAsksFor)
   expect_more_cells(sphere.presses, sphere.impacts, 4);  // compared, the sampling plan's
 }
 
-/// At no rate the body is one that the atlas knows: no press is made of it.
+/// Without rate the body is one that the atlas holds: no press is made of it.
 TEST(BuildLaw, TheAtlasTellsARateDependentSphereAtNoRate)
 {
   const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);

@@ -66,7 +66,8 @@ Difference difference(const Curve& a, const Curve& b)
 
 TEST(ComposedLaw, IsTheBodysOwnAgainstItsLikeAndTheRigidWall)
 {
-  // The atlas interpolates between its stiffnesses, the equivalent spheres between theirs: up to 0.5 % between two nodes.
+  // The atlas interpolates between its stiffnesses, the equivalent spheres between theirs: up to 0.5 %
+  // between two nodes.
   constexpr double force = 0.006, restitution = 0.002;
   for (const double yield : {1 / 50.0, 1 / 150.0, 1 / 700.0}) {
     const LawMaterial m = material("m", 1, yield);
@@ -197,8 +198,8 @@ TEST(Radiation, OfAThickWallIsTheHalfSpacesAndOfLikeSpheresNearlyNothing)
   EXPECT_LT(radiation(m, 1, stiff, wall), 0.03 * half_space);
 }
 
-/// A body that is only known by its own law on a flat, here one of the atlas: its equivalent spheres are those of the
-/// material that comes nearest, and the rest goes with the strain.
+/// A body that is only known by its own law on a flat, here one of the atlas: its equivalent spheres are
+/// those of the material that comes nearest, and the rest goes with the strain.
 TEST(ComposedLaw, OfABodyThatTheAtlasDoesNotKnow)
 {
   LawMaterial hardening = material("m", 1, 1 / 100.0);
@@ -221,8 +222,8 @@ TEST(ComposedLaw, OfABodyThatTheAtlasDoesNotKnow)
   }
 }
 
-/// Strains go as the curvature, so stresses that grow with the strain do so in a equivalent sphere as E does: a body
-/// between a flat and its like is pressed by what a equivalent sphere of the same H/E is.
+/// Strains go as the curvature, so stresses that grow with the strain do so in a equivalent sphere as E does:
+/// a body between a flat and its like is pressed by what a equivalent sphere of the same H/E is.
 TEST(ComposedLaw, TwinsHaveTheBodysHardeningOverItsModulus)
 {
   LawMaterial m = material("m", 1, 1 / 100.0);

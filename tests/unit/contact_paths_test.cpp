@@ -19,7 +19,7 @@ namespace {
 using testing::SyntheticLaw;
 
 /// One contact, driven by hand: overlaps in units of the law's length, forces so that loading() is the force.
-/// The one place that knows what the state of a contact is.
+/// The one place with the state of a contact.
 class Contact
 {
  public:

@@ -55,7 +55,7 @@ TEST_F(CorrectedLawSlow, AgreesWithAFreshImpactAtAnyRatioOfRadii)
     const Replay replay = replay_collision(
         PairLaw{{&law.curve, at_ratio.mapping(), radiation(pair_.yielding, 1.0, pair_.partner, ratios[k])}, &law},
         at_ratio.r_eff(), at_ratio.m_eff(), v);
-    // what the tolerance asks for, of sampling and of the cells
+    // what the tolerance requires, of sampling and of the cells
     EXPECT_NEAR(replay.force_max / truth.force_max, 1, 2 * options_.tolerance) << ratios[k];
     EXPECT_NEAR(replay.restitution, truth.restitution, 2 * options_.tolerance) << ratios[k];
   }

@@ -307,7 +307,7 @@ TEST_F(LawFile, UnusableAdditionsAreRefused)
   refuses([](Law& l) { l.bodies["glass"].curve = l.bodies["powder"].curve; }, "elastic");
 }
 
-/// Two orientations, one of which no sphere answers.
+/// Two orientations, one of which no sphere represents.
 Law law_with_orientations()
 {
   Law law = SyntheticLaw{}.law();

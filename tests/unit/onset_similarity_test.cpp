@@ -8,7 +8,7 @@
 namespace granulaw {
 namespace {
 
-/// Less stiff spheres are run only where the atlas does not tell all.
+/// Less stiff spheres are run only where the atlas does not suffice.
 TEST(OnsetSimilarity, RunsWhatTheAtlasDoesNotTell)
 {
   const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);

@@ -63,7 +63,7 @@ TEST(ShapeCertificate, OfASphereIsTheSolversError)
   EXPECT_GT(certificate.solver_error, 0);
 }
 
-/// A corner of radius r is flattened over more than r: no sphere of that radius tells what follows.
+/// A corner of radius r is flattened over more than r: no sphere of that radius gives what follows.
 TEST(ShapeCertificate, SaysWhereACornerIsFlattened)
 {
   const Vector3 sides(2e-3, 2e-3, 2e-3);

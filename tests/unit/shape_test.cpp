@@ -81,7 +81,8 @@ TEST(Superquadric, FulfilsWhatEveryShapeMust)
     const SharedShape shape = superquadric_shape({1e-3, 2e-3, 1.5e-3}, n1, n2);
     expect_lipschitz(*shape);
     expect_support(*shape);
-    expect_normals(*shape, 1e-5);  // flat sides: the foot moves far for a small change of the normal
+    expect_normals(*shape,
+                   1e-5);  // flat sides: the point of contact moves far for a small change of the normal
     // The radii change within the gap that is measured, where a face is flat.
     expect_radii(*shape, 0.02);
   }

@@ -57,7 +57,8 @@ TEST(SizeChoice, ParticlesMayChangePlaces)
 TEST(SizeChoice, LawThatServesNobodyIsResolvedAtItsOwnShare)
 {
   constexpr double wall = std::numeric_limits<double>::infinity();
-  const std::vector<double> with_walls{0.0, 0.25, 1.0};  // deformable walls of the partner's material and of its own
+  const std::vector<double> with_walls{0.0, 0.25,
+                                       1.0};  // deformable walls of the partner's material and of its own
   const Radii alike{1e-3, 1e-3};
   const SizeChoice of_i(ShareOf::i, with_walls), of_j(ShareOf::j, with_walls);
   EXPECT_EQ(of_i.radii_of(0, alike, alike), std::pair(1.0, wall));

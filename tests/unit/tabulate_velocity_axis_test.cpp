@@ -43,7 +43,7 @@ TEST(TabulateRate, RisesToThePeakOfImpactsWhoseForceFallsBeforeTheyReverse)
   LawShape sphere = read_atlas(GRANULAW_ATLAS_FILE).shape({stiffness, 0.3, 0});
   sphere.velocity_effects.clear();
   const Curve slow = tabulate(sphere, 0.3);
-  for (const double raised : {0.1, 0.6, 1.6}) {  // at the fastest, over the force at no rate
+  for (const double raised : {0.1, 0.6, 1.6}) {  // at the fastest, over the force without rate
     LawShape shape = sphere;
     for (double v = 0.005; v < 1.01 * fastest; v *= std::pow(50.0, 0.2)) {
       const double more = raised * (0.2 + 0.8 * std::log(v / 0.005) / std::log(50.0));

@@ -18,7 +18,7 @@ namespace {
 
 using testing::SyntheticLaw;
 
-/// A law whose pair powder:glass has a curve of its own, told from the powder's by its residuals.
+/// A law whose pair powder:glass has a curve of its own, distinguished from the powder's by its residuals.
 Law law_with_pair()
 {
   Law law = SyntheticLaw{}.law_with_axis();

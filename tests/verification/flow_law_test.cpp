@@ -321,7 +321,7 @@ TEST(FlowLaws, NewtonResidual)
         "from the tangent %.1e in %.0f %%\n",
         name, left[0], left[1], left[2], tangent.first, 100 * tangent.second);
     for (const double l : {left[0], left[1], left[2], tangent.first})
-      EXPECT_LT(l, 1e-10) << name;           // the accuracy that HardeningAtLargeStrain asks for
+      EXPECT_LT(l, 1e-10) << name;           // the accuracy that HardeningAtLargeStrain requires
     EXPECT_GT(tangent.second, 0.2) << name;  // else it would be of no use
   };
   check("linear", linear);

@@ -56,7 +56,7 @@ TEST_F(SameBody, LayersAndInclusionsOfTheSameMaterial)
   const RunSummary &a = sphere_run.summary, &b = layered_run.summary;
   EXPECT_GT(b.points, a.points);  // pieces are cut where they would be, were the materials unlike
   // the same grid; points see other means where a quarter is cut: measured 2e-5 (F as a fit through all of
-  // the loading tells it; in the trace's peak, a single sample, 2.4e-4)
+  // the loading gives it; in the trace's peak, a single sample, 2.4e-4)
   const auto force = [](const RunResult& r) { return TreatedLoading(r.trace).force(r.summary.delta_max); };
   EXPECT_NEAR(b.restitution, a.restitution, 2e-4 * a.restitution);
   EXPECT_NEAR(force(layered_run), force(sphere_run), 2e-4 * a.force_max);

@@ -25,7 +25,7 @@ struct AtomType
 std::map<int, AtomType> particle_types(const Scene& scene, const PlanOptions& options,
                                        std::vector<Question>& questions);
 
-/// The type of a wall whose material gives way; empty where its moduli are missing, which it asks for.
+/// The type of a wall whose material gives way; empty where its moduli are missing, which it requires.
 std::optional<AtomType> wall_type(const Scene& scene, int type, const PlanOptions& options,
                                   std::vector<Question>& questions);
 

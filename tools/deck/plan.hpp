@@ -20,7 +20,7 @@ struct Plan
   double mass_min = 0, mass_max = 0;      ///< kg
   /// s, the largest that the planned overlaps of all pairs allow, stretched as the deck says; 0: none meets.
   double time_step = 0;
-  const PairPlan* stiffest() const;  ///< the pair that asks for it; null: none meets
+  const PairPlan* stiffest() const;  ///< the pair that requires it; null: none meets
   double particle_steps = 0, hours = 0;
   double depth = 0, damage_number = 0;  ///< that the table needs, margins included; 0: no table
   bool axis_matters = false;            ///< the velocity axis

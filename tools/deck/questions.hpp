@@ -5,7 +5,7 @@
 
 namespace granulaw::deck {
 
-/// A thing the deck does not tell, and the option that does.
+/// A thing the deck does not give, and the option that does.
 struct Question
 {
   std::string what, option;

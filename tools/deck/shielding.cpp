@@ -127,7 +127,7 @@ bool at_random(const Cloud& cloud)
 {
   const Columns all = columns(cloud);
   const double pairs = std::accumulate(all.offsets.begin(), all.offsets.end(), 0.0);
-  if (pairs < 100) return false;  // too few to tell: by chance alone 0.1 is exceeded once in four
+  if (pairs < 100) return false;  // too few to decide: by chance alone 0.1 is exceeded once in four
   double below = 0, largest = 0;
   for (std::size_t k = 0; k < all.offsets.size(); ++k) {
     below += all.offsets[k] / pairs;

@@ -129,7 +129,7 @@ void set_stretch(Softening& result)
   result.stretch = std::max(1.0, two_digits_down(bound));
 }
 
-/// Largest overlap, and load and plastic set at the bed's foot, under the stretch.
+/// Largest overlap, and load and plastic set at the bed's bottom, under the stretch.
 void include_loads(Softening& result, const PairStretch& q, double r_eff)
 {
   const double s = result.stretch, load = s * q.static_load;

@@ -24,7 +24,7 @@ struct PairStretch
   double by_overlap = 0, by_time = 0, by_static = 0;  ///< largest s by each limit; infinity: no bound
   double slow_speed = 0;    ///< m/s: of the slowest impact that counts, a fall through one diameter
   double contact_time = 0;  ///< s, Hertz's, at that speed
-  double static_load = 0;   ///< N on a contact at the bed's foot
+  double static_load = 0;   ///< N on a contact at the bed's bottom
   double yield_load = 0;    ///< F_y, N, of the smallest particles; infinity: elastic
 };
 

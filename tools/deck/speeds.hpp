@@ -23,7 +23,7 @@ class SpeedBound
   /// Keeps references to the scene.
   SpeedBound(const Scene& scene, const std::map<int, AtomType>& types, const PlanOptions& options);
 
-  /// Asks for heights and speeds that the deck does not tell.
+  /// Asks for heights and speeds that the deck does not give.
   void ask_for_missing(std::vector<Question>& questions) const;
 
   /// m/s, relative, of two particles of these types.

@@ -71,7 +71,7 @@ void widen(Visited::Range& range, const Visited::Range& by)
 
 std::optional<Visited::Range> Visited::range(int a, int b, bool is_wall) const
 {
-  if (pairs.empty() && walls.empty()) return is_wall ? wall : pair;  // the file does not tell types apart
+  if (pairs.empty() && walls.empty()) return is_wall ? wall : pair;  // the file does not distinguish types
   const auto& by_types = is_wall ? walls : pairs;
   const auto found = by_types.find(is_wall ? std::pair(a, b) : std::pair(std::min(a, b), std::max(a, b)));
   return found == by_types.end() ? Range{} : found->second;

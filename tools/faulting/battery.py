@@ -1,4 +1,4 @@
-"""A small battery of commands whose numbers tell whether a fault changes any result: sound and faulty outputs are compared.
+"""A small battery of commands whose numbers show if a fault changes any result: sound and faulty outputs are compared.
 
 Times, rates, hashes and paths are left out; numbers may differ by a relative 1e-9 (rounding of sums in another order).
 """

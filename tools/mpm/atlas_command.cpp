@@ -1,4 +1,4 @@
-// mpm atlas: computes the atlas of homogeneous materials that mpm table answers from.
+// mpm atlas: computes the atlas of homogeneous materials that mpm table takes its laws from.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Progress part_of(ProgressBar& bar, double from, double to)
       [&bar, from, to](double done, const std::string& what) { bar.update(from + (to - from) * done, what); };
 }
 
-/// Midplane presses, then fresh ones that tell their error.
+/// Midplane presses, then fresh ones that give their error.
 Atlas with_midplane(const Atlas& free, const AtlasRequest& r, Farm& farm, ProgressBar& bar, double from)
 {
   const MidplaneGrid grid;
@@ -54,7 +54,7 @@ Atlas with_midplane(const Atlas& free, const AtlasRequest& r, Farm& farm, Progre
       check_midplane(bare, farm, r.midplane_checks, r.seed, part_of(bar, middle, 1))));
 }
 
-/// All materials of the grid, then the fresh impacts that tell the error, then midplane presses.
+/// All materials of the grid, then the fresh impacts that give the error, then midplane presses.
 Atlas build(const AtlasRequest& r, Farm& farm)
 {
   ProgressBar bar(rank() == 0);

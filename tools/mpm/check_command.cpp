@@ -89,7 +89,7 @@ bool pair_impact_agrees(const Law& law, const std::string& name, const TwoBodyLa
 }
 
 /// The body whose law it is. The file keeps five numbers a material: where more determines the law, the
-/// materials file that it was made from tells; nothing without one.
+/// materials file that it was made from gives; nothing without one.
 std::optional<CharacterisedBody> body_for(const std::string& name, const Law& law, const CheckRequest& r)
 {
   const auto made_from = law.provenance.find("material_hash." + name);
@@ -127,7 +127,7 @@ bool impact_agrees(const std::string& name, const BodyLaw& body, const Character
                       std::abs(replay.restitution / run.restitution - 1), run.restitution);
 }
 
-/// Slowest velocity, over sqrt(E*/rho), at which an impact tells something of the law: twice the onset's, and
+/// Slowest velocity, over sqrt(E*/rho), at which an impact gives something of the law: twice the onset's, and
 /// within its velocity axis.
 double slowest_of(const BodyLaw& body)
 {

@@ -10,7 +10,7 @@
 namespace granulaw {
 
 /// The options that `mpm plan`, `mpm soften` and `mpm table --deck` share: the deck's variables, and what the
-/// deck itself does not tell.
+/// deck itself does not give.
 struct DeckOptions
 {
   std::string materials_file;

@@ -44,7 +44,7 @@ RunResult run_as_asked(const RunRequest& r, bool has_ramp, bool three_dimensions
   });
 }
 
-/// With the request's options that matter to the trace and that RunOptions does not tell.
+/// With the request's options that matter to the trace and that RunOptions does not give.
 RunIdentity identity(RunIdentity asked, const RunRequest& r, const Meeting& m, const RunOptions& options)
 {
   asked.insert(asked.end(), {{"--grid", r.grid},

@@ -1,4 +1,4 @@
-"""(f) Ensemble: one flow under the materials that a calibration leaves open (tools/ensemble): which observables feel it.
+"""(f) Ensemble: one flow under the materials that a calibration leaves open (tools/ensemble): which observables depend on it.
 
 Reads of each folder with an ensemble.csv (member and its material's numbers) the members' folders beside it: observables.csv
 (quantity, value), else the table of an example deck, DECK.csv (model, seed, quantity, value)."""

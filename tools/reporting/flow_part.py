@@ -60,7 +60,7 @@ def deviation(a, b, unit):
 
 
 class Cost:
-    """Times of the runs of one model: seconds and time step, as far as the files tell."""
+    """Times of the runs of one model: seconds and time step, as far as the files give."""
 
     def __init__(self):
         self.wall, self.cpu, self.steps, self.ranks = [], [], set(), set()
@@ -196,7 +196,7 @@ def read_all(folder):
             if re.fullmatch(r"-(stretch)?[\d.]+", other.name[len(base):]) and not (other / f"{stem}.csv").exists():
                 find_stopped(deck, other)
     found = [d for d in decks.values() if d.quantities]
-    for deck in found:  # runs of one deck in two places are told apart by their folders
+    for deck in found:  # runs of one deck in two places are distinguished by their folders
         if sum(other.title == deck.title for other in found) > 1:
             deck.title = f"{deck.title} in {deck.sources[0].parent}"
     return found, broken

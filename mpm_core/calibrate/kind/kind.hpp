@@ -87,7 +87,7 @@ struct Kind
       if (d.sd == 0) d.sd = relative_sd * d.y, d.relative_sd = relative_sd;
   };
 
-  /// Misfits: whether a value tells of the strength; the model's error (sd), of e absolute, else relative;
+  /// Misfits: whether a value depends on the strength; the model's error (sd), of e absolute, else relative;
   /// names the patterns.
   bool (*tells_strength)(const Measurement&, std::size_t row,
                          double predicted) = [](const Measurement&, std::size_t, double) { return true; };

@@ -16,7 +16,7 @@ struct CharacterisedBody
   double yield = 0;  ///< smallest yield stress in it over E*; infinity: elastic
   double poisson_ratio = 0;  ///< of the material at the pole
   /// Overlap/length at which it begins to yield: Hertz's at the pole, as if all of it had the smallest yield
-  /// stress. Where that is not so an elastic press tells (onset_of_yield.hpp).
+  /// stress. Where that is not so an elastic press determines it (onset_of_yield.hpp).
   double onset = 0;
   int pole_material = 0;  ///< index into particle.materials of the one at the pole
   /// Distance from the pole, over the length, up to which there is that material only; infinity: everywhere.
@@ -25,7 +25,7 @@ struct CharacterisedBody
   std::string description;  ///< everything about it that determines a run, on one line
 
   bool yields() const { return yield < std::numeric_limits<double>::infinity(); }
-  /// The sphere of a material that hardens linearly and knows no rate is its own unit: R = rho = E* = 1.
+  /// The sphere of a material that hardens linearly and has no rate is its own unit: R = rho = E* = 1.
   bool is_plain() const
   {
     return particle.is_homogeneous_sphere() && particle.materials[0].hardening.name.empty() &&
@@ -35,7 +35,7 @@ struct CharacterisedBody
   bool is_uniform() const { return particle.layers.empty() && particle.inclusions.empty(); }
   /// Some material of it depends on the rate: its law holds for this size.
   bool rate_dependent() const;
-  /// The same body, none of whose materials yields, or whose yield stresses are those at no rate.
+  /// The same body, none of whose materials yields, or whose yield stresses are those without rate.
   CharacterisedBody elastic() const;
   CharacterisedBody rate_free() const;
 };
@@ -49,7 +49,7 @@ std::string description_of(const Material& material);
 void check_von_mises(const Material& material, const std::string& where);
 
 CharacterisedBody characterised_body_of(const Particle& particle);
-/// A homogeneous sphere; of unit radius where the law knows no size.
+/// A homogeneous sphere; of unit radius where the law depends on no size.
 CharacterisedBody characterised_body_of(const Material& material);
 /// Overlap/R at which a homogeneous sphere of the material at the pole would begin to yield.
 double pole_onset(const CharacterisedBody& body);

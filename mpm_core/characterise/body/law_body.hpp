@@ -27,11 +27,11 @@ struct LawBody
 
 /// The body that `name` means: a material's homogeneous sphere, else a particle. Throws Error if there is
 /// neither, or if the material depends on the rate: its law then needs a particle of a certain size, which
-/// `hint` tells how to name.
+/// `hint` gives how to name.
 LawBody law_body(const std::string& name, const Materials& materials,
                  const std::string& hint = "name a particle of it");
 
-/// Tells whether a law was made from this very body: FNV-1a, 16 hexadecimal digits, of the five numbers of
+/// True if a law was made from this very body: FNV-1a, 16 hexadecimal digits, of the five numbers of
 /// `material` (SI) for a plain body (CharacterisedBody::is_plain), of CharacterisedBody::description for any
 /// other.
 std::string material_hash(const CharacterisedBody& characterised, const Material& material);

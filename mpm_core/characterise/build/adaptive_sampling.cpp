@@ -50,7 +50,7 @@ void run(const std::vector<SamplingPart>& parts, const RunSource& source, BuildR
   }
 }
 
-/// One round: presses of the body at no rate, its impacts, and with the first round the guide's spheres.
+/// One round: presses of the body without rate, its impacts, and with the first round the guide's spheres.
 void run_round(const SamplingPlan& plan, const SamplingSetting& setting, ContactRecords& records,
                std::vector<OnsetSimilarity::Sphere>* spheres, BuildRuns& runs)
 {

@@ -14,10 +14,11 @@ struct SamplingSetting
 {
   const CharacterisedBody& body;
   const CharacterisedBody&
-      slow;  ///< the same at no rate: its presses and slow impacts give the rate-independent law
+      slow;  ///< the same without rate: its presses and slow impacts give the rate-independent law
   const BuildOptions& options;
   const RunSource& source;
-  const LawShape* known;  ///< the rate-independent law, to Atlas::depth, where no run is needed for it; else null
+  const LawShape*
+      known;  ///< the rate-independent law, to Atlas::depth, where no run is needed for it; else null
   ElasticCorrection elastic;
   const ContactRecord* elastic_press;  ///< of a body of several materials; else null
   int press_cells, impact_cells;
@@ -35,7 +36,7 @@ struct Sampled
 };
 
 /// Runs a plan, fits, and adds runs where a run left out is missed, until no interval is left to bisect.
-/// `guide`: tells the law below the first run; its spheres are run beside the plan; may be null.
+/// `guide`: gives the law below the first run; its spheres are run beside the plan; may be null.
 Sampled sample(SamplingPlan plan, const SamplingSetting& setting, OnsetSimilarity* guide, BuildRuns& runs);
 
 /// Which axis a body's law has.

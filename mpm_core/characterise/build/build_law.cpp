@@ -84,12 +84,12 @@ class Build
   BuiltLaw built_;
   BodyLaw& law_ = built_.law;
   CharacterisedBody body_;  ///< its onset is that of the elastic press
-  CharacterisedBody
-      slow_;  ///< the body at no rate: its law is the rate-independent one, the speed axis brings the rate in
+  CharacterisedBody slow_;  ///< the body without rate: its law is the rate-independent one, the velocity axis
+                            ///< brings the rate in
   const BuildOptions& options_;
   const RunSource& source_;
   BuildRuns runs_;
-  std::optional<LawShape> known_;  ///< a rate-dependent body's rate-independent law, where the atlas tells it
+  std::optional<LawShape> known_;  ///< a rate-dependent body's rate-independent law, where the atlas gives it
   ElasticCorrection elastic_;
   std::optional<ContactRecord> elastic_press_;  ///< of a body of several materials
   int press_cells_ = first_resolution, impact_cells_ = first_resolution;
@@ -289,7 +289,7 @@ double Build::first_overlap(const SamplingPlan& plan) const
 
 void Build::require_reachable() const
 {
-  if (!body_.yields() || !body_.is_uniform()) return;  // else a press tells the onset
+  if (!body_.yields() || !body_.is_uniform()) return;  // else a press gives the onset
   require_lawful();
   onset_similarity(first_overlap(first_plan()));
 }

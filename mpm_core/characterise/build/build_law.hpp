@@ -35,10 +35,10 @@ ExpectedRuns expected_runs(const LawMaterial& material, const CharacterisedBody&
 
 /// The law of one body on a rigid wall, by the material point method.
 ///
-/// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-independent law; fast
-/// impacts give what inertia or a rate changes. Sampling starts coarse and is refined where the law fitted
-/// without a run misses it by more than the tolerance (refinement.hpp). Impacts that took no part verify the
-/// law in the end. Throws Error if it is not admissible, or if the tolerance is not reached.
+/// Slow presses with partial unloadings, and slow impacts where these cost less, give the rate-independent
+/// law; fast impacts give what inertia or a rate changes. Sampling starts coarse and is refined where the law
+/// fitted without a run misses it by more than the tolerance (refinement.hpp). Impacts that took no part
+/// verify the law in the end. Throws Error if it is not admissible, or if the tolerance is not reached.
 BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
                    const RunSource& source = {});
 

@@ -301,7 +301,8 @@ void PairImpacts::sample()
   }
 }
 
-/// The impacts' departures at any ratio of radii, linear in the fraction of sizes between those that were made.
+/// The impacts' departures at any ratio of radii, linear in the fraction of sizes between those that were
+/// made.
 class Correction
 {
  public:

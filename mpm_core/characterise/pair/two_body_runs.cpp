@@ -19,7 +19,7 @@ struct Scene
   Partner partner;
   double lambda, slowness = 1;  ///< slowness: the press's ramp counts in R/c* of the larger or slower body
 
-  /// `sphere`: the yielding body's material as the sampling plan asks for it: its own, without yield, or
+  /// `sphere`: the yielding body's material as the sampling plan requires it: its own, without yield, or
   /// softer at the same E_h/E_s and Y_h/Y_s.
   Scene(const UnlikePair& pair, const Material& sphere) : lambda(pair.mapping().length(1.0))
   {

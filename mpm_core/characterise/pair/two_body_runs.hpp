@@ -8,12 +8,12 @@
 
 namespace granulaw {
 
-/// Runs of a pair's two bodies in place of those of one: told as the runs of the one sphere that the pair
+/// Runs of a pair's two bodies in place of those of one: reported as the runs of the one sphere that the pair
 /// rule says they are (radius lambda R*, force lambda F; at the velocity of equal energy, so that I means the
 /// same). `pair.radius_ratio` over 0; infinity, a deformable wall, for impacts only.
 RunSource two_body_runs(const UnlikePair& pair);
 
-/// A farm that tells the runs of this pair from those of its yielding body alone. `farm` outlives it.
+/// A farm that distinguishes the runs of this pair from those of its yielding body alone. `farm` outlives it.
 class PairFarm : public Farm
 {
  public:

@@ -188,7 +188,7 @@ std::vector<ContactRecord> partial_unloadings(const RunResult& result, double& l
         set_unloading(reversal, std::span(t).subspan(begins, k + 1 - begins), reversal.residual);
     }
   }
-  if (!reversals.empty()) reversals.pop_back();  // its summary tells the last one better
+  if (!reversals.empty()) reversals.pop_back();  // its summary gives the last one better
   return reversals;
 }
 

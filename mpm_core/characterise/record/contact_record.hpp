@@ -15,7 +15,7 @@ using UnloadingPath = std::vector<PathPoint>;
 
 /// A computed unloading as the law has it: F = F_m phi(u), u = (x - r)/(x_m - r), phi an UnloadingShape.
 /// The exponent gives the same work back. The residual r is the one with which a free body needs the same
-/// time for it as for the computed one: contact times are what a particle code sees, and the last touch of a
+/// time for it as for the computed one: contact times are what a particle code uses, and the last touch of a
 /// faint force falls here or there with the body's vibrations. The Hertz coefficient comes nearest to the
 /// path (least squares over the overlap), or is given.
 struct UnloadingFit

@@ -7,7 +7,7 @@ namespace granulaw {
 /// Press for the elastic correction of a finite body.
 SamplingPlan::Press elastic_press_of(const CharacterisedBody& body, int cells);
 
-/// The press that tells the finite body's elastic correction and, of a body of several materials or with
+/// The press that gives the finite body's elastic correction and, of a body of several materials or with
 /// pores, where it begins to yield: to `depth`, or, 0, as deep as the correction is wanted for.
 RunJob elastic_press_job(const CharacterisedBody& body, int cells, const RunSource& source, double depth = 0);
 

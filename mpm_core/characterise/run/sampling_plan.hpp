@@ -69,7 +69,7 @@ struct SamplingRange
 {
   double depth = 0.5;        ///< overlap of the deepest press, up to 0.5
   double fastest = 0.3;      ///< sqrt(I) of the fastest impact, up to 0.3
-  double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset tells
+  double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset gives
   double from_onset = 1.25;  ///< overlap over the onset's nearer to which nothing is run
   double tolerance = 0;      ///< of F and e: presses load in loading_ramp()
   int stops = 3;             ///< reversal points a press, its end among them
@@ -86,7 +86,7 @@ SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedB
 /// sqrt(I) of the first fast impacts, ascending. Leaving one out must leave what interpolates there
 /// (refinement.hpp).
 /// - Inertia, which is even in the speed: the fastest, half and a quarter of it, as far as inertia counts
-///   (negligible_damage_number). Two of them and the standstill tell a polynomial of fourth degree.
+///   (negligible_damage_number). Two of them and the standstill give a polynomial of fourth degree.
 /// - A rate, which goes by the logarithm of the speed: five at equal factors, as the interpolation is cubic.
 std::vector<double> first_inertia_speeds(double fastest, double tolerance);
 std::vector<double> first_rate_speeds(double slowest, double fastest);

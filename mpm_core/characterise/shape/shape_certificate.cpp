@@ -61,7 +61,7 @@ std::vector<CertifiedImpact> impacts_of(const Shape& solid, const ShapeQuestion&
   return impacts;
 }
 
-/// Cells of the runs that tell what `resolution` costs: fewer, or more where there are no fewer.
+/// Cells of the runs that give what `resolution` costs: fewer, or more where there are no fewer.
 int compared_resolution(int resolution)
 {
   const int coarse = coarse_partner(resolution);

@@ -2,8 +2,8 @@
 // set. Nothing here may come from a shared inline function: the linker would pick one copy for all sets.
 // Hence raw pointers and compiler built-ins only.
 //
-// A force evaluation goes block by block through each region of the body, in three stages that know nothing
-// of each other: gather (grid: displacement gradients), stress (material), corner_forces (grid).
+// A force evaluation goes block by block through each region of the body, in three independent
+// stages: gather (grid: displacement gradients), stress (material), corner_forces (grid).
 #include <type_traits>
 
 #include "solver/body/kernels.hpp"

@@ -18,7 +18,7 @@ struct LawList
 {
 };
 
-// A new law: one file beside the others with what concepts.hpp asks for, included above and named here.
+// A new law: one file beside the others with what concepts.hpp requires, included above and named here.
 // Kernels, materials file, checks and messages follow these lists. The first of each is what a material has
 // that names none.
 using YieldSurfaces = LawList<VonMises, DruckerPrager>;

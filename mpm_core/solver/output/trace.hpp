@@ -139,7 +139,7 @@ struct RunResult
 {
   std::vector<TraceSample> trace;
   RunSummary summary;
-  /// m, by the particle's materials, where RunOptions::yield_stresses asks for it: overlap at which the von
+  /// m, by the particle's materials, where RunOptions::yield_stresses requires it: overlap at which the von
   /// Mises stress first reaches the yield stress during the loading; infinity: it does not.
   std::vector<double> yield_overlaps;
   std::vector<PlaneTrace> planes;  ///< of three-dimensional runs

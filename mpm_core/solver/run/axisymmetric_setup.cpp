@@ -17,7 +17,7 @@ namespace granulaw {
 
 namespace {
 
-/// Radius of the half ball that stands for a deformable wall, in R: its far side changes the stiffness by
+/// Radius of the ball whose half represents a deformable wall, in R: its far side changes the stiffness by
 /// about 2 a/(pi extent), and a wave that is thrown back there comes when most impacts are over. e and F of
 /// elastic impacts differ by 1e-4 from those with 60.
 constexpr double wall_extent = 30;

@@ -159,7 +159,7 @@ TEST(Kinds, AHardnessIsHeldAgainstImpacts)
   EXPECT_THAT(all, HasSubstr("rate;"));
 }
 
-/// Contradictory data lead the search along directions that nothing tells; it steps to no number.
+/// Contradictory data lead the search along directions that nothing determines; it steps to no number.
 TEST(Kinds, ContradictoryDataAreFitted)
 {
   const auto data = [](const char* kind, std::vector<std::pair<double, double>> rows, double sd) {

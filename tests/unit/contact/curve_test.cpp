@@ -29,7 +29,7 @@ TEST(CurveTest, FollowsTheFunctionsOfItsTable)
   }
 }
 
-/// The work returned is `kept`, whatever the shape of the unloading can do; its foot is `span`, where it can.
+/// The work returned is `kept`, whatever the shape of the unloading can do; its end is `span`, where it can.
 TEST(CurveTest, ReturnsWhatItKeeps)
 {
   const Curve curve = SyntheticTables{}.curve();

@@ -32,7 +32,7 @@ TEST(DeckMeeting, DeformableWallsAreBodiesOfTheirMaterial)
   EXPECT_FALSE(pair_sizes(rigid).thick_walls);
 }
 
-/// The rule of the law library, ties by name and all: the plan asks for the table that the plug-in will look
+/// The rule of the law library, ties by name and all: the plan requires the table that the plug-in will look
 /// up.
 TEST(Meeting, YieldsAsTheLawHasIt)
 {

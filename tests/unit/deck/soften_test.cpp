@@ -87,7 +87,8 @@ TEST_F(DeckSoften, SoftenStatesItsNumbers)
     const double overlap = std::pow(q.yield_load / (4.0 / 3.0 * e_star * std::sqrt(r_eff)), 2.0 / 3.0);
     EXPECT_NEAR(force_per_area / overlap / (1.295 * std::exp(0.736 * 0.3) * 1e6), 1, rounding);
   }
-  // a bed so high that its foot yields: the set is the load beyond yield over pi p_y R*, p_y = 1.6 Y, over R*
+  // a bed so high that its bottom yields: the set is the load beyond yield over pi p_y R*, p_y = 1.6 Y, over
+  // R*
   limits = {0.5, 10, 1e6, 20, 0.6};
   const Softening high = soften(s, plan, options, limits);
   double ratio = 0, set = 0;
