@@ -50,7 +50,7 @@ Options read(int count, char** words)
     else
       fail("example_impact", "unknown option", words[k], "--speed V, --grid, --oblique, --frictional");
   }
-  std::printf("speed %g m/s, %s, %s, %s\n", o.speed, o.grid ? "three dimensions" : "grid as the scene needs",
+  std::printf("speed %g m/s, %s, %s, %s\n", o.speed, o.grid ? "three dimensions" : "grid as the bodies need",
               o.oblique ? "oblique" : "head-on", o.frictional ? "Drucker-Prager" : "von Mises");
   return o;
 }

@@ -182,7 +182,7 @@ void check_shape(const LawShape& shape)
     fail("atlas", "a shape of its array has the wrong number of speeds");
   for (std::size_t k = 0; k < expected.velocity_effects.size(); ++k)
     if (shape.velocity_effects[k].force.size() != LawShape::VelocityEffect::shares)
-      fail("atlas", "a shape of its array has the wrong number of shares");
+      fail("atlas", "a shape of its array has the wrong number of values");
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ void PairBody::make_twins(const Atlas& atlas)
   const double stiffest = std::min(grid.stiffnesses.back(), own.stiffness * farthest_twin);
   const double softest = std::max(grid.stiffnesses.front(), stiffest / (farthest_twin * farthest_twin));
   if (!(softest < stiffest) || !atlas.why_not({stiffest, own.poisson_ratio, 0}).empty())
-    fail(fmt::format("material '{}'", material_.name), "has no twins in the atlas");
+    fail(fmt::format("material '{}'", material_.name), "has no equivalent spheres in the atlas");
   elastic_ = atlas.shape({std::clamp(own.stiffness, softest, stiffest), own.poisson_ratio, 0}).elastic;
   finite_body_ = 0.5 * elastic_.c1;
   for (int k = 0; k < twins_made; ++k)

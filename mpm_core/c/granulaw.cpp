@@ -68,7 +68,7 @@ const char* wrong_number(const granulaw_pair& pair)
   const auto positive = [](double value) { return value >= 0 && std::isfinite(value); };
   if (!(pair.radius_a >= 0 && pair.radius_b >= 0) || (pair.radius_a > 0) != (pair.radius_b > 0) ||
       (std::isinf(pair.radius_a) && std::isinf(pair.radius_b)))
-    return "radius_a and radius_b: both over 0, one of them infinity for a thick wall, or both 0";
+    return "radius_a and radius_b: both over 0, one of them infinity for a deformable wall, or both 0";
   if (!positive(pair.length) || !positive(pair.mass)) return "length and mass: over 0, or 0 for SI";
   if (!(pair.stretch == 0 || (pair.stretch >= 1 && std::isfinite(pair.stretch))))
     return "stretch: 1 or more, or 0 for 1";

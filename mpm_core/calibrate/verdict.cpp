@@ -58,12 +58,12 @@ std::string clause(const FittedParameter& p)
     case Told::from_below:
       return fmt::format("they bound {} from below (95 %: over {})", name_of(p.parameter), number(i.low));
     case Told::from_above:
-      return i.low_told ? fmt::format("{} lies between {} and {} (95 %), which cannot be told closer",
+      return i.low_told ? fmt::format("{} lies between {} and {} (95 %), not determined more closely",
                                       name_of(p.parameter), number(i.low), number(i.high))
                         : fmt::format("they bound {} from above (95 %: below {})", name_of(p.parameter),
                                       number(i.high));
     default:
-      return fmt::format("they say nothing of {}: it cannot be told", name_of(p.parameter));
+      return fmt::format("they do not determine {}", name_of(p.parameter));
   }
 }
 
@@ -84,10 +84,10 @@ std::string correlation_clause(const Calibration& c)
   for (Eigen::Index a = 0; a < c.correlation.rows(); ++a)
     for (Eigen::Index b = 0; b < a; ++b)
       if (std::abs(c.correlation(a, b)) > strong)
-        said +=
-            fmt::format(" {} and {} change together (correlation {:.2f}): one known would tell the other.",
-                        name_of(c.parameters[static_cast<std::size_t>(b)].parameter),
-                        name_of(c.parameters[static_cast<std::size_t>(a)].parameter), c.correlation(a, b));
+        said += fmt::format(
+            " {} and {} change together (correlation {:.2f}): one known would determine the other.",
+            name_of(c.parameters[static_cast<std::size_t>(b)].parameter),
+            name_of(c.parameters[static_cast<std::size_t>(a)].parameter), c.correlation(a, b));
   return said;
 }
 
@@ -117,7 +117,7 @@ std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
            p.profile.within68.low > 0;
   });
   return fast_only && hardens
-             ? " Impacts alone do not tell hardening from a yield stress that grows with the strain "
+             ? " Impacts alone do not distinguish hardening from a yield stress that grows with the strain "
                "rate: a slow curve beside them would."
              : "";
 }

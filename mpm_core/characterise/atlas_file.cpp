@@ -21,9 +21,9 @@ constexpr int first_minor_with_checksum = 1;  // files without the attribute ver
 constexpr std::size_t most = 1u << 20;        // numbers in one dataset
 
 using h5::Field;
-constexpr Field main_poisson_ratio{"main_poisson_ratio", "1", "Poisson's ratio of the main plane"};
-constexpr Field stiffnesses{"stiffnesses", "1", "E*/Y of the main plane"};
-constexpr Field hardenings{"hardenings", "1", "H/E of the main plane; weak ones are left out at low E*/Y"};
+constexpr Field main_poisson_ratio{"main_poisson_ratio", "1", "Poisson's ratio of the reference set"};
+constexpr Field stiffnesses{"stiffnesses", "1", "E*/Y of the reference set"};
+constexpr Field hardenings{"hardenings", "1", "H/E of the reference set; weak ones are left out at low E*/Y"};
 constexpr Field block_stiffnesses{"block_stiffnesses", "1", "E*/Y of the block"};
 constexpr Field block_hardenings{"block_hardenings", "1", "H/E of the block"};
 constexpr Field block_poisson_ratios{"block_poisson_ratios", "1", "Poisson's ratios of the block"};

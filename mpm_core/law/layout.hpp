@@ -190,7 +190,7 @@ inline constexpr Field orientations_solver_error{"solver_error", "1",
 inline constexpr Field mirrors{"mirrors", "1",
                                "1: the plane x = 0 (y, z) is a mirror of the body; entries lie on one side"};
 inline constexpr Field contact_kind{
-    "contact", "1", "0: curved, the law answers; 1: edge; 2: flat or hollow; 3: beyond the law's table"};
+    "contact", "1", "0: curved, the law applies; 1: edge; 2: flat or hollow; 3: beyond the law's table"};
 inline constexpr Field direction_x{"direction_x", "1",
                                    "unit vector in the body's frame that points at the wall"};
 inline constexpr Field direction_y{"direction_y", "1", "the same"};

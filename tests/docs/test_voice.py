@@ -12,12 +12,14 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 WORDS = 30  # the longest sentence of a page
 # Counts that remain, by rule. A count that rises fails; lower the number here when a count falls.
-STORED = {"long sentence": 1, "this page": 1, "headless paragraph": 0, "headless comment": 0, "headless message": 1,
-          "house word in a page": 3, "house word in a comment": 2, "house word in a message": 48}
+STORED = {"long sentence": 0, "this page": 1, "headless paragraph": 0, "headless comment": 0, "headless message": 0,
+          "house word in a page": 3, "house word in a comment": 2, "house word in a message": 0}
 
 # The glossary defines terms and may name the words that it replaces; these files hold the words as the rules' examples.
 GLOSSARY = "docs/reference/glossary.md"
 UNCHECKED = {"tests/docs/test_voice.py"}
+# Keys of files and options, which messages name as they are.
+NAMES = re.compile(r"--var scene|out/scene|, told;|\bfoot\b(?= of each| \(|,)")
 OPENING = r"(?:What|Of|Whether)\b"
 OPENING_COMMENT = r"(?:What|Of|Whether|Where|How)\b"
 THINGS = r"(?:laws?|files?|tables?|data|contacts?|models?|solvers?|programs?|bod(?:y|ies)|spheres?|particles?|runs?|atlas|codes?|numbers?|they|it|that|which)"
@@ -179,7 +181,7 @@ def of_source(name, text):
         for line, message in messages(text):
             if re.match(OPENING, message):
                 yield "headless message", line, message[:120]
-            for match in HOUSE_ANY.finditer(message):
+            for match in HOUSE_ANY.finditer(NAMES.sub("", message)):
                 yield "house word in a message", line, f"{match.group(0)}: {message[:120]}"
 
 

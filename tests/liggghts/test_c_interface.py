@@ -85,7 +85,7 @@ class CInterface(Deck):
             text = self.call(COLLIDE, *words, RADIUS, math.inf, 1e-6, 1.0, expect_failure=True)
             self.assertRegex(text, rf"^collide: .*{said}.*\n$")
         text = self.call(COLLIDE, self.law, "powder", "powder", RADIUS, -1.0, 1e-6, 1.0, expect_failure=True)
-        self.assertEqual(text, "collide: granulaw_contact: radius_a and radius_b: both over 0, one of them infinity for a thick wall, or both 0\n")
+        self.assertEqual(text, "collide: granulaw_contact: radius_a and radius_b: both over 0, one of them infinity for a deformable wall, or both 0\n")
 
 
 if __name__ == "__main__":

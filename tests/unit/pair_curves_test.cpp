@@ -57,7 +57,7 @@ TEST(PairCurves, ThickWallShowsTheLawWithAndWithoutWavesTheRuleAndTheFormulas)
   EXPECT_EQ(roles(curves["restitution"]),
             (std::multiset<std::string>{"formula", "law", "other", "rule", "still"}));
   EXPECT_EQ(line_of(curves["restitution"], "law")["name"], "composed law");
-  EXPECT_EQ(curves["title"], "powder (R = 1 mm) against a thick wall of glass");
+  EXPECT_EQ(curves["title"], "powder (R = 1 mm) against a deformable wall of glass");
   const Json with = line_of(curves["restitution"], "law"), still = line_of(curves["restitution"], "still");
   EXPECT_LT(with["e"].back().get<double>(), still["e"].back().get<double>());
 }

@@ -100,19 +100,19 @@ void define(Options& command)
   command
       .add_flag(
           "--impacts", r->impacts,
-          "with --from: what inertia changes of its materials does not stay: their fast impacts are run "
-          "(an hour of CPU time)")
+          "with --from: recompute the fast impacts (velocity effects) of its materials (an hour of CPU time)")
       ->needs(from);
   command
       .add_flag("--midplane", r->midplane,
-                "with --from: all of it stays but the presses between two platens, which are run (half an "
-                "hour of CPU "
-                "time)")
+                "with --from: recompute the midplane presses alone (half an hour of CPU time)")
       ->needs(from);
-  command.add_option("--midplane-checks", r->midplane_checks, "fresh midplane presses that tell their error")
+  command
+      .add_option("--midplane-checks", r->midplane_checks,
+                  "fresh midplane presses, which measure their error")
       ->check(whole_from_to(20, 100000))
       ->capture_default_str();
-  command.add_option("--checks", r->checks, "fresh impacts of random materials that tell the atlas's error")
+  command
+      .add_option("--checks", r->checks, "fresh impacts of random materials, which measure the atlas's error")
       ->check(whole_from_to(20, 100000))
       ->capture_default_str();
   command.add_option("--seed", r->seed, "seed of the random materials")->capture_default_str();
@@ -125,11 +125,10 @@ void define(Options& command)
 extern const Command atlas_command{
     "atlas",
     "Computes the atlas: dimensionless laws over E*/Y, Poisson's ratio, linear hardening, overlap and "
-    "inertia, from\n"
-    "which mpm table answers any homogeneous material at once. One comes with the program; this makes it "
-    "anew, in\n"
-    "about five CPU hours. Finished runs are kept (--cache): a build that was stopped goes on "
-    "where it "
+    "inertia.\n"
+    "mpm table interpolates laws of homogeneous materials in it. One comes with the program; a new one "
+    "takes\n"
+    "about five CPU hours. Finished runs are cached (--cache): a build that was stopped goes on where it "
     "was.\n"
     "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...",
     define, true};

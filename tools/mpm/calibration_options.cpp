@@ -160,7 +160,7 @@ void CalibrationOptions::add_to(Options& command, bool needs_data)
   command
       .add_option(
           "--relative-sd", relative_sd,
-          "standard deviation of values whose file states none, as a share of the value; a curve's is "
+          "standard deviation of values whose file states none, as a fraction of the value; a curve's is "
           "taken from its own scatter")
       ->check(above_zero_to(1))
       ->capture_default_str();

@@ -23,7 +23,7 @@ const char* word_of(Told told)
     case Told::at_bound:
       return "at a bound";
     default:
-      return "cannot be told";
+      return "not determined";
   }
 }
 

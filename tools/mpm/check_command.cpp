@@ -244,9 +244,10 @@ void define(Options& command)
 
 extern const Command check_command{
     "check",
-    "Is this file a whole, sane, admissible law, and does the solver still agree with it?\n"
-    "Each yielding material is thrown at a wall, and each pair with its own law at each other, at random\n"
-    "velocities inside the law's range; force and e must lie within twice the certificate's error bound. "
+    "Checks that a law file is complete, conserves energy, and agrees with new solver runs.\n"
+    "The runs are impacts at random velocities within the range of the law: each yielding material on a "
+    "wall,\n"
+    "and the two bodies of each pair with a pair law. Force and e must lie within twice the error bound.\n"
     "Example: mpm check law.h5",
     define};
 

@@ -94,7 +94,7 @@ std::string cells(const ExpectedIntervals& widths)
 {
   std::string text;
   for (const double w : widths)
-    text += w < 1 ? fmt::format("{:>18.2g} %", 100 * w) : fmt::format("{:>20}", "cannot be told");
+    text += w < 1 ? fmt::format("{:>18.2g} %", 100 * w) : fmt::format("{:>20}", "not determined");
   return text;
 }
 
@@ -111,7 +111,7 @@ void print(const DesignRequest& r, const Design& design, const std::vector<std::
   }
   const ExpectedIntervals best = design.expected(plan);
   if (std::all_of(best.begin(), best.end(), [](double width) { return width >= 1; })) {
-    fmt::print("none of these measurements tells what is wanted, {} of them neither\n", plan.size());
+    fmt::print("no measurement of these determines the wanted parameters, nor do {} of them\n", plan.size());
     return;
   }
   fmt::print("best {} measurements:\n", plan.size());

@@ -44,7 +44,7 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
          "exponent,\n"
          "#   d_r = residual_overlap of the row at d_m; contact radius a(d_m) phi'(u)/n\n"
          "# while yielded = 0 at d_m the contact is elastic: loading, unloading and reloading are one curve\n"
-         "# d_m is forgotten when the overlap ends; rows are uniform in overlap^(1/4): interpolate in that\n";
+         "# d_m is reset when the overlap ends; rows are uniform in overlap^(1/4): interpolate in that\n";
   if (r.dimensionless)
     out << "# x = d/(lambda R*); force in 4/3 E* lambda R*^2, stiffness in 4/3 E* R*, radius in sqrt(lambda) "
            "R*\n";
@@ -155,7 +155,8 @@ void define(Options& command)
 extern const Command export_command{
     "export",
     "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
-    "overlap, residual overlap, exponent and foot (Hertz share) of the unloading after a reversal there. "
+    "overlap, residual overlap, exponent and foot (Hertz coefficient) of the unloading after a reversal "
+    "there. "
     "Lines that "
     "begin "
     "with # state "

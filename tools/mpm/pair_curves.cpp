@@ -200,7 +200,7 @@ Json restitutions(const std::vector<Drawn>& laws, const ChosenPair& pair, const 
 std::string title(const ChosenPair& pair)
 {
   const auto body = [](const std::string& name, double radius) {
-    return std::isinf(radius) ? fmt::format("a thick wall of {}", name)
+    return std::isinf(radius) ? fmt::format("a deformable wall of {}", name)
                               : fmt::format("{} (R = {:.3g} mm)", name, 1e3 * radius);
   };
   return fmt::format(

@@ -21,8 +21,8 @@ std::pair<double, double> radii_at(double share)
 
 std::string radii_text(double share)
 {
-  if (share == 0) return "1 : a thick wall";
-  if (share == 1) return "a thick wall : 1";
+  if (share == 0) return "1 : a deformable wall";
+  if (share == 1) return "a deformable wall : 1";
   return fmt::format("1 : {:.4g}", 1 / share - 1);
 }
 

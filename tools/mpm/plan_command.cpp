@@ -286,9 +286,9 @@ void define(Options& command)
 
 extern const Command plan_command{
     "plan",
-    "What a LIGGGHTS deck needs of a contact law: pairs, speeds, overlaps, time step, cost, and the mpm "
+    "Requirements of a LIGGGHTS deck on a contact law: pairs, speeds, overlaps, time step, cost, and the mpm "
     "table\n"
-    "command. LIGGGHTS reads the deck (liggghts-mpm); what the deck lacks is asked for as an option\n"
+    "command. LIGGGHTS reads the deck (liggghts-mpm). Numbers that the deck lacks are given as options\n"
     "(docs/guide/plan.md). Limits of the laws: docs/guide/limits.md.\n"
     "Example: mpm plan in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
     define};

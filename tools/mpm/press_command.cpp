@@ -100,7 +100,7 @@ void define(Options& command)
                      "free (as in a collision) or midplane (as in finite-element references)");
   command.add_option("--ramp", r->ramp,
                      "loading time in R/c*, c* = sqrt(E*/rho), 1 to 1e6 (default: long enough for the "
-                     "rate-free law, 60 or more where the material yields)");
+                     "rate-independent law, 60 or more where the material yields)");
   command.add_option(
       "--planes", r->planes,
       "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE "
@@ -114,7 +114,8 @@ void define(Options& command)
 
 extern const Command press_command{
     "press",
-    "A particle is pressed slowly onto a wall, or another particle, and taken off again: the rate-free law.\n"
+    "Presses a particle slowly onto a wall or another particle, and takes it off again: the quasi-static "
+    "law.\n"
     "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv",
     define};
 

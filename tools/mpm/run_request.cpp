@@ -78,7 +78,7 @@ void add_accuracy(Options& command, RunRequest& r)
       "--grid", r.grid,
       "mapped (fitted to the sphere), rectilinear or tartan (graded: any shape, layers, inclusions), "
       "updated (points move through the grid: the independent check), rectilinear-3d (three dimensions: "
-      "any shape, side and friction); default: what the particle and the scene need");
+      "any shape, side and friction); default: as particle and partner require");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   const Option with_resolution = command.add_option(
       "--resolution", r.resolution,

@@ -158,9 +158,9 @@ void define(Options& command)
 
 extern const Command shape_command{
     "shape",
-    "Throws a body of any shape at a wall in directions from all around, and says what the law of spheres "
-    "is\n"
-    "wrong by that takes the local radius of curvature: whether it serves clumps and superquadrics.\n"
+    "Computes the error of a sphere's law for a particle of any shape, by direction of impact on a wall. "
+    "The\n"
+    "law is used with the local radius of curvature, as for clumps and superquadrics.\n"
     "Example: mpm shape grains.toml --particle pebble --velocity 1 -o pebble.csv",
     define};
 

@@ -163,7 +163,7 @@ void print_certificate(const std::string& name, const BodyLaw& body)
     fmt::print("; {:.0f} impacts not sampled: {}", c.verification_impacts,
                errors_text(c.verification_error_force, c.verification_error_restitution));
   if (!body.curve.axis() && std::isfinite(c.damage_number_max))
-    fmt::print("; rate-free up to I = {:.3g}", c.damage_number_max);
+    fmt::print("; quasi-static up to I = {:.3g}", c.damage_number_max);
   fmt::print("\n");
 }
 
@@ -243,7 +243,7 @@ void make_table_for_deck(TableRequest& r, const Options& command)
 {
   const std::vector<deck::PairPlan> yielding = take_from_deck(r, command);
   if (rank() == 0 && yielding.empty())
-    fmt::print("{}: no pair of the scene yields: Hertz suffices, no law is written\n", printable(r.deck));
+    fmt::print("{}: no pair of the deck yields: Hertz suffices, no law is written\n", printable(r.deck));
   if (yielding.empty()) return;
   if (rank() == 0)
     fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
@@ -264,23 +264,22 @@ void add_range_options(Options& command, LawFileRequest& file)
       ->capture_default_str();
   command
       .add_option("--damage-number,--inertia", file.damage_number,
-                  "largest damage number I = rho V^2/Y, up to 0.09; 0: a rate-free law")
+                  "largest damage number I = rho V^2/Y, up to 0.09; 0: a quasi-static law")
       ->check(from_to(0, 0.09))
       ->capture_default_str();
   command
-      .add_option(
-          "--slowest", file.slowest,
-          "speed, m/s on a wall, of the slowest impact that the law of a rate-dependent particle must\n"
-          "know: slower ones count as this one (default: a fiftieth of the fastest, or the onset of "
-          "yield)")
+      .add_option("--slowest", file.slowest,
+                  "lowest impact speed, m/s on a wall, that the law of a rate-dependent particle covers;\n"
+                  "slower impacts use this speed (default: a fiftieth of the fastest, or the onset of "
+                  "yield)")
       ->check(above_zero());
   command
       .add_option("--radius-ratio", file.radius_ratio,
-                  "largest ratio of two spheres' radii in the scene: pairs get a law for each ratio up to it")
+                  "largest ratio of two spheres' radii: pairs get a law for each ratio up to it")
       ->check(from_to(1, 10))
       ->capture_default_str();
   command.add_flag("--thick-walls,!--no-thick-walls", file.thick_walls,
-                   "of each pair also a law for a thick deformable wall of either material, and of each\n"
+                   "of each pair also a law for a deformable wall of either material, and of each\n"
                    "material for a wall of its own (default: yes; --deck: if it has such walls)");
   command.add_flag("--own-law", file.own_laws,
                    "correct the composed law of each pair of different spheres by a few impacts of the two\n"
@@ -307,8 +306,8 @@ void define(Options& command)
 {
   const auto r = std::make_shared<TableRequest>();
   command.add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
-  const Option deck =
-      command.add_option("--deck", r->deck, "LIGGGHTS deck: only what its scene can reach (mpm plan)");
+  const Option deck = command.add_option(
+      "--deck", r->deck, "LIGGGHTS deck: only the pairs, speeds and overlaps that it can reach (mpm plan)");
   r->scene.add_to(command, false, deck);
   command.add_option(
       "--pair", r->pairs,

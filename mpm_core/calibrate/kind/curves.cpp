@@ -177,7 +177,7 @@ void check_depth(const Measurement& m, const CalibrationRequest&, const Atlas&)
   // some of it may be offset
   if (m.largest_overlap() > 1.3 * end)
     fail(m.source,
-         "the curve goes deeper than the atlas knows: overlap of one contact over its effective radius",
+         "the curve goes deeper than the atlas covers: overlap of one contact over its effective radius",
          fmt::format("{:.3g}", m.largest_overlap()), fmt::format("up to {:g}", end));
 }
 
@@ -216,7 +216,7 @@ void look_for_a_drop(Inspection& i)
       return i.say(
           "fracture",
           fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, "
-                      "as by fracture; rows beyond tell nothing of a contact",
+                      "as by fracture; rows beyond do not describe a contact",
                       100 * (peak - d.y) / peak, peak_at));
   }
 }

@@ -24,7 +24,7 @@ LawBody body_of_shape(const std::string& name, const Particle& particle, const s
   if (!uniform)
     fail(where,
          "has a shape in three dimensions and layers or inclusions, which no sphere of its radius of "
-         "curvature tells: a law is made of shapes of one material, or of a profile");
+         "curvature represents: a law is made of shapes of one material, or of a profile");
   if (particle.materials.front().rate_dependent())
     fail(where,
          "has a shape in three dimensions and a material that depends on the rate, whose law holds "

@@ -126,7 +126,8 @@ void Build::require_lawful() const
          fmt::format("onset at delta/R = {:.3g}", body_.onset),
          fmt::format("up to {:.3g}", latest_onset * options_.depth));
   if (body_.rate_dependent() && options_.fastest == 0)
-    fail(where, "depends on the rate: its law needs impacts, not the rate-free law alone", "I = 0", "over 0");
+    fail(where, "depends on the rate: its law needs impacts, not the quasi-static law alone", "I = 0",
+         "over 0");
 }
 
 /// The runs to begin with: two reversal points a press, the fewest impacts.

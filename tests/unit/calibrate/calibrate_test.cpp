@@ -296,7 +296,7 @@ TEST(Calibrate, ImpactsAloneDoNotTellHardeningFromARate)
   const CalibrationProblem problem(atlas(),
                                    request_for(drops(hard, {0.2, 0.5, 1, 2, 4, 8}),
                                                {Parameter::yield_stress, Parameter::hardening_modulus}));
-  EXPECT_THAT(verdict(problem, calibrate(problem)), HasSubstr("do not tell hardening from"));
+  EXPECT_THAT(verdict(problem, calibrate(problem)), HasSubstr("do not distinguish hardening from"));
 }
 
 TEST(Calibrate, OneValueIsTooFew)
