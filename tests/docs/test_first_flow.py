@@ -63,5 +63,22 @@ class FirstFlow(unittest.TestCase):
             steps.check(self, os.environ["GRANULAW_MPM"], [Path(folder) / "in.first"], stats, log)
 
 
+class Readme(unittest.TestCase):
+    def test_commands(self):
+        """The commands of the README, in turn: the collision of the solver and of the law agree within the law's error bound."""
+        lines = re.findall(r"(?m)^    (mpm .*?)(?:  #.*)?$", (ROOT / "README.md").read_text())
+        self.assertEqual([line.split()[1] for line in lines], ["impact", "table", "law"])
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "examples").symlink_to(ROOT / "examples")
+            said = []
+            for line in lines:
+                done = subprocess.run([os.environ["GRANULAW_MPM"], *line.split()[1:]], cwd=folder, capture_output=True, text=True, timeout=120)
+                self.assertEqual(done.returncode, 0, line + done.stderr)
+                said.append(done.stdout)
+        bound = float(re.search(r"error bound .* e ([\d.]+)", said[2])[1])
+        e = [float(re.search(r"restitution e +([\d.]+)", text)[1]) for text in (said[0], said[2])]
+        self.assertLess(abs(e[0] - e[1]), bound)
+
+
 if __name__ == "__main__":
     unittest.main()

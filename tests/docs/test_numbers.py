@@ -163,6 +163,42 @@ class Examples(unittest.TestCase):
         self.assertIn("**Answer.** Perhaps: 16 degrees", page("examples/heap/README.md"))
 
 
+    def test_speeds_of_the_hopper(self):
+        """The page on plan quotes the row of the smaller hopper."""
+        row = next(row for row in table_with(page("examples/README.md"), "| deck | model (runs) | pairs: planned, visited m/s |")
+                   if row[0] == "hopper" and row[1].startswith("mpm"))
+        (pair, hit), (wall, touched) = (cell.split(", ") for cell in (row[2], row[4]))
+        self.assertIn(f"bounds of {pair} and {wall} m/s, and its runs under `mpm` visited {hit} and {touched}", page("docs/guide/plan.md"))
+
+    def test_compression(self):
+        rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[0].startswith("compression") and "stress" in row[1]]
+        ratios = [float(row[4].split()[0]) / float(row[3].split()[0]) for row in rows]
+        self.assertIn(f"and {min(ratios):.1f} to {max(ratios):.1f} times Thornton's", page("examples/compression/README.md"))
+
+    def test_irregular(self):
+        """The clump's certificate on its page and in the table of shapes."""
+        rows = {row[0].split()[0]: row for row in table_with(page("docs/evidence/shapes.md"), "| body, E\\*/Y = 100 |")}
+        text = page("examples/irregular/README.md")
+        (median, most), (e, e_most) = (rows["clump"][k].split(", ") for k in (2, 3))
+        self.assertIn(f"F_max is off by {median} in the median and {most} at 95 %, e by {e} and {e_most}. The solver error is {rows['clump'][4]}", text)
+        self.assertIn(f"(34 runs, {rows['clump'][5]} CPU s)", text)
+        self.assertIn(f"The mesh takes {rows['mesh'][5]} CPU s", text)
+
+    def test_gallery(self):
+        """Answers that the README and the gallery quote."""
+        mixture = re.search(r"lactose with mcc dissipate \(([\d.]+) ±", page("examples/mixture/README.md"))[1]
+        clumps = re.search(r"mpm ([\d.]+) \[", page("examples/clumps/README.md"))[1]
+        self.assertIn(f"dissipate {mixture} % less", page("README.md"))
+        self.assertIn(f"dissipate {mixture} % less", page("examples/README.md"))
+        self.assertIn(f"at {clumps} of Hertz's time", page("examples/README.md"))
+
+    def test_corrected_laws(self):
+        """Error bounds of corrected laws in the guide: those of the table of evidence."""
+        stated = [row[5].split(", ") for row in table_with(page("docs/evidence/pairs.md"), "| partner | V, m/s | e | composed: F_max, e |")]
+        force, e = ([float(cells[k].rstrip(" %")) for cells in stated] for k in (0, 1))
+        self.assertIn(f"{min(force)} to {max(force)} % of F, {min(e):.3f} to {max(e):.3f} of e in the cases measured", page("docs/guide/pairs.md"))
+
+
 class Matlab(unittest.TestCase):
     def test_names(self):
         """The columns, groups and attributes that the Matlab lines name are in the files."""
