@@ -1,5 +1,6 @@
 // liggghts-mpm: LIGGGHTS with the models `mpm` and `thornton`. The stock main(), linked to the plug-in's
-// library. With -plan FILE it reads the deck and runs nothing: see plan/planner.hpp.
+// library. With -plan FILE it reads the deck and runs nothing: see plan/planner.hpp. With -steps N FILE it runs N
+// steps of it: see plan/short_run.hpp.
 #include <mpi.h>
 #include <unistd.h>
 
@@ -19,21 +20,25 @@ extern "C" void granulaw_provide_contact_histories(LAMMPS_NS::LAMMPS* lmp);
 /// plan/entry.cpp, of the same
 extern "C" void granulaw_plan(LAMMPS_NS::LAMMPS* lmp, const char* file);
 extern "C" void granulaw_plan_line(const char* where, const char* text);
+extern "C" void granulaw_plan_file(const char* path, bool is_written);
 extern "C" bool granulaw_plan_end(int status);
+extern "C" void granulaw_limit_steps(LAMMPS_NS::LAMMPS* lmp, long long steps, const char* file);
+extern "C" void granulaw_end_short_run();
 
 namespace {
 
-/// Takes `-plan FILE` out of the words; null: it is not among them.
-const char* take_plan(std::vector<char*>& words)
+/// Takes `OPTION VALUE...` out of the words; the values. Empty: it is not among them.
+std::vector<char*> take_option(std::vector<char*>& words, const char* option, std::size_t values)
 {
-  for (std::size_t k = 1; k + 1 < words.size(); ++k)
-    if (std::strcmp(words[k], "-plan") == 0) {
-      const char* file = words[k + 1];
-      words.erase(words.begin() + static_cast<std::ptrdiff_t>(k),
-                  words.begin() + static_cast<std::ptrdiff_t>(k) + 2);
-      return file;
+  for (std::size_t k = 1; k + values < words.size(); ++k)
+    if (std::strcmp(words[k], option) == 0) {
+      const auto first = words.begin() + static_cast<std::ptrdiff_t>(k);
+      const auto end = first + static_cast<std::ptrdiff_t>(values) + 1;
+      const std::vector<char*> found(first + 1, end);
+      words.erase(first, end);
+      return found;
     }
-  return nullptr;
+  return {};
 }
 
 void require_one_rank()
@@ -70,6 +75,7 @@ void plan(std::vector<char*> words, const char* file)
   on_exit(&end_plan, nullptr);
   granulaw::plan::follow_lines([](std::FILE* stream) { return stream == lammps->infile; },
                                &granulaw_plan_line);
+  granulaw::plan::follow_files(&granulaw_plan_file);
   lammps->input->file();
   std::exit(0);
 }
@@ -91,10 +97,16 @@ int main(int argc, char** argv)
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   MPI_Init(&argc, &argv);
   std::vector<char*> words(argv, argv + argc);
-  if (const char* file = take_plan(words)) plan(words, file);
-  auto* lammps = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
+  if (const auto file = take_option(words, "-plan", 1); !file.empty()) plan(words, file[0]);
+  const auto limit = take_option(words, "-steps", 2);
+  auto* lammps = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), words.data(), MPI_COMM_WORLD);
   granulaw_provide_contact_histories(lammps);
+  if (!limit.empty())
+    granulaw::plan::follow_reads([=](std::FILE* stream) {
+      if (stream == lammps->infile) granulaw_limit_steps(lammps, std::atoll(limit[0]), limit[1]);
+    });
   lammps->input->file();
+  granulaw_end_short_run();
   delete lammps;
   MPI_Finalize();
   return 0;

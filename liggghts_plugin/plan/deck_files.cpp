@@ -41,6 +41,8 @@ std::map<std::FILE*, Place>& places()
 
 std::function<bool(std::FILE*)> is_deck_file;
 std::function<void(const char*, const char*)> on_line;
+std::function<void(const char*, bool)> on_file;
+std::function<void(std::FILE*)> on_read;
 
 template <class Function>
 Function* next(const char* name)
@@ -90,12 +92,14 @@ std::FILE* open_file(const char* path, const char* mode)
   if (std::strpbrk(mode, "wa+")) {
     if (std::strncmp(path, "/dev/", 5) == 0 || std::strncmp(path, "/proc/", 6) == 0)
       return really_open(path, mode);
+    if (on_file) on_file(path, true);
     return open_in_memory(path, mode);
   }
   const auto own = written().find(key_of(path));
   std::FILE* file = really_open(
       own == written().end() ? path : ("/proc/self/fd/" + std::to_string(own->second)).c_str(), mode);
   if (file) places()[file] = {path};
+  if (file && on_file && own == written().end()) on_file(path, false);
   return file;
 }
 
@@ -132,6 +136,16 @@ void follow_lines(std::function<bool(std::FILE*)> is_deck, std::function<void(co
   on_line = std::move(line);
 }
 
+void follow_reads(std::function<void(std::FILE*)> read)
+{
+  on_read = std::move(read);
+}
+
+void follow_files(std::function<void(const char*, bool)> file)
+{
+  on_file = std::move(file);
+}
+
 }  // namespace granulaw::plan
 
 #define GRANULAW_OWN extern "C" __attribute__((visibility("default")))
@@ -148,6 +162,7 @@ GRANULAW_OWN std::FILE* fopen64(const char* path, const char* mode)
 GRANULAW_OWN char* fgets(char* text, int size, std::FILE* file)
 {
   static auto* const read = granulaw::plan::next<char*(char*, int, std::FILE*)>("fgets");
+  if (granulaw::plan::on_read) granulaw::plan::on_read(file);
   char* result = read(text, size, file);
   if (granulaw::plan::closed && result) granulaw::plan::count_line(file, text);
   return result;

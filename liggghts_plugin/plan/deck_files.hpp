@@ -17,4 +17,10 @@ void open_files();
 void follow_lines(std::function<bool(std::FILE*)> is_deck,
                   std::function<void(const char* where, const char* text)> line);
 
+/// Called before each line that is read from any file, whether files are closed or not.
+void follow_reads(std::function<void(std::FILE*)> read);
+
+/// Called for each file that is opened from now on, with its path.
+void follow_files(std::function<void(const char* path, bool is_written)> file);
+
 }  // namespace granulaw::plan

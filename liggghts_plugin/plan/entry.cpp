@@ -1,4 +1,5 @@
 #include "liggghts_plugin/plan/planner.hpp"
+#include "liggghts_plugin/plan/short_run.hpp"
 
 // Calls of the launcher (launcher.cpp), which is linked to the plug-in's library.
 using granulaw::plugin::plan::Planner;
@@ -12,6 +13,21 @@ extern "C" __attribute__((visibility("default"))) void granulaw_plan(LAMMPS_NS::
 extern "C" __attribute__((visibility("default"))) void granulaw_plan_line(const char* where, const char* text)
 {
   Planner::current()->begin_line(where, text);
+}
+
+extern "C" __attribute__((visibility("default"))) void granulaw_plan_file(const char* path, bool is_written)
+{
+  Planner::current()->note_file(path, is_written);
+}
+
+extern "C" __attribute__((visibility("default"))) void granulaw_limit_steps(LAMMPS_NS::LAMMPS* lmp, long long steps, const char* file)
+{
+  granulaw::plugin::plan::limit_steps(lmp, steps, file);
+}
+
+extern "C" __attribute__((visibility("default"))) void granulaw_end_short_run()
+{
+  granulaw::plugin::plan::write_short_run();
 }
 
 extern "C" __attribute__((visibility("default"))) bool granulaw_plan_end(int status)

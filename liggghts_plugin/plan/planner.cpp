@@ -26,6 +26,7 @@
 namespace granulaw::plugin {
 
 GRANULAW_EXPOSE(InputCommand, LAMMPS_NS::Input, command);
+GRANULAW_EXPOSE(SoughtLabel, LAMMPS_NS::Input, label_active);
 GRANULAW_EXPOSE(PropertyName, LAMMPS_NS::FixPropertyGlobal, variablename);
 GRANULAW_EXPOSE(PropertyCount, LAMMPS_NS::FixPropertyGlobal, nvalues);
 GRANULAW_EXPOSE(PrimitiveType, LAMMPS_NS::PrimitiveWall, wType);
@@ -164,12 +165,31 @@ void Planner::note_style(const lmp::FixWallGran* wall_fix, const std::string& mo
 
 void Planner::begin_line(const std::string& where, const std::string& text)
 {
+  record_command();
   after_command();
   stop_where_late();
   where_ = where;
   text_ = text;
   if (branches_on_run(lmp_->input->variable, text))
     record_.note(where + ": the branch depends on a value of a run: it takes the side of the start");
+}
+
+/// The last one: LIGGGHTS's words of it stand until it parses the next line.
+void Planner::record_command()
+{
+  const char* command = lmp_->input->*exposed(InputCommand{});
+  if (!command || where_.empty() || (lmp_->input->*exposed(SoughtLabel{})) != 0) return;
+  Command done{where_, {command}};
+  done.words.insert(done.words.end(), lmp_->input->arg, lmp_->input->arg + lmp_->input->narg);
+  record_.add_command(std::move(done));
+}
+
+/// fix multisphere sets no flag.
+bool Planner::moves_particles() const
+{
+  bool moves = false;
+  each_fix([&](const lmp::Fix& fix) { moves = moves || fix.time_integrate != 0 || begins(fix.style, "multisphere"); });
+  return moves;
 }
 
 void Planner::after_command()
@@ -521,7 +541,7 @@ void Planner::end_run(int steps)
 void Planner::add_run(int steps)
 {
   record_.runs.push_back(
-      {where_, static_cast<double>(steps), lmp_->update->dt, 0.5 * (count_ + record_.count() - cleared_)});
+      {where_, static_cast<double>(steps), lmp_->update->dt, 0.5 * (count_ + record_.count() - cleared_), moves_particles()});
   stop_where_nothing_is_new();
   stop_where_late();
 }
@@ -559,7 +579,7 @@ bool Planner::finish(int status)
   if (!ended)
     record_.stopped_at = where_;
   else
-    after_command(), record_without_run();
+    record_command(), after_command(), record_without_run();
   const std::string text = record_.json();
   const int out = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   std::size_t done = 0;

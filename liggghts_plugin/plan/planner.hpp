@@ -29,6 +29,8 @@ class Planner
 
   /// The next line of the deck: all commands before it have been executed.
   void begin_line(const std::string& where, const std::string& text);
+  /// A file is opened.
+  void note_file(const std::string& path, bool is_written) { record_.add_file(path, is_written); }
   /// A run that is set up, before its first step.
   void begin_run();
   /// Behind its first step, in which particles were inserted.
@@ -71,6 +73,8 @@ class Planner
   };
 
   void after_command();
+  void record_command();
+  bool moves_particles() const;
   void find_settings();
   void find_materials();
   void find_walls();

@@ -41,7 +41,12 @@ json to_json(const Wall& w)
 
 json to_json(const Run& r)
 {
-  return {{"where", r.where}, {"steps", r.steps}, {"time_step", r.time_step}, {"particles", r.particles}};
+  return {{"where", r.where}, {"steps", r.steps}, {"time_step", r.time_step}, {"particles", r.particles}, {"integrates", r.integrates}};
+}
+
+json to_json(const Command& c)
+{
+  return {{"where", c.where}, {"words", c.words}};
 }
 
 template <class Item>
@@ -74,6 +79,23 @@ void Record::note(const std::string& text)
 void Record::ask_speed(const std::string& text)
 {
   add(unknown_speeds, text);
+}
+
+void Record::add_command(Command command)
+{
+  constexpr std::size_t most = 20000, variants = 16;
+  std::vector<std::size_t>& at_place = places_[command.where];
+  for (const std::size_t k : at_place)
+    if (commands[k].words == command.words) return;
+  if (commands.size() >= most || at_place.size() >= variants) return;
+  at_place.push_back(commands.size());
+  commands.push_back(std::move(command));
+}
+
+void Record::add_file(const std::string& path, bool is_written)
+{
+  std::vector<std::string>& list = is_written ? files_written : files_read;
+  if (std::find(list.begin(), list.end(), path) == list.end() && list.size() < 1000) list.push_back(path);
 }
 
 std::vector<double> Record::fingerprint() const
@@ -119,6 +141,9 @@ std::string Record::json() const
       {"notes", notes},
       {"unknown_particles", unknown_particles},
       {"unknown_speeds", unknown_speeds},
+      {"commands", list(commands)},
+      {"files_read", files_read},
+      {"files_written", files_written},
       {"stopped_at", stopped_at}};
   return root.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

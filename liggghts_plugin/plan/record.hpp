@@ -41,6 +41,15 @@ struct Run
 {
   std::string where;
   double steps = 0, time_step = 0, particles = 0;
+  bool integrates = true;  ///< a fix moves particles
+};
+
+/// A command as LIGGGHTS executed it: variables are replaced, quotes are gone.
+struct Command
+{
+  std::string where;
+  std::vector<std::string> words;
+  bool operator==(const Command&) const = default;
 };
 
 struct Record
@@ -60,14 +69,21 @@ struct Record
   std::vector<Run> runs;
   double time_step = 0;
   std::vector<std::string> notes, unknown_particles, unknown_speeds;
+  std::vector<Command> commands;  ///< in their order; one that a loop repeats with the same words once
+  std::vector<std::string> files_read, files_written;  ///< paths, as the deck has them
   std::string stopped_at;  ///< the command that LIGGGHTS refused; empty: it read the deck to its end
 
   double count() const;
   void note(const std::string& text);
   void ask_speed(const std::string& text);
+  void add_command(Command command);
+  void add_file(const std::string& path, bool is_written);
   /// All that a plan uses but the runs: what a run that brings nothing new leaves as it is.
   std::vector<double> fingerprint() const;
   std::string json() const;
+
+ private:
+  std::map<std::string, std::vector<std::size_t>> places_;  ///< of commands
 };
 
 }  // namespace granulaw::plugin::plan

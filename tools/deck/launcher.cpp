@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 
@@ -62,15 +63,17 @@ void leave_mpi()
   _exit(127);
 }
 
-}  // namespace
-
-DryRun dry_run(const std::string& folder, const std::vector<std::string>& words)
+/// liggghts-mpm with an option that takes a path as its last value.
+DryRun start_launcher(const std::string& folder, const std::vector<std::string>& option,
+                      const std::vector<std::string>& words)
 {
   const std::string program = fs::absolute(launcher()).string();
   const int scene = memfd_create("scene", 0);
   int output[2];
   if (scene < 0 || pipe(output) != 0) fail(program, "cannot make a pipe");
-  std::vector<std::string> command{program, "-plan", fmt::format("/dev/fd/{}", scene)};
+  std::vector<std::string> command{program};
+  command.insert(command.end(), option.begin(), option.end());
+  command.push_back(fmt::format("/dev/fd/{}", scene));
   command.insert(command.end(), words.begin(), words.end());
   const pid_t child = fork();
   if (child == 0) start(folder, command, output[1]);
@@ -87,6 +90,28 @@ DryRun dry_run(const std::string& folder, const std::vector<std::string>& words)
   lseek(scene, 0, SEEK_SET);
   result.scene = read_all(scene);
   close(scene);
+  return result;
+}
+
+}  // namespace
+
+DryRun dry_run(const std::string& folder, const std::vector<std::string>& words)
+{
+  return start_launcher(folder, {"-plan"}, words);
+}
+
+ShortRun short_run(const std::string& folder, const std::vector<std::string>& words, long long steps)
+{
+  std::vector<std::string> quiet = words;
+  quiet.insert(quiet.end(), {"-log", "none"});
+  const DryRun run = start_launcher(folder, {"-steps", fmt::format("{}", steps)}, quiet);
+  ShortRun result;
+  result.said = run.said;
+  const nlohmann::json state = nlohmann::json::parse(run.scene, nullptr, false);
+  result.ended = run.ended && state.is_object();
+  if (!result.ended) return result;
+  result.steps = state["steps"], result.time = state["time"];
+  result.particles = state["particles"], result.kinetic_energy = state["kinetic_energy"];
   return result;
 }
 

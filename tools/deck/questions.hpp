@@ -3,12 +3,21 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+
 namespace granulaw::deck {
 
 /// A thing the deck does not give, and the option that does.
 struct Question
 {
   std::string what, option;
+};
+
+/// A number is needed that the deck does not say: mpm ends with exit code 3.
+class Unanswered : public Error
+{
+ public:
+  using Error::Error;
 };
 
 /// Adds the question, unless it is there.

@@ -109,6 +109,13 @@ TypeMaterial material_of(const json& j)
           optional_number(j["yield_stress"])};
 }
 
+DeckCommand command_of(const json& j)
+{
+  const std::string where = j["where"];
+  const auto colon = where.rfind(':');
+  return {where.substr(0, colon), std::stoi(where.substr(colon + 1)), j["words"]};
+}
+
 Scene scene_of(const json& j, const Places& places)
 {
   Scene scene;
@@ -128,21 +135,14 @@ Scene scene_of(const json& j, const Places& places)
   for (const json& s : j["sources"]) scene.sources.push_back(source_of(s, places));
   for (const json& w : j["walls"]) scene.walls.push_back(wall_of(w, places));
   for (const json& r : j["runs"])
-    scene.runs.push_back({places.path(r["where"]), r["steps"], r["time_step"], r["particles"]});
+    scene.runs.push_back({places.path(r["where"]), r["steps"], r["time_step"], r["particles"], r["integrates"]});
   scene.notes = places.sentences(j["notes"]);
   scene.unknown_particles = places.sentences(j["unknown_particles"]);
   scene.unknown_speeds = places.sentences(j["unknown_speeds"]);
+  for (const json& c : j["commands"]) scene.commands.push_back(command_of(c));
+  scene.files_read = j["files_read"];
+  scene.files_written = j["files_written"];
   return scene;
-}
-
-/// LIGGGHTS's own sentence, without the place in its source.
-std::string complaint(const std::string& said)
-{
-  static const std::regex pattern(R"((^|\n)ERROR( on proc \d+)?: ([^\n]*))");
-  std::smatch found;
-  if (!std::regex_search(said, found, pattern))
-    return "LIGGGHTS cannot read it: " + said.substr(said.size() - std::min<std::size_t>(said.size(), 300));
-  return std::regex_replace(found[3].str(), std::regex(R"( \([^()]*\.(cpp|h):\d+\)$)"), "");
 }
 
 [[noreturn]] void refuse(const std::string& deck, const DryRun& run, const Places& places)
@@ -159,7 +159,17 @@ std::string complaint(const std::string& said)
   fail(where, what);
 }
 
-/// As LIGGGHTS takes them: -var NAME VALUE...
+}  // namespace
+
+std::string complaint(const std::string& said)
+{
+  static const std::regex pattern(R"((^|\n)ERROR( on proc \d+)?: ([^\n]*))");
+  std::smatch found;
+  if (!std::regex_search(said, found, pattern))
+    return "LIGGGHTS cannot read it: " + said.substr(said.size() - std::min<std::size_t>(said.size(), 300));
+  return std::regex_replace(found[3].str(), std::regex(R"( \([^()]*\.(cpp|h):\d+\)$)"), "");
+}
+
 std::vector<std::string> words_of(const std::string& deck, const Presets& presets)
 {
   std::vector<std::string> words{"-in", deck};
@@ -169,8 +179,6 @@ std::vector<std::string> words_of(const std::string& deck, const Presets& preset
   }
   return words;
 }
-
-}  // namespace
 
 double Scene::count() const
 {
@@ -197,6 +205,7 @@ Scene read_scene(const std::string& deck, const Presets& presets)
   if (!run.ended) refuse(deck, run, places);
   Scene scene = scene_of(json::parse(run.scene), places);
   scene.deck = deck;
+  scene.folder = folder;
   to_si(scene);
   return scene;
 }

@@ -51,6 +51,15 @@ struct Run
 {
   std::string where;
   double steps = 0, time_step = 0, particles = 0;  ///< time step, s; particles: mean of begin and end
+  bool integrates = true;                          ///< something moves the particles
+};
+
+/// A command as LIGGGHTS executed it: variables are replaced, quotes are gone.
+struct DeckCommand
+{
+  std::string file;  ///< as the deck calls it
+  int line = 0;      ///< of its first line, from 1
+  std::vector<std::string> words;
 };
 
 /// Content of a deck, SI units.
@@ -74,12 +83,20 @@ struct Scene
   std::vector<std::string> notes;           ///< "FILE:LINE: what was not followed"
   /// Why particles, heights or velocities may be others than those above: "FILE:LINE: reason".
   std::vector<std::string> unknown_particles, unknown_heights, unknown_speeds;
+  std::string folder;                  ///< where LIGGGHTS was started; empty: here
+  std::vector<DeckCommand> commands;   ///< one that a loop repeats with the same words once
+  std::vector<std::string> files_read, files_written;  ///< paths, as the deck has them
 
   /// Particles at the end, at most.
   double count() const;
 };
 
 using Presets = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+/// LIGGGHTS's own sentence of what it said, without the place in its source.
+std::string complaint(const std::string& said);
+/// As LIGGGHTS takes them: -in DECK -var NAME VALUE...
+std::vector<std::string> words_of(const std::string& deck, const Presets& presets);
 
 /// LIGGGHTS reads the deck (`liggghts-mpm -plan`). Throws Error where that program is missing, or with LIGGGHTS's own
 /// sentence where the deck, or a file that it needs, cannot be used.

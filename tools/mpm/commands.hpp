@@ -20,7 +20,8 @@
   ENTRY(calibrate)          \
   ENTRY(design)             \
   ENTRY(plan)               \
-  ENTRY(soften)
+  ENTRY(soften)             \
+  ENTRY(convert)
 
 namespace granulaw {
 

@@ -2,7 +2,7 @@
 // and exits.
 //
 // Exit codes: 0 done; 1 the input cannot be used (one sentence on stderr); 2 the command line cannot be
-// understood; 130 stopped by Ctrl-C. Under mpirun all ranks end with the largest of theirs.
+// understood; 3 (convert) a number is needed that the deck does not say; 130 stopped by Ctrl-C. Under mpirun all ranks end with the largest of theirs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gsl/gsl_errno.h>
@@ -17,6 +17,7 @@
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "commands.hpp"
+#include "deck/questions.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
 
@@ -153,6 +154,8 @@ Outcome run(int argc, char** argv)
     return {130, "stopped"};
   } catch (const std::bad_alloc&) {
     return {1, "not enough memory"};
+  } catch (const deck::Unanswered& error) {
+    return {3, error.what()};
   } catch (const Error& error) {
     return {1, error.what()};
   } catch (const std::filesystem::filesystem_error& error) {

@@ -61,6 +61,12 @@ Option& Option::delimiter(char between)
   return *this;
 }
 
+Option& Option::one_word()
+{
+  option_->allow_extra_args(false);
+  return *this;
+}
+
 Option& Option::description(const std::string& text)
 {
   option_->description(text);

@@ -38,6 +38,7 @@ class Option
   Option& expected(int words) { return expected(words, words); }
   Option& pairs_of_words();         ///< two words at a time, several times
   Option& delimiter(char between);  ///< several values in one word
+  Option& one_word();               ///< takes the next word alone, whatever it holds
   Option& description(const std::string& text);
   /// --help shows the value as it is now.
   Option& capture_default_str();

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/scene.hpp"
+
+namespace granulaw::deck {
+
+/// The choices of a conversion.
+struct Conversion
+{
+  std::vector<std::string> materials;                 ///< name of each atom type
+  std::map<int, double> youngs_modulus, poisson_ratio;  ///< by type, Pa: those that change
+  double stretch = 1;
+  double step_factor = 1;  ///< the time step is so many times shorter, every count of steps as much larger
+  std::string law = "law.h5";
+  std::map<std::string, std::string> paths;  ///< of files that the deck reads, where they change
+};
+
+/// A line that was changed. Empty `after`: removed; empty `before`: added.
+struct Change
+{
+  std::string where, before, after, why;
+};
+
+struct ConvertedDeck
+{
+  std::map<std::string, std::string> files;  ///< text by path, as the deck calls it
+  std::vector<Change> changes;
+  std::vector<std::string> left;  ///< "FILE:LINE: what could not be converted"
+};
+
+/// Files of commands that LIGGGHTS read, and their texts. Throws Error where one cannot be read.
+std::map<std::string, std::string> command_files(const Scene& scene);
+
+/// The deck in which only the definitions of variables for time steps are changed: LIGGGHTS reads it to show
+/// which counts of steps follow them. Empty: there are none, all counts stay as they are.
+std::map<std::string, std::string> probe_deck(const Scene& scene, const Conversion& conversion);
+
+/// `probe`: as LIGGGHTS reads probe_deck; null: there is none. Throws Error where the deck has nothing to convert.
+ConvertedDeck convert(const Scene& scene, const Conversion& conversion, const Scene* probe = nullptr);
+
+/// Throws Error where the deck has neither pair_style gran nor fix wall/gran.
+void require_contact_model(const Scene& scene);
+
+/// The largest, s, of all runs that move particles; 0: none does.
+double largest_time_step(const Scene& scene);
+
+/// False where the deck's models or fixes have no form for a stretched law.
+bool may_be_stretched(const Scene& scene);
+
+}  // namespace granulaw::deck
