@@ -10,8 +10,8 @@ namespace granulaw {
 /// material.
 std::vector<RunJob> midplane_jobs(const MidplaneGrid& grid, const RunSource& source);
 
-/// The midplane shapes from these presses' results, in the order of midplane_jobs(); `free` is what the atlas
-/// knows of free spheres.
+/// The midplane shapes from these presses' results, in the order of midplane_jobs(); `free`: the
+/// atlas's laws of free spheres.
 MidplaneShapes midplane_from(const Atlas& free, const MidplaneGrid& grid,
                              const std::vector<RunOutcome>& outcomes);
 

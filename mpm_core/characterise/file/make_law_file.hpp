@@ -23,7 +23,7 @@ struct MadeLawFile
 
 /// Makes every law of the plan, from the atlas or by runs of the solver, with certificates, what each pair
 /// costs, and the provenance: version, git_hash, created (UTC), material hashes, counts of runs. Runs are
-/// made by `farm` (its cache spares finished ones), without one by this thread. `progress` is told of runs
+/// made by `farm` (its cache spares finished ones), without one by this thread. `progress` is called for runs
 /// only and may throw to stop. Throws Error where a law is not admissible or misses the tolerance.
 ///
 ///     LawFileRequest request;
