@@ -13,7 +13,7 @@ TOP = Path(__file__).resolve().parents[2]
 WORDS = 30  # the longest sentence of a page
 # Counts that remain, by rule. A count that rises fails; lower the number here when a count falls.
 STORED = {"long sentence": 0, "this page": 1, "headless paragraph": 0, "headless comment": 0, "headless message": 0,
-          "house word in a page": 3, "house word in a comment": 2, "house word in a message": 0}
+          "house word in a page": 3, "house word in a comment": 0, "house word in a message": 0}
 
 # The glossary defines terms and may name the words that it replaces; these files hold the words as the rules' examples.
 GLOSSARY = "docs/reference/glossary.md"

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""docs/evidence/oblique.png, and the tables of docs/evidence/oblique.md on stdout, from what granulaw_oblique_study wrote:
+"""docs/evidence/oblique.png and oblique.csv, and the table of docs/evidence/oblique.md on stdout, from what granulaw_oblique_study wrote:
 oblique_page.py OBLIQUE.json FOLDER [OTHER_MATERIAL.json ...]"""
+import csv
 import json
 import sys
 from pathlib import Path
@@ -48,16 +49,17 @@ def off(case, model):
             100 * (told["spin"] / solver["spin"] - 1)]
 
 
-def table(study):
-    names = list(MODELS)
-    print("| friction | angle | e | tangential velocity kept | R omega/V_n |" + "".join(f" {MODELS[m][0]}: e, v_t, omega |" for m in names))
-    print("|---|---|---|---|---|" + "---|" * len(names))
-    for case in study["cases"]:
-        solver = case["solver"]
-        words = [f"{case['friction']:g}", f"{case['angle']:g}", f"{solver['e']:.3f}", f"{value(solver, 'tangential', case['angle']):.3f}",
-                 f"{solver['spin']:.3f}"]
-        words += [", ".join(f"{x:+.1f}" for x in off(case, m)) for m in names]
-        print("| " + " | ".join(words) + " |")
+def write_cases(study, path):
+    """One row a case: the solver's result, and each model's deviations."""
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["friction", "angle_deg", "e", "tangential_velocity_kept", "spin_r_omega_over_v_n",
+                         *(f"{m}_{q}_off_percent" for m in MODELS for q in ("e", "tangential_velocity", "spin"))])
+        for case in study["cases"]:
+            solver = case["solver"]
+            writer.writerow([f"{case['friction']:g}", f"{case['angle']:g}", f"{solver['e']:.3f}",
+                             f"{value(solver, 'tangential', case['angle']):.3f}", f"{solver['spin']:.3f}",
+                             *(f"{x:+.1f}" for m in MODELS for x in off(case, m))])
 
 
 def spread(values):
@@ -81,6 +83,5 @@ def materials(studies):
 if __name__ == "__main__":
     told, *others = [json.loads(Path(name).read_text()) for name in [sys.argv[1], *sys.argv[3:]]]
     draw(told, Path(sys.argv[2]) / "oblique.png")
+    write_cases(told, Path(sys.argv[2]) / "oblique.csv")
     materials([told, *others])
-    print()
-    table(told)

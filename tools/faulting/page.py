@@ -1,4 +1,5 @@
 """The results of tools/faults in words: a table for the terminal, a page for docs."""
+import csv
 from collections import Counter
 
 from faulting.rules import FOLDERS, KINDS
@@ -35,12 +36,6 @@ def table(results):
     return "\n".join(lines)
 
 
-def code(text):
-    """Code inside a cell of a Markdown table."""
-    text = text.replace("|", "\\|")
-    return f"`` {text} ``" if "`" in text else f"`{text}`"
-
-
 def change(before, after):
     """Difference between the two lines, with its surroundings up to a word's end on both sides."""
     start = 0
@@ -54,17 +49,20 @@ def change(before, after):
     return cut(before), cut(after)
 
 
-def rows(results, last=None):
-    """`last`: what the last column says, if there is one."""
-    for r in sorted(results, key=lambda r: (FOLDERS.index(r["folder"]), r["file"], r["line"])):
-        old, new = change(r["before"], r["after"])
-        yield f"| {r['kind']}{' (by hand)' if r['named'] else ''} | `{r['file']}` | {code(old)} | {code(new)} |" + (f" {last(r)} |" if last else "")
+def write_uncaught(results, path):
+    """CSV of the faults that no test caught; `note`: the outputs of the battery that changed."""
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["verdict", "kind", "file", "line", "with_the_fault", "note"])
+        for verdict in ("survived", "no change seen"):
+            for r in sorted((r for r in results if r["verdict"] == verdict), key=lambda r: (FOLDERS.index(r["folder"]), r["file"], r["line"])):
+                writer.writerow([verdict, r["kind"] + (" (by hand)" if r["named"] else ""), r["file"], *change(r["before"], r["after"]),
+                                 ", ".join(r.get("changed", []))])
 
 
 def page(results, seed, picked):
     """`picked`: how many faults there are, done or not."""
     caught, changing = score(results)
-    by = lambda verdict: [r for r in results if r["verdict"] == verdict]
     done = f"{len(results)} of {picked} are done" if len(results) < picked else f"All {picked} are done"
     lines = ["# Faults put in by hand: what the quick tests notice", "",
              "One-line faults in the code, and the quick tests that catch them.", "",
@@ -81,8 +79,5 @@ def page(results, seed, picked):
               f"`tools/faults --seed {seed}` puts faults into a copy of the sources, one line and one fault at a time, and runs the quick",
               f"tests on each. The seed picks the places; {sum(r['named'] for r in results)} faults are chosen by hand. {done}. `build/faults/results.jsonl` has each",
               "fault, and the test that caught it. `--page` writes the table."]
-    for verdict, head, last in (("survived", "changes", lambda r: ", ".join(r["changed"])), ("no change seen", "", None)):
-        if by(verdict):
-            heads = ["kind", "file", "line", "with the fault"] + ([head] if last else [])
-            lines += ["", f"## {verdict.capitalize()}", "", f"| {' | '.join(heads)} |", "|---" * len(heads) + "|", *rows(by(verdict), last)]
+    lines += ["", "[faults.csv](faults.csv) lists the faults that no test caught."]
     return "\n".join(lines) + "\n"
