@@ -81,7 +81,7 @@ class Convert(unittest.TestCase):
         return (self.out / pathlib.Path(deck).name).read_text(), json.loads(done.stdout)
 
     def run_converted(self, steps=200, deck="in.deck", cwd=None):
-        """How it stands after some steps."""
+        """State after some steps."""
         done = subprocess.run([harness.LAUNCHER, "-steps", str(steps), self.folder / "state.json", "-in", deck, "-log", "none"], cwd=cwd or self.out, capture_output=True,
                               text=True, errors="replace", timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
