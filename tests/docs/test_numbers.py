@@ -109,6 +109,7 @@ class Limits(unittest.TestCase):
                 largest = [max(pair) for pair in zip(largest, values)]
         e, speed, spin = (round(value) for value in largest)
         self.assertIn(f"spin up to {spin} %, tangential velocity {speed} %, e {e} % off", self.PAGE)
+        self.assertIn(f"its spin errs by up to {spin} %", self.README)
 
     def test_loop_time(self):
         text = page("docs/evidence/loop-time.md")
