@@ -716,7 +716,7 @@ def case_predict():
         e, force = law["e"] / impact["e"] - 1, law["force_max_N"] / impact["force_max_N"] - 1
         print(f"I {inertia:.2g}: e {impact['e']:.4f}, law {100 * e:+.3f} %; F_max law {100 * force:+.3f} %")
         worst = max(worst, abs(e), abs(force))
-    assert worst < 0.01, worst  # the figure
+    assert worst < 0.01, worst  # required bound
 
 
 def case_atlas():

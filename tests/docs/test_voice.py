@@ -36,6 +36,7 @@ HOUSE = {
     r"rate-free|at no rate": "rate-independent",
     r"thick walls?|half balls?": "deformable wall",
     r"the book|this book": "the documentation",
+    r"the issue(?:'s)?": "required; the reason of a bound stands beside it",
 }
 # In pages and messages only: in code these are names, or plain words.
 HOUSE_TEXT = {

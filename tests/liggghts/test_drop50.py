@@ -10,7 +10,7 @@ from harness import POWDER, head, properties
 from trials import Trial, dump
 
 COUNT = 50
-TOLERANCE = 0.005  # the issue's, on e
+TOLERANCE = 0.005  # required, on e
 RADIUS = 1.7e-3
 SLOWEST, FASTEST = 0.03, 12.0  # m/s: from below the onset of yield (e = 1) to 7 % of R of overlap, the table's range
 STEPS = 50         # time steps in the shortest contact

@@ -108,7 +108,7 @@ class Forces(Invariance):
                 found = max(difference(a, b, (0, 1, 2)) for a, b in zip(*frames)) / biggest
                 self.record("forces", model=model, way=way, difference=found)
                 if model in ("mpm", "thornton"):
-                    self.assertLess(found, 1e-12, f"{model}, {way}")  # the issue's
+                    self.assertLess(found, 1e-12, f"{model}, {way}")  # required
 
 
 class Collapse(Invariance):

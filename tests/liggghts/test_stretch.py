@@ -11,8 +11,8 @@ RADIUS = 1.7e-3
 STEPS = 50                 # time steps a contact, stretched or not
 SPEEDS = (0.03, 0.3, 3.0)  # below the onset of yield, above, 4 % of R deep
 STRETCHES = (3, 10, 30)
-DEEPEST = 0.2              # overlap/R, stretched: what the issue asks of
-TOLERANCE = 0.002          # of e: the issue's
+DEEPEST = 0.2              # overlap/R, stretched: the required range
+TOLERANCE = 0.002          # of e: required
 ROUNDING = 1e-8            # a stretched head-on impact is the same arithmetic on other numbers, 1e-16 R in overlaps of 1e-4 R
 
 

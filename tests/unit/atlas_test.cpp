@@ -199,7 +199,7 @@ TEST(Atlas, ClaimsWhatItsChecksFound)
   }
   EXPECT_GE(static_cast<double>(force), 0.95 * static_cast<double>(atlas.checks().size()));
   EXPECT_GE(static_cast<double>(restitution), 0.95 * static_cast<double>(atlas.checks().size()));
-  EXPECT_LT(atlas.claimed_force(), 0.01);  // the figure
+  EXPECT_LT(atlas.claimed_force(), 0.01);  // required bound
 }
 
 }  // namespace

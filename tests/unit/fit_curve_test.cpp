@@ -91,7 +91,7 @@ TEST(FitCurve, DoesNotFollowTheContactEdgeNoise)
     const double x = std::pow(0.562 * k / 400, 4);
     largest = larger(largest, std::abs(b.loading(x).force / a.loading(x).force - 1));
   }
-  // 1 % at the reversal of every press, more before it; the issue requires 0.5 % in F after treatment
+  // 1 % at the reversal of every press, more before it; 0.5 % in F is required after treatment
   EXPECT_LT(largest, 5e-3);
   EXPECT_GT(noisy.quality.scatter, 0.005) << "the scatter must say that the runs were noisy";
   EXPECT_LT(smooth.quality.scatter, 0.002);

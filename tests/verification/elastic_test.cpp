@@ -22,7 +22,7 @@ TEST(ElasticImpact, ReturnsAllEnergy)
   EXPECT_LT(r.summary.energy_error, 1e-4);  // measured 1e-6: leapfrog's bounded oscillation
 }
 
-/// Depth by depth, as a user would who requires the force at one overlap: 0.5 % is the bound; the
+/// Depth by depth, as a user would who wants the force at one overlap: 0.5 % is required; the
 /// reference itself is good to 0.1 %.
 TEST(ElasticPress, AgreesWithFiniteElements)
 {

@@ -317,7 +317,8 @@ TEST(FlowLaws, NewtonResidual)
     const double left[] = {worst_residual(hardening, none, &tangent), worst_residual(hardening, jc_rate),
                            worst_residual(hardening, cs_rate)};
     std::printf(
-        "largest residual over trial stress, %-12s rate-free %.1e, Johnson-Cook %.1e, Cowper-Symonds %.1e; "
+        "largest residual over trial stress, %-12s rate-independent %.1e, Johnson-Cook %.1e, Cowper-Symonds "
+        "%.1e; "
         "from the tangent %.1e in %.0f %%\n",
         name, left[0], left[1], left[2], tangent.first, 100 * tangent.second);
     for (const double l : {left[0], left[1], left[2], tangent.first})
@@ -382,7 +383,7 @@ TEST(FlowLaws, RateDependentSimilarity)
     plain.materials[0].hardening = plain.materials[0].rate = {};
     const double plain_error = collide(plain).summary.energy_error;
     EXPECT_LT(a.summary.energy_error, 2 * plain_error + 1e-4) << r.name;
-    std::printf("%s: e %.4f, at ten times the radius %.4f; energy error %.1e (rate-free, perfect %.1e)\n",
+    std::printf("%s: e %.4f, at ten times the radius %.4f; energy error %.1e (rate-independent, perfect %.1e)\n",
                 r.name, a.summary.restitution, larger.summary.restitution, a.summary.energy_error,
                 plain_error);
   }
