@@ -752,8 +752,8 @@ def case_plan():
     plan = Run("plan", *words, "--json").json()
     assert plan["complete"] and not plan["asks_for"] and not plan["not_followed"], plan
     pair, wall = plan["pairs"]
-    # out/demo/mpm/stats.json of tools/demo: the run with these 3000 particles met at 1.93 and 1.34 m/s. The
-    # issue's figure: contained, and exceeded by less than 3 times.
+    # out/demo/mpm/stats.json of tools/demo: the run with these 3000 particles met at 1.93 and 1.34 m/s. Required:
+    # contained, and exceeded by less than 3 times.
     assert 1.93 < pair["speed_max_m_per_s"] < 3 * 1.93 and 1.34 < wall["speed_max_m_per_s"] < 3 * 1.34, plan["pairs"]
     assert pair["needs_table"] and wall["needs_table"] and not pair["wall"] and wall["wall"]
     assert 0.0734 < pair["overlap_over_radius_max"] < 3 * 0.0734  # visited, over R*
