@@ -133,19 +133,8 @@ void RunRequest::add_to(Options& command)
   add_accuracy(command, *this);
   add_outputs(command, *this);
   add_effort(command, *this);
-  command.add_flag(
-      "--json", json,
-      "print one JSON object instead of the summary, SI units; in it, e is corrected for the "
-      "contact-edge grid noise if there is one grid only, e_raw is not; force_max_N: of an impact the peak "
-      "of "
-      "the grids' mean trace, smoothed over 2 % of the loading; of a press or one grid that of a fit; "
-      "grid_noise (also ripple): rms of raw over fitted force, less 1; energy_error: |kinetic + elastic + "
-      "plastic energy + "
-      "contact loss "
-      "- work put in| over the energy put in, at the end; contact_loss: the part of it that nodes lost "
-      "when they reached the other side and stopped, proportional to the cell size; hourglass: the part "
-      "that the hourglass control holds at the end; plastic_strain_max: largest equivalent plastic "
-      "strain; all four are the largest of the grids");
+  command.add_flag("--json", json,
+                   "print one JSON object instead of the summary, SI units (keys: docs/reference/commands.md)");
 }
 
 void RunRequest::check() const
