@@ -20,7 +20,7 @@ if not shutil.which("sphinx-build") or not importlib.util.find_spec("myst_parser
 
 # Question; what users type; the page with the answer; words of the answer.
 QUESTIONS = (
-    ("How do I convert my deck?", ("how do I convert my deck", "convert hertz deck", "from hertz"), "guide/convert-hertz", "+pair_style gran model mpm"),
+    ("How do I convert my deck?", ("how do I convert my deck", "convert hertz deck", "from hertz"), "guide/convert-hertz", "mpm convert in.hopper"),
     ("Which yield stress?", ("which yield stress", "yield stress", "measure yield stress"), "guide/yield-stress", "Y is the uniaxial yield stress"),
     ("My run stops with \"beyond the law's table\".", ("beyond the law's table", "my run stops with beyond the law's table", "stops beyond table"),
      "guide/when-it-stops", "Make a deeper law"),
