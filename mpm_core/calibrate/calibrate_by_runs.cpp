@@ -11,6 +11,7 @@
 #include "calibrate/fit.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "characterise/build/build_law.hpp"
+#include "characterise/body/characterised_body.hpp"
 #include "characterise/body/law_material.hpp"
 
 namespace granulaw {

@@ -1,4 +1,5 @@
 #include "characterise/atlas_file.hpp"
+#include "characterise/body/law_body.hpp"
 #include "characterise/file/make_law_file.hpp"
 
 #include <set>
@@ -28,7 +29,7 @@ TEST_F(MakeLawFile, FromTheAtlasWithoutARun)
   EXPECT_EQ(made.law.pairs.size(), plan.pairs.size());
   EXPECT_EQ(made.law.provenance.at("version"), version());
   EXPECT_EQ(made.law.provenance.at("reduction_radius_ratio"), "2");
-  EXPECT_EQ(made.law.provenance.at("material_hash.powder"), plan.bodies.at("powder").body.hash);
+  EXPECT_EQ(made.law.provenance.at("material_hash.powder"), plan.bodies.at("powder").body->hash);
   EXPECT_FALSE(made.law.provenance.contains("runs_made"));
 
   write_law(made.law, path("law.h5"));

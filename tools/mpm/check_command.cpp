@@ -13,6 +13,7 @@
 #include "base/scales.hpp"
 #include "characterise/body/law_body.hpp"
 #include "characterise/file/law_file_plan.hpp"
+#include "characterise/shape/shape_certificate.hpp"
 #include "characterise/body/law_material.hpp"
 #include "command.hpp"
 #include "law/error_bound.hpp"

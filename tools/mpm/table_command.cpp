@@ -12,6 +12,7 @@
 #include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "characterise/build/build_law.hpp"
+#include "characterise/body/law_body.hpp"
 #include "characterise/file/make_law_file.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
@@ -94,7 +95,7 @@ void print_expected(const LawFilePlan& plan)
   for (const auto& [name, body] : plan.bodies) {
     if (body.from_atlas()) continue;
     const ExpectedRuns runs =
-        expected_runs(body.body.material, body.body.characterised, plan.build_options());
+        expected_runs(body.body->material, body.body->characterised, plan.build_options());
     fmt::print("{}: by the solver ({}): {} runs to begin with, about {:.0f} s of CPU, and up to {}\n", name,
                body.why_runs, runs.first, std::max(1.0, runs.first_cpu_s), runs.most);
   }

@@ -19,6 +19,7 @@
 #include "characterise/run/onset_of_yield.hpp"
 #include "characterise/onset_similarity.hpp"
 #include "atlas/overlap_at_work.hpp"
+#include "characterise/body/law_material.hpp"
 #include "characterise/run/refinement.hpp"
 #include "characterise/run/resolution_choice.hpp"
 #include "atlas/tabulate_curve.hpp"
@@ -384,6 +385,20 @@ BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, c
   else
     build.elastic();
   return build.take();
+}
+
+BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options)
+{
+  return build_law(material, body, options, RunSource{});
+}
+
+BuiltLaw build_law(const std::string& name, const Particle& particle, const BuildOptions& options)
+{
+  const CharacterisedBody body = characterised_body_of(particle);
+  LawMaterial material =
+      law_material(name, particle.materials[static_cast<std::size_t>(body.pole_material)]);
+  if (body.yields()) material.yield_stress = body.yield * body.scale.stress;
+  return build_law(material, body, options);
 }
 
 }  // namespace granulaw

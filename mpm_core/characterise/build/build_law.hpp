@@ -1,10 +1,13 @@
 #pragma once
 
 #include "characterise/run/request.hpp"
-#include "characterise/run/sampling_plan.hpp"
 #include "law/law.hpp"
+#include "solver/shape/particle.hpp"
 
 namespace granulaw {
+
+struct CharacterisedBody;  // body/characterised_body.hpp
+struct RunSource;          // run/sampling_plan.hpp
 
 /// A law, and what it took.
 struct BuiltLaw
@@ -39,7 +42,10 @@ ExpectedRuns expected_runs(const LawMaterial& material, const CharacterisedBody&
 /// law; fast impacts give what inertia or a rate changes. Sampling starts coarse and is refined where the law
 /// fitted without a run misses it by more than the tolerance (refinement.hpp). Impacts that took no part
 /// verify the law in the end. Throws Error if it is not admissible, or if the tolerance is not reached.
+BuiltLaw build_law(const std::string& name, const Particle& particle, const BuildOptions& options);
+/// The same of a body in its own units; runs are the solver's, or those of `source`.
+BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options);
 BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
-                   const RunSource& source = {});
+                   const RunSource& source);
 
 }  // namespace granulaw

@@ -12,6 +12,7 @@
 #include "base/larger.hpp"
 #include "characterise/build/build_law.hpp"
 #include "atlas/composed_law.hpp"
+#include "characterise/body/law_body.hpp"
 #include "characterise/body/law_material.hpp"
 
 namespace granulaw {
@@ -89,7 +90,7 @@ std::map<std::string, LawFilePlan::Body> bodies_of(const std::vector<Names>& pai
       if (name == wall_name || bodies.contains(name)) continue;
       LawBody body = law_body(name, r.materials, hint);
       const std::string why = why_runs(body, r);
-      bodies.emplace(name, LawFilePlan::Body{std::move(body), why});
+      bodies.emplace(name, LawFilePlan::Body{std::make_shared<const LawBody>(std::move(body)), why});
     }
   return bodies;
 }
@@ -100,8 +101,8 @@ void check_pairs(const std::vector<Names>& pairs, const std::map<std::string, La
 {
   const auto as_law = [&](const std::string& name) {
     BodyLaw law;
-    law.material = bodies.at(name).body.material;
-    law.body = bodies.at(name).body.body;
+    law.material = bodies.at(name).body->material;
+    law.body = bodies.at(name).body->body;
     return law;
   };
   for (const auto& [a, b] : pairs)
@@ -115,9 +116,9 @@ void check_slowest(const LawFileRequest& r, const std::map<std::string, LawFileP
   constexpr double room = 0.7;  // of the fastest impact, below which the axis has at least two nodes
   bool used = false;
   for (const auto& [name, planned] : bodies) {
-    if (!planned.body.characterised.rate_dependent()) continue;
+    if (!planned.body->characterised.rate_dependent()) continue;
     used = true;
-    const LawMaterial& m = planned.body.material;
+    const LawMaterial& m = planned.body->material;
     const double limit = room * std::sqrt(r.damage_number * m.yield_stress / m.density);
     if (r.slowest > limit)
       fail(r.words.slowest,
@@ -131,9 +132,9 @@ void check_slowest(const LawFileRequest& r, const std::map<std::string, LawFileP
 /// dependence.
 bool can_be_composed(const LawFilePlan::Body& body, const LawFileRequest& r)
 {
-  if (!r.atlas || body.body.body != sphere_name || body.body.characterised.rate_dependent()) return false;
+  if (!r.atlas || body.body->body != sphere_name || body.body->characterised.rate_dependent()) return false;
   if (body.from_atlas()) return true;
-  const LawMaterial& m = body.body.material;
+  const LawMaterial& m = body.body->material;
   return m.yields() && r.atlas->why_not({m.e_star() / m.yield_stress, m.poisson_ratio, 0}).empty();
 }
 
@@ -141,9 +142,9 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
 {
   const LawFileRequest& r = plan.request;
   const LawFilePlan::Body& first = plan.bodies.at(names.first);
-  if (names.second == wall_name) return {granulaw::plan_pair(first.body.material, nullptr, r, false)};
+  if (names.second == wall_name) return {granulaw::plan_pair(first.body->material, nullptr, r, false)};
   const LawFilePlan::Body& second = plan.bodies.at(names.second);
-  const LawBody &a = first.body, &b = second.body;
+  const LawBody &a = *first.body, &b = *second.body;
   LawFilePlan::Pair pair{granulaw::plan_pair(a.material, &b.material, r,
                                              can_be_composed(first, r) && can_be_composed(second, r))};
   if (pair.a == pair.b || !a.is_plain_sphere() || !b.is_plain_sphere()) return pair;
@@ -163,7 +164,7 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
 bool LawFilePlan::needs_runs() const
 {
   return std::any_of(bodies.begin(), bodies.end(),
-                     [](const auto& b) { return !b.second.from_atlas() || b.second.body.shape; }) ||
+                     [](const auto& b) { return !b.second.from_atlas() || b.second.body->shape; }) ||
          std::any_of(pairs.begin(), pairs.end(), [](const Pair& p) { return p.own_law; });
 }
 
@@ -188,7 +189,7 @@ LawFilePlan plan_law_file(LawFileRequest request)
   check_slowest(plan.request, plan.bodies);
   for (const auto& [name, body] : plan.bodies)
     if (!body.from_atlas())
-      require_reachable(body.body.material, body.body.characterised, plan.build_options());
+      require_reachable(body.body->material, body.body->characterised, plan.build_options());
   for (const Names& names : pairs) plan.pairs.push_back(plan_pair(names, plan));
   return plan;
 }

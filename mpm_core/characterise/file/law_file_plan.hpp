@@ -1,19 +1,21 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "atlas/atlas.hpp"
 #include "characterise/run/request.hpp"
-#include "characterise/body/law_body.hpp"
+#include "characterise/body/materials.hpp"
 #include "atlas/law_without_runs.hpp"
-#include "characterise/shape/shape_certificate.hpp"
 
 namespace granulaw {
 
-/// Requested content of a law file. The defaults are those of `mpm table`.
+struct LawBody;
+
+/// What a law file shall hold. The defaults are those of `mpm table`.
 struct LawFileRequest : SceneSizes
 {
   Materials materials;
@@ -44,7 +46,7 @@ struct LawFilePlan
 {
   struct Body
   {
-    LawBody body;
+    std::shared_ptr<const LawBody> body;  ///< body/law_body.hpp
     std::string why_runs;  ///< why its law needs runs of the solver; empty: it comes from the atlas
     bool from_atlas() const { return why_runs.empty(); }
   };

@@ -13,7 +13,9 @@
 #include "atlas/law_without_runs.hpp"
 #include "characterise/build/build_law.hpp"
 #include "characterise/pair/corrected_law.hpp"
+#include "characterise/body/law_body.hpp"
 #include "characterise/body/law_material.hpp"
+#include "characterise/shape/shape_certificate.hpp"
 #include "characterise/pair/two_body_law.hpp"
 
 namespace granulaw {
@@ -97,7 +99,7 @@ class Maker
     options_ = plan.build_options();
     options_.farm = &farm;
     laws_ = plan.bodies.size();
-    for (const auto& [name, planned] : plan.bodies) laws_ += planned.body.shape ? 1 : 0;
+    for (const auto& [name, planned] : plan.bodies) laws_ += planned.body->shape ? 1 : 0;
     for (const LawFilePlan::Pair& pair : plan.pairs)
       laws_ += pair.own_law ? 1 : 0;  // composing takes no time
   }
@@ -128,7 +130,7 @@ class Maker
   {
     std::vector<LawMaterial> materials;
     for (const auto& [name, planned] : plan_.bodies)
-      if (planned.from_atlas()) materials.push_back(planned.body.material);
+      if (planned.from_atlas()) materials.push_back(planned.body->material);
     std::vector<PlannedPair> pairs;
     for (const LawFilePlan::Pair& pair : plan_.pairs)
       if (is_without_runs(pair)) pairs.push_back(pair);
@@ -145,7 +147,7 @@ class Maker
 
   void add_body(const std::string& name, const LawFilePlan::Body& planned)
   {
-    const LawBody& body = planned.body;
+    const LawBody& body = *planned.body;
     BodyLaw law = planned.from_atlas() ? std::move(file_.law.bodies.at(name)) : body_by_runs(name, body);
     law.body = body.body;
     if (!law.is_sphere()) {
@@ -265,7 +267,7 @@ class Maker
     return options;
   }
 
-  const LawMaterial& material(const std::string& name) const { return plan_.bodies.at(name).body.material; }
+  const LawMaterial& material(const std::string& name) const { return plan_.bodies.at(name).body->material; }
 
   const LawFilePlan& plan_;
   Farm& farm_;

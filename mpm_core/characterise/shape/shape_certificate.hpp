@@ -2,20 +2,12 @@
 
 #include <vector>
 
-#include "farm/farm.hpp"
+#include "characterise/run/request.hpp"
 #include "law/law.hpp"
 #include "solver/shape/particle.hpp"
 #include "solver/shape/shape.hpp"
 
 namespace granulaw {
-
-/// Which impacts a certificate over orientations is made of.
-struct ShapeQuestion
-{
-  int directions = 30;             ///< over all that the body's mirror planes leave
-  std::vector<double> velocities;  ///< m/s, over 0
-  int resolution = 8;              ///< cells across the contact block of each run
-};
 
 /// ShapeCertificate::shape: the solid's definition, or what it begins with and a checksum of a long one.
 std::string shape_text(const Shape& solid);
