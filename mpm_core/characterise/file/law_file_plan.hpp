@@ -15,7 +15,7 @@ namespace granulaw {
 
 struct LawBody;
 
-/// What a law file shall hold. The defaults are those of `mpm table`.
+/// Requested content of a law file. The defaults are those of `mpm table`.
 struct LawFileRequest : SceneSizes
 {
   Materials materials;
