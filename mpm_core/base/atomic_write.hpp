@@ -17,4 +17,8 @@ void write_text_atomically(const std::string& path, const std::string& text);
 /// Throws Error now if `path` could not be written later: its folder is missing or not writable.
 void require_writable(const std::string& path, const std::string& where);
 
+/// Refuses an output name that could not be written, before the work starts: its folder must exist, and the
+/// ending be one of `endings` (".csv, .h5"). An empty path is none.
+void check_output(const std::string& path, const std::string& endings);
+
 }  // namespace granulaw

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "finding.hpp"
-#include "materials_file.hpp"
+#include "material_file/materials_file.hpp"
 
 using namespace granulaw;
 

@@ -45,7 +45,7 @@ class Contents(unittest.TestCase):
     def test_users_find(self):
         files = listing("granulaw")
         for path in ("bin/mpm", "bin/liggghts-mpm", "lib/libgranulaw_liggghts.so",
-                     "share/granulaw/atlas.h5", "share/granulaw/plot_law.py", "share/granulaw/plot_pair.py",
+                     "share/granulaw/atlas.h5", "share/granulaw/plot_law.py",
                      "share/granulaw/plot_fields.py", "share/granulaw/examples/README.md",
                      "share/granulaw/examples/hopper/in.hopper", "share/granulaw/examples/hopper/materials.toml",
                      "share/granulaw/examples/common/sweep.py", "share/man/man1/mpm.1.gz", "share/man/man1/mpm-table.1.gz",

@@ -46,8 +46,6 @@ class Scripts(unittest.TestCase):
         (self.folder / "scene").mkdir()
         for words, sentence in (
                 (("tools/report", "--from", self.folder, "-o", "/proc/report"), "report: /proc/report: No such file or directory"),
-                (("tools/mpm/plot_fit.py", nowhere, "x.png"), f"plot_fit.py: {nowhere}: No such file or directory"),
-                (("tools/mpm/plot_law.py", nowhere, "x.png"), "No such file or directory"),
                 (("tools/mpm/plot_fields.py", nowhere, "x.png"), "no such file"),
                 (("examples/planned.py", nowhere), f"{nowhere}: no such folder"),
                 (("examples/differences.py", nowhere), f"{nowhere}: no such folder"),

@@ -4,14 +4,12 @@ import importlib.util
 import io
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MPM = sys.argv.pop(1)
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "examples" / "common"), str(pathlib.Path(__file__).resolve().parent)]
 import run_files  # noqa: E402
 from reporting import contacts_part, flow_part, page, solver_part  # noqa: E402
@@ -93,16 +91,12 @@ class Pictures(unittest.TestCase):
         return figures[0]
 
     def test_law_and_pair(self):
-        materials, law = self.folder / "m.toml", self.folder / "law.h5"
-        materials.write_text("[material.a_powder_with_a_rather_long_name]\ndensity = 920\nyoungs_modulus = 91e6\npoisson_ratio = 0.3\nyield_stress = 1e6\n"
-                             "[material.another]\ndensity = 2000\nyoungs_modulus = 2e9\npoisson_ratio = 0.3\nyield_stress = 30e6\n")
-        subprocess.run([MPM, "table", materials, "-o", law], check=True, stdout=subprocess.DEVNULL)
-        self.check(self.drawn("plot_law", law, "x.png"))
-        line = {"name": "law of the body", "role": "law", "overlap_m": [0, 1.2e-5], "force_N": [0, 2], "unloading": [],
-                "velocity_m_per_s": [0.02, 3], "e": [1, 0.5]}
-        told = {"force": [line], "restitution": [line],
+        line = {"name": "law of the body", "role": "law", "x": [0, 1.2e-5], "y": [0, 2], "unloading": []}
+        told = {"force": [line], "restitution": [line], "overlap_unit": 1e-6, "labels": ["overlap, µm", "force, N", "approach speed, m/s"],
                 "title": "a_powder_with_a_rather_long_name (R = 3 mm) against another (a wall); ratio of radii 0.333, by the pair rule, whose error is not stated"}
-        self.check(self.drawn("plot_pair", "x.png", told=json.dumps(told)))
+        self.check(self.drawn("plot_law", "x.png", told=json.dumps(told)))
+        bodies = [line | {"role": "body", "name": f"a_powder_with_a_rather_long_name, E*/Y = {k}"} for k in (100, 200)]
+        self.check(self.drawn("plot_law", "x.png", told=json.dumps(told | {"force": bodies, "restitution": bodies, "title": ""})))
 
     def test_shape(self):
         directions = [{"direction": [1, 0, 0], "law_e": 0.5, "e": 0.51, "law_force_max_N": 1.0, "force_max_N": 1.1},

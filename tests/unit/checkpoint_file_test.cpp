@@ -1,5 +1,5 @@
 // Checkpoints on disk: what comes back, and every file that is refused and left as it is.
-#include "checkpoint_file.hpp"
+#include "run_files/checkpoint_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "field_file.hpp"
+#include "run_files/field_file.hpp"
 
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"

@@ -17,8 +17,8 @@ TEST(JsonOutput, WhatIsNotFiniteIsNull)
 TEST(JsonOutput, KeepsTheOrderOfItsKeys)
 {
   testing::internal::CaptureStdout();
-  print_json({{"b", 1}, {"a", 2}}, 1);
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "{\n \"b\": 1,\n \"a\": 2\n}\n");
+  print_json({{"b", 1}, {"a", 2}});
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "{\n  \"b\": 1,\n  \"a\": 2\n}\n");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Particles in MATERIALS.toml: the documentation's examples, and what is refused.
-#include "materials_file.hpp"
+#include "material_file/materials_file.hpp"
 
 #include <gtest/gtest.h>
 

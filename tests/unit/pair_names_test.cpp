@@ -1,4 +1,4 @@
-#include "pair_names.hpp"
+#include "law/pair_names.hpp"
 
 #include "scratch_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Three-dimensional shapes in MATERIALS.toml: the documentation's examples, and what is refused.
-#include "shape_reader.hpp"
+#include "material_file/shape_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "materials_file.hpp"
+#include "material_file/materials_file.hpp"
 
 namespace granulaw {
 namespace {

@@ -1,4 +1,4 @@
-#include "trace_file.hpp"
+#include "run_files/trace_file.hpp"
 
 #include <algorithm>
 

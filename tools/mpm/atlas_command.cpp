@@ -7,6 +7,7 @@
 
 #include "characterise/run/sampling_plan.hpp"
 #include "characterise/atlas_file.hpp"
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "characterise/atlas_build.hpp"
 #include "characterise/midplane_build.hpp"
@@ -15,7 +16,6 @@
 #include "option_checks.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
-#include "trace_file.hpp"
 
 namespace granulaw {
 

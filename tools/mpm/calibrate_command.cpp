@@ -1,6 +1,4 @@
 // mpm calibrate: from measurements to a material.
-#include <unistd.h>
-
 #include <filesystem>
 #include <memory>
 
@@ -14,10 +12,9 @@
 #include "farm_options.hpp"
 #include "json_output.hpp"
 #include "option_checks.hpp"
-#include "plausible.hpp"
+#include "material_file/plausible.hpp"
 #include "python_script.hpp"
 #include "terminal.hpp"
-#include "trace_file.hpp"
 
 namespace granulaw {
 
@@ -54,20 +51,6 @@ void write_ensemble(const CalibrateRequest& r, const CalibrationProblem& problem
                                   r.ensemble, r.seed)));
 }
 
-void draw(const CalibrateRequest& r, const nlohmann::ordered_json& result)
-{
-  const std::string input =
-      (std::filesystem::temp_directory_path() / fmt::format("mpm-calibrate-{}.json", getpid())).string();
-  write_text_atomically(input, result.dump());
-  try {
-    draw_by_python("mpm calibrate", "plot_fit.py", {input, r.plot}, {}, r.plot);
-  } catch (...) {
-    std::filesystem::remove(input);
-    throw;
-  }
-  std::filesystem::remove(input);
-}
-
 void check_outputs(const CalibrateRequest& r)
 {
   if (!r.output.empty()) check_output(r.output, ".toml");
@@ -102,7 +85,7 @@ void state_bound(const CalibrateRequest& r, const CalibrationProblem& problem, c
                  const nlohmann::ordered_json& json)
 {
   if (r.json)
-    print_json(json, 2);
+    print_json(json);
   else
     print_calibration(problem, result);
   if (!r.output.empty())
@@ -132,9 +115,9 @@ void run(const CalibrateRequest& r)
     write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" +
                                                                        interval_comments(problem, result)));
   if (r.ensemble > 0) write_ensemble(r, problem, result);
-  if (!r.plot.empty()) draw(r, json);
+  if (!r.plot.empty()) draw_by_python("mpm calibrate", "plot_fit.py", {r.plot}, json.dump(), r.plot);
   if (r.json)
-    print_json(json, 2);
+    print_json(json);
   else
     print_calibration(problem, result);
 }

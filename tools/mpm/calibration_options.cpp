@@ -11,9 +11,9 @@
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
 #include "characterise/body/law_material.hpp"
-#include "materials_file.hpp"
+#include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
-#include "plausible.hpp"
+#include "material_file/plausible.hpp"
 #include "solver/material/law_table.hpp"
 
 namespace granulaw {

@@ -144,7 +144,7 @@ void print_as_json(const DesignRequest& r, const Design& design, const std::vect
     out["candidates"].push_back(std::move(candidate));
   }
   out["best"] = widths_json(r, design.expected(plan));
-  print_json(out, 2);
+  print_json(out);
 }
 
 /// The kinds to choose from: those of --measure, else drops and the curves of --kind.

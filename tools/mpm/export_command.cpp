@@ -10,8 +10,7 @@
 #include "command.hpp"
 #include "law/law_file.hpp"
 #include "option_checks.hpp"
-#include "pair_names.hpp"
-#include "trace_file.hpp"
+#include "law/pair_names.hpp"
 
 namespace granulaw {
 

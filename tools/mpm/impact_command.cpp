@@ -15,7 +15,7 @@
 #include "characterise/shape/orientations.hpp"
 #include "command.hpp"
 #include "law/damage_number.hpp"
-#include "plausible.hpp"
+#include "material_file/plausible.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/run/axisymmetric_setup.hpp"

@@ -11,7 +11,7 @@
 #include "characterise/build/support_ratio.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
-#include "pair_lines.hpp"
+#include "law/pair_lines.hpp"
 #include "percent.hpp"
 #include "shape_output.hpp"
 

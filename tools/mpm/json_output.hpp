@@ -14,9 +14,9 @@ inline nlohmann::ordered_json json_number(double value)
 }
 
 /// Output of --json: one object, its keys in the order in which they were put in.
-inline void print_json(const nlohmann::ordered_json& object, int indent)
+inline void print_json(const nlohmann::ordered_json& object)
 {
-  fmt::print("{}\n", object.dump(indent));
+  fmt::print("{}\n", object.dump(2));
 }
 
 }  // namespace granulaw

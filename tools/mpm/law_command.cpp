@@ -5,78 +5,26 @@
 #include <ctime>
 #include <memory>
 
-#include "base/error.hpp"
 #include "collision_report.hpp"
 #include "command.hpp"
 #include "json_output.hpp"
-#include "law/damage_number.hpp"
-#include "law/error_bound.hpp"
 #include "law/law_file.hpp"
-#include "law/replay.hpp"
+#include "law/stated_collision.hpp"
 #include "option_checks.hpp"
-#include "pair_choice.hpp"
+#include "pair_options.hpp"
 #include "percent.hpp"
 
 namespace granulaw {
 
 namespace {
 
-struct LawRequest : PairOptions
+struct LawRequest : PairAsked
 {
   double velocity = 0;
   bool json = false;
 };
 
-/// Past the table's last overlap the force goes on with its last stiffness: good enough for this fraction of
-/// it.
-constexpr double overlap_margin = 0.05;
-
-/// Two bodies about to collide: SI.
-struct Collision : ChosenPair
-{
-  double velocity;
-};
-
-Collision collision_of(const Law& law, const LawRequest& r)
-{
-  const ChosenPair pair = choose_pair(law, r);
-  require_within("--velocity", r.velocity, "m/s", 1e-12, 1e6);  // as of the radii (pair_choice.cpp)
-  return {pair, r.velocity};
-}
-
-/// Throws where the collision goes deeper than the law is good for.
-void check_depth(const LawRequest& r, const Collision& c, const Replay& result)
-{
-  const double allowed = (1 + overlap_margin) * c.limit();
-  if (result.delta_max > allowed)
-    fail(r.law, "the collision leaves the law's range of overlaps by more than 5 %",
-         fmt::format("{:.4g} m", result.delta_max), fmt::format("up to {:.4g} m", allowed));
-}
-
-/// The collision's speed, and the statement of the law file about it.
-struct Assessment
-{
-  double damage_number;     ///< of damage_number.hpp
-  PairStatement statement;  ///< for these sizes
-  bool beyond_bound;        ///< the damage number is above that up to which the error bound holds
-  bool needs_axis;          ///< ... and the law has no velocity axis
-
-  /// Not stated beyond the damage number of the law.
-  ErrorBound bound() const { return beyond_bound ? ErrorBound{} : statement.bound; }
-};
-
-Assessment assess(const Law& law, const Collision& c)
-{
-  const auto& [a, b] = c.names;
-  const double damage_number = granulaw::damage_number(c.law, c.velocity);
-  const PairStatement statement =
-      statement_of(law, c.law, a, b).at_distance(distance_in_size(law, c.law, a, b, c.radius, c.radius2));
-  constexpr double rounding = 1e-9;
-  const bool beyond = damage_number > statement.damage_number_max * (1 + rounding);
-  return {damage_number, statement, beyond, beyond && !c.law.curve->axis()};
-}
-
-void print_warnings(const Collision& c, const Assessment& found, const Replay& result)
+void print_warnings(const ChosenPair& c, double velocity, const StatedCollision& found)
 {
   if (found.needs_axis)
     fmt::print(stderr,
@@ -95,22 +43,24 @@ void print_warnings(const Collision& c, const Assessment& found, const Replay& r
         "mpm: R_s/(R_s + R_h) of these radii is {:.3g} off the nearest law of the pair: the error bound is "
         "larger by that; mpm table --radius-ratio makes laws for more ratios\n",
         found.statement.size_off);
+  const Replay& result = found.replay;
   if (result.left_speeds)
     fmt::print(
         stderr,
         "mpm: {:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: the corrections of that "
         "speed are used\n",
-        c.velocity, c.law.max_speed(c.r_eff, c.m_eff));
+        velocity, c.law.max_speed(c.r_eff, c.m_eff));
   if (result.held_speed)
     fmt::print(
         stderr,
         "mpm: {:.4g} m/s is below {:.4g} m/s, the lowest speed of this rate-dependent law: the law of that "
         "speed is used\n",
-        c.velocity, c.law.min_speed(c.r_eff, c.m_eff));
+        velocity, c.law.min_speed(c.r_eff, c.m_eff));
 }
 
-void print_as_json(const Assessment& found, const Replay& result, double cpu_s)
+void print_as_json(const StatedCollision& found, double cpu_s)
 {
+  const Replay& result = found.replay;
   const ErrorBound bound = found.bound();
   const double restitution = bound.restitution_at(result.restitution);
   nlohmann::ordered_json out = collision_json(result);
@@ -128,39 +78,38 @@ void print_as_json(const Assessment& found, const Replay& result, double cpu_s)
   out["below_velocity_axis"] = result.held_speed;
   out["law_kind"] = name_of(found.statement.kind);
   out["size_distance"] = found.statement.size_off;
-  print_json(out, 2);
+  print_json(out);
 }
 
-std::string bound_text(const Assessment& found, double restitution)
+std::string bound_text(const StatedCollision& found)
 {
   const ErrorBound bound = found.bound();
   if (!bound.stated()) return "not stated";
-  return fmt::format("F_max {}, e {:.2g}", percent(bound.force), bound.restitution_at(restitution));
+  return fmt::format("F_max {}, e {:.2g}", percent(bound.force), bound.restitution_at(found.replay.restitution));
 }
 
-void print(const Collision& c, const Assessment& found, const Replay& result)
+void print(const ChosenPair& c, double velocity, const StatedCollision& found)
 {
   fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}, {} law\n", c.names.first,
-             c.names.second, c.velocity, c.r_eff, found.damage_number, name_of(found.statement.kind));
-  print_collision(result, fmt::format("{:.3g} of the law's range", result.delta_max / c.limit()));
-  fmt::print("error bound (95 %)             {}\n", bound_text(found, result.restitution));
+             c.names.second, velocity, c.r_eff, found.damage_number, name_of(found.statement.kind));
+  print_collision(found.replay, fmt::format("{:.3g} of the law's range", found.replay.delta_max / c.limit()));
+  fmt::print("error bound (95 %)             {}\n", bound_text(found));
 }
 
 void replay(const LawRequest& r)
 {
   const Law law = read_law(r.law);
-  const Collision c = collision_of(law, r);
+  const ChosenPair pair = choose_pair(law, r);
+  require_within("--velocity", r.velocity, "m/s", 1e-12, 1e6);  // as of the radii (law/chosen_pair.cpp)
   const std::clock_t start = std::clock();
-  const Replay result = replay_collision(c.law, c.r_eff, c.m_eff, c.velocity);
+  const StatedCollision found = collide(law, pair, r.velocity, r.law);
   const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  check_depth(r, c, result);
 
-  const Assessment found = assess(law, c);
-  print_warnings(c, found, result);
+  print_warnings(pair, r.velocity, found);
   if (r.json)
-    print_as_json(found, result, cpu_s);
+    print_as_json(found, cpu_s);
   else
-    print(c, found, result);
+    print(pair, r.velocity, found);
 }
 
 void define(Options& command)

@@ -1,8 +1,9 @@
 // mpm: contact laws by the material point method. One command a file (commands.hpp); this one parses, reports
 // and exits.
 //
-// Exit codes: 0 done; 1 the input cannot be used (one sentence on stderr); 2 the command line cannot be
-// understood; 3 (convert) a number is needed that the deck does not say; 130 stopped by Ctrl-C. Under mpirun all ranks end with the largest of theirs.
+// Exit codes: 0 done; 1 a file cannot be used (one sentence on stderr); 2 the command line cannot be understood,
+// or a value in it cannot be used; 3 (convert) a number is needed that the deck does not say; 130 stopped by
+// Ctrl-C. Under mpirun all ranks end with the largest of theirs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gsl/gsl_errno.h>
@@ -132,6 +133,9 @@ std::string parse_sentence(const CLI::App& app, int argc, char** argv, const CLI
   return fmt::format("{} (mpm --help and mpm COMMAND --help list what is possible)", printable(error.what()));
 }
 
+/// True of a sentence that an option leads: "--depth: cannot be used: ...".
+bool names_an_option(const std::string& sentence) { return sentence.starts_with("--"); }
+
 /// Carries out the command line.
 Outcome run(int argc, char** argv)
 {
@@ -157,7 +161,7 @@ Outcome run(int argc, char** argv)
   } catch (const deck::Unanswered& error) {
     return {3, error.what()};
   } catch (const Error& error) {
-    return {1, error.what()};
+    return {names_an_option(error.what()) ? 2 : 1, error.what()};
   } catch (const std::filesystem::filesystem_error& error) {
     return {1, fmt::format("{}: cannot be read or written", printable(error.path1().string()))};
   } catch (const std::exception&) {

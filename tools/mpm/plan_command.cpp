@@ -266,7 +266,7 @@ void plan(const PlanRequest& r)
 {
   const PlannedDeck d = plan_deck(r.deck, r.options);
   const std::string command = deck::table_command(d.plan, r.options.materials_file);
-  if (r.json) return print_json(to_json(d, command), 1);
+  if (r.json) return print_json(to_json(d, command));
   print_scene(d);
   print_pairs(d);
   print_needs(d);

@@ -1,32 +1,57 @@
-// mpm plot: a picture of a law file, drawn by plot_law.py, or of one pair of it, drawn by plot_pair.py.
+// mpm plot: a picture of a law file, or of one pair of it, drawn by plot_law.py.
 #include <fmt/format.h>
 
 #include <memory>
 #include <vector>
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
 #include "option_checks.hpp"
-#include "pair_curves.hpp"
+#include "law/pair_curves.hpp"
+#include "pair_options.hpp"
 #include "python_script.hpp"
 #include "shape_output.hpp"
-#include "trace_file.hpp"
 
 namespace granulaw {
 
 namespace {
 
-struct Request : PairOptions
+struct Request : PairAsked
 {
   std::string output, shape;
   std::optional<double> velocity;
 };
 
-void draw(const char* script, const std::vector<std::string>& words, const std::string& input,
-          const std::string& output)
+nlohmann::ordered_json as_json(const DrawnLine& line)
 {
-  draw_by_python("mpm plot", script, words, input, output);
+  return {{"name", line.name}, {"role", line.role}, {"x", line.x}, {"y", line.y}};
+}
+
+nlohmann::ordered_json as_json(const ForceLine& line)
+{
+  nlohmann::ordered_json out = as_json(static_cast<const DrawnLine&>(line));
+  out["unloading"] = nlohmann::ordered_json::array();
+  for (const DrawnLine& branch : line.unloading) out["unloading"].push_back(as_json(branch));
+  return out;
+}
+
+/// What a picture's axes say. `overlap`: the axis's unit in that of the curves.
+struct Axes
+{
+  const char *overlap_text, *force_text, *speed_text;
+  double overlap;
+};
+
+void draw(const LawCurves& curves, const Axes& axes, const std::string& output)
+{
+  nlohmann::ordered_json told{{"title", curves.title},
+                              {"overlap_unit", axes.overlap},
+                              {"labels", {axes.overlap_text, axes.force_text, axes.speed_text}}};
+  for (const ForceLine& line : curves.force) told["force"].push_back(as_json(line));
+  for (const DrawnLine& line : curves.restitution) told["restitution"].push_back(as_json(line));
+  draw_by_python("mpm plot", "plot_law.py", {output}, told.dump(), output);
   fmt::print("wrote {}\n", output);
 }
 
@@ -44,11 +69,12 @@ void draw_certificate(const Law& law, const Request& r)
 void plot(const Request& r)
 {
   check_output(r.output, ".png, .pdf, .svg");
-  const Law law = read_law(r.law);  // its sentence is better than Python's
+  const Law law = read_law(r.law);
   if (!r.shape.empty()) return draw_certificate(law, r);
-  if (r.pair.empty()) return draw("plot_law.py", {r.law, r.output}, {}, r.output);
-  const auto curves = pair_curves(law, choose_pair(law, r), r.velocity);
-  draw("plot_pair.py", {r.output}, curves.dump(), r.output);
+  if (r.pair.empty())
+    return draw(body_curves(law), {"overlap / R", "force / (Y R²)", "V / $V_y$", 1}, r.output);
+  draw(pair_curves(law, choose_pair(law, r), r.velocity),
+       {"overlap, µm", "force, N", "approach speed, m/s", 1e-6}, r.output);
 }
 
 void define(Options& command)

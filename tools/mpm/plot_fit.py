@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws data, fit and its 95 % band: plot_fit.py RESULT.json PICTURE. Called by `mpm calibrate --plot`."""
+"""Draws data, fit and its 95 % band: plot_fit.py PICTURE, the result as JSON on stdin. Called by `mpm calibrate --plot`."""
 import json
 import pathlib
 import sys
@@ -91,9 +91,8 @@ def draw(axis, m):
     axis.legend(fontsize=8)
 
 
-def main(result, picture):
-    with open(result) as file:
-        r = json.load(file)
+def main(picture):
+    r = json.load(sys.stdin)
     several = r["measurements"]
     width = 5.5 * len(several)
     figure, axes = plt.subplots(1, len(several), figsize=(width, 4.4), squeeze=False, layout="constrained")

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "command.hpp"
 #include "option_checks.hpp"
-#include "planes_file.hpp"
+#include "material_file/planes_file.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/runs.hpp"
@@ -61,7 +61,7 @@ void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentit
   if (r.support != "free")
     fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
   PressPlan plan;
-  plan.planes = read_planes(r.planes.empty() ? "pair" : r.planes);
+  plan.planes = read_planes(r.planes.empty() ? "pair" : r.planes, "--planes");
   plan.depth = r.depth * particle.radius;
   plan.ramp = r.ramp.value_or(0);
   for (const PressPlane& p : plan.planes)

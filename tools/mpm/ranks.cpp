@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "plausible.hpp"
+#include "material_file/plausible.hpp"
 #ifdef GRANULAW_HAS_MPI
 #include "farm_mpi/mpi_farm.hpp"
 #endif

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "field_file.hpp"
+#include "run_files/field_file.hpp"
 #include "run_report.hpp"
 #include "terminal.hpp"
 
@@ -63,7 +63,7 @@ void run_and_report(const RunRequest& r, const Meeting& m, const RunIdentity& as
   std::optional<CheckpointFile> checkpoint;
   const auto run_on = [&](RunOptions options) {
     if (!checkpoint && !r.checkpoint.empty()) {
-      checkpoint.emplace(r.checkpoint, r.checkpoint_every, identity(asked, r, m, options));
+      checkpoint.emplace(r.checkpoint, r.checkpoint_every, identity(asked, r, m, options), is_interrupted);
       if (checkpoint->was_found() && !r.json) fmt::print("goes on from {}\n", r.checkpoint);
     }
     if (checkpoint) options.checkpoints = checkpoint->store();

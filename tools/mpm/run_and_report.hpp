@@ -1,6 +1,6 @@
 #pragma once
 
-#include "checkpoint_file.hpp"
+#include "run_files/checkpoint_file.hpp"
 #include "run_report.hpp"
 #include "run_request.hpp"
 #include "solver/run/accuracy.hpp"

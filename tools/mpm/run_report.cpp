@@ -11,7 +11,7 @@
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
 #include "solver/shape/shape.hpp"
-#include "trace_file.hpp"
+#include "run_files/trace_file.hpp"
 
 namespace granulaw {
 
@@ -93,7 +93,7 @@ void print_as_json(const RunRequest& r, const Particle& particle, const RunResul
     if (!out.contains(n.key)) out[n.key] = s.*n.value;
   out["ripple"] = s.grid_noise;  // its old name
   put_three_dimensions(out, result, centre);
-  print_json(out, 2);
+  print_json(out);
 }
 
 const char* body_name(const Particle& particle)

@@ -6,11 +6,10 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
-#include "field_file.hpp"
-#include "materials_file.hpp"
+#include "run_files/field_file.hpp"
+#include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
-#include "trace_file.hpp"
 
 namespace granulaw {
 

@@ -17,12 +17,11 @@
 #include "farm_options.hpp"
 #include "json_output.hpp"
 #include "law/law_file.hpp"
-#include "materials_file.hpp"
+#include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
 #include "shape_output.hpp"
-#include "shape_reader.hpp"
+#include "material_file/shape_reader.hpp"
 #include "terminal.hpp"
-#include "trace_file.hpp"
 
 namespace granulaw {
 
@@ -97,7 +96,7 @@ void print_json_of(const ShapeCertificate& certificate, const FarmCount& count)
 {
   nlohmann::ordered_json out = as_json(certificate);
   out["cpu_s"] = count.cpu_s;
-  print_json(out, 2);
+  print_json(out);
 }
 
 void certify(ShapeRequest& r)

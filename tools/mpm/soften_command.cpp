@@ -126,7 +126,7 @@ void soften(const SoftenRequest& r)
   const deck::Softening s = deck::soften(d.scene, d.plan, d.options, r.limits);
   if (s.pairs.empty()) fail(r.deck, "no two bodies of it meet at any speed: there is nothing to stretch");
   if (r.json)
-    print_json(to_json(r.deck, s), 1);
+    print_json(to_json(r.deck, s));
   else
     print(r.limits, s);
 }

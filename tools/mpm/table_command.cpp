@@ -10,6 +10,7 @@
 #include <set>
 
 #include "atlas_path.hpp"
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "characterise/build/build_law.hpp"
 #include "characterise/body/law_body.hpp"
@@ -18,15 +19,14 @@
 #include "deck_options.hpp"
 #include "farm_options.hpp"
 #include "law/law_file.hpp"
-#include "materials_file.hpp"
+#include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
-#include "pair_lines.hpp"
-#include "pair_names.hpp"
+#include "law/pair_lines.hpp"
+#include "law/pair_names.hpp"
 #include "percent.hpp"
 #include "ranks.hpp"
 #include "shape_output.hpp"
 #include "terminal.hpp"
-#include "trace_file.hpp"
 
 namespace granulaw {
 

@@ -12,8 +12,8 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/comm
 import one_sentence  # noqa: E402, F401
 import help_text  # noqa: E402
 
-EXIT_STATUS = [("0", "done"), ("1", "the input cannot be used: one sentence on stderr says why"),
-               ("2", "the command line cannot be understood"), ("130", "stopped by Ctrl-C")]
+EXIT_STATUS = [("0", "done"), ("1", "a file cannot be used: one sentence on stderr says why"),
+               ("2", "the command line cannot be understood, or what an option says cannot be used"), ("130", "stopped by Ctrl-C")]
 ENVIRONMENT = [("GRANULAW_ATLAS", "the atlas to use in place of the one that came with the program"),
                ("XDG_CACHE_HOME", "the folder in which finished runs are kept, under granulaw/runs (default: ~/.cache)")]
 LAUNCHER = """LIGGGHTS with the normal models {models} of Granulaw. It reads the same decks and takes the same options as

@@ -1,4 +1,4 @@
-#include "checkpoint_file.hpp"
+#include "run_files/checkpoint_file.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include "base/version.hpp"
 #include "solver/body/kernels.hpp"
 #include "solver/shape/shape.hpp"
-#include "terminal.hpp"
 
 namespace granulaw {
 
@@ -102,8 +101,9 @@ RunIdentity identity_of(RunIdentity asked, const Particle& particle, const Partn
   return identity;
 }
 
-CheckpointFile::CheckpointFile(std::string path, double interval, RunIdentity identity)
-    : path_(std::move(path)), interval_(interval), identity_(std::move(identity))
+CheckpointFile::CheckpointFile(std::string path, double interval, RunIdentity identity,
+                               std::function<bool()> at_once)
+    : path_(std::move(path)), interval_(interval), identity_(std::move(identity)), at_once_(std::move(at_once))
 {
   was_found_ = fs::exists(path_);
   if (was_found_) read();
@@ -160,7 +160,7 @@ void CheckpointFile::write() const
 
 bool CheckpointFile::due(const std::string& key)
 {
-  if (is_interrupted()) return true;
+  if (at_once_ && at_once_()) return true;
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex_);
   const auto [last, first_time] = saved_.try_emplace(key, now);

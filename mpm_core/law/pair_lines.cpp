@@ -1,4 +1,4 @@
-#include "pair_lines.hpp"
+#include "law/pair_lines.hpp"
 
 #include <fmt/format.h>
 

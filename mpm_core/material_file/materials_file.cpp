@@ -1,4 +1,4 @@
-#include "materials_file.hpp"
+#include "material_file/materials_file.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +12,11 @@
 
 #include "base/error.hpp"
 #include "law/law.hpp"
-#include "plausible.hpp"
-#include "shape_reader.hpp"
+#include "material_file/plausible.hpp"
+#include "material_file/shape_reader.hpp"
 #include "solver/material/law_table.hpp"
 #include "solver/shape/shapes.hpp"
-#include "toml_section.hpp"
+#include "material_file/toml_section.hpp"
 
 namespace granulaw {
 

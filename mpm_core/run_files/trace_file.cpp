@@ -1,4 +1,4 @@
-#include "trace_file.hpp"
+#include "run_files/trace_file.hpp"
 
 #include <fmt/format.h>
 
@@ -111,15 +111,6 @@ void write_h5(const RunResult& result, const std::string& temporary, const std::
 }
 
 }  // namespace
-
-void check_output(const std::string& path, const std::string& endings)
-{
-  if (path.empty()) return;
-  const fs::path p(path);
-  if (p.extension().empty() || endings.find(p.extension().string()) == std::string::npos)
-    fail(path, "the ending of an output name says its format", p.extension().string(), endings);
-  require_writable(path, path);
-}
 
 void write_trace(const RunResult& result, const std::string& path)
 {

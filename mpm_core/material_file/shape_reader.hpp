@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/shape/shapes.hpp"
-#include "toml_section.hpp"
+#include "material_file/toml_section.hpp"
 
 namespace granulaw {
 

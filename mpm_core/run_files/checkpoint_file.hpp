@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -28,11 +29,12 @@ class CheckpointFile
 {
  public:
   /// Reads `path` if it exists. Throws Error, and leaves the file as it is, if it is damaged, no checkpoint
-  /// at all or of another run. Each run is saved every `interval` seconds, 0: at every sample of its trace.
-  CheckpointFile(std::string path, double interval, RunIdentity identity);
+  /// at all or of another run. Each run is saved every `interval` seconds, 0: at every sample of its trace,
+  /// and once `at_once` is true.
+  CheckpointFile(std::string path, double interval, RunIdentity identity, std::function<bool()> at_once = {});
 
   bool was_found() const { return was_found_; }
-  /// Hooks for RunOptions; must not outlive this. Ctrl-C makes a state due at once.
+  /// Hooks for RunOptions; must not outlive this.
   CheckpointStore store();
   /// The run is finished and its outputs are written.
   void remove() const;
@@ -45,6 +47,7 @@ class CheckpointFile
   std::string path_;
   std::chrono::duration<double> interval_;
   RunIdentity identity_;
+  std::function<bool()> at_once_;
   bool was_found_ = false;
   std::mutex mutex_;  // of what follows
   std::map<std::string, std::string> states_;

@@ -6,10 +6,6 @@
 
 namespace granulaw {
 
-/// Refuses an output name that could not be written, before the work starts: its folder must exist, and the
-/// ending be one of `endings` (".csv .h5").
-void check_output(const std::string& path, const std::string& endings);
-
 /// Writes the trace as CSV ("time_s,delta_m,force_N,contact_radius_m,branch") or HDF5 (the same names, each
 /// with its unit as attribute), by the ending of `path`; whole or not at all.
 void write_trace(const RunResult& result, const std::string& path);

@@ -1,4 +1,4 @@
-#include "plausible.hpp"
+#include "material_file/plausible.hpp"
 
 #include <fmt/format.h>
 

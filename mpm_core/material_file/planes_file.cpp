@@ -1,4 +1,4 @@
-#include "planes_file.hpp"
+#include "material_file/planes_file.hpp"
 
 #include <fmt/format.h>
 
@@ -47,13 +47,13 @@ PressPlane plane_of(const std::vector<std::string>& words, const std::string& wh
 
 }  // namespace
 
-std::vector<PressPlane> read_planes(const std::string& name)
+std::vector<PressPlane> read_planes(const std::string& name, const std::string& option)
 {
   std::vector<PressPlane> planes = named_planes(name);
   if (!planes.empty()) return planes;
   std::ifstream in(name);
   if (!in)
-    fail("--planes", "no such arrangement, and no such file", name, "pair, cube, die, bcc, fcc, or a file");
+    fail(option, "no such arrangement, and no such file", name, "pair, cube, die, bcc, fcc, or a file");
   std::string line;
   for (int n = 1; std::getline(in, line); ++n) {
     std::istringstream text(line.substr(0, line.find('#')));

@@ -4,16 +4,15 @@
 #include <string>
 
 #include "law/law.hpp"
-#include "options.hpp"
-#include "pair_names.hpp"
+#include "law/pair_names.hpp"
 
 namespace granulaw {
 
-/// The law file and the two bodies that a command line names.
-struct PairOptions
+/// Two bodies by name and size, as a caller names them.
+struct PairAsked
 {
-  std::string law, pair;
-  std::optional<double> radius, radius2;  ///< m
+  std::string law, pair;                  ///< the law file; "a:b" or "a:wall", empty: the only pair of the law
+  std::optional<double> radius, radius2;  ///< m; without: 1e-3, or the only one that the law allows; the first's
 };
 
 /// Two bodies that may collide, and their law: SI.
@@ -29,10 +28,7 @@ struct ChosenPair
   double limit() const { return law.max_overlap(r_eff); }  ///< m, where the law's table ends
 };
 
-/// --pair, --radius and --radius2.
-void define_pair_options(Options& command, PairOptions& options);
-
-/// Throws Error where the options name no pair of the law, or sizes that it does not hold for.
-ChosenPair choose_pair(const Law& law, const PairOptions& options);
+/// Throws Error where no pair of the law is named, or sizes that it does not hold for.
+ChosenPair choose_pair(const Law& law, const PairAsked& asked);
 
 }  // namespace granulaw

@@ -1,4 +1,4 @@
-#include "pair_curves.hpp"
+#include "law/pair_curves.hpp"
 
 #include <fmt/format.h>
 
@@ -6,14 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "law/replay.hpp"
 #include "contact/thornton.hpp"
+#include "law/replay.hpp"
 
 namespace granulaw {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int points = 200, speeds = 40;
 constexpr int steps_per_contact = 2000;  // e within 1e-5 of that at ten times as many: no line is as thin
@@ -125,76 +123,94 @@ Replay collision(const PairLaw& law, const ChosenPair& pair, double velocity)
 
 /// Force over overlaps from 0 to `end`, of what has been pressed to `reached`; no part without force but the
 /// first point.
-Json branch(const auto& force, double end, double reached)
+DrawnLine branch(const auto& force, double end, double reached)
 {
-  std::vector<double> overlaps, forces;
+  DrawnLine line;
   for (int k = 0; k <= points; ++k) {
     const double overlap = end * k / points, f = overlap > 0 ? force(overlap, reached) : 0.0;
     if (f <= 0 && k < points && !(reached == 0 && k == 0)) continue;
-    overlaps.push_back(overlap);
-    forces.push_back(f);
+    line.x.push_back(overlap);
+    line.y.push_back(f);
   }
-  return {{"overlap_m", overlaps}, {"force_N", forces}};
+  return line;
 }
 
-Json force_line(const Drawn& drawn, double r_eff, double end)
+DrawnLine named(DrawnLine line, const std::string& name, const std::string& role)
+{
+  line.name = name, line.role = role;
+  return line;
+}
+
+ForceLine force_line(const Drawn& drawn, double r_eff, double end)
 {
   const auto force = [&](double overlap, double reached) {
     return drawn.law.evaluate(r_eff, overlap, reached).force;
   };
-  Json line{{"name", drawn.name}, {"role", drawn.role}};
-  line.update(branch(force, end, 0));
-  line["unloading"] = Json::array();
+  ForceLine line{named(branch(force, end, 0), drawn.name, drawn.role), {}};
   if (drawn.role != "other")
     for (const double part : {0.25, 0.5, 0.75, 1.0})
-      line["unloading"].push_back(branch(force, part * end, part * end));
+      line.unloading.push_back(named(branch(force, part * end, part * end), drawn.name, drawn.role));
   return line;
 }
 
-Json hertz_line(const ChosenPair& pair, double end)
+ForceLine hertz_line(const ChosenPair& pair, double end)
 {
   const double stiffness = 4.0 / 3.0 * pair.law.mapping.e_star_pair() * std::sqrt(pair.r_eff);
-  Json line{{"name", "Hertz"}, {"role", "formula"}};
-  line.update(
-      branch([&](double overlap, double) { return stiffness * overlap * std::sqrt(overlap); }, end, 0));
-  line["unloading"] = Json::array();
-  return line;
+  const auto force = [&](double overlap, double) { return stiffness * overlap * std::sqrt(overlap); };
+  return {named(branch(force, end, 0), "Hertz", "formula"), {}};
 }
 
 /// `restitution`: of a speed, m/s.
-Json restitution_line(const std::string& name, const std::string& role, const Speeds& range,
-                      const auto& restitution)
+DrawnLine restitution_line(const std::string& name, const std::string& role, const Speeds& range,
+                           const auto& restitution)
 {
-  std::vector<double> v(speeds + 1), e(speeds + 1);
+  DrawnLine line{name, role, {}, {}};
   for (int k = 0; k <= speeds; ++k) {
-    v[k] = range.at(k);
-    e[k] = restitution(v[k]);
+    line.x.push_back(range.at(k));
+    line.y.push_back(restitution(line.x.back()));
   }
-  return {{"name", name}, {"role", role}, {"velocity_m_per_s", v}, {"e", e}};
+  return line;
 }
 
-Json forces(const std::vector<Drawn>& laws, const ChosenPair& pair, double end)
+DrawnLine restitution_line(const std::string& name, const std::string& role, const Speeds& range,
+                           const PairLaw& law, const ChosenPair& pair)
 {
-  Json lines = Json::array();
-  for (const Drawn& drawn : laws) lines.push_back(force_line(drawn, pair.r_eff, end));
-  lines.push_back(hertz_line(pair, end));
+  return restitution_line(name, role, range,
+                          [&](double velocity) { return collision(law, pair, velocity).restitution; });
+}
+
+/// `yield`: m/s, where it begins.
+DrawnLine thornton_line(const Speeds& range, double yield)
+{
+  return restitution_line("Thornton 1997", "formula", range,
+                          [&](double velocity) { return thornton_restitution(velocity / yield); });
+}
+
+std::vector<DrawnLine> restitutions(const std::vector<Drawn>& laws, const ChosenPair& pair, const Speeds& range)
+{
+  std::vector<DrawnLine> lines;
+  for (const Drawn& drawn : laws)
+    lines.push_back(restitution_line(drawn.name, drawn.role, range, drawn.law, pair));
+  if (pair.law.radiation > 0)
+    lines.push_back(
+        restitution_line(laws.back().name + " without waves", "still", range, without_waves(pair.law), pair));
+  if (pair.law.yielding->material.yields()) lines.push_back(thornton_line(range, yield_velocity(pair)));
   return lines;
 }
 
-Json restitutions(const std::vector<Drawn>& laws, const ChosenPair& pair, const Speeds& range)
+void scale(DrawnLine& line, double x, double y)
 {
-  Json lines = Json::array();
-  const auto add = [&](const std::string& name, const std::string& role, const PairLaw& law) {
-    lines.push_back(restitution_line(
-        name, role, range, [&](double velocity) { return collision(law, pair, velocity).restitution; }));
-  };
-  for (const Drawn& drawn : laws) add(drawn.name, drawn.role, drawn.law);
-  if (pair.law.radiation > 0) add(laws.back().name + " without waves", "still", without_waves(pair.law));
-  if (pair.law.yielding->material.yields())
-    lines.push_back(restitution_line("Thornton 1997", "formula", range, [&](double velocity) {
-      return thornton_restitution(velocity / yield_velocity(pair));
-    }));
-  return lines;
+  for (double& value : line.x) value /= x;
+  for (double& value : line.y) value /= y;
+}
+
+/// A body on the rigid wall: of 1 m radius of curvature, or of the only one that its law allows.
+ChosenPair on_rigid_wall(const std::string& name, const BodyLaw& body)
+{
+  const PairLaw law{{&body.curve, PairMapping::rigid_partner(body.material.e_star())}, &body};
+  const double radius = law.only_radius() > 0 ? law.only_radius() : 1;
+  const double mass = body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
+  return {{name, wall_name}, radius, radius, law, radius, mass};
 }
 
 std::string title(const ChosenPair& pair)
@@ -210,14 +226,43 @@ std::string title(const ChosenPair& pair)
 
 }  // namespace
 
-Json pair_curves(const Law& law, const ChosenPair& pair, std::optional<double> largest_speed)
+LawCurves pair_curves(const Law& law, const ChosenPair& pair, std::optional<double> largest_speed)
 {
   const std::vector<Drawn> laws = drawn_laws(law, pair);
   const Speeds range = speeds_of(pair, largest_speed);
   const double deepest = collision(pair.law, pair, range.largest).delta_max;
-  return {{"title", title(pair)},
-          {"force", forces(laws, pair, deepest)},
-          {"restitution", restitutions(laws, pair, range)}};
+  LawCurves curves{title(pair), {}, restitutions(laws, pair, range)};
+  for (const Drawn& drawn : laws) curves.force.push_back(force_line(drawn, pair.r_eff, deepest));
+  curves.force.push_back(hertz_line(pair, deepest));
+  return curves;
+}
+
+LawCurves body_curves(const Law& law)
+{
+  LawCurves curves;
+  double fastest = 100;
+  for (const auto& [name, body] : law.bodies) {
+    const ChosenPair pair = on_rigid_wall(name, body);
+    const LawMaterial& m = body.material;
+    const double unit = m.yields() ? m.yield_stress : m.e_star();
+    const std::string label =
+        name + (m.yields() ? fmt::format(", E*/Y = {:.0f}", m.e_star() / m.yield_stress) : ", elastic");
+    ForceLine& force = curves.force.emplace_back(force_line({label, "body", pair.law}, pair.radius, pair.limit()));
+    const double unit_force = unit * pair.radius * pair.radius;
+    scale(force, pair.radius, unit_force);
+    for (DrawnLine& branch : force.unloading) scale(branch, pair.radius, unit_force);
+    if (!m.yields()) {
+      force.unloading.clear();  // the same line
+      continue;
+    }
+    const double v_y = yield_velocity(pair), end = speed_at_the_end(pair);
+    DrawnLine& e = curves.restitution.emplace_back(
+        restitution_line(label, "body", {std::min(0.5 * v_y, 0.1 * end), end}, pair.law, pair));
+    scale(e, v_y, 1);
+    fastest = std::max(fastest, e.x.back());
+  }
+  curves.restitution.push_back(thornton_line({0.5, fastest}, 1));
+  return curves;
 }
 
 }  // namespace granulaw

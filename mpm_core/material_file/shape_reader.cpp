@@ -1,4 +1,4 @@
-#include "shape_reader.hpp"
+#include "material_file/shape_reader.hpp"
 
 #include <filesystem>
 #include <limits>

@@ -1,0 +1,36 @@
+#include "law/stated_collision.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "law/damage_number.hpp"
+
+namespace granulaw {
+
+namespace {
+
+/// Past the table's last overlap the force goes on with its last stiffness: good enough for this fraction of
+/// it.
+constexpr double overlap_margin = 0.05;
+
+}  // namespace
+
+StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source)
+{
+  StatedCollision result{.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity)};
+  const double allowed = (1 + overlap_margin) * pair.limit();
+  if (result.replay.delta_max > allowed)
+    fail(source, "the collision leaves the law's range of overlaps by more than 5 %",
+         fmt::format("{:.4g} m", result.replay.delta_max), fmt::format("up to {:.4g} m", allowed));
+
+  const auto& [a, b] = pair.names;
+  result.damage_number = damage_number(pair.law, velocity);
+  result.statement = statement_of(law, pair.law, a, b)
+                         .at_distance(distance_in_size(law, pair.law, a, b, pair.radius, pair.radius2));
+  constexpr double rounding = 1e-9;
+  result.beyond_bound = result.damage_number > result.statement.damage_number_max * (1 + rounding);
+  result.needs_axis = result.beyond_bound && !pair.law.curve->axis();
+  return result;
+}
+
+}  // namespace granulaw

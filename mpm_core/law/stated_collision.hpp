@@ -1,0 +1,26 @@
+#pragma once
+
+#include "law/chosen_pair.hpp"
+#include "law/error_bound.hpp"
+#include "law/replay.hpp"
+
+namespace granulaw {
+
+/// One head-on collision by the law, with the error that the law file states for it.
+struct StatedCollision
+{
+  Replay replay;
+  double damage_number;     ///< of damage_number.hpp
+  PairStatement statement;  ///< for these sizes
+  bool beyond_bound;        ///< the damage number is above that up to which the error bound holds
+  bool needs_axis;          ///< ... and the law has no velocity axis
+
+  /// Not stated beyond the damage number of the law.
+  ErrorBound bound() const { return beyond_bound ? ErrorBound{} : statement.bound; }
+};
+
+/// `velocity`: m/s, of approach. Throws Error, led by `source`, where the collision goes deeper than the law is
+/// good for.
+StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source);
+
+}  // namespace granulaw
