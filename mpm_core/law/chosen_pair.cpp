@@ -25,7 +25,7 @@ double body_mass(const BodyLaw& body, double radius)
   return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
 }
 
-/// Whether a body of this radius is a thick deformable wall.
+/// True of the radius of a thick deformable wall.
 bool is_thick_wall(double radius)
 {
   return radius == std::numeric_limits<double>::infinity();

@@ -33,11 +33,11 @@ struct LawCurves
   std::vector<DrawnLine> restitution;
 };
 
-/// Of a pair: m, N and m/s. `largest_speed`: m/s; without: a hundred yield velocities. The law's own end, of
+/// Curves of a pair: m, N and m/s. `largest_speed`: m/s; without: a hundred yield velocities. The law's own end, of
 /// overlaps or speeds, where that comes first, and for a pair that does not yield.
 LawCurves pair_curves(const Law& law, const ChosenPair& pair, std::optional<double> largest_speed);
 
-/// Of every material of the law on the rigid wall: overlap/R, F/(Y R^2), V/V_y; of an elastic one F/(E* R^2),
+/// Curves of every material of the law on the rigid wall: overlap/R, F/(Y R^2), V/V_y; of an elastic one F/(E* R^2),
 /// and no e.
 LawCurves body_curves(const Law& law);
 

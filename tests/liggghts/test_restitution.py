@@ -28,7 +28,9 @@ def elastic(ratio):
 
 WALL = Bodies("wall", ("powder", "wall"), (POWDER,))
 PAIR = Bodies("pair", ("powder", "powder"), (POWDER, POWDER))
-MIXED = [Bodies(f"{a.name} first", ("powder", "glass"), (a, b)) for a, b in ((POWDER, GLASS), (GLASS, POWDER))]
+# glass by its law, and by its moduli as an `elastic` type
+MIXED = [Bodies(f"{a.name} against {b.name}", ("powder", "glass"), (a, b))
+         for other in (GLASS, Material("elastic", GLASS.density, GLASS.youngs_modulus, GLASS.poisson_ratio, 1e30)) for a, b in ((POWDER, other), (other, POWDER))]
 UNLIKE = [Bodies(f"radii {a:g}:{b:g}", ("powder", "powder"), (POWDER, POWDER), (a, b)) for a, b in ((1, 2), (0.1, 1), (1, 0.1))]
 DECLARED = [Bodies("wall rigid", ("powder", "wall"), (POWDER,), more="wall rigid"),
             Bodies("wall deformable", ("powder", "powder"), (POWDER,), more="wall deformable")]  # softer: a like pair with R* = R

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
+#include "deck/deck_fixture.hpp"
 #include "law/contact_step.hpp"
-
-#include "scratch_folder.hpp"
 
 namespace granulaw {
 namespace {
@@ -12,28 +11,18 @@ namespace {
 /// 100 spheres that fall on a floor of another type.
 deck::Scene powder_on_steel()
 {
-  deck::Scene s;
-  s.deck = "in.deck";
-  s.units = "si";
-  s.gravity = {0, 0, -9.81};
+  deck::Scene s = deck::falling();
   s.domain = {{-0.05, -0.05, 0}, {0.05, 0.05, 0.5}};
-  s.types = 2;
   s.materials[1] = {9.1e9, 0.3, {}};
   s.materials[2] = {2e11, 0.3, {}};
-  s.model = "mpm";
+  s.model = s.walls[0].model = "mpm";
   s.law_file = "law.h5";
   s.material_names = {"powder", "steel"};
-  s.time_step = 1e-6;
-  deck::Source spheres;
-  spheres.where = "in.deck:15";
-  spheres.radius_min = spheres.radius_max = 2e-3;
+  s.time_step = s.runs[0].time_step = 1e-6;
+  deck::Source& spheres = s.sources[0];
   spheres.density = 1500;
   spheres.centres = s.domain;
   spheres.speed = 2;
-  spheres.count = 100;
-  s.sources = {spheres};
-  s.walls = {{"in.deck:12", "floor", 2, {{-0.05, -0.05, 0}, {0.05, 0.05, 0}}, 0, 0, false, "mpm"}};
-  s.runs = {{"in.deck:16", 1000, 1e-6, 50}};
   return s;
 }
 

@@ -10,6 +10,7 @@ import re
 from pathlib import Path
 
 FOLDERS = ("mpm_core/solver", "mpm_core/contact", "mpm_core/law", "mpm_core/characterise", "liggghts_plugin", "tools/deck", "tools/mpm")
+BELOW = {"tools/mpm": ("mpm_core/material_file", "mpm_core/run_files")}  # libraries that belong to a folder's turn
 KINDS = ("sign", "factor", "off by one", "branch", "swap")
 NOT_BUILT = ("register_hertz.cpp",)  # a yardstick of the benchmarks
 
@@ -200,7 +201,7 @@ def faults_of(text, folder, path):
 
 
 def sources(top, folder):
-    return sorted(p for p in (Path(top) / folder).rglob("*") if p.suffix in (".cpp", ".hpp") and p.name not in NOT_BUILT)
+    return sorted(p for one in (folder, *BELOW.get(folder, ())) for p in (Path(top) / one).rglob("*") if p.suffix in (".cpp", ".hpp") and p.name not in NOT_BUILT)
 
 
 def picked(top, seed, count, only=None):

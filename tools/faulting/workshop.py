@@ -42,7 +42,7 @@ MIRRORED = {
     "mpm_core/characterise": ("characterise", "farm", "solver", "law", "contact", "base"),
     "liggghts_plugin": (),
     "tools/deck": ("deck", "law", "contact", "base"),
-    "tools/mpm": ("mpm_parts", "deck", "characterise", "farm", "solver", "law", "contact", "base"),
+    "tools/mpm": ("mpm_parts", "material_file", "run_files", "deck", "characterise", "farm", "solver", "law", "contact", "base"),
 }
 NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer", "docs.links", "docs.book")  # they run none of the seven folders
 CHEAP = 2.0  # s; tests up to it come before the battery

@@ -22,8 +22,8 @@
 #include "farm_options.hpp"
 #include "json_output.hpp"
 #include "law/law_file.hpp"
-#include "materials_file.hpp"
-#include "pair_names.hpp"
+#include "law/pair_names.hpp"
+#include "material_file/materials_file.hpp"
 
 namespace granulaw {
 
@@ -641,7 +641,7 @@ void carry_out(ConvertRequest& r)
   if (r.check) c.checked = check(c, presets_of(r.options));
   write_text_atomically((c.folder / "conversion.md").string(), page(c, r));
   if (r.json)
-    print_json(to_json(c, r), 1);
+    print_json(to_json(c, r));
   else
     print(c);
   if (c.checked && c.checked->before.ended && !c.checked->after.ended)

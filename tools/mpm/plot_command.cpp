@@ -37,7 +37,7 @@ nlohmann::ordered_json as_json(const ForceLine& line)
   return out;
 }
 
-/// What a picture's axes say. `overlap`: the axis's unit in that of the curves.
+/// Labels of a picture's axes. `overlap`: the axis's unit in that of the curves.
 struct Axes
 {
   const char *overlap_text, *force_text, *speed_text;

@@ -1,37 +1,11 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-
+#include "../scratch_folder.hpp"
 #include "deck/scene.hpp"
 
 namespace granulaw::deck {
 
-/// A folder of its own for each test.
-class Deck : public testing::Test
-{
- protected:
-  void SetUp() override
-  {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("granulaw_deck_" + std::to_string(getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return (folder_ / name).string();
-  }
-
- private:
-  std::filesystem::path folder_;
-};
+using Deck = ScratchFolder;
 
 /// A wall across z.
 inline Wall floor_at(double z, int type = 2)
