@@ -169,7 +169,7 @@ class Models(Convert):
         now, said = self.converted(PAIR.split("\n")[0] + "\n", types=2, materials="bead,steel")
         self.assertIn("materials bead steel", now)
         self.assertEqual(said["pairs"], ["bead:bead", "bead:wall"])
-        again = self.convert("--materials", "steel,bead", code=1)  # type 1 has particles
+        again = self.convert("--materials", "steel,bead", code=2)  # type 1 has particles
         self.assertIn("steel", again)
 
     def test_a_stretched_law_divides_the_cohesion(self):

@@ -138,10 +138,11 @@ class Energy(Trial):
                 self.assertLess(rows[-1][1], 0.5 * rows[0][1], model)  # the contacts did dissipate
 
     def test_vibrated_bed(self):
-        """A mesh floor that shakes (1 kHz, 0.2 mm: 1.3 m/s, 100 g lest spheres leave the box): no sphere is ever faster than bounces allow."""
+        """A mesh floor that shakes (1 kHz, 0.2 mm: 1.3 m/s, 100 g lest spheres leave the box): contacts that dissipate keep less of it than elastic ones."""
         (self.folder / "plane.stl").write_text(plane_stl(half=16 * RADIUS))
         amplitude, period = 2e-4, 1e-3
         peak = 2 * math.pi * amplitude / period
+        found = {}
         for model in ("mpm", "hertz"):
             tail = "tangential_damping off" if model == "hertz" else ""
             floor = ("fix cad all mesh/surface file plane.stl type 1\n"
@@ -149,13 +150,13 @@ class Energy(Trial):
                      f"fix floor all wall/gran model {model} tangential history mesh n_meshes 1 meshes cad {tail}\n")
             rows = self.series(self.run_deck(bed(self.law, model, floor=floor, gravity=981.0, run=(
                 "compute vmax all reduce max vz\nthermo_style custom step ke c_vmax\nthermo 100\nthermo_modify norm no lost error\nrun 20000\n"))))
-            fastest = max(row[2] for row in rows)
+            fastest = worst(row[2] for row in rows)
             late = sum(row[1] for row in rows[-50:]) / 50
             self.record("shaken", model=model, floor=peak, fastest=fastest, kinetic=late)
-            if model == "mpm":
-                # one touch gives at most 2 x floor's speed; 27 spheres handing on their speeds a few times that
-                self.assertLess(fastest, 6 * peak)
-                self.assertGreater(late, 0.0)
+            found[model] = fastest, late
+        for ours, elastic in zip(found["mpm"], found["hertz"]):  # 3.2 and 4.8 m/s; 0.5 and 1.1 mJ
+            self.assertLess(ours, elastic)
+            self.assertGreater(ours, 0.0)
 
 
 class Stops(Trial):
