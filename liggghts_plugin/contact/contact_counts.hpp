@@ -80,6 +80,12 @@ class ContactCounts
     }
   }
 
+  /// True of a contact that begins in this step, deeper than motion can bring it.
+  bool is_sudden(const SurfacesIntersectData& contact) const
+  {
+    return !contact.is_non_spherical && contact.deltan > sudden_start * overlap_of_a_step(contact);
+  }
+
   /// Books what waves take in a step. Work that this misses stands with the other forces, which are measured,
   /// waves among them.
   void radiate(const SurfacesIntersectData& contact, const Entry& entry, double waves_force,
@@ -126,7 +132,7 @@ class ContactCounts
     if (speed_offset_ >= 0) [[unlikely]]
       contact.contact_history[speed_offset_] = speed;
     // of superquadrics rotations bring overlap, too
-    return !contact.is_non_spherical && contact.deltan > sudden_start * overlap_of_a_step(contact);
+    return is_sudden(contact);
   }
 
   /// The largest overlap that the motion of the last step can have brought two spheres to that did not touch

@@ -98,13 +98,18 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double r_eff = effective_radius(sidata);
     const Entry& entry = entry_of(sidata);
     double* const kept = kept_of(sidata.contact_history);
-    const double delta = sidata.deltan, delta_max = State::largest(kept);
-    if (delta > entry.largest_overlap * r_eff) [[unlikely]] {
-      check_stretched(sidata, r_eff);
-      beyond_table(sidata, entry, r_eff);
-    }
+    const double delta_max = State::largest(kept);
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
+    if (sidata.deltan > entry.largest_overlap * r_eff) [[unlikely]] {
+      if (began_beyond(sidata, entry, r_eff, delta_max))
+        sidata.deltan = entry.largest_overlap * r_eff;  // a bounded force
+      else {
+        check_stretched(sidata, r_eff);
+        beyond_table(sidata, entry, r_eff);
+      }
+    }
+    const double delta = sidata.deltan;
     if constexpr (!Law::keeps.empty())
       if (update->ntimestep == first_step_) [[unlikely]]
         State::forget_derived(kept);  // what a restart brings may be of another law
@@ -260,6 +265,16 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       energy_->share(sidata, EnergyTally::stored,
                      entry.contact.stored_energy(r_eff, sidata.deltan, delta_max, impact_overlap),
                      atom->nlocal);
+  }
+
+  /// True of a contact that no motion brought beyond the table: it began there, inserted into a body or at a mesh
+  /// that was put there. Its largest overlap is the table's end from its first step on.
+  [[gnu::noinline, gnu::cold]] bool began_beyond(SurfacesIntersectData sidata, const Entry& entry, double r_eff,
+                                                 double delta_max) const
+  {
+    const double end = entry.largest_overlap * r_eff;
+    if (entry.largest_overlap < 0 || !setup_->options.stop_beyond_range.value_or(true)) return false;
+    return delta_max == 0.0 ? counts_.is_sudden(sidata) : delta_max == end;
   }
 
   [[gnu::noinline, gnu::cold]] void beyond_table(SurfacesIntersectData sidata, const Entry& entry,

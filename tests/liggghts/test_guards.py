@@ -164,21 +164,16 @@ class Guards(Deck):
                              "written with other models or words", f"{key} {meaning[key]}")
 
     def test_messages_have_numbers(self):
-        """A speed of two at rest is 0, not -0; a folder in the place of a law is named."""
+        """Two at rest that overlap beyond the law do not stop a run; a folder in the place of a law is named."""
         for model in MODELS:
             more = "stretch 300" if model == "thornton" else ""
             text = pair_deck(model, self.words(model, more), (POWDER, POWDER), (RADIUS, RADIUS), 1.0, DT)
             places = [line for line in text.splitlines() if line.startswith("create_atoms")]
             for sign, place in zip((-1, 1), places):
                 text = text.replace(place, f"create_atoms 1 single {sign * 0.6 * RADIUS!r} 0 0 units box")
-            self.refused_once(re.sub("velocity .*", "", text), " at 0 m/s")
+            self.assertIn("began deeper than the motion of a step", self.run_deck(re.sub("velocity .*", "", text)))  # no motion, no stop
         text = self.run_deck(self.deck("mpm").replace(str(self.law), str(self.folder)), expect_failure=True)
         self.assertIn(f"{self.folder}: cannot be read as a file", text)
-
-    def refused_once(self, deck, sentence):
-        errors = [line for line in self.run_deck(deck, expect_failure=True).splitlines() if line.startswith("ERROR")]
-        self.assertEqual(len(errors), 1)
-        self.assertIn(sentence, errors[0])
 
     def test_other_allocators(self):
         """jemalloc and tcmalloc round sizes up in their own way."""
