@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/atomic_write.hpp"
 #include "law/h5.hpp"
 #include "scratch_folder.hpp"
 #include "some_runs.hpp"
