@@ -29,7 +29,7 @@ using granulaw::Curve;
 using granulaw::PairMapping;
 using granulaw::Reversal;
 
-const granulaw::testing::SyntheticLaw law;
+const granulaw::tests::SyntheticLaw law;
 const Curve slow = law.curve(), with_axis = law.curve_with_axis();
 const PairMapping pair_mapping = PairMapping::rigid_partner(0.75);
 constexpr std::size_t contacts = 4096;

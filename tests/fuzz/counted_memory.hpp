@@ -11,7 +11,7 @@
 #define GRANULAW_COUNTS_MEMORY 1
 #endif
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 inline std::atomic<long> live_bytes{0}, peak_bytes{0};
 
@@ -41,7 +41,7 @@ inline void forget(void* block)
 }
 #endif
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests
 
 #ifdef GRANULAW_COUNTS_MEMORY
 extern "C" {
@@ -52,20 +52,20 @@ void __libc_free(void*);
 
 void* malloc(std::size_t size)
 {
-  return granulaw::testing::counted(__libc_malloc(size), size);
+  return granulaw::tests::counted(__libc_malloc(size), size);
 }
 void* calloc(std::size_t count, std::size_t size)
 {
-  return granulaw::testing::counted(__libc_calloc(count, size), count * size);
+  return granulaw::tests::counted(__libc_calloc(count, size), count * size);
 }
 void* realloc(void* block, std::size_t size)
 {
-  granulaw::testing::forget(block);
-  return granulaw::testing::counted(__libc_realloc(block, size), size);
+  granulaw::tests::forget(block);
+  return granulaw::tests::counted(__libc_realloc(block, size), size);
 }
 void free(void* block)
 {
-  granulaw::testing::forget(block);
+  granulaw::tests::forget(block);
   __libc_free(block);
 }
 }

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// Ends a fuzz target: libFuzzer, or the replay of a corpus, reports the input.
 [[noreturn]] inline void finding(const std::string& what)
@@ -32,4 +32,4 @@ inline std::filesystem::path scratch()
   return fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
 }
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

@@ -8,7 +8,7 @@
 
 #include "law/h5.hpp"
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 namespace {
 
@@ -559,4 +559,4 @@ std::vector<Damage> hostile_damages(const std::string& folder)
   return all;
 }
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

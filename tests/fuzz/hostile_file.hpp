@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// One way to spoil a good law file, through the HDF5 API: what comes out is a well-formed HDF5 file, so that
 /// the law reader and not HDF5 has to see what is wrong.
@@ -26,4 +26,4 @@ void spoil(hid_t file, const std::vector<const Damage*>& damages);
 /// there.
 std::vector<Damage> hostile_damages(const std::string& folder);
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

@@ -24,7 +24,7 @@
 extern "C" __attribute__((weak)) std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
                                                               std::size_t most);
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,21 +79,21 @@ std::string damaged_law(std::mt19937& draw)
 }
 
 }  // namespace
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests
 
 using namespace granulaw;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  const std::string path = testing::folder().fresh();
+  const std::string path = tests::folder().fresh();
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   try {
-    const std::string what = testing::unusable(read_law(path));
-    if (!what.empty()) testing::finding("accepted, but " + what);
+    const std::string what = tests::unusable(read_law(path));
+    if (!what.empty()) tests::finding("accepted, but " + what);
   } catch (const Error& error) {
-    if (const std::string what = testing::unclear(error.what(), path); !what.empty())
-      testing::finding(what + ": " + error.what());
+    if (const std::string what = tests::unclear(error.what(), path); !what.empty())
+      tests::finding(what + ": " + error.what());
   }
   std::filesystem::remove(path);
   return 0;
@@ -104,7 +104,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 {
   std::mt19937 draw(seed);
   if (draw() % 3 == 0) {
-    const std::string path = testing::damaged_law(draw);
+    const std::string path = tests::damaged_law(draw);
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     std::filesystem::remove(path);

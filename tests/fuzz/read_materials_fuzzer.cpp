@@ -32,16 +32,16 @@ std::string unusable(const MaterialsFile& file)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   static const std::string path =
-      (testing::scratch() / ("granulaw_fuzz_" + std::to_string(getpid()) + ".toml")).string();
+      (tests::scratch() / ("granulaw_fuzz_" + std::to_string(getpid()) + ".toml")).string();
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   std::string what;
   try {
     if (what = unusable(read_materials(path)); !what.empty()) what = "accepted, but " + what;
   } catch (const Error& error) {
-    if (what = testing::unclear(error.what(), path); !what.empty()) what.append(": ").append(error.what());
+    if (what = tests::unclear(error.what(), path); !what.empty()) what.append(": ").append(error.what());
   }
   std::filesystem::remove(path);
-  if (!what.empty()) testing::finding(what);
+  if (!what.empty()) tests::finding(what);
   return 0;
 }

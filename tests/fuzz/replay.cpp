@@ -22,7 +22,7 @@ int main(int count, char** folders)
       const std::string bytes{std::istreambuf_iterator<char>(file), {}};
       std::printf("%s\n", entry.path().c_str());
       std::fflush(stdout);  // the last line names the file that aborts
-      const granulaw::testing::CountedMemory memory;
+      const granulaw::tests::CountedMemory memory;
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
       if (memory.peak() > most_bytes) {
         std::printf("finding: %zu bytes allocated\n", memory.peak());

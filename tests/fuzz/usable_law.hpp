@@ -7,7 +7,7 @@
 
 #include "law/law.hpp"
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// "" if every pair of an accepted law resolves and gives finite, never negative forces and radii, and finite
 /// stiffnesses, quasi-statically and after impacts up to beyond the velocity axis, at overlaps from 1e-9 of
@@ -38,4 +38,4 @@ inline std::string unusable(const Law& law)
   return "";
 }
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

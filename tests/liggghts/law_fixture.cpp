@@ -53,7 +53,7 @@ void set_major(const char* path, int major)
 granulaw::TwoBodyLaw law_of_size(const granulaw::BodyLaw& powder, double radius_ratio, double depth,
                                  const std::string& origin)
 {
-  granulaw::testing::SyntheticLaw other;
+  granulaw::tests::SyntheticLaw other;
   other.depth = depth;
   granulaw::TwoBodyLaw own;
   own.law = powder;
@@ -65,7 +65,7 @@ granulaw::TwoBodyLaw law_of_size(const granulaw::BodyLaw& powder, double radius_
 
 granulaw::Law laws_by_size(const std::string& origin)
 {
-  granulaw::Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
+  granulaw::Law law = granulaw::tests::SyntheticLaw{}.law_with_axis();
   const granulaw::BodyLaw& powder = law.bodies.at("powder");
   granulaw::BodyLaw& gum = law.bodies["gum"] = law.bodies.at("glass");  // elastic
   gum.material = powder.material;
@@ -89,7 +89,7 @@ granulaw::Law laws_by_size(const std::string& origin)
 /// are the deck's.
 granulaw::Law composed_laws()
 {
-  granulaw::Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
+  granulaw::Law law = granulaw::tests::SyntheticLaw{}.law_with_axis();
   const granulaw::BodyLaw& powder = law.bodies.at("powder");
   law.bodies.at("glass").material.density *= 60;
   constexpr double thick_wall = std::numeric_limits<double>::infinity();
@@ -109,7 +109,7 @@ int run(int argc, char** argv)
   const auto word = [&](int k) { return std::string(k < argc ? argv[k] : ""); };
   const auto number = [&](int k) { return std::strtod(word(k).c_str(), nullptr); };
   if (word(1) == "write") {
-    granulaw::testing::SyntheticLaw synthetic;
+    granulaw::tests::SyntheticLaw synthetic;
     if (word(3) == "depth") synthetic.depth = number(4);
     granulaw::Law law = word(3) == "axis" ? synthetic.law_with_axis() : synthetic.law();
     if (word(3) == "rate") {

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace granulaw {
-namespace {
+namespace granulaw::accuracy_test {
 
 /// F = 1 + 0.01 (24/n)^1.65, e = 0.5, of the grid that was made.
 RunResult made(int cells)
@@ -93,5 +92,4 @@ TEST(Accuracy, ARunStatesTheCellsOfItsGrid)
   EXPECT_GE(more.resolution, 12);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::accuracy_test

@@ -10,8 +10,7 @@
 #include "base/error.hpp"
 #include "law/replay.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::atlas_numbers_test {
 
 /// Hardening and stiffness change the shape linearly in their coordinates, as a cubic interpolation keeps it.
 LawShape shape_of(const MaterialRatios& m)
@@ -110,5 +109,4 @@ TEST(LawWithoutRuns, OfABodyItsLikeAndAComposedPair)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::atlas_numbers_test

@@ -4,8 +4,7 @@
 
 #include "scratch_folder.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::atlas_path_test {
 
 class AtlasPath : public ScratchFolder
 {
@@ -39,5 +38,4 @@ TEST_F(AtlasPath, WithoutAnAtlasThereIsNone)
   EXPECT_EQ(own_file("no such file"), "");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::atlas_path_test

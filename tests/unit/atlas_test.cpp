@@ -13,8 +13,7 @@
 #include "atlas/law_from_atlas.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::atlas_test {
 
 /// The atlas that comes with the program.
 const Atlas& shipped()
@@ -157,7 +156,7 @@ RC_GTEST_PROP(Atlas, EveryLawInsideIsAdmissible, ())
   m.hardening =
       *rc::gen::inRange(0, 4) == 0 ? 0 : 1e-4 * std::pow(3000.0, *rc::gen::inRange(0, 1001) / 1000.0);
   const BodyLaw law = law_from(shipped(), material(m), {});  // throws where it is not
-  RC_ASSERT(testing::loses_no_less_further_on(law.curve));
+  RC_ASSERT(tests::loses_no_less_further_on(law.curve));
   RC_ASSERT(law.curve.axis() != nullptr);  // at I = 0.0625 dropping it would cost more than 1 %
   RC_ASSERT(law.certificate.axis_cost_force > 0.01);
 }
@@ -202,5 +201,4 @@ TEST(Atlas, ClaimsWhatItsChecksFound)
   EXPECT_LT(atlas.claimed_force(), 0.01);  // required bound
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::atlas_test

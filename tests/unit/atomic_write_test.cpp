@@ -10,8 +10,7 @@
 #include "law/law_file.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::atomic_write_test {
 
 namespace fs = std::filesystem;
 
@@ -23,7 +22,7 @@ TEST(AtomicWrite, TwoWritersOfOneFileNeverSpoilIt)
   const fs::path folder = fs::temp_directory_path() / ("granulaw_two_writers_" + std::to_string(getpid()));
   fs::create_directories(folder);
   const std::string path = (folder / "law.h5").string();
-  Law law = testing::SyntheticLaw{}.law();
+  Law law = tests::SyntheticLaw{}.law();
   law.provenance["command"] = "0";
   write_law(law, path);
 
@@ -81,5 +80,4 @@ TEST(AtomicWrite, AFailingWriterLeavesTheOldFile)
   fs::remove_all(folder);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::atomic_write_test

@@ -16,11 +16,10 @@
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::build_law_test {
 
-using testing::SyntheticLaw;
-using testing::unit_pair;
+using tests::SyntheticLaw;
+using tests::unit_pair;
 
 constexpr double force_unit = 4.0 / 3.0;  // Hertz's force at x = 1 over E* R^2
 
@@ -336,5 +335,4 @@ TEST(ResolutionChoice, EachRungIsComparedWithTheOneBelow)
   EXPECT_EQ(found.choice.error.force, error_of_cells(converging_run(49), converging_run(34)).force);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::build_law_test

@@ -10,8 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::checkpoint_file_test {
 
 namespace fs = std::filesystem;
 
@@ -219,5 +218,4 @@ TEST(RunIdentity, TellsRunsApart)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::checkpoint_file_test

@@ -5,8 +5,7 @@
 #include "law/replay.hpp"
 #include "solver/output/trace.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::collision_report_test {
 
 template <class Collision>
 Collision some_collision()
@@ -53,5 +52,4 @@ TEST(CollisionReport, IsReadByPeople)
             "work put in, given back        4e-06 J, 1e-06 J\n");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::collision_report_test

@@ -14,8 +14,7 @@
 #include "own_atlas.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::composed_law_test {
 
 /// E* = rho = 1 for the first.
 LawMaterial material(const char* name, double e_star, double yield, double nu = 0.3, double density = 1)
@@ -29,7 +28,7 @@ constexpr double never = std::numeric_limits<double>::infinity(), wall = never;
 
 const Atlas& atlas()
 {
-  static const Atlas one = testing::own_atlas();
+  static const Atlas one = tests::own_atlas();
   return one;
 }
 
@@ -134,7 +133,7 @@ TEST(ComposedLaw, OfAThickWallThatYields)
   const TwoBodyLaw of_wall = composed(soft, glass, 0), of_sphere = composed(soft, glass, 1e-4);
   EXPECT_EQ(of_wall.size_share(), 1);
   EXPECT_LT(difference(of_wall.law.curve, of_sphere.law.curve).force, 0.001);
-  EXPECT_TRUE(testing::loses_no_less_further_on(of_wall.law.curve));
+  EXPECT_TRUE(tests::loses_no_less_further_on(of_wall.law.curve));
 }
 
 TEST(ComposedLaw, IsAdmissibleForAnyPair)
@@ -152,7 +151,7 @@ TEST(ComposedLaw, IsAdmissibleForAnyPair)
     if (k % 4 == 0) s.hardening_modulus = between(0.001, 0.1) * s.youngs_modulus;
     const double ratio = k % 5 ? between(0.1, 10) : wall;
     const TwoBodyLaw law = composed(s, h, ratio, k % 2 ? 0.1 : 0.0);
-    EXPECT_TRUE(testing::loses_no_less_further_on(law.law.curve)) << k;
+    EXPECT_TRUE(tests::loses_no_less_further_on(law.law.curve)) << k;
     ++composed_of;
   }
   EXPECT_GT(composed_of, 25);
@@ -239,5 +238,4 @@ TEST(ComposedLaw, TwinsHaveTheBodysHardeningOverItsModulus)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::composed_law_test

@@ -13,10 +13,9 @@
 #include "contact/contact.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::contact_paths_test {
 
-using testing::SyntheticLaw;
+using tests::SyntheticLaw;
 
 /// One contact, driven by hand: overlaps in units of the law's length, forces so that loading() is the force.
 /// The one place with the state of a contact.
@@ -242,5 +241,4 @@ RC_GTEST_PROP(ContactPaths, SameBitsForEitherSideAndAnyOrder, ())
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::contact_paths_test

@@ -6,8 +6,7 @@
 #include <random>
 #include <set>
 
-namespace granulaw::plugin {
-namespace {
+namespace granulaw::plugin::contact_statistics_test {
 
 TEST(LogHistogram, BinsAreThoseOfTheLogarithm)
 {
@@ -119,5 +118,4 @@ TEST(ContactStatistics, EveryPlaceOfTheFixHasOneQuantity)
   for (const int found : columns) EXPECT_EQ(found, column++);
 }
 
-}  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw::plugin::contact_statistics_test

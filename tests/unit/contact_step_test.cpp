@@ -10,8 +10,7 @@
 #include "law/replay.hpp"
 #include "own_atlas.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::contact_step_test {
 
 /// e of a collision as a particle code computes it: velocity Verlet, first touch at `phase` of a step.
 double restitution(const auto& force, double m_eff, double speed, double dt, double phase)
@@ -39,7 +38,7 @@ double error_of_e(const auto& force, double m_eff, double speed, double dt, doub
 /// Largest error of e over phases, materials, pairs and speeds, with the step that `share` of the largest is.
 double worst_error(double share)
 {
-  const Atlas atlas = testing::own_atlas();
+  const Atlas atlas = tests::own_atlas();
   const double radius = 1e-3, mass = 4.0 / 3.0 * M_PI * 1000 * radius * radius * radius;
   LawRange options;
   options.depth = 0.5, options.fastest = 0.3;
@@ -99,5 +98,4 @@ TEST(ContactStep, OverlapOfStepIsTheInverse)
   EXPECT_EQ(overlap_of_step(1e-9, m, 1e-4, hertz), 1e-4);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::contact_step_test

@@ -12,8 +12,7 @@
 #include "own_atlas.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::corrected_law_test {
 
 LawMaterial material(const char* name, double e_star, double yield, double density)
 {
@@ -29,7 +28,7 @@ class CorrectedLaw : public ::testing::Test
 {
  protected:
   UnlikePair pair_{material("powder", 1, 0.02, 1), material("rubber", 0.2, never, 1), 1};
-  const Atlas atlas_ = testing::own_atlas();
+  const Atlas atlas_ = tests::own_atlas();
   const PairBody powder_{atlas_, pair_.yielding}, rubber_{atlas_, pair_.partner};
   BuildOptions options_;
 
@@ -46,7 +45,7 @@ TEST_F(CorrectedLawSlow, AgreesWithAFreshImpactAtAnyRatioOfRadii)
     UnlikePair at_ratio = pair_;
     at_ratio.radius_ratio = ratios[k];
     const BodyLaw& law = made.laws[k].law;
-    EXPECT_TRUE(testing::loses_no_less_further_on(law.curve));
+    EXPECT_TRUE(tests::loses_no_less_further_on(law.curve));
     EXPECT_GT(law.certificate.verification_impacts, 0);
     const double v = fastest_of_law(at_ratio, 1e-4);  // at 1e-3 the rubber is squeezed flat
     RunOptions run;
@@ -76,5 +75,4 @@ TEST_F(CorrectedLaw, StatesWhatLeavingOneOutShows)
   EXPECT_LE(made.sampling_error, options_.tolerance);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::corrected_law_test

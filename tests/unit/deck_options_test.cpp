@@ -5,8 +5,7 @@
 #include "deck/deck_fixture.hpp"
 #include "law/contact_step.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::deck_options_test {
 
 /// 100 spheres that fall on a floor of another type.
 deck::Scene powder_on_steel()
@@ -158,5 +157,4 @@ TEST_F(DeckOptionsTest, TypesOfAPair)
   EXPECT_EQ(types_text(meeting), "1:wall 2");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::deck_options_test

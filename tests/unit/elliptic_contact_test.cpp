@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace granulaw {
-namespace {
+namespace granulaw::elliptic_contact_test {
 
 using std::numbers::pi;
 
@@ -71,5 +70,4 @@ TEST(EllipticContact, RelativeRadii)
   EXPECT_NEAR(crossed.sharper, 2, 1e-14);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::elliptic_contact_test

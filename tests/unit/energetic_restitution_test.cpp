@@ -6,8 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace granulaw {
-namespace {
+namespace granulaw::energetic_restitution_test {
 
 constexpr double velocity = 2, mass = 3;
 
@@ -93,5 +92,4 @@ TEST(EnergeticRestitution, IsThatOfTheFirstContact)
   EXPECT_EQ(work.contacts, 2);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::energetic_restitution_test

@@ -5,8 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace granulaw::plugin {
-namespace {
+namespace granulaw::plugin::energy_series_test {
 
 nlohmann::json after(std::int64_t steps, const DeckUnits& units = {}, bool energies = false)
 {
@@ -52,5 +51,4 @@ TEST(EnergySeries, ARowOfTheSameStepIsReplaced)
   EXPECT_EQ(found["particles"], nlohmann::json::array({2}));
 }
 
-}  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw::plugin::energy_series_test

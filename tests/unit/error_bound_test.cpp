@@ -5,8 +5,7 @@
 #include "law/damage_number.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::error_bound_test {
 
 /// Fresh impacts include every error of an atlas law: nothing is added to what its checks bound.
 TEST(ErrorBound, OfTheAtlasIsTheBoundOfItsChecks)
@@ -58,7 +57,7 @@ TEST(ErrorBound, NamesWhetherItIsOfItself)
 class PairStatements : public ::testing::Test
 {
  protected:
-  PairStatements() : law_(testing::SyntheticLaw{}.law())
+  PairStatements() : law_(tests::SyntheticLaw{}.law())
   {
     TwoBodyLaw wall;
     wall.law = law_.bodies.at("powder");
@@ -137,5 +136,4 @@ TEST_F(PairStatements, TheDamageNumberIsThatOfTheYieldingBodysShare)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::error_bound_test

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace granulaw {
-namespace {
+namespace granulaw::error_test {
 
 TEST(Error, NothingPrintableCommandsATerminal)
 {
@@ -53,5 +52,4 @@ TEST(Error, AnUnknownWordIsNamedWithTheNearestKnownOne)
             "m.toml: no material 'xyz': allowed is powder, glass, or a number");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::error_test

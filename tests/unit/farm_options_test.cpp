@@ -4,8 +4,7 @@
 
 #include "scratch_folder.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::farm_options_test {
 
 class FarmOptionsTest : public ScratchFolder
 {
@@ -69,5 +68,4 @@ TEST_F(FarmOptionsTest, WhatItCostIsOneLine)
       "at a higher resolution too\n");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::farm_options_test

@@ -10,8 +10,7 @@
 #include "base/error.hpp"
 #include "some_runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::farm_test {
 
 struct UserStop
 {
@@ -161,5 +160,4 @@ TEST(ThreadFarm, AnEmptyBatch)
   EXPECT_EQ(calls, 1);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::farm_test

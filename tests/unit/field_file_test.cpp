@@ -3,8 +3,7 @@
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::field_file_test {
 
 class FieldFile : public ScratchFolder
 {
@@ -49,5 +48,4 @@ TEST_F(FieldFile, ARunThatStopsLeavesNone)
   EXPECT_EQ(files(), 0u);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::field_file_test

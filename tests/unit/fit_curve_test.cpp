@@ -10,10 +10,9 @@
 #include "atlas/spline.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::fit_curve_test {
 
-using testing::SyntheticLaw;
+using tests::SyntheticLaw;
 
 /// A press as the solver would give it: the synthetic law with a grid noise that is periodic in the contact
 /// radius, `cells` periods up to the largest, its amplitude falling as (1/cells passed)^1.65.
@@ -77,7 +76,7 @@ TEST(FitCurve, RecoversALawFromSmoothPresses)
   EXPECT_LT(errors.force, 1e-3);
   EXPECT_LT(errors.e, 1e-3);  // the same, and 1e-4: the work spared for rounding (law_shape.cpp)
   EXPECT_LT(errors.residual, 3e-3);
-  EXPECT_TRUE(testing::loses_no_less_further_on(curve));
+  EXPECT_TRUE(tests::loses_no_less_further_on(curve));
 }
 
 TEST(FitCurve, DoesNotFollowTheContactEdgeNoise)
@@ -292,5 +291,4 @@ TEST(Spline, StartsWithZeroValueAndSlopeAndReproducesACubic)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::fit_curve_test

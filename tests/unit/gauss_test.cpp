@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace granulaw {
-namespace {
+namespace granulaw::gauss_test {
 
 /// x^k from -0.5 to 2 is exact to rounding up to k = 2 n - 1 and no further.
 template <int n>
@@ -28,5 +27,4 @@ TEST(Gauss, ExactToItsDegree)
   expect_degree<7>();
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::gauss_test

@@ -9,8 +9,7 @@
 #include "base/scales.hpp"
 #include "characterise/atlas_file.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::guide_test {
 
 constexpr double stiffness = 150, poisson_ratio = 0.3;
 
@@ -144,5 +143,4 @@ TEST(Guide, OfASkinFollowsTheBodysElasticCurve)
               sphere.by_q(&LawShape::dissipation).value(sphere.q(0.01)), 1e-3);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::guide_test

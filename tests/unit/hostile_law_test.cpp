@@ -17,12 +17,11 @@
 #include "usable_law.hpp"
 #include "without_checksum.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::hostile_law_test {
 
 namespace fs = std::filesystem;
-using testing::Damage;
-using testing::SyntheticLaw;
+using tests::Damage;
+using tests::SyntheticLaw;
 
 // HDF5 1.10 complains at exit after it was fed damaged files; nothing is open then.
 [[maybe_unused]] const herr_t no_exit_handler = H5dont_atexit();
@@ -38,10 +37,10 @@ class HostileLaw : public ::testing::Test
     path_ = (folder_ / "law.h5").string();
     const std::string good = (folder_ / "other.h5").string();
     write_law(SyntheticLaw{}.whole_law(3, 10), good);
-    testing::without_checksum(h5::Handle(H5Fopen(good.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)));
+    tests::without_checksum(h5::Handle(H5Fopen(good.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)));
     fs::copy_file(folder_ / "other.h5", folder_ / "good.h5");
     ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
-    damages_ = testing::hostile_damages(folder_.string());
+    damages_ = tests::hostile_damages(folder_.string());
     ASSERT_GT(damages_.size(), 1000u);
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -58,7 +57,7 @@ class HostileLaw : public ::testing::Test
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, access);
     ASSERT_GE(file, 0);
-    testing::spoil(file, list);
+    tests::spoil(file, list);
     H5Fclose(file);
   }
 
@@ -69,12 +68,12 @@ class HostileLaw : public ::testing::Test
     constexpr std::size_t most_bytes = 64u << 20;
     const auto open_objects = [] { return H5Fget_obj_count(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_ALL); };
     const auto open = open_objects();
-    const testing::CountedMemory memory;
+    const tests::CountedMemory memory;
     bool accepted = false;
     try {
       const Law law = read_law(path_);
       accepted = true;
-      EXPECT_EQ(testing::unusable(law), "") << name;
+      EXPECT_EQ(tests::unusable(law), "") << name;
     } catch (const Error& error) {
       const std::string sentence = error.what();
       EXPECT_EQ(sentence.rfind(path_, 0), 0u) << name << ": " << sentence;
@@ -144,11 +143,11 @@ TEST_F(HostileLaw, CutAtEvery64thByte)
 TEST_F(HostileLaw, TheJudgeSeesWhatItShould)
 {
   Law law = SyntheticLaw{}.whole_law(3, 10);
-  EXPECT_EQ(testing::unusable(law), "");
+  EXPECT_EQ(tests::unusable(law), "");
   law.bodies["powder"].material.youngs_modulus = HUGE_VAL;
-  EXPECT_NE(testing::unusable(law), "");
+  EXPECT_NE(tests::unusable(law), "");
 #ifdef GRANULAW_COUNTS_MEMORY
-  const testing::CountedMemory memory;
+  const tests::CountedMemory memory;
   {
     const std::vector<char> large(100u << 20);
   }
@@ -156,5 +155,4 @@ TEST_F(HostileLaw, TheJudgeSeesWhatItShould)
 #endif
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::hostile_law_test

@@ -6,10 +6,9 @@
 
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::impacts_by_speed_test {
 
-using testing::SyntheticLaw;
+using tests::SyntheticLaw;
 
 constexpr double unit = 0.01;  // of kinetic energy
 
@@ -55,5 +54,4 @@ TEST(ImpactsBySpeed, ARateGoesByTheLogarithmAndStaysBelowItsSlowest)
   EXPECT_NEAR(impacts.effect(0.002).dissipation, 0.01 * std::log(10.0), 1e-9);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::impacts_by_speed_test

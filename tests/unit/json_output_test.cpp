@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace granulaw {
-namespace {
+namespace granulaw::json_output_test {
 
 TEST(JsonOutput, WhatIsNotFiniteIsNull)
 {
@@ -21,5 +20,4 @@ TEST(JsonOutput, KeepsTheOrderOfItsKeys)
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "{\n  \"b\": 1,\n  \"a\": 2\n}\n");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::json_output_test

@@ -9,8 +9,7 @@
 #include "liggghts_plugin/contact/thornton_physics.hpp"
 #include "liggghts_plugin/deck/options.hpp"
 
-namespace granulaw::plugin {
-namespace {
+namespace granulaw::plugin::keywords_test {
 
 /// Every keyword that may stand behind `model mpm`.
 const std::vector<Keyword>& keyword_table()
@@ -100,5 +99,4 @@ TEST(Keywords, EndTheMaterials)
   }
 }
 
-}  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw::plugin::keywords_test

@@ -5,8 +5,7 @@
 #include "solver/shape/shapes.hpp"
 #include "some_materials.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::law_body_test {
 
 TEST(LawMaterial, KeepsTheFiveNumbersBothWays)
 {
@@ -108,5 +107,4 @@ TEST(LawBody, TheHashTellsEveryNumber)
   EXPECT_NE(hash(voce), reference);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::law_body_test

@@ -6,8 +6,7 @@
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::law_file_plan_test {
 
 const Atlas& atlas()
 {
@@ -193,5 +192,4 @@ TEST(LawFilePlan, RefusesWhatCannotBeMade)
   refuses("radius_ratio: cannot be used", [](auto& r) { r.radius_ratio = 0.5; });
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::law_file_plan_test

@@ -14,15 +14,14 @@
 #include "synthetic_law.hpp"
 #include "without_checksum.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::law_file_test {
 
 // HDF5 1.10 complains at exit ("infinite loop closing library") after it was fed damaged files; nothing is
 // open then.
 [[maybe_unused]] const herr_t no_exit_handler = H5dont_atexit();
 
 namespace fs = std::filesystem;
-using testing::SyntheticLaw;
+using tests::SyntheticLaw;
 
 class LawFile : public ::testing::Test
 {
@@ -202,7 +201,7 @@ TEST_F(LawFile, ChangedDataAreRefusedWithASentence)
 /// Files of minor version 0 have no checksum: they are read, and the law says so.
 TEST_F(LawFile, AFileOfMinorVersion0HasNoChecksum)
 {
-  EXPECT_EQ(after(testing::without_checksum), "");
+  EXPECT_EQ(after(tests::without_checksum), "");
   EXPECT_EQ(read_law(path_).provenance.count(checksum_note), 0u);
 }
 
@@ -518,5 +517,4 @@ TEST(Law, ResolvesPairsByTheWeakerBody)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::law_file_test

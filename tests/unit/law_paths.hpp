@@ -9,7 +9,7 @@
 #include "contact/contact.hpp"
 
 // Properties of a law on a path of one contact.
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// Force unit 1, length unit 1: answer() then returns the curve's own numbers.
 inline const PairMapping unit_pair = PairMapping::rigid_partner(0.75);
@@ -123,4 +123,4 @@ inline void no_closed_cycle_gains(const Curve& curve, double impact_overlap = 0,
   RC_ASSERT(std::abs(again.work() - contact.work()) <= open(again));
 }
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

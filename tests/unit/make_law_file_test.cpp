@@ -9,8 +9,7 @@
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::make_law_file_test {
 
 class MakeLawFile : public ScratchFolder
 {
@@ -137,5 +136,4 @@ TEST_F(MakeLawFile, WhatProgressThrowsStopsIt)
                Stop);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::make_law_file_test

@@ -13,8 +13,7 @@
 #include "base/error.hpp"
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::materials_file_test {
 
 using std::numbers::pi;
 
@@ -232,5 +231,4 @@ TEST_F(MaterialsFileTest, ParticlesThatCannotBeUsed)
             0.995e-3);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::materials_file_test

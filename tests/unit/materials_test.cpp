@@ -3,8 +3,7 @@
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::materials_test {
 
 TEST(Materials, AreFoundByName)
 {
@@ -34,5 +33,4 @@ TEST(Materials, UnknownNamesAreAnsweredWithTheNearest)
   expect_error("defines none", [] { Materials{"none", {}, {}}.particle("x"); });
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::materials_test

@@ -12,8 +12,7 @@
 #include "shape_checks.hpp"
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::mesh_test {
 
 using std::numbers::pi;
 
@@ -205,5 +204,4 @@ TEST(Polyhedron, OfABoxsCornersIsTheBox)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::mesh_test

@@ -4,8 +4,7 @@
 
 #include "contact/cubic.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::node_slopes_test {
 
 TEST(NodeSlopes, DifferencesAreExactForAParabola)
 {
@@ -36,5 +35,4 @@ TEST(NodeSlopes, AColumnMadeToRiseRisesBetweenItsNodesToo)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::node_slopes_test

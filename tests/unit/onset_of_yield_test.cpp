@@ -6,8 +6,7 @@
 
 #include <limits>
 
-namespace granulaw {
-namespace {
+namespace granulaw::onset_of_yield_test {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -75,5 +74,4 @@ TEST(OnsetOfYield, ThePressOfABodyOfSeveralMaterialsAsksForIt)
   EXPECT_EQ(asked, (std::vector<std::vector<double>>{{1e7, 1e8}, {}}));
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::onset_of_yield_test

@@ -5,8 +5,7 @@
 
 #include "base/error.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::onset_similarity_test {
 
 /// Less stiff spheres are run only where the atlas does not suffice.
 TEST(OnsetSimilarity, RunsWhatTheAtlasDoesNotTell)
@@ -52,5 +51,4 @@ TEST(OnsetSimilarity, SparesNoRunThatItsSpheresCannotTell)
   EXPECT_FALSE(OnsetSimilarity(characterised_body_of(500, 0.3, 0.01), needs, nullptr).spares_first());
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::onset_similarity_test

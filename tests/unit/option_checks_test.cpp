@@ -2,8 +2,7 @@
 
 #include "scratch_folder.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::option_checks_test {
 
 std::string said(const Check& check, const std::string& word) { return check.complaint(word); }
 
@@ -42,5 +41,4 @@ TEST(OptionChecks, RequireSaysWhatIsAllowed)
   expect_error("found nan m", [] { require_within("--radius", std::nan(""), "m", 1e-9, 1e3); });
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::option_checks_test

@@ -10,8 +10,7 @@
 #include "liggghts_plugin/contact/mpm_physics.hpp"
 #include "liggghts_plugin/contact/thornton_physics.hpp"
 
-namespace granulaw::plugin {
-namespace {
+namespace granulaw::plugin::options_test {
 
 using Words = std::vector<std::string>;
 
@@ -295,5 +294,4 @@ TEST(Options, KeywordNamesAreThoseOfModelAndCommand)
   }
 }
 
-}  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw::plugin::options_test

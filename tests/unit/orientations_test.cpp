@@ -7,8 +7,7 @@
 
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::orientations_test {
 
 TEST(Orientations, LieInThePartThatTheMirrorPlanesLeave)
 {
@@ -63,5 +62,4 @@ TEST(Orientations, OfAnEllipsoid)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::orientations_test

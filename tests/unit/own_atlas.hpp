@@ -2,7 +2,7 @@
 
 #include "characterise/atlas_file.hpp"
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// The atlas of the source tree.
 inline Atlas own_atlas()
@@ -10,4 +10,4 @@ inline Atlas own_atlas()
   return read_atlas(GRANULAW_ATLAS_FILE);
 }
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

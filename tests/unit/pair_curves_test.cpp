@@ -8,14 +8,13 @@
 #include "contact/thornton.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::pair_curves_test {
 
 /// powder:glass has composed laws for like radii and for a deformable wall.
 Law some_law()
 {
-  Law law = testing::SyntheticLaw{}.law_with_axis();
-  testing::SyntheticLaw other;
+  Law law = tests::SyntheticLaw{}.law_with_axis();
+  tests::SyntheticLaw other;
   other.depth = 0.8;
   for (const double ratio : {1.0, std::numeric_limits<double>::infinity()}) {
     TwoBodyLaw& own = law.pair_laws["powder:glass"].emplace_back();
@@ -140,5 +139,4 @@ TEST(BodyCurves, AreInUnitsOfTheMaterial)
   EXPECT_DOUBLE_EQ(thornton.y.front(), 1);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::pair_curves_test

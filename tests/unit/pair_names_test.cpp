@@ -2,8 +2,7 @@
 
 #include "scratch_folder.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::pair_names_test {
 
 Law law_of(const std::vector<PairNames>& pairs)
 {
@@ -37,5 +36,4 @@ TEST(PairNames, ToMakeALawFor)
                  [&] { new_pair(text); });
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::pair_names_test

@@ -14,8 +14,7 @@
 #include "base/error.hpp"
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::particle_test {
 
 using std::numbers::pi;
 
@@ -526,5 +525,4 @@ TEST(Particle, ShapesRefuseWhatDoesNotFit)
   begins([] { outline({{0, 0}, {1, 1}, {0.1, 2}}, "p"); }, "p: the last point must lie on the axis");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::particle_test

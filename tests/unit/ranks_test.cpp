@@ -4,8 +4,7 @@
 
 #include "scratch_folder.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::ranks_test {
 
 // The launcher's environment is read once a process: each case in a process of its own.
 
@@ -49,5 +48,4 @@ TEST(RanksDeathTest, OnlyTheFirstComplains)
   EXPECT_EXIT((launch("1", "2"), end(leave_ranks(1, "why") == 0)), testing::ExitedWithCode(0), "^$");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::ranks_test

@@ -17,8 +17,7 @@
 #include "base/scales.hpp"
 #include "law/replay.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::reduction_error_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -242,5 +241,4 @@ TEST(TwoBodyLaw, GivesBackItsPairWhereTheRuleFails)
   EXPECT_NEAR(replay.force_max / truth.force_max, 1, 0.01);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::reduction_error_test

@@ -8,8 +8,7 @@
 #include "characterise/run/sampling_plan.hpp"
 #include "characterise/build/verification.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::refinement_test {
 
 constexpr double tolerance = 0.01;
 
@@ -167,5 +166,4 @@ TEST(Verification, StandsHalfWayBetweenTheRuns)
   EXPECT_NEAR(rate[0], 0.02, 1e-12);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::refinement_test

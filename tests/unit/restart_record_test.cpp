@@ -4,8 +4,7 @@
 
 #include "liggghts_plugin/books/contact_statistics.hpp"
 
-namespace granulaw::plugin {
-namespace {
+namespace granulaw::plugin::restart_record_test {
 
 RestartRecord some_record()
 {
@@ -69,5 +68,4 @@ TEST(ContactStatistics, AnotherLayoutIsNotTaken)
   EXPECT_EQ(statistics.pairs[{}].touches, 1.0);
 }
 
-}  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw::plugin::restart_record_test

@@ -4,8 +4,7 @@
 #include "some_materials.hpp"
 #include "some_runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::run_and_report_test {
 
 class RunAndReport : public ScratchFolder
 {
@@ -57,5 +56,4 @@ TEST_F(RunAndReport, TheCheckpointIsGoneWhenTheRunIsReported)
   EXPECT_EQ(files(), 0u);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::run_and_report_test

@@ -10,8 +10,7 @@
 
 #include "some_runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::run_cache_test {
 
 namespace fs = std::filesystem;
 
@@ -134,5 +133,4 @@ TEST(RunCache, DefaultFolder)
   EXPECT_EQ(default_cache_folder(), "");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::run_cache_test

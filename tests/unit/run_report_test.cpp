@@ -6,8 +6,7 @@
 #include "some_materials.hpp"
 #include "some_runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::run_report_test {
 
 class RunReport : public ScratchFolder
 {
@@ -57,5 +56,4 @@ TEST_F(RunReport, JsonIsOneObject)
     EXPECT_TRUE(out.contains(key)) << key;
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::run_report_test

@@ -2,8 +2,7 @@
 
 #include "scratch_folder.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::run_request_test {
 
 class RunRequestTest : public ScratchFolder
 {
@@ -85,5 +84,4 @@ TEST_F(RunRequestTest, FindsWhatMeets)
   expect_error("did you mean 'small'", [&] { read_meeting(r); });
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::run_request_test

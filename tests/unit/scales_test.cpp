@@ -7,8 +7,7 @@
 
 #include "base/error.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::scales_test {
 
 TEST(Scales, YieldVelocityIsTheOneOfTheDesign)
 {
@@ -47,5 +46,4 @@ TEST(Error, NamesTheNearestWord)
   EXPECT_EQ(nearest("zzz", words), "");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::scales_test

@@ -11,8 +11,7 @@
 #include "own_atlas.hpp"
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::shape_certificate_test {
 
 /// E*/Y = 50: cheap runs.
 Material powder()
@@ -26,7 +25,7 @@ BodyLaw law()
 {
   LawRange options;
   options.depth = 0.5;
-  return law_from(testing::own_atlas(), law_material("powder", powder()), options);
+  return law_from(tests::own_atlas(), law_material("powder", powder()), options);
 }
 
 Particle of_shape(SharedShape solid)
@@ -87,5 +86,4 @@ TEST(ShapeCertificate, WantsABodyOfOneMaterial)
   EXPECT_THROW(certify_shape(two, law(), question(1), farm), Error);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::shape_certificate_test

@@ -9,8 +9,7 @@
 
 #include "characterise/atlas_file.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::shape_prior_test {
 
 constexpr double end = 0.5;
 
@@ -100,5 +99,4 @@ TEST(ShapePrior, StatesWhatItMissesOfTheAtlas)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::shape_prior_test

@@ -11,8 +11,7 @@
 #include "base/error.hpp"
 #include "material_file/materials_file.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::shape_reader_test {
 
 namespace fs = std::filesystem;
 
@@ -166,5 +165,4 @@ TEST_F(ShapeReader, ParticlesThatCannotBeUsed)
   for (const auto& c : cases) EXPECT_EQ(sentence(c.text), c.sentence) << c.text;
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::shape_reader_test

@@ -12,8 +12,7 @@
 #include "solver/shape/rotation.hpp"
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::shape_test {
 
 using std::numbers::pi;
 
@@ -334,5 +333,4 @@ TEST(Particle, LayersAndInclusionsLieWhereTheParticleHasThem)
             "or a profile");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::shape_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace granulaw::plugin {
-namespace {
+namespace granulaw::plugin::size_choice_test {
 
 const std::vector<double> shares{0.0, 0.1, 0.25, 0.5};  // a deformable wall, ratios 9, 3 and 1
 
@@ -101,5 +100,4 @@ TEST(SizeChoice, UnknownSizesAreServedByNone)
   }
 }
 
-}  // namespace
-}  // namespace granulaw::plugin
+}  // namespace granulaw::plugin::size_choice_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace granulaw {
-namespace {
+namespace granulaw::spline_axis_test {
 
 SplineAxis uneven()
 {
@@ -97,5 +96,4 @@ TEST(GradedLines, AreFineThenGrowToTheEnd)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::spline_axis_test

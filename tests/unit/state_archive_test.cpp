@@ -8,8 +8,7 @@
 
 #include "base/error.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::state_archive_test {
 
 enum class Phase { one, two };
 
@@ -109,5 +108,4 @@ TEST(StateArchive, Checksum)
   EXPECT_EQ(checksum("bar", checksum("foo")), checksum("foobar"));
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::state_archive_test

@@ -3,7 +3,7 @@
 #include "contact/synthetic_tables.hpp"
 #include "law/law.hpp"
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// No closed cycle gains energy: the work lost never falls, without an impact and at every level of the axis.
 inline bool loses_no_less_further_on(const Curve& curve)
@@ -71,4 +71,4 @@ struct SyntheticLaw : SyntheticTables
   }
 };
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

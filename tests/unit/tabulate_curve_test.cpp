@@ -8,8 +8,7 @@
 #include "base/error.hpp"
 #include "atlas/spline.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::tabulate_curve_test {
 
 constexpr double onset = 1e-4, end = 0.1;
 
@@ -89,5 +88,4 @@ TEST(TabulateCurve, RefusesATableThatIsNoLaw)
   EXPECT_THROW(fitted_curve(table), Error);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::tabulate_curve_test

@@ -9,8 +9,7 @@
 #include "characterise/body/characterised_body.hpp"
 #include "atlas/tabulate_curve.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::tabulate_velocity_axis_test {
 
 /// From soft bodies, whose onset lies between the table's levels, to stiff ones, whose onset lies far below
 /// the first: the work lost never falls, whatever the impact.
@@ -74,5 +73,4 @@ TEST(TabulateRate, RisesToThePeakOfImpactsWhoseForceFallsBeforeTheyReverse)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::tabulate_velocity_axis_test

@@ -6,8 +6,7 @@
 #include <cstdlib>
 #include <regex>
 
-namespace granulaw {
-namespace {
+namespace granulaw::terminal_test {
 
 TEST(Terminal, NothingIsInterruptedAtFirst)
 {
@@ -70,5 +69,4 @@ TEST(Terminal, WithoutATerminalProgressIsLines)
   EXPECT_TRUE(std::regex_match(testing::internal::GetCapturedStderr(), lines));
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::terminal_test

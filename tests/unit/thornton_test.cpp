@@ -9,8 +9,7 @@
 #include "law/replay.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::thornton_test {
 
 TEST(Thornton, ClosedFormMatchesThePublishedNumbers)
 {
@@ -87,7 +86,7 @@ TEST(Thornton, WorkAndStiffnessAreThoseOfTheForce)
 TEST(Replay, ElasticCollisionOfALawIsHertz)
 {
   // The synthetic law at 1e-8 of an overlap is Hertz to 0.9 sqrt(1e-8) = 1e-4.
-  const Law law = testing::SyntheticLaw{}.law();
+  const Law law = tests::SyntheticLaw{}.law();
   const PairLaw pair = resolve_pair(law, "glass", "wall", "test");
   const double r = 0.002, mass = 4.0 / 3.0 * M_PI * 2500 * r * r * r, e_star = pair.mapping.e_star;
   const double delta = 1e-8 * r;
@@ -102,7 +101,7 @@ TEST(Replay, ElasticCollisionOfALawIsHertz)
 
 TEST(Replay, RestitutionIsTheRatioOfTheWorkFunctions)
 {
-  const Law law = testing::SyntheticLaw{}.law();
+  const Law law = tests::SyntheticLaw{}.law();
   const PairLaw pair = resolve_pair(law, "powder", "wall", "test");
   const double r = 0.002, mass = 4.0 / 3.0 * M_PI * 1500 * r * r * r;
   for (const double v : {0.05, 0.5, 3.0}) {
@@ -114,5 +113,4 @@ TEST(Replay, RestitutionIsTheRatioOfTheWorkFunctions)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::thornton_test

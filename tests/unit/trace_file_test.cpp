@@ -7,8 +7,7 @@
 #include "scratch_folder.hpp"
 #include "some_runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::trace_file_test {
 
 class TraceFile : public ScratchFolder
 {
@@ -46,5 +45,4 @@ TEST_F(TraceFile, Hdf5HasADatasetForEachColumn)
   EXPECT_EQ(files(), 1u);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::trace_file_test

@@ -13,10 +13,9 @@
 #include "law/replay.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::two_body_law_test {
 
-using testing::SyntheticLaw;
+using tests::SyntheticLaw;
 
 /// A law whose pair powder:glass has a curve of its own, distinguished from the powder's by its residuals.
 Law law_with_pair()
@@ -220,8 +219,7 @@ TEST(TwoBodyLawSlow, AgreesWithAFreshImpactWhereTheRuleDoesNot)
   // the tolerance that the law was built to
   EXPECT_NEAR(replay.restitution / truth.restitution, 1, options.tolerance);
   EXPECT_NEAR(replay.force_max / pair.yielding.e_star() / truth.force_max, 1, options.tolerance);
-  EXPECT_TRUE(testing::loses_no_less_further_on(built.law.curve));
+  EXPECT_TRUE(tests::loses_no_less_further_on(built.law.curve));
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::two_body_law_test

@@ -5,8 +5,7 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-namespace granulaw {
-namespace {
+namespace granulaw::unloading_test {
 
 /// Any shape that rises.
 UnloadingShape any_shape()
@@ -74,5 +73,4 @@ RC_GTEST_PROP(Unloading, SlopeAndWorkAreItsDerivativeAndIntegral, ())
   RC_ASSERT(std::abs(UnloadingShape::exponent_of(shape.work(), shape.hertz_share) - shape.exponent) < 1e-13);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::unloading_test

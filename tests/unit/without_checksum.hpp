@@ -2,7 +2,7 @@
 
 #include <hdf5.h>
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// Makes an open law file one of minor version 0, which has no checksum: with it every damage is refused for
 /// that alone, and the reader's other checks go untested.
@@ -15,4 +15,4 @@ inline void without_checksum(hid_t file)
   H5Aclose(attribute);
 }
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

@@ -7,8 +7,7 @@
 #include "oblique_replay.hpp"
 #include "own_atlas.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::yielding_contact_test {
 
 /// A sphere of E*/Y = 100, radius 1 mm.
 struct Sphere
@@ -22,7 +21,7 @@ struct Sphere
     material.hardening_modulus = hardening_over_modulus * material.youngs_modulus;
     BuildOptions options;
     options.depth = 0.3, options.fastest = 0.25;
-    law = law_from(testing::own_atlas(), material, options);
+    law = law_from(tests::own_atlas(), material, options);
   }
   /// At V over Thornton's yield velocity, 0.13 m/s here.
   ObliqueThrow thrown(double velocity, double angle) const
@@ -110,5 +109,4 @@ TEST(YieldingContact, ItHoldsWhatTheSolverTells)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::yielding_contact_test

@@ -55,8 +55,7 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
   std::free(memory);
 }
 
-namespace granulaw {
-namespace {
+namespace granulaw::allocation_test {
 
 struct Job
 {
@@ -170,5 +169,4 @@ INSTANTIATE_TEST_SUITE_P(Grids, Allocations,
                                              true}),
                          [](const auto& job) { return job.param.name; });
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::allocation_test

@@ -8,8 +8,7 @@
 #include "convergence.hpp"
 #include "energy_audit.hpp"
 
-namespace granulaw::verification {
-namespace {
+namespace granulaw::verification::balance_test {
 
 /// The impulse of the force in the trace is the change of momentum m V (1 + e): nothing else acts on the
 /// body.
@@ -42,5 +41,4 @@ TEST(Balance, EnergyAddsUpFromTheFields)
   EXPECT_LT(fine, coarse / 2);  // measured 1/3: hourglass energy falls with the cells
 }
 
-}  // namespace
-}  // namespace granulaw::verification
+}  // namespace granulaw::verification::balance_test

@@ -15,8 +15,7 @@
 #include "solver/run/time_step.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::bodies_test {
 
 Particle sphere(double radius, double e_over_y, double stiffness = 1, double density = 1)
 {
@@ -284,5 +283,4 @@ TEST(Energy, IsBalancedWithTwoBodies)
   EXPECT_LT(impact(sphere(1, 100), {0.01}, against(sphere(2, 50, 2, 3)), o).summary.energy_error, 1e-3);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::bodies_test

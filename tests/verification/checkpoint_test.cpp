@@ -12,8 +12,7 @@
 #include "solver/run/accuracy.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::checkpoint_test {
 
 /// The process is "killed": thrown out of the run by the store itself.
 struct Killed
@@ -340,5 +339,4 @@ TEST_F(CheckpointRefusals, Fields)
   EXPECT_NE(resumed().find("--checkpoint: cannot go with --fields"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::checkpoint_test

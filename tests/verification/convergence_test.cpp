@@ -8,8 +8,7 @@
 
 #include "references.hpp"
 
-namespace granulaw::verification {
-namespace {
+namespace granulaw::verification::convergence_test {
 
 /// The fits themselves, on numbers whose order is known.
 TEST(Convergence, FitsRecoverAKnownOrder)
@@ -106,5 +105,4 @@ TEST(Convergence, EnergyAgainstTimeStep)
   }
 }
 
-}  // namespace
-}  // namespace granulaw::verification
+}  // namespace granulaw::verification::convergence_test

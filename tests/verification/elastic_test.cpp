@@ -8,8 +8,7 @@
 #include "solver/run/grid_noise.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::elastic_test {
 
 TEST(ElasticImpact, ReturnsAllEnergy)
 {
@@ -85,5 +84,4 @@ TEST(BadInput, IsRefusedInOneSentence)
   EXPECT_NE(message([&] { impact(good, {0.001}, {}, o); }).find("courant"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::elastic_test

@@ -9,8 +9,7 @@
 #include "solver/grid/mapped_body.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::fields_test {
 
 /// A body that has yielded in several steps, after internal_force; no hourglass control, so that the stress
 /// is all there is in forces and energies.
@@ -191,5 +190,4 @@ INSTANTIATE_TEST_SUITE_P(Grids, Motion, testing::Values(GridKind::mapped, GridKi
                            return grid.param == GridKind::mapped ? "mapped" : "rectilinear";
                          });
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::fields_test

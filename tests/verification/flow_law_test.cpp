@@ -18,8 +18,7 @@
 #include "solver/material/vector_math.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::flow_law_test {
 
 constexpr double shear = 0.35, bulk = 0.76, yield = 0.01;
 
@@ -460,5 +459,4 @@ TEST(FlowLaws, Refusals)
   EXPECT_PRED2(contains, refused({}, {"cowper-symond", {}}), "did you mean 'cowper-symonds'");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::flow_law_test

@@ -18,8 +18,7 @@
 #include "solver/run/time_step.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::grids_test {
 
 constexpr Moduli elastic{0.35, 0.76, 0.0, 0.0, false};
 constexpr Moduli plastic{0.35, 0.76, 0.01, 0.02, true};
@@ -304,5 +303,4 @@ INSTANTIATE_TEST_SUITE_P(Grids, ThreeGridsSlow,
                                          Agreement{500, 40, GridKind::updated, 48, 0.01}),
                          name_of);
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::grids_test

@@ -8,8 +8,7 @@
 #include "convergence.hpp"
 #include "elastic_press.hpp"
 
-namespace granulaw::verification {
-namespace {
+namespace granulaw::verification::hertz_test {
 
 struct Deviation
 {
@@ -106,5 +105,4 @@ TEST(HertzSlow, SmallContactLimit)
   EXPECT_NEAR((e2 - e1) / predicted, 1.0, 0.15);  // measured 0.98; second order in a/R
 }
 
-}  // namespace
-}  // namespace granulaw::verification
+}  // namespace granulaw::verification::hertz_test

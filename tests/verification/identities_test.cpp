@@ -8,8 +8,7 @@
 #include "solver/body/kernels.hpp"
 #include "solver/grid/mapped_body.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::identities_test {
 
 constexpr Moduli elastic{0.35, 0.76, 0.0, 0.0, false};
 constexpr Moduli plastic{0.35, 0.76, 0.01, 0.02, true};
@@ -151,5 +150,4 @@ TEST(InstructionSets, Agree)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::identities_test

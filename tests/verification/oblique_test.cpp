@@ -6,8 +6,7 @@
 #include "base/larger.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::oblique_test {
 
 constexpr double radius = 1e-3, velocity = 1.5, tangent = 3;  // m, m/s, of 72 degrees
 
@@ -105,5 +104,4 @@ TEST(Oblique, ARollingBallKeepsRolling)
   EXPECT_NEAR(r.spin[1] / (0.2 * velocity / radius), 1, 0.1);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::oblique_test

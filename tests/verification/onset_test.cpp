@@ -9,8 +9,7 @@
 #include "onset_impact.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw::verification {
-namespace {
+namespace granulaw::verification::onset_test {
 
 struct Case
 {
@@ -116,5 +115,4 @@ TEST(OnsetSlow, SmallContactLimit)
   EXPECT_NEAR((2 * shallow - deep) / hertz::onset(0.3).pressure_ratio, 1, 0.004);  // measured 0.1 %: cells
 }
 
-}  // namespace
-}  // namespace granulaw::verification
+}  // namespace granulaw::verification::onset_test

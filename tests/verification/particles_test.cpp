@@ -19,8 +19,7 @@
 #include "solver/runs.hpp"
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::particles_test {
 
 Particle sphere(double e_over_y)
 {
@@ -282,5 +281,4 @@ TEST(Hard, AFilmThatIsSqueezedOut)
   EXPECT_NE(message.find("squeezed"), std::string::npos) << message;
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::particles_test

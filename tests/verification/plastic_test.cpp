@@ -8,8 +8,7 @@
 #include "references.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::plastic_test {
 
 class PlasticPress : public testing::TestWithParam<reference::Press>
 {
@@ -110,5 +109,4 @@ TEST(Similarity, DimensionlessTracesAgree)
   EXPECT_GT(other, 1e-3 * largest);       // another E*/Y is another law
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::plastic_test

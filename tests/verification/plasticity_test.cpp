@@ -6,8 +6,7 @@
 #include "solver/body/kernels.hpp"
 #include "solver/grid/mapped_body.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::plasticity_test {
 
 constexpr double shear = 0.35, bulk = 0.76, yield = 0.01, hardening = 0.05;
 
@@ -98,5 +97,4 @@ TEST(J2, UnloadingIsElastic)
   EXPECT_NEAR(b.state.elastic_energy_p[0], energy, 1e-14);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::plasticity_test

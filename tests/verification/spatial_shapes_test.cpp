@@ -13,8 +13,7 @@
 #include "solver/shape/rotation.hpp"
 #include "solver/shape/shapes.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::spatial_shapes_test {
 
 // E* = 1 GPa, rho = 1000 kg/m^3, nu = 0.3, about 1 mm.
 
@@ -299,5 +298,4 @@ TEST(SpatialFields, PerfectPlasticityStaysAtYield)
   EXPECT_NEAR(largest / (e_star / 100), 1, 1e-6);  // files hold as much; means of cells are below
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::spatial_shapes_test

@@ -15,8 +15,7 @@
 #include "solver/run/time_step.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::spatial_test {
 
 constexpr Moduli elastic{0.35, 0.76, 0.0, 0.0, false};
 constexpr Moduli plastic{0.35, 0.76, 0.01, 0.0, true};
@@ -559,5 +558,4 @@ TEST(SpatialPress, TooMuchSqueezingIsRefused)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::spatial_test

@@ -5,8 +5,7 @@
 
 #include "convergence.hpp"
 
-namespace granulaw::verification {
-namespace {
+namespace granulaw::verification::time_step_test {
 
 /// Central differences: the energy swings by an amount of second order in the step and does not drift.
 TEST(TimeStep, EnergySwingIsOfSecondOrder)
@@ -17,5 +16,4 @@ TEST(TimeStep, EnergySwingIsOfSecondOrder)
   EXPECT_NEAR(std::log2(half / quarter), 2, 0.1);  // measured 2.01
 }
 
-}  // namespace
-}  // namespace granulaw::verification
+}  // namespace granulaw::verification::time_step_test

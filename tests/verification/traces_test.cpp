@@ -10,8 +10,7 @@
 #include <map>
 #include <sstream>
 
-namespace granulaw::verification {
-namespace {
+namespace granulaw::verification::traces_test {
 
 using Lines = std::map<std::string, std::vector<double>>;
 
@@ -59,5 +58,4 @@ INSTANTIATE_TEST_SUITE_P(Runs, Traces, testing::ValuesIn(traced_runs()), [](cons
   return name;
 });
 
-}  // namespace
-}  // namespace granulaw::verification
+}  // namespace granulaw::verification::traces_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace granulaw::verification {
-namespace {
+namespace granulaw::verification::uniaxial_test {
 
 /// Rate-independent laws: the curve is the equation's at every point, whatever the steps.
 TEST(Uniaxial, HardeningLaws)
@@ -36,5 +35,4 @@ TEST(Uniaxial, RateLaws)
     }
 }
 
-}  // namespace
-}  // namespace granulaw::verification
+}  // namespace granulaw::verification::uniaxial_test

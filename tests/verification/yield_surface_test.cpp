@@ -13,8 +13,7 @@
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::yield_surface_test {
 
 constexpr double yield = 0.01;
 
@@ -260,5 +259,4 @@ TEST(DruckerPrager, WrongAnglesAreRefused)
             std::string::npos);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::yield_surface_test

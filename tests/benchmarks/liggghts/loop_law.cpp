@@ -20,7 +20,7 @@
 
 namespace {
 
-using granulaw::testing::SyntheticLaw;
+using granulaw::tests::SyntheticLaw;
 
 /// Largest difference of the loading force from the functions that the table was sampled from, relative.
 double worst_error(const SyntheticLaw& shape, const granulaw::Curve& curve)

@@ -12,8 +12,7 @@
 #include "calibrate/noise.hpp"
 #include "atlas/composed_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::calibrate_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -333,5 +332,4 @@ TEST(Design, PlasticImpactsTellMoreThanElasticOnes)
   EXPECT_EQ(design.best(1), (std::vector<std::size_t>{1}));
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::calibrate_test

@@ -12,8 +12,7 @@
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::kinds_test {
 
 using testing::HasSubstr;
 
@@ -180,5 +179,4 @@ TEST(Kinds, ContradictoryDataAreFitted)
   EXPECT_GT(calibrate(problem).chi_squared, 100);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::kinds_test

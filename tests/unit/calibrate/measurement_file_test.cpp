@@ -6,8 +6,7 @@
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::measurement_file_test {
 
 using testing::HasSubstr;
 
@@ -81,5 +80,4 @@ TEST(MeasurementFile, SaysWhatIsWrongInOneSentence)
               HasSubstr("data.csv: unloading gives back more work"));
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::measurement_file_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace granulaw {
-namespace {
+namespace granulaw::noise_test {
 
 TEST(Noise, FindsTheShareOfACurveWithoutAModel)
 {
@@ -31,5 +30,4 @@ TEST(Noise, FillsInWhatIsNotStated)
   EXPECT_DOUBLE_EQ(m.data[1].sd, 0.03);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::noise_test

@@ -6,8 +6,7 @@
 
 #include "solver/material/law_table.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::parameters_test {
 
 /// A material of this law, at the start of a search.
 CandidateMaterial begun(const std::string& law)
@@ -35,5 +34,4 @@ TEST(Parameters, OfEachLawThatTheSolverHas)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::parameters_test

@@ -11,8 +11,7 @@
 #include "atlas/law_from_atlas.hpp"
 #include "law/replay.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::atlas_impacts_test {
 
 /// Laws of the atlas against impacts by the solver between its materials.
 TEST(Atlas, LawsAgreeWithImpactsOfOtherMaterials)
@@ -47,5 +46,4 @@ TEST(Atlas, LawsAgreeWithImpactsOfOtherMaterials)
   EXPECT_LT(worst_restitution, 0.0041);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::atlas_impacts_test

@@ -7,10 +7,9 @@
 #include "law_paths.hpp"
 #include "synthetic_tables.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::axis_test {
 
-using testing::SyntheticTables;
+using tests::SyntheticTables;
 
 /// X of a level, between levels, or below the first.
 double any_latched(const Curve& curve)
@@ -51,7 +50,7 @@ TEST(AxisTest, ChangesNothingWithoutSpeedAndFarBeyondTheImpact)
 RC_GTEST_PROP(AxisProperty, StiffnessIsTheDerivativeOfTheForce, ())
 {
   const Curve curve = SyntheticTables{}.curve_with_axis();
-  testing::stiffness_is_the_derivative(curve, any_latched(curve));
+  tests::stiffness_is_the_derivative(curve, any_latched(curve));
 }
 
 /// At the levels the work of loading is the integral of the force; between them its mean is interpolated.
@@ -59,14 +58,14 @@ TEST(AxisTest, WorkIsTheIntegralOfTheForce)
 {
   const Curve curve = SyntheticTables{}.curve_with_axis();
   for (const double latched : curve.examined_levels()) {
-    testing::Path path(curve, latched);
+    tests::Path path(curve, latched);
     for (const double share : {0.1, 0.3, 0.6, 1.0, 1.4, 2.0}) {
       path.move(share * latched);
       EXPECT_NEAR(path.work() / curve.work(share * latched, latched), 1, 5e-4) << latched << ' ' << share;
     }
   }
   const double level = curve.axis()->level[4];
-  testing::Path path(curve, level);
+  tests::Path path(curve, level);
   path.move(0.6 * level);  // a node of the table: 24 intervals to 1.5
   path.move(1.25 * level);
   EXPECT_NEAR(path.work() / curve.work(1.25 * level, level), 1, 1e-5);
@@ -76,7 +75,7 @@ RC_GTEST_PROP(AxisProperty, NoClosedCycleGainsEnergy, ())
 {
   const Curve curve = SyntheticTables{}.curve_with_axis();
   // half of the least loss: what the table of the work may be off
-  testing::no_closed_cycle_gains(curve, any_latched(curve), 0.5 * Curve::least_loss);
+  tests::no_closed_cycle_gains(curve, any_latched(curve), 0.5 * Curve::least_loss);
 }
 
 TEST(AxisTest, LosesNoLessFurtherOn)
@@ -150,5 +149,4 @@ TEST(AxisTest, RefusesUnusableTables)
   EXPECT_EQ(fault([](auto& a) { a.level.back() *= 1.01; }), "the last 'level' is not the last 'reach'");
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::axis_test

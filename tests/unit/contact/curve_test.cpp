@@ -7,11 +7,10 @@
 #include "law_paths.hpp"
 #include "synthetic_tables.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::curve_test {
 
-using testing::SyntheticTables;
-using testing::unit_pair;
+using tests::SyntheticTables;
+using tests::unit_pair;
 
 TEST(CurveTest, FollowsTheFunctionsOfItsTable)
 {
@@ -72,7 +71,7 @@ TEST(CurveTest, LosesNoLessFurtherOn)
 RC_GTEST_PROP(CurveProperty, StiffnessIsTheDerivativeOfTheForce, ())
 {
   const Curve curve = SyntheticTables{}.curve();
-  testing::stiffness_is_the_derivative(curve);
+  tests::stiffness_is_the_derivative(curve);
 }
 
 RC_GTEST_PROP(CurveProperty, IsHertzForSmallOverlapsOfEveryPair, ())
@@ -221,7 +220,7 @@ TEST(CurveTest, RefusesAGainOfEnergy)
 TEST(ContactAnswer, TheBranchSaysWhatTouches)
 {
   const Curve curve = SyntheticTables{}.curve();
-  const PairContact pair{&curve, testing::unit_pair};
+  const PairContact pair{&curve, tests::unit_pair};
   ContactState state;
   using Branch = Answer::Branch;
   EXPECT_EQ(answer(pair, 1, 0.0, state).branch, Branch::apart);
@@ -234,5 +233,4 @@ TEST(ContactAnswer, TheBranchSaysWhatTouches)
   EXPECT_EQ(state.deepest, 0);
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::curve_test

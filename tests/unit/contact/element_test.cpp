@@ -11,10 +11,9 @@
 #include "law/radiation.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::element_test {
 
-const Law law = testing::SyntheticLaw{}.law_with_axis();
+const Law law = tests::SyntheticLaw{}.law_with_axis();
 
 Tabulated tabulated(double waves)
 {
@@ -127,5 +126,4 @@ TEST(ContactElement, WorksOutAnewWhatFollowsFromTheRest)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::element_test

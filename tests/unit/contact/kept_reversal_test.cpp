@@ -10,8 +10,7 @@
 #include "contact/thornton.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::kept_reversal_test {
 
 struct Step
 {
@@ -54,7 +53,7 @@ void expect_the_same_force_with_what_is_kept(const Contact& contact, double deep
 
 TEST(KeptReversal, LeavesTheForceOfTheTableAsItIs)
 {
-  const Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
+  const Law law = granulaw::tests::SyntheticLaw{}.law_with_axis();
   const BodyLaw& powder = law.bodies.at("powder");
   const PairLaw pair{{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10)},
                      &powder};
@@ -97,5 +96,4 @@ TEST(Thornton, IsThorntonPairButForRounding)
     }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::kept_reversal_test

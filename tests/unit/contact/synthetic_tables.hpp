@@ -7,7 +7,7 @@
 
 #include "contact/curve.hpp"
 
-namespace granulaw::testing {
+namespace granulaw::tests {
 
 /// A column of f at these x; slopes by central differences good to 1e-9.
 inline HermiteColumn sampled(const std::vector<double>& nodes, const std::function<double(double)>& f)
@@ -123,4 +123,4 @@ struct SyntheticTables
   }
 };
 
-}  // namespace granulaw::testing
+}  // namespace granulaw::tests

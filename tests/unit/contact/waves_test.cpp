@@ -7,13 +7,12 @@
 #include "law/radiation.hpp"
 #include "synthetic_law.hpp"
 
-namespace granulaw {
-namespace {
+namespace granulaw::waves_test {
 
 class Waves : public ::testing::Test
 {
  protected:
-  const Law law = granulaw::testing::SyntheticLaw{}.law_with_axis();
+  const Law law = granulaw::tests::SyntheticLaw{}.law_with_axis();
   const BodyLaw& powder = law.bodies.at("powder");
   const PairLaw pair{{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10),
                       radiation(powder.material, 1.0, powder.material, 8.0)},
@@ -74,5 +73,4 @@ TEST_F(Waves, AreTheSameInCgs)
   }
 }
 
-}  // namespace
-}  // namespace granulaw
+}  // namespace granulaw::waves_test

@@ -4,8 +4,7 @@
 
 #include "deck/plan_options.hpp"
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::atom_types_test {
 
 Source source(int type, double radius_min, double radius_max, double density)
 {
@@ -105,5 +104,4 @@ TEST(AtomTypes, GivenRadiiStandForHiddenParticles)
   }
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::atom_types_test

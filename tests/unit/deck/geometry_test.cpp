@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::geometry_test {
 
 const Box wide{{-1, -2, -3}, {4, 6, 8}}, other{{0, -5, 2}, {10, 1, 3}};
 
@@ -62,5 +61,4 @@ TEST(Geometry, VolumeOfABall)
   EXPECT_DOUBLE_EQ(ball_volume(0.5), M_PI / 6);
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::geometry_test

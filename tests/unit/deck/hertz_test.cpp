@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::hertz_test {
 
 TEST(Hertz, ConservesEnergy)
 {
@@ -15,5 +14,4 @@ TEST(Hertz, ConservesEnergy)
   EXPECT_NEAR(hertz_time(e, r, m, v) / (2.87 * std::pow(m * m / (r * e * e * v), 0.2)), 1, 2e-3);
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::hertz_test

@@ -8,8 +8,7 @@
 #include "deck/plan.hpp"
 #include "deck_fixture.hpp"
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::meeting_test {
 
 TEST(DeckMeeting, DeformableWallsAreBodiesOfTheirMaterial)
 {
@@ -69,5 +68,4 @@ TEST(Meeting, OfTwoEquallyStrongAndStiffTheFirstByNameYields)
   EXPECT_EQ(meeting_of(b, a).yields.name, "alum");
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::meeting_test

@@ -7,8 +7,7 @@
 #include "deck/plan.hpp"
 #include "deck_fixture.hpp"
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::pair_plan_test {
 
 using DeckPairPlan = Deck;
 
@@ -52,5 +51,4 @@ TEST_F(DeckPairPlan, TakesWhatWasVisited)
   EXPECT_THROW(read_visited(write("none.json", "{}")), Error);
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::pair_plan_test

@@ -8,8 +8,7 @@
 
 #include "deck_fixture.hpp"
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::plan_test {
 
 Plan plan_of(const Scene& scene, double speed)
 {
@@ -76,5 +75,4 @@ TEST(DeckPlan, WallsOfATypeAreOneBody)
   EXPECT_NEAR(plan.pairs[1].speed, std::sqrt(0.5 * 0.5 + 2 * 9.81 * 0.3), 1e-12);
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::plan_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::questions_test {
 
 TEST(Questions, AreAskedOnce)
 {
@@ -17,5 +16,4 @@ TEST(Questions, AreAskedOnce)
   EXPECT_EQ(first_of({"a", "b", "c"}), "a (and 2 more)");
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::questions_test

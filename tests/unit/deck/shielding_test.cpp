@@ -6,8 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::shielding_test {
 
 /// Spheres of radius 1 in a column on the floor z = 0, g = 1; `aside`: of the second one.
 Cloud column(std::size_t count, double aside = 0.1)
@@ -63,5 +62,4 @@ TEST(Shielding, CarriersOfSpeedAreAsManyAsDiceGive)
   EXPECT_LT(error, 0.003);
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::shielding_test

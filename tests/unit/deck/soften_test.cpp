@@ -9,8 +9,7 @@
 #include "deck/plan.hpp"
 #include "deck_fixture.hpp"
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::soften_test {
 
 using DeckSoften = Deck;
 
@@ -114,5 +113,4 @@ TEST_F(DeckSoften, SoftenStatesItsNumbers)
   }
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::soften_test

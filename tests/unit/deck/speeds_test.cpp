@@ -10,8 +10,7 @@
 #include "deck/plan.hpp"
 #include "deck_fixture.hpp"
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::speeds_test {
 
 /// 200 spheres of radius 2 mm over a floor, 5 mm apart in height, aside by `aside(k)` m in x and y.
 Scene tube(const std::function<std::array<double, 2>(int)>& aside)
@@ -76,5 +75,4 @@ TEST(DeckSpeeds, ACloudShieldsItsFloor)
   EXPECT_EQ(sides.pairs[2].speed_basis, "fall");
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::speeds_test

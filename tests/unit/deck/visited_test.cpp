@@ -5,8 +5,7 @@
 #include "base/error.hpp"
 #include "deck_fixture.hpp"
 
-namespace granulaw::deck {
-namespace {
+namespace granulaw::deck::visited_test {
 
 using DeckVisited = Deck;
 
@@ -37,5 +36,4 @@ TEST_F(DeckVisited, KeepsWhatARunVisitedByTypes)
   expect(v.walls.at({2, 1}), 4, 0.625, 0.0625);  // both walls of a type are one meeting: the larger of each
 }
 
-}  // namespace
-}  // namespace granulaw::deck
+}  // namespace granulaw::deck::visited_test
