@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/larger.hpp"
@@ -15,17 +16,6 @@
 namespace granulaw {
 
 namespace {
-
-/// Below this product of H/E and E*/Y a hardening adds less than a tenth of Y at a strain of one.
-constexpr double weakest_seen = 0.1;
-
-/// Node values that are wanted at the main Poisson's ratio as well.
-std::vector<double> with(std::vector<double> values, double another)
-{
-  values.push_back(another);
-  std::sort(values.begin(), values.end());
-  return values;
-}
 
 /// The value that 95 of 100 do not exceed; 0 of none.
 double percentile95(std::vector<double> values)
@@ -68,36 +58,6 @@ std::vector<double> hardening_coordinates(double stiffness, const std::vector<do
   return z;
 }
 
-std::vector<double> AtlasGrid::hardenings_at(double stiffness) const
-{
-  std::vector<double> seen;
-  for (const double h : hardenings)
-    if (h == 0 || h * stiffness >= weakest_seen) seen.push_back(h);
-  return seen;
-}
-
-std::vector<MaterialRatios> AtlasGrid::main_plane() const
-{
-  std::vector<MaterialRatios> materials;
-  for (const double k : stiffnesses)
-    for (const double h : hardenings_at(k)) materials.push_back({k, main_poisson_ratio, h});
-  return materials;
-}
-
-std::vector<MaterialRatios> AtlasGrid::block() const
-{
-  std::vector<MaterialRatios> materials;
-  for (const double k : block_stiffnesses)
-    for (const double h : block_hardenings)
-      for (const double nu : block_poisson_ratios) materials.push_back({k, nu, h});
-  return materials;
-}
-
-std::vector<double> AtlasGrid::poisson_ratios() const
-{
-  return with(block_poisson_ratios, main_poisson_ratio);
-}
-
 Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere> elastic,
              std::vector<AtlasCheck> checks, MidplaneShapes midplane)
     : grid_(std::move(grid)),
@@ -110,23 +70,12 @@ Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere>
   if (!std::equal(elastic_.begin(), elastic_.end(), ratios.begin(), ratios.end(),
                   [](const ElasticSphere& e, double nu) { return e.poisson_ratio == nu; }))
     fail("atlas", "its elastic spheres are not those of its Poisson's ratios");
-  std::vector<MaterialRatios> expected = grid_.main_plane();
-  const std::vector<MaterialRatios> block = grid_.block();
-  expected.insert(expected.end(), block.begin(), block.end());
-  if (expected.size() != nodes_.size())
-    fail("atlas", "has the wrong number of materials", std::to_string(nodes_.size()),
-         std::to_string(expected.size()));
-  for (std::size_t k = 0; k < nodes_.size(); ++k)
-    if (!(nodes_[k].material == expected[k])) fail("atlas", fmt::format("material {} is not the grid's", k));
+  check_nodes(grid_, nodes_, "material");
   for (Node& node : nodes_) node.shape.onset = onset_of(node.material), node.shape.end = depth;
-  std::vector<double> force, restitution, solver;
-  for (const AtlasCheck& c : checks_) {
-    force.push_back(std::abs(c.error_force));
-    restitution.push_back(std::abs(c.error_restitution));
-    solver.push_back(c.solver_estimate);
-  }
-  claimed_force_ = confident_bound(std::move(force));
-  claimed_restitution_ = confident_bound(std::move(restitution));
+  claimed_force_ = confident_bound(checks_, &AtlasCheck::error_force);
+  claimed_restitution_ = confident_bound(checks_, &AtlasCheck::error_restitution);
+  std::vector<double> solver;
+  for (const AtlasCheck& c : checks_) solver.push_back(c.solver_estimate);
   solver_error_ = percentile95(std::move(solver));
 }
 
@@ -158,62 +107,29 @@ ElasticSphere Atlas::elastic(double poisson_ratio) const
   return mean;
 }
 
-LawShape Atlas::main_shape(double stiffness, double hardening) const
+namespace {
+
+/// Inertia acts by the sphere's ringing: its period goes with the shear wave's, E*/rho (1 - nu)/2, and the contact's
+/// time with rho/Y. So a material has the effects of the stiffness E*/Y (1 - nu) in the reference set.
+MaterialRatios of_same_ringing(const Lattice& grid, const MaterialRatios& m)
 {
-  LawShape result = LawShape::zero(onset_of({stiffness, grid_.main_poisson_ratio, hardening}), depth);
-  std::size_t next = 0;
-  const std::vector<double> along = interpolation_weights(logarithms(grid_.stiffnesses), std::log(stiffness));
-  for (std::size_t i = 0; i < grid_.stiffnesses.size(); ++i) {
-    const double k = grid_.stiffnesses[i];
-    const std::vector<double> hardenings = grid_.hardenings_at(k);
-    const auto across =
-        interpolation_weights(hardening_coordinates(k, hardenings), hardening_coordinate(k, hardening));
-    for (const double weight : across) {
-      if (along[i] != 0 && weight != 0) result.add(along[i] * weight, nodes_[next].shape);
-      ++next;
-    }
-  }
-  return result;
+  const double stiffness = m.stiffness * (1 - m.poisson_ratio) / (1 - grid.main_poisson_ratio);
+  return {std::clamp(stiffness, grid.stiffnesses.front(), grid.stiffnesses.back()), m.poisson_ratio, m.hardening};
 }
 
-LawShape Atlas::partner(const MaterialRatios& m) const
-{
-  LawShape result = main_shape(m.stiffness, m.hardening);
-  const double same_ring = m.stiffness * (1 - m.poisson_ratio) / (1 - grid_.main_poisson_ratio);
-  result.velocity_effects =
-      main_shape(std::clamp(same_ring, grid_.stiffnesses.front(), grid_.stiffnesses.back()), m.hardening)
-          .velocity_effects;
-  return result;
-}
+}  // namespace
 
 LawShape Atlas::shape(const MaterialRatios& m) const
 {
-  LawShape result = partner(m);
-  result.onset = onset_of(m);
-  const std::vector<double> ratios = grid_.poisson_ratios();
-  const std::vector<double> by_ratio = interpolation_weights(ratios, m.poisson_ratio);
-  const std::vector<double>& stiffnesses = grid_.block_stiffnesses;
-  const std::vector<double> unloading(
-      stiffnesses.begin(),
-      std::upper_bound(stiffnesses.begin(), stiffnesses.end(), AtlasGrid::block_unloading_end));
-  const std::vector<double> along = interpolation_weights(logarithms(stiffnesses), std::log(m.stiffness));
-  std::vector<double> along_unloading = interpolation_weights(logarithms(unloading), std::log(m.stiffness));
-  along_unloading.resize(stiffnesses.size(), 0.0);
-  std::size_t next = grid_.main_plane().size();
-  for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
-    const double k = stiffnesses[i];
-    const auto across = interpolation_weights(hardening_coordinates(k, grid_.block_hardenings),
-                                              hardening_coordinate(k, m.hardening));
-    for (std::size_t j = 0; j < grid_.block_hardenings.size(); ++j)
-      for (std::size_t r = 0; r < ratios.size(); ++r) {
-        if (ratios[r] == grid_.main_poisson_ratio) continue;
-        const Node& node = nodes_[next++];
-        if (across[j] * by_ratio[r] == 0 || (along[i] == 0 && along_unloading[i] == 0)) continue;
-        LawShape change = node.shape;
-        change.add(-1, partner(node.material));
-        result.add_loading(along[i] * across[j] * by_ratio[r], change);
-        result.add_unloading(along_unloading[i] * across[j] * by_ratio[r], change);
-      }
+  constexpr double all = std::numeric_limits<double>::infinity(), unloading_end = AtlasGrid::block_unloading_end;
+  const std::vector<double> loading = grid_.weights(m, all), unloading = grid_.weights(m, unloading_end),
+                            impacts = grid_.weights(m, unloading_end, of_same_ringing);
+  LawShape result = LawShape::zero(onset_of(m), depth);
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const LawShape& node = nodes_[k].shape;
+    if (loading[k] != 0) result.add(loading[k], node, LawShape::Part::loading);
+    if (unloading[k] != 0) result.add(unloading[k], node, LawShape::Part::unloading);
+    if (impacts[k] != 0) result.add(impacts[k], node, LawShape::Part::impacts);
   }
   return result;
 }

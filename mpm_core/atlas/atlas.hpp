@@ -3,33 +3,27 @@
 #include <string>
 #include <vector>
 
-#include "atlas/law_shape.hpp"
-#include "atlas/material_ratios.hpp"
+#include "atlas/lattice.hpp"
 #include "atlas/midplane.hpp"
 
 namespace granulaw {
 
-/// The materials that an atlas holds shapes of. A reference set at one Poisson's ratio, every stiffness with
-/// its hardenings; and a coarser block that gives what another Poisson's ratio changes, which is little and
-/// smooth.
-struct AtlasGrid
+/// Materials of the atlas's free spheres. Hardening too weak to be seen at a stiffness is left out there.
+struct AtlasGrid : Lattice
 {
-  double main_poisson_ratio = 0.3;
-  std::vector<double> stiffnesses{20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 283, 400, 600, 900, 2000, 5000};
-  /// H/E; what is too weak to be seen at a stiffness is left out there.
-  std::vector<double> hardenings{0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.15, 0.3};
-
-  std::vector<double> block_stiffnesses{20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 400, 600, 900, 5000};
-  /// Up to here the block gives unloading and velocity effects; stiffer ones the loading alone. Their e is
-  /// known to 0.003 (24 cells, two grids), which is what another ratio changes there.
+  AtlasGrid()
+      : Lattice{0.3,
+                {20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 283, 400, 600, 900, 2000, 5000},
+                {0, 3e-4, 1.2e-3, 0.005, 0.02, 0.077, 0.15, 0.3},
+                {20, 23, 27, 35, 47, 60, 80, 110, 150, 200, 400, 600, 900, 5000},
+                {0, 0.005, 0.02, 0.1, 0.3},
+                {0, 0.15, 0.42, 0.49},
+                0.1}  // it adds less than a tenth of Y at a strain of one
+  {
+  }
+  /// E*/Y up to which the block's unloading and velocity effects count; stiffer ones have the loading alone. Their
+  /// e has an error of 0.003 (24 cells, two grids), as large as the change by another Poisson's ratio there.
   static constexpr double block_unloading_end = 900;
-  std::vector<double> block_hardenings{0, 0.005, 0.02, 0.1, 0.3};
-  std::vector<double> block_poisson_ratios{0, 0.15, 0.42, 0.49};  ///< besides the main one
-
-  std::vector<double> hardenings_at(double stiffness) const;
-  std::vector<MaterialRatios> main_plane() const;  ///< ascending stiffness, then hardening
-  std::vector<MaterialRatios> block() const;       ///< ascending stiffness, hardening, Poisson's ratio
-  std::vector<double> poisson_ratios() const;      ///< all, ascending
 };
 
 /// The law of a sphere that never yields.
@@ -41,7 +35,7 @@ struct ElasticSphere
   double solver_error = 0;  ///< of the press to that depth, by two resolutions
 };
 
-/// A fresh impact of a material between the atlas's own, and what the atlas said.
+/// A fresh impact of a material between the atlas's own, and the error of the atlas's law.
 struct AtlasCheck
 {
   MaterialRatios material;
@@ -51,22 +45,15 @@ struct AtlasCheck
   double solver_estimate = 0;    ///< the impact's own, by two resolutions; relative
 };
 
-/// Dimensionless laws of all homogeneous materials within its range: shapes of few, interpolated.
-///
-/// Along ln(E*/Y) and along ln(1 + 2 (H/E)(E*/Y)), in which a law changes evenly from perfectly plastic to
-/// dominated by hardening: cubic through the four nearest; the change with Poisson's ratio by such cubics
-/// along the block's ratios, stiffnesses and hardenings. Beyond AtlasGrid::block_unloading_end the change of
-/// unloading and velocity effects keeps its value.
+/// Dimensionless laws of all homogeneous materials within its range: shapes of few, interpolated (Lattice). The
+/// change of unloading and velocity effects with Poisson's ratio keeps its value beyond
+/// AtlasGrid::block_unloading_end.
 class Atlas
 {
  public:
-  struct Node
-  {
-    MaterialRatios material;
-    LawShape shape;
-  };
+  using Node = LatticeNode;
 
-  /// Nodes of grid.main_plane(), then grid.block(), and elastic spheres of all its Poisson's ratios,
+  /// Nodes of grid.materials(), and elastic spheres of all its Poisson's ratios,
   /// ascending. Throws Error if they are not.
   Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere> elastic,
         std::vector<AtlasCheck> checks = {}, MidplaneShapes midplane = {});
@@ -89,21 +76,14 @@ class Atlas
   /// The shape of one; no velocity effects. Needs why_not() empty and midplane() not.
   LawShape midplane_shape(const MaterialRatios& m) const { return midplane_.shape(m, shape(m)); }
 
-  /// Error bounds of the atlas's laws: 95 % of all impacts lie within, as its checks give with a
-  /// confidence of 95 %; none of the checks exceeds twice the claim.
+  /// Error bounds of its laws: 95 % of all impacts lie within, by its checks with a confidence of 95 %; none of the
+  /// checks exceeds twice the bound.
   double claimed_force() const { return claimed_force_; }
   double claimed_restitution() const { return claimed_restitution_; }
   /// The solver's own error, by the checks' estimates, of force and e: 95 % lie within.
   double solver_error() const { return solver_error_; }
 
  private:
-  LawShape main_shape(double stiffness, double hardening) const;
-  /// Law shape of a material with another Poisson's ratio, from the reference set (nu = 0.3). Inertia acts
-  /// through the sphere's ringing: its period goes with the shear wave's, E*/rho (1 - nu)/2, and the
-  /// contact's time with rho/Y. So the effect of inertia is that at the stiffness E*/Y (1 - nu) in the
-  /// reference set.
-  LawShape partner(const MaterialRatios& m) const;
-
   AtlasGrid grid_;
   std::vector<Node> nodes_;
   std::vector<ElasticSphere> elastic_;

@@ -446,7 +446,7 @@ ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const 
       measured_damage_number(yielding.material(), partner.material(), radius_ratio, speed_ratio),
       speed_ratio};
   if (range.fastest > 0) {
-    const LawShape own = atlas.shape(ratios);
+    const LawShape own = yielding.own_shape(atlas);
     composed.shape.velocity_effects =
         velocity_effects(own, tabulate(own, Atlas::depth),
                          tabulate(composed.shape, end), composed.body, speed_ratio);

@@ -6,10 +6,10 @@
 
 namespace granulaw {
 
-/// Bound on 95 % of all errors, with a confidence of 95 %, from those of some: the k-th smallest
+/// Bound that 95 % of all errors lie within, with a confidence of 95 %, from those of some: the k-th smallest
 /// of n is too low only if at least k of n lay within, a binomial of n and 0.95 (Wilks 1941): the largest of
 /// 59 to 92, the 99th of 100, the 196th of 200; of fewer than 59 not even the largest is enough. At least
-/// half the largest, since none may exceed twice what is claimed. 0 of none.
+/// half the largest, since none may exceed twice the bound. 0 of none.
 inline double confident_bound(std::vector<double> values)
 {
   if (values.empty()) return 0;
@@ -23,6 +23,15 @@ inline double confident_bound(std::vector<double> values)
     --k;
   }
   return std::max(values[static_cast<std::size_t>(k) - 1], 0.5 * values.back());
+}
+
+/// The same of the magnitudes of one error of checks.
+template <class Check>
+double confident_bound(const std::vector<Check>& checks, double Check::*error)
+{
+  std::vector<double> values;
+  for (const Check& c : checks) values.push_back(std::abs(c.*error));
+  return confident_bound(std::move(values));
 }
 
 }  // namespace granulaw

@@ -36,29 +36,23 @@ void ElasticCorrection::add(double weight, const ElasticCorrection& other)
   d1 += weight * other.d1;
 }
 
-void LawShape::add(double weight, const LawShape& other)
+void LawShape::add(double weight, const LawShape& other, Part part)
 {
-  add_loading(weight, other);
-  add_unloading(weight, other);
-}
-
-void LawShape::add_loading(double weight, const LawShape& other)
-{
-  elastic.add(weight, other.elastic);
-  add_to(force_reduction, weight, other.force_reduction);
-  add_to(widening, weight, other.widening);
-}
-
-void LawShape::add_unloading(double weight, const LawShape& other)
-{
-  add_to(residual, weight, other.residual);
-  add_to(dissipation, weight, other.dissipation);
-  add_to(hertz_share, weight, other.hertz_share);
-  for (std::size_t k = 0; k < velocity_effects.size(); ++k) {
-    velocity_effects[k].log_overlap += weight * other.velocity_effects[k].log_overlap;
-    velocity_effects[k].dissipation += weight * other.velocity_effects[k].dissipation;
-    velocity_effects[k].residual += weight * other.velocity_effects[k].residual;
-    add_to(velocity_effects[k].force, weight, other.velocity_effects[k].force);
+  const auto wanted = [part](Part one) { return part == Part::all || part == one; };
+  if (wanted(Part::loading)) {
+    elastic.add(weight, other.elastic);
+    add_to(force_reduction, weight, other.force_reduction);
+    add_to(widening, weight, other.widening);
+  }
+  if (wanted(Part::unloading))
+    for (const auto member : {&LawShape::residual, &LawShape::dissipation, &LawShape::hertz_share})
+      add_to(this->*member, weight, other.*member);
+  for (std::size_t k = 0; wanted(Part::impacts) && k < velocity_effects.size(); ++k) {
+    VelocityEffect& effect = velocity_effects[k];
+    for (double VelocityEffect::*number :
+         {&VelocityEffect::log_overlap, &VelocityEffect::dissipation, &VelocityEffect::residual})
+      effect.*number += weight * other.velocity_effects[k].*number;
+    add_to(effect.force, weight, other.velocity_effects[k].force);
   }
 }
 

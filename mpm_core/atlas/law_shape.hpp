@@ -92,11 +92,10 @@ struct LawShape
   }
   double q(double x) const { return 0.25 * std::log(x / onset); }
 
-  /// this += weight * other, node by node, whose speeds are the same; or only the loading (elastic body, force
-  /// reduction, widening), or the reversal and the effects of inertia. Onset and end stay.
-  void add(double weight, const LawShape& other);
-  void add_loading(double weight, const LawShape& other);
-  void add_unloading(double weight, const LawShape& other);
+  /// Loading is the elastic body, force reduction and widening; impacts are the effects of inertia.
+  enum class Part { all, loading, unloading, impacts };
+  /// this += weight * other, node by node, whose speeds are the same; or a part of it. Onset and end stay.
+  void add(double weight, const LawShape& other, Part part = Part::all);
   /// The same functions of x/onset between other ends. Beyond its own end each keeps its last value; inertia is
   /// dropped.
   LawShape at_range(double other_onset, double other_end) const;

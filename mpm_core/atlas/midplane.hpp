@@ -3,29 +3,21 @@
 #include <array>
 #include <vector>
 
-#include "atlas/law_shape.hpp"
-#include "atlas/material_ratios.hpp"
+#include "atlas/lattice.hpp"
 
 namespace granulaw {
 
-/// Materials of which the atlas has run midplane presses. A reference set at one Poisson's ratio, and a
-/// coarser block that gives what another one changes.
-struct MidplaneGrid
+/// Materials of the atlas's midplane presses.
+struct MidplaneGrid : Lattice
 {
-  double main_poisson_ratio = 0.3;
-  std::vector<double> stiffnesses{20, 28, 40, 60, 100, 200, 600, 5000};  ///< E*/Y
-  std::vector<double> hardenings{0, 0.005, 0.02, 0.08, 0.3};             ///< H/E
-  std::vector<double> block_stiffnesses{20, 60, 200, 600};
-  std::vector<double> block_hardenings{0, 0.02, 0.3};
-  std::vector<double> block_poisson_ratios{0, 0.49};  ///< besides the main one
-
-  std::vector<double> poisson_ratios() const;  ///< all, ascending
-  /// The reference set, then the block: by stiffness, hardening, Poisson's ratio.
-  std::vector<MaterialRatios> materials() const;
-  bool operator==(const MidplaneGrid&) const = default;
+  MidplaneGrid()
+      : Lattice{0.3,        {20, 28, 40, 60, 100, 200, 600, 5000}, {0, 0.005, 0.02, 0.08, 0.3}, {20, 60, 200, 600},
+                {0, 0.02, 0.3}, {0, 0.49}}
+  {
+  }
 };
 
-/// A fresh midplane press of a random material, and what the atlas said.
+/// A fresh midplane press of a random material, and the error of the atlas's law.
 struct MidplaneCheck
 {
   MaterialRatios material;
@@ -35,22 +27,17 @@ struct MidplaneCheck
   double error_recovery = 0;     ///< of the recovery, largest overlap less residual, relative, signed
 };
 
-/// Effect of a held equator plane, in place of the whole sphere, on a contact: a particle between two
+/// Change of a contact where the equator plane is held in place of the whole sphere: a particle between two
 /// platens.
 ///
 /// While the contact is small the change is elastic: the half between contact and equator is a series
-/// compliance (LawShape::as_skin_of, with the midplane press's own elastic correction). What presses show
-/// beyond that, where the two plastic zones meet, is kept as a function of ln(overlap/R) for each material of
-/// the grid.
+/// compliance (LawShape::as_skin_of, with the midplane press's own elastic correction). Beyond, where the two
+/// plastic zones meet, each material of the lattice has the remaining difference as a function of
+/// ln(overlap/R).
 class MidplaneShapes
 {
  public:
-  struct Node
-  {
-    MaterialRatios material;
-    double onset = 0;  ///< overlap/R; the change's functions of u begin there and end at Atlas::depth
-    LawShape change;   ///< the press's shape less the free sphere's with a series compliance
-  };
+  using Node = LatticeNode;  ///< the press's shape less the free sphere's with a series compliance
 
   MidplaneShapes() = default;
   /// `nodes` of grid.materials(); `elastic` of grid.poisson_ratios(). Throws Error if they are not.
@@ -81,7 +68,7 @@ class MidplaneShapes
   MidplaneGrid grid_;
   std::vector<ElasticCorrection> elastic_;
   std::vector<Node> nodes_;
-  std::vector<std::array<Spline, 5>> changes_;  ///< of each node, over u from 0 to 1
+  std::vector<std::array<Spline, 5>> changes_;  ///< of each node, by q
   std::vector<MidplaneCheck> checks_;
   double claimed_force_ = 0, claimed_restitution_ = 0, claimed_recovery_ = 0;
 };

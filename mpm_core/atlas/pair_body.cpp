@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "base/error.hpp"
-#include "atlas/body_numbers.hpp"
 #include "atlas/interpolation.hpp"
 #include "atlas/tabulate_curve.hpp"
 
@@ -75,22 +73,21 @@ PairBody::PairBody(const Atlas& atlas, const LawMaterial& material)
   if (material.yields()) make_twins(atlas);
 }
 
-PairBody::PairBody(const Atlas& atlas, const LawMaterial& material, const Curve& own)
-    : material_(material), ratios_(MaterialRatios::of(material))
+PairBody::PairBody(const Atlas& atlas, const LawMaterial& material, FlowCurve flow, const Curve& own)
+    : material_(material), ratios_(MaterialRatios::of(material)), flow_(std::move(flow))
 {
-  const double onset = onset_of(ratios_);
-  const Twin own_twin = tabulated(own, atlas.elastic(ratios_.poisson_ratio).fit.correction, ratios_.stiffness,
-                                  onset, own.end());
-  const auto misfit = [&](double log_hardening) {
-    return departure(own_twin, stand_in(atlas, std::exp(log_hardening))).rms();
-  };
-  const std::vector<double>& known = atlas.grid().hardenings;  // the first is 0
-  constexpr int bits = 8;                                      // of ln(H/E): the departure takes the rest
-  const auto [nearest, least] =
-      boost::math::tools::brent_find_minima(misfit, std::log(known[1]), std::log(known.back()), bits);
-  ratios_.hardening = least < departure(own_twin, stand_in(atlas, 0)).rms() ? std::exp(nearest) : 0;
-  departure_ = departure(own_twin, stand_in(atlas, ratios_.hardening));
+  departure_ = Departure::between(own, shape(atlas, ratios_.stiffness));
   make_twins(atlas);
+}
+
+/// The law of the body with another stiffness, of the same yield stress.
+LawShape PairBody::shape(const Atlas& atlas, double stiffness) const
+{
+  const double nu = ratios_.poisson_ratio;
+  if (!flow_) return atlas.shape({stiffness, nu, ratios_.hardening});
+  LawShape shape = stand_in(atlas, stiffness, nu, of_twin(flow_, stiffness / ratios_.stiffness));
+  departure_.add_to(shape);
+  return shape;
 }
 
 void PairBody::make_twins(const Atlas& atlas)
@@ -118,7 +115,7 @@ PairBody PairBody::elastic() const
   return body;
 }
 
-/// A equivalent sphere from its slow law on a rigid flat, up to the overlap `depth`.
+/// An equivalent sphere from its slow law on a rigid flat, up to the overlap `depth`.
 PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& elastic,
                                    double stiffness, double onset, double depth)
 {
@@ -144,76 +141,8 @@ PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& 
 
 PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
 {
-  const MaterialRatios ratios{stiffness, ratios_.poisson_ratio, ratios_.hardening};
-  const LawShape shape = atlas.shape(ratios);
-  const double onset = onset_of(ratios);
-  Twin t = tabulated(tabulate(shape, Atlas::depth), shape.elastic, stiffness, onset,
-                     Atlas::depth);
-  for (std::size_t node = 0; node < t.log_contact.size(); ++node) {
-    const double log_strain = t.log_contact[node] + t.log_stiffness;
-    const auto more = [&](const std::vector<double> Departure::*member) {
-      return departure_.at(log_strain, member);
-    };
-    t.log_pressure[node] += more(&Departure::log_pressure);
-    t.log_overlap[node] += more(&Departure::log_overlap);
-    t.unloading_work[node] += more(&Departure::unloading_work);
-    t.hertz_share[node] += more(&Departure::hertz_share);
-    // a fit may scatter by rounding, place() needs it rising
-    const double lost = t.log_lost[node] + more(&Departure::log_lost);
-    t.log_lost[node] = node ? std::max(lost, t.log_lost[node - 1]) : lost;
-  }
-  return t;
-}
-
-/// Equivalent sphere with the body's stiffness and this H/E.
-PairBody::Twin PairBody::stand_in(const Atlas& atlas, double hardening) const
-{
-  const LawShape shape = atlas.shape({ratios_.stiffness, ratios_.poisson_ratio, hardening});
-  const double onset = onset_of(ratios_);
-  return tabulated(tabulate(shape, Atlas::depth), shape.elastic, ratios_.stiffness,
-                   onset, Atlas::depth);
-}
-
-PairBody::Departure PairBody::departure(const Twin& own, const Twin& stand_in)
-{
-  Departure departure;
-  for (std::size_t node = elastic_intervals; node < own.log_contact.size(); ++node) {
-    const double log_contact = own.log_contact[node];
-    const auto above =
-        std::upper_bound(stand_in.log_contact.begin(), stand_in.log_contact.end(), log_contact);
-    if (above == stand_in.log_contact.begin() || above == stand_in.log_contact.end()) continue;
-    const auto low = static_cast<std::size_t>(above - stand_in.log_contact.begin()) - 1;
-    const double share = (log_contact - stand_in.log_contact[low]) /
-                         (stand_in.log_contact[low + 1] - stand_in.log_contact[low]);
-    const auto difference = [&](const std::vector<double> Twin::*member) {
-      return (own.*member)[node] - between((stand_in.*member)[low], (stand_in.*member)[low + 1], share);
-    };
-    departure.log_strain.push_back(log_contact + own.log_stiffness);
-    departure.log_pressure.push_back(difference(&Twin::log_pressure));
-    departure.log_overlap.push_back(difference(&Twin::log_overlap));
-    departure.log_lost.push_back(difference(&Twin::log_lost));
-    departure.unloading_work.push_back(difference(&Twin::unloading_work));
-    departure.hertz_share.push_back(difference(&Twin::hertz_share));
-  }
-  return departure;
-}
-
-double PairBody::Departure::at(double wanted, const std::vector<double> Departure::*member) const
-{
-  if (log_strain.empty() || wanted <= log_strain.front()) return 0;
-  if (wanted >= log_strain.back()) return (this->*member).back();
-  const auto low = static_cast<std::size_t>(std::upper_bound(log_strain.begin(), log_strain.end(), wanted) -
-                                            log_strain.begin()) -
-                   1;
-  return between((this->*member)[low], (this->*member)[low + 1],
-                 (wanted - log_strain[low]) / (log_strain[low + 1] - log_strain[low]));
-}
-
-double PairBody::Departure::rms() const
-{
-  double sum = 0;
-  for (const double difference : log_pressure) sum += difference * difference;
-  return std::sqrt(sum / static_cast<double>(log_pressure.size()));
+  const LawShape own = shape(atlas, stiffness);
+  return tabulated(tabulate(own, own.end), own.elastic, stiffness, own.onset, own.end);
 }
 
 /// Overlap/R of the elastic sphere at this a/R.
@@ -293,12 +222,11 @@ PairBody::State PairBody::at(double curvature, double contact) const
 
   State state;
   state.log_yield_overlap = log_overlap_of(node, log_end);
-  // A equivalent sphere put in the place of one that is too stiff for the atlas is soft for lack of a body,
+  // An equivalent sphere put in the place of one that is too stiff for the atlas is soft for lack of a body,
   // not of pressure.
   constexpr double widest_stand_in = 0.35;
-  const double log_strain = std::log(curvature * ratios_.stiffness);
   state.known = node < overlap_nodes && !(twin.is_clipped && alpha > std::max(contact, widest_stand_in)) &&
-                (departure_.log_strain.empty() || log_strain <= departure_.log_strain.back());
+                (!flow_ || state.log_yield_overlap <= std::log(departure_.end()));
   state.pressure = material_.yield_stress * std::exp(value(twin, &Twin::log_pressure, node));
   const double overlap = twin.share * std::exp(value(twin, &Twin::log_overlap, node)) / alpha;
   const double kept = std::exp(-std::max(0.0, value(twin, &Twin::log_lost, node)));

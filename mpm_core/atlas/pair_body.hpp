@@ -3,7 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "atlas/atlas.hpp"
+#include "atlas/departure.hpp"
+#include "atlas/stand_in.hpp"
 #include "contact/curve.hpp"
 #include "law/law_material.hpp"
 
@@ -39,13 +40,12 @@ struct PressureShape
 class PairBody
 {
  public:
-  /// Throws Error if the atlas does not know the material.
+  /// Throws Error where the atlas has no law of the material.
   PairBody(const Atlas& atlas, const LawMaterial& material);
-  /// Homogeneous, rate-independent body whose flow law is not in the atlas, with its `own` quasi-static law
-  /// on a rigid plane. Equivalent spheres are those of the linearly hardening material that comes nearest.
-  /// Each is corrected by the departure of the body's own contact from this one's at the same strain kappa
-  /// E*/Y. Defined up to the strain where the own law ends.
-  PairBody(const Atlas& atlas, const LawMaterial& material, const Curve& own);
+  /// A homogeneous, rate-independent body of another flow law, with its `own` slow law on a rigid flat. Its
+  /// equivalent spheres strain 1/q as much at the same stress (of_twin), and depart from the atlas's laws at the
+  /// same overlap/onset as the body does from its own (Departure). Within its own law's overlap/onset.
+  PairBody(const Atlas& atlas, const LawMaterial& material, FlowCurve flow, const Curve& own);
 
   /// At contact radius a.
   struct State
@@ -55,7 +55,7 @@ class PairBody
     double recovered = 0;          ///< recovered overlap over a
     double flatness = 0;           ///< of the pressure
     double log_yield_overlap = 0;  ///< ln(overlap/overlap at first yield); elastic: below 0
-    bool known = true;             ///< within what the atlas gives
+    bool known = true;             ///< within the range of the atlas, and of the own law
   };
   /// `curvature`: kappa > 0; `contact`: alpha, 0 for a deformable wall.
   State at(double curvature, double contact) const;
@@ -74,8 +74,9 @@ class PairBody
   PairBody elastic() const;
 
   const LawMaterial& material() const { return material_; }
-  /// Ratios of the material in the atlas that represents it: its own, but for the hardening.
   const MaterialRatios& ratios() const { return ratios_; }
+  /// Its own law, from which velocity effects are taken.
+  LawShape own_shape(const Atlas& atlas) const { return shape(atlas, ratios_.stiffness); }
   bool yields() const { return !twins_.empty(); }
   /// k of the finite sphere: its centre comes nearer by k F/(E* R) less than its half-space's.
   double finite_body() const { return finite_body_; }
@@ -95,21 +96,11 @@ class PairBody
     std::array<double, 4> weights;
     bool is_clipped;  // nearest to one that the atlas does not know
   };
-  /// Departure of a body's contact from its equivalent sphere's, at ascending ln(kappa E*/Y). Empty: none.
-  struct Departure
-  {
-    std::vector<double> log_strain, log_pressure, log_overlap, log_lost, unloading_work, hertz_share;
-
-    double at(double log_strain, const std::vector<double> Departure::*member) const;
-    double rms() const;  // of ln(pressure)
-  };
-
   void make_twins(const Atlas& atlas);
   static Twin tabulated(const Curve& curve, const ElasticCorrection& elastic, double stiffness,
                         double onset, double depth);
   Twin twin(const Atlas& atlas, double stiffness) const;
-  Twin stand_in(const Atlas& atlas, double hardening) const;
-  static Departure departure(const Twin& own, const Twin& stand_in);
+  LawShape shape(const Atlas& atlas, double stiffness) const;
   Mixed twin_at(double curvature, double contact) const;
   double value(const Mixed& twin, const std::vector<double> Twin::*member, int node) const;
   /// Node below which a rising function of the equivalent sphere is `wanted`, with its fraction.
@@ -120,6 +111,7 @@ class PairBody
 
   LawMaterial material_;
   MaterialRatios ratios_;
+  FlowCurve flow_;  ///< null: linear
   Departure departure_;
   ElasticCorrection elastic_;
   double finite_body_ = 0;

@@ -1,7 +1,5 @@
 #include "calibrate/calibrate_by_runs.hpp"
 
-#include "characterise/run/request.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +8,6 @@
 #include "base/larger.hpp"
 #include "calibrate/fit.hpp"
 #include "calibrate/kind/kind.hpp"
-#include "characterise/build/build_law.hpp"
-#include "characterise/body/characterised_body.hpp"
-#include "characterise/body/law_material.hpp"
 
 namespace granulaw {
 
@@ -27,17 +22,11 @@ double deepest(const CalibrationProblem& problem, const CandidateMaterial& mater
   return depth;
 }
 
-/// The slow law of a material, by runs, as deep as the data go.
-Curve law_by_runs(const CandidateMaterial& material, double depth, double onset, const Atlas& atlas,
-                         Farm& farm, const Progress& progress)
+/// Overlap/R that a law by runs must reach.
+double depth_of_law(double deepest, double onset)
 {
   constexpr double margin = 1.1, least_over_onset = 8;
-  BuildOptions options;
-  options.depth = std::clamp(std::max(margin * depth, least_over_onset * onset), 0.02, Atlas::depth);
-  options.fastest = 0;
-  options.atlas = &atlas, options.farm = &farm, options.progress = progress;
-  const Material solid = solver_material(material);
-  return build_law(law_material(material.name, solid), characterised_body_of(solid), options).law.curve;
+  return std::clamp(std::max(margin * deepest, least_over_onset * onset), 0.02, Atlas::depth);
 }
 
 struct Miss
@@ -64,7 +53,7 @@ Miss miss_of(const Curve& fitted, const Curve& own, double depth)
 
 }  // namespace
 
-CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, const Progress& progress)
+CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, const LawByRuns& law_by_runs, const Progress& progress)
 {
   CalibrationByRuns result;
   Coordinates q = best_fit(problem).q;
@@ -73,8 +62,8 @@ CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, Farm& farm, con
     const CandidateMaterial material = problem.material(q);
     const SphereLaws& laws = problem.laws().of(material);
     const double depth = deepest(problem, material, laws);
-    const Curve own =
-        law_by_runs(material, depth, laws.onset(), atlas, farm, [&](double done, const std::string& what) {
+    const Curve own = law_by_runs(
+        material.name, solver_material(material), depth_of_law(depth, laws.onset()), [&](double done, const std::string& what) {
           if (progress)
             progress((result.laws + done) / most_laws, fmt::format("law {}: {}", result.laws + 1, what));
         });

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "characterise/body/law_material.hpp"
 #include "solver/material/law_table.hpp"
 
 namespace granulaw {
@@ -86,7 +85,7 @@ bool is_stress(Parameter parameter)
 
 Material solver_material(const CandidateMaterial& m)
 {
-  Material material = material_of(m);
+  Material material{m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
   if (m.hardens_linearly()) return material;
   material.hardening_modulus = 0, material.hardening = m.hardening;
   for (const flow::Parameter& p : keys_of(m.hardening.name).parameters)

@@ -23,14 +23,6 @@ namespace {
 
 constexpr double elastic_depth = 0.03;  // overlap/R of the presses that give the finite-sphere correction
 
-std::vector<MaterialRatios> all_materials(const AtlasGrid& grid)
-{
-  std::vector<MaterialRatios> all = grid.main_plane();
-  const std::vector<MaterialRatios> block = grid.block();
-  all.insert(all.end(), block.begin(), block.end());
-  return all;
-}
-
 CharacterisedBody sphere_of(const MaterialRatios& m)
 {
   return characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
@@ -72,7 +64,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
     jobs.push_back(elastic_job(nu, elastic_depth, source));
     jobs.push_back(with_estimate(elastic_job(nu, ElasticSphere::depth, source)));
   }
-  for (const MaterialRatios& m : all_materials(grid)) {
+  for (const MaterialRatios& m : grid.materials()) {
     for (RunJob& job : sampling_jobs(sphere_of(m), plan_for(m, known), source)) {
       job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
                               job.label);
@@ -84,7 +76,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
 
 namespace {
 
-/// An atlas that is being made: its elastic spheres, then its materials in the order of all_materials().
+/// An atlas that is being made: its elastic spheres, then its materials in the order of the grid.
 class Assembly
 {
  public:
@@ -210,7 +202,7 @@ Atlas atlas_from(const AtlasGrid& grid, const std::vector<RunOutcome>& outcomes,
 {
   Assembly assembly(grid, outcomes, known);
   assembly.add_elastic_spheres();
-  for (const MaterialRatios& m : all_materials(grid)) assembly.add(m);
+  for (const MaterialRatios& m : grid.materials()) assembly.add(m);
   return assembly.take();
 }
 

@@ -95,7 +95,7 @@ MidplaneShapes midplane_from(const Atlas& free, const MidplaneGrid& grid,
     const ShapePrior prior = ShapePrior::of(guide, onset, Atlas::depth, Atlas::depth);
     LawShape change = fit_shape(records, correction, onset, Atlas::depth, &prior).shape;
     change.add(-1, guide);
-    nodes.push_back({m, onset, std::move(change)});
+    nodes.push_back({m, std::move(change)});
   }
   return {grid, std::move(elastic), std::move(nodes)};
 }

@@ -1,17 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "farm/run_cache.hpp"
 #include "farm/run_queue.hpp"
 
 namespace granulaw {
-
-/// Progress callback: gets the fraction of a batch that is done, 0..1, and which run goes on; some ten times
-/// a second, by the thread that called Farm::run. May throw to stop.
-using Progress = std::function<void(double done, const std::string& what)>;
 
 /// Runs and CPU time that a farm has spent and saved since it was made.
 struct FarmCount

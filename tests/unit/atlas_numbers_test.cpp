@@ -32,8 +32,7 @@ Atlas small_atlas()
 {
   AtlasGrid grid;
   std::vector<Atlas::Node> nodes;
-  for (const auto& materials : {grid.main_plane(), grid.block()})
-    for (const MaterialRatios& m : materials) nodes.push_back({m, shape_of(m)});
+  for (const MaterialRatios& m : grid.materials()) nodes.push_back({m, shape_of(m)});
   std::vector<ElasticSphere> elastic;
   for (const double nu : grid.poisson_ratios()) elastic.push_back({nu, {{0.87, 0.4, -0.2, 0.1}, 1e-3}, 1e-3});
   std::vector<AtlasCheck> checks(60, {{100, 0.3, 0}, 0.1, 0.003, 0.001, 0.002});
@@ -73,11 +72,12 @@ TEST(AtlasNumbers, OthersAreRefused)
   std::vector<double> longer = numbers;
   longer.push_back(0);
   EXPECT_THROW(atlas_of(longer), Error);
-  numbers[0] = 2;
+  const double version = numbers[0];
+  numbers[0] = version + 1;
   EXPECT_THROW(atlas_of(numbers), Error);
-  numbers[0] = 1, numbers[2] = 1e9;  // the length of the first list
+  numbers[0] = version, numbers[1] = 1e9;  // the length of the first list
   EXPECT_THROW(atlas_of(numbers), Error);
-  numbers[2] = std::numeric_limits<double>::quiet_NaN();
+  numbers[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(atlas_of(numbers), Error);
 }
 

@@ -6,6 +6,8 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
+#include "calibrate/sphere_laws.hpp"
+#include "characterise/build/slow_law.hpp"
 #include "calibration_options.hpp"
 #include "calibration_output.hpp"
 #include "command.hpp"
@@ -65,8 +67,13 @@ Calibration fit_by_runs(const CalibrateRequest& r, CalibrationProblem& problem, 
 {
   const std::unique_ptr<Farm> farm = r.farm.farm();
   ProgressBar bar;
+  const Atlas& atlas = problem.laws().atlas();
+  const LawByRuns law_by_runs = [&](const std::string& name, const Material& material, double depth,
+                                    const Progress& progress) {
+    return slow_law_by_runs(name, material, depth, atlas, *farm, progress);
+  };
   CalibrationByRuns fit = calibrate_by_runs(
-      problem, *farm, [&](double done, const std::string& what) { bar.update(done, what); });
+      problem, law_by_runs, [&](double done, const std::string& what) { bar.update(done, what); });
   bar.clear();
   const FarmCount& count = farm->count();
   runs = {{"laws", fit.laws},     {"runs", count.made},           {"runs_from_cache", count.from_cache},

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "atlas/stand_in.hpp"
 #include "law/law.hpp"
+#include "solver/material/law_table.hpp"
 #include "solver/material/material.hpp"
 
 namespace granulaw {
@@ -25,6 +27,12 @@ inline Material material_of(const LawMaterial& m)
 inline double speed_unit(const LawMaterial& m)
 {
   return std::sqrt(m.yield_stress / m.density);
+}
+
+/// Flow stress over the yield stress, of the solver's material.
+inline FlowCurve flow_curve(const Material& material)
+{
+  return [material](double strain) { return flow_stress(material, strain) / material.yield_stress; };
 }
 
 }  // namespace granulaw

@@ -233,7 +233,9 @@ class Maker
   {
     const Atlas& atlas = *plan_.request.atlas;
     if (plan_.bodies.at(m.name).from_atlas()) return pair_bodies_.try_emplace(m.name, atlas, m).first->second;
-    return pair_bodies_.try_emplace(m.name, atlas, m, file_.law.bodies.at(m.name).curve).first->second;
+    const Material& solid = plan_.bodies.at(m.name).body->characterised.particle.materials.front();
+    return pair_bodies_.try_emplace(m.name, atlas, m, flow_curve(solid), file_.law.bodies.at(m.name).curve)
+        .first->second;
   }
 
   std::vector<TwoBodyLaw> law_by_runs(const LawFilePlan::Pair& pair)

@@ -25,7 +25,7 @@ namespace {
 
 /// Departure of an impact of the two bodies from the composed law, at its place
 /// ln(overlap/onset)/ln(end/onset).
-struct Departure
+struct PairDeparture
 {
   double place = 0;
   double force = 0;        // ln of the loading force, run over law
@@ -35,12 +35,12 @@ struct Departure
 
 /// One part of the departures as a function of the place: 0 up to the onset, which it leaves with slope 0, so
 /// it is interpolated as an even function; beyond the last impact it keeps its value.
-double at(const std::vector<Departure>& departures, double Departure::*part, double place)
+double at(const std::vector<PairDeparture>& departures, double PairDeparture::*part, double place)
 {
   if (place <= 0) return 0;
   if (place >= departures.back().place) return departures.back().*part;
   std::vector<double> places{0}, values{0};
-  for (const Departure& d : departures)
+  for (const PairDeparture& d : departures)
     for (const double side : {-1.0, 1.0}) {
       const auto where = side < 0 ? places.begin() : places.end();
       values.insert(values.begin() + (where - places.begin()), d.*part);
@@ -73,7 +73,7 @@ class PairImpacts
   void sample();
 
   double radius_ratio() const { return pair_.radius_ratio; }
-  const std::vector<Departure>& departures() const { return departures_; }
+  const std::vector<PairDeparture>& departures() const { return departures_; }
   const CellsError& solver_error() const { return solver_error_; }
   /// Leave-one-out error: of F, of e (both relative), and the larger of the two on the scale of the
   /// tolerance.
@@ -97,7 +97,7 @@ class PairImpacts
   RunJob job(double place, int cells) const;
   void begin();
   void check_onset();
-  Departure departure(double place, const RunResult& run) const;
+  PairDeparture departure(double place, const RunResult& run) const;
   void take(double place, const RunResult& run);
   Replay replay(double speed) const;
   Miss miss(std::size_t left_out) const;
@@ -111,7 +111,7 @@ class PairImpacts
   PairFarm farm_;
   RunSource source_;
   BuildRuns runs_{options_};
-  std::vector<Departure> departures_;  // ascending place
+  std::vector<PairDeparture> departures_;  // ascending place
   std::vector<double> restitutions_;   // of the runs
   int cells_ = first_resolution;
   Miss at_onset_;
@@ -179,8 +179,8 @@ double force_departure(const ContactRecord& run, const Replay& law, double lengt
   return count > 0 ? sum / count : 0;
 }
 
-/// Departure of a run at the speed that belongs to `place`; it reaches one nearby.
-Departure PairImpacts::departure(double place, const RunResult& run) const
+/// PairDeparture of a run at the speed that belongs to `place`; it reaches one nearby.
+PairDeparture PairImpacts::departure(double place, const RunResult& run) const
 {
   const ContactRecord record = contact_record_of(run);
   const Replay law = replay(speed_to(overlap_at(place)));
@@ -192,21 +192,21 @@ Departure PairImpacts::departure(double place, const RunResult& run) const
 
 void PairImpacts::take(double place, const RunResult& run)
 {
-  const Departure d = departure(place, run);
+  const PairDeparture d = departure(place, run);
   const auto where =
       std::upper_bound(departures_.begin(), departures_.end(), d.place,
-                       [](double value, const Departure& other) { return value < other.place; });
+                       [](double value, const PairDeparture& other) { return value < other.place; });
   restitutions_.insert(restitutions_.begin() + (where - departures_.begin()), run.summary.restitution);
   departures_.insert(where, d);
 }
 
 PairImpacts::Miss PairImpacts::miss(std::size_t left_out) const
 {
-  std::vector<Departure> others = departures_;
-  const Departure d = others[left_out];
+  std::vector<PairDeparture> others = departures_;
+  const PairDeparture d = others[left_out];
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-  const double force = std::abs(std::expm1(at(others, &Departure::force, d.place) - d.force));
-  const double e = std::abs(std::expm1(0.5 * (at(others, &Departure::dissipation, d.place) - d.dissipation)));
+  const double force = std::abs(std::expm1(at(others, &PairDeparture::force, d.place) - d.force));
+  const double e = std::abs(std::expm1(0.5 * (at(others, &PairDeparture::dissipation, d.place) - d.dissipation)));
   return {force, e, std::max(force, counted(e, restitutions_[left_out]))};
 }
 
@@ -237,7 +237,7 @@ std::vector<double> PairImpacts::bisections() const
 }
 
 /// Error of the cells of what is taken from a run.
-CellsError index_between(const Departure& fine, const Departure& coarse, double cell_ratio)
+CellsError index_between(const PairDeparture& fine, const PairDeparture& coarse, double cell_ratio)
 {
   return {rule_of_revolution.left(std::abs(std::expm1(coarse.force - fine.force)), cell_ratio),
           rule_of_revolution.left(std::abs(std::expm1(0.5 * (coarse.dissipation - fine.dissipation))), cell_ratio)};
@@ -282,7 +282,7 @@ void PairImpacts::check_onset()
   constexpr double barely = 0.02;  // a place: the overlap is the onset's, as good as
   const RunOutcome outcome =
       runs_.make_needed({job(barely, cells_)}, 0.8, "an impact to the onset of yield").front();
-  const Departure d = departure(barely, outcome.result);
+  const PairDeparture d = departure(barely, outcome.result);
   const double force = std::abs(std::expm1(d.force)), e = std::abs(std::expm1(0.5 * d.dissipation));
   at_onset_ = {force, e, std::max(force, counted(e, outcome.result.summary.restitution))};
 }
@@ -308,7 +308,7 @@ class Correction
  public:
   explicit Correction(const std::deque<PairImpacts>& impacts) : impacts_(impacts) {}
 
-  double at(double size_share, double Departure::*part, double place) const
+  double at(double size_share, double PairDeparture::*part, double place) const
   {
     const auto [low, high, share] = between(size_share);
     const double first = granulaw::at(impacts_[low].departures(), part, place);
@@ -370,9 +370,9 @@ void correct(ComposedShape& composed, const Correction& correction)
   for (int k = 1; k < LawShape::nodes; ++k) {
     const double place = static_cast<double>(k) / (LawShape::nodes - 1);
     const auto node = static_cast<std::size_t>(k);
-    composed.shape.force_reduction[node] -= correction.at(size_share, &Departure::force, place);
-    composed.shape.dissipation[node] += correction.at(size_share, &Departure::dissipation, place);
-    composed.shape.residual[node] += correction.at(size_share, &Departure::residual, place);
+    composed.shape.force_reduction[node] -= correction.at(size_share, &PairDeparture::force, place);
+    composed.shape.dissipation[node] += correction.at(size_share, &PairDeparture::dissipation, place);
+    composed.shape.residual[node] += correction.at(size_share, &PairDeparture::residual, place);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
+#include "characterise/build/slow_law.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
@@ -218,7 +219,10 @@ TEST(CalibrateSlow, ALawByRunsCorrectsTheFit)
   for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.01 * e[k];
   CalibrationProblem problem(atlas(), request_for_voce(m));
   ThreadFarm farm(2);
-  const CalibrationByRuns fit = calibrate_by_runs(problem, farm);
+  const CalibrationByRuns fit = calibrate_by_runs(
+      problem, [&](const std::string& name, const Material& material, double depth, const Progress& progress) {
+        return slow_law_by_runs(name, material, depth, atlas(), farm, progress);
+      });
   EXPECT_GE(fit.laws, 1);
   EXPECT_LT(fit.miss_force, close_enough);
   EXPECT_LT(fit.miss_restitution, close_enough);
