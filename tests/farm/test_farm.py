@@ -111,7 +111,7 @@ def case_commands():
     for words, code, wanted in ((["none.toml", "-o", "x.h5"], 1, "none.toml: no such file"),
                                 (["m.toml"], 2, "--output is required"),
                                 (["m.toml", "-o", "none/x.h5"], 1, "'none' does not exist"),
-                                (["m.toml", "--no-atlas", "-o", "x.h5", "--cache", "m.toml/x"], 1, "--cache")):
+                                (["m.toml", "--no-atlas", "-o", "x.h5", "--cache", "m.toml/x"], 2, "--cache")):
         done = run(2, MPM, "table", *words)
         lines = own_lines(done.stderr)
         assert done.returncode == code and len(lines) == 1 and wanted in lines[0], (words, done.stderr)

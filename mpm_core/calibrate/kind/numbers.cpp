@@ -5,6 +5,8 @@
 #include "base/scales.hpp"
 #include "atlas/stand_in.hpp"
 #include "calibrate/kind/kind.hpp"
+#include "calibrate/parameters.hpp"
+#include "solver/material/law_table.hpp"
 
 namespace granulaw {
 
@@ -18,7 +20,7 @@ double hardness_of(const CandidateMaterial& m)
 {
   constexpr double strain = 0.08;  // of a pyramid
   const double tan_beta = std::tan((90 - 70.3) * M_PI / 180), nu = m.poisson_ratio;
-  const double flow = m.yield_stress * flow_curve(m)(strain);
+  const double flow = flow_stress(solver_material(m), strain);
   const double cavity =
       2.0 / 3.0 * (1 + std::log((m.youngs_modulus / flow * tan_beta + 4 * (1 - 2 * nu)) / (6 * (1 - nu))));
   return flow * std::clamp(cavity, 1.0, 3.0);
