@@ -124,7 +124,7 @@ struct ContactStatistics
     /// Contacts, ended and open, that came deeper than PairInfo::deep_overlap, by the bins of the histogram
     /// (open ones included) that lie beyond it: at least so many.
     double deep() const;
-    void open_map() { map.resize(static_cast<std::size_t>(LogHistogram::bins * LogHistogram::bins)); }
+    void open_map() { map.resize(std::size_t{LogHistogram::bins} * LogHistogram::bins); }
     /// The same in SI; the contact loops count in the deck's units.
     Pair in_si(const DeckUnits& units) const;
     /// Adds `other`: sums, largest and least values, histograms.

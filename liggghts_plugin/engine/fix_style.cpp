@@ -1,5 +1,8 @@
 #include "liggghts_plugin/engine/fix_style.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include "liggghts_plugin/engine/private_members.hpp"
 
 namespace granulaw::plugin {
@@ -21,6 +24,13 @@ void replace_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator crea
 void replace_compute_style(LAMMPS_NS::LAMMPS* lmp, const char* name, ComputeCreator create)
 {
   (*(lmp->modify->*exposed(ComputeMapTag{})))[name] = create;
+}
+
+bool moves_particles(const LAMMPS_NS::Modify& modify)
+{
+  return std::any_of(modify.fix, modify.fix + modify.nfix, [](const LAMMPS_NS::Fix* fix) {
+    return fix->time_integrate || std::string_view(fix->style).starts_with("multisphere");
+  });
 }
 
 UnfinishedFix::UnfinishedFix(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::Fix* unfinished) : modify_(lmp->modify)

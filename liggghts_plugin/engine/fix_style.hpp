@@ -15,6 +15,9 @@ using ComputeCreator = LAMMPS_NS::Compute* (*)(LAMMPS_NS::LAMMPS*, int iarg, int
 void replace_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator create);
 void replace_compute_style(LAMMPS_NS::LAMMPS* lmp, const char* name, ComputeCreator create);
 
+/// True where a fix moves particles: one that integrates in time, or multisphere, which sets no flag.
+bool moves_particles(const LAMMPS_NS::Modify& modify);
+
 /// While it lives, Modify's list can be searched and other fixes can be added although the constructor of
 /// `unfinished` is still running. Modify enters a fix in its list after that: it would give the place to the
 /// other, or, where it replaces a fix of the same id, hold a null pointer there that its searches follow.

@@ -17,6 +17,7 @@
 #include "input.h"
 #include "liggghts_plugin/deck/options.hpp"
 #include "liggghts_plugin/deck/session.hpp"
+#include "liggghts_plugin/engine/fix_style.hpp"
 #include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/plan/dry_run.hpp"
 #include "liggghts_plugin/plan/sweep.hpp"
@@ -182,14 +183,6 @@ void Planner::record_command()
   Command done{where_, {command}};
   done.words.insert(done.words.end(), lmp_->input->arg, lmp_->input->arg + lmp_->input->narg);
   record_.add_command(std::move(done));
-}
-
-/// fix multisphere sets no flag.
-bool Planner::moves_particles() const
-{
-  bool moves = false;
-  each_fix([&](const lmp::Fix& fix) { moves = moves || fix.time_integrate != 0 || begins(fix.style, "multisphere"); });
-  return moves;
 }
 
 void Planner::after_command()
@@ -541,7 +534,7 @@ void Planner::end_run(int steps)
 void Planner::add_run(int steps)
 {
   record_.runs.push_back(
-      {where_, static_cast<double>(steps), lmp_->update->dt, 0.5 * (count_ + record_.count() - cleared_), moves_particles()});
+      {where_, static_cast<double>(steps), lmp_->update->dt, 0.5 * (count_ + record_.count() - cleared_), moves_particles(*lmp_->modify)});
   stop_where_nothing_is_new();
   stop_where_late();
 }

@@ -74,7 +74,6 @@ class Planner
 
   void after_command();
   void record_command();
-  bool moves_particles() const;
   void find_settings();
   void find_materials();
   void find_walls();

@@ -61,18 +61,10 @@ void FixRunaway::check_sizes() const
     }
 }
 
-/// Without a fix that moves them particles may have any velocity. fix multisphere sets no flag.
-bool FixRunaway::moves_particles() const
-{
-  for (int f = 0; f < modify->nfix; ++f)
-    if (modify->fix[f]->time_integrate || std::strncmp(modify->fix[f]->style, "multisphere", 11) == 0) return true;
-  return false;
-}
-
 void FixRunaway::check() const
 {
   check_sizes();
-  if (!moves_particles()) return;
+  if (!moves_particles(*modify)) return;  // they may have any velocity
   const double dt = update->dt;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double *x = atom->x[i], *v = atom->v[i];

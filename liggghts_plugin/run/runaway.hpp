@@ -24,7 +24,6 @@ class FixRunaway : public LAMMPS_NS::Fix
 
  private:
   void check() const;
-  bool moves_particles() const;
   void check_sizes() const;
 };
 

@@ -94,7 +94,7 @@ class BodyAtContact
             least.log_yield_overlap, least.known};
   }
 
-  // Curvatures from 1/12000 of the whole on; up to twice, as a equivalent sphere under its own shape may have
+  // Curvatures from 1/12000 of the whole on; up to twice, as an equivalent sphere under its own shape may have
   // more than its fraction.
   static constexpr int nodes = 96;
   static constexpr double range_below = 9.4, range = 10.1, spacing = range / (nodes - 1);

@@ -28,7 +28,7 @@ struct ComposedState
 /// alone: no run.
 ///
 /// At a contact radius a the two bodies share the interface's curvature, kappa_s + kappa_h = a/R*, the mean
-/// pressure and the pressure's shape. Each is a equivalent sphere (PairBody) whose own pressure has another
+/// pressure and the pressure's shape. Each is an equivalent sphere (PairBody) whose own pressure has another
 /// shape: under the common one
 ///     p       = p_twin strength(common)/strength(own)                       it yields as much as the
 ///     equivalent sphere kappa   = kappa_twin + 2 pi/E* [sag(common) p - sag(own) p_twin]       its elastic

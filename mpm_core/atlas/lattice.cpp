@@ -12,10 +12,10 @@ namespace granulaw {
 
 namespace {
 
-/// Weights of rows of hardenings, one row a stiffness; `of(row, hardening)`: of the node there, in order.
-template <class Of>
+/// Weights of rows of hardenings, one row a stiffness, in order: calls `add(weight, stiffness, hardening)`.
+template <class Add>
 void along_rows(const std::vector<double>& stiffnesses, const MaterialRatios& m, const auto& hardenings_at,
-                const Of& add)
+                const Add& add)
 {
   const std::vector<double> along = interpolation_weights(logarithms(stiffnesses), std::log(m.stiffness));
   for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
@@ -73,10 +73,10 @@ std::vector<double> Lattice::weights(const MaterialRatios& m, double block_end, 
   weights.assign(materials().size(), 0.0);
   add_reference(m, 1);
   const std::vector<double> ratios = poisson_ratios(), by_ratio = interpolation_weights(ratios, m.poisson_ratio);
-  const std::vector<double> told(block_stiffnesses.begin(), std::upper_bound(block_stiffnesses.begin(),
+  const std::vector<double> counted(block_stiffnesses.begin(), std::upper_bound(block_stiffnesses.begin(),
                                                                             block_stiffnesses.end(), block_end));
   std::size_t next = reference;
-  along_rows(told, m, [&](double) -> const std::vector<double>& { return block_hardenings; },
+  along_rows(counted, m, [&](double) -> const std::vector<double>& { return block_hardenings; },
              [&](double weight, double k, double h) {
                for (std::size_t r = 0; r < ratios.size(); ++r) {
                  if (ratios[r] == main_poisson_ratio) continue;

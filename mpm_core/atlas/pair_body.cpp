@@ -18,7 +18,7 @@ namespace {
 constexpr double farthest_twin = 14;
 constexpr int twins_made = 9;
 
-// Nodes of a equivalent sphere in ln(overlap/overlap at first yield): up to that, and from there to where the
+// Nodes of an equivalent sphere in ln(overlap/overlap at first yield): up to that, and from there to where the
 // atlas ends, in which laws of different stiffness resemble each other (LawShape).
 constexpr double first_log_overlap = -8;
 constexpr int elastic_intervals = 80, plastic_intervals = 240;

@@ -142,7 +142,7 @@ struct PairLaw : PairContact  // its curve is the Law's
   {
     return curve->axis() ? curve->reach(speed_coordinate(r_eff, m_eff) * speed) : 0.0;
   }
-  /// Least approach speed that that the law covers, m/s: slower impacts are answered as this one. 0 without a
+  /// Least approach speed that the law covers, m/s: slower impacts are answered as this one. 0 without a
   /// rate axis.
   double min_speed(double r_eff, double m_eff) const
   {

@@ -188,7 +188,7 @@ def range_end():
     heights = [float(x.split("from ")[1].split(" m)")[0]) for x in done.stdout.splitlines() if "(from" in x]
     assert max(heights) <= 10.01, done.stdout
     done = run(*words, "--speeds", "100..800")
-    assert done.returncode == 1 and "none of these measurements can be made" in done.stderr, done.stderr
+    assert done.returncode == 2 and "none of these measurements can be made" in done.stderr, done.stderr
     done = run(*words, "--speeds", "0.001..0.002")
     assert "no measurement of these determines" in done.stdout, done.stdout
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "characterise/run/resolution_choice.hpp"
 #include "law/replay.hpp"
@@ -287,14 +288,14 @@ TEST(BuildLaw, RampsFollowFromTheTolerance)
 }
 
 /// A run of force 1 + 0.01 (24/n)^1.65.
-RunResult converging_run(int cells)
+RunResult converging_run(int cells, double restitution = 0.5)
 {
   RunResult r;
   for (int k = 1; k <= 200; ++k) {
     const double x = 1e-4 * k;
     r.trace.push_back({0, x, x * (1 + 0.01 * std::pow(24. / cells, 1.65)), 0, Branch::load, 0});
   }
-  r.summary.delta_max = 0.02, r.summary.restitution = 0.5, r.summary.resolution = cells;
+  r.summary.delta_max = 0.02, r.summary.restitution = restitution, r.summary.resolution = cells;
   return r;
 }
 
@@ -305,11 +306,11 @@ struct Chosen
   int cells = 0;
   ResolutionChoice choice;
 
-  Chosen(double tolerance, const std::function<int(int)>& grid)
+  Chosen(double tolerance, const std::function<int(int)>& grid, double restitution = 0.5)
   {
     const auto run = [&](int n) {
       asked.push_back(n);
-      return RunJob{"probe", fmt::format("{}", n), 1, [made = grid(n)](const RunOptions&) { return converging_run(made); }};
+      return RunJob{"probe", fmt::format("{}", n), 1, [made = grid(n), restitution](const RunOptions&) { return converging_run(made, restitution); }};
     };
     const BuildOptions options;
     BuildRuns runs(options);
@@ -333,6 +334,11 @@ TEST(ResolutionChoice, EachRungIsComparedWithTheOneBelow)
   EXPECT_EQ(found.asked, (std::vector<int>{17, 24, 34, 49}));
   EXPECT_EQ(found.cells, 49);
   EXPECT_EQ(found.choice.error.force, error_of_cells(converging_run(49), converging_run(34)).force);
+}
+
+TEST(ResolutionChoice, AnErrorOfRestitutionThatIsNoNumberIsNotMet)
+{
+  EXPECT_THROW(Chosen(0.05, [](int n) { return n; }, std::numeric_limits<double>::quiet_NaN()), Error);
 }
 
 }  // namespace granulaw::build_law_test

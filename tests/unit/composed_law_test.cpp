@@ -230,8 +230,8 @@ TEST(ComposedLaw, OfABodyThatTheAtlasDoesNotKnow)
   }
 }
 
-/// Strains go as the curvature, so stresses that grow with the strain do so in a equivalent sphere as E does:
-/// a body between a flat and its like is pressed by what a equivalent sphere of the same H/E is.
+/// Strains go as the curvature, so stresses that grow with the strain do so in an equivalent sphere as E does:
+/// a body between a flat and its like is pressed by what an equivalent sphere of the same H/E is.
 TEST(ComposedLaw, TwinsHaveTheBodysHardeningOverItsModulus)
 {
   LawMaterial m = material("m", 1, 1 / 100.0);

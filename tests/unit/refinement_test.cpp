@@ -55,8 +55,8 @@ TEST(Refinement, WhatHasNoPredictionOrNoForceIsNotMissed)
 
 TEST(Refinement, AnEBelowAHalfCountsOverAHalf)
 {
-  EXPECT_EQ(counted(0.02, 0.8), 0.02);
-  EXPECT_DOUBLE_EQ(counted(0.02, 0.25), 0.01);
+  EXPECT_EQ(counted(0, 0.02, 0.8), 0.02);
+  EXPECT_DOUBLE_EQ(counted(0, 0.02, 0.25), 0.01);
 }
 
 TEST(Refinement, InertiaIsKnownAtStandstill)

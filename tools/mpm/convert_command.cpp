@@ -223,11 +223,12 @@ void write_law_of(Converted& c, const MaterialsFile& file)
   request.thick_walls = sizes.thick_walls;
   if (sizes.thick_walls) request.rule_radius_ratio = deck::largest_radius_ratio;
   request.depth = 0.5, request.damage_number = 0.09;  // of the atlas: as far as laws go, at no cost
-  if (LawFilePlan plan = plan_law_file(request); plan.needs_runs()) {
+  LawFilePlan plan = plan_law_file(request);
+  if (plan.needs_runs()) {
     request.depth = std::max(0.05, c.planned.plan.depth);
     request.damage_number = c.planned.plan.damage_number;
+    plan = plan_law_file(request);
   }
-  const LawFilePlan plan = plan_law_file(request);
   const std::unique_ptr<Farm> farm = plan.needs_runs() ? FarmOptions{}.farm() : nullptr;
   MadeLawFile made = make_law_file(plan, farm.get());
   made.law.provenance["command"] = command_line;
@@ -235,11 +236,6 @@ void write_law_of(Converted& c, const MaterialsFile& file)
 }
 
 // ------------------------------------------------------------------ files
-
-fs::path in_base(const deck::Scene& scene, const std::string& path)
-{
-  return path.starts_with('/') || scene.folder.empty() ? fs::path(path) : fs::path(scene.folder) / path;
-}
 
 bool leaves_folder(const std::string& path)
 {
@@ -250,8 +246,7 @@ bool leaves_folder(const std::string& path)
 /// The name of a file of commands in the folder of the converted deck.
 fs::path name_in_folder(const deck::Scene& scene, const std::string& path)
 {
-  const bool is_main = fs::path(path).lexically_normal() ==
-                       (scene.folder.empty() ? fs::path(scene.deck) : fs::path(scene.deck).filename()).lexically_normal();
+  const bool is_main = fs::path(path).lexically_normal() == fs::path(main_file(scene)).lexically_normal();
   if (is_main || path.starts_with('/') || leaves_folder(path)) return fs::path(path).filename();
   return fs::path(path).lexically_normal();
 }
@@ -280,7 +275,7 @@ void copy_data(Converted& c)
   for (const deck::DeckCommand& command : scene.commands) commands.insert(command.file);
   for (const std::string& path : scene.files_read) {
     if (path.starts_with('/') || commands.contains(path)) continue;
-    const fs::path from = in_base(scene, path);
+    const fs::path from = path_of(scene, path);
     std::error_code ignored;
     if (!fs::is_regular_file(from, ignored)) continue;
     if (leaves_folder(path)) {
@@ -298,7 +293,7 @@ void copy_data(Converted& c)
     const fs::path parent = fs::path(path).parent_path();
     if (parent.empty() || path.starts_with('/') || leaves_folder(path)) return;
     std::error_code ignored;
-    if (!if_there || fs::is_directory(in_base(scene, parent.string()), ignored))
+    if (!if_there || fs::is_directory(path_of(scene, parent.string()), ignored))
       fs::create_directories(c.folder / parent, ignored);
   };
   for (const std::string& path : scene.files_written) make_folder_of(path, false);
@@ -370,7 +365,7 @@ deck::Presets presets_of(const DeckOptions& o)
 
 fs::path choose_folder(const ConvertRequest& r)
 {
-  const fs::path folder = r.folder.empty() ? fs::path(fs::path(r.deck).filename().string() + ".mpm") : fs::path(r.folder);
+  fs::path folder = r.folder.empty() ? fs::path(fs::path(r.deck).filename().string() + ".mpm") : fs::path(r.folder);
   std::error_code ignored;
   const fs::path of_deck = fs::path(r.deck).parent_path().empty() ? fs::path(".") : fs::path(r.deck).parent_path();
   if (fs::equivalent(folder, of_deck, ignored))

@@ -51,7 +51,7 @@ double verify(BodyLaw& law, const CharacterisedBody& body, const std::vector<dou
     c.verification_error_force = larger(c.verification_error_force, force);
     c.verification_error_restitution = larger(c.verification_error_restitution, e);
     c.verification_impacts += 1;
-    largest = larger(larger(largest, force), counted(e, run.restitution));
+    largest = larger(largest, counted(force, e, run.restitution));
   }
   return largest;
 }

@@ -207,7 +207,7 @@ PairImpacts::Miss PairImpacts::miss(std::size_t left_out) const
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
   const double force = std::abs(std::expm1(at(others, &PairDeparture::force, d.place) - d.force));
   const double e = std::abs(std::expm1(0.5 * (at(others, &PairDeparture::dissipation, d.place) - d.dissipation)));
-  return {force, e, std::max(force, counted(e, restitutions_[left_out]))};
+  return {force, e, counted(force, e, restitutions_[left_out])};
 }
 
 PairImpacts::Miss PairImpacts::largest_miss() const
@@ -270,9 +270,7 @@ void PairImpacts::begin()
     take(last, outcomes[2].result);
     solver_error_ = index_between(departures_.back(), departure(last, outcomes[3].result),
                                   static_cast<double>(cells) / coarse_cells);
-    if (std::max(solver_error_.force, counted(solver_error_.restitution, restitutions_.back())) <=
-        options_.tolerance)
-      return;
+    if (counted(solver_error_.force, solver_error_.restitution, restitutions_.back()) <= options_.tolerance) return;
   }
 }
 
@@ -284,7 +282,7 @@ void PairImpacts::check_onset()
       runs_.make_needed({job(barely, cells_)}, 0.8, "an impact to the onset of yield").front();
   const PairDeparture d = departure(barely, outcome.result);
   const double force = std::abs(std::expm1(d.force)), e = std::abs(std::expm1(0.5 * d.dissipation));
-  at_onset_ = {force, e, std::max(force, counted(e, outcome.result.summary.restitution))};
+  at_onset_ = {force, e, counted(force, e, outcome.result.summary.restitution)};
 }
 
 void PairImpacts::sample()

@@ -122,7 +122,7 @@ MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocit
     return ReductionError{rule.force_max / truth.force_max - 1, rule.restitution / truth.restitution - 1};
   };
   const ReductionError fine = error_at(14), coarse = error_at(10);
-  // twice the change from 0.7 of the resolution, as in solver/run/accuracy.hpp
+  // twice the change from 0.7 of the resolution: on the safe side of the rule in solver/run/accuracy.hpp
   return {fine, 2 * std::abs(fine.force - coarse.force), 2 * std::abs(fine.restitution - coarse.restitution)};
 }
 

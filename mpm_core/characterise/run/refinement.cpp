@@ -70,14 +70,14 @@ Interpolated interpolated(std::span<const LawShape::VelocityEffect> effects, std
 
 }  // namespace
 
-double counted(double error, double restitution)
+double counted(double force, double e, double restitution)
 {
-  return error * std::min(1.0, restitution / 0.5);
+  return larger(force, e * std::min(1.0, restitution / 0.5));
 }
 
 double miss(const LeftOutRun& run)
 {
-  return std::max(force_error(run), counted(restitution_error(run), run.measured.restitution));
+  return counted(force_error(run), restitution_error(run), run.measured.restitution);
 }
 
 double largest_miss(std::span<const LeftOutRun> runs)

@@ -28,8 +28,9 @@ struct LeftOutRun
   std::optional<AtReversal> predicted;  ///< none: the law without the run would be extrapolated
 };
 
-/// An error relative to e as it counts for the tolerance: below e = 0.5 it is relative to 0.5.
-double counted(double error, double restitution);
+/// Errors of F and of e, both relative, as they count for the tolerance, the larger: below e = 0.5 that of e is
+/// relative to 0.5. One that is no number stays.
+double counted(double force, double e, double restitution);
 
 /// Error of a prediction as it counts for the tolerance, of F or e, whichever is larger.
 double miss(const LeftOutRun& run);

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "characterise/run/refinement.hpp"
 #include "solver/run/accuracy.hpp"
 
@@ -14,9 +13,9 @@ namespace {
 
 constexpr double share_of_progress = 0.05;
 
-CellsError larger(const CellsError& a, const CellsError& b)
+CellsError larger_of_each(const CellsError& a, const CellsError& b)
 {
-  return {std::max(a.force, b.force), std::max(a.restitution, b.restitution)};
+  return {larger(a.force, b.force), larger(a.restitution, b.restitution)};
 }
 
 /// A probe on its way up the ladder.
@@ -67,14 +66,14 @@ ResolutionChoice choose_resolutions(const std::vector<Probe>& probes, const std:
       climb.fine = std::move(outcomes[before + k].result);
       compare_with_another_grid(climb, coarser, runs);
       const CellsError found = error_of_cells(climb.fine, climb.coarse);
-      const double error = std::max(found.force, counted(found.restitution, climb.fine.summary.restitution));
+      const double error = counted(found.force, found.restitution, climb.fine.summary.restitution);
       if (!(error <= tolerance)) {  // an error that is no number is not met
         reached = error;
         left.push_back(std::move(climb));
         continue;
       }
       *climb.probe->cells = cells;
-      choice.error = larger(choice.error, found);
+      choice.error = larger_of_each(choice.error, found);
     }
     open = std::move(left);
     if (open.empty()) return choice;

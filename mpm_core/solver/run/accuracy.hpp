@@ -47,8 +47,8 @@ struct CellsError
 CellsError error_of_cells(const RunResult& fine, const RunResult& coarse);
 
 /// Error of the finer run itself, of F_max and e, the larger: by the same rule, from a change not below the grid
-/// noise. Measured on the cases of tests/validation/error_study.cpp (docs/evidence/solver-accuracy.md), in three
-/// dimensions on those of docs/evidence/solver-accuracy.md.
+/// noise. Measured on the cases of tests/validation/error_study.cpp and, in three dimensions, on those of
+/// docs/evidence/solver-accuracy.md, where both are listed.
 double error_between(const RunResult& fine, const RunResult& coarse);
 
 /// Runs the job and its coarse partner, or the next coarser one whose grid is another; error_estimate filled,

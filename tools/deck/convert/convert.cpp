@@ -23,11 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-bool begins(const std::string& text, const char* with)
-{
-  return text.rfind(with, 0) == 0;
-}
-
 std::string join(const Words& words)
 {
   return fmt::format("{}", fmt::join(words, " "));
@@ -54,7 +49,7 @@ std::optional<double> number_in(const std::string& text)
 /// The variable that a word is, "${name}" or "$n"; empty: it is none.
 std::string variable_of(const std::string& word)
 {
-  if (word.size() > 3 && begins(word, "${") && word.find('}') == word.size() - 1) return word.substr(2, word.size() - 3);
+  if (word.size() > 3 && word.starts_with("${") && word.find('}') == word.size() - 1) return word.substr(2, word.size() - 3);
   return word.size() == 2 && word[0] == '$' ? word.substr(1) : std::string();
 }
 
@@ -171,7 +166,7 @@ class Converter
   /// As LIGGGHTS executed it; where it did not, or in a line that holds other commands, as it stands.
   Words words_of(const At& at) const
   {
-    const Words raw = raw_words(at.line());
+    Words raw = raw_words(at.line());
     const auto& done = executed_.at(at.file->path(), at.line().first);
     if (done.empty() || raw[0] == "if" || done[0]->words[0] != raw[0]) return raw;
     return done[0]->words;
@@ -244,7 +239,7 @@ class Converter
     if (command == "neighbor" && words.size() > 2 && words[2] == "multi")
       return replace(at, fmt::format("neighbor {} bin", words[1]),
                      "'multi' lets spheres of unlike size pass through each other");
-    if (command == "run_style" && words.size() > 1 && begins(words[1], "respa"))
+    if (command == "run_style" && words.size() > 1 && words[1].starts_with("respa"))
       return replace(at, "run_style verlet", "LIGGGHTS does not call walls under respa");
     if (command == "jump") return convert_jump(at, words);
     if (command == "timestep") {
@@ -299,8 +294,8 @@ class Converter
     std::size_t end = words.size();
     if (gran > 1)
       for (std::size_t k = gran + 1; k < words.size() && end == words.size(); ++k)
-        if (begins(words[k], "lubricate") || begins(words[k], "sph") || words[k] == "gran" || begins(words[k], "lj/") ||
-            begins(words[k], "bubble"))
+        if (words[k].starts_with("lubricate") || words[k].starts_with("sph") || words[k] == "gran" || words[k].starts_with("lj/") ||
+            words[k].starts_with("bubble"))
           end = k;
     const Words own(words.begin() + static_cast<std::ptrdiff_t>(gran) + 1, words.begin() + static_cast<std::ptrdiff_t>(end));
     const ModelWords model = model_words(own, false);
@@ -308,7 +303,7 @@ class Converter
         behind(words.begin() + static_cast<std::ptrdiff_t>(end), words.end());
     leave_dropped(at, model);
     replace(at,
-            join(before) + " " + join(model.words) + own_words() + (behind.empty() ? "" : " " + join(behind)),
+            fmt::format("{} {}{}{}{}", join(before), join(model.words), own_words(), behind.empty() ? "" : " ", join(behind)),
             reason(model, normal_model(own)));
   }
 
@@ -329,7 +324,7 @@ class Converter
     std::vector<At> early;
     each_line([&](const At& at) {
       const Words words = words_of(at);
-      const bool needs = is_fix(words, "wall/gran") || (words.size() > 3 && words[0] == "fix" && begins(words[3], "heat/gran"));
+      const bool needs = is_fix(words, "wall/gran") || (words.size() > 3 && words[0] == "fix" && words[3].starts_with("heat/gran"));
       if (needs && !at.file->is_removed(at.index) && executed(at) < executed(*first_pair_)) early.push_back(at);
     });
     for (const At& at : early) {
@@ -448,13 +443,8 @@ class Converter
   At first_line()
   {
     for (DeckText& text : texts_)
-      if (text.path() == main_path()) return {&text, 0};
+      if (text.path() == main_file(scene_)) return {&text, 0};
     return {&texts_.front(), 0};
-  }
-
-  std::string main_path() const
-  {
-    return scene_.folder.empty() ? scene_.deck : fs::path(scene_.deck).filename().string();
   }
 
   // ---------------------------------------------------------------- time
@@ -554,7 +544,7 @@ class Converter
   {
     constexpr double most = 2147483647;
     double factor = conversion_.step_factor;
-    if (k == 6 && words[0] == "fix" && begins(words[3], "ave/"))
+    if (k == 6 && words[0] == "fix" && words[3].starts_with("ave/"))
       if (const auto stride = ratio.find(4); stride != ratio.end()) factor = stride->second;
     return std::min(most, std::max(1.0, std::round(old * factor)));
   }
@@ -618,6 +608,16 @@ class Converter
 
 }  // namespace
 
+fs::path path_of(const Scene& scene, const std::string& path)
+{
+  return fs::path(scene.folder) / path;
+}
+
+std::string main_file(const Scene& scene)
+{
+  return scene.folder.empty() ? scene.deck : fs::path(scene.deck).filename().string();
+}
+
 std::map<std::string, std::string> command_files(const Scene& scene)
 {
   std::set<std::string> paths;
@@ -625,7 +625,7 @@ std::map<std::string, std::string> command_files(const Scene& scene)
   if (paths.empty()) fail(scene.deck, "it has no command");
   std::map<std::string, std::string> texts;
   for (const std::string& path : paths) {
-    const fs::path at = path[0] == '/' || scene.folder.empty() ? fs::path(path) : fs::path(scene.folder) / path;
+    const fs::path at = path_of(scene, path);
     std::ifstream in(at);
     std::ostringstream text;
     if (!(in && text << in.rdbuf())) fail(at.string(), "cannot be read");
@@ -670,7 +670,7 @@ bool may_be_stretched(const Scene& scene)
   return std::none_of(scene.commands.begin(), scene.commands.end(), [](const DeckCommand& c) {
     const auto has = [&](const char* word) { return std::find(c.words.begin(), c.words.end(), word) != c.words.end(); };
     return has("washino/capillary/viscous") || has("easo/capillary/viscous") ||
-           (c.words.size() > 3 && c.words[0] == "fix" && begins(c.words[3], "heat/gran"));
+           (c.words.size() > 3 && c.words[0] == "fix" && c.words[3].starts_with("heat/gran"));
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,6 +33,11 @@ struct ConvertedDeck
   std::vector<Change> changes;
   std::vector<std::string> left;  ///< "FILE:LINE: what could not be converted"
 };
+
+/// The file of a path in the deck, which LIGGGHTS reads from the scene's folder.
+std::filesystem::path path_of(const Scene& scene, const std::string& path);
+/// The deck itself, as its commands name their file.
+std::string main_file(const Scene& scene);
 
 /// Files of commands that LIGGGHTS read, and their texts. Throws Error where one cannot be read.
 std::map<std::string, std::string> command_files(const Scene& scene);
