@@ -248,7 +248,7 @@ class PairTable
     if (contact.yield_overlap() < contact.largest_overlap())
       info.onset_speed = std::min(info.onset_speed,
                                   std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff));
-    const auto stiffness = [&](double delta) {
+    const auto stiffness = [&, r_eff = r_eff](double delta) {  // clang 14 captures no structured binding by itself
       if constexpr (requires { contact.planned_stiffness(r_eff, delta); })
         return contact.planned_stiffness(r_eff, delta);
       else
