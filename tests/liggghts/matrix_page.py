@@ -8,46 +8,43 @@ from matrix_known import KNOWN
 
 INTRO = """# The matrix: LIGGGHTS's commands with the models mpm and thornton
 
-LIGGGHTS's commands with the models `mpm` and `thornton`. Search for your command. Of {count} commands, options and situations that touch a contact, a particle or a wall, {same} work as with
-stock `hertz`. If a model refuses a word, the run stops with a sentence.
+Search for your command. Of {count} commands, options and situations, {same} work under `mpm` and `thornton` as with stock `hertz`. A refused one stops the simulation with a message.
 
 {counts}
 
-The test `liggghts_matrix` fails if a command gets another outcome than these. `cmake --build --preset release --target matrix_page` makes the page.
+The test `liggghts_matrix` checks these outcomes. `cmake --build --preset release --target matrix_page` makes the page.
 """
 
 HOW = """## How they are tried
 
-Eighteen spheres (R = 1.7 mm, powder and glass) collide over a floor, 600 steps of 0.2 us. Each command or option changes or adds some lines (`tests/liggghts/matrix_*.py`), and runs {runs} times with both
-models beside stock `hertz`; fewer times where LIGGGHTS refuses the plain deck:
+Eighteen spheres (R = 1.7 mm, powder and glass) collide over a floor, 600 steps of 0.2 us. Each command or option changes or adds some lines (`tests/liggghts/matrix_*.py`), and runs {runs} times with both models beside stock `hertz`, fewer where LIGGGHTS refuses the plain deck:
 
 | runs | what must hold |
 |---|---|
-| elastic: plain; `energy on contactMap on`; `stretch 3`; all three; on 1 and 2 ranks | Without yield and damping both models are Hertz's law, and with `stretch S` Hertz's law with moduli divided by S^2.5. Thermo values, dumps and every file equal those of stock Hertz on as many ranks: thornton within {thornton:g} of the largest value of the column, mpm within {mpm:g} (its law is a table, 3e-6 off) |
+| elastic: plain; `energy on contactMap on`; `stretch 3`; all three; on 1 and 2 ranks | Without yield and damping both models are Hertz's law, and with `stretch S` Hertz's law with moduli divided by S^2.5. Thermo values, dumps and every file equal those of stock Hertz on as many ranks. Tolerance: thornton {thornton:g} of the largest value of the column, mpm {mpm:g} (its law is a table, 3e-6 off) |
 | elastic and plastic with `energy on` | The sum of kinetic energy, gravity, energy held, energy dissipated and energy that waves took is constant within {energy:g}, unless the command does work |
 | plastic, all three words, on 1 and 2 ranks; mpm also with composed pair laws and `waves on` | The run ends well; every value is a number; both ranks give the same trajectory within {ranks:g} |
 
-Not tried: `fix external` and `couple/cfd`, which need a second program; `sph`, bonds and superquadrics, which are not contacts of spheres or not built. Nor were commands tried that only move numbers about (`echo`, `group`, `variable`).
+Not tried: `fix external` and `couple/cfd`, which need a second program; `sph`, bonds and superquadrics, which are not contacts of spheres or not built.
 
-To try one: `python3 tests/liggghts/matrix.py WORDS` with the environment of the tests. It runs those whose group or name holds one of the words.
+`python3 tests/liggghts/matrix.py WORDS`, with the environment of the tests, tries those whose group or name contains a word.
 """
 
 # outcome of a cell: title, what it says
 KINDS = {
     "DEFECT": ("Defects", "Anything else than the outcomes below."),
-    "refused": ("Refused", "The models refuse these, with the message of mpm; thornton's differs in the model's name. With stock Hertz they work, or crash."),
+    "refused": ("Refused", "The message is that of mpm; thornton's differs in the model's name. With stock Hertz these work, or crash."),
     "as hertz": ("Refused with hertz as well", "LIGGGHTS refuses these with every model, or crashes."),
-    "kept": ("Works where stock hertz loses histories", "Stock LIGGGHTS gives the histories of contacts to other pairs here, or writes them one step old. `liggghts-mpm` mends this, for hertz as well. "
+    "kept": ("Works where stock hertz loses histories", "Stock LIGGGHTS gives the histories of contacts to other pairs here, or writes them one step old; `liggghts-mpm` does not, with hertz either. "
              "All comparisons of the [last section](#how-they-are-tried) hold, with hertz in `liggghts-mpm`."),
-    "runs": ("Runs, with other numbers than hertz", "These work. Their numbers differ from Hertz's by nature (history values, for instance), so they are not compared."),
+    "runs": ("Runs, with other numbers than hertz", "Their numbers differ from Hertz's by nature (history values, for instance), so they are not compared."),
     "same": ("Works as with hertz", "All comparisons of the [last section](#how-they-are-tried) hold."),
 }
-NOTES = """A limit of every model, hertz included: heat flows through the overlap that LIGGGHTS sees. With `stretch S` it flows as with moduli S^2.5 times smaller ([heat](../reference/pair_gran_model_mpm.md#heat)).
+NOTES = """With every model heat flows through the geometric overlap ([heat](../reference/pair_gran_model_mpm.md#heat)). With `stretch S` it flows as with moduli S^2.5 times smaller.
 """
 BETWEEN = """## Between two runs
 
-A pressed bed of 64 spheres is stopped in the middle of its contacts. A command follows, or several, and the bed runs on. Its state is then that of the unbroken run within 1e-9: mpm and thornton, 1 and 2 ranks, {count}
-rows. A restart file written behind each command and read on the other number of ranks leads there as well. Tests: `liggghts_between_runs`, `liggghts_between_runs_thorough`.
+A pressed bed of 64 spheres is stopped, one or several commands follow, and it goes on. Its state is then that of the unbroken simulation within 1e-9: mpm and thornton, 1 and 2 ranks, {count} rows. So it is with a restart file written behind each command and read on the other number of ranks. Tests: `liggghts_between_runs`, `liggghts_between_runs_thorough`.
 
 Tried: {tried}.
 

@@ -16,10 +16,9 @@ RUNS = (("test_restitution.py",), ("test_drop50.py",), ("test_invariance.py", "F
 
 INTRO = """# Trials of the LIGGGHTS models
 
-LIGGGHTS's bookkeeping does not change forces and trajectories under the models `mpm` and `thornton`: exchange between ranks, rebuilt neighbour lists, restarts, meshes, moving walls. Every trial stays
-within its limit. The first table has the limit that the test sets, and the largest value that it found.
+Forces and trajectories of the models `mpm` and `thornton` do not depend on LIGGGHTS's bookkeeping: ranks, neighbour lists, restarts, meshes, moving walls. Every trial is within the limit of its test:
 
-`mpm` follows the synthetic law of `tests/unit/synthetic_law.hpp` (E*/Y = 100), R = 1.7 mm. `hertz` (without damping) and `thornton_ning` are LIGGGHTS's own, at `contact_distance_factor 1.01`.
+`mpm` follows the synthetic law of `tests/unit/synthetic_law.hpp` (E*/Y = 100), R = 1.7 mm. `hertz` (without damping) and `thornton_ning` are stock models, at `contact_distance_factor 1.01`.
 `cmake --build --preset release --target trials_page` makes the page.
 """
 
@@ -107,48 +106,51 @@ def of_each_kind(rows):
 
 # table: title, note, how its rows are shown
 TABLES = {
-    "drop worst": ("Drops at 50 velocities", "One run has drops of 0.03 to 12 m/s, with 50 time steps in the shortest contact.",
+    "drop worst": ("Drops at 50 velocities", "Drops of 0.03 to 12 m/s, with 50 time steps in the shortest contact.",
                    list_of(("partner", "kind"), ("drops", "count"), ("largest error of e", "worst"))),
-    "forces": ("Forces under exchange, rebuild and sorting", "27 spheres collide with friction. The table has the largest difference of a force component over 100 steps, over the "
-               "largest force.", grid_of((("way", "way"),), "model", ("", "difference"))),
-    "collapse": ("Collapse of 500 spheres", "All runs start from one restart file with open contacts, without viscous damping, and go on for 10,000 steps. The table has the largest difference of a coordinate "
-                 "from the first run, over R. The yardstick is the same run with each sphere moved by one unit in the last place: rounding alone takes the spheres so far apart. A lost history lies far above it, as stock "
-                 "`thornton_ning` shows on several ranks.", by_yardstick),
-    "rejoin": ("A pair that parts and meets again", "A first impact has left a plastic dent. The second contact begins as a virgin one, whatever the neighbour list still holds.",
+    "forces": ("Forces under exchange, rebuild and sorting", "27 spheres collide with friction. Largest difference of a force component over 100 steps, over the largest force:", grid_of((("way", "way"),), "model", ("", "difference"))),
+    "collapse": ("Collapse of 500 spheres", "All runs start from one restart file with open contacts, without viscous damping, and go on for 10,000 steps. Largest difference "
+                "of a coordinate from the first run, over R. In the *yardstick* each sphere is moved by one unit in the last place. A lost history "
+                "lies far above it, as stock `thornton_ning` shows on several ranks.", by_yardstick),
+    "rejoin": ("A pair that parts and meets again", "After a first impact with a plastic dent the second contact begins as a virgin one, whatever the neighbour list still holds.",
                list_of(("gap/R", "gap"), ("neigh_modify", "neigh"), ("e of the second impact", "e"), ("virgin", "virgin"))),
-    "flat": ("Flat meshes", "A sphere crosses the seams between triangles. *Difference*: of the force from that on a plane. *Step*: largest change of force in one time step. Both are over the largest force.",
+    "flat": ("Flat meshes", "A sphere crosses the seams between triangles. *Difference*: of the force from that on a plane. *Step*: largest change of force in "
+            "one time step. Both over the largest force.",
              list_of(("case", "case"), ("model", "model"), ("difference", "difference"), ("step, mesh", "jump"), ("step, plane", "jump_plane"))),
-    "squeezed": ("Squeezed between a floor and a lid that comes down", "*Share* is how far the sphere moved, over the lid's way. Half means that it stays in the middle.",
+    "squeezed": ("Squeezed between a floor and a lid that comes down", "*Share*: way of the sphere over the lid's; half in the middle.",
                  list_of(("model", "model"), ("largest force N", "force"), ("largest change in a step N", "jump"), ("allowed by the stiffness N", "limit"), ("share", "moved"))),
-    "curved": ("Curved mesh: new contacts", "A sphere moves along a trough of 2 degree strips, each of two triangles. LIGGGHTS starts a contact at every strip; the models begin no more than that. The row of hertz counts "
-               "triangles that entered its list of wall contacts.",
+    "curved": ("Curved mesh: new contacts", "A sphere moves along a trough of 2 degree strips, each of two triangles. LIGGGHTS starts a contact at every strip; the models "
+              "begin no more. Under hertz: triangles that entered its list of wall contacts.",
                list_of(("model", "model"), ("contacts begun", "contacts"), ("strips passed", "strips"), ("degrees", "degrees"))),
-    "ridge": ("Convex edges of a mesh", "A convex edge may add or take energy, with every model, because LIGGGHTS gives the edge to one of its two triangles. A sphere under a press of 2 N slides without friction at 10 m/s over the "
-              "ridge where two planes meet. On the way from the triangle that owns the edge a contact begins at full depth beside the one that is there. On the way back a contact vanishes at full depth.\n\n"
-              "*Gained* is the energy after the ridge less that before, over the elastic energy that the press alone holds. It counts kinetic energy, height under the press, and what contacts hold and have dissipated. "
-              "*Brought* is the energy of contacts that began overlapping, by the statistics (`f_granulaw[18]`): it names what a ridge adds. If a contact handed its `delta_max` over to the next plane, nothing would change: "
-              "the new contact begins at the same depth.",
+    "ridge": ("Convex edges of a mesh", "A convex edge may add or take energy, with every model, because LIGGGHTS gives the edge to one of its two triangles. A sphere "
+             "under a press of 2 N slides without friction at 10 m/s over the ridge where two planes meet. On the way from the triangle that "
+             "owns the edge a second contact begins at full depth. On the way back a contact vanishes at full depth.\n\n*Gained* is the energy "
+             "after the ridge less that before, over the elastic energy that the press alone holds. It counts kinetic energy, height under the "
+             "press, and elastic and dissipated energy of contacts. *Brought* is the energy of contacts that began overlapping "
+             "(`f_granulaw[18]`): it names what a ridge adds.",
               grid_of((("ridge, degrees", "degrees"), ("a contact", "way")), "model", ("gained,", "gained"), last=(("brought, mpm", "brought"),))),
-    "moving": ("Moving mesh", "The same impact is seen from a mesh that moves towards the sphere. The table has e at each speed of the mesh, m/s.", grid_of((("model", "model"),), "mesh", ("", "e"))),
+    "moving": ("Moving mesh", "The same impact on a mesh that moves towards the sphere: e at each speed of the mesh, m/s.", grid_of((("model", "model"),), "mesh", ("", "e"))),
     "particles": ("Boundaries and bodies", "The expected e is the law's or, across the boundary, that of the same pair inside. The clump has none: it turns.", list_of(("case", "case"), ("model", "model"), ("e", "e"), ("expected", "expected"))),
-    "insertion": ("Insertion while running, three sizes", "*Growth* is the largest rise of kinetic plus dissipated energy between insertions. Contacts give back what they held.",
+    "insertion": ("Insertion while running, three sizes", "*Growth* is the largest rise of kinetic plus dissipated energy between insertions. Contacts return elastic energy.",
                   list_of(("particles", "particles"), ("contacts", "contacts"), ("growth", "gained"))),
-    "steps": ("Steps in a contact", "The table has e of one impact under mpm at 10, 20, 50 and 100 steps a contact. The error falls with the square of the step.",
+    "steps": ("Steps in a contact", "e of one impact under mpm at 10, 20, 50 and 100 steps a contact. The error falls with the square of the step.",
               grid_of((("partner", "kind"), ("V m/s", "speed"), ("law", "law")), "steps", ("", "e"))),
-    "ratios": ("Extreme ratios", "Each pair is run in both orders, because a pair law must not depend on which particle comes first.", both_orders),
-    "rest": ("A bed comes down", "27 frictionless spheres enter a box at 1 m/s, without any damping. *Growth* is the largest rise of kinetic plus potential energy over the start's, without and with the dissipated energy.",
+    "ratios": ("Extreme ratios", "Each pair is computed in both orders of its particles.", both_orders),
+    "rest": ("A bed comes down", "27 frictionless spheres enter a box at 1 m/s, without damping. *Growth* is the largest rise of kinetic plus potential energy over "
+            "the start's, without and with the dissipated energy.",
              list_of(("model", "model"), ("steps", "steps"), ("growth", "mechanical"), ("growth with dissipated", "gained"), ("kinetic energy: start J", "kinetic_start"),
                      ("half-way J", "kinetic_half"), ("end J", "kinetic_end"))),
-    "default damping": ("A bed comes to rest", "The same bed settles under 100 g with the default `elasticDamping`. The mechanical energy is kinetic energy + gravity + what contacts hold. *Rise* is its largest rise above its least value "
-                        "so far, over the energy that then moves or is held. *Kinetic* is that of the last tenth of the run over the start's. *Drift* is the change of mechanical energy + all work that contacts took, over the "
-                        "start's kinetic energy.", list_of(("model", "model"), ("steps", "steps"), ("rise", "growth"), ("kinetic, end/start", "left"), ("drift", "drift"))),
-    "at rest": ("A bed lies still", "A bed settled under 100 g with strong damping. The run begins from its restart file with another damping. *Rise* is that of the mechanical energy over its value at the start. "
-                "*Motion* is the largest change of kinetic energy + energy held by contacts, over what they hold.",
+    "default damping": ("A bed comes to rest", "The same bed settles under 100 g with the default `elasticDamping`. *Rise* is the largest rise of the mechanical energy (kinetic, "
+                       "gravity, elastic) above its least value so far, over the kinetic and elastic energy then. *Kinetic* is that of the last tenth of "
+                       "the run over the start's. *Drift* is the change of mechanical energy + all work that contacts took, over the start's kinetic "
+                       "energy.", list_of(("model", "model"), ("steps", "steps"), ("rise", "growth"), ("kinetic, end/start", "left"), ("drift", "drift"))),
+    "at rest": ("A bed lies still", "A bed settled under 100 g with strong damping starts again with another damping. *Rise* is that of the mechanical energy over its "
+               "value at the start. *Motion* is the largest change of kinetic and elastic energy, over the elastic energy.",
                 list_of(("model", "model"), ("elasticDamping", "damping"), ("steps", "steps"), ("rise", "growth"), ("motion", "moves"))),
     "shaken": ("A shaken bed", "The floor shakes at 1 kHz by 0.2 mm.",
                list_of(("model", "model"), ("floor, peak m/s", "floor"), ("fastest sphere, up, m/s", "fastest"), ("kinetic J", "kinetic"))),
-    "stops": ("Messages that stop a run", "Under `thermo_modify lost ignore` LIGGGHTS drops a lost particle without a message. `fix granulaw/runaway`, which comes with the models, ends the run instead, on one rank as on two. "
-              "The table has one line of each kind.", of_each_kind),
+    "stops": ("Messages that stop a run", "Under `thermo_modify lost ignore` LIGGGHTS drops a lost particle without a message. `fix granulaw/runaway` ends the run instead, "
+             "on one rank as on two.", of_each_kind),
 }
 
 
