@@ -17,7 +17,7 @@ The test `liggghts_matrix` checks these outcomes. `cmake --build --preset releas
 
 HOW = """## How they are tried
 
-Eighteen spheres (R = 1.7 mm, powder and glass) collide over a floor, 600 steps of 0.2 us. Each command or option changes or adds some lines (`tests/liggghts/matrix_*.py`), and runs {runs} times with both models beside stock `hertz`, fewer where LIGGGHTS refuses the plain deck:
+Eighteen spheres (R = 1.7 mm, powder and glass) collide over a floor, 600 steps of 0.2 us. Each command or option changes or adds some lines (`tests/liggghts/matrix_*.py`). It runs {runs} times with both models beside stock `hertz`, fewer if the plain deck is refused:
 
 | runs | what must hold |
 |---|---|

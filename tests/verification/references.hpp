@@ -52,7 +52,7 @@ inline constexpr Press presses[] = {
     {"hard0.1_EY100_d0.1", 100, 0.3, 0.1, 0.1, 1.7922 * (1 - 0.0046), 0.7840, 0.4494 - 0.0014},
 };
 
-/// Free impacts at E*/Y = 100, nu = 0.3: e by three unrelated formulations (mapped grid, B-spline grid,
+/// Free impacts at E*/Y = 100, nu = 0.3: e by three formulations of our own (mapped grid, B-spline grid,
 /// updated-Lagrangian), converged to +-0.003, the last to +-0.001.
 struct Impact
 {
