@@ -66,11 +66,11 @@ Error of a run against CPU seconds, on one core of: {processor} (a virtual machi
 
 ![L2 error of the loading force against CPU seconds](cost.png)
 
-- One shifted grid gives the smoothed force of four for a quarter of the time. Four give a better e, and a trace that needs no smoothing.
+- One shifted grid gives the smoothed force of four for a quarter of the time. Four give a better e.
 - Single precision changes no digit of the errors.
-- Three dimensions (`rectilinear-3d`) have the error of `rectilinear` at equal cells, and cost more by the third dimension alone. A quarter of the sphere is computed.
+- Three dimensions (`rectilinear-3d`) have the error of `rectilinear` at equal cells. A quarter of the sphere is computed.
 
-The picture shows four grids and both precisions with four shifted grids, and one grid dotted. The black line is the reference's own error: mapped, 56 cells, 8 shifted grids, Courant number 0.5, against the same at 40 cells.
+Solid: four shifted grids, both precisions; dotted: one grid. The black line is the error of the reference: mapped, 56 cells, 8 shifted grids, Courant number 0.5, against the same at 40 cells.
 
 | column | |
 |---|---|
