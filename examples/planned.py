@@ -95,7 +95,7 @@ def compare(deck, share=1.0):
 
 
 def table(out):
-    lines = ["| deck | model (runs) | pairs: planned, visited m/s | ratio | walls: planned, visited m/s | ratio | yielding body |",
+    lines = ["| deck | model (runs) | pairs: planned, visited m/s | ratio | walls: planned, visited m/s | ratio | yielding particle |",
              "|---|---|---|---|---|---|---|"]
     rows = [(deck.name, *row) for deck in sorted(p for p in out.iterdir() if p.is_dir()) for row in compare(deck)]
     for name, model, runs, bound, seen, plan in rows:

@@ -88,7 +88,7 @@ class Limits(unittest.TestCase):
         self.assertIn(f"| F_max {force}, e {e} (95 % of mixtures); {worst_force}, {worst_e} (largest) |", self.PAGE)
         self.assertIn(f"| {force}, {e} in 95 % of mixtures |", self.README)
         corrected = re.search(r"`--own-law`[^|]*\|[^|]*?([\d.]+ %)[^|]*?\be\b[^|]*?([\d.]+)", page("docs/evidence/pairs.md"))
-        self.assertIn("| F_max {}, e {} | runs of both bodies |".format(*corrected.groups()), self.PAGE)
+        self.assertIn("| F_max {}, e {} | runs of both particles |".format(*corrected.groups()), self.PAGE)
         runs = table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s")
         largest = max(float(x.rstrip(" %")) for row in runs for x in row[3].split(", "))
         self.assertIn(f"| F_max and e {largest} % (largest) | new runs |", self.PAGE)
@@ -169,7 +169,7 @@ class Examples(unittest.TestCase):
         row = next(row for row in table_with(page("examples/README.md"), "| deck | model (runs) | pairs: planned, visited m/s |")
                    if row[0] == "hopper" and row[1].startswith("mpm"))
         (pair, hit), (wall, touched) = (cell.split(", ") for cell in (row[2], row[4]))
-        self.assertIn(f"bounds of {pair} and {wall} m/s, and its runs under `mpm` visited {hit} and {touched}", page("docs/guide/plan.md"))
+        self.assertIn(f"bounds of {pair} and {wall} m/s, and its simulations under `mpm` visited {hit} and {touched}", page("docs/guide/plan.md"))
 
     def test_compression(self):
         rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[0].startswith("compression") and "stress" in row[1]]

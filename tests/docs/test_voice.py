@@ -46,6 +46,25 @@ HOUSE_TEXT = {
     r"claims?|claimed": "error bound (law), error estimate (run)",
     r"thrown (?:at|against|on|onto|into|together|by)|throws? (?:the|a) bod(?:y|ies)": "impact, collision",
 }
+# Terms with one meaning: pages of the rule, uses outside the meaning, the word for them. Glossary and quoted tables of names are not checked.
+USERS = r"README|docs/index|docs/guide/(?:first-flow|plan|limits|when-it-stops|pairs|report|install|clusters|particle-laws|yield-stress|calibrate)|examples/"
+SIMULATIONS = r"docs/guide/(?:first-flow|plan|report)|docs/reference/(?:pair_gran|fix_granulaw)|docs/evidence/flows|examples/"
+TERMS = (
+    # own: what belongs to the reader, or the project ("of our own")
+    (r".", r"(?<!your )(?<!our )own(?! words and fixes)", "single-body law, corrected law, default; or delete it"),
+    # body: of the solver; users have particles
+    (USERS, r"(?<!rigid )(?<!two-)(?<!single-)bod(?:y|ies)(?! of revolution)", "particle"),
+    # length: a distance in metres
+    (r".", r"lengths? of (?:the |an? )?(?:time )?steps?|(?:lists?|arrays?|spans?|files?|tables?) of (?:equal |the same |one )?lengths?|lengths? of (?:the |an? )?(?:list|array|span|file|table)s?",
+     "time step, size"),
+    # level: none; the axis of a law has rows
+    (r".", r"levels?", "row of the velocity axis"),
+    # run: of the solver; LIGGGHTS has simulations, and its command `run`
+    (SIMULATIONS, r"(?:the|an?|every|each|any|this|whole|one|after|before) runs?(?! of (?:the solver|both bodies|that shape))", "simulation"),
+    # shape: geometry in three dimensions
+    (r".", r"(?:law|unloading|loading|curve|pressure|force) shapes?|shapes? of (?:the |an? |its |this |each )?(?:law|curve|unloading|loading|pressure|force)s?",
+     "normalised law, unloading curve, pressure profile"),
+)
 
 
 def any_of(patterns):
@@ -53,6 +72,7 @@ def any_of(patterns):
 
 
 HOUSE_ANY, HOUSE_CODE = any_of([*HOUSE, *HOUSE_TEXT]), any_of(HOUSE)
+ONE_MEANING = [(re.compile(where), any_of([uses]), term) for where, uses, term in TERMS]
 
 FENCE = re.compile(r"^([ ]*)(```+|~~~+).*?^\1\2\s*$", re.MULTILINE | re.DOTALL)
 
@@ -135,6 +155,9 @@ def of_page(name, text):
         if name != GLOSSARY:
             for match in HOUSE_ANY.finditer(content):
                 yield "house word in a page", line, f"{match.group(0)}: {content[max(0, match.start() - 50):match.end() + 30]}"
+            for where, uses, term in ONE_MEANING:
+                for match in uses.finditer(content) if where.match(name) else ():
+                    yield "term outside its meaning", line, f"{match.group(0)} ({term}): {content[max(0, match.start() - 50):match.end() + 30]}"
 
 
 def comments(name, text):
@@ -170,6 +193,15 @@ def messages(text):
                 yield number, match[1]
 
 
+def help_texts(text):
+    """(line, text) of string literals that follow each other, joined: texts of options and messages whole. A blank line or an indented one ends a text."""
+    literal = r'"(?:[^"\\\n]|\\.)*"'
+    for match in re.finditer(rf"{literal}(?:\s*{literal})*", re.sub(r"(?m)^\s*//.*$", "", text)):
+        whole = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', match[0]))
+        for part in re.split(r"\\n\\n|\\n(?= {2,}|# )", whole):
+            yield text.count("\n", 0, match.start()) + 1, part.replace("\\n", " ").replace('\\"', '"')
+
+
 def of_source(name, text):
     """(rule, line, excerpt) of each fault in the comments and messages of a source."""
     for line, comment in comments(name, text):
@@ -177,6 +209,11 @@ def of_source(name, text):
             yield "headless comment", line, comment.strip()[:120]
         for match in HOUSE_CODE.finditer(comment):
             yield "house word in a comment", line, f"{match.group(0)}: {comment[max(0, match.start() - 50):match.end() + 30]}"
+    if name.startswith("tools/mpm/") and name.endswith(".cpp"):
+        for line, part in help_texts(text):
+            for sentence in sentences(plain(part)):
+                if words(sentence) > WORDS:
+                    yield "long sentence in help", line, f"{words(sentence)} words: {sentence}"
     if name.endswith((".cpp", ".hpp")) and not name.startswith("tests/"):
         for line, message in messages(text):
             if re.match(OPENING, message):
@@ -185,7 +222,7 @@ def of_source(name, text):
                 yield "house word in a message", line, f"{match.group(0)}: {message[:120]}"
 
 
-RULES = ("long sentence", "this page", "headless paragraph", "headless comment", "headless message",
+RULES = ("long sentence", "long sentence in help", "this page", "term outside its meaning", "headless paragraph", "headless comment", "headless message",
          "house word in a page", "house word in a comment", "house word in a message")
 
 
@@ -214,8 +251,19 @@ class BadTexts(unittest.TestCase):
                            ("# A\n\n- Whether it holds.\n", "headless paragraph"),
                            ("# A\n\nThe law knows its speed.\n", "house word in a page"),
                            ("# A\n\nData that tell the\nmodulus.\n", "house word in a page"),
-                           ("# A\n\n| a |\n|---|\n| the foot |\n", "house word in a page")):
+                           ("# A\n\n| a |\n|---|\n| the foot |\n", "house word in a page"),
+                           ("# A\n\nThe law has its own end.\n", "term outside its meaning"),
+                           ("# A\n\nArrays of equal length.\n", "term outside its meaning"),
+                           ("# A\n\nEach level of the axis.\n", "term outside its meaning"),
+                           ("# A\n\nThe shape of the unloading.\n", "term outside its meaning")):
             self.assertEqual(self.rules(of_page, "a.md", text), [rule], text)
+
+    def test_terms_of_some_pages(self):
+        """Users have particles and simulations; a page of theory has bodies and runs."""
+        for name, text in (("docs/guide/plan.md", "# A\n\nOne body yields.\n"), ("examples/drop/README.md", "# A\n\nAfter a run of the deck.\n")):
+            self.assertEqual(self.rules(of_page, name, text), ["term outside its meaning"], text)
+            self.assertEqual(self.rules(of_page, "docs/theory/law.md", text), [])
+        self.assertEqual(self.rules(of_page, "docs/guide/plan.md", "# A\n\nA body of revolution, a rigid body, new runs, and runs of the solver. The `run` begins.\n"), [])
 
     def test_source(self):
         for name, text, rule in (("a.hpp", "int a;\n// What a is.\nint b;\n", "headless comment"),
@@ -225,12 +273,13 @@ class BadTexts(unittest.TestCase):
                                  ("a.cmake", "# Where it lies.\n", "headless comment"),
                                  ("a.hpp", "// The twin of\n// a law.\n", "house word in a comment"),
                                  ("a.cpp", 'f("What it is for");\n', "headless message"),
-                                 ("a.cpp", 'f("the law of the twin");\n', "house word in a message")):
+                                 ("a.cpp", 'f("the law of the twin");\n', "house word in a message"),
+                                 ("tools/mpm/a.cpp", 'f("' + "word " * 15 + '"\n  "' + "word " * 11 + '");\n', "long sentence in help")):
             self.assertEqual(self.rules(of_source, name, text), [rule], text)
 
     def test_good(self):
         page = ("# What it is\n\n" + "Word " * 24 + "end. " + "Word " * 24 + "end.\n\nWhat is a law?\n\nSee `the twin that tells the share`.\n\n"
-                "```\nWhat a twin tells.\n```\n\nThe unknown fraction is identified. You know LIGGGHTS.\n")
+                "```\nWhat a twin tells.\n```\n\nThe unknown fraction is identified. You know LIGGGHTS. Your own deck; lengths in m; a shape in three dimensions.\n")
         self.assertEqual(self.rules(of_page, "a.md", page), [])
         self.assertEqual(self.rules(of_page, GLOSSARY, "# A\n\nTwin: equivalent sphere.\n"), [])
         self.assertEqual(self.rules(of_source, "a.cpp", '// Force in newton.\n// Of the contact.\nf("https://a.b // What"); g("told");\n'), [])

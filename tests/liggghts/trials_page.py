@@ -37,7 +37,7 @@ def farthest(key, law, own=lambda row: True):
 
 # rows of the first table: a table below, what is measured, the test's limit, the largest value of our models
 SUMMARY = (
-    ("drop worst", "50 drops on a wall, 50 pairs: difference of e from the law's own integration", "0.005", worst("worst", own=lambda row: True)),
+    ("drop worst", "50 drops on a wall, 50 pairs: difference of e from the integration of the law", "0.005", worst("worst", own=lambda row: True)),
     ("forces", "exchange, rebuild, sorting: difference of a force, over the largest force", "1e-12", worst("difference")),
     ("collapse", "1, 2, 4 ranks, restarts, rebuilds: difference of a position, over R", "100 times the yardstick", worst("difference")),
     ("rejoin", "a pair that meets again: difference of e from a virgin pair", "1 %", farthest("e", "virgin")),

@@ -12,8 +12,8 @@
 #include "calibrate/noise.hpp"
 #include "characterise/body/law_material.hpp"
 #include "material_file/materials_file.hpp"
-#include "option_checks.hpp"
 #include "material_file/plausible.hpp"
+#include "option_checks.hpp"
 #include "solver/material/law_table.hpp"
 
 namespace granulaw {
@@ -150,8 +150,8 @@ void CalibrationOptions::add_to(Options& command, bool needs_data)
       ->needs(materials_file);
   command
       .add_option("--ball", ball,
-                  "restitution: name of the material of the ball that drops, which is known; --radius is its "
-                  "own, all else, and what is fitted, of the thick specimen that it drops on")
+                  "restitution: name of the known material of the ball that drops. --radius is the "
+                  "ball's; all else, and the fit, belong to the thick specimen")
       ->needs(materials_file);
   command.add_option(
       "--offset", offset,

@@ -8,20 +8,20 @@
 #include <optional>
 #include <random>
 
-#include "characterise/pair/reduction_error.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/body/law_body.hpp"
-#include "characterise/file/law_file_plan.hpp"
-#include "characterise/shape/shape_certificate.hpp"
 #include "characterise/body/law_material.hpp"
+#include "characterise/file/law_file_plan.hpp"
+#include "characterise/pair/reduction_error.hpp"
+#include "characterise/shape/shape_certificate.hpp"
 #include "command.hpp"
 #include "law/error_bound.hpp"
 #include "law/law_file.hpp"
+#include "law/pair_names.hpp"
 #include "law/replay.hpp"
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
-#include "law/pair_names.hpp"
 #include "percent.hpp"
 #include "shape_output.hpp"
 #include "solver/runs.hpp"
@@ -246,9 +246,9 @@ void define(Options& command)
 extern const Command check_command{
     "check",
     "Checks that a law file is complete, conserves energy, and agrees with new solver runs.\n"
-    "The runs are impacts at random velocities within the range of the law: each yielding material on a "
-    "wall,\n"
-    "and the two bodies of each pair with a pair law. Force and e must lie within twice the error bound.\n"
+    "The runs are impacts at random velocities within the range of the law. They are of each yielding\n"
+    "material on a wall, and of the two bodies of each pair with a pair law. Force and e must lie within "
+    "twice the error bound.\n"
     "Example: mpm check law.h5",
     define};
 

@@ -657,7 +657,7 @@ void define(Options& command)
   command.add_flag("--accept-defaults", r->accept_defaults, "answer what the deck does not say by the defaults from the deck");
   command.add_flag("--check", r->check,
                    "run 300 steps of the original and as much time of the converted deck, in copies, and compare particles,\n"
-                   "kinetic energy and files; exit code 1 where only the converted deck stops");
+                   "kinetic energy and files. Exit code 1: only the converted deck stops");
   command.add_flag("--json", r->json, "as JSON");
   command.callback([r] { carry_out(*r); });
 }
@@ -667,11 +667,11 @@ void define(Options& command)
 extern const Command convert_command{
     "convert",
     "Makes a deck of model mpm, with its law, from a LIGGGHTS deck of another normal model (hertz, hooke,\n"
-    "hooke/stiffness, hooke/hysteresis, ...). The original is not touched. Written are FOLDER/DECK with its\n"
-    "includes and the files it reads, FOLDER/law.h5, and FOLDER/conversion.md: each changed line with its reason,\n"
-    "and what could not be converted. The particles get the real moduli of the materials file; the law is stretched\n"
-    "as far as the limits of mpm soften allow, so that the time step stays near the deck's; where it must be\n"
-    "shorter, all counts of steps grow with it (docs/guide/convert-hertz.md).\n"
+    "hooke/stiffness, hooke/hysteresis, ...). The original is not touched. It writes FOLDER/DECK with its\n"
+    "includes and the files it reads, FOLDER/law.h5, and FOLDER/conversion.md. The last has each changed line with\n"
+    "its reason, and the lines that could not be converted. The particles get the real moduli of the materials file.\n"
+    "The law is stretched as far as the limits of mpm soften allow, so that the time step is near the deck's. If it\n"
+    "must be shorter, all counts of steps grow with it (docs/guide/convert-hertz.md).\n"
     "Exit code 3: a number is needed that the deck does not say; the sentence names the option, with a default\n"
     "from the deck.\n"
     "Example: mpm convert in.hopper --materials-file materials.toml --materials bead,steel -o hopper-mpm",

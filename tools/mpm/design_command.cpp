@@ -235,9 +235,9 @@ void define(Options& command)
 
 extern const Command design_command{
     "design",
-    "Which measurement would narrow what is wanted most: expected intervals of impacts at given speeds and "
-    "of\n"
-    "curves between platens, given what was measured already (docs/guide/calibrate.md).\n"
+    "Recommends the next measurement: the one that narrows the wanted intervals most. Prints expected\n"
+    "intervals of impacts at given speeds and of curves between platens, with the data that exist\n"
+    "(docs/guide/calibrate.md).\n"
     "Example: mpm design --fit yield_stress --youngs-modulus 3e9 --guess yield_stress=40e6 --radius 1e-3\n"
     "         --density 1500 --speeds 0.1..5",
     define};

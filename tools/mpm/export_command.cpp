@@ -9,8 +9,8 @@
 #include "base/error.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
-#include "option_checks.hpp"
 #include "law/pair_names.hpp"
+#include "option_checks.hpp"
 
 namespace granulaw {
 
@@ -153,13 +153,10 @@ void define(Options& command)
 
 extern const Command export_command{
     "export",
-    "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius against\n"
-    "overlap, residual overlap, exponent and foot (Hertz coefficient) of the unloading after a reversal "
-    "there. "
-    "Lines that "
-    "begin "
-    "with # state "
-    "the\n"
+    "A law as columns of a CSV file, for other codes: loading force, stiffness and contact radius "
+    "against\n"
+    "overlap. For a reversal there: residual overlap, exponent and foot (Hertz coefficient) of the "
+    "unloading. Lines that begin with # state the\n"
     "units and the formulas. Example: mpm export law.h5 -o law.csv --pair powder:wall --effective-radius "
     "2e-3",
     define};

@@ -10,8 +10,8 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
-#include "characterise/shape/energetic_restitution.hpp"
 #include "characterise/body/law_material.hpp"
+#include "characterise/shape/energetic_restitution.hpp"
 #include "characterise/shape/orientations.hpp"
 #include "command.hpp"
 #include "law/damage_number.hpp"
@@ -167,8 +167,8 @@ void define(Options& command)
   command
       .add_option(
           "--orientation", r->orientation,
-          "three dimensions: X,Y,Z, the direction in the body's own frame that points at the wall; the "
-          "body's axis nearest to it leans towards +x of the wall")
+          "three dimensions: X,Y,Z, the direction in the body's frame that points at the wall. The body's "
+          "axis nearest to it leans towards +x of the wall")
       ->delimiter(',')
       ->expected(3);
   command.add_option("--friction", r->friction,

@@ -28,20 +28,19 @@ void print_warnings(const ChosenPair& c, double velocity, const StatedCollision&
 {
   if (found.needs_axis)
     fmt::print(stderr,
-               "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: there the law would need a velocity axis, which "
-               "this file does not have; e and force are too high\n",
+               "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}: the law has no velocity axis, so e and "
+               "force are too high\n",
                found.damage_number, found.statement.damage_number_max);
   else if (found.beyond_bound)
     fmt::print(
         stderr,
-        "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}, up to which the error bound of this {} law holds: no "
-        "bound is stated for this collision\n",
+        "mpm: I = rho V^2/Y = {:.3g} is above {:.3g}, up to which the error bound of this {} law holds\n",
         found.damage_number, found.statement.damage_number_max, name_of(found.statement.kind));
   if (!found.statement.covers_size())
     fmt::print(
         stderr,
-        "mpm: R_s/(R_s + R_h) of these radii is {:.3g} off the nearest law of the pair: the error bound is "
-        "larger by that; mpm table --radius-ratio makes laws for more ratios\n",
+        "mpm: R_s/(R_s + R_h) of these radii is {:.3g} off the nearest law of the pair. The error bound is "
+        "larger by that (mpm table --radius-ratio makes more laws)\n",
         found.statement.size_off);
   const Replay& result = found.replay;
   if (result.left_speeds)
@@ -85,7 +84,8 @@ std::string bound_text(const StatedCollision& found)
 {
   const ErrorBound bound = found.bound();
   if (!bound.stated()) return "not stated";
-  return fmt::format("F_max {}, e {:.2g}", percent(bound.force), bound.restitution_at(found.replay.restitution));
+  return fmt::format("F_max {}, e {:.2g}", percent(bound.force),
+                     bound.restitution_at(found.replay.restitution));
 }
 
 void print(const ChosenPair& c, double velocity, const StatedCollision& found)
@@ -120,10 +120,9 @@ void define(Options& command)
   command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
   command.add_flag(
       "--json", r->json,
-      "print one JSON object instead of the summary: the keys of mpm impact; error_force, error_restitution: "
-      "error bound that 95 % of impacts lie within, relative of F_max and absolute of e, null beyond "
-      "damage_number_max; error_estimate: the larger, both relative; law_kind: single, two-body, composed, "
-      "corrected or reduced");
+      "print one JSON object instead of the summary, with the keys of mpm impact. Also the error bound: "
+      "error_force (relative) and error_restitution (absolute), null beyond damage_number_max. The larger, "
+      "both relative, is error_estimate. The law_kind is single, two-body, composed, corrected or reduced");
   command.callback([r] { replay(*r); });
 }
 

@@ -7,8 +7,9 @@ void define_pair_options(Options& command, PairAsked& asked)
   command.add_option("--pair", asked.pair, "a:b or a:wall; may be left out if the file holds one");
   command.add_option(
       "--radius", asked.radius,
-      "radius of the first body, m (default 1e-3, e depends on no radius; of a rate-dependent\n"
-      "law the one it was made for, and no other is allowed)");
+      "radius of the first body, m (default 1e-3; e depends on no radius). A rate-dependent law allows "
+      "only the\n"
+      "radius that it was made for");
   command.add_option("--radius2", asked.radius2,
                      "radius of the second body, m (default: the first's); inf: a thick deformable wall");
 }

@@ -8,8 +8,8 @@
 #include "base/error.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
-#include "option_checks.hpp"
 #include "law/pair_curves.hpp"
+#include "option_checks.hpp"
 #include "pair_options.hpp"
 #include "python_script.hpp"
 #include "shape_output.hpp"
@@ -103,8 +103,9 @@ void define(Options& command)
 
 extern const Command plot_command{
     "plot",
-    "Draws a law: force against overlap with its unloading branches, and e against velocity beside\n"
-    "Thornton's closed form; of a pair also the pair rule, Hertz's force and what waves take.\n"
+    "Draws a law: force against overlap with its unloading branches, and e against velocity beside "
+    "Thornton's\n"
+    "closed form. For a pair also the pair rule, Hertz's force and the energy of waves.\n"
     "Example: mpm plot law.h5 -o law.png\n"
     "         mpm plot law.h5 --shape pebble -o map.png\n"
     "         mpm plot law.h5 --pair powder:steel --radius 5e-4 --radius2 inf -o pair.png",

@@ -8,8 +8,8 @@
 
 #include "base/error.hpp"
 #include "command.hpp"
-#include "option_checks.hpp"
 #include "material_file/planes_file.hpp"
+#include "option_checks.hpp"
 #include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/runs.hpp"
@@ -104,9 +104,10 @@ void define(Options& command)
   command.add_option(
       "--planes", r->planes,
       "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE "
-      "with a line for each: nx ny nz [distance speed friction], the direction from the body to the "
-      "plane in the body's frame, its distance from the origin there (m; touch: where it touches), "
-      "its way over --depth (1), Coulomb's coefficient (0). Three dimensions without it: pair");
+      "(default: pair). A line of the file for each: nx ny nz [distance speed friction]. The normal n "
+      "points from the body to the plane, in the body's frame. The distance from the origin is in m, or "
+      "touch. "
+      "The speed is the plane's way over --depth (1), friction is Coulomb's coefficient (0)");
   command.callback([r] { press(*r); });
 }
 

@@ -6,9 +6,9 @@
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
-#include "run_files/field_file.hpp"
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
+#include "run_files/field_file.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 
 namespace granulaw {
@@ -75,9 +75,10 @@ void add_accuracy(Options& command, RunRequest& r)
 {
   command.add_option(
       "--grid", r.grid,
-      "mapped (fitted to the sphere), rectilinear or tartan (graded: any shape, layers, inclusions), "
-      "updated (points move through the grid: the independent check), rectilinear-3d (three dimensions: "
-      "any shape, side and friction); default: as particle and partner require");
+      "mapped (fitted to the sphere); rectilinear or tartan (graded: any shape, layers, inclusions); updated "
+      "(moving points: an independent check). Three dimensions, any shape, side and friction: "
+      "rectilinear-3d. "
+      "The default is as particle and partner require");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   const Option with_resolution = command.add_option(
       "--resolution", r.resolution,
@@ -99,9 +100,8 @@ void add_outputs(Options& command, RunRequest& r)
       ->needs(with_fields);
   const Option with_checkpoint = command.add_option(
       "--checkpoint", r.checkpoint,
-      "keeps the state of the run in this file; the same command goes on from there after it was stopped or "
-      "killed, with the identical trace. The file is removed when the run is finished and its outputs are "
-      "written");
+      "file of the state of the run. After a stop or a kill the same command goes on from there, with the "
+      "identical trace. The file is removed when the outputs are written");
   command
       .add_option("--checkpoint-every", r.checkpoint_every,
                   "seconds between two states (default 30; 0: at every sample of the trace)")
@@ -114,9 +114,8 @@ void add_effort(Options& command, RunRequest& r)
   command.add_option("--jobs", r.jobs, "threads (default 1)")->check(whole_from_to(1, 256));
   command.add_option(
       "--shifted-grids,--phases", r.shifted_grids,
-      "runs on grids shifted against each other by equal parts of a cell, 1 to 64; results are "
-      "their mean, free of the first harmonics of the contact-edge grid noise (default 4; in three "
-      "dimensions 1)");
+      "runs on grids shifted against each other by equal parts of a cell, 1 to 64 (default 4; in three "
+      "dimensions 1). Their mean is free of the first harmonics of the contact-edge grid noise");
   command.add_option("--courant", r.courant,
                      "time step over its stability limit, 0.05 to 1 (default 0.85); above 1 explicit time "
                      "stepping is unstable");
@@ -132,8 +131,9 @@ void RunRequest::add_to(Options& command)
   add_accuracy(command, *this);
   add_outputs(command, *this);
   add_effort(command, *this);
-  command.add_flag("--json", json,
-                   "print one JSON object instead of the summary, SI units (keys: docs/reference/commands.md)");
+  command.add_flag(
+      "--json", json,
+      "print one JSON object instead of the summary, SI units (keys: docs/reference/commands.md)");
 }
 
 void RunRequest::check() const

@@ -12,17 +12,17 @@
 #include "atlas_path.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
-#include "characterise/build/build_law.hpp"
 #include "characterise/body/law_body.hpp"
+#include "characterise/build/build_law.hpp"
 #include "characterise/file/make_law_file.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "farm_options.hpp"
 #include "law/law_file.hpp"
-#include "material_file/materials_file.hpp"
-#include "option_checks.hpp"
 #include "law/pair_lines.hpp"
 #include "law/pair_names.hpp"
+#include "material_file/materials_file.hpp"
+#include "option_checks.hpp"
 #include "percent.hpp"
 #include "ranks.hpp"
 #include "shape_output.hpp"
@@ -126,10 +126,12 @@ void print_not_composed(const LawFilePlan::Pair& pair, const MadeLawFile& file)
   if (missing.empty()) return;
   const auto material = [&](const std::string& name) { return file.law.bodies.at(name).material; };
   const std::string& yielding = yields_first(material(pair.a), material(pair.b)) ? pair.a : pair.b;
-  fmt::print("{}: cannot be composed where the partner's radius over that of '{}' is {:.4g} (mpm info says why): {}\n",
-             pair.name(), yielding, fmt::join(missing, ", "),
-             has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in, within the pair rule's error"
-                                          : "the pair rule stands in");
+  fmt::print(
+      "{}: cannot be composed where the partner's radius over that of '{}' is {:.4g} (mpm info says why): "
+      "{}\n",
+      pair.name(), yielding, fmt::join(missing, ", "),
+      has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in, within the pair rule's error"
+                                   : "the pair rule stands in");
 }
 
 /// Origin of the pair's laws, if it is worth a line.
@@ -256,8 +258,8 @@ void add_range_options(Options& command, LawFileRequest& file)
 {
   command
       .add_option("--tolerance", file.tolerance,
-                  "relative error of force and e (of an e below 0.5, over 0.5): of sampling, of the "
-                  "resolution, and below which an axis is left out")
+                  "relative error of force and e (of an e below 0.5, over 0.5). An axis of a smaller effect "
+                  "is left out")
       ->check(from_to(1e-4, 0.5))
       ->capture_default_str();
   command.add_option("--depth", file.depth, "largest overlap over the radius, up to 0.5")
@@ -270,9 +272,9 @@ void add_range_options(Options& command, LawFileRequest& file)
       ->capture_default_str();
   command
       .add_option("--slowest", file.slowest,
-                  "lowest impact speed, m/s on a wall, that the law of a rate-dependent particle covers;\n"
-                  "slower impacts use this speed (default: a fiftieth of the fastest, or the onset of "
-                  "yield)")
+                  "lowest impact speed, m/s on a wall, that the law of a rate-dependent particle covers. "
+                  "Slower impacts use\n"
+                  "this speed (default: a fiftieth of the fastest, or the onset of yield)")
       ->check(above_zero());
   command
       .add_option("--radius-ratio", file.radius_ratio,
@@ -280,12 +282,12 @@ void add_range_options(Options& command, LawFileRequest& file)
       ->check(from_to(1, 10))
       ->capture_default_str();
   command.add_flag("--thick-walls,!--no-thick-walls", file.thick_walls,
-                   "of each pair also a law for a deformable wall of either material, and of each\n"
-                   "material for a wall of its own (default: yes; --deck: if it has such walls)");
+                   "also laws for deformable walls: of either material of a pair, and of the particle's "
+                   "material (default:\n"
+                   "yes; --deck: if it has such walls)");
   command.add_flag("--own-law", file.own_laws,
-                   "correct the composed law of each pair of different spheres by a few impacts of the two\n"
-                   "bodies, where the pair rule is worse than --tolerance (without the atlas: make it\n"
-                   "by runs, at equal radii)");
+                   "correct composed laws by impacts of the two bodies, where the pair rule is worse than\n"
+                   "--tolerance. Without the atlas: two-body laws, at equal radii");
 }
 
 void add_shape_options(Options& command, ShapeQuestion& shapes)
@@ -333,14 +335,16 @@ extern const Command table_command{
     "table",
     "Makes the contact laws of a materials file, one law file for LIGGGHTS. A homogeneous sphere that "
     "hardens\n"
-    "linearly or not at all comes from the atlas at once (--no-atlas: computed anew); other hardening laws,\n"
-    "rate dependence, layers, inclusions and profiles are computed by the solver: name the particle in "
+    "linearly or not at all comes from the atlas at once (--no-atlas: computed anew). Other hardening "
+    "laws,\n"
+    "rate dependence, layers, inclusions and profiles are computed by the solver: name the particle in\n"
     "--pair.\n"
     "A particle with a shape in three dimensions gets its material's law, for the radius of curvature at "
     "the\n"
-    "contact, and a certificate over its orientations.\n"
-    "Finished runs are kept in a folder (--cache): a build that was stopped goes on where it was, and one\n"
-    "with a wider range reuses them. The folder may be removed at any time.\n"
+    "contact, and a certificate.\n"
+    "Finished runs are stored in a folder (--cache). A stopped build goes on where it stopped, and one "
+    "with a\n"
+    "wider range reuses them. The folder may be removed at any time.\n"
     "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
     "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5",
     define, true};
