@@ -1,4 +1,5 @@
 """Numbers that several pages state agree with the table that one of them holds; what a page says of a table, the table holds."""
+import math
 import os
 import re
 import statistics
@@ -109,6 +110,10 @@ class Limits(unittest.TestCase):
                 largest = [max(pair) for pair in zip(largest, values)]
         e, speed, spin = (round(value) for value in largest)
         self.assertIn(f"spin up to {spin} %, tangential velocity {speed} %, e {e} % off", self.PAGE)
+        deepest = max((float(row[4]), row[6]) for row in table_with(page("docs/evidence/oblique.md"), "| E\\*/Y | H/E | V/V_y | overlap/R |"))[1]
+        far = deepest.split("; ")[2].split(", ")[1].lstrip("+")
+        for text in (self.PAGE, self.README, page("docs/evidence/oblique.md")):
+            self.assertIn(f"{far} %", text)
         self.assertIn(f"its spin errs by up to {spin} %", self.README)
 
     def test_loop_time(self):
@@ -156,6 +161,30 @@ class Examples(unittest.TestCase):
         rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[1].startswith("e on the wall at ")]
         low = [round(100 * (1 - float(row[3].split()[0]) / float(row[4].split()[0]))) for row in rows[:3]]
         self.assertIn(": {}, {}, {} % at".format(*low), page("docs/reference/pair_gran_model_thornton.md"))
+
+    def test_thornton_against_the_solver(self):
+        """The closed form with p_y = 1.6 Y and 2.5 Y against e of the hard cases; e by Poisson's ratio there."""
+        cases = {row[0]: float(row[3]) for row in table_with(page("docs/evidence/hard-cases.md"), "| case | stressed by | δ_max/R | e | change | reference |") if row[3]}
+
+        def off(speed, e, y):
+            x = (y / 1.6) ** 2.5 / speed
+            form = math.sqrt(6 * math.sqrt(3) / 5) * math.sqrt(1 - x * x / 6) * (x / (x + 2 * math.sqrt(6 / 5 - x * x / 5))) ** 0.25
+            return f"{100 * (form / e - 1):+.0f}"
+
+        for stiffness, names in (("100", {v: f"V/V_y = {v}" for v in (5, 20, 100, 500)}), ("1000", {v: f"E*/Y = 1000, V/V_y = {v}" for v in (100, 1000)})):
+            cells = [", ".join(off(v, cases[name], y) for v, name in names.items()) for y in (1.6, 2.5)]
+            self.assertIn(f"| {stiffness}: {', '.join(map(str, names))} | {cells[0]} | {cells[1]} |", page("docs/reference/pair_gran_model_thornton.md"))
+        nu = [round(cases[name], 3) for name in ("nu = 0", "V/V_y = 100", "nu = 0.49")]
+        self.assertIn("e is {}, {}, {} for $\\nu$ = 0, 0.3, 0.49".format(*(f"{e:.3f}" for e in nu)), page("docs/theory/law.md"))
+
+    def test_calibration(self):
+        """Coverage of the intervals: the summary spans the table, its rows of two kinds."""
+        rows = table_with(page("docs/evidence/calibration.md"), "| synthetic data sets | identified |")
+        known, free = [], []
+        for row in rows:
+            (free if "hardening" in row[0] or row[0].startswith("drops, E and Y") else known).extend(int(x) for x in row[2].split(", "))
+        self.assertIn(f"in {min(known)} to {max(known)} of 100 data sets", page("docs/evidence/calibration.md"))
+        self.assertIn(f"free too it is {min(free)} to {max(free)}.", page("docs/evidence/calibration.md"))
 
     def test_heap(self):
         """The verdicts of the pile: the page's answer is no stronger than the table of all decks."""
