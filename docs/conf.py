@@ -55,7 +55,7 @@ mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG-full"
 myst_update_mathjax = False
 mathjax2_config = {"tex2jax": {"inlineMath": [["\\(", "\\)"]], "displayMath": [["\\[", "\\]"]], "processRefs": False,
                                "processEnvironments": False, "ignoreClass": "mathjax_ignore", "processClass": "math"},
-                   "SVG": {"font": "TeX", "linebreaks": {"automatic": True}},
+                   "SVG": {"font": "TeX", "linebreaks": {"automatic": True, "width": "52em"}},
                    "showMathMenu": False, "messageStyle": "none"}
 # Part of MathJax's 54 MB that the pages load: TeX input and SVG output, which needs no font files: browsers
 # refuse those of file:// pages.
