@@ -4,6 +4,16 @@
 
 namespace granulaw::plugin {
 
+std::string quoted(const std::string& text)
+{
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out + '"';
+}
+
 namespace {
 
 std::string histogram_json(const LogHistogram& histogram, const char* quantity)
@@ -54,16 +64,6 @@ std::string map_json(const ContactStatistics::Pair& s)
 std::string number(double value)
 {
   return std::isfinite(value) ? fmt::format("{:.10g}", value) : "null";
-}
-
-std::string quoted(const std::string& text)
-{
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + '"';
 }
 
 /// The counts of a pair, as the inside of a JSON object.

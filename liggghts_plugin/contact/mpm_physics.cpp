@@ -86,7 +86,9 @@ void MpmPhysics::read_keywords(LAMMPS_NS::LAMMPS* lmp, Setup& setup)
   const auto& law = setup.own.own_words("law");
   if (setup.wall && law.empty()) {
     if (!setup.session->pair_law)
-      fail(setup.where, "'law FILE' is missing, and there is no pair_style gran model mpm to take it from");
+      fail(setup.where,
+           "'law FILE' is missing, and no pair_style gran model mpm stands before it to take it from: put the wall "
+           "behind its pair_style");
     setup.law = setup.session->pair_law;
   } else {
     if (law.empty()) fail(setup.where, "'law FILE' is missing");

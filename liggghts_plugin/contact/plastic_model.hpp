@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "law/range.hpp"
 #include "liggghts_plugin/contact/contact_counts.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
 #include "liggghts_plugin/contact/pair_table.hpp"
@@ -101,8 +102,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double delta_max = State::largest(kept);
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
+    bool began_deep = false;
     if (sidata.deltan > entry.largest_overlap * r_eff) [[unlikely]] {
-      if (began_beyond(sidata, entry, r_eff, delta_max))
+      began_deep = began_beyond(sidata, entry, r_eff, delta_max);
+      if (began_deep)
         sidata.deltan = entry.largest_overlap * r_eff;  // a bounded force
       else {
         check_stretched(sidata, r_eff);
@@ -127,8 +130,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     sidata.gamman = damping_of(entry, r_eff, delta, delta_max, sidata.vn) * impedance;
     // below the residual overlap of a dent nothing touches, and nothing is damped
     // (std::max gives its first argument where that is no number, and the runaway fix ends the run)
-    const double normal_force =
+    double normal_force =
         law_force <= 0.0 ? 0.0 : std::max((law_force + waves_force) - sidata.gamman * sidata.vn, 0.0);
+    if (began_deep && parts_freely(sidata, entry, r_eff, now.impact_overlap)) [[unlikely]]
+      normal_force = 0.0;
     if (Radiates<Law> && pairs_.radiates()) counts_.radiate(sidata, entry, waves_force, normal_force);
     if (energy_) [[unlikely]]
       store_energy(sidata, entry, r_eff, now.largest, now.impact_overlap, law_force);
@@ -277,6 +282,16 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return delta_max == 0.0 ? counts_.is_sudden(sidata) : delta_max == end;
   }
 
+  /// True of such a contact that parts with the elastic energy of the table's end. No motion paid for its overlap:
+  /// the force over the way beyond the table does no further work.
+  [[gnu::noinline, gnu::cold]] bool parts_freely(SurfacesIntersectData sidata, const Entry& entry, double r_eff,
+                                                 double impact_overlap) const
+  {
+    const double end = entry.largest_overlap * r_eff;
+    return sidata.vn > 0.0 && 0.5 * sidata.meff * sidata.vn * sidata.vn >
+                                  entry.contact.stored_energy(r_eff, end, end, impact_overlap);
+  }
+
   [[gnu::noinline, gnu::cold]] void beyond_table(SurfacesIntersectData sidata, const Entry& entry,
                                                  double r_eff)
   {
@@ -288,14 +303,30 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
                       setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type", sidata.jtype));
     if (sidata.computeflag && sidata.shearupdate) entry.counts->beyond += counts_.weight(sidata);
     // 5 %: the linear continuation is still within about a percent of the force there.
-    if (setup_->options.stop_beyond_range.value_or(true) &&
-        sidata.deltan > 1.05 * entry.largest_overlap * r_eff)
-      stop_one(lmp,
-               fmt::format("{}: overlap/R* {:.4g} of types {} and {} at {:.4g} m/s is more than 5 % beyond "
-                           "the law's table, which ends at {:.4g}: build a deeper law, or say "
-                           "'beyondRange continue'",
-                           setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype, approach(sidata),
-                           entry.largest_overlap));
+    if (!setup_->options.stop_beyond_range.value_or(true) ||
+        !(sidata.deltan > 1.05 * entry.largest_overlap * r_eff))
+      return;
+    const double speed = approach(sidata);
+    entry.counts->overlap_max = std::max(entry.counts->overlap_max, sidata.deltan / r_eff);
+    stop_one(lmp, fmt::format("{}: overlap/R* {:.4g} of types {} and {} {} {:.4g} m/s is more than 5 % beyond "
+                              "the law's table, which ends at {:.4g}: {}, or say 'beyondRange continue'",
+                              setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype,
+                              speed < 0 ? "parting at" : "at", std::abs(speed), entry.largest_overlap,
+                              remedy(entry, sidata.deltan / r_eff)));
+  }
+
+  /// A deeper law, where laws go so deep.
+  static std::string remedy(const Entry& entry, double overlap)
+  {
+    if constexpr (requires { entry.contact.law().curve->end(); }) {
+      const double depth = overlap / entry.largest_overlap * entry.contact.law().curve->end();
+      if (depth > deepest_law)
+        return fmt::format(
+            "no law goes beyond {:g} of the radius: the material is too soft for these speeds or loads; where "
+            "youngs_modulus is lowered for the time step, give the real one",
+            deepest_law);
+    }
+    return "build a deeper law";
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.

@@ -160,7 +160,11 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp);
 [[noreturn]] void stop_all(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
 /// Ends the run from one rank. Unlike error->one it reaches the user from every rank and through a pipe: that
 /// one prints to a stream which MPI_Abort never flushes and other ranks than 0 do not have.
+/// The files of fix granulaw/stats are written first.
 [[noreturn]] void stop_one(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
+
+/// Writes the files of fix granulaw/stats with what this rank counted, and the message that ends the run.
+void write_stats_at_stop(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
 
 /// In words: "model mpm tangential history rolling_friction epsd2, energy on, stretch 3".
 std::string describe(const HistoryMeaning& meaning);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "base/error.hpp"
 #include "liggghts_plugin/contact/superquadric.hpp"
+#include "liggghts_plugin/engine/deck_units.hpp"
 #include "liggghts_plugin/engine/fix_style.hpp"
 #include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/run/contact_history.hpp"
@@ -104,6 +106,34 @@ void warn_stretched_cohesion(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models
                   "be the real one divided by {:g}, the square of the factor",
                   setup.where, s, s * s)
           .c_str());
+}
+
+/// Cohesion pulls in proportion to the area of contact, and so does plastic flow push: 2.8 Y.
+void warn_strong_cohesion(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+{
+  if (setup.wall || !setup.law || ModelIds::of(setup.meaning.combination).cohesion == cm::COHESION_OFF) return;
+  const int types = lmp->atom->ntypes;
+  LAMMPS_NS::Fix* density = lmp->modify->find_fix_property("cohesionEnergyDensity", "property/global", "peratomtypepair",
+                                                           types, types, setup.where.c_str(), false);
+  const auto& names = setup.options.own_words("materials");
+  if (!density || static_cast<int>(names.size()) != types) return;
+  const double s = setup.options.stretch.value_or(1.0), unit = DeckUnits::of(lmp->update->unit_style, setup.where).pressure();
+  const auto pressure_of = [&](int type) {
+    const auto found = setup.law->law.bodies.find(names[static_cast<std::size_t>(type)]);
+    return found == setup.law->law.bodies.end() ? std::numeric_limits<double>::infinity()
+                                                : 2.8 * found->second.material.yield_stress;
+  };
+  for (int i = 0; i < types; ++i)
+    for (int j = i; j < types; ++j) {
+      const double pull = s * s * density->compute_array(i, j) * unit, push = std::min(pressure_of(i), pressure_of(j));
+      if (!(pull > 0.5 * push) || !setup.session->first_time("strong cohesion") || lmp->comm->me != 0) continue;
+      lmp->error->warning(
+          FLERR, fmt::format("{}: cohesionEnergyDensity of types {} and {} is {:.4g} Pa, more than half of the contact "
+                             "pressure of yield, 2.8 Y = {:.4g} Pa: cohesion pulls the particles into each other; where "
+                             "the modulus is lowered for the time step, give the real one and its yield stress",
+                             setup.where, i + 1, j + 1, pull, push)
+                     .c_str());
+    }
 }
 
 /// A restart file whose contacts keep another number of values. LIGGGHTS refuses it, too, but names no cause.
@@ -204,6 +234,7 @@ void CommandStyle::begin_run(const std::function<void()>& init)
   guarded(lmp_, [&] {
     init();
     check_run(lmp_, setup_);
+    warn_strong_cohesion(lmp_, setup_);
     if (!setup_.wall) provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
   });
 }

@@ -73,7 +73,14 @@ class PlannedPair final : public lg::PairStyles::IGranularPairStyle
     if (lmp_->comm->me == 0 && std::fread(&ignored, sizeof ignored, 1, file) != 1)
       lmp_->error->all(FLERR, "the restart file ends within its pair style");
   }
-  void compute_force(PairGran*, int, int, int) override {}
+  /// No force; the arrays of stress and energy must be there.
+  void compute_force(PairGran* pair, int eflag, int vflag, int) override
+  {
+    if (eflag || vflag)
+      pair->ev_setup(eflag, vflag);
+    else
+      pair->evflag = pair->vflag_fdotr = 0;
+  }
   int get_history_offset(const std::string) override { return 0; }
   double stressStrainExponent() override { return 1.5; }
   std::int64_t hashcode() override { return hash_; }

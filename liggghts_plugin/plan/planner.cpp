@@ -27,6 +27,7 @@
 namespace granulaw::plugin {
 
 GRANULAW_EXPOSE(InputCommand, LAMMPS_NS::Input, command);
+GRANULAW_EXPOSE(WrittenStyles, LAMMPS_NS::Modify, style_restart_global);
 GRANULAW_EXPOSE(SoughtLabel, LAMMPS_NS::Input, label_active);
 GRANULAW_EXPOSE(PropertyName, LAMMPS_NS::FixPropertyGlobal, variablename);
 GRANULAW_EXPOSE(PropertyCount, LAMMPS_NS::FixPropertyGlobal, nvalues);
@@ -155,6 +156,8 @@ void Planner::note_style(const lmp::FixWallGran* wall_fix, const std::string& mo
 {
   if (wall_fix) {
     styles_[wall_fix] = {model, options.deformable_wall};
+    if (model == "mpm" && record_.model.empty() && options.own_words("law").empty())
+      record_.note(where_ + ": the wall stands before its pair_style: put it behind");
     return;
   }
   record_.model = model;
@@ -168,11 +171,13 @@ void Planner::begin_line(const std::string& where, const std::string& text)
 {
   record_command();
   after_command();
+  drop_written_histories();
   stop_where_late();
   where_ = where;
   text_ = text;
-  if (branches_on_run(lmp_->input->variable, text))
-    record_.note(where + ": the branch depends on a value of a run: it takes the side of the start");
+  if (!branches_on_run(lmp_->input->variable, text)) return;
+  record_.note(where + ": the branch depends on a value of a run: it takes the side of the start");
+  if (text.find("jump") != std::string::npos) record_.left_loop = where;
 }
 
 /// The last one: LIGGGHTS's words of it stand until it parses the next line.
@@ -183,6 +188,14 @@ void Planner::record_command()
   Command done{where_, {command}};
   done.words.insert(done.words.end(), lmp_->input->arg, lmp_->input->arg + lmp_->input->narg);
   record_.add_command(std::move(done));
+}
+
+/// A restart file's histories of contacts: planned walls keep none.
+void Planner::drop_written_histories()
+{
+  lmp::Modify& modify = *lmp_->modify;
+  for (int k = 0; k < modify.nfix_restart_global; ++k)
+    if (begins((modify.*exposed(WrittenStyles{}))[k], "contacthistory")) (modify.*exposed(WrittenStyles{}))[k][0] = '\0';
 }
 
 void Planner::after_command()
@@ -228,6 +241,9 @@ void Planner::begin_run()
 void Planner::record_without_run()
 {
   if (!record_.runs.empty() || !lmp_->domain->box_exist) return;
+  each_fix([](lmp::Fix& fix) {
+    if (auto* gravity = dynamic_cast<lmp::FixGravity*>(&fix)) gravity->init();  // it has no value before
+  });
   begin_run();
   if (!record_.sources.empty()) return;
   each_fix([&](lmp::Fix& fix) {
@@ -546,6 +562,7 @@ void Planner::stop_where_nothing_is_new()
   runs_without_news_ = now == fingerprint_ ? runs_without_news_ + 1 : 0;
   fingerprint_ = std::move(now);
   if (runs_without_news_ < most_runs) return;
+  record_.left_loop = where_;
   record_.note(fmt::format(
       "{}: {} runs in turn bring nothing new: the plan leaves the loop and the deck here, and its "
       "cost counts the runs up to here",

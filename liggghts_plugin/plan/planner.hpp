@@ -73,6 +73,7 @@ class Planner
   };
 
   void after_command();
+  void drop_written_histories();
   void record_command();
   void find_settings();
   void find_materials();

@@ -71,6 +71,7 @@ struct Record
   std::vector<std::string> notes, unknown_particles, unknown_speeds;
   std::vector<Command> commands;  ///< in their order; one that a loop repeats with the same words once
   std::vector<std::string> files_read, files_written;  ///< paths, as the deck has them
+  std::string left_loop;  ///< "FILE:LINE" of a run in a loop that only a run's values end; empty: there is none
   std::string stopped_at;  ///< the command that LIGGGHTS refused; empty: it read the deck to its end
 
   double count() const;

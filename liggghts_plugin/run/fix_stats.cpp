@@ -201,6 +201,19 @@ void FixStats::warn_of_long_steps() const
                      .c_str());
 }
 
+void FixStats::warn_of_step_check() const
+{
+  for (int f = 0; f < modify->nfix; ++f)
+    if (std::strcmp(modify->fix[f]->style, "check/timestep/gran") == 0)
+      warn("step check",
+           fmt::format("granulaw: fix {} check/timestep/gran takes Hertz's contact time of the deck's moduli, not that of "
+                       "the law{}; the law's largest time step is in the table below and, after a run, in f_granulaw[13]",
+                       modify->fix[f]->id,
+                       session_->pair_options && session_->pair_options->stretch.value_or(1.0) > 1.0
+                           ? " and its stretch"
+                           : ""));
+}
+
 void FixStats::warn_of_sizes() const
 {
   if (comm->me != 0) return;
@@ -267,11 +280,11 @@ double FixStats::crowded_particles() const
   return several;
 }
 
-DeepContacts FixStats::deep_contacts() const
+DeepContacts FixStats::deep_contacts(const ContactStatistics& sum) const
 {
   DeepContacts found;
   found.particles = crowded_;
-  for (const auto& [key, counts] : sum_of_ranks(true).pairs) {
+  for (const auto& [key, counts] : sum.pairs) {
     found.contacts += counts.deep();
     if (counts.overlap_max > counts.info.deep_overlap) found.contacts = std::max(found.contacts, 1.0);
   }
@@ -286,6 +299,7 @@ void FixStats::setup(int)
   if (!speaks()) return;
   warn_of_clumps();
   warn_of_lost_contacts();
+  warn_of_step_check();
   std::string table = start_table(session_->statistics, deck_units());
   if (table == last_table_) return;  // the laws and the smallest particles are those of the run before
   last_table_ = table;
@@ -414,7 +428,7 @@ void FixStats::end_of_step()
   if (energies_.due(update->ntimestep) && writes_stats()) add_energies();
   if (!every_ || update->ntimestep % every_ != 0) return;
   crowded_ = std::max(crowded_, crowded_particles());
-  const DeepContacts deep = deep_contacts();
+  const DeepContacts deep = deep_contacts(sum_of_ranks(true));
   const ContactStatistics sum = total();
   if (comm->me == 0) write_files(sum, deep);
 }
@@ -427,7 +441,7 @@ void FixStats::post_run()
   warn_of_long_steps();
   if (writes_stats()) add_energies();
   crowded_ = std::max(crowded_, crowded_particles());
-  const DeepContacts deep = deep_contacts();
+  const DeepContacts deep = deep_contacts(sum_of_ranks(true));
   const ContactStatistics sum = total();
   if (comm->me != 0) return;
   write_files(sum, deep);
@@ -444,6 +458,23 @@ void FixStats::write_files(const ContactStatistics& sum, const DeepContacts& dee
   if (!path_.empty()) write_json(sum, deep, path_);
   if (speaks() && session_->pair_options && !session_->pair_options->stats_path.empty())
     write_json(sum, deep, session_->pair_options->stats_path);
+}
+
+void FixStats::write_at_stop(const std::string& message)
+{
+  if (is_planning || !writes_stats()) return;
+  stopped_ = message;
+  ContactStatistics own = session_->statistics;
+  const DeepContacts deep = deep_contacts(own);
+  for (const auto& [wall, style] : session_->styles) style->take_out_open(own);
+  own.count_ended();
+  write_files(own, deep);
+}
+
+void write_stats_at_stop(LAMMPS_NS::LAMMPS* lmp, const std::string& message)
+{
+  for (int f = 0; f < lmp->modify->nfix; ++f)
+    if (auto* stats = dynamic_cast<FixStats*>(lmp->modify->fix[f])) stats->write_at_stop(message);
 }
 
 // Restart files keep the sums of all ranks: rank 0 takes them up again, the others start at zero.
@@ -488,6 +519,8 @@ void FixStats::write_json(const ContactStatistics& sum, const DeepContacts& deep
           "  \"particles_with_several_of_them\": {:.10g},\n",
           version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_, limit,
           limit, deep.contacts, deep.particles) +
+      (stopped_.empty() ? ""
+                        : fmt::format("  \"stopped\": {},\n  \"ranks_in_this_file\": 1,\n", quoted(stopped_))) +
       fmt::format("  \"series\": {{\n{}\n  }},\n",
                   energies_.json(deck_units(), session_->energy != nullptr, "    "));
   try {

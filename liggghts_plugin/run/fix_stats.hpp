@@ -61,9 +61,13 @@ class FixStats : public LAMMPS_NS::Fix
   void restart(char* buffer) override;
   void grow_arrays(int nmax) override;
   void copy_arrays(int from, int to, int delete_flag) override;
+  /// Writes the files from one rank: `message` ends the run.
+  void write_at_stop(const std::string& message);
 
  private:
   void read_keywords(int narg, char** arg);
+  /// Contacts deeper than PairInfo::deep_overlap. `sum`: with the contacts that are open.
+  DeepContacts deep_contacts(const ContactStatistics& sum) const;
   /// The contact statistics summed (or its largest values) over ranks. Collective.
   ContactStatistics total() const;
   /// `with_open`: as the ranks keep it, with the contacts that are open (ContactStatistics::Pair::overlap).
@@ -86,18 +90,19 @@ class FixStats : public LAMMPS_NS::Fix
   /// Warns if a contact of this run was stiffer than the time step allows, once for each step. Collective.
   void warn_of_long_steps() const;
   void warn_of_sizes() const;
+  void warn_of_step_check() const;
   void warn_of_laws_without_checksum() const;
   /// Stops where a file that is to be written later cannot be. Collective.
   void check_files() const;
   /// Particles that have several contacts deeper than PairInfo::deep_overlap now. Collective.
   double crowded_particles() const;
-  DeepContacts deep_contacts() const;
   /// True in the one fix that speaks, if a deck has several.
   bool speaks() const;
   DeckUnits deck_units() const;
 
   std::shared_ptr<Session> session_;
   std::string path_, last_table_;
+  std::string stopped_;  ///< the message that ends the run
   double** kept_energies_ = nullptr;  // of the particles, between runs
   bool in_run_ = false;
   double largest_dt_ = 0;

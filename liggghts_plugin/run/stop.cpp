@@ -23,6 +23,7 @@ void stop_one(LAMMPS_NS::LAMMPS* lmp, const std::string& message)
 {
   const std::string line = fmt::format("ERROR on proc {}: {}\n", lmp->comm->me, message);
   std::fflush(nullptr);
+  write_stats_at_stop(lmp, message);
   std::fputs(line.c_str(), stderr);
   if (lmp->logfile) std::fputs(line.c_str(), lmp->logfile);
   std::fflush(nullptr);

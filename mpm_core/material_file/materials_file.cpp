@@ -94,7 +94,8 @@ Material read_material(const Section& s)
   if (m.yields() && m.yield_stress > 0.1 * m.e_star())
     fail(s.where(s.node("yield_stress")), "'yield_stress' is out of range",
          fmt::format("{:g} Pa", m.yield_stress),
-         fmt::format("up to a tenth of E* = E/(1-nu^2), {:.4g} Pa; without the key the body is elastic",
+         fmt::format("up to a tenth of E* = E/(1-nu^2), {:.4g} Pa: where 'youngs_modulus' is lowered for the time step, "
+                     "give the real one (docs/guide/plan.md#soften); without the key the body is elastic",
                      0.1 * m.e_star()));
   for (const char* key : {"hardening", "rate", "yield_surface"})
     if (!m.yields() && s.has(key))

@@ -66,8 +66,8 @@ class Convert(unittest.TestCase):
         path.parent.mkdir(exist_ok=True, parents=True)
         path.write_text(text)
 
-    def mpm(self, *words, code=0):
-        done = subprocess.run([MPM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=300)
+    def mpm(self, *words, code=0, cwd=None):
+        done = subprocess.run([MPM, *map(str, words)], cwd=cwd or self.folder, capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, code, done.stdout[-2000:] + done.stderr[-2000:])
         return done
 
@@ -127,6 +127,26 @@ class Files(Convert):
         self.write("decks/in.deck", HEAD.format(types=1) + soft() + PAIR + wall + REST + RUN)
         self.convert(deck="decks/in.deck")
         self.assertEqual(self.run_converted()["particles"], 50)
+
+
+    def test_paths_that_leave_the_folder_come_within_it(self):
+        self.write("parts/materials.in", soft())
+        self.write("DEM/in.deck", "log ../DEM/log.liggghts\n" + HEAD.format(types=1) + "include ../parts/materials.in\n" + PAIR + WALL.format(type=1) + REST +
+                   "run 10\nwrite_restart ../DEM/bed.restart\n")
+        self.mpm("convert", "in.deck", "--materials-file", "../materials.toml", "-o", "../out", cwd=self.folder / "DEM")
+        now = (self.out / "in.deck").read_text()
+        self.assertIn("log DEM/log.liggghts", now)
+        self.assertIn("include parts/materials.in", now)
+        self.assertIn("write_restart DEM/bed.restart", now)
+        self.run_converted(20)
+        self.assertTrue((self.out / "DEM/bed.restart").is_file())
+        self.assertFalse((self.folder / "DEM/bed.restart").exists())
+
+    def test_stresses_of_particles_are_planned(self):
+        observed = "compute s all stress/atom virial\ncompute sum all reduce sum c_s[1]\nthermo_style custom step c_sum\n"
+        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + observed + RUN)
+        self.convert()
+        self.run_converted(20)
 
 
 class Models(Convert):

@@ -1,5 +1,7 @@
 #include "deck/meeting.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "deck/geometry.hpp"
@@ -48,6 +50,11 @@ Meeting meeting_with_rigid_wall(const AtomType& a, int wall_type)
   m.mapping = PairMapping::rigid_partner(a.material.e_star());
   m.known_yield = a.known_yield;
   return m;
+}
+
+std::string types_text(const Meeting& meeting)
+{
+  return fmt::format("{}:{}{}", meeting.a, meeting.wall ? "wall " : "", meeting.b);
 }
 
 }  // namespace granulaw::deck

@@ -30,4 +30,7 @@ Meeting meeting_with_wall(const AtomType& a, const AtomType& wall);
 /// Particles and a rigid wall of this type.
 Meeting meeting_with_rigid_wall(const AtomType& a, int wall_type);
 
+/// The atom types of two bodies that meet: "1:2", "1:wall 2".
+std::string types_text(const Meeting& meeting);
+
 }  // namespace granulaw::deck

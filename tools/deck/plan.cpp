@@ -7,6 +7,10 @@
 #include <map>
 #include <set>
 
+#include "law/law.hpp"
+#include "law/range.hpp"
+#include "liggghts_plugin/contact/mpm_physics.hpp"
+
 namespace granulaw::deck {
 
 namespace {
@@ -111,7 +115,7 @@ double rounded_up(double x)
 /// The axes of the table: a fifth more than foreseen, as far as a table goes.
 void set_axes(Plan& plan)
 {
-  constexpr double margin = 1.2, deepest_table = 0.5, fastest_table = 0.09;
+  constexpr double margin = 1.2;
   double depth = 0, damage_number = 0;
   for (const PairPlan& p : plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
@@ -120,8 +124,8 @@ void set_axes(Plan& plan)
         std::max({damage_number, p.damage_number, p.axis_number});  // the pair rule's axis is the latter
   }
   plan.axis_matters = damage_number > negligible_damage_number;
-  plan.depth = std::min(deepest_table, rounded_up(margin * depth));
-  plan.damage_number = std::min(fastest_table, rounded_up(margin * damage_number));
+  plan.depth = std::min(deepest_law, rounded_up(margin * depth));
+  plan.damage_number = std::min(fastest_law, rounded_up(margin * damage_number));
 }
 
 void set_time_step(Plan& plan, double stretch)
@@ -138,7 +142,30 @@ void set_cost(Plan& plan, const Scene& scene, const PlanOptions& options)
   }
   if (steps > 0 && plan.particle_steps == 0)
     ask(plan.questions, "how many particles there are", "--particles N");
+  plan.unknown_cost = scene.left_loop;
+  if (!plan.unknown_cost.empty()) plan.particle_steps = std::nan("");
   plan.hours = plan.particle_steps / options.rate / 3600;
+}
+
+/// Each two particle materials, and each with the rigid wall and with the deformable walls.
+std::vector<std::string> pairs_of_law(const AtomTypes& types, const AtomTypes& walls)
+{
+  const auto names_of = [](const AtomTypes& bodies) {
+    std::set<std::string> names;
+    for (const auto& [type, t] : bodies)
+      if (t.material.name != plugin::elastic_name) names.insert(t.material.name);
+    return names;
+  };
+  const std::set<std::string> particles = names_of(types);
+  std::set<std::string> bodies = names_of(walls);
+  bodies.insert(particles.begin(), particles.end());
+  std::vector<std::string> pairs;
+  for (const std::string& a : particles) {
+    for (const std::string& b : bodies)
+      if (std::find(pairs.begin(), pairs.end(), b + ":" + a) == pairs.end()) pairs.push_back(a + ":" + b);
+    pairs.push_back(a + ":" + wall_name);
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -161,6 +188,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   add_particle_pairs(encounters, scene, types, speeds);
   add_wall_pairs(encounters, types, walls, speeds);
   for (const Encounter& e : encounters) plan.pairs.push_back(plan_pair(e, options, scene.stretch, visited));
+  plan.law_pairs = pairs_of_law(types, walls);
   set_axes(plan);
   set_time_step(plan, scene.stretch);
   set_cost(plan, scene, options);
@@ -173,6 +201,20 @@ const PairPlan* Plan::stiffest() const
       std::min_element(pairs.begin(), pairs.end(),
                        [](const PairPlan& a, const PairPlan& b) { return a.time_step < b.time_step; });
   return found != pairs.end() && std::isfinite(found->time_step) ? &*found : nullptr;
+}
+
+std::vector<std::string> beyond_laws(const Plan& plan)
+{
+  std::vector<std::string> sentences;
+  for (const PairPlan& p : plan.pairs) {
+    if (!p.visited || !p.meeting.known_yield || !p.meeting.yields.yields()) continue;
+    if (!(p.depth > deepest_law || p.damage_number > fastest_law)) continue;
+    sentences.push_back(fmt::format(
+        "{}:{} reaches delta/R {:.3g} and I {:.3g} in the deck, and laws end at {:g} and {:g}: the material is too soft for "
+        "these speeds; where its youngs_modulus is lowered for the time step, give the real one (docs/guide/plan.md#soften)",
+        p.meeting.name_a, p.meeting.name_b, p.depth, p.damage_number, deepest_law, fastest_law));
+  }
+  return sentences;
 }
 
 PairSizes pair_sizes(const Plan& plan)
@@ -189,14 +231,9 @@ PairSizes pair_sizes(const Plan& plan)
 
 std::string table_command(const Plan& plan, const std::string& materials_file)
 {
+  if (plan.depth <= 0) return {};
   std::string pairs;
-  std::set<std::string> done;
-  for (const PairPlan& p : plan.pairs) {
-    if (!p.needs_table || !p.visited) continue;
-    const std::string name = p.meeting.name_a + ":" + p.meeting.name_b;
-    if (done.insert(name).second) pairs += " --pair " + name;
-  }
-  if (pairs.empty() || plan.depth <= 0) return {};
+  for (const std::string& pair : plan.law_pairs) pairs += " --pair " + pair;
   const PairSizes sizes = pair_sizes(plan);
   return fmt::format("mpm table {}{} --depth {:.3g} --damage-number {:.3g}{}{} -o law.h5",
                      materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,

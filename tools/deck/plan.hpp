@@ -21,7 +21,9 @@ struct Plan
   /// s, the largest that the planned overlaps of all pairs allow, stretched as the deck says; 0: none meets.
   double time_step = 0;
   const PairPlan* stiffest() const;  ///< the pair that requires it; null: none meets
-  double particle_steps = 0, hours = 0;
+  double particle_steps = 0, hours = 0;  ///< not a number: they depend on the loop `unknown_cost`
+  std::string unknown_cost;              ///< "FILE:LINE" of its run; empty: they are known
+  std::vector<std::string> law_pairs;    ///< "a:b" that the plug-in requires of the law, in order
   double depth = 0, damage_number = 0;  ///< that the table needs, margins included; 0: no table
   bool axis_matters = false;            ///< the velocity axis
   bool complete() const { return questions.empty(); }
@@ -33,6 +35,9 @@ inline constexpr double negligible_damage_number = 0.002;
 
 /// Plans a scene: which bodies meet, how fast (deck/speeds.hpp), and what that needs of a law.
 Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* visited = nullptr);
+
+/// One sentence for each pair that the scene takes deeper or faster than any law goes; empty: none.
+std::vector<std::string> beyond_laws(const Plan& plan);
 
 /// `mpm table` states a pair's error up to this ratio of radii.
 inline constexpr double largest_radius_ratio = 10;

@@ -136,6 +136,7 @@ Scene scene_of(const json& j, const Places& places)
   for (const json& w : j["walls"]) scene.walls.push_back(wall_of(w, places));
   for (const json& r : j["runs"])
     scene.runs.push_back({places.path(r["where"]), r["steps"], r["time_step"], r["particles"], r["integrates"]});
+  scene.left_loop = places.path(j["left_loop"]);
   scene.notes = places.sentences(j["notes"]);
   scene.unknown_particles = places.sentences(j["unknown_particles"]);
   scene.unknown_speeds = places.sentences(j["unknown_speeds"]);

@@ -80,6 +80,7 @@ struct Scene
   std::vector<std::string> material_names;  ///< and materials
   double stretch = 1;                       ///< and stretch: the time step is this much longer
   std::optional<double> restitution;        ///< the smallest coefficientRestitution of the deck
+  std::string left_loop;                    ///< "FILE:LINE" of a run in a loop that the plan left; empty: none
   std::vector<std::string> notes;           ///< "FILE:LINE: what was not followed"
   /// Why particles, heights or velocities may be others than those above: "FILE:LINE: reason".
   std::vector<std::string> unknown_particles, unknown_heights, unknown_speeds;

@@ -185,7 +185,9 @@ Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& option
     if (p.visited && p.speed > 0)
       result.pairs.push_back(stretch_of(p, plan, result, norm(scene.gravity), limits));
   set_stretch(result);
-  result.time_step = result.stretch / scene.stretch * plan.time_step;  // the deck's own stretch is in it
+  // the deck's own stretch is in both; its step may be shorter for other reasons than contacts
+  const double step = scene.time_step > 0 ? std::min(plan.time_step, scene.time_step) : plan.time_step;
+  result.time_step = result.stretch / scene.stretch * step;
   result.modulus_factor = std::pow(result.stretch, -2.5);  // Hertz: t ~ E^-0.4
   for (const PairStretch& q : result.pairs) {
     const Meeting& m = q.pair->meeting;

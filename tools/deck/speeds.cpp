@@ -103,13 +103,14 @@ void SpeedBound::follow_sources(const std::map<int, AtomType>& types)
   for (const auto& [type, t] : types) flights_.try_emplace(type, Flight{0, 0, g_ == 0});
 }
 
-/// Greatest height that particles reach if they start upwards at their first speed.
+/// Greatest height that particles reach if they start upwards at their first speed; infinite where a start is not known.
 double SpeedBound::highest() const
 {
   if (g_ == 0) return Box::infinity;
   double height = highest_lift();
   for (const Source& s : scene_.sources) {
     const Flight& f = flights_.at(s.type);
+    if (!f.known) return Box::infinity;
     height = std::max(height, f.top + f.speed * f.speed / (2 * g_));
   }
   return height;

@@ -157,9 +157,4 @@ std::string step_text(double time_step)
   return fmt::format("{:.3g}", std::floor(time_step / unit * (1 + 1e-12)) * unit);
 }
 
-std::string types_text(const deck::Meeting& meeting)
-{
-  return fmt::format("{}:{}{}", meeting.a, meeting.wall ? "wall " : "", meeting.b);
-}
-
 }  // namespace granulaw

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/plan.hpp"
+#include "deck/planned_deck.hpp"
 #include "options.hpp"
 
 namespace granulaw {
@@ -24,13 +24,7 @@ struct DeckOptions
   void add_to(Options& command, bool own_materials, Option needed = Option());
 };
 
-/// A deck read and planned.
-struct PlannedDeck
-{
-  deck::Scene scene;
-  deck::PlanOptions options;
-  deck::Plan plan;
-};
+using deck::PlannedDeck;
 
 /// Throws Error.
 PlannedDeck plan_deck(const std::string& deck, const DeckOptions& options);
@@ -45,8 +39,5 @@ void require_answers(const deck::Plan& plan, const std::string& deck);
 
 /// A largest time step, s, to three digits, rounded down: it is to be pasted.
 std::string step_text(double time_step);
-
-/// The atom types of two bodies that meet: "1:2", "1:wall 2".
-std::string types_text(const deck::Meeting& meeting);
 
 }  // namespace granulaw

@@ -112,7 +112,8 @@ ordered_json cost_json(const PlannedDeck& d)
   return {{"particles", json_number(d.options.particles.value_or(d.scene.count()))},
           {"particle_steps", json_number(d.plan.particle_steps)},
           {"rate_per_s", d.options.rate},
-          {"hours", json_number(d.plan.hours)}};
+          {"hours", json_number(d.plan.hours)},
+          {"unknown_loop", d.plan.unknown_cost.empty() ? ordered_json() : ordered_json(printable(d.plan.unknown_cost))}};
 }
 
 ordered_json to_json(const PlannedDeck& d, const std::string& command)
@@ -133,6 +134,8 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
   root["velocity_axis_matters"] = plan.axis_matters;
   root["time_step_s"] = {{"deck", json_number(d.scene.time_step)}, {"advised", json_number(plan.time_step)}};
   root["cost"] = cost_json(d);
+  root["law_pairs"] = plan.law_pairs;
+  root["beyond_laws"] = deck::beyond_laws(plan);
   root["table_command"] = command.empty() ? ordered_json(nullptr) : ordered_json(printable(command));
   root["asks_for"] = questions;
   root["not_followed"] = d.scene.notes;
@@ -246,6 +249,7 @@ void print_needs(const PlannedDeck& d)
   if (d.scene.stretch > 1)
     fmt::print("stretch {:g}: in it; the deck's overlaps are {:g} times the d/R* above\n", d.scene.stretch,
                d.scene.stretch);
+  if (!plan.unknown_cost.empty()) fmt::print("cost: not known (the loop of {})\n", printable(plan.unknown_cost));
   if (plan.particle_steps > 0)
     fmt::print("cost: {:.3g} particle-steps, {:.3g} hours at {:.3g} a second\n", plan.particle_steps,
                plan.hours, d.options.rate);
@@ -254,6 +258,7 @@ void print_needs(const PlannedDeck& d)
 /// Deck lines that the plan could not follow, its questions, and the command that makes the law.
 void print_next(const PlannedDeck& d, const std::string& command)
 {
+  for (const std::string& sentence : deck::beyond_laws(d.plan)) fmt::print("beyond all laws: {}\n", printable(sentence));
   for (const std::string& note : d.scene.notes) fmt::print("not followed: {}\n", note);
   if (!d.plan.complete()) fmt::print("not in the deck:\n{}", questions_text(d.plan));
   if (!command.empty())

@@ -111,6 +111,7 @@ void print(const deck::SoftenLimits& limits, const deck::Softening& s)
   print_pairs(s);
   fmt::print("largest stretch: {:.3g}, bound by the {}; then overlap {:.3g} R*, static load {:.3g} F_y",
              s.stretch, printable(s.bound), s.overlap, s.static_ratio);
+  if (s.overlap > limits.overlap) fmt::print(", which is over the limit without any stretch");
   fmt::print("{}\n", s.extra_set > 0 ? fmt::format(", extra plastic set {:.3g} R*", s.extra_set) : "");
   fmt::print(
       "the deck keeps its moduli; after the model's words in pair_style and fix wall/gran, and for the time "
@@ -125,6 +126,7 @@ void soften(const SoftenRequest& r)
   require_answers(d.plan, r.deck);
   const deck::Softening s = deck::soften(d.scene, d.plan, d.options, r.limits);
   if (s.pairs.empty()) fail(r.deck, "no two bodies of it meet at any speed: there is nothing to stretch");
+  for (const std::string& sentence : deck::beyond_laws(d.plan)) fmt::print(stderr, "mpm: {}\n", printable(sentence));
   if (r.json)
     print_json(to_json(r.deck, s));
   else

@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "atlas_path.hpp"
 #include "base/atomic_write.hpp"
@@ -21,6 +20,7 @@
 #include "law/law_file.hpp"
 #include "law/pair_lines.hpp"
 #include "law/pair_names.hpp"
+#include "law/range.hpp"
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
 #include "percent.hpp"
@@ -50,14 +50,12 @@ std::vector<deck::PairPlan> take_from_deck(TableRequest& r, const Options& comma
   r.scene.materials_file = r.materials;
   const PlannedDeck d = plan_deck(r.deck, r.scene);
   require_answers(d.plan, r.deck);
-  std::set<std::string> pairs;
-  for (const deck::PairPlan& p : d.plan.pairs) {
-    if (!p.needs_table || !p.visited) continue;
-    pairs.insert(p.meeting.name_a + ":" + p.meeting.name_b);
-    yielding.push_back(p);
-  }
-  if (pairs.empty()) return yielding;
-  if (command.count("--pair") == 0) r.pairs.assign(pairs.begin(), pairs.end());
+  for (const deck::PairPlan& p : d.plan.pairs)
+    if (p.needs_table && p.visited) yielding.push_back(p);
+  if (yielding.empty()) return yielding;
+  if (command.count("--pair") == 0) r.pairs = d.plan.law_pairs;
+  if (rank() == 0)
+    for (const std::string& sentence : deck::beyond_laws(d.plan)) fmt::print(stderr, "mpm: {}\n", printable(sentence));
   if (command.count("--depth") == 0) r.file.depth = d.plan.depth;
   if (command.count("--damage-number") == 0) r.file.damage_number = d.plan.damage_number;
   const deck::PairSizes sizes = deck::pair_sizes(d.plan);
@@ -263,12 +261,12 @@ void add_range_options(Options& command, LawFileRequest& file)
       ->check(from_to(1e-4, 0.5))
       ->capture_default_str();
   command.add_option("--depth", file.depth, "largest overlap over the radius, up to 0.5")
-      ->check(above_zero_to(0.5))
+      ->check(above_zero_to(deepest_law))
       ->capture_default_str();
   command
       .add_option("--damage-number,--inertia", file.damage_number,
                   "largest damage number I = rho V^2/Y, up to 0.09; 0: a quasi-static law")
-      ->check(from_to(0, 0.09))
+      ->check(from_to(0, fastest_law))
       ->capture_default_str();
   command
       .add_option("--slowest", file.slowest,

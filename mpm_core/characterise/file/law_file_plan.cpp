@@ -14,6 +14,7 @@
 #include "atlas/composed_law.hpp"
 #include "characterise/body/law_body.hpp"
 #include "characterise/body/law_material.hpp"
+#include "law/range.hpp"
 
 namespace granulaw {
 
@@ -31,7 +32,7 @@ void check_numbers(const LawFileRequest& r)
 {
   if (!(r.depth > 0)) fail("depth", "cannot be used", fmt::format("{:g}", r.depth), "over 0, up to 0.5");
   check_range("depth", r.depth, 0, 0.5);
-  check_range("damage_number", r.damage_number, 0, 0.09);
+  check_range("damage_number", r.damage_number, 0, fastest_law);
   check_range("tolerance", r.tolerance, 1e-4, 0.5);
   check_range("radius_ratio", r.radius_ratio, 1, 1e6);
   check_range("slowest", r.slowest, 0, 1e9);

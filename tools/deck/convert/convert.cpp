@@ -581,9 +581,12 @@ class Converter
 
   void replace_paths(const At& at)
   {
-    for (std::size_t k = 1; k < at.line().words.size(); ++k)
-      if (const auto found = conversion_.paths.find(at.line().words[k].unquoted()); found != conversion_.paths.end())
-        replace_word(at, k, found->second, "the converted deck stands in another folder");
+    for (std::size_t k = 1; k < at.line().words.size(); ++k) {
+      const std::string path = at.line().words[k].unquoted();
+      if (!path.starts_with("..") || path.find_first_of(" \t\n") != std::string::npos) continue;
+      if (const std::string within = path_within(path); within != path)
+        replace_word(at, k, within, "the converted deck stands in another folder");
+    }
   }
 
   /// The converted deck may stand in another folder than the one whose name it jumps to.
@@ -611,6 +614,13 @@ class Converter
 fs::path path_of(const Scene& scene, const std::string& path)
 {
   return fs::path(scene.folder) / path;
+}
+
+std::string path_within(const std::string& path)
+{
+  std::string within = path;
+  while (within.starts_with("../") || within.starts_with("./../")) within = within.substr(within.find("../") + 3);
+  return within;
 }
 
 std::string main_file(const Scene& scene)

@@ -18,7 +18,6 @@ struct Conversion
   double stretch = 1;
   double step_factor = 1;  ///< the time step is so many times shorter, every count of steps as much larger
   std::string law = "law.h5";
-  std::map<std::string, std::string> paths;  ///< of files that the deck reads, where they change
 };
 
 /// A line that was changed. Empty `after`: removed; empty `before`: added.
@@ -36,6 +35,9 @@ struct ConvertedDeck
 
 /// The file of a path in the deck, which LIGGGHTS reads from the scene's folder.
 std::filesystem::path path_of(const Scene& scene, const std::string& path);
+/// A path of the deck in the folder of the converted one: "../DEM/log" becomes "DEM/log". So the converted deck runs
+/// wherever it stands, and what one deck writes another one of the same folder finds.
+std::string path_within(const std::string& path);
 /// The deck itself, as its commands name their file.
 std::string main_file(const Scene& scene);
 
