@@ -3,7 +3,8 @@
     apt-get install python3-sphinx python3-myst-parser libjs-mathjax
     cmake --build build/release --target book      # build/release/book/html/index.html
 
-Without CMake: sphinx-build -b html docs FOLDER. `-D granulaw_mpm=PATH` adds the options of every command to the reference.
+Without CMake: sphinx-build -b html docs FOLDER. `-D granulaw_mpm=PATH` adds the options of every command to the reference,
+`-D granulaw_explorer=FOLDER` the interactive page.
 """
 import re
 import shutil
@@ -106,8 +107,22 @@ def add_options(app, docname, source):
     source[0] += "\n" + "\n".join(parts)
 
 
+def link_explorer(app, docname, source):
+    """The guide to the interactive page begins with a link to it, where it was built."""
+    if docname == "guide/explorer" and app.config.granulaw_explorer:
+        source[0] = source[0].replace("\n\n", '\n\n<p><a href="../_static/explorer/index.html">Open the explorer</a></p>\n\n', 1)
+
+
+def copy_explorer(app, exception):
+    if exception is None and app.builder.name == "html" and app.config.granulaw_explorer:
+        shutil.copytree(app.config.granulaw_explorer, Path(app.outdir) / "_static/explorer", dirs_exist_ok=True)
+
+
 def setup(app):
+    app.add_config_value("granulaw_explorer", "", "env")
     app.add_config_value("granulaw_mpm", "", "env")
     app.connect("source-read", add_options)
     app.connect("source-read", link_examples)
+    app.connect("source-read", link_explorer)
     app.connect("build-finished", copy_mathjax)
+    app.connect("build-finished", copy_explorer)

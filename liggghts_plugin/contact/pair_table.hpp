@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "law/contact_step.hpp"
+#include "law/contact_limits.hpp"
 #include "contact/pair.hpp"
 #include "contact/tangential.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
@@ -244,18 +244,12 @@ class PairTable
   {
     const auto [r_eff, m_eff] = spheres;
     if (!(r_eff > 0)) return;
-    const double onset = contact.yield_overlap() * r_eff;
-    if (contact.yield_overlap() < contact.largest_overlap())
-      info.onset_speed = std::min(info.onset_speed,
-                                  std::sqrt(2.0 * contact.stored_energy(r_eff, onset, onset, 0.0) / m_eff));
+    info.onset_speed = std::min(info.onset_speed, onset_speed(contact, r_eff, m_eff));
     const auto stiffness = [&, r_eff = r_eff](double delta) {  // clang 14 captures no structured binding by itself
-      if constexpr (requires { contact.planned_stiffness(r_eff, delta); })
-        return contact.planned_stiffness(r_eff, delta);
-      else
-        return contact.stiffness(r_eff, delta, 0.0);
+      return step_stiffness(contact, r_eff, delta);
     };
     const double deepest = contact.stiffness_range() * r_eff;
-    const double dt_limit = largest_step_to(deepest, m_eff, stiffness);
+    const double dt_limit = largest_step_of(contact, r_eff, m_eff);
     const double dt_overlap = overlap_of_step(dt, m_eff, deepest, stiffness) / r_eff;
     const bool is_first = info.dt_limit == 0;
     info.dt_limit = is_first ? dt_limit : std::min(info.dt_limit, dt_limit);

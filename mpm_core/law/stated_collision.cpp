@@ -17,6 +17,8 @@ constexpr double overlap_margin = 0.05;
 
 StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source)
 {
+  if (!(velocity >= 1e-12 && velocity <= 1e6))  // as of the radii (chosen_pair.cpp)
+    fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "1e-12 to 1e+06 m/s");
   StatedCollision result{.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity)};
   const double allowed = (1 + overlap_margin) * pair.limit();
   if (result.replay.delta_max > allowed)

@@ -19,8 +19,8 @@ struct StatedCollision
   ErrorBound bound() const { return beyond_bound ? ErrorBound{} : statement.bound; }
 };
 
-/// `velocity`: m/s, of approach. Throws Error, led by `source`, where the collision goes deeper than the law is
-/// good for.
+/// `velocity`: m/s, of approach, 1e-12 to 1e6. Throws Error where it is another, and, led by `source`, where the
+/// collision goes deeper than the law is good for.
 StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source);
 
 }  // namespace granulaw

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "law/law.hpp"
+#include "material_file/material_range.hpp"
 #include "material_file/plausible.hpp"
 #include "material_file/shape_reader.hpp"
 #include "solver/material/law_table.hpp"
@@ -26,6 +27,11 @@ const char* unit_of(flow::Quantity quantity)
 {
   constexpr const char* units[] = {"", "Pa", "1/s", "degrees"};
   return units[static_cast<int>(quantity)];
+}
+
+LawMaterial numbers_of(const Material& m)
+{
+  return {{}, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
 }
 
 /// {WORD = "NAME", key = value, ...} with the keys that the law has.
@@ -56,9 +62,7 @@ void read_hardening(const Section& h, Material& m)
     return;
   }
   m.hardening_modulus = law.values.at("modulus").front();
-  if (!(m.hardening_modulus >= 0 && m.hardening_modulus <= m.youngs_modulus))
-    fail(h.where(h.node("modulus")), "'modulus' is out of range", fmt::format("{:g} Pa", m.hardening_modulus),
-         "0 to youngs_modulus");
+  check_hardening(numbers_of(m), h.where(h.node("modulus")));
 }
 
 void read_rate(const Section& r, Material& m)
@@ -78,25 +82,13 @@ Material read_material(const Section& s)
   s.check_keys(
       {"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate", "yield_surface"});
   Material m;
-  const auto plausible = [&](const char* key, const char* unit) {
-    const double value = s.positive(key, unit);
-    check_plausible(s.where(s.node(key)), key, key, value);
-    return value;
-  };
-  m.density = plausible("density", "kg/m^3");
-  m.youngs_modulus = plausible("youngs_modulus", "Pa");
+  const auto where = [&](const char* key) { return s.where(s.node(key)); };
+  m.density = s.positive("density", "kg/m^3");
+  m.youngs_modulus = s.positive("youngs_modulus", "Pa");
   m.poisson_ratio = s.number("poisson_ratio", "");
-  if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.4999))
-    fail(s.where(s.node("poisson_ratio")), "'poisson_ratio' is out of range",
-         fmt::format("{:g}", m.poisson_ratio),
-         "0 to below 0.4999 (0.5 is incompressible: the solver needs a finite bulk modulus; 0.49 works)");
-  if (s.has("yield_stress")) m.yield_stress = plausible("yield_stress", "Pa");
-  if (m.yields() && m.yield_stress > 0.1 * m.e_star())
-    fail(s.where(s.node("yield_stress")), "'yield_stress' is out of range",
-         fmt::format("{:g} Pa", m.yield_stress),
-         fmt::format("up to a tenth of E* = E/(1-nu^2), {:.4g} Pa: where 'youngs_modulus' is lowered for the time step, "
-                     "give the real one (docs/guide/plan.md#soften); without the key the body is elastic",
-                     0.1 * m.e_star()));
+  check_elastic(numbers_of(m), where);
+  if (s.has("yield_stress")) m.yield_stress = s.positive("yield_stress", "Pa");
+  check_yield_stress(numbers_of(m), where);
   for (const char* key : {"hardening", "rate", "yield_surface"})
     if (!m.yields() && s.has(key))
       fail(s.where(s.node(key)), fmt::format("'{}' needs a 'yield_stress'", key));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "material_file/material_range.hpp"
 
 namespace granulaw {
 
@@ -55,11 +56,7 @@ class Section
   double positive(const char* key, const char* unit) const
   {
     const double value = number(key, unit);
-    if (!(value > 0 && std::isfinite(value))) {
-      const std::string of_unit = *unit ? fmt::format(" {}", unit) : "";
-      fail(where(node(key)), fmt::format("'{}' is out of range", key), fmt::format("{:g}{}", value, of_unit),
-           "over 0" + of_unit);
-    }
+    require_positive(where(node(key)), key, value, unit);
     return value;
   }
   std::string text(const char* key) const

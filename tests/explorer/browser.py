@@ -1,0 +1,116 @@
+"""Chromium without a window, through chromedriver (W3C WebDriver): standard library only."""
+import base64
+import json
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+import urllib.request
+from pathlib import Path
+
+
+def missing():
+    """A sentence about the program that is missing; None: both are there."""
+    for program, package in (("chromium", "chromium"), ("chromedriver", "chromium-driver")):
+        if not shutil.which(program):
+            return f"no {program} (Debian: {package})"
+    return None
+
+
+class Browser:
+    def __init__(self, width=1560, height=980, dark=False):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.url, self.session = f"http://127.0.0.1:{port}", ""
+        arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
+                     f"--window-size={width},{height}",
+                     f"--user-data-dir={self.folder.name}/profile", *(["--force-dark-mode"] if dark else [])]
+        options = {"args": arguments, "prefs": {"download.default_directory": self.folder.name, "download.prompt_for_download": False,
+                                                "profile.default_content_setting_values.automatic_downloads": 1}}
+        self._wait_for_driver()
+        made = self._call("POST", "/session", {"capabilities": {"alwaysMatch": {"browserName": "chrome", "goog:chromeOptions": options, "timeouts": {"script": 240000},
+                                                                               "goog:loggingPrefs": {"performance": "ALL", "browser": "ALL"}}}})
+        self.session = f"/session/{made['sessionId']}"
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        try:
+            self._call("DELETE", "")
+        finally:
+            self.driver.terminate()
+            self.driver.wait()
+            self.folder.cleanup()
+
+    def _wait_for_driver(self):
+        for _ in range(300):
+            try:
+                return self._call("GET", "/status")
+            except OSError:
+                time.sleep(0.1)
+        raise RuntimeError("chromedriver does not answer")
+
+    def _call(self, method, path, body=None):
+        data = json.dumps(body if body is not None else {}).encode() if method == "POST" else None
+        request = urllib.request.Request(self.url + self.session + path, data, {"Content-Type": "application/json"}, method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=300) as answer:
+                return json.load(answer)["value"]
+        except urllib.error.HTTPError as error:
+            raise RuntimeError(json.load(error)["value"]["message"]) from None
+
+    def open(self, address):
+        self._call("POST", "/url", {"url": address})
+
+    def run(self, script, *arguments):
+        """The value of an async function's body; `args` are the arguments."""
+        wrapped = ("const done = arguments[arguments.length - 1], args = [...arguments].slice(0, -1);"
+                   "(async () => {" + script + "})().then((value) => done({value}), (error) => done({error: String(error.stack || error)}));")
+        answer = self._call("POST", "/execute/async", {"script": wrapped, "args": list(arguments)})
+        if "error" in answer:
+            raise RuntimeError(answer["error"])
+        return answer.get("value")
+
+    def log(self, kind):
+        return self._call("POST", "/se/log", {"type": kind})
+
+    def requests(self):
+        """Addresses that were asked for since the last call."""
+        events = [json.loads(entry["message"])["message"] for entry in self.log("performance")]
+        return [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
+
+    def complaints(self):
+        """Errors and refusals of the page since the last call."""
+        return [entry["message"] for entry in self.log("browser") if entry["level"] == "SEVERE"]
+
+    def resize(self, width, height):
+        self.command("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+
+    def command(self, name, parameters):
+        """One command of the DevTools protocol."""
+        return self._call("POST", "/goog/cdp/execute", {"cmd": name, "params": parameters})
+
+    def drag(self, start, end):
+        """The left button, pressed at a point of the window, moved and released."""
+        pointer = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [
+            {"type": "pointerMove", "duration": 0, "x": round(start[0]), "y": round(start[1])}, {"type": "pointerDown", "button": 0},
+            {"type": "pointerMove", "duration": 100, "x": round(end[0]), "y": round(end[1])}, {"type": "pointerUp", "button": 0}]}
+        self._call("POST", "/actions", {"actions": [pointer]})
+
+    def picture(self, path):
+        whole = self.command("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True})
+        Path(path).write_bytes(base64.b64decode(whole["data"]))
+
+    def downloaded(self, name):
+        """Text of a file that the page gave, once it is there."""
+        file = Path(self.folder.name) / name
+        for _ in range(100):
+            if file.exists() and file.stat().st_size > 0:
+                return file.read_text()
+            time.sleep(0.1)
+        raise RuntimeError(f"{name} was not downloaded")
