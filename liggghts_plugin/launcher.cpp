@@ -73,8 +73,9 @@ void plan(std::vector<char*> words, const char* file)
   lammps = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), words.data(), MPI_COMM_WORLD);
   granulaw_plan(lammps, file);
   on_exit(&end_plan, nullptr);
-  granulaw::plan::follow_lines([](std::FILE* stream) { return stream == lammps->infile; },
-                               &granulaw_plan_line);
+  const auto is_deck = [](std::FILE* stream) { return stream == lammps->infile; };
+  granulaw::plan::follow_lines(is_deck, &granulaw_plan_line);
+  granulaw::plan::read_on_one_rank(is_deck);
   granulaw::plan::follow_files(&granulaw_plan_file);
   lammps->input->file();
   std::exit(0);
@@ -101,6 +102,10 @@ int main(int argc, char** argv)
   const auto limit = take_option(words, "-steps", 2);
   auto* lammps = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), words.data(), MPI_COMM_WORLD);
   granulaw_provide_contact_histories(lammps);
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (!limit.empty() && ranks == 1)
+    granulaw::plan::read_on_one_rank([=](std::FILE* stream) { return stream == lammps->infile; });
   if (!limit.empty())
     granulaw::plan::follow_reads([=](std::FILE* stream) {
       if (stream == lammps->infile) granulaw_limit_steps(lammps, std::atoll(limit[0]), limit[1]);

@@ -39,7 +39,7 @@ std::map<std::FILE*, Place>& places()
   return open_files;
 }
 
-std::function<bool(std::FILE*)> is_deck_file;
+std::function<bool(std::FILE*)> is_deck_file, is_of_one_rank;
 std::function<void(const char*, const char*)> on_line;
 std::function<void(const char*, bool)> on_file;
 std::function<void(std::FILE*)> on_read;
@@ -103,6 +103,22 @@ std::FILE* open_file(const char* path, const char* mode)
   return file;
 }
 
+/// "processors 2 1 1" becomes "processors * * *", of the same length.
+void free_grid(char* text)
+{
+  char* at = text + std::strspn(text, " \t");
+  if (std::strncmp(at, "processors", 10) != 0 || !std::isspace(static_cast<unsigned char>(at[10]))) return;
+  at += 10;
+  for (int word = 0; word < 3; ++word) {
+    at += std::strspn(at, " \t");
+    const std::size_t length = std::strcspn(at, " \t\r\n");
+    if (length == 0) return;
+    std::memset(at, ' ', length);
+    at[0] = '*';
+    at += length;
+  }
+}
+
 void count_line(std::FILE* file, const char* text)
 {
   const auto found = places().find(file);
@@ -136,6 +152,11 @@ void follow_lines(std::function<bool(std::FILE*)> is_deck, std::function<void(co
   on_line = std::move(line);
 }
 
+void read_on_one_rank(std::function<bool(std::FILE*)> is_deck)
+{
+  is_of_one_rank = std::move(is_deck);
+}
+
 void follow_reads(std::function<void(std::FILE*)> read)
 {
   on_read = std::move(read);
@@ -164,6 +185,7 @@ GRANULAW_OWN char* fgets(char* text, int size, std::FILE* file)
   static auto* const read = granulaw::plan::next<char*(char*, int, std::FILE*)>("fgets");
   if (granulaw::plan::on_read) granulaw::plan::on_read(file);
   char* result = read(text, size, file);
+  if (result && granulaw::plan::is_of_one_rank && granulaw::plan::is_of_one_rank(file)) granulaw::plan::free_grid(text);
   if (granulaw::plan::closed && result) granulaw::plan::count_line(file, text);
   return result;
 }

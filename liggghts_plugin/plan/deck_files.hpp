@@ -17,6 +17,9 @@ void open_files();
 void follow_lines(std::function<bool(std::FILE*)> is_deck,
                   std::function<void(const char* where, const char* text)> line);
 
+/// A deck's own command `processors`, for several ranks, leaves the grid to LIGGGHTS.
+void read_on_one_rank(std::function<bool(std::FILE*)> is_deck);
+
 /// Called before each line that is read from any file, whether files are closed or not.
 void follow_reads(std::function<void(std::FILE*)> read);
 

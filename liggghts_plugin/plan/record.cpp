@@ -144,6 +144,7 @@ std::string Record::json() const
       {"commands", list(commands)},
       {"files_read", files_read},
       {"files_written", files_written},
+      {"restart_stretch", to_json(restart_stretch)},
       {"left_loop", left_loop},
       {"stopped_at", stopped_at}};
   return root.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

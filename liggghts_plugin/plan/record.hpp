@@ -64,6 +64,7 @@ struct Record
   std::string model, law;             ///< words of pair_style gran: model, law, materials, stretch
   std::vector<std::string> material_names;
   double stretch = 1;
+  std::optional<double> restart_stretch;  ///< of the contacts in the restart file that the deck reads
   std::vector<Source> sources;
   std::vector<Wall> walls;
   std::vector<Run> runs;

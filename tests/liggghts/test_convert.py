@@ -135,12 +135,18 @@ class Files(Convert):
                    "run 10\nwrite_restart ../DEM/bed.restart\n")
         self.mpm("convert", "in.deck", "--materials-file", "../materials.toml", "-o", "../out", cwd=self.folder / "DEM")
         now = (self.out / "in.deck").read_text()
-        self.assertIn("log DEM/log.liggghts", now)
+        self.assertIn("log log.liggghts", now)
         self.assertIn("include parts/materials.in", now)
-        self.assertIn("write_restart DEM/bed.restart", now)
+        self.assertIn("write_restart bed.restart", now)
         self.run_converted(20)
-        self.assertTrue((self.out / "DEM/bed.restart").is_file())
+        self.assertTrue((self.out / "bed.restart").is_file())
         self.assertFalse((self.folder / "DEM/bed.restart").exists())
+
+    def test_a_deck_for_several_ranks_is_converted_by_one(self):
+        self.write("in.deck", "processors 2 1 1\n" + HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + RUN)
+        now, said = self.convert("--check")
+        self.assertIn("processors 2 1 1", now)
+        self.assertEqual(said["check"]["converted"]["particles"], 50)
 
     def test_stresses_of_particles_are_planned(self):
         observed = "compute s all stress/atom virial\ncompute sum all reduce sum c_s[1]\nthermo_style custom step c_sum\n"
@@ -240,6 +246,21 @@ class Time(Convert):
         left = "\n".join(said["not_converted"])
         self.assertIn("number of the step", left)
         self.assertIn("'run 100' in a branch", left)
+
+
+class Chains(Convert):
+    def test_a_deck_that_continues_has_the_stretch_of_the_first(self):
+        self.write("in.first", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + "run 300\nwrite_restart bed.restart\n")
+        _, first = self.convert(deck="in.first")
+        self.assertGreater(first["stretch"], 1)
+        for where, deck in ((self.folder, "in.first"), (self.out, "in.first")):  # the original's and the converted one's
+            subprocess.run([harness.LAUNCHER, "-in", deck, "-log", "none"], cwd=where, check=True, capture_output=True, timeout=300)
+        head = re.sub(r"region box .*\ncreate_box .*\n", "read_restart bed.restart\n", HEAD.format(types=1))
+        fast = "velocity all set 0 0 -3\nfix integr all nve/sphere\ntimestep 1e-5\nfix gravi all gravity 9.81 vector 0 0 -1\nrun 300\n"
+        self.write("in.second", head + soft() + PAIR + WALL.format(type=1) + fast)
+        now, second = self.convert(deck="in.second")
+        self.assertEqual(second["stretch"], first["stretch"])
+        self.assertEqual(self.run_converted(100, deck="in.second")["particles"], 50)
 
 
 class Questions(Convert):

@@ -126,6 +126,7 @@ Scene scene_of(const json& j, const Places& places)
   scene.types = j["types"];
   scene.time_step = j["time_step"];
   for (const json& m : j["materials"]) scene.materials[m["type"]] = material_of(m);
+  scene.restart_stretch = optional_number(j["restart_stretch"]);
   scene.restitution = optional_number(j["restitution"]);
   const json& style = j["pair_style"];
   scene.model = style["model"];

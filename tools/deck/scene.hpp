@@ -79,6 +79,7 @@ struct Scene
   std::string model, law_file;              ///< words of pair_style gran: model, law
   std::vector<std::string> material_names;  ///< and materials
   double stretch = 1;                       ///< and stretch: the time step is this much longer
+  std::optional<double> restart_stretch;    ///< of the contacts in the restart file that the deck reads
   std::optional<double> restitution;        ///< the smallest coefficientRestitution of the deck
   std::string left_loop;                    ///< "FILE:LINE" of a run in a loop that the plan left; empty: none
   std::vector<std::string> notes;           ///< "FILE:LINE: what was not followed"

@@ -123,6 +123,26 @@ void compare_times(deck::Converted& c, const deck::Scene& now)
   }
 }
 
+/// The converted deck and its includes, by the choices made.
+void write_deck(deck::Converted& c, const deck::Presets& presets)
+{
+  const deck::Scene& scene = c.planned.scene;
+  std::optional<deck::Scene> probe;
+  if (const auto files = deck::probe_deck(scene, c.conversion); !files.empty()) {
+    deck::write_files(scene, c.folder, files);
+    probe = deck::read_scene(c.deck.string(), presets);
+    // its files stand under other names only where the deck is not in the folder from which LIGGGHTS reads it
+    for (deck::DeckCommand& command : probe->commands)
+      for (const auto& [path, text] : files)
+        if (deck::name_in_folder(scene, path) == command.file) {
+          command.file = path;
+          break;
+        }
+  }
+  c.result = deck::convert(scene, c.conversion, probe ? &*probe : nullptr);
+  deck::write_files(scene, c.folder, c.result.files);
+}
+
 deck::Converted convert(ConvertRequest& r)
 {
   deck::Converted c;
@@ -141,23 +161,16 @@ deck::Converted convert(ConvertRequest& r)
   c.folder = choose_folder(r);
   c.deck = c.folder / fs::path(r.deck).filename();
   c.restarts = deck::copy_data(scene, c.folder);
-  std::optional<deck::Scene> probe;
-  if (const auto files = deck::probe_deck(scene, c.conversion); !files.empty()) {
-    deck::write_files(scene, c.folder, files);
-    probe = deck::read_scene(c.deck.string(), presets);
-    // its files stand under other names only where the deck is not in the folder from which LIGGGHTS reads it
-    for (deck::DeckCommand& command : probe->commands)
-      for (const auto& [path, text] : files)
-        if (deck::name_in_folder(scene, path) == command.file) {
-          command.file = path;
-          break;
-        }
+  write_deck(c, presets);
+  deck::Scene now = deck::read_scene(c.deck.string(), presets);
+  if (now.restart_stretch && std::abs(*now.restart_stretch / c.conversion.stretch - 1) > 1e-6) {
+    c.step = deck::continue_stretch(c.conversion, c.planned, *now.restart_stretch);
+    write_deck(c, presets);
+    now = deck::read_scene(c.deck.string(), presets);
   }
-  c.result = deck::convert(scene, c.conversion, probe ? &*probe : nullptr);
   for (const std::string& sentence : deck::beyond_laws(c.planned.plan)) c.result.left.push_back(sentence);
   write_law_of(c, file);
-  deck::write_files(scene, c.folder, c.result.files);
-  compare_times(c, deck::read_scene(c.deck.string(), presets));
+  compare_times(c, now);
   return c;
 }
 

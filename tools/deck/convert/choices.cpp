@@ -43,6 +43,13 @@ double two_digits_up(double x)
   return std::stod(fmt::format("{:.2g}", std::ceil(x / unit * (1 - 1e-12)) * unit));
 }
 
+/// `allowed`: of the real contacts.
+void set_step_factor(Conversion& conversion, double deck_step, double allowed)
+{
+  const double step = conversion.stretch * allowed;
+  if (step < deck_step) conversion.step_factor = two_digits_up(deck_step / step);
+}
+
 }  // namespace
 
 std::set<int> types_of_particles(const Scene& scene)
@@ -125,8 +132,17 @@ StepChoice choose_time_step(Conversion& conversion, const PlannedDeck& d, bool m
     conversion.stretch = std::clamp(two_digits_up(c.deck_step / allowed), 1.0, s.stretch);
     c.bound = s.bound;
   }
-  const double step = conversion.stretch * allowed;
-  if (step < c.deck_step) conversion.step_factor = two_digits_up(c.deck_step / step);
+  set_step_factor(conversion, c.deck_step, allowed);
+  return c;
+}
+
+StepChoice continue_stretch(Conversion& conversion, const PlannedDeck& d, double stretch)
+{
+  const StepChoice c{largest_time_step(d.scene), "restart file, whose contacts are stretched so"};
+  const double allowed = d.plan.time_step / d.scene.stretch;
+  conversion.stretch = stretch;
+  conversion.step_factor = 1;
+  if (c.deck_step > 0 && allowed > 0) set_step_factor(conversion, c.deck_step, allowed);
   return c;
 }
 

@@ -39,6 +39,8 @@ struct StepChoice
 };
 /// Sets stretch and step factor of the conversion: the deck's own time step where the limits of soften() allow it.
 StepChoice choose_time_step(Conversion& conversion, const PlannedDeck& deck, bool may_stretch);
+/// The same with the stretch of the contacts that the deck continues from a restart file.
+StepChoice continue_stretch(Conversion& conversion, const PlannedDeck& deck, double stretch);
 
 /// Sets moduli: of `known` names as the law has them; those of rigid walls, which serve friction alone, rise with the
 /// particles'.

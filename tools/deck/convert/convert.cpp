@@ -584,7 +584,7 @@ class Converter
     for (std::size_t k = 1; k < at.line().words.size(); ++k) {
       const std::string path = at.line().words[k].unquoted();
       if (!path.starts_with("..") || path.find_first_of(" \t\n") != std::string::npos) continue;
-      if (const std::string within = path_within(path); within != path)
+      if (const std::string within = path_within(scene_, path); within != path)
         replace_word(at, k, within, "the converted deck stands in another folder");
     }
   }
@@ -616,10 +616,13 @@ fs::path path_of(const Scene& scene, const std::string& path)
   return fs::path(scene.folder) / path;
 }
 
-std::string path_within(const std::string& path)
+std::string path_within(const Scene& scene, const std::string& path)
 {
   std::string within = path;
   while (within.starts_with("../") || within.starts_with("./../")) within = within.substr(within.find("../") + 3);
+  std::error_code ignored;
+  const std::string own = fs::absolute(scene.deck, ignored).lexically_normal().parent_path().filename().string() + "/";
+  if (within != path && within.starts_with(own)) within = within.substr(own.size());
   return within;
 }
 

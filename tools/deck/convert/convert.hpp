@@ -35,9 +35,10 @@ struct ConvertedDeck
 
 /// The file of a path in the deck, which LIGGGHTS reads from the scene's folder.
 std::filesystem::path path_of(const Scene& scene, const std::string& path);
-/// A path of the deck in the folder of the converted one: "../DEM/log" becomes "DEM/log". So the converted deck runs
-/// wherever it stands, and what one deck writes another one of the same folder finds.
-std::string path_within(const std::string& path);
+/// A path of the deck in the folder of the converted one: "../CFD/log" becomes "CFD/log", and that of a file in the
+/// deck's own folder, "../DEM/log", becomes "log". So the converted deck runs wherever it stands, and what one deck
+/// writes another one of the same folder finds.
+std::string path_within(const Scene& scene, const std::string& path);
 /// The deck itself, as its commands name their file.
 std::string main_file(const Scene& scene);
 

@@ -24,7 +24,7 @@ fs::path name_in_folder(const Scene& scene, const std::string& path)
 {
   const bool is_main = fs::path(path).lexically_normal() == fs::path(main_file(scene)).lexically_normal();
   if (is_main || path.starts_with('/')) return fs::path(path).filename();
-  return fs::path(path_within(path)).lexically_normal();
+  return fs::path(path_within(scene, path)).lexically_normal();
 }
 
 void write_files(const Scene& scene, const fs::path& folder, const std::map<std::string, std::string>& files)
@@ -46,7 +46,7 @@ std::vector<std::string> copy_data(const Scene& scene, const fs::path& folder)
     const fs::path from = path_of(scene, path);
     std::error_code ignored;
     if (!fs::is_regular_file(from, ignored)) continue;
-    const fs::path to = folder / path_within(path);
+    const fs::path to = folder / path_within(scene, path);
     const bool restart = is_restart(scene, path);
     if (restart && fs::exists(to)) continue;  // of the deck before, converted
     if (restart) restarts.push_back(path);
@@ -58,7 +58,7 @@ std::vector<std::string> copy_data(const Scene& scene, const fs::path& folder)
     if (parent.empty() || path.starts_with('/')) return;
     std::error_code ignored;
     if (!if_there || fs::is_directory(path_of(scene, parent.string()), ignored))
-      fs::create_directories(folder / path_within(parent.string()), ignored);
+      fs::create_directories(folder / path_within(scene, parent.string()), ignored);
   };
   for (const std::string& path : scene.files_written) make_folder_of(path, false);
   for (const DeckCommand& command : scene.commands)
