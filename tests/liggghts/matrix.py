@@ -93,7 +93,7 @@ class Row:
                 if run is None:
                     continue
                 stock = runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])
-                said = self.outcome(run, stock) or self.twin(model, run, stock, stretch) or self.energy(run)
+                said = self.outcome(run, stock) or self.twin(model, run, stock, stretch) or self.energy(run, energy)
                 self.note(model, said, f"elastic, {NAMES[stretch, energy]}, ranks {ranks}")
             for law, cases in YIELDING:
                 self.examine_yielding(model, law, cases[model], runs, plain, alike)
@@ -106,7 +106,7 @@ class Row:
             if run is None:
                 continue
             done.append(run)
-            said = self.outcome(run, runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])) or self.energy(run)
+            said = self.outcome(run, runs.get(("hertz", "elastic", stretch, False, ranks), plain[ranks])) or self.energy(run, energy)
             self.note(model, said, f"{law}, {NAMES[stretch, energy]}, ranks {ranks}")
         self.waves |= law == "composed" and any(row[2] > 0 for run in done for row in run.energies[-1:])
         if alike and len(done) == 2 and all(r.status == 0 for r in done):
@@ -126,7 +126,10 @@ class Row:
         self.worst[model] = max(self.worst[model], worst or 0.0)
         return apart and f"DEFECT: {apart}"
 
-    def energy(self, run):
+    def energy(self, run, wanted):
+        """`wanted`: the deck prints energies."""
+        if wanted and run.status == 0 and not run.energies:
+            return "DEFECT: no energies"
         if not run.energies or not self.feature.conserved:
             return None
         held, lost, _ = run.energies[0]
@@ -157,8 +160,9 @@ class Row:
 
 
 def states_apart(one, two):
-    """Difference between the trajectory on two ranks and that on one; None: equal."""
-    return difference({"state": two.tables.get("state.txt", [])}, {"state": one.tables.get("state.txt", [])}, RANKS)[0]
+    """Difference between the trajectory on two ranks and that on one; None: equal. A run without a trajectory is equal to none."""
+    one, two = (run.tables.get("state.txt") for run in (one, two))
+    return difference({"state": two}, {"state": one}, RANKS)[0] if one and two else "no state.txt"
 
 
 def known(feature, model, said, where):
