@@ -10,11 +10,19 @@ function(granulaw_target name)
   endif()
 endfunction()
 
+# Sources of a library or program are compiled in groups of eight: a third of the compiler's time. No two files of a group may give one name to two things.
+option(GRANULAW_UNITY "Compile the sources in groups" ON)
+function(granulaw_grouped)
+  foreach(target IN LISTS ARGN)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${GRANULAW_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  endforeach()
+endfunction()
+
 # A program of tests: its own files are compiled in groups and lightly optimised, since most of their time is the compiler's. The names of a
 # test file lie in a namespace of the file's name, so that they do not meet.
 function(granulaw_test_target name)
   granulaw_target(${name})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${GRANULAW_UNITY} UNITY_BUILD_BATCH_SIZE 12)
   if(CMAKE_BUILD_TYPE STREQUAL Release)
     target_compile_options(${name} PRIVATE -O1)
   endif()

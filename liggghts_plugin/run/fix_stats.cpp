@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* style_name = "granulaw/stats";
 
-LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
+LAMMPS_NS::Fix* make_stats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 {
   return new FixStats(lmp, narg, arg);
 }
@@ -34,7 +34,7 @@ LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
 {
-  register_fix_style(lmp, style_name, &make_fix);
+  register_fix_style(lmp, style_name, &make_stats);
   if (!lmp->domain->box_exist) return;
   const std::shared_ptr<Session> session = Session::of(lmp);
   EnergyTally::provide(lmp, session->energy != nullptr, session->dissipated_energy);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int area_of_overlap = 0;  // LIGGGHTS's contact_area overlap, its default
 
-LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
+LAMMPS_NS::Fix* make_heat(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 {
   return new FixHeatConduction(lmp, narg, arg);
 }
@@ -28,7 +28,7 @@ LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 
 void provide_heat_conduction(LAMMPS_NS::LAMMPS* lmp)
 {
-  for (const char* name : {"heat/gran", "heat/gran/conduction"}) replace_fix_style(lmp, name, &make_fix);
+  for (const char* name : {"heat/gran", "heat/gran/conduction"}) replace_fix_style(lmp, name, &make_heat);
 }
 
 void check_heat(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)

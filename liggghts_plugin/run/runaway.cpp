@@ -13,10 +13,10 @@ namespace granulaw::plugin {
 
 namespace {
 
-constexpr const char* style_name = "granulaw/runaway";
+constexpr const char* runaway_style = "granulaw/runaway";
 constexpr int check_every = 100;  // steps
 
-LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
+LAMMPS_NS::Fix* make_runaway(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 {
   return new FixRunaway(lmp, narg, arg);
 }
@@ -30,9 +30,9 @@ bool is_finite(const double* v)
 
 void provide_runaway_fix(LAMMPS_NS::LAMMPS* lmp)
 {
-  register_fix_style(lmp, style_name, &make_fix);
-  if (!lmp->domain->box_exist || lmp->modify->find_fix_style_strict(style_name, 0)) return;
-  const char* arg[] = {"granulaw_runaway", "all", style_name};
+  register_fix_style(lmp, runaway_style, &make_runaway);
+  if (!lmp->domain->box_exist || lmp->modify->find_fix_style_strict(runaway_style, 0)) return;
+  const char* arg[] = {"granulaw_runaway", "all", runaway_style};
   lmp->modify->add_fix(3, const_cast<char**>(arg));
 }
 

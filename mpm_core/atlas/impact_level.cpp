@@ -13,7 +13,7 @@ namespace {
 
 constexpr double spacing = share_spacing;
 
-constexpr double usual_share_end = 1.5;  // xi where the force is the press's again
+constexpr double usual_end_of_share = 1.5;  // xi where the force is the press's again
 
 /// ln(F_impact/F_press) of an impact over xi <= 1: the spline through its fractions. At the end it has the
 /// slope of four shares before. The last shares scatter: with the slope of the cubic through them F_max of
@@ -108,7 +108,7 @@ HermiteColumn rate_force(const LawShape::VelocityEffect& effect, double latched,
   std::size_t last_raised = 0;
   HermiteColumn force;
   for (std::size_t l = 0; l < nodes_to(share_end); ++l) {
-    const double xi = spacing * static_cast<double>(l), t = (xi - 1) / (usual_share_end - 1);
+    const double xi = spacing * static_cast<double>(l), t = (xi - 1) / (usual_end_of_share - 1);
     double correction = std::expm1(xi <= 1 ? within(xi) : within(1.0) * fading(std::min(t, 1.0), 0.0));
     if (l > 0 && l < reversal)  // to the impact's peak at its reversal, before no more
       correction = std::min(correction, std::exp(within(1.0) + rise.value[reversal] - rise.value[l]) - 1);

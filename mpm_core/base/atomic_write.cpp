@@ -67,12 +67,12 @@ void require_writable(const std::string& path, const std::string& where)
   if (!written) fail(where, fmt::format("the folder '{}' cannot be written to", folder.string()));
 }
 
-void check_output(const std::string& path, const std::string& endings)
+void check_output(const std::string& option, const std::string& path, const std::string& endings)
 {
   if (path.empty()) return;
   const std::string ending = fs::path(path).extension().string();
   if (ending.empty() || endings.find(ending) == std::string::npos)
-    fail(path, "the ending of an output name says its format", ending, endings);
+    fail(option, "the ending of an output name says its format", path, endings);
   require_writable(path, path);
 }
 

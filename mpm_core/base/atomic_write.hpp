@@ -18,7 +18,7 @@ void write_text_atomically(const std::string& path, const std::string& text);
 void require_writable(const std::string& path, const std::string& where);
 
 /// Refuses an output name that could not be written, before the work starts: its folder must exist, and the
-/// ending be one of `endings` (".csv, .h5"). An empty path is none.
-void check_output(const std::string& path, const std::string& endings);
+/// ending be one of `endings` (".csv, .h5"); the complaint of an ending names `option`. An empty path is none.
+void check_output(const std::string& option, const std::string& path, const std::string& endings);
 
 }  // namespace granulaw

@@ -12,7 +12,6 @@ namespace granulaw {
 
 namespace {
 
-constexpr double normal95 = 1.959964;
 /// Fills in the values that this material would show.
 void fill(Measurement& m, const CandidateMaterial& material, const Atlas& atlas,
           const std::vector<Parameter>& varied, double relative_sd)

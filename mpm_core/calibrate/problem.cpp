@@ -17,7 +17,6 @@ constexpr double wall_steepness = 100;  // residual for a factor e beyond what i
 constexpr double robust_from = 3;       // sd from which a datum counts in proportion
 constexpr double furthest_log = 100;    // of a modulus: a search tries anything, and its ratios stay finite
 constexpr Range solid_modulus{1e3, 1e13};  // Pa; gels, and eight times diamond
-constexpr double normal95 = 1.959964;      // sd on either side of the mean that hold 95 %
 constexpr double unbounded = 1e9;          // of a coordinate: no fit goes further
 
 Eigen::Index index(std::size_t k)

@@ -10,6 +10,9 @@
 
 namespace granulaw {
 
+/// Standard deviations on either side of the mean that hold 95 %.
+inline constexpr double normal95 = 1.959964;
+
 class Atlas;
 class ComposedModel;
 class SphereLaws;

@@ -8,7 +8,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr double like_sizes = 0.5;
+constexpr double even_share = 0.5;
 
 /// The pair's law among those of its own; null: a body's.
 const TwoBodyLaw* pair_law(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
@@ -133,7 +133,7 @@ double distance_in_size(const Law& law, const PairLaw& pair, const std::string& 
   const bool a_yields = a == b || yields_first(law.bodies.at(a).material, law.bodies.at(b).material);
   const double ratio = a_yields ? radius_b / radius_a : radius_a / radius_b;
   const TwoBodyLaw* own = pair_law(law, pair, a, b);
-  return std::abs(1 / (1 + ratio) - (own ? own->size_share() : like_sizes));
+  return std::abs(1 / (1 + ratio) - (own ? own->size_share() : even_share));
 }
 
 }  // namespace granulaw

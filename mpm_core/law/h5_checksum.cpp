@@ -12,7 +12,7 @@ namespace {
 
 thread_local Checksum* current = nullptr;
 
-constexpr const char* attribute = "checksum";  // of the root group
+constexpr const char* checksum_attribute = "checksum";  // of the root group
 
 std::uint64_t continued(std::uint64_t hash, const void* data, std::size_t bytes)
 {
@@ -48,11 +48,11 @@ std::string Checksum::text() const
 std::string verify(hid_t file, const Checksum& found, bool required, const std::string& path)
 {
   const std::string now = found.text();
-  if (H5Aexists(file, attribute) <= 0) {
+  if (H5Aexists(file, checksum_attribute) <= 0) {
     if (required) fail(path, "is damaged: its checksum is missing; copy the file again, or make it anew");
     return {};
   }
-  const std::string stored = read_text_attribute(file, attribute, path);
+  const std::string stored = read_text_attribute(file, checksum_attribute, path);
   if (stored != now)
     fail(path,
          "is damaged or was changed: its data do not have its checksum; copy the file again, or make it anew",
@@ -62,7 +62,7 @@ std::string verify(hid_t file, const Checksum& found, bool required, const std::
 
 void write(hid_t file, const Checksum& found, const std::string& path)
 {
-  write_text_attribute(file, attribute, found.text(), path);
+  write_text_attribute(file, checksum_attribute, found.text(), path);
 }
 
 }  // namespace granulaw::h5

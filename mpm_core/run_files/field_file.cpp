@@ -192,7 +192,7 @@ std::string h5_beside(const std::string& path)
 void check_field_output(const std::string& path)
 {
   const std::string ending = fs::path(path).extension().string();
-  if (ending != ".xdmf") fail(path, "the ending of an output name says its format", ending, ".xdmf");
+  if (ending != ".xdmf") fail("--fields", "the ending of an output name says its format", path, ".xdmf");
   if (path.find_first_of("<>&\"") != std::string::npos)
     fail("--fields", "these characters cannot stand in an XDMF file's name", path, "a name without < > & \"");
   require_writable(path, "--fields");

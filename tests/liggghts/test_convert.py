@@ -119,7 +119,7 @@ class Files(Convert):
 
     def test_its_own_folder_is_refused(self):
         self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + REST + RUN)
-        self.assertIn("the original would be lost", self.mpm("convert", "in.deck", "--materials-file", "materials.toml", "-o", ".", code=1).stderr)
+        self.assertIn("the original would be lost", self.mpm("convert", "in.deck", "--materials-file", "materials.toml", "-o", ".", code=2).stderr)
 
     def test_paths_from_where_one_stands(self):
         self.write("meshes/floor.stl", harness.plane_stl())

@@ -4,7 +4,9 @@
 
 First a file with a known defect: a run that does not name it has proven nothing. Exit 0: no finding; 1: findings; 77: no clang-tidy, or no history.
 """
+import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +21,16 @@ def changed(source, commit):
     if done.returncode:
         return None
     return sorted(f for f in done.stdout.split() if f.startswith(PRODUCT) and f.endswith(".cpp"))
+
+
+def write_commands(build, folder):
+    """The build's compile commands, also of each file that it compiles in a group."""
+    commands = json.loads((build / "compile_commands.json").read_text())
+    for one in list(commands):
+        if "/Unity/" in one["file"]:
+            members = re.findall(r'^#include "(.*)"$', pathlib.Path(one["file"]).read_text(), flags=re.M)
+            commands += [{**one, "file": member, "command": one["command"].replace(one["file"], member)} for member in members]
+    (folder / "compile_commands.json").write_text(json.dumps(commands))
 
 
 def tidy(*words):
@@ -40,11 +52,12 @@ def main():
         if "misc-redundant-expression" not in tidy(f"--config-file={source / '.clang-tidy'}", bad, "--", "-std=c++20").stdout:
             print("clang-tidy does not name the defect of a known bad file")
             return 1
-    failed = 0
-    for file in files:
-        done = tidy("-p", build, source / file)
-        failed += done.returncode != 0
-        print(f"{file}: {'findings' if done.returncode else 'clear'}\n{done.stdout}", flush=True)
+        write_commands(build, pathlib.Path(folder))
+        failed = 0
+        for file in files:
+            done = tidy("-p", folder, source / file)
+            failed += done.returncode != 0
+            print(f"{file}: {'findings' if done.returncode else 'clear'}\n{done.stdout}{done.stderr if done.returncode else ''}", flush=True)
     print(f"{len(files)} files, {failed} with findings")
     return 1 if failed else 0
 

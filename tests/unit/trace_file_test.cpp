@@ -15,12 +15,12 @@ class TraceFile : public ScratchFolder
 
 TEST_F(TraceFile, OutputNamesTellTheirFormat)
 {
-  EXPECT_EQ(sentence_of([] { check_output("", ".csv"); }), "");  // none asked for
-  EXPECT_EQ(sentence_of([&] { check_output(path("t.csv"), ".csv, .h5"); }), "");
-  expect_error("the ending of an output name says its format: found .txt, allowed is .csv, .h5",
-               [&] { check_output(path("t.txt"), ".csv, .h5"); });
-  expect_error("the ending", [&] { check_output(path("t"), ".csv"); });
-  expect_error("does not exist", [&] { check_output(path("none/t.csv"), ".csv"); });
+  EXPECT_EQ(sentence_of([] { check_output("-o", "", ".csv"); }), "");  // none asked for
+  EXPECT_EQ(sentence_of([&] { check_output("-o", path("t.csv"), ".csv, .h5"); }), "");
+  expect_error("-o: the ending of an output name says its format: found t.txt, allowed is .csv, .h5",
+               [&] { check_output("-o", "t.txt", ".csv, .h5"); });
+  expect_error("the ending", [&] { check_output("-o", path("t"), ".csv"); });
+  expect_error("does not exist", [&] { check_output("-o", path("none/t.csv"), ".csv"); });
   EXPECT_EQ(files(), 0u);
 }
 

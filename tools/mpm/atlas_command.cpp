@@ -19,7 +19,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_atlas {
 
 struct AtlasRequest
 {
@@ -72,7 +72,7 @@ Atlas build(const AtlasRequest& r, Farm& farm)
 
 void make_atlas(const AtlasRequest& r)
 {
-  check_output(r.output, ".h5");
+  check_output("-o", r.output, ".h5");
   const std::unique_ptr<Farm> farm = r.farm.farm();
   const Atlas atlas = build(r, *farm);
   if (rank() != 0) return;
@@ -120,7 +120,7 @@ void define(Options& command)
   command.callback([r] { make_atlas(*r); });
 }
 
-}  // namespace
+}  // namespace of_atlas
 
 extern const Command atlas_command{
     "atlas",
@@ -131,6 +131,6 @@ extern const Command atlas_command{
     "about five CPU hours. Finished runs are cached (--cache): a build that was stopped goes on where it "
     "was.\n"
     "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...",
-    define, true};
+    of_atlas::define, true};
 
 }  // namespace granulaw

@@ -20,7 +20,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_calibrate {
 
 struct CalibrateRequest
 {
@@ -55,8 +55,8 @@ void write_ensemble(const CalibrateRequest& r, const CalibrationProblem& problem
 
 void check_outputs(const CalibrateRequest& r)
 {
-  if (!r.output.empty()) check_output(r.output, ".toml");
-  if (!r.plot.empty()) check_output(r.plot, ".png, .pdf, .svg");
+  check_output("-o", r.output, ".toml");
+  check_output("--plot", r.plot, ".png, .pdf, .svg");
   if (r.ensemble > 0 && r.output.empty())
     fail("--ensemble", "needs -o NAME.toml: its files are NAME-1.toml, ...");
   if (!r.output.empty() && !r.options.density) fail("--density", "is missing: a materials file holds it");
@@ -150,7 +150,7 @@ void define(Options& command)
   command.callback([r] { run(*r); });
 }
 
-}  // namespace
+}  // namespace of_calibrate
 
 extern const Command calibrate_command{
     "calibrate",
@@ -159,6 +159,6 @@ extern const Command calibrate_command{
     "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus "
     "3.2e9\n"
     "         --fit yield_stress -o material.toml --plot fit.png",
-    define};
+    of_calibrate::define};
 
 }  // namespace granulaw

@@ -9,8 +9,6 @@ namespace granulaw {
 
 namespace {
 
-constexpr double normal95 = 1.959964;
-
 const char* word_of(Told told)
 {
   switch (told) {

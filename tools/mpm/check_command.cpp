@@ -30,7 +30,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_check {
 
 struct CheckRequest
 {
@@ -241,7 +241,7 @@ void define(Options& command)
   command.callback([r] { check(*r); });
 }
 
-}  // namespace
+}  // namespace of_check
 
 extern const Command check_command{
     "check",
@@ -250,6 +250,6 @@ extern const Command check_command{
     "material on a wall, and of the two bodies of each pair with a pair law. Force and e must lie within "
     "twice the error bound.\n"
     "Example: mpm check law.h5",
-    define};
+    of_check::define};
 
 }  // namespace granulaw

@@ -14,7 +14,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_design {
 
 struct DesignRequest
 {
@@ -231,7 +231,7 @@ void define(Options& command)
   command.callback([r] { run(*r); });
 }
 
-}  // namespace
+}  // namespace of_design
 
 extern const Command design_command{
     "design",
@@ -240,6 +240,6 @@ extern const Command design_command{
     "(docs/guide/calibrate.md).\n"
     "Example: mpm design --fit yield_stress --youngs-modulus 3e9 --guess yield_stress=40e6 --radius 1e-3\n"
     "         --density 1500 --speeds 0.1..5",
-    define};
+    of_design::define};
 
 }  // namespace granulaw

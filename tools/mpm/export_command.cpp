@@ -14,7 +14,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_export {
 
 struct ExportRequest
 {
@@ -117,7 +117,7 @@ void write_csv(const Law& law, const std::vector<PairNames>& pairs, const Export
 
 void export_law(const ExportRequest& r)
 {
-  check_output(r.output, ".csv");
+  check_output("-o", r.output, ".csv");
   const Law law = read_law(r.law);
   require(r.r_eff > 0 && std::isfinite(r.r_eff), "--effective-radius", fmt::format("{:g} m", r.r_eff),
           "over 0");
@@ -149,7 +149,7 @@ void define(Options& command)
   command.callback([r] { export_law(*r); });
 }
 
-}  // namespace
+}  // namespace of_export
 
 extern const Command export_command{
     "export",
@@ -159,6 +159,6 @@ extern const Command export_command{
     "unloading. Lines that begin with # state the\n"
     "units and the formulas. Example: mpm export law.h5 -o law.csv --pair powder:wall --effective-radius "
     "2e-3",
-    define};
+    of_export::define};
 
 }  // namespace granulaw

@@ -24,7 +24,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_impact {
 
 struct ImpactRequest
 {
@@ -181,12 +181,12 @@ void define(Options& command)
   command.callback([r] { impact(*r); });
 }
 
-}  // namespace
+}  // namespace of_impact
 
 extern const Command impact_command{
     "impact",
     "A particle hits a wall, or another particle: e, force, overlap, contact time.\n"
     "Example: mpm impact materials.toml --particle grain --velocity 1.0 -o trace.csv",
-    define};
+    of_impact::define};
 
 }  // namespace granulaw

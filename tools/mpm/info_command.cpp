@@ -17,7 +17,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_info {
 
 void print_material(const LawMaterial& m, const std::map<std::string, std::string>& provenance)
 {
@@ -136,10 +136,10 @@ void define(Options& command)
   command.callback([path] { info(*path); });
 }
 
-}  // namespace
+}  // namespace of_info
 
 extern const Command info_command{
     "info", "Contents of a law file: materials, pairs, errors, range, origin.\nExample: mpm info law.h5",
-    define};
+    of_info::define};
 
 }  // namespace granulaw

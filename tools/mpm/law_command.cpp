@@ -12,7 +12,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_law {
 
 struct LawRequest : PairAsked
 {
@@ -65,12 +65,12 @@ void define(Options& command)
   command.callback([r] { replay(*r); });
 }
 
-}  // namespace
+}  // namespace of_law
 
 extern const Command law_command{
     "law",
     "One head-on collision by the law, as a particle code computes it; no solver.\n"
     "Example: mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 0.5 --json",
-    define};
+    of_law::define};
 
 }  // namespace granulaw

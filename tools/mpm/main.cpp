@@ -19,6 +19,7 @@
 #include "base/version.hpp"
 #include "commands.hpp"
 #include "deck/questions.hpp"
+#include "pages.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
 
@@ -134,7 +135,10 @@ std::string parse_sentence(const CLI::App& app, int argc, char** argv, const CLI
 }
 
 /// True of a sentence that an option leads: "--depth: cannot be used: ...".
-bool names_an_option(const std::string& sentence) { return sentence.starts_with("--"); }
+bool names_an_option(const std::string& sentence)
+{
+  return sentence.starts_with("--") || sentence.starts_with("-o: ");
+}
 
 /// Carries out the command line.
 Outcome run(int argc, char** argv)
@@ -143,6 +147,10 @@ Outcome run(int argc, char** argv)
   add_commands(app);
   try {
     if (const std::string sentence = empty_word(argc, argv); !sentence.empty()) return {2, sentence};
+    if (argc == 3 && std::string(argv[1]) == "--write-pages") {  // of the build: no part of --help
+      write_pages(app, argv[2]);
+      return {};
+    }
     if (argc > 1) join_ranks(argv[1], runs_on_ranks(argv[1]));
     app.parse(argc, argv);
     return {};

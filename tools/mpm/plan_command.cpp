@@ -15,7 +15,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_plan {
 
 struct PlanRequest
 {
@@ -287,7 +287,7 @@ void define(Options& command)
   command.callback([r] { plan(*r); });
 }
 
-}  // namespace
+}  // namespace of_plan
 
 extern const Command plan_command{
     "plan",
@@ -296,6 +296,6 @@ extern const Command plan_command{
     "command. LIGGGHTS reads the deck (liggghts-mpm). Numbers that the deck lacks are given as options\n"
     "(docs/guide/plan.md). Limits of the laws: docs/guide/limits.md.\n"
     "Example: mpm plan in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
-    define};
+    of_plan::define};
 
 }  // namespace granulaw

@@ -16,7 +16,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_plot {
 
 struct Request : PairAsked
 {
@@ -68,7 +68,7 @@ void draw_certificate(const Law& law, const Request& r)
 
 void plot(const Request& r)
 {
-  check_output(r.output, ".png, .pdf, .svg");
+  check_output("-o", r.output, ".png, .pdf, .svg");
   const Law law = read_law(r.law);
   if (!r.shape.empty()) return draw_certificate(law, r);
   if (r.pair.empty())
@@ -99,7 +99,7 @@ void define(Options& command)
   command.callback([r] { plot(*r); });
 }
 
-}  // namespace
+}  // namespace of_plot
 
 extern const Command plot_command{
     "plot",
@@ -109,6 +109,6 @@ extern const Command plot_command{
     "Example: mpm plot law.h5 -o law.png\n"
     "         mpm plot law.h5 --shape pebble -o map.png\n"
     "         mpm plot law.h5 --pair powder:steel --radius 5e-4 --radius2 inf -o pair.png",
-    define};
+    of_plot::define};
 
 }  // namespace granulaw

@@ -16,7 +16,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_press {
 
 struct PressRequest
 {
@@ -111,13 +111,13 @@ void define(Options& command)
   command.callback([r] { press(*r); });
 }
 
-}  // namespace
+}  // namespace of_press
 
 extern const Command press_command{
     "press",
     "Presses a particle slowly onto a wall or another particle, and takes it off again: the quasi-static "
     "law.\n"
     "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv",
-    define};
+    of_press::define};
 
 }  // namespace granulaw

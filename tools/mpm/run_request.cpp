@@ -143,7 +143,7 @@ void RunRequest::check() const
     fail("--precision", "unknown precision", precision, "double, single");
   if (!against.empty() && !wall.empty()) fail("--wall", "cannot go with --against: one partner only");
   check_numbers(*this);
-  check_output(output, ".csv, .h5");
+  check_output("-o", output, ".csv, .h5");
   if (!checkpoint.empty()) check_checkpoint(*this);
   if (!fields.empty()) check_fields(*this);
 }

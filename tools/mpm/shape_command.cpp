@@ -25,7 +25,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_shape {
 
 struct ShapeRequest
 {
@@ -102,8 +102,8 @@ void print_json_of(const ShapeCertificate& certificate, const FarmCount& count)
 void certify(ShapeRequest& r)
 {
   r.farm.check();
-  if (!r.output.empty()) check_output(r.output, ".csv");
-  if (!r.picture.empty()) check_output(r.picture, ".png, .pdf, .svg");
+  check_output("-o", r.output, ".csv");
+  check_output("--plot", r.picture, ".png, .pdf, .svg");
   const MaterialsFile materials = read_materials(r.materials);
   const Particle& particle = materials.particle(r.particle);
   const BodyLaw law = sphere_law(particle, r);
@@ -153,7 +153,7 @@ void define(Options& command)
   command.callback([r] { certify(*r); });
 }
 
-}  // namespace
+}  // namespace of_shape
 
 extern const Command shape_command{
     "shape",
@@ -161,6 +161,6 @@ extern const Command shape_command{
     "The\n"
     "law is used with the local radius of curvature, as for clumps and superquadrics.\n"
     "Example: mpm shape grains.toml --particle pebble --velocity 1 -o pebble.csv",
-    define};
+    of_shape::define};
 
 }  // namespace granulaw

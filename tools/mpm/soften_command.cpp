@@ -13,7 +13,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_soften {
 
 struct SoftenRequest
 {
@@ -159,7 +159,7 @@ void define(Options& command)
   command.callback([r] { soften(*r); });
 }
 
-}  // namespace
+}  // namespace of_soften
 
 extern const Command soften_command{
     "soften",
@@ -167,6 +167,6 @@ extern const Command soften_command{
     "every\n"
     "binary impact keeps its e (docs/guide/plan.md). Prints the lines to paste.\n"
     "Example: mpm soften in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
-    define};
+    of_soften::define};
 
 }  // namespace granulaw

@@ -30,7 +30,7 @@
 
 namespace granulaw {
 
-namespace {
+namespace of_table {
 
 struct TableRequest
 {
@@ -226,7 +226,7 @@ void warn_of_fast_pairs(const Law& law, const std::vector<deck::PairPlan>& pairs
 
 void make_table(const TableRequest& r, const std::vector<deck::PairPlan>& of_deck = {})
 {
-  check_output(r.output, ".h5");
+  check_output("-o", r.output, ".h5");
   r.farm.check();
   const std::optional<Atlas> atlas = r.no_atlas ? std::nullopt : own_atlas();
   const LawFilePlan plan = plan_law_file(law_file_request(r, atlas ? &*atlas : nullptr));
@@ -327,7 +327,7 @@ void define(Options& command)
   });
 }
 
-}  // namespace
+}  // namespace of_table
 
 extern const Command table_command{
     "table",
@@ -345,6 +345,6 @@ extern const Command table_command{
     "wider range reuses them. The folder may be removed at any time.\n"
     "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
     "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5",
-    define, true};
+    of_table::define, true};
 
 }  // namespace granulaw

@@ -167,8 +167,8 @@ double deepest(const Measurement& m)
   if (m.indenter_radius == 0) return m.kind->contacts > 1 ? MidplaneShapes::depth : Atlas::depth;
   // where an elastic contact would be as wide as composed laws go, 0.9 of the smaller radius; others are
   // wider
-  const double widest = 0.9 * std::min(m.radius, m.indenter_radius) / m.effective_radius();
-  return std::min(Atlas::depth, widest * widest);
+  const double widest_touch = 0.9 * std::min(m.radius, m.indenter_radius) / m.effective_radius();
+  return std::min(Atlas::depth, widest_touch * widest_touch);
 }
 
 void check_depth(const Measurement& m, const CalibrationRequest&, const Atlas&)

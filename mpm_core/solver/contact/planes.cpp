@@ -19,7 +19,7 @@ constexpr double candidate_edges = 2;
 /// in turns are open by 1 % of that gap at most.
 constexpr double in_contact = 0.02;
 
-Vector3 vector_at(const double* four)
+Vector3 vector_in(const double* four)
 {
   return {four[0], four[1], four[2]};
 }
@@ -95,7 +95,7 @@ Vector3 Planes::place(const Body& body, int marker) const
   row_kernels(body).carry(
       {}, body.u_i.values.data(),
       {0, cell_nodes, 4 * surface.lowest[marker], offsets_.data(), surface.weights(marker)}, u);
-  return Vector3(start[0], start[1], start[2]) + vector_at(u);
+  return Vector3(start[0], start[1], start[2]) + vector_in(u);
 }
 
 void Planes::choose_candidates(const Body& body)
@@ -145,7 +145,7 @@ double Planes::finish(std::span<const Body> bodies, std::span<const ContactRow> 
   double first = 0;
   for (const ContactRow& row : rows) {
     const Plane& plane = planes_[row.plane];
-    const Vector3 p = vector_at(row.impulse);
+    const Vector3 p = vector_in(row.impulse);
     const double normal = plane.normal.dot(p);
     if (normal <= 0) continue;
     pushing_[row.plane] = 1;
@@ -166,7 +166,7 @@ std::array<double, 2> Planes::contact_axes(const Body& body, int k) const
   for (const int m : candidates_[k]) {
     const Vector3 x = place(body, m);
     const bool pushed =
-        planes_[k].normal.dot(vector_at(impulse_.data() + 4 * (std::size_t(k) * markers_ + m))) > 0;
+        planes_[k].normal.dot(vector_in(impulse_.data() + 4 * (std::size_t(k) * markers_ + m))) > 0;
     near.push_back({pushed ? 0.0 : std::max(0.0, planes_[k].normal.dot(x) - planes_[k].position),
                     body.reference().surface.area[m], x});
     if (pushed) closed += body.reference().surface.area[m];

@@ -7,7 +7,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr double growth = 1.15, coarsest = 0.15;
+constexpr double updated_growth = 1.15, updated_coarsest = 0.15;
 /// Room beside and above the body for what flows outwards and for the rebound, in R.
 constexpr double margin = 0.3;
 
@@ -16,8 +16,8 @@ constexpr double margin = 0.3;
 Body updated_body(const CutSection& s)
 {
   MovingPoints m;
-  m.r_axis = SplineAxis(graded_lines(0, s.block, s.radius + margin, s.fine, growth, coarsest, s.shift));
-  m.z_axis = SplineAxis(graded_lines(0, s.depth, s.height + margin, s.fine, growth, coarsest));
+  m.r_axis = SplineAxis(graded_lines(0, s.block, s.radius + margin, s.fine, updated_growth, updated_coarsest, s.shift));
+  m.z_axis = SplineAxis(graded_lines(0, s.depth, s.height + margin, s.fine, updated_growth, updated_coarsest));
   const std::vector<Piece> pieces = cut_pieces(s, m.r_axis, m.z_axis);
   if (pieces.empty()) fail("grid", "no part of the body lies on it");
   const int count = static_cast<int>(pieces.size());

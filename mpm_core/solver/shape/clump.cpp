@@ -16,11 +16,11 @@ namespace granulaw {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi, rounding = 1e-12;
+constexpr double turn = 2 * std::numbers::pi, rounding_of_balls = 1e-12;
 
 bool contains(const ClumpBall& outer, const ClumpBall& inner)
 {
-  return (outer.centre - inner.centre).norm() + inner.radius <= outer.radius * (1 + rounding);
+  return (outer.centre - inner.centre).norm() + inner.radius <= outer.radius * (1 + rounding_of_balls);
 }
 
 /// The parts of [0, 2 pi] that the intervals leave; their begins lie in it, their ends up to 2 pi above it.
@@ -35,15 +35,15 @@ std::vector<std::pair<double, double>> gaps_between(std::vector<std::pair<double
   std::vector<std::pair<double, double>> gaps;
   double reached = 0;
   for (const auto& [from, to] : covered) {
-    if (from > reached + rounding) gaps.emplace_back(reached, from);
+    if (from > reached + rounding_of_balls) gaps.emplace_back(reached, from);
     reached = std::max(reached, to);
   }
-  if (reached < turn - rounding) gaps.emplace_back(reached, turn);
+  if (reached < turn - rounding_of_balls) gaps.emplace_back(reached, turn);
   return gaps;
 }
 
 /// Integrals over a body of 1, x and x x^t.
-struct Moments
+struct CutMoments
 {
   double volume = 0;
   Vector3 first = Vector3::Zero();
@@ -70,7 +70,7 @@ struct Moments
 };
 
 /// Adds the union of the intervals, which it sorts.
-void add_intervals(Moments& moments, double x, double y, std::vector<std::pair<double, double>>& spans,
+void add_intervals(CutMoments& moments, double x, double y, std::vector<std::pair<double, double>>& spans,
                    double area)
 {
   std::sort(spans.begin(), spans.end());
@@ -122,7 +122,7 @@ class Clump : public Shape
   Vector3 outward_normal(const Vector3& x) const override
   {
     const Vector3 out = x - balls_[nearest_ball(x)].centre;
-    return depth(x) > rounding * size_ || out.isZero(0) ? nearest_from_inside(x).outward
+    return depth(x) > rounding_of_balls * size_ || out.isZero(0) ? nearest_from_inside(x).outward
                                                         : Vector3(out.normalized());
   }
   double support(const Vector3& direction, Vector3* where) const override
@@ -142,7 +142,7 @@ class Clump : public Shape
     support(direction, &where);
     double radius = size_;
     for (const ClumpBall& ball : balls_)
-      if ((where - ball.centre - ball.radius * direction).norm() <= rounding * size_) radius = ball.radius;
+      if ((where - ball.centre - ball.radius * direction).norm() <= rounding_of_balls * size_) radius = ball.radius;
     return {radius, radius, direction.unitOrthogonal()};
   }
   double finest_radius() const override { return finest_; }
@@ -170,7 +170,7 @@ class Clump : public Shape
     Vector3 low, high;
     bounds(low, high);
     const double dx = (high.x() - low.x()) / columns, dy = (high.y() - low.y()) / columns;
-    Moments moments;
+    CutMoments moments;
     std::vector<std::pair<double, double>> spans;
     for (int i = 0; i < columns; ++i)
       for (int j = 0; j < columns; ++j) {
@@ -248,7 +248,7 @@ class Clump : public Shape
   bool is_buried(const Vector3& point) const
   {
     return std::any_of(balls_.begin(), balls_.end(), [&](const ClumpBall& ball) {
-      return (point - ball.centre).norm() < ball.radius - rounding * size_;
+      return (point - ball.centre).norm() < ball.radius - rounding_of_balls * size_;
     });
   }
   /// The surface point nearest to a place inside is the end of a radius of a ball that holds the place, or
