@@ -18,7 +18,7 @@ namespace {
 constexpr const char* format_value = "granulaw-atlas";
 constexpr int major = 3, minor = 1;
 constexpr int first_minor_with_checksum = 1;  // files without the attribute version_minor are of minor 0
-constexpr std::size_t most = 1u << 20;        // numbers in one dataset
+constexpr std::size_t most_numbers = 1u << 20;        // numbers in one dataset
 
 using Presence = AtlasDataset::Presence;
 
@@ -40,7 +40,7 @@ Atlas read_open(hid_t file, const std::string& path)
     if (is_of_checks(dataset) && !h5::has_link(file, dataset.field.name)) continue;
     fill(parts, dataset,
          dataset.is_scalar ? std::vector{h5::read_scalar(file, dataset.field, path)}
-                           : h5::read_vector(file, dataset.field, most, path),
+                           : h5::read_vector(file, dataset.field, most_numbers, path),
          path);
   }
   return atlas_of(std::move(parts));

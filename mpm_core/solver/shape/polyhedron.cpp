@@ -148,7 +148,7 @@ class Polyhedron : public Shape
   /// count as its.
   PrincipalRadii principal_radii(const Vector3& direction) const override
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double flat = std::numeric_limits<double>::infinity();
     Vector3 low, high;
     hull_->bounds(low, high);
     const double near = 1e-9 * (high - low).norm(), reach = hull_->support(direction, nullptr);
@@ -156,8 +156,8 @@ class Polyhedron : public Shape
     for (const Vector3& corner : corners_)
       if (reach - direction.dot(corner) <= near) touching.push_back(corner);
     if (touching.size() == 1) return {edge_radius_, edge_radius_, direction.unitOrthogonal()};
-    if (touching.size() > 2) return {infinity, infinity, direction.unitOrthogonal()};
-    return {edge_radius_, infinity, (touching[1] - touching[0]).cross(direction).normalized()};
+    if (touching.size() > 2) return {flat, flat, direction.unitOrthogonal()};
+    return {edge_radius_, flat, (touching[1] - touching[0]).cross(direction).normalized()};
   }
   double finest_radius() const override { return edge_radius_; }
   /// Properties of the mesh of the support points of some 1e5 directions: within 1e-4.
