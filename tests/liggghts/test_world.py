@@ -5,6 +5,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -177,6 +178,42 @@ class Sentences(World):
         self.change("in.one", "run          200000", "fix ts all check/timestep/gran 100 0.1 0.1\nrun 200")
         self.table("in.one")
         self.assertIn("check/timestep/gran takes Hertz's contact time of the deck's moduli", self.run_deck("in.one"))
+
+
+DRIVER = """import ctypes, sys
+library = ctypes.CDLL("libliggghts.so.3", mode=ctypes.RTLD_GLOBAL)
+words = [b"liggghts", b"-log", b"none"]
+liggghts = ctypes.c_void_p()
+library.lammps_open_no_mpi(len(words), (ctypes.c_char_p * len(words))(*words), ctypes.byref(liggghts))
+library.lammps_file(liggghts, sys.argv[1].encode())
+library.lammps_command(liggghts, b"run 50")
+library.lammps_command(liggghts, b'print "END ${speed}"')
+"""
+
+
+class Coupling(World):
+    def steps(self, more="", *words):
+        self.change("in.one", "run          200000", f"{more}variable speed equal vcm(all,z)\nrun 100\nprint \"END ${{speed}}\"")
+        self.table("in.one", *words)
+
+    def end(self, text):
+        return [float(word) for word in re.findall(r"^END (\S+)", text, re.M)]
+
+    def test_a_program_that_loads_the_library(self):
+        self.take("one_sphere")
+        self.steps()
+        (self.folder / "driver.py").write_text(DRIVER)
+        done = subprocess.run([sys.executable, "driver.py", "in.one"], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                              env={**os.environ, "LD_PRELOAD": harness.PLUGIN})
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
+        for found, steps in zip(self.end(done.stdout), (100, 150), strict=True):
+            self.assertAlmostEqual(found, -9.81 * steps * 1e-6, delta=1e-8)  # free fall; print has six digits
+
+    def test_the_coupling_to_a_fluid(self):
+        self.take("one_sphere")
+        self.change("in.one", "atom_style   granular", "atom_style   granular\natom_modify  map array")
+        self.steps("fix cfd all couple/cfd couple_every 100 mpi\nfix drag all couple/cfd/force\n", "--speed", "1")
+        self.assertAlmostEqual(self.end(self.run_deck("in.one"))[0], -9.81 * 1e-4, delta=1e-8)  # without a fluid no drag
 
 
 if __name__ == "__main__":
