@@ -1,4 +1,4 @@
-"""test_explorer.py PAGE MPM [--cases N] [--seed N] [--pictures FOLDER]: the interactive page in Chromium against `mpm table` and `mpm law --json`.
+"""test_explorer.py PAGE MPM [--cases N] [--seed N] [--launcher PROGRAM] [--pictures FOLDER]: the interactive page in Chromium against `mpm table` and `mpm law --json`.
 
 Bodies agree to 1e-9 (another compiler and another C library round differently). Composed pairs agree to 1e-5: there rounding decides how often
 a search goes on, and e moves by 4e-6 when E changes by one part in 1e15.
@@ -225,6 +225,29 @@ def deck_commands(browser, mpm, failures):
         failures.check(found <= 1e-9 and not words, f"the commands of the deck differ by {found} {words}")
 
 
+def deck_run(browser, mpm, launcher, failures):
+    """LIGGGHTS runs the lines of the deck without a warning. Its start-up table has the page's speed of first yield, and its step is short enough to the law's end."""
+    files = {name: browser.downloaded(name) for name in ("materials.toml", "in.deck")}
+    limits = browser.run("return granulaw.explore({material: {name: 'wax', density: 920, youngs_modulus: 91e6, poisson_ratio: 0.3, yield_stress: 1e6}, radius: 3e-3,"
+                         " partner: 'wall', speed: 1}).limits")
+    lines = files["in.deck"].splitlines()
+    deck = ["atom_style granular", "boundary f f f", "newton off", "communicate single vel yes", "units si", "region box block -0.03 0.03 -0.03 0.03 -0.005 0.15 units box",
+            "create_box 1 box", "neighbor 0.002 bin", "neigh_modify delay 0", *lines[3:], "create_atoms 1 single 0 0 0.0045", "set type 1 diameter 0.006 density 920",
+            "fix motion all nve/sphere", "run 2"]
+    with tempfile.TemporaryDirectory() as name:
+        (Path(name) / "materials.toml").write_text(files["materials.toml"])
+        (Path(name) / "in.deck").write_text("\n".join(deck) + "\n")
+        subprocess.run([mpm, *lines[0][2:].split()[1:]], cwd=name, check=True, capture_output=True)
+        done = subprocess.run([launcher, "-in", "in.deck"], cwd=name, capture_output=True, text=True)
+    said = done.stdout + done.stderr
+    failures.check(done.returncode == 0 and "WARNING" not in said, f"the deck: {said[-800:]}")
+    row = re.search(r"1 wax - wall 1 wall +single +(.*?)  mpm", said)
+    if row is None:
+        return failures.append(f"no row of the wall in {said[-800:]}")
+    _, deepest, _, onset, step_to = map(float, row[1].split())
+    failures.check(onset == float(f"{limits['yield_speed']:.4g}") and step_to == deepest, f"start-up table {row[1]}, page {limits}")
+
+
 def times(browser):
     """Milliseconds: to the first curve; medians of 100 changes of speed, material, and a material of a pair."""
     script = """
@@ -251,6 +274,7 @@ def main():
     parser.add_argument("--cases", type=int, default=30)
     parser.add_argument("--seed", type=int, default=55)
     parser.add_argument("--pictures", type=Path)
+    parser.add_argument("--launcher", help="liggghts-mpm: it runs the deck that the page wrote")
     parser.add_argument("--times", action="store_true")
     arguments = parser.parse_args()
     if why := missing():
@@ -278,6 +302,8 @@ def main():
             browser.command("Emulation.clearDeviceMetricsOverride", {})
         use(browser, page, failures)
         deck_commands(browser, mpm, failures)
+        if arguments.launcher:
+            deck_run(browser, mpm, str(Path(arguments.launcher).resolve()), failures)
         refusals(browser, mpm, failures)
         compare(browser, mpm, arguments.cases, arguments.seed, failures)
         others = [url for url in browser.requests() if not url.startswith(("file:", "data:", "blob:", "about:", "chrome:"))]
