@@ -47,8 +47,8 @@ struct ReductionError
 /// - the smaller of two unlike spheres gives way more than its half of the overlap: radii and depth;
 /// - waves in the larger one are lost, where a like one gives them back: radii and V/c.
 /// `within_measured`: E*_h >= 0.3 E*_s, Y_h >= Y_s, radii 1:10 to 10:1 or a wall, I of the one body up to
-/// 0.003, Hertz's overlap below 0.13 R*. Else the numbers are an extrapolation: `measure_reduction_error`
-/// instead. The yielding body must yield; an elastic pair has only the second and the fourth cause, not
+/// 0.003, Hertz's overlap below 0.13 R*. Else the numbers are an extrapolation: `run_two_bodies` computes the
+/// collision. The yielding body must yield; an elastic pair has only the second and the fourth cause, not
 /// bounded here.
 ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity);
 

@@ -3,6 +3,7 @@
 #include "characterise/run/request.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
 #include <deque>
@@ -23,27 +24,32 @@ namespace granulaw {
 
 namespace {
 
-/// Departure of an impact of the two bodies from the composed law, at its place
+/// Departure of an impact of the two bodies from the composed law at the same speed, at its place
 /// ln(overlap/onset)/ln(end/onset).
 struct PairDeparture
 {
+  static constexpr std::size_t peak = 0;         // ln of the largest force, run over law
+  static constexpr std::size_t force = 1;        // ln of the loading force at the same overlap, run over law
+  static constexpr std::size_t dissipation = 2;  // -ln(W_u/W_L), run less law
+  static constexpr std::size_t residual = 3;     // -ln(1 - delta_r/delta_m), run less law
+  static constexpr std::size_t reach = 4;        // ln of the largest overlap, run over law
+  static constexpr std::size_t along = 5;        // from here on: `force` at each fraction of the overlap
+
   double place = 0;
-  double force = 0;        // ln of the loading force, run over law
-  double dissipation = 0;  // -ln(W_u/W_L), run less law
-  double residual = 0;     // -ln(1 - delta_r/delta_m), run less law
+  std::array<double, along + LawShape::VelocityEffect::shares> part{};
 };
 
 /// One part of the departures as a function of the place: 0 up to the onset, which it leaves with slope 0, so
 /// it is interpolated as an even function; beyond the last impact it keeps its value.
-double at(const std::vector<PairDeparture>& departures, double PairDeparture::*part, double place)
+double at(const std::vector<PairDeparture>& departures, std::size_t part, double place)
 {
   if (place <= 0) return 0;
-  if (place >= departures.back().place) return departures.back().*part;
+  if (place >= departures.back().place) return departures.back().part[part];
   std::vector<double> places{0}, values{0};
   for (const PairDeparture& d : departures)
     for (const double side : {-1.0, 1.0}) {
       const auto where = side < 0 ? places.begin() : places.end();
-      values.insert(values.begin() + (where - places.begin()), d.*part);
+      values.insert(values.begin() + (where - places.begin()), d.part[part]);
       places.insert(where, side * d.place);
     }
   if (departures.size() == 1) {  // makima needs four
@@ -53,6 +59,14 @@ double at(const std::vector<PairDeparture>& departures, double PairDeparture::*p
   return boost::math::interpolators::makima(std::move(places), std::move(values))(place);
 }
 
+/// The range of a law that keeps its velocity axis down to a tenth of the tolerance. By the yielding body's damage
+/// number a shallow law has none, but the inertia of a soft partner counts there.
+LawRange with_axis(LawRange range)
+{
+  range.tolerance *= 0.1;
+  return range;
+}
+
 /// The impacts of the two bodies at one ratio of radii, beside the composed law.
 class PairImpacts
 {
@@ -60,7 +74,7 @@ class PairImpacts
   PairImpacts(const UnlikePair& pair, ComposedShape composed, const BuildOptions& options, Farm& farm)
       : pair_(pair),
         composed_(std::move(composed)),
-        guide_(law_of(composed_, options)),
+        guide_(law_of(composed_, with_axis(options))),
         body_(yielding_body(pair)),
         options_(options),
         farm_(farm, pair),
@@ -73,6 +87,11 @@ class PairImpacts
   void sample();
 
   double radius_ratio() const { return pair_.radius_ratio; }
+  const ComposedShape& composed() const { return composed_; }
+  /// sqrt(I) of the yielding body in the deepest impact.
+  double fastest() const { return runs_taken_.back().speed / composed_.speed_ratio; }
+  /// Takes what the corrected law misses of the impacts themselves, where its force was made to rise.
+  void compare_with(const TwoBodyLaw& corrected);
   const std::vector<PairDeparture>& departures() const { return departures_; }
   const CellsError& solver_error() const { return solver_error_; }
   /// Leave-one-out error: of F, of e (both relative), and the larger of the two on the scale of the
@@ -82,6 +101,10 @@ class PairImpacts
     double force = 0, restitution = 0, counted = 0;
   };
   Miss largest_miss() const;
+  static Miss larger_of_each(const Miss& a, const Miss& b)
+  {
+    return {larger(a.force, b.force), larger(a.restitution, b.restitution), larger(a.counted, b.counted)};
+  }
   std::size_t count() const { return runs_.count(); }
   const std::vector<std::string>& holes() const { return runs_.holes(); }
 
@@ -99,7 +122,7 @@ class PairImpacts
   void check_onset();
   PairDeparture departure(double place, const RunResult& run) const;
   void take(double place, const RunResult& run);
-  Replay replay(double speed) const;
+  Replay replay(const TwoBodyLaw& two, double speed) const;
   Miss miss(std::size_t left_out) const;
   std::vector<double> bisections() const;
 
@@ -112,9 +135,14 @@ class PairImpacts
   RunSource source_;
   BuildRuns runs_{options_};
   std::vector<PairDeparture> departures_;  // ascending place
-  std::vector<double> restitutions_;   // of the runs
+  struct Taken
+  {
+    double speed, force, restitution;
+  };
+  std::vector<Taken> runs_taken_;  // of the departures
   int cells_ = first_resolution;
   Miss at_onset_;
+  Miss of_law_;  // of the corrected law at the impacts themselves
   CellsError solver_error_;
 };
 
@@ -130,7 +158,8 @@ double PairImpacts::speed_to(double overlap) const
 /// of a cheap run resolve in two bodies, or as deep as no body is squeezed flat.
 double PairImpacts::last_place() const
 {
-  const double fastest = std::min(ringing, options_.fastest > 0 ? options_.fastest : slow_speed);
+  const double fastest =
+      std::min(ringing, options_.fastest > 0 ? options_.fastest * composed_.speed_ratio : slow_speed);
   const double flattest = deepest_of_two_bodies(pair_);
   const auto reached = [&](double place) {
     return overlap_at(place) <= flattest && speed_to(overlap_at(place)) <= fastest;
@@ -150,44 +179,72 @@ RunJob PairImpacts::job(double place, int cells) const
   return impact_job(body_, velocity, cells, grids, source_);
 }
 
-Replay PairImpacts::replay(double speed) const
+Replay PairImpacts::replay(const TwoBodyLaw& two, double speed) const
 {
-  const PairLaw law{{&guide_.law.curve, pair_.mapping(),
+  const PairLaw law{{&two.law.curve, pair_.mapping(),
                      radiation(pair_.yielding, 1.0, pair_.partner, pair_.radius_ratio)},
-                    &guide_.law};
+                    &two.law};
   return replay_collision(law, pair_.r_eff(), pair_.m_eff() * pair_.yielding.density,
                           fastest_of_law(pair_, speed * speed));
 }
 
-/// Mean of ln(F_run/F_law) over the upper part of the loading that both have: there the force is the peak's,
-/// and what the grid and vibrations add cancels.
-double force_departure(const ContactRecord& run, const Replay& law, double length, double force)
+/// ln(F_run/F_law) of the loading at the same overlap, as a mean over a range of the overlap that both reach. The
+/// upper part is the peak's; means take away what the grid and vibrations add.
+class ForceDeparture
 {
-  constexpr double from = 0.8, to = 1.0;
-  const double reach = std::min(run.depth, law.delta_max / length);
-  double sum = 0;
-  int count = 0;
-  std::size_t k = 0;
-  for (const ContactRecord::Sample& sample : run.loading) {
-    if (sample.x < from * reach || sample.x > to * reach) continue;
-    while (k + 2 < law.samples.size() && law.samples[k + 1].delta / length < sample.x) ++k;
-    const Replay::Sample &a = law.samples[k], &b = law.samples[k + 1];
-    const double share = (sample.x * length - a.delta) / (b.delta - a.delta);
-    sum += std::log(sample.force * force / (a.force + share * (b.force - a.force)));
-    ++count;
+ public:
+  ForceDeparture(const ContactRecord& run, const Replay& law, double length, double force)
+      : reach_(std::min(run.depth, law.delta_max / length))
+  {
+    std::size_t k = 0;
+    for (const ContactRecord::Sample& sample : run.loading) {
+      if (sample.x > reach_ || sample.force <= 0) continue;
+      while (k + 2 < law.samples.size() && law.samples[k + 1].delta / length < sample.x) ++k;
+      const Replay::Sample &a = law.samples[k], &b = law.samples[k + 1];
+      const double place = (sample.x * length - a.delta) / (b.delta - a.delta);
+      const double of_law = a.force + place * (b.force - a.force);
+      if (of_law > 0) logs_.push_back({sample.x, std::log(sample.force * force / of_law)});
+    }
   }
-  return count > 0 ? sum / count : 0;
-}
+  double mean(double from, double to) const  // fractions of the overlap
+  {
+    double sum = 0;
+    int count = 0;
+    for (const auto& [x, log] : logs_)
+      if (x >= from * reach_ && x <= to * reach_) sum += log, ++count;
+    return count > 0 ? sum / count : 0;
+  }
+
+ private:
+  double reach_;
+  std::vector<std::pair<double, double>> logs_;
+};
 
 /// PairDeparture of a run at the speed that belongs to `place`; it reaches one nearby.
 PairDeparture PairImpacts::departure(double place, const RunResult& run) const
 {
+  constexpr double upper = 0.8;      // fraction of the overlap from which the mean is taken
+  constexpr double resolved = 0.08;  // below, the contact spans too few cells
+  constexpr double half = 0.5 / (LawShape::VelocityEffect::shares - 1);
   const ContactRecord record = contact_record_of(run);
-  const Replay law = replay(speed_to(overlap_at(place)));
+  const Replay law = replay(guide_, speed_to(overlap_at(place)));
   const double length = pair_.mapping().length(pair_.r_eff()), force = pair_.mapping().force(pair_.r_eff());
-  return {place_of(record.depth), force_departure(record, law, length, force),
-          -2 * std::log(run.summary.restitution / law.restitution),
-          -std::log((1 - record.residual / record.depth) / (1 - law.delta_residual / law.delta_max))};
+  const ForceDeparture loading(record, law, length, force);
+  using D = PairDeparture;
+  D d;
+  d.place = place_of(record.depth);
+  d.part[D::peak] = std::log(record.peak * force / law.force_max);
+  d.part[D::force] = loading.mean(upper, 1);
+  d.part[D::dissipation] = -2 * std::log(run.summary.restitution / law.restitution);
+  d.part[D::residual] = -std::log((1 - record.residual / record.depth) / (1 - law.delta_residual / law.delta_max));
+  d.part[D::reach] = std::log(record.depth * length / law.delta_max);
+  for (std::size_t k = 0; k < LawShape::VelocityEffect::shares; ++k) {
+    const double share = std::max(resolved, 2 * half * static_cast<double>(k));
+    d.part[D::along + k] = loading.mean(share - half, share + half);
+  }
+  // a fast impact's force peaks before its reversal, where the law has the peak
+  if (record.reversal_force > 0) d.part.back() += std::log(record.peak / record.reversal_force);
+  return d;
 }
 
 void PairImpacts::take(double place, const RunResult& run)
@@ -196,7 +253,8 @@ void PairImpacts::take(double place, const RunResult& run)
   const auto where =
       std::upper_bound(departures_.begin(), departures_.end(), d.place,
                        [](double value, const PairDeparture& other) { return value < other.place; });
-  restitutions_.insert(restitutions_.begin() + (where - departures_.begin()), run.summary.restitution);
+  runs_taken_.insert(runs_taken_.begin() + (where - departures_.begin()),
+                     {speed_to(overlap_at(place)), contact_record_of(run).peak, run.summary.restitution});
   departures_.insert(where, d);
 }
 
@@ -205,20 +263,29 @@ PairImpacts::Miss PairImpacts::miss(std::size_t left_out) const
   std::vector<PairDeparture> others = departures_;
   const PairDeparture d = others[left_out];
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-  const double force = std::abs(std::expm1(at(others, &PairDeparture::force, d.place) - d.force));
-  const double e = std::abs(std::expm1(0.5 * (at(others, &PairDeparture::dissipation, d.place) - d.dissipation)));
-  return {force, e, counted(force, e, restitutions_[left_out])};
+  const auto missed = [&](std::size_t part) { return at(others, part, d.place) - d.part[part]; };
+  const double force = std::abs(std::expm1(missed(PairDeparture::peak)));
+  const double e = std::abs(std::expm1(0.5 * missed(PairDeparture::dissipation)));
+  return {force, e, counted(force, e, runs_taken_[left_out].restitution)};
 }
 
 PairImpacts::Miss PairImpacts::largest_miss() const
 {
-  Miss largest = at_onset_;
-  for (std::size_t k = 0; k + 1 < departures_.size(); ++k) {  // the deepest would be extrapolated
-    const Miss one = miss(k);
-    largest = {std::max(largest.force, one.force), std::max(largest.restitution, one.restitution),
-               std::max(largest.counted, one.counted)};
-  }
+  Miss largest = larger_of_each(at_onset_, of_law_);
+  for (std::size_t k = 0; k + 1 < departures_.size(); ++k)  // the deepest would be extrapolated
+    largest = larger_of_each(largest, miss(k));
   return largest;
+}
+
+void PairImpacts::compare_with(const TwoBodyLaw& corrected)
+{
+  const double unit = pair_.mapping().force(pair_.r_eff());
+  for (const Taken& run : runs_taken_) {
+    const Replay law = replay(corrected, run.speed);
+    const double force = std::abs(law.force_max / (run.force * unit) - 1),
+                 e = std::abs(law.restitution / run.restitution - 1);
+    of_law_ = larger_of_each(of_law_, {force, e, counted(force, e, run.restitution)});
+  }
 }
 
 /// Places half-way between each impact that is missed and its neighbours.
@@ -239,8 +306,9 @@ std::vector<double> PairImpacts::bisections() const
 /// Error of the cells of what is taken from a run.
 CellsError index_between(const PairDeparture& fine, const PairDeparture& coarse, double cell_ratio)
 {
-  return {rule_of_revolution.left(std::abs(std::expm1(coarse.force - fine.force)), cell_ratio),
-          rule_of_revolution.left(std::abs(std::expm1(0.5 * (coarse.dissipation - fine.dissipation))), cell_ratio)};
+  const auto change = [&](std::size_t part) { return coarse.part[part] - fine.part[part]; };
+  return {rule_of_revolution.left(std::abs(std::expm1(change(PairDeparture::peak))), cell_ratio),
+          rule_of_revolution.left(std::abs(std::expm1(0.5 * change(PairDeparture::dissipation))), cell_ratio)};
 }
 
 /// The first three impacts, with cells so many that they are known within the tolerance, or the most; the
@@ -264,13 +332,15 @@ void PairImpacts::begin()
           {job(0.4 * last, cells), job(0.7 * last, cells), job(last, cells), job(last, coarse_cells)}, 0.7);
     }
     departures_.clear();
-    restitutions_.clear();
+    runs_taken_.clear();
     take(0.4 * last, outcomes[0].result);
     take(0.7 * last, outcomes[1].result);
     take(last, outcomes[2].result);
     solver_error_ = index_between(departures_.back(), departure(last, outcomes[3].result),
                                   static_cast<double>(cells) / coarse_cells);
-    if (counted(solver_error_.force, solver_error_.restitution, restitutions_.back()) <= options_.tolerance) return;
+    const double error =
+        counted(solver_error_.force, solver_error_.restitution, runs_taken_.back().restitution);
+    if (error <= options_.tolerance) return;
   }
 }
 
@@ -281,7 +351,8 @@ void PairImpacts::check_onset()
   const RunOutcome outcome =
       runs_.make_needed({job(barely, cells_)}, 0.8, "an impact to the onset of yield").front();
   const PairDeparture d = departure(barely, outcome.result);
-  const double force = std::abs(std::expm1(d.force)), e = std::abs(std::expm1(0.5 * d.dissipation));
+  const double force = std::abs(std::expm1(d.part[PairDeparture::peak])),
+               e = std::abs(std::expm1(0.5 * d.part[PairDeparture::dissipation]));
   at_onset_ = {force, e, counted(force, e, outcome.result.summary.restitution)};
 }
 
@@ -306,7 +377,7 @@ class Correction
  public:
   explicit Correction(const std::deque<PairImpacts>& impacts) : impacts_(impacts) {}
 
-  double at(double size_share, double PairDeparture::*part, double place) const
+  double at(double size_share, std::size_t part, double place) const
   {
     const auto [low, high, share] = between(size_share);
     const double first = granulaw::at(impacts_[low].departures(), part, place);
@@ -362,15 +433,45 @@ std::vector<double> sampled_ratios(std::span<const double> ratios)
   return chosen;
 }
 
+/// An impact's force at fractions of its overlap: to the peak at its reversal, before no more, so that it rises by at
+/// least a part of what the slow law does.
+void make_rise(LawShape::VelocityEffect& effect, const LawShape& slow)
+{
+  constexpr double least = 0.3;  // of the slow law's rise between two fractions; cubics between them miss less
+  const double overlap = effect.speed * std::exp(effect.log_overlap);
+  const Spline reduction = slow.by_q(&LawShape::force_reduction);
+  const auto log_force = [&](std::size_t share) {
+    const double x = std::min(overlap, slow.end) * static_cast<double>(share) / (LawShape::VelocityEffect::shares - 1);
+    return 1.5 * std::log(x) + std::log(slow.elastic.force_ratio(std::pow(x, 0.25))) - reduction.value(slow.q(x));
+  };
+  for (std::size_t k = effect.force.size() - 1; k-- > 1;)
+    effect.force[k] = std::min(effect.force[k], effect.force[k + 1] + (1 - least) * (log_force(k + 1) - log_force(k)));
+  effect.force[0] = std::min(effect.force[0], effect.force[1]);
+}
+
+/// The departure of the force near the peaks corrects the slow law; the rest of it along an impact is inertia, of which
+/// a composed law has the yielding body's alone: a soft partner's is larger.
 void correct(ComposedShape& composed, const Correction& correction)
 {
+  using D = PairDeparture;
   const double size_share = 1 / (1 + composed.radius_ratio);
-  for (int k = 1; k < LawShape::nodes; ++k) {
-    const double place = static_cast<double>(k) / (LawShape::nodes - 1);
-    const auto node = static_cast<std::size_t>(k);
-    composed.shape.force_reduction[node] -= correction.at(size_share, &PairDeparture::force, place);
-    composed.shape.dissipation[node] += correction.at(size_share, &PairDeparture::dissipation, place);
-    composed.shape.residual[node] += correction.at(size_share, &PairDeparture::residual, place);
+  LawShape& shape = composed.shape;
+  const auto place_of = [&](double x) { return std::log(x / shape.onset) / std::log(shape.end / shape.onset); };
+  for (std::size_t node = 1; node < LawShape::nodes; ++node) {
+    const double place = static_cast<double>(node) / (LawShape::nodes - 1);
+    shape.force_reduction[node] -= correction.at(size_share, D::force, place);
+    shape.dissipation[node] += correction.at(size_share, D::dissipation, place);
+    shape.residual[node] += correction.at(size_share, D::residual, place);
+  }
+  for (LawShape::VelocityEffect& effect : shape.velocity_effects) {
+    const double overlap = effect.speed * std::exp(effect.log_overlap), place = place_of(overlap);
+    effect.log_overlap += correction.at(size_share, D::reach, place);
+    for (std::size_t k = 0; k < effect.force.size(); ++k) {
+      const double share = static_cast<double>(k) / (LawShape::VelocityEffect::shares - 1);
+      effect.force[k] += correction.at(size_share, D::along + k, place);
+      if (k > 0) effect.force[k] -= correction.at(size_share, D::force, place_of(share * overlap));
+    }
+    make_rise(effect, shape);
   }
 }
 
@@ -405,16 +506,24 @@ CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, c
     impacts.back().sample();
     made.runs += impacts.back().count();
     made.holes.insert(made.holes.end(), impacts.back().holes().begin(), impacts.back().holes().end());
-    made.sampling_error = larger(made.sampling_error, impacts.back().largest_miss().counted);
   }
   const Correction correction(impacts);
+  const LawRange range = with_axis(options);
+  for (PairImpacts& of_ratio : impacts) {
+    ComposedShape composed = of_ratio.composed();
+    correct(composed, correction);
+    of_ratio.compare_with(law_of(composed, range));
+    made.sampling_error = larger(made.sampling_error, of_ratio.largest_miss().counted);
+  }
   for (const double ratio : ratios) {
     ComposedShape composed = compose_shape(*options.atlas, yielding, partner, ratio, options);
     correct(composed, correction);
-    const double fastest = ringing / composed.speed_ratio;  // of the impacts; ringing: v of the velocity axis
+    const std::vector<const PairImpacts*> neighbours = correction.neighbours(1 / (1 + ratio));
+    double fastest = std::numeric_limits<double>::infinity();  // of the impacts beside it
+    for (const PairImpacts* beside : neighbours) fastest = std::min(fastest, beside->fastest());
     composed.damage_number_max = std::max(composed.damage_number_max, fastest * fastest);
-    made.laws.push_back(law_of(composed, options));
-    certify(made.laws.back().law.certificate, correction.neighbours(1 / (1 + ratio)));
+    made.laws.push_back(law_of(composed, range));
+    certify(made.laws.back().law.certificate, neighbours);
   }
   return made;
 }

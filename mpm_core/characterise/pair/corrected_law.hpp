@@ -22,14 +22,15 @@ struct CorrectedLaws
 /// A pair's own laws: composed of its bodies' (composed_law.hpp), then corrected by a few impacts of the two
 /// bodies.
 ///
-/// A composed law departs from the truth by little, and evenly in ln(overlap/onset): below the onset by
-/// nothing. So three impacts give how: ln of the loading force, and of the fraction of the work that is given
-/// back. Each is left out in turn; where the others predict it worse than options.tolerance, an impact is
-/// added beside it. That error, what the law is off by at the onset, up to which nothing is corrected, and
-/// what the cells cost is what the certificate states. Impacts are made at
-/// equal radii, at the smallest and the largest of the ratios, and on a deformable wall where one is asked
-/// for; between them the correction is linear in R_s/(R_s + R_h). A deformable wall that yields first takes
-/// that of the smallest ratio.
+/// A composed law departs from the truth evenly in ln(overlap/onset): below the onset by nothing. So three
+/// impacts give how: ln of the loading force, at the peak and along the impact, of the largest overlap, and of the
+/// fraction of the work that is given back. The force near the peaks corrects the slow law; the rest of it along an
+/// impact corrects the velocity axis, as a soft partner's inertia is larger than the yielding body's.
+/// Each impact is left out in turn; where the others predict it worse than options.tolerance, an impact is
+/// added beside it. The certificate states that error, what the composed law is off by at the onset, what the
+/// corrected law is off by at the impacts themselves, and what the cells cost. Impacts are made at equal radii, at the
+/// smallest and the largest of the ratios, and on a deformable wall where one is asked for; between them the
+/// correction is linear in R_s/(R_s + R_h). A deformable wall that yields first takes that of the smallest ratio.
 ///
 /// Homogeneous spheres, elastic or hardening linearly, of which pair.yielding yields. options: depth,
 /// fastest, tolerance, atlas, farm, progress. Throws Error as compose_law and choose_resolutions do.

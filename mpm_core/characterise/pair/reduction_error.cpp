@@ -110,20 +110,4 @@ RunSummary press_two_bodies(const UnlikePair& pair, double depth, double ramp, c
   return press(bodies.first, plan, bodies.partner, options).summary;
 }
 
-MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocity)
-{
-  RunOptions options;
-  options.precision = Precision::single;
-  options.shifted_grids = 2;
-  const auto error_at = [&](int cells) {
-    options.resolution = cells;
-    const RunSummary rule = run_as_one_body(pair, velocity, options);
-    const RunSummary truth = run_two_bodies(pair, velocity, options);
-    return ReductionError{rule.force_max / truth.force_max - 1, rule.restitution / truth.restitution - 1};
-  };
-  const ReductionError fine = error_at(14), coarse = error_at(10);
-  // twice the change from 0.7 of the resolution: on the safe side of the rule in solver/run/accuracy.hpp
-  return {fine, 2 * std::abs(fine.force - coarse.force), 2 * std::abs(fine.restitution - coarse.restitution)};
-}
-
 }  // namespace granulaw

@@ -7,16 +7,6 @@
 
 namespace granulaw {
 
-/// The same measured: two collisions, as two bodies and as one, at two resolutions; about a second of CPU at
-/// E*/Y = 100 and V/V_y = 20, ten times that at E*/Y = 1000. Signed: rule over two bodies, less 1.
-struct MeasuredReduction
-{
-  ReductionError error;
-  double solver_force = 0;        ///< what the two resolutions leave open, of force
-  double solver_restitution = 0;  ///< and of e
-};
-MeasuredReduction measure_reduction_error(const UnlikePair& pair, double velocity);
-
 /// Collision of a pair by the rule, computed by the solver. F = lambda Y R*^2 Phi(d/(lambda R*)) with m*
 /// moves like a sphere of radius lambda R* and mass lambda m* on the rigid wall under lambda F. So one free
 /// impact of that sphere at the relative velocity is the rule's result. It has the solver's errors and the
