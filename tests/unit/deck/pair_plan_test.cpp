@@ -40,7 +40,7 @@ TEST_F(DeckPairPlan, TakesWhatWasVisited)
   EXPECT_DOUBLE_EQ(plan.pairs[0].speed, visited_margin);
   EXPECT_DOUBLE_EQ(plan.pairs[0].overlap, 0.5 * visited_margin);
   EXPECT_FALSE(plan.pairs[1].visited);
-  EXPECT_EQ(table_command(plan, "m.toml").find("wax:wall"), std::string::npos);
+  EXPECT_NE(table_command(plan, "m.toml").find("wax:wall"), std::string::npos);  // the plug-in requires it all the same
   const Visited now = read_visited(write(
       "now.json", "{" + both + R"(, "pairs": [{"kind": "rigid wall", "types": [1, 2], "contacts_begun": 3,
                                           "impact_speed_max_m_per_s": 0.4}]})"));

