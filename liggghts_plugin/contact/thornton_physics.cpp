@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
@@ -21,6 +22,12 @@ VectorProperty* create_yield_stress(PropertyRegistry& registry, const char* call
 
 }  // namespace
 
+double yield_pressure_of(const Options& options)
+{
+  const auto& words = options.own_words("yieldPressure");
+  return words.empty() ? customary_yield_pressure : std::strtod(words[0].c_str(), nullptr);
+}
+
 void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, const Setup& setup,
                               const Types& types)
 {
@@ -29,6 +36,7 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
   e_star_.assign(static_cast<std::size_t>(types.count + 1), 0.0);
   yield_stress_ = e_star_;
   stretch_ = setup.options.stretch.value_or(1.0);
+  factor_ = yield_pressure_of(setup.options);
   for (int t = 1; t <= types.count; ++t) {
     if (std::isnan(types.youngs_modulus[t])) continue;
     if (!(yield_stress[t] > 0))
@@ -42,9 +50,9 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
 
 Thornton ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
 {
-  const ThorntonPair law = rigid ? ThorntonPair{e_star_[i], 1.6 * yield_stress_[i]}
+  const ThorntonPair law = rigid ? ThorntonPair{e_star_[i], factor_ * yield_stress_[i]}
                                  : ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
-                                                1.6 * std::min(yield_stress_[i], yield_stress_[j])};
+                                                factor_ * std::min(yield_stress_[i], yield_stress_[j])};
   return {law, stretch_};
 }
 
@@ -54,8 +62,8 @@ PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) c
                 .b = key.kind == PairKey::rigid_wall ? wall_name : "-",
                 .law = name,
                 .kind = "closed form",
-                .note = "error bound not stated"};
-  info.stiffness_ratio = 1.6 * contact.law.e_star / contact.law.yield_pressure;
+                .note = fmt::format("p_y = {:g} Y, error bound not stated", factor_)};
+  info.stiffness_ratio = factor_ * contact.law.e_star / contact.law.yield_pressure;
   info.overlap_limit = std::numeric_limits<double>::infinity();
   return info;
 }

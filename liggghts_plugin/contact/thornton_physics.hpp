@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,16 @@
 
 namespace granulaw::plugin {
 
+/// p_y over Y: the word behind `yieldPressure`, or the customary factor.
+double yield_pressure_of(const Options& options);
+
 /// Model `thornton`: yield stress of each type from `fix property/global yieldStress peratomtype`.
 class ThorntonPhysics : public FormulaPhysics
 {
  public:
   static constexpr const char* name = "thornton";
   static constexpr int id = 41;
+  static constexpr std::array keywords{Keyword{.name = "yieldPressure", .least = 1.0, .most = 3.5}};
   using Contact = Thornton;
 
   void prepare(LAMMPS_NS::LAMMPS* lmp, PropertyRegistry& registry, const Setup& setup, const Types& types);
@@ -22,7 +27,7 @@ class ThorntonPhysics : public FormulaPhysics
 
  private:
   std::vector<double> e_star_, yield_stress_;  // the deck's units, by type
-  double stretch_ = 1.0;
+  double stretch_ = 1.0, factor_ = customary_yield_pressure;
 };
 
 static_assert(NormalPhysics<ThorntonPhysics>);

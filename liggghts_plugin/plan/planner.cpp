@@ -15,6 +15,7 @@
 #include "fix_property_global.h"
 #include "fix_template_sphere.h"
 #include "input.h"
+#include "liggghts_plugin/contact/thornton_physics.hpp"
 #include "liggghts_plugin/deck/options.hpp"
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/fix_style.hpp"
@@ -165,6 +166,7 @@ void Planner::note_style(const lmp::FixWallGran* wall_fix, const std::string& mo
   const auto& law = options.own_words("law");
   record_.law = law.empty() ? "" : law[0];
   record_.material_names = options.own_words("materials");
+  record_.yield_pressure = yield_pressure_of(options);
 }
 
 void Planner::begin_line(const std::string& where, const std::string& text)

@@ -133,7 +133,7 @@ std::string Record::json() const
       {"types", types},
       {"materials", types_list},
       {"restitution", to_json(restitution)},
-      {"pair_style", {{"model", model}, {"law", law}, {"materials", material_names}, {"stretch", stretch}}},
+      {"pair_style", {{"model", model}, {"law", law}, {"materials", material_names}, {"stretch", stretch}, {"yield_pressure", yield_pressure}}},
       {"sources", list(sources)},
       {"walls", list(walls)},
       {"runs", list(runs)},

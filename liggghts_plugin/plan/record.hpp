@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/box.hpp"
+#include "contact/thornton.hpp"
 
 // A deck's scene as LIGGGHTS holds it in memory, in the deck's units. tools/deck reads it (deck/scene.hpp).
 namespace granulaw::plugin::plan {
@@ -65,6 +66,7 @@ struct Record
   std::vector<std::string> material_names;
   double stretch = 1;
   std::optional<double> restart_stretch;  ///< of the contacts in the restart file that the deck reads
+  double yield_pressure = customary_yield_pressure;  ///< of model thornton, over the yield stress
   std::vector<Source> sources;
   std::vector<Wall> walls;
   std::vector<Run> runs;

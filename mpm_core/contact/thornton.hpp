@@ -8,6 +8,11 @@
 
 namespace granulaw {
 
+/// Yield pressure p_y over the yield stress where a deck states none: the customary factor of Thornton 1997.
+/// A sphere first yields at 1.6 Y in the middle of its contact; the mean pressure of the fully plastic contact
+/// is 2.8 Y.
+inline constexpr double customary_yield_pressure = 1.6;
+
 /// Thornton's elastic-perfectly-plastic contact in closed form: the baseline.
 /// C. Thornton, "Coefficient of restitution for collinear collisions of elastic-perfectly plastic spheres",
 /// J. Appl. Mech. 64 (1997) 383. State: the largest overlap since first touch, as for Curve.
@@ -19,8 +24,7 @@ namespace granulaw {
 struct ThorntonPair
 {
   double e_star;  ///< Pa, of the pair: 1/E* = 1/E*_i + 1/E*_j (one body's own where the partner is rigid)
-  double yield_pressure;  ///< Pa, p_y = 1.6 Y of the weaker body (eq. 9 with the customary factor); infinity:
-                          ///< elastic
+  double yield_pressure;  ///< Pa, p_y of the weaker body (eq. 9); infinity: elastic
 
   /// d_y = (pi p_y/(2 E*))^2 R*, m.
   double yield_overlap(double r_eff) const

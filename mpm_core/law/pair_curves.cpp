@@ -72,7 +72,7 @@ std::vector<Drawn> drawn_laws(const Law& law, const ChosenPair& pair)
 
 ThorntonPair thornton_pair(const ChosenPair& pair)
 {
-  return {pair.law.mapping.e_star_pair(), 1.6 * pair.law.yielding->material.yield_stress};
+  return {pair.law.mapping.e_star_pair(), customary_yield_pressure * pair.law.yielding->material.yield_stress};
 }
 
 /// m/s, at which Thornton's pair begins to yield: m* V_y^2/2 = 2/5 F_y d_y.

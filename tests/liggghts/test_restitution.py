@@ -103,12 +103,12 @@ class Restitution(Trial):
         self.fixture("write", self.law, "rate", RADIUS)
         self.compare(self.rows((WALL,), (1.0,), (100,)))
 
-    def thornton(self, bodies, e_star, yield_stress, speeds, limit):
+    def thornton(self, bodies, e_star, yield_stress, speeds, limit, factor=1.6):
         r_eff, m_eff = self.effective(bodies)
         table = []
         for ratio in speeds:
-            speed = ratio * thornton_yield_velocity(e_star, 1.6 * yield_stress, r_eff, m_eff)
-            _, duration, _ = self.fixture("thornton", e_star, 1.6 * yield_stress, r_eff, m_eff, speed)
+            speed = ratio * thornton_yield_velocity(e_star, factor * yield_stress, r_eff, m_eff)
+            _, duration, _ = self.fixture("thornton", e_star, factor * yield_stress, r_eff, m_eff, speed)
             table.append((bodies, speed, thornton_closed_form(ratio), duration, 50, limit))
         return table
 
@@ -122,6 +122,14 @@ class Restitution(Trial):
         for pair in ((SOFT, STIFF), (STIFF, SOFT)):
             table += self.thornton(Bodies(f"moduli {pair[0].name}:{pair[1].name}", (), pair), both, SOFT.yield_stress, RATIOS[2:5], 0.003)
         self.compare(table, "thornton", relative=True)
+
+    def test_thornton_takes_the_yield_pressure_of_the_deck(self):
+        """`yieldPressure`: p_y over Y, on a wall without the word, too."""
+        m = DAMAGED
+        for factor in (2.5, 2.8):
+            table = self.thornton(Bodies("wall", (), (m,)), m.e_star, m.yield_stress, RATIOS[1:4], 0.003, factor)
+            table += self.thornton(Bodies("pair", (), (m, m)), m.e_star / 2, m.yield_stress, RATIOS[1:4], 0.003, factor)
+            self.compare(table, "thornton", relative=True, damping=f"elasticDamping off yieldPressure {factor}")
 
 
 if __name__ == "__main__":

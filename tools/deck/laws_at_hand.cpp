@@ -102,15 +102,14 @@ class LawsAtHand
 };
 
 /// Thornton's closed form, as model thornton has it.
-ThorntonPair thornton_of(const Meeting& m)
+ThorntonPair thornton_of(const Meeting& m, double yield_pressure)
 {
-  return {m.mapping.e_star_pair(), 1.6 * m.yields.yield_stress};
+  return {m.mapping.e_star_pair(), yield_pressure * m.yields.yield_stress};
 }
 
-std::optional<Collision> collide_by_thornton(const Meeting& m, double r_eff, double m_eff,
-                                                   double speed)
+std::optional<Collision> collide_by_thornton(const ThorntonPair& law, const Meeting& m, double r_eff, double m_eff,
+                                             double speed)
 {
-  const ThorntonPair law = thornton_of(m);
   const double duration = hertz_time(law.e_star, r_eff, m_eff, speed);
   const Replay replay =
       replay_collision([&](double delta, double delta_max) { return law.evaluate(r_eff, delta, delta_max); },
@@ -123,9 +122,12 @@ std::optional<Collision> collide_by_thornton(const Meeting& m, double r_eff, dou
 void set_contact_law(PlanOptions& into, const Scene& scene, std::optional<Law> deck_law, std::optional<Atlas> atlas)
 {
   if (scene.model == "thornton") {
-    into.collide = collide_by_thornton;
-    into.stiffness = [](const Meeting& m, double, double, double r_eff, double overlap) {
-      return std::optional(planned_stiffness(thornton_of(m), r_eff, overlap));
+    const double factor = scene.yield_pressure;
+    into.collide = [factor](const Meeting& m, double r_eff, double m_eff, double speed) {
+      return collide_by_thornton(thornton_of(m, factor), m, r_eff, m_eff, speed);
+    };
+    into.stiffness = [factor](const Meeting& m, double, double, double r_eff, double overlap) {
+      return std::optional(planned_stiffness(thornton_of(m, factor), r_eff, overlap));
     };
     return;
   }

@@ -133,6 +133,7 @@ Scene scene_of(const json& j, const Places& places)
   scene.law_file = places.path(style["law"]);
   scene.material_names = style["materials"];
   scene.stretch = style["stretch"];
+  scene.yield_pressure = style["yield_pressure"];
   for (const json& s : j["sources"]) scene.sources.push_back(source_of(s, places));
   for (const json& w : j["walls"]) scene.walls.push_back(wall_of(w, places));
   for (const json& r : j["runs"])

@@ -136,7 +136,7 @@ void include_loads(Softening& result, const PairStretch& q, double r_eff)
   result.overlap = std::max(result.overlap, s * q.pair->overlap);
   result.static_ratio = std::max(result.static_ratio, load / q.yield_load);
   if (load > q.yield_load) {
-    const double yield_pressure = 1.6 * q.pair->meeting.yields.yield_stress;
+    const double yield_pressure = customary_yield_pressure * q.pair->meeting.yields.yield_stress;
     result.extra_set =
         std::max(result.extra_set, s * (load - q.yield_load) / (M_PI * yield_pressure * r_eff * r_eff));
   }
