@@ -6,6 +6,7 @@
 
 #include "contact/thornton.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
+#include "liggghts_plugin/deck/options.hpp"
 
 namespace granulaw::plugin {
 

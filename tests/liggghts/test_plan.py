@@ -202,9 +202,12 @@ class Scenes(Planned):
                 + FLOOR.replace("model hertz tangential history primitive type 2 zplane 0.0", "model mpm tangential history primitive type 2 zplane 0.0 wall deformable"))
         deck = deck.replace("fix m3", "#")  # refused beside a law
         scene = self.scene(deck + ONE + "variable p equal f_granulaw\nthermo_style custom step atoms v_p\nrun 1000\n")
-        self.assertEqual(scene["pair_style"], {"model": "mpm", "law": "gone.h5", "materials": ["wax", "steel"], "stretch": 4.0})
+        self.assertEqual(scene["pair_style"], {"model": "mpm", "law": "gone.h5", "materials": ["wax", "steel"], "stretch": 4.0, "yield_pressure": 1.6})
         self.assertTrue(scene["walls"][0]["deformable"])
         self.assertEqual(scene["walls"][0]["model"], "mpm")
+        thornton = BOX.replace("model hertz tangential history", "model thornton tangential history yieldPressure 2.5")
+        thornton += "fix m5 all property/global yieldStress peratomtype 1e7 1e7\n"
+        self.assertEqual(self.scene(thornton + ONE + "run 1000\n")["pair_style"]["yield_pressure"], 2.5)
 
     def test_clumps_have_their_bodys_mass(self):
         (self.folder / "two").write_text("0 0 -0.002 0.002\n0 0 0.002 0.003\n")

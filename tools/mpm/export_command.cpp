@@ -8,6 +8,7 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "command.hpp"
+#include "law/error_bound.hpp"
 #include "law/law_file.hpp"
 #include "law/pair_names.hpp"
 #include "option_checks.hpp"
@@ -20,6 +21,7 @@ struct ExportRequest
 {
   std::string law, output, pair;
   double r_eff = 1e-3;  // m
+  double radius_ratio = 1;  // of the pair's second body over the first; infinity: a thick deformable wall
   double speed = 0;     // m/s at first touch; 0: quasi-static
   bool dimensionless = false;
   int points = 400;
@@ -50,6 +52,34 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
   else
     out << fmt::format("# SI units, for R* = R_i R_j/(R_i + R_j) = {:.10g} m (R* = R_i on a wall)\n",
                        r.r_eff);
+}
+
+/// The pair's law at the ratio of radii asked for. On the rigid wall the ratio has no meaning.
+PairLaw asked_law(const Law& law, const PairNames& names, const ExportRequest& r)
+{
+  const auto& [a, b] = names;
+  return resolve_pair(law, a, b, r.law, 1.0, b == wall_name ? 1.0 : r.radius_ratio);
+}
+
+/// Kind of the law, its error bound, and how far the ratio of radii lies from it.
+void write_statement(std::ostream& out, const Law& law, const PairLaw& pair, const PairNames& names,
+                     const ExportRequest& r)
+{
+  const auto& [a, b] = names;
+  PairStatement stated = statement_of(law, pair, a, b);
+  std::string radii = "rigid wall";
+  if (b != wall_name) {
+    stated = stated.at_distance(distance_in_size(law, pair, a, b, 1.0, r.radius_ratio));
+    radii = std::isfinite(r.radius_ratio) ? fmt::format("radii 1 : {:.6g}", r.radius_ratio)
+                                          : std::string("radii 1 : a deformable wall");
+  }
+  out << fmt::format("# {}:{}: {} law, {}, error bound {}{}\n", a, b, name_of(stated.kind), radii,
+                     stated.bound.stated() ? fmt::format("F_max {:.2g}, e {:.2g}", stated.bound.force,
+                                                         stated.bound.restitution)
+                                           : std::string("not stated"),
+                     stated.covers_size() ? std::string()
+                                          : fmt::format(", but the nearest law is {:.2g} off in R_s/(R_s + R_h)",
+                                                        stated.size_off));
 }
 
 void write_pair(std::ostream& out, const PairLaw& pair, const std::string& name, const ExportRequest& r)
@@ -110,7 +140,11 @@ void write_csv(const Law& law, const std::vector<PairNames>& pairs, const Export
                               "share,yielded\n"
                             : "pair,overlap_m,force_N,stiffness_N_per_m,contact_radius_m,residual_overlap_m,"
                               "exponent,foot,yielded\n");
-    for (const auto& [a, b] : pairs) write_pair(out, resolve_pair(law, a, b, r.law), a + ":" + b, r);
+    for (const PairNames& names : pairs) {
+      const PairLaw pair = asked_law(law, names, r);
+      write_statement(out, law, pair, names, r);
+      write_pair(out, pair, names.first + ":" + names.second, r);
+    }
     if (!out.flush()) fail(r.output, "cannot be written (disk full?)");
   });
 }
@@ -121,10 +155,11 @@ void export_law(const ExportRequest& r)
   const Law law = read_law(r.law);
   require(r.r_eff > 0 && std::isfinite(r.r_eff), "--effective-radius", fmt::format("{:g} m", r.r_eff),
           "over 0");
+  require(r.radius_ratio > 0, "--radius-ratio", fmt::format("{:g}", r.radius_ratio), "over 0, or inf");
   const std::vector<PairNames> pairs = pairs_asked(r.pair, law);
   require(r.speed >= 0 && std::isfinite(r.speed), "--speed", fmt::format("{:g} m/s", r.speed), "0 or more");
   for (const PairNames& names : pairs)
-    check_pair(resolve_pair(law, names.first, names.second, r.law), names, r);
+    check_pair(asked_law(law, names, r), names, r);
   write_csv(law, pairs, r);
   fmt::print("wrote {}: {} pairs of {} rows\n", r.output, pairs.size(), r.points + 1);
 }
@@ -141,6 +176,8 @@ void define(Options& command)
       .add_flag("--dimensionless", r->dimensionless,
                 "overlap in lambda R*, force in 4/3 E* lambda R*^2, and so on")
       ->excludes(radius);
+  command.add_option("--radius-ratio", r->radius_ratio,
+                     "radius of the pair's second body over the first's (default 1); inf: a thick deformable wall");
   command.add_option("--speed", r->speed,
                      "relative normal speed at first touch, m/s, for laws with a velocity axis (default 0: "
                      "quasi-static)");
