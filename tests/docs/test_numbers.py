@@ -1,4 +1,5 @@
 """Numbers that several pages state agree with the table that one of them holds; what a page says of a table, the table holds."""
+import csv
 import math
 import os
 import re
@@ -227,6 +228,35 @@ class Examples(unittest.TestCase):
         stated = [row[5].split(", ") for row in table_with(page("docs/evidence/pairs.md"), "| partner | V, m/s | e | composed: F_max, e |")]
         force, e = ([float(cells[k].rstrip(" %")) for cells in stated] for k in (0, 1))
         self.assertIn(f"{min(force)} to {max(force)} % of F, {min(e):.3f} to {max(e):.3f} of e in the cases measured", page("docs/guide/pairs.md"))
+
+
+class Published(unittest.TestCase):
+    def test_table_is_that_of_the_stored_rows(self):
+        table = subprocess.run(["/usr/bin/python3", ROOT / "tests/validation/published/compare.py", "--table", ROOT / "docs/evidence/published/compared.csv"],
+                               capture_output=True, text=True, check=True).stdout
+        self.assertGreater(len(table.splitlines()), 10)
+        self.assertIn(table, page("docs/evidence/published.md"))
+
+    def test_formulas(self):
+        """Every cell of both tables is the CSV's, rounded."""
+        with (ROOT / "docs/evidence/formulas.csv").open() as file:
+            stored = {(r["E*/Y"], r["quantity"], float(r["at"])): r for r in csv.DictReader(line for line in file if not line.startswith("#"))}
+        columns = {"e": ("law", "Thornton 1.6", "Thornton 2.5", "Thornton 2.8", "Jackson-Green"),
+                   "force": ("law", "Hertz", "Thornton 1.6", "Thornton 2.5", "Thornton 2.8", "Jackson-Green")}
+        for quantity, head in (("e", "| E*/Y | V/V_y | law |"), ("force", "| E*/Y | overlap/R | F/(Y R²), law |")):
+            rows = table_with(page("docs/evidence/formulas.md"), head)
+            self.assertGreater(len(rows), 5)
+            for stiffness, at, *cells in rows:
+                row = stored[stiffness, quantity, float(at)]
+                for cell, column in zip(cells, columns[quantity], strict=True):
+                    self.assertEqual(bool(cell), bool(row[column]), (stiffness, at, column))
+                    if cell:
+                        digits = len(cell.partition(".")[2])
+                        self.assertLessEqual(abs(float(cell) - float(row[column])), 0.5001 * 10**-digits, (stiffness, at, column))
+        times = table_with(page("docs/evidence/formulas.md"), "| over the law's | 1.6 Y |")
+        for name, *cells in times:
+            for cell, factor in zip(cells, ("1.6", "2.5", "2.8"), strict=True):
+                self.assertAlmostEqual(float(cell), float(stored["100", name, 50.0][f"Thornton {factor}"]), delta=0.0051)
 
 
 class Matlab(unittest.TestCase):

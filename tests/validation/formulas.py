@@ -63,7 +63,7 @@ class Thornton:
         work = np.where(d <= self.onset, 0.4 * self.loading(d) * d,
                         at_onset + (d - self.onset) * (self.onset_force + 0.5 * slope * (d - self.onset)))
         there = np.sum(deepest * np.cos(angle) / np.sqrt(2 * np.maximum(energy - work, 1e-300) / MASS)) * math.pi / 2 / 4000
-        # u^2.5 of the work is left at the share u of the elastic overlap: the time back is 1.4716 elastic/(rebound speed)
+        # at u of the elastic overlap u^2.5 of the work is left: the time back is 1.4716 elastic/(rebound speed)
         u = np.sin(angle)
         home = np.sum(np.cos(angle) / np.sqrt(1 - u**2.5)) * math.pi / 2 / 4000 * elastic / math.sqrt(2 * back / MASS)
         return math.sqrt(back / energy), top, there + home

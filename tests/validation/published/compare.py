@@ -130,7 +130,7 @@ class Solver:
 
 
 def e_star(body):
-    """Of sphere and flat, Pa; a flat without a modulus is rigid."""
+    """E* of sphere and flat, Pa; a flat without a modulus is rigid."""
     soft = (1 - body["poisson_ratio"]**2) / body["youngs_modulus"]
     if "flat_youngs_modulus" in body:
         soft += (1 - body["flat_poisson_ratio"]**2) / body["flat_youngs_modulus"]
@@ -295,7 +295,7 @@ def draw(path, published, rows):
     import matplotlib.pyplot as plt
 
     quantities = published.quantities()
-    figure, axes = plt.subplots(1, len(quantities), figsize=(5.2 * len(quantities), 3.8), squeeze=False)
+    figure, axes = plt.subplots(1, len(quantities), figsize=(5.2 * len(quantities) + 2, 3.8), squeeze=False)
     marks = {"law": "o", "press": "s", "pair": "D", "impact": "^"}
     for axis, quantity in zip(axes[0], quantities):
         own = [r for r in rows if r["quantity"] == quantity]
@@ -315,7 +315,7 @@ def draw(path, published, rows):
         axis.set_ylabel(f"{quantity}: computed " + ("less" if quantity == "e" else "over") + " published")
         if len(own) > 2 and max(float(r["at"]) for r in own) > 20 * min(float(r["at"]) for r in own):
             axis.set_xscale("log")
-        axis.legend(fontsize=6)
+    axes[0][-1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1, 0.5))
     figure.suptitle(published.keys["title"], fontsize=10)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
@@ -327,14 +327,17 @@ def main():
     parser.add_argument("--mpm", help="the program mpm")
     parser.add_argument("-o", "--output", help="folder to write into")
     parser.add_argument("--check", metavar="CSV", help="compare what laws give with these stored rows")
-    parser.add_argument("--table", metavar="CSV", help="print the table of these stored rows, compute nothing")
+    parser.add_argument("--table", metavar="CSV", help="print the table of these stored rows, with -o draw their pictures; compute nothing")
     parser.add_argument("--no-pictures", action="store_true")
     parser.add_argument("sets", nargs="*", type=Path, help="sets (default: all beside this file)")
     words = parser.parse_args()
     sets = [Set(path) for path in words.sets or sorted(HERE.glob("*.csv"))]
     if words.table:
         with open(words.table) as file:
-            print(table(summary(sets, list(csv.DictReader(file)))), end="")
+            rows = list(csv.DictReader(file))
+        print(table(summary(sets, rows)), end="")
+        for published in sets if words.output else []:
+            draw(Path(words.output) / f"{published.name}.png", published, [r for r in rows if r["set"] == published.name])
         return
     if not words.mpm or not (words.output or words.check):
         parser.error("--mpm and one of -o, --check are needed")
