@@ -14,21 +14,21 @@ namespace granulaw::deck {
 namespace {
 
 /// R*, m, and m*, kg, of a sphere and its like, or a plane.
-struct Smallest
+struct EffectiveBody
 {
   double radius, mass;
 };
 
-Smallest smallest(const Plan& plan, const Meeting& m)
+EffectiveBody smallest(const Plan& plan, const Meeting& m)
 {
-  return m.wall ? Smallest{plan.radius_min, plan.mass_min}
-                : Smallest{0.5 * plan.radius_min, 0.5 * plan.mass_min};
+  return m.wall ? EffectiveBody{plan.radius_min, plan.mass_min}
+                : EffectiveBody{0.5 * plan.radius_min, 0.5 * plan.mass_min};
 }
 
-Smallest largest(const Plan& plan, const Meeting& m)
+EffectiveBody largest(const Plan& plan, const Meeting& m)
 {
-  return m.wall ? Smallest{plan.radius_max, plan.mass_max}
-                : Smallest{0.5 * plan.radius_max, 0.5 * plan.mass_max};
+  return m.wall ? EffectiveBody{plan.radius_max, plan.mass_max}
+                : EffectiveBody{0.5 * plan.radius_max, 0.5 * plan.mass_max};
 }
 
 std::string name_of(const Meeting& m)
@@ -100,7 +100,7 @@ PairStretch stretch_of(const PairPlan& p, const Plan& plan, const Softening& sce
   PairStretch q;
   q.pair = &p;
   q.slow_speed = g > 0 ? std::min(p.speed, std::sqrt(2 * g * diameter)) : p.speed;
-  const Smallest large = largest(plan, m);
+  const EffectiveBody large = largest(plan, m);
   q.contact_time = hertz_time(m.mapping.e_star_pair(), large.radius, large.mass, q.slow_speed);
   q.static_load = limits.solid_fraction * density * g * scene.fill_height * diameter * diameter;
   q.yield_load = yield_load(m, smallest(plan, m).radius);
@@ -143,7 +143,7 @@ void include_loads(Softening& result, const PairStretch& q, double r_eff)
 }
 
 /// e by the law at hand, else by Thornton's closed form.
-double restitution(const PlanOptions& options, const Meeting& m, const Smallest& size, double speed,
+double restitution(const PlanOptions& options, const Meeting& m, const EffectiveBody& size, double speed,
                    std::string& basis)
 {
   if (options.collide)
@@ -158,7 +158,7 @@ double restitution(const PlanOptions& options, const Meeting& m, const Smallest&
 }
 
 /// The pair with Young's modulus lowered to the same time step.
-Softening::Naive lowered_modulus(const PairPlan& p, const Smallest& size, double modulus_factor,
+Softening::Naive lowered_modulus(const PairPlan& p, const EffectiveBody& size, double modulus_factor,
                                  const PlanOptions& options)
 {
   Softening::Naive n;
@@ -191,7 +191,7 @@ Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& option
   result.modulus_factor = std::pow(result.stretch, -2.5);  // Hertz: t ~ E^-0.4
   for (const PairStretch& q : result.pairs) {
     const Meeting& m = q.pair->meeting;
-    const Smallest small = smallest(plan, m);
+    const EffectiveBody small = smallest(plan, m);
     include_loads(result, q, small.radius);
     if (m.known_yield && m.yields.yields())
       result.naive.push_back(lowered_modulus(*q.pair, small, result.modulus_factor, options));
