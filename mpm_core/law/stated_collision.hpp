@@ -15,8 +15,10 @@ struct StatedCollision
   bool beyond_bound;        ///< the damage number is above that up to which the error bound holds
   bool needs_axis;          ///< ... and the law has no velocity axis
 
-  /// Not stated beyond the damage number of the law.
-  ErrorBound bound() const { return beyond_bound ? ErrorBound{} : statement.bound; }
+  /// False where the law's error bound does not hold: beyond its damage number, and at speeds outside its velocity
+  /// axis, where the corrections of the nearest speed stand in.
+  bool is_bounded() const { return !(beyond_bound || replay.left_speeds || replay.held_speed); }
+  ErrorBound bound() const { return is_bounded() ? statement.bound : ErrorBound{}; }
 };
 
 /// `velocity`: m/s, of approach, 1e-12 to 1e6. Throws Error where it is another, and, led by `source`, where the

@@ -211,12 +211,19 @@ TEST(Options, LiggghtsReadsItsOwnWords)
             (Words{"limitForce", "on", "tangential_damping", "off"}));
 }
 
+TEST(Options, YieldPressure)
+{
+  EXPECT_EQ(parse("yieldPressure 2.5", thornton).options.own_words("yieldPressure"), (Words{"2.5"}));
+  EXPECT_EQ(refusal("yieldPressure 0.9", thornton), "HERE: 'yieldPressure' is out of range: found 0.9, allowed is 1 to 3.5");
+  EXPECT_TRUE(holds(refusal("yieldPressure 2.5"), "unknown keyword 'yieldPressure'"));  // of model mpm
+}
+
 TEST(Options, UnknownKeywordsGetTheNearestAndAll)
 {
   EXPECT_EQ(refusal("strech 2", thornton),
             "HERE: unknown keyword 'strech' (did you mean 'stretch'?): allowed is tangentialDampingRatio, "
             "tangentialStiffness, "
-            "elasticDamping, stretch, heatArea, stats, energy, contactMap, computeDissipatedEnergy, "
+            "elasticDamping, stretch, heatArea, stats, energy, contactMap, computeDissipatedEnergy, yieldPressure, "
             "tangential_damping, limitForce, "
             "tangential_reduce, computeElasticPotential, heating_tracking, heating_tangential_history, "
             "heating_tangential_no_history, torsionTorque");

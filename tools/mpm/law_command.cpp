@@ -60,7 +60,7 @@ void define(Options& command)
   command.add_flag(
       "--json", r->json,
       "print one JSON object instead of the summary, with the keys of mpm impact. Also the error bound: "
-      "error_force (relative) and error_restitution (absolute), null beyond damage_number_max. The larger, "
+      "error_force (relative) and error_restitution (absolute), null beyond damage_number_max and outside the velocity axis. The larger, "
       "both relative, is error_estimate. The law_kind is single, two-body, composed, corrected or reduced");
   command.callback([r] { replay(*r); });
 }

@@ -53,11 +53,11 @@ inline nlohmann::ordered_json law_json(const StatedCollision& found, double cpu_
   nlohmann::ordered_json out = collision_json(result);
   put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0,  // no solver: no points
              std::max(bound.force, restitution / result.restitution));
-  const auto unless_beyond = [&](double error) {
-    return found.beyond_bound ? nlohmann::ordered_json() : nlohmann::ordered_json(error);
+  const auto where_bounded = [&](double error) {
+    return found.is_bounded() ? nlohmann::ordered_json(error) : nlohmann::ordered_json();
   };
-  out["error_force"] = unless_beyond(bound.force);
-  out["error_restitution"] = unless_beyond(restitution);
+  out["error_force"] = where_bounded(bound.force);
+  out["error_restitution"] = where_bounded(restitution);
   out["damage_number"] = out["inertia"] = found.damage_number;
   out["damage_number_max"] = json_number(found.statement.damage_number_max);
   out["needs_velocity_axis"] = found.needs_axis;
