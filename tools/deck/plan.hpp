@@ -39,8 +39,6 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
 /// One sentence for each pair that the scene takes deeper or faster than any law goes; empty: none.
 std::vector<std::string> beyond_laws(const Plan& plan);
 
-/// `mpm table` states a pair's error up to this ratio of radii.
-inline constexpr double largest_radius_ratio = 10;
 /// The sizes that a law of the deck's pairs must know: the largest ratio of two spheres' radii, as far as
 /// laws are made for it, and whether a body meets a deformable wall.
 struct PairSizes

@@ -25,7 +25,9 @@
 #include "base/error.hpp"
 #include "contact/tabulated.hpp"
 #include "contact/thornton.hpp"
+#include "deck/hertz.hpp"
 #include "law/contact_limits.hpp"
+#include "law/range.hpp"
 #include "law/stated_collision.hpp"
 #include "law_report.hpp"
 #include "material_file/material_range.hpp"
@@ -38,7 +40,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double largest_radius_ratio = 10;  // as of mpm table --radius-ratio
 const char* const source = "law";            // leads sentences about a collision
 
 std::optional<Atlas> atlas;
@@ -178,10 +179,9 @@ struct Formula
 
   Replay collision(double speed, int steps) const
   {
-    const double duration = 2.87 * std::pow(m_eff * m_eff / (pair.e_star * pair.e_star * r_eff * speed), 0.2);
     return replay_collision(
         [this](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); }, m_eff, speed,
-        duration, steps);
+        deck::hertz_time(pair.e_star, r_eff, m_eff, speed), steps);
   }
 };
 
@@ -190,10 +190,10 @@ Formula hertz_of(const ChosenPair& c)
   return {{c.law.mapping.e_star_pair(), infinite}, c.r_eff, c.m_eff};
 }
 
-/// p_y = 1.6 Y of the body that yields first.
+/// Thornton's formula with the customary yield pressure of the body that yields first.
 Formula thornton_of(const ChosenPair& c)
 {
-  return {{c.law.mapping.e_star_pair(), 1.6 * c.law.yielding->material.yield_stress}, c.r_eff, c.m_eff};
+  return {{c.law.mapping.e_star_pair(), customary_yield_pressure * c.law.yielding->material.yield_stress}, c.r_eff, c.m_eff};
 }
 
 constexpr int picture_steps = 1500;  // of a collision whose curve is drawn: e within 2e-6

@@ -61,7 +61,7 @@ std::vector<deck::PairPlan> take_from_deck(TableRequest& r, const Options& comma
   const deck::PairSizes sizes = deck::pair_sizes(d.plan);
   if (command.count("--radius-ratio") == 0) r.file.radius_ratio = sizes.radius_ratio;
   if (command.count("--thick-walls") == 0) r.file.thick_walls = sizes.thick_walls;
-  if (sizes.thick_walls) r.file.rule_radius_ratio = deck::largest_radius_ratio;
+  if (sizes.thick_walls) r.file.rule_radius_ratio = largest_radius_ratio;
   return yielding;
 }
 

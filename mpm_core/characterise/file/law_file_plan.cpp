@@ -30,8 +30,8 @@ void check_range(const char* what, double value, double low, double high)
 
 void check_numbers(const LawFileRequest& r)
 {
-  if (!(r.depth > 0)) fail("depth", "cannot be used", fmt::format("{:g}", r.depth), "over 0, up to 0.5");
-  check_range("depth", r.depth, 0, 0.5);
+  if (!(r.depth > 0)) fail("depth", "cannot be used", fmt::format("{:g}", r.depth), fmt::format("over 0, up to {:g}", deepest_law));
+  check_range("depth", r.depth, 0, deepest_law);
   check_range("damage_number", r.damage_number, 0, fastest_law);
   check_range("tolerance", r.tolerance, 1e-4, 0.5);
   check_range("radius_ratio", r.radius_ratio, 1, 1e6);
