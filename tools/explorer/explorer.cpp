@@ -25,7 +25,6 @@
 #include "base/error.hpp"
 #include "contact/tabulated.hpp"
 #include "contact/thornton.hpp"
-#include "deck/hertz.hpp"
 #include "law/contact_limits.hpp"
 #include "law/range.hpp"
 #include "law/stated_collision.hpp"
@@ -179,9 +178,10 @@ struct Formula
 
   Replay collision(double speed, int steps) const
   {
+    const double duration = 2.87 * std::pow(m_eff * m_eff / (pair.e_star * pair.e_star * r_eff * speed), 0.2);
     return replay_collision(
         [this](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); }, m_eff, speed,
-        deck::hertz_time(pair.e_star, r_eff, m_eff, speed), steps);
+        duration, steps);
   }
 };
 
