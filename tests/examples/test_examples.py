@@ -86,6 +86,12 @@ class Spread(unittest.TestCase):
         self.assertAlmostEqual(spread.welch(a, b), spread.student_tail(3.5 / math.sqrt(25 / 12), 4.411765), delta=1e-6)
         self.assertGreater(spread.welch(a, b), 0.05)
 
+    def test_the_margin_that_is_resolved(self):
+        a, b = spread.Sample([10, 11, 12]), spread.Sample([10.5, 11.5, 12.5])
+        # equal variances of 1 and three values each: 4 degrees of freedom, t_0.95 = 2.132 of the tables (four digits)
+        self.assertAlmostEqual(spread.resolved(a, b), (0.5 + 2.132 * math.sqrt(2 / 3)) / 11.5, delta=1e-4)
+        self.assertIsNone(spread.resolved(spread.Sample([1.0]), b))
+
     def test_one_seed_gives_no_verdict(self):
         self.assertIsNone(spread.welch(spread.Sample([1.0]), spread.Sample([1.0, 2.0])))
         self.assertIn("no verdict", spread.verdict(spread.Sample([1.0]), spread.Sample([1.0, 2.0])))
