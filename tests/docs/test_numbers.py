@@ -29,6 +29,26 @@ def table_with(text, head):
     return tables(after)[0]
 
 
+class Flows(unittest.TestCase):
+    def test_margins_follow_from_means_and_errors(self):
+        """Each margin of two one-sided tests is |difference| + t standard errors of the values that the deck's page has."""
+        import sys
+        sys.path.insert(0, str(ROOT / "examples/common"))
+        import spread
+        rows = table_with(page("docs/evidence/flows.md"), "| deck (seeds) | observable | wanted |")
+        self.assertEqual(len(rows), 5)
+        for deck, what, _, *margins in rows:
+            name, seeds = re.fullmatch(r"(\w+) \((\d)\)", deck).groups()
+            text = page(f"examples/{name}/README.md")
+            cells = next(row for table in tables(text) for row in table if row[0] == what and len(row) == 4)[1:]
+            values = [tuple(map(float, re.match(r"([-\d.e]+) ± ([-\d.e+]+)", c).groups())) for c in cells]
+            for (a, b), stated in zip(((1, 0), (2, 0), (2, 1)), margins):
+                (m, s), (n, t) = values[a], values[b]
+                freedom = (s**2 + t**2)**2 * (int(seeds) - 1) / (s**4 + t**4)
+                least = 100 * (abs(m - n) + spread.student_quantile(0.05, freedom) * math.hypot(s, t)) / n
+                self.assertAlmostEqual(least, float(stated), delta=0.051, msg=f"{deck}, {what}")  # rounded to 0.1
+
+
 class Accuracy(unittest.TestCase):
     PAGE = page("docs/evidence/solver-accuracy.md")
 
