@@ -80,6 +80,22 @@ class ContactCounts
     }
   }
 
+  /// A contact whose depth, the largest overlap that its law takes, the tangential law changed. That has booked the
+  /// loss; what the law holds more at the same overlap came from the shear.
+  void change_depth(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
+                    double from, double to) const
+  {
+    const double weight = this->weight(contact);
+    change_bin(*entry.counts, contact.contact_history, from, to, r_eff, weight);
+    if (!energy_) return;
+    const double held = entry.contact.stored_energy(r_eff, contact.deltan, to, impact_overlap) -
+                        entry.contact.stored_energy(r_eff, contact.deltan, from, impact_overlap);
+    energy_->share(contact, EnergyTally::dissipated, entry.contact.dissipated(r_eff, from, to, impact_overlap),
+                   lmp_->atom->nlocal);
+    energy_->share(contact, EnergyTally::stored, held, lmp_->atom->nlocal);
+    entry.counts->other_work -= weight * held;
+  }
+
   /// True of a contact that begins in this step, deeper than motion can bring it.
   bool is_sudden(const SurfacesIntersectData& contact) const
   {

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "law/contact_limits.hpp"
 #include "contact/pair.hpp"
-#include "contact/tangential.hpp"
+#include "contact/plastic_shear.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
 #include "liggghts_plugin/contact/superquadric.hpp"
 #include "liggghts_plugin/deck/session.hpp"
@@ -62,6 +62,26 @@ class PairTable
     return entries_[pair * laws_ + finders_[pair].nearest(radius_i, radius_j)];
   }
 
+  std::size_t place(const Entry& entry) const { return static_cast<std::size_t>(&entry - entries_.data()); }
+  /// A tangential law of ours for each entry, at its place. `friction`: coefficient by types.
+  template <class Law>
+  std::vector<Law> tangential_laws(double** friction) const
+  {
+    std::vector<Law> laws(entries_.size());
+    for (int i = 1; i < stride_; ++i)
+      for (int j = 1; j < stride_; ++j)
+        for (std::size_t k = 0; k < laws_; ++k) {
+          const Entry& entry = first_entry(i, j)[k];
+          if (entry.largest_overlap < 0) continue;
+          const ShearPair spring{entry.tangential, friction[i][j], entry.tangential_damping};
+          if constexpr (std::constructible_from<Law, const Contact&, const ShearPair&, const BodiesInShear&>)
+            laws[place(entry)] = Law(entry.contact, spring, in_shear_[pair_of(i, j)]);
+          else
+            laws[place(entry)] = Law(spring);
+        }
+    return laws;
+  }
+
   /// True if waves take a part of the contacts of any pair. One answer for all, as a contact loop cannot
   /// foresee which types meet next.
   bool radiates() const { return radiates_; }
@@ -74,6 +94,7 @@ class PairTable
     stride_ = types.count + 1;
     find_choices(physics, setup, types.count, sizes);
     entries_.assign(choices_.size() * laws_, Entry{});
+    in_shear_.assign(choices_.size(), BodiesInShear{});
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
         if (std::isnan(types.youngs_modulus[i]) || std::isnan(types.youngs_modulus[j])) continue;
@@ -83,6 +104,8 @@ class PairTable
           if (types.can_meet(i, j, is_wall)) throw;
           continue;  // PlasticModel::beyond_table says so if such particles meet after all
         }
+        in_shear_[pair_of(i, j)] = bodies_in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j,
+                                                   tangential.damping);
         each_entry(i, j, [&](Entry& entry) {
           complete(entry, setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
                    damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
@@ -265,6 +288,16 @@ class PairTable
     return 8.0 / (compliance(i) + compliance(j)) / types.units.pressure();
   }
 
+  /// `j` 0: a rigid wall.
+  static BodiesInShear bodies_in_shear(const Types& types, int i, int j, double damping_ratio)
+  {
+    const auto body = [&](int t) { return ElasticBody{types.youngs_modulus[t], types.poisson_ratio[t]}; };
+    const ElasticBody second = j > 0 ? body(j) : ElasticBody{};
+    BodiesInShear bodies = BodiesInShear::of(body(i), second, damping_ratio);
+    bodies.stiffness /= types.units.pressure();
+    return bodies;
+  }
+
   /// Completes an entry with numbers that follow from the law and the moduli.
   static void complete(Entry& entry, double stretch, const TangentialChoice& tangential, double shear_moduli,
                        double damping_ratio)
@@ -284,6 +317,7 @@ class PairTable
 
   std::vector<Entry> entries_;  // laws_ for each pair of types; a pair with fewer leaves the last ones empty
   std::vector<SizeChoice> choices_;  // of each pair
+  std::vector<BodiesInShear> in_shear_;  // of each pair
   std::vector<LawFinder> finders_;   // of each pair
   std::size_t laws_ = 1;
   bool radiates_ = false;

@@ -170,11 +170,27 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return pairs_.of(sidata.itype, sidata.jtype, sidata.radi, sidata.radj);
   }
   double* kept_of(double* history) const { return history + history_offset_; }
+  /// One for each entry, at its place().
+  template <class Law>
+  std::vector<Law> tangential_laws(double** friction) const
+  {
+    return pairs_.template tangential_laws<Law>(friction);
+  }
+  std::size_t place(const Entry& entry) const { return pairs_.place(entry); }
+  /// Part of the overlap that belongs to the real contact.
+  double per_stretch() const { return 1.0 / stretch_; }
+  bool rigid_wall() const { return setup_->wall && !setup_->options.deformable_wall; }
+  /// Books a depth that the tangential law changed from `from`.
+  void change_depth(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double from) const
+  {
+    const double* const kept = kept_of(sidata.contact_history);
+    counts_.change_depth(sidata, entry, r_eff, State::impact_overlap(kept), from, State::largest(kept));
+  }
   /// Books the mechanisms in the statistics; their work is no other work.
   void book(const SurfacesIntersectData& sidata, const Entry& entry, const Ledger& books) const
   {
     for (const MechanismText& m : mechanisms) {
-      if (!m.in_statistics) continue;
+      if (!m.in_statistics || books[m.which] == 0.0) continue;
       const double taken = counts_.weight(sidata) * books[m.which];
       entry.counts->taken[m.which] += taken;
       if (energy_) entry.counts->other_work -= taken;

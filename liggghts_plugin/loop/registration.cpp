@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <vector>
 
 #include "liggghts_plugin/contact/contact_pieces.hpp"
@@ -38,14 +39,39 @@ std::string refusal()
   return fmt::format("models {} are built for {}: choose among these", model_names(), built_combinations());
 }
 
-lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t)
+/// A tangential law of ours, and the normal model that it is for.
+struct OwnTangentialName
 {
-  stop_all(lmp, refusal());
+  std::string name;
+  int normal;
+};
+std::map<int, OwnTangentialName>& own_tangentials()
+{
+  static std::map<int, OwnTangentialName> laws;
+  return laws;
 }
 
-lg::Walls::IGranularWall* refuse_wall(LAMMPS* lmp, FixWallGran*, int64_t)
+[[noreturn]] void refuse(LAMMPS* lmp, int64_t hash)
 {
-  stop_all(lmp, refusal());
+  const ModelIds ids = ModelIds::of(hash);
+  const auto found = own_tangentials().find(ids.tangential);
+  if (found == own_tangentials().end()) stop_all(lmp, refusal());
+  const auto& [name, normal] = found->second;
+  const ModelInfo* model = find_model(normal);
+  const std::string needed = model ? model->name : "of another plug-in";
+  if (ids.normal != normal)
+    stop_all(lmp, fmt::format("'tangential {}' is for 'model {}': with other normal models say 'tangential history'", name, needed));
+  stop_all(lmp, fmt::format("'tangential {}' is built for spheres, with cohesion and rolling models as 'tangential history' is", name));
+}
+
+lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t hash)
+{
+  refuse(lmp, hash);
+}
+
+lg::Walls::IGranularWall* refuse_wall(LAMMPS* lmp, FixWallGran*, int64_t hash)
+{
+  refuse(lmp, hash);
 }
 
 }  // namespace
@@ -60,6 +86,25 @@ void add_model(const ModelInfo& model, PairMaker pair, WallMaker wall)
     lg::PairStyles::Factory::instance().addStyle("gran", hash, is_built(ids) ? pair : &refuse_pair);
     lg::Walls::Factory::instance().addStyle("gran", hash, is_built(ids) ? wall : &refuse_wall);
   });
+}
+
+bool takes_own_tangential(const ModelIds& ids)
+{
+  return ids.tangential == cm::TANGENTIAL_OFF && ids.surface == cm::SURFACE_DEFAULT && is_built(ids);
+}
+
+void refuse_other_normals(const std::string& name, int id, int normal)
+{
+  own_tangentials()[id] = {name, normal};
+  constexpr int last_normal = 63;  // six bits
+  for (int other = 1; other <= last_normal; ++other)
+    each_combination(other, [&](ModelIds ids) {
+      if (ids.tangential != cm::TANGENTIAL_OFF || (other == normal && takes_own_tangential(ids))) return;
+      ids.tangential = id;
+      const int hash = static_cast<int>(ids.hash());
+      lg::PairStyles::Factory::instance().addStyle("gran", hash, &refuse_pair);
+      lg::Walls::Factory::instance().addStyle("gran", hash, &refuse_wall);
+    });
 }
 
 void check_particles(LAMMPS* lmp, const ModelIds& ids)

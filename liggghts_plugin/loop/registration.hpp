@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "liggghts_plugin/loop/styles.hpp"
 
 namespace granulaw::plugin {
@@ -24,6 +26,12 @@ Interface* make_style(LAMMPS* lmp, Parent* parent, int64_t hash)
   return new Made(lmp, parent, hash);
 }
 
+/// True: a tangential law of ours is built for these.
+bool takes_own_tangential(const ModelIds& ids);
+/// Notes that `tangential NAME` is of the normal model `normal`: with every other, and with models that are not
+/// built, it stops with a sentence.
+void refuse_other_normals(const std::string& name, int id, int normal);
+
 /// Makes `tangential NAME`, a TangentialLaw of ours, known for a normal model, with each cohesion and rolling model
 /// that is built. `id`: six bits, which none of LIGGGHTS's has; restart files hold it.
 template <NormalPhysics Physics, class Law>
@@ -31,8 +39,9 @@ void add_tangential(const char* name, int id)
 {
   using Contact = OwnContact<Physics, Law>;
   cm::Factory::instance().addTangentialModel(name, id);
+  refuse_other_normals(name, id, Physics::id);
   each_combination(Physics::id, [id](ModelIds ids) {
-    if (ids.tangential != cm::TANGENTIAL_OFF || ids.surface != cm::SURFACE_DEFAULT || !is_built(ids)) return;
+    if (!takes_own_tangential(ids)) return;
     ids.tangential = id;
     const int hash = static_cast<int>(ids.hash());
     LIGGGHTS::PairStyles::Factory::instance().addStyle(

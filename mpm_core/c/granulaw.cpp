@@ -29,7 +29,8 @@ struct granulaw_contact_law
 static_assert(GRANULAW_MECHANISMS == static_cast<int>(Mechanism::count));
 static_assert(GRANULAW_PLASTIC == static_cast<int>(Mechanism::plastic) &&
               GRANULAW_WAVES == static_cast<int>(Mechanism::waves) &&
-              GRANULAW_FRICTION == static_cast<int>(Mechanism::friction));
+              GRANULAW_FRICTION == static_cast<int>(Mechanism::friction) &&
+              GRANULAW_SHEAR == static_cast<int>(Mechanism::shear));
 
 namespace {
 

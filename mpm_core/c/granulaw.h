@@ -76,7 +76,7 @@ typedef struct {
 } granulaw_answer;
 
 /* Places of the ledger: energy that contacts took and do not give back. */
-enum { GRANULAW_PLASTIC = 0, GRANULAW_WAVES = 1, GRANULAW_FRICTION = 2, GRANULAW_MECHANISMS = 3 };
+enum { GRANULAW_PLASTIC = 0, GRANULAW_WAVES = 1, GRANULAW_FRICTION = 2, GRANULAW_SHEAR = 3, GRANULAW_MECHANISMS = 4 };
 
 /* Range of a law. */
 typedef struct {

@@ -8,12 +8,22 @@
 
 namespace granulaw {
 
-/// Numbers of the yielding body that say how fast an impact is.
+/// Flow stress of a material that hardens linearly, Pa; infinite: elastic.
+struct FlowStress
+{
+  double yield = std::numeric_limits<double>::infinity(), hardening = 0;
+  double at(double strain) const { return yield + hardening * strain; }
+};
+
+/// Numbers of the yielding body: how fast an impact is, and what shear it bears.
 struct ImpactMeasure
 {
   double density = 0;                                             ///< kg/m^3
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
   double mass_ratio = 1;                                          ///< mass over rho 4/3 pi R^3
+  double hardening_modulus = 0;                                   ///< Pa
+
+  FlowStress flow_stress() const { return {yield_stress, hardening_modulus}; }
 
   /// v = sqrt(I) of a collision at this relative normal speed, m/s: see AxisTable.
   double axis_speed(const PairMapping& mapping, double r_eff, double m_eff, double speed) const

@@ -21,6 +21,7 @@ struct ContactForce
   double stiffness = 0;       ///< N/m, of the normal law on its branch
   double contact_radius = 0;  ///< m, of the real, unstretched contact
   Vector shear{};             ///< N
+  Vector couple{};            ///< N m, beside the torque of `shear`
 };
 
 /// A contact of two bodies: a normal law and a tangential law, with one state. No allocation, no exception.
@@ -51,7 +52,8 @@ struct ContactElement
     answer.normal = now.law <= 0.0 ? 0.0 : std::max(now.law + now.waves, 0.0);
     if (m.advances && answer.normal > 0)
       books[Mechanism::waves] += work_of_waves(now.waves, m.approach, answer.normal, m.m_eff, m.dt);
-    answer.shear = tangential.advance(normal, m, answer.normal, kept, kept + State::values, books);
+    const Grip grip = tangential.advance(normal, m, answer.normal, kept, kept + State::values, books);
+    answer.shear = grip.force, answer.couple = grip.couple;
     return answer;
   }
 

@@ -138,6 +138,34 @@ struct Tabulated
     return force_scale * r_eff * r_eff / length * granulaw::planned_stiffness(*curve, delta / length);
   }
 
+  /// What un- and reloading below a depth takes: of the real contact, in the caller's units.
+  struct Dent
+  {
+    Reversal back;
+    double per_length, unit;                 // 1/(lambda R*), and the force at x = 1
+    double depth, force, radius, residual;  ///< m, F_m in N, a_m in m, delta_r in m
+
+    double force_at(double delta) const { return unit * back.force(delta * per_length); }
+    double slope_at(double delta) const { return unit * per_length * back.stiffness(delta * per_length); }
+  };
+  Dent dent(double r_eff, double depth, double impact_overlap) const
+  {
+    const double per_length = per_lambda * scale.stretch / r_eff, x = depth * per_length;
+    const double unit = force_scale * scale.stretch * r_eff * r_eff;
+    const Reversal back = curve->reversal(x, impact_overlap);
+    return {back,  per_length, unit, depth, unit * back.top(), mapping.radius(r_eff) * curve->radius(x),
+            back.residual() / per_length};
+  }
+
+  /// m, unit of contact radii over R*.
+  double radius_unit() const { return mapping.radius(1.0); }
+  double stretch() const { return scale.stretch; }
+  FlowStress flow_stress() const
+  {
+    const FlowStress real = measure.flow_stress();
+    return {real.yield / scale.pressure(), real.hardening / scale.pressure()};
+  }
+
   double yield_overlap() const { return curve->onset() / per_lambda; }
   double pair_modulus() const { return mapping.e_star_pair() / scale.pressure(); }
   double largest_overlap() const { return curve->end() / per_lambda; }

@@ -20,6 +20,17 @@ struct ContactMotion : NormalMotion
   double dt = 0;     ///< s
   Vector normal{};   ///< unit, from j to i
   Vector slide{};    ///< m/s, velocity of i's surface against j's at the contact, along the surface
+  Vector turn{};     ///< rad/s, (omega_i - omega_j) x normal: rolling of i, in the direction that it rolls
+};
+
+/// What a tangential law does to body i; j gets the opposite of both.
+struct Grip
+{
+  Vector force{};   ///< N, along the surface
+  Vector couple{};  ///< N m, beside the force's own torque
+
+  Grip() = default;
+  Grip(const Vector& shear) : force(shear) {}  // NOLINT(google-explicit-constructor): most laws have no couple
 };
 
 // clang-format off
@@ -31,8 +42,7 @@ concept TangentialLaw = std::copyable<Law> &&
     requires(const Law law, const Normal normal, const ContactMotion& motion, double& force, double* normal_kept, double* kept,
              Ledger& books) {
   { std::span<const Kept>(Law::keeps) };
-  /// N, on i.
-  { law.advance(normal, motion, force, normal_kept, kept, books) } -> std::same_as<Vector>;
+  { law.advance(normal, motion, force, normal_kept, kept, books) } -> std::convertible_to<Grip>;
 };
 
 // clang-format on

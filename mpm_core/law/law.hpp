@@ -134,7 +134,8 @@ struct PairLaw : PairContact  // its curve is the Law's
   /// Measure of an impact, for the yielding body.
   ImpactMeasure measure() const
   {
-    return {yielding->material.density, yielding->material.yield_stress, yielding->mass_ratio};
+    return {yielding->material.density, yielding->material.yield_stress, yielding->mass_ratio,
+            yielding->material.hardening_modulus};
   }
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without a velocity axis or approach, clamped beyond max_speed().

@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-MODELS = {"mindlin": ("Mindlin, Hertz's radius", "--"), "computed": ("Mindlin, computed radius", "-."), "yielding": ("yielding contact", ":")}
+MODELS = {"history": ("tangential history", "--"), "plastic": ("tangential plastic", ":")}
 QUANTITIES = {"e": "e", "tangential": "tangential velocity after / before", "spin": "spin after, R omega / V_n"}
 
 
@@ -68,7 +68,7 @@ def spread(values):
 
 
 def materials(studies):
-    names = ["mindlin", "yielding"]
+    names = list(MODELS)
     print("| E\\*/Y | H/E | V/V_y | overlap/R | contact radius/R | cases |" + "".join(f" {MODELS[m][0]}: e, v_t, omega |" for m in names))
     print("|---|---|---|---|---|---|" + "---|" * len(names))
     for study in studies:

@@ -9,6 +9,7 @@
 #define MPM_COMMANDS(ENTRY) \
   ENTRY(impact)             \
   ENTRY(press)              \
+  ENTRY(oblique)            \
   ENTRY(table)              \
   ENTRY(atlas)              \
   ENTRY(law)                \

@@ -1,0 +1,389 @@
+#pragma once
+
+#include <limits>
+
+#include "contact/contact.hpp"
+#include "contact/dent.hpp"
+#include "contact/tangential.hpp"
+
+namespace granulaw {
+
+/// Moduli of a body; as made: rigid.
+struct ElasticBody
+{
+  double youngs_modulus = std::numeric_limits<double>::infinity(), poisson_ratio = 0;  // Pa
+  double compliance() const { return (1.0 - poisson_ratio * poisson_ratio) / youngs_modulus; }  ///< 1/E*
+};
+
+/// Two bodies under shear.
+struct BodiesInShear
+{
+  double stiffness = 0;      ///< Pa, 8 G*: k_t over the contact radius
+  double damping_ratio = 0;  ///< part of critical, of a contact that never yielded
+  /// Weight of what shear does to the place of the pressure on body i: 1 on a rigid partner, 0 between like bodies,
+  /// where the contact is the same to both and the pressure has no side to go to.
+  double asymmetry = 1;
+
+  static BodiesInShear of(const ElasticBody& i, const ElasticBody& j, double damping_ratio)
+  {
+    const double shear = shear_compliance(i.youngs_modulus, i.poisson_ratio) +
+                         shear_compliance(j.youngs_modulus, j.poisson_ratio);
+    return {8.0 / shear, damping_ratio,
+            (i.compliance() - j.compliance()) / (i.compliance() + j.compliance())};
+  }
+};
+
+/// `tangential plastic`: a contact that yields under its normal force, its shear and the turning of its dent.
+///
+/// The dent is a facet of the body: a depth, which is the normal law's largest overlap, and a direction, which
+/// differs from the contact's normal by the tilt. The contact is elastic in overlap, slip and tilt, and flows where
+///     F > alpha(h) s(q) F_m                                                              (ShearYield, DiscSegment)
+/// with the law's loading force F_m at the depth; friction is the outer limit of T. Elastic forces have a
+/// potential, and flow dissipates, so that no closed path gives work. Head-on it is the normal law; of a material
+/// that does not yield it is `history`, to the bit. Two bodies turn as one does on a wall at their relative turning.
+/// Source: docs/theory/oblique.md.
+class PlasticShear
+{
+ public:
+  static constexpr std::array keeps{
+      Kept{.name = "shear", .values = 3, .turns_with_exchange = true},  // N, on j, of the real contact; elastic: m
+      Kept{.name = "shear_stiffness"},                                  // N/m, of the last step
+      Kept{.name = "tilt", .values = 3},  // rad, in the direction that i rolls: the same for j
+      Kept{.name = "sheared"},  // m, sliding of the flow
+      Kept{.name = "depth"}};   // m, of the last step: the normal law has taken it along since where it loads
+
+  PlasticShear() = default;
+  /// `spring`: LIGGGHTS's, stretched as the law is; of it the friction, and all for a body that does not yield.
+  template <class Normal>
+  PlasticShear(const Normal& law, const ShearPair& spring, const BodiesInShear& bodies)
+      : elastic_(spring),
+        bodies_(bodies),
+        flow_stress_(law.flow_stress()),
+        e_star_(law.pair_modulus()),
+        per_radius_(law.radius_unit()),
+        stretch_(law.stretch())
+  {
+  }
+
+  /// False: the body is elastic, and nothing but LIGGGHTS's spring acts.
+  bool turns() const { return std::isfinite(flow_stress_.yield); }
+
+  template <class Normal>
+  Grip advance(const Normal& law, const ContactMotion& m, double& force, double* normal_kept, double* kept,
+               Ledger& books) const
+  {
+    if (!turns()) return elastic_.advance(law, m, force, normal_kept, kept, books);
+    const double per_stretch = 1.0 / stretch_, time = m.advances ? m.dt * per_stretch : 0.0;
+    const Step step{.radius = m.r_eff,
+                    .overlap = m.overlap * per_stretch,
+                    .deepening = m.approach * time,
+                    .slide = times(m.slide, time),
+                    .turn = times(m.turn, time)};
+    Memory held(kept, m.normal);
+    Grip answer;
+    const double depth = normal_kept[0] * per_stretch, latched = NormalState<Normal>::impact_overlap(normal_kept);
+    if (normal_kept[0] <= law.yield_overlap() * m.r_eff) {
+      held.depth = depth;
+      const double a = law.contact_radius(m.r_eff, m.overlap, normal_kept[0], latched);
+      answer.force = hold(held, bodies_.stiffness * a, force * stretch_, step, m, books);
+    } else {
+      const auto dent_at = [&](double d) { return law.dent(m.r_eff, d, latched); };
+      const auto dent = dent_at(depth);
+      State tried;
+      const State now = yield(dent_at, dent, held, step, tried);
+      if (m.advances) books[Mechanism::friction] += tried.rubbed;
+      force = std::max(0.0, force + (now.force - dent.force_at(step.overlap)) * per_stretch);
+      answer.force = times(held.pull, -1.0);
+      answer.couple = times(cross(m.normal, held.tilt), -now.moment);
+      held.depth = now.depth;
+      if (now.flows && m.advances) {
+        // what the contact held before the flow and does not hold after it, less what it was not given: the step's
+        // motion works against the mean of the forces before and after it
+        const auto energy = [&](const State& state) {
+          const double given = state.force * step.deepening + state.pull * dot(unit(held.pull), step.slide) +
+                               state.moment * dot(state.tilt, step.turn);
+          return law.stored_energy(m.r_eff, stretch_ * state.untilted, stretch_ * state.depth, latched) + state.energy -
+                 0.5 * given;
+        };
+        const double to = now.depth * stretch_, lost = law.dissipated(m.r_eff, normal_kept[0], to, latched);
+        books[Mechanism::plastic] += lost;
+        books[Mechanism::friction] += now.rubbed;
+        books[Mechanism::shear] += energy(tried) - energy(now) - lost - now.rubbed;
+        normal_kept[0] = to;
+      }
+    }
+    if (m.advances) held.write(kept);
+    answer.force = times(answer.force, per_stretch), answer.couple = times(answer.couple, per_stretch);
+    return answer;
+  }
+
+ private:
+  static constexpr double widening = 1.3;         // of T_0, measured at a small contact (docs/evidence/oblique.md)
+  static constexpr double pressure_shift = 0.25;  // zeta: T moves the pressure back by zeta a T/F, measured
+  static constexpr double tabor_strain = 0.2;     // of the indentation, times a/R: Tabor, The Hardness of Metals (1951)
+  static constexpr double shear_strain = 1.1;     // of the shear, times its sliding over a, measured
+  static constexpr double tolerance = 1e-9;       // of F_m, in the yield condition
+
+  static Vector times(const Vector& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
+  static Vector sum(const Vector& v, const Vector& w, double factor = 1.0)
+  {
+    return {v[0] + w[0] * factor, v[1] + w[1] * factor, v[2] + w[2] * factor};
+  }
+  static double dot(const Vector& v, const Vector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
+  static double size(const Vector& v) { return std::sqrt(dot(v, v)); }
+  static Vector unit(const Vector& v)
+  {
+    const double length = size(v);
+    return length > 0 ? times(v, 1.0 / length) : Vector{};
+  }
+  static Vector cross(const Vector& v, const Vector& w)
+  {
+    return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
+  }
+
+  /// Motion of the real contact in a step: lengths in m, turning in rad.
+  struct Step
+  {
+    double radius, overlap, deepening;  // R*
+    Vector slide, turn;
+  };
+
+  /// `keeps`.
+  struct Memory
+  {
+    Vector pull;
+    double stiffness;
+    Vector tilt;
+    double sheared, depth;
+
+    Memory(const double* kept, const Vector& normal)
+        : pull{kept[0], kept[1], kept[2]}, stiffness(kept[3]), tilt{kept[4], kept[5], kept[6]}, sheared(kept[7]), depth(kept[8])
+    {
+      pull = sum(pull, normal, -dot(pull, normal));
+      tilt = sum(tilt, normal, -dot(tilt, normal));
+    }
+    void write(double* kept) const
+    {
+      std::copy_n(pull.begin(), 3, kept);
+      kept[3] = stiffness;
+      std::copy_n(tilt.begin(), 3, kept + 4);
+      kept[7] = sheared, kept[8] = depth;
+    }
+    /// Moves the spring, N/m. One that stiffens keeps its force, one that softens its stretch: either loses
+    /// energy, J.
+    double stretch(const Vector& slide, double k)
+    {
+      double taken = 0;
+      if (stiffness > 0) {
+        const double half = 0.5 * dot(pull, pull) / stiffness, ratio = k / stiffness;
+        taken = half * (ratio < 1.0 ? 1.0 - ratio : 1.0 - 1.0 / ratio);
+        if (ratio < 1.0) pull = times(pull, ratio);
+      }
+      stiffness = k;
+      pull = sum(pull, slide, k);
+      return taken;
+    }
+  };
+
+  /// A contact below yield: LIGGGHTS's spring with the law's contact radius.
+  Vector hold(Memory& held, double k, double normal, const Step& step, const ContactMotion& m, Ledger& books) const
+  {
+    double taken = held.stretch(step.slide, k);
+    held.tilt = {};
+    const double pull = size(held.pull), most = elastic_.pair.friction * normal;
+    Vector braking{};
+    if (pull > most) {
+      held.pull = times(held.pull, most / pull);
+      taken += most * (pull - most) / k;
+    } else {
+      braking = times(m.slide, 2.0 * bodies_.damping_ratio * std::sqrt(k * m.m_eff));
+      taken += dot(braking, step.slide);
+    }
+    if (m.advances) books[Mechanism::friction] += taken;
+    return sum(times(held.pull, -1.0), braking, -1.0);
+  }
+
+  /// Elastic answer of a tilted dent: F, F/F_m, K against tilting, radius.
+  struct Elastic
+  {
+    double force, share, stiffness, radius;
+    double untilted;  // overlap of the same force without a tilt
+    double energy;    // beyond the law's there, J
+  };
+  /// F = F_u(delta + (K'(F) - (R - delta_r)) phi^2/2), K = F (r + (K_m/F_m - r) F/F_m).
+  template <class Dent>
+  Elastic elastic(const Dent& dent, const Step& step, double tilt2) const
+  {
+    const double four_thirds = 4.0 / 3.0 * e_star_, r = dent.radius * dent.radius / (dent.depth - dent.residual);
+    const double excess = four_thirds * dent.radius * dent.radius * dent.radius / dent.force - r;
+    const double base = step.overlap + 0.5 * (r - (step.radius - dent.residual)) * tilt2, per_share = excess * tilt2;
+    double share = dent.force_at(base) / dent.force;
+    for (int newton = 0; newton < 3 && std::abs(per_share * share) > 1e-12 * dent.depth; ++newton) {
+      const double at = base + per_share * share;
+      share -= (share - dent.force_at(at) / dent.force) / (1.0 - per_share * dent.slope_at(at) / dent.force);
+      share = std::max(0.0, share);
+    }
+    const double force = share * dent.force, stiffness = force * (r + excess * share);
+    return {force, share, stiffness, std::cbrt(stiffness / four_thirds), base + per_share * share,
+            -0.5 * tilt2 * force * excess * share};
+  }
+
+  /// State of the contact, elastic or after flow.
+  struct State
+  {
+    double force = 0, moment = 0, depth = 0;    // moment: per tilt
+    double excess = 0;                          // of F beyond yield
+    double pull = 0, slid = 0;                  // T, and the sliding of the flow
+    double untilted = 0, energy = 0;            // Elastic's, and the spring's energy
+    double rubbed = 0;                          // J, taken by friction
+    Vector tilt{};
+    bool flows = false;
+  };
+
+  /// A contact beyond yield's onset: its state after the step, and `tried`, the elastic one.
+  template <class DentAt, class Dent>
+  State yield(const DentAt& dent_at, const Dent& start, Memory& held, const Step& step, State& tried) const
+  {
+    held.tilt = sum(held.tilt, step.turn);
+    if (!(held.stiffness > 0)) {
+      // parted: beyond this tilt the dent's rim would touch, around which the body is a sphere again
+      const double tilt = size(held.tilt), rim = (start.depth - start.residual) / start.radius;
+      if (tilt > rim) held.tilt = times(held.tilt, rim / tilt);
+    }
+    const Elastic first = elastic(start, step, dot(held.tilt, held.tilt));
+    if (!(first.force > 0)) {
+      held.pull = {}, held.stiffness = 0;
+      return {.depth = start.depth, .tilt = held.tilt};
+    }
+    const double softened = held.stretch(step.slide, bodies_.stiffness * first.radius);
+    const double k = held.stiffness, stretched = size(held.pull), a = start.radius, friction = elastic_.pair.friction;
+    const Vector along = unit(held.pull);
+    const double shift = bodies_.asymmetry * pressure_shift * first.radius / first.stiffness;  // of the axis, per T
+    const auto leaning = [&](const Vector& tilt, double pull) { return sum(tilt, along, shift * pull); };
+    const auto segment_of = [&](const Elastic& e, double radius, double lean) {
+      return DiscSegment::with_centroid(e.force > 0 ? e.stiffness / (e.force * radius) * lean : 0.0);
+    };
+    const double cut = std::min(stretched, friction * first.force);
+    const Vector lean = leaning(held.tilt, cut);
+    const DiscSegment segment = segment_of(first, a, size(lean));
+    const double strength = shear_strength(held, step, first.radius, a, segment.area);
+    const auto state_of = [&](const Elastic& e, const auto& dent, double area, double pull) {
+      return State{.force = e.force,
+                   .moment = e.stiffness - e.force * (step.radius - dent.residual),
+                   .depth = dent.depth,
+                   .excess = e.force - area * ShearYield::share(std::min(1.0, pull / strength)) * dent.force,
+                   .pull = pull,
+                   .untilted = e.untilted,
+                   .energy = e.energy + 0.5 * pull * pull / k};
+    };
+    tried = state_of(first, start, segment.area, cut);
+    tried.tilt = held.tilt;
+    tried.rubbed = softened;
+    if (cut <= strength && tried.excess <= tolerance * start.force) {
+      tried.rubbed += cut * (stretched - cut) / k;
+      held.pull = times(along, cut);
+      return tried;
+    }
+    tried.pull = stretched, tried.energy = first.energy + 0.5 * stretched * stretched / k;
+
+    // `moved`: volume of the flow over the contact's area; turning gives `back` to the spring
+    const auto flowed = [&](double depth, const Vector& tilt, double moved, double back, const auto& area_of) {
+      const auto dent = dent_at(std::max(depth, step.overlap));
+      const Elastic e = elastic(dent, step, dot(tilt, tilt));
+      const double give = moved * start.force / strength, spring = std::max(0.0, stretched + k * back);
+      const double stuck = strength * ShearYield::share_of_strength(spring, strength, k * give);
+      const double pull = std::min(stuck, friction * e.force), q = std::min(pull / strength, 1.0 - 1e-12);
+      State now = state_of(e, dent, area_of(e, dent.radius, pull), pull);
+      now.slid = give * ShearYield::fall(q / std::sqrt(1.0 - q * q));
+      now.rubbed = pull * std::max(0.0, (stretched - pull) / k - now.slid + back);
+      now.tilt = tilt;
+      now.flows = true;
+      return now;
+    };
+    // the whole contact moves in
+    const double from = held.depth;
+    const Vector upright = times(along, -shift * std::min(cut, strength));
+    const auto corner = [&](double deeper) {
+      return flowed(from + deeper, upright, deeper, 0.0, [](const Elastic&, double, double) { return 1.0; });
+    };
+    const double needed = a * size(sum(held.tilt, upright, -1.0));
+    State end = corner(needed);
+    if (end.excess >= 0) {
+      end = root(corner, needed, end, std::max({needed, std::abs(step.deepening), 1e-6 * from}), start.force);
+    } else {
+      // a segment moves in
+      const Vector toward = unit(lean);
+      const double rolled = dot(step.turn, toward);
+      const DentFlow flow = DentFlow::of(segment, rolled > 0 ? -step.deepening / (a * rolled) : -1.0);
+      const double back = bodies_.asymmetry * pressure_shift * a * flow.turning * dot(along, toward);
+      const auto slice = [&](double amount) {
+        const Vector tilt = sum(held.tilt, toward, -flow.turning * amount);
+        return flowed(from + flow.deepening * a * amount, tilt, flow.mean * a * amount, back * amount,
+                      [&](const Elastic& e, double radius, double pull) {
+                        return segment_of(e, radius, std::max(0.0, dot(leaning(tilt, pull), toward))).area;
+                      });
+      };
+      const double most = size(lean) / flow.turning;
+      const State none = slice(0.0), last = slice(most);
+      if (last.excess > 0)
+        end = root(corner, 0.0, corner(0.0), needed, start.force);
+      else
+        end = none.excess > 0 ? between(slice, 0.0, none, most, last, start.force) : none;
+    }
+    held.sheared += end.slid;
+    held.pull = times(along, end.pull), held.tilt = end.tilt;
+    return end;
+  }
+
+  /// T_0, N: of the present contact, and of what bears of the whole one.
+  double shear_strength(const Memory& held, const Step& step, double present, double whole, double bearing) const
+  {
+    const double ratio = whole / (step.radius * per_radius_);
+    const double strain = std::hypot(tabor_strain * ratio, shear_strain * held.sheared / present);
+    return widening * (1.0 - ratio * ratio) * flow_stress_.at(strain) / std::sqrt(3.0) * M_PI *
+           std::min(present * present, bearing * whole * whole);
+  }
+
+  /// Where the excess, which falls, is 0: from `low`, where it is positive, by steps from `width` on.
+  template <class Path>
+  static State root(const Path& path, double low, State at_low, double width, double unit)
+  {
+    for (int doubling = 0; doubling < 60; ++doubling, width *= 3.0) {
+      const State at = path(low + width);
+      if (at.excess <= 0) return between(path, low, at_low, low + width, at, unit);
+      low += width, at_low = at;
+    }
+    return at_low;
+  }
+  /// The same between two points, by the rule of Illinois.
+  template <class Path>
+  static State between(const Path& path, double low, const State& at_low, double high, const State& at_high,
+                       double unit)
+  {
+    double left = at_low.excess, right = at_high.excess;
+    State at = at_high;
+    int side = 0;
+    for (int step = 0; step < 60 && std::abs(at.excess) > tolerance * unit; ++step) {
+      const double middle = left > right ? (low * right - high * left) / (right - left) : 0.5 * (low + high);
+      if (!(middle > low && middle < high)) break;
+      at = path(middle);
+      if (at.excess > 0) {
+        low = middle, left = at.excess;
+        if (side == 1) right *= 0.5;
+        side = 1;
+      } else {
+        high = middle, right = at.excess;
+        if (side == -1) left *= 0.5;
+        side = -1;
+      }
+    }
+    return at;
+  }
+
+  Spring elastic_;      // of a body that does not yield
+  BodiesInShear bodies_;
+  FlowStress flow_stress_;
+  double e_star_ = 0, per_radius_ = 1, stretch_ = 1;
+};
+
+}  // namespace granulaw

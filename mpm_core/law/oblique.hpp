@@ -1,0 +1,39 @@
+#pragma once
+
+#include "contact/plastic_shear.hpp"
+#include "law/law.hpp"
+
+namespace granulaw {
+
+/// A sphere thrown at a rigid wall without spin. Tangential: along the velocity before; spin positive as of a
+/// sphere that rolls that way.
+struct ObliqueThrow
+{
+  double radius, mass, velocity, tangential_velocity;  ///< m, kg, m/s (normal, approach), m/s
+};
+
+struct ObliqueAnswer
+{
+  double restitution = 0;         ///< of the normal velocity
+  double tangential = 0;          ///< m/s, of the centre after
+  double spin = 0;                ///< rad/s after
+  double impulse_normal = 0;      ///< N s
+  double impulse_tangential = 0;  ///< N s, against the tangential velocity
+  double overlap_max = 0;         ///< m
+  double dissipated = 0;          ///< J, of the ledger
+};
+
+/// Tangential laws of a particle code.
+enum class TangentialKind {
+  history,  ///< LIGGGHTS's: Mindlin's spring, cut at friction times the normal force
+  plastic   ///< PlasticShear
+};
+
+/// An oblique impact by the pair's law of a sphere on the rigid wall, as LIGGGHTS integrates one contact: velocity
+/// Verlet, forces at the velocities of half a step. `friction`: Coulomb's coefficient; `damping_ratio`: of the
+/// spring, part of critical, in `plastic` of contacts that never yielded; `steps`: in Hertz's contact time. Throws
+/// Error where the impact leaves the law's overlaps or speeds.
+ObliqueAnswer replay_oblique(const PairLaw& pair, const ObliqueThrow& thrown, TangentialKind kind, double friction,
+                             double damping_ratio, int steps = 2000);
+
+}  // namespace granulaw

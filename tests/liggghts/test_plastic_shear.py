@@ -1,0 +1,154 @@
+"""`tangential plastic` in LIGGGHTS: the library's integrator, invariance, restart, ranks, stretch, books, clumps, and what is refused."""
+import json
+import math
+import os
+import subprocess
+import unittest
+
+from harness import POWDER, Deck, Material, head, properties, sphere_mass, worst
+
+MPM = os.environ["GRANULAW_MPM"]
+R = 1e-3
+MASS = sphere_mass(R, POWDER.density)
+RIGID = Material("rigid", 1500.0, 1e30, 0.3, 1e30)  # a wall of this type shears as little as it is pressed in
+TOML = ("[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = 0.3\nyield_stress = 1e8\n"
+        "[particle.grain]\nradius = 1e-3\nmaterial = \"powder\"\n")
+
+
+def step_of(speed, steps):
+    """s: Hertz's contact time over the steps."""
+    return 2.87 * (MASS**2 / (POWDER.e_star**2 * R * speed)) ** 0.2 / steps
+
+
+class PlasticShear(Deck):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        import tempfile
+        cls.shared = tempfile.TemporaryDirectory(prefix="granulaw-oblique-")
+        cls.materials, cls.atlas_law = f"{cls.shared.name}/m.toml", f"{cls.shared.name}/law.h5"
+        with open(cls.materials, "w") as file:
+            file.write(TOML)
+        subprocess.run([MPM, "table", cls.materials, "--depth", "0.2", "-o", cls.atlas_law], check=True, capture_output=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.shared.cleanup()
+        super().tearDownClass()
+
+    def style(self, tangential="plastic", words="", rolling=""):
+        return f"model mpm tangential {tangential} {rolling}", f"law {self.atlas_law} materials powder rigid {words}"
+
+    def begin(self, friction, tangential="plastic", words="", rolling="", half=0.05, **given):
+        models, own = self.style(tangential, words, rolling)
+        return head(types=2, half=half, **given) + properties([POWDER, RIGID], friction) + f"pair_style gran {models} {own}\npair_coeff * *\n"
+
+    def wall(self, tangential="plastic", rolling=""):
+        return f"fix w all wall/gran model mpm tangential {tangential} {rolling} primitive type 2 zplane 0.0\n"
+
+    def thrown(self, speed, angle, friction, steps, tangential="plastic", words="", run=None, turn=0.0, stretch=1.0):
+        """A sphere flies at the wall from contact; `turn`: of its direction in the plane of the wall, degrees."""
+        along = speed * math.tan(math.radians(angle))
+        x, y = along * math.cos(math.radians(turn)), along * math.sin(math.radians(turn))
+        return (self.begin(friction, tangential, words) + self.wall(tangential) +
+                f"create_atoms 1 single 0 0 {R!r} units box\nset group all diameter {2 * R!r} density {POWDER.density}\n"
+                f"velocity all set {x!r} {y!r} {-speed!r}\nfix i all nve/sphere\ntimestep {stretch * step_of(speed, steps)!r}\n" +
+                (run or f"run {int(2.5 * steps)}\n") + self.motion())
+
+    @staticmethod
+    def motion():
+        text = "".join(f"variable {q} equal {q}[1]\n" for q in ("vx", "vy", "vz"))
+        for axis in "xyz":
+            text += f"compute o{axis} all property/atom omega{axis}\ncompute p{axis} all reduce sum c_o{axis}\nvariable o{axis} equal c_p{axis}\n"
+        return text + ("thermo_style custom step c_px c_py c_pz\nrun 0\n"
+                       'print "END ${vx} ${vy} ${vz} ${ox} ${oy} ${oz}"\n')
+
+    def end(self, deck, **given):
+        return self.result(self.run_deck(deck, **given), "END")
+
+    def test_an_impact_is_the_librarys(self):
+        """The same pieces, integrated alike: to rounding over some hundred steps, unless the contact begins a step later."""
+        for speed, angle, friction in ((13, 45, 0.3), (13, 70, 0.6), (39, 45, 0.6)):
+            for tangential in ("history", "plastic"):
+                told = json.loads(subprocess.run(
+                    [MPM, "oblique", self.materials, "--particle", "grain", "--velocity", str(speed), "--angle", str(angle), "--friction", str(friction),
+                     "--tangential", tangential, "--law", self.atlas_law, "--steps", "50", "--json"], check=True, capture_output=True, text=True).stdout)
+                vx, _, vz, _, spin, _ = self.end(self.thrown(speed, angle, friction, 50, tangential))
+                along = speed * math.tan(math.radians(angle))
+                self.assertAlmostEqual(vz / speed, told["e"], delta=1e-6)
+                self.assertAlmostEqual(vx / along, told["e_tangential"], delta=1e-6)
+                self.assertAlmostEqual(spin / told["spin_after_rad_s"], 1.0, delta=1e-6)
+
+    def test_no_direction_is_preferred(self):
+        straight = self.end(self.thrown(39, 45, 0.3, 100))
+        turned = self.end(self.thrown(39, 45, 0.3, 100, turn=37.0))
+        c, s = math.cos(math.radians(37)), math.sin(math.radians(37))
+        back = [c * turned[0] + s * turned[1], -s * turned[0] + c * turned[1], turned[2],
+                c * turned[3] + s * turned[4], -s * turned[3] + c * turned[4], turned[5]]
+        scale = [39.0] * 3 + [39.0 / R] * 3
+        self.assertLess(worst(abs(a - b) / u for a, b, u in zip(straight, back, scale)), 1e-9)  # rounding
+
+    def test_stretch_keeps_the_velocities_of_an_impact(self):
+        """A contact that moves S times as far in S times the time ends with the same velocities; the lever of the deck's overlap differs."""
+        plain, stretched = self.end(self.thrown(5, 45, 0.3, 100)), self.end(self.thrown(5, 45, 0.3, 100, words="stretch 3", stretch=3.0))
+        for k, unit in ((0, 5.0), (2, 5.0), (4, 5.0 / R)):
+            self.assertAlmostEqual(stretched[k] / unit, plain[k] / unit, delta=0.01)
+
+    def test_a_restart_within_the_contact_goes_on_as_without(self):
+        speed, steps = 39, 60
+        whole = self.end(self.thrown(speed, 60, 0.3, steps, run="run 50\nrun 100\n"))
+        begin = self.thrown(speed, 60, 0.3, steps, run="run 50\nwrite_restart half.rest\n").split("variable vx")[0]
+        self.run_deck(begin)
+        models, own = self.style()
+        again = (head(types=2).split("region")[0] + "read_restart half.rest\nneighbor 0.0025 bin\nneigh_modify delay 0\n" + properties([POWDER, RIGID], 0.3) +
+                 f"pair_style gran {models} {own}\npair_coeff * *\n" + self.wall() + f"fix i all nve/sphere\ntimestep {step_of(speed, steps)!r}\nrun 100\n" + self.motion())
+        for a, b in zip(whole, self.end(again)):
+            self.assertAlmostEqual(a, b, delta=1e-9 * speed / R)
+
+    def gas(self, ranks, run="run 4000\n", tangential="plastic", words="energy on"):
+        """Spheres with friction in a box of periodic sides, that collide at some 100 V_y."""
+        text = self.begin(0.4, tangential, words, half=5 * R, boundary="p p p", skin=0.4 * R)
+        spacing = 2.5 * R
+        k = 0
+        for a in range(4):
+            for b in range(4):
+                for c in range(4):
+                    k += 1
+                    place = " ".join(repr(spacing * (q - 1.5) + 0.2 * R * math.sin(7.3 * k + q)) for q in (a, b, c))
+                    text += f"create_atoms 1 single {place} units box\n"
+        text += f"set group all diameter {2 * R!r} density {POWDER.density}\n"
+        for n in range(1, 65):
+            v = [20 * math.sin(n * f) for f in (1.7, 2.3, 3.1)]
+            text += f"set atom {n} vx {v[0]!r} vy {v[1]!r} vz {v[2]!r}\n"
+        text += f"fix i all nve/sphere\nfix s all granulaw/stats file stats.json\ntimestep {step_of(20, 200)!r}\ncompute k all ke\ncompute r all erotate/sphere\n"
+        text += "variable e equal c_k+c_r\nthermo_style custom step atoms c_k c_r\nthermo 1000\nrun 0\nvariable b equal ${e}\n"
+        return text + run + 'print "END ${b} ${e}"\n'
+
+    def test_the_books_of_a_gas(self):
+        before, after = self.end(self.gas(1))
+        said = json.loads((self.folder / "stats.json").read_text())
+        energy = said["energy"] if "energy" in said else said
+        self.assertLess(after, 0.8 * before)
+        self.assertGreater(energy["shear_dissipation_J"], 0)
+        lost = energy["normal_dissipation_J"] + energy["shear_dissipation_J"] + energy["other_work_J"] + energy["elastic_energy_J"]
+        self.assertAlmostEqual((before - after) / before, lost / before, delta=1e-3)
+
+    def test_ranks_agree(self):
+        """Two ranks sum forces in another order; over some collisions each that differs by rounding."""
+        one, two = self.end(self.gas(1, "run 600\n")), self.end(self.gas(2, "run 600\n"), ranks=2)
+        self.assertAlmostEqual(one[1] / one[0], two[1] / two[0], delta=1e-9)
+
+    def refused(self, deck, *parts):
+        text = self.run_deck(deck, expect_failure=True)
+        for part in parts:
+            self.assertIn(part, text)
+
+    def test_refusals(self):
+        thornton = self.begin(0.3).replace("model mpm tangential plastic  law " + self.atlas_law + " materials powder rigid ", "model thornton tangential plastic ")
+        self.refused(thornton + "run 0\n", "'tangential plastic' is for 'model mpm'")
+        hertz = thornton.replace("model thornton", "model hertz")
+        self.refused(hertz + "run 0\n", "'tangential plastic' is for 'model mpm'")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
