@@ -39,6 +39,7 @@ class EnergyTally
   ParticleColumns per_atom;                   ///< `energies`; false: not there yet
   ParticleColumns dissipated_energy;          ///< `lost`; false: not asked for
   double law_force = 0;                       ///< N, of the law alone, in the contact computed last
+  double law_force_behind = 0;  ///< N, the same where the next step begins: a tangential law may change the depth
   ContactStatistics::Pair* counts = nullptr;  ///< of that contact
 
   /// Adds the properties where they are asked for. Collective.
@@ -95,7 +96,7 @@ class EnergyTally
       counts->other_work += (sidata.is_wall || sidata.j < nlocal ? 1.0 : 0.5) * taken;
       share(sidata, other_work, taken, nlocal);
     }
-    for (int c = 0; c < 3; ++c) last[c] = force[c], last[3 + c] = couple[c];
+    for (int c = 0; c < 3; ++c) last[c] = force[c] + (law_force - law_force_behind) * n[c], last[3 + c] = couple[c];
   }
 
  private:

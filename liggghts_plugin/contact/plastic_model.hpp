@@ -183,8 +183,12 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   /// Books a depth that the tangential law changed from `from`.
   void change_depth(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double from) const
   {
-    const double* const kept = kept_of(sidata.contact_history);
-    counts_.change_depth(sidata, entry, r_eff, State::impact_overlap(kept), from, State::largest(kept));
+    double* const kept = kept_of(sidata.contact_history);
+    const double latched = State::impact_overlap(kept), to = State::largest(kept);
+    counts_.change_depth(sidata, entry, r_eff, latched, from, to);
+    if (energy_)
+      energy_->law_force_behind = entry.contact.force(r_eff, sidata.deltan, to, latched, kept + State::own) *
+                                  (sidata.is_wall ? sidata.area_ratio : 1.0);
   }
   /// Books the mechanisms in the statistics; their work is no other work.
   void book(const SurfacesIntersectData& sidata, const Entry& entry, const Ledger& books) const
@@ -279,7 +283,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
                                                  double r_eff, double delta_max, double impact_overlap,
                                                  double law_force)
   {
-    energy_->law_force = law_force * (sidata.is_wall ? sidata.area_ratio : 1.0);
+    energy_->law_force = energy_->law_force_behind = law_force * (sidata.is_wall ? sidata.area_ratio : 1.0);
     energy_->counts = entry.counts;
     if (sidata.computeflag)
       energy_->share(sidata, EnergyTally::stored,

@@ -67,6 +67,12 @@ struct PairUnits
   }
 };
 
+/// Overlap that a reversal recovers, over F_m/(2 E* a_m); `radius`: a_m in the curve's unit.
+inline double recovered_overlap(const Reversal& reversal, double radius)
+{
+  return 1.5 * radius / (reversal.per_span * reversal.top());
+}
+
 /// The law: force, stiffness and contact radius of a pair at overlap `delta` (m, > 0) whose largest overlap
 /// so far is `delta_max` (m) and which latched X. No allocation, no exception.
 inline Answer answer(const Curve& curve, const PairUnits& units, double delta, double delta_max,
@@ -82,11 +88,11 @@ inline Answer answer(const Curve& curve, const PairUnits& units, double delta, d
   const Reversal reversal = curve.reversal(x_max, latched);
   const double u = reversal.part(x);
   if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max, Answer::Branch::apart};
-  // a = a_m phi'(u)/phi'(1): dF/dx = 2 E* a keeps its ratio
-  const double root = std::sqrt(u), slope = reversal.slope_at(u, root);
-  return {force * reversal.force_at(u, root), force * per_length * slope * reversal.per_span,
-          radius * curve.radius(x_max) * slope / reversal.slope_at(1.0, 1.0), delta_max,
-          Answer::Branch::unloading};
+  const double root = std::sqrt(u), slope = reversal.slope_at(u, root), f = reversal.force_at(u, root);
+  const double top = curve.radius(x_max);
+  const DentUnloading dent = DentUnloading::of(recovered_overlap(reversal, top));
+  return {force * f, force * per_length * slope * reversal.per_span,
+          radius * top * std::sin(dent.angle(f / reversal.top())), delta_max, Answer::Branch::unloading};
 }
 
 inline Answer answer(const Curve& curve, const PairMapping& mapping, double r_eff, double delta,

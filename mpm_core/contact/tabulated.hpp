@@ -138,7 +138,7 @@ struct Tabulated
     return force_scale * r_eff * r_eff / length * granulaw::planned_stiffness(*curve, delta / length);
   }
 
-  /// What un- and reloading below a depth takes: of the real contact, in the caller's units.
+  /// Un- and reloading below a depth, of the real contact, in the caller's units.
   struct Dent
   {
     Reversal back;
@@ -156,7 +156,6 @@ struct Tabulated
     return {back,  per_length, unit, depth, unit * back.top(), mapping.radius(r_eff) * curve->radius(x),
             back.residual() / per_length};
   }
-
   /// m, unit of contact radii over R*.
   double radius_unit() const { return mapping.radius(1.0); }
   double stretch() const { return scale.stretch; }

@@ -23,7 +23,7 @@ struct ContactMotion : NormalMotion
   Vector turn{};     ///< rad/s, (omega_i - omega_j) x normal: rolling of i, in the direction that it rolls
 };
 
-/// What a tangential law does to body i; j gets the opposite of both.
+/// Force and couple of a tangential law on body i; j gets the opposite of both.
 struct Grip
 {
   Vector force{};   ///< N, along the surface

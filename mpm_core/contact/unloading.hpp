@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace granulaw {
@@ -59,6 +60,44 @@ struct UnloadingShape
   }
   /// The A beyond which exponent_of(work, A) is over largest_exponent(A).
   static double largest_hertz_share_of(double work) { return (2.5 - exponent_of(work, 0.0)) / 0.45; }
+};
+
+/// Contact radius of a dent that unloads elastically. The pressure at full load is w times Hertz's half ellipse and
+/// 1 - w times a uniform one. Each unloads by shrinking as a stack of flat punches, in the same radii, so that their
+/// forces add (Mesarovic & Johnson, J. Mech. Phys. Solids 48, 2000, for the uniform one):
+///     F/F_m = w c^3 + (1 - w) (2 t - sin 2 t)/pi,   c = a/a_m = sin t.
+/// The overlap recovered is F_m/(2 E* a_m) times 3/2 of Hertz's and 4/pi of the uniform pressure: it says w.
+struct DentUnloading
+{
+  double hertz = 1;  ///< w
+
+  /// `recovered`: (delta_m - delta_r) 2 E* a_m/F_m. A stiffer dent than that of the uniform pressure counts as it.
+  static DentUnloading of(double recovered)
+  {
+    constexpr double uniform = 4.0 / M_PI, all = 1.5;
+    return {std::min(std::max((recovered - uniform) / (all - uniform), 0.0), 1.0)};
+  }
+  double force(double t) const
+  {
+    const double c = std::sin(t);
+    return hertz * c * c * c + (1.0 - hertz) * (2.0 * t - std::sin(2.0 * t)) / M_PI;
+  }
+  /// dF/dt over sin^2 t.
+  double slope(double t) const { return 3.0 * hertz * std::cos(t) + (1.0 - hertz) * 4.0 / M_PI; }
+  /// t at F/F_m from 0 to 1, by Newton's method: asin(a/a_m).
+  double angle(double force_share) const
+  {
+    if (!(force_share > 0.0)) return 0.0;
+    if (force_share >= 1.0) return 0.5 * M_PI;
+    // a small share: F = (w + (1 - w) 4/(3 pi)) t^3
+    double t = std::min(std::cbrt(force_share / (hertz + (1.0 - hertz) * 4.0 / (3.0 * M_PI))), 0.5 * M_PI);
+    for (int newton = 0; newton < 12; ++newton) {
+      const double c = std::sin(t), change = (force(t) - force_share) / (c * c * slope(t));
+      t = std::min(std::max(t - change, 0.1 * t), 0.5 * M_PI);
+      if (std::abs(change) < 1e-12) break;
+    }
+    return t;
+  }
 };
 
 }  // namespace granulaw

@@ -127,11 +127,13 @@ class PlasticShear(Deck):
     def test_the_books_of_a_gas(self):
         before, after = self.end(self.gas(1))
         said = json.loads((self.folder / "stats.json").read_text())
-        energy = said["energy"] if "energy" in said else said
+        books = said["pair"]
         self.assertLess(after, 0.8 * before)
-        self.assertGreater(energy["shear_dissipation_J"], 0)
-        lost = energy["normal_dissipation_J"] + energy["shear_dissipation_J"] + energy["other_work_J"] + energy["elastic_energy_J"]
-        self.assertAlmostEqual((before - after) / before, lost / before, delta=1e-3)
+        self.assertGreater(books["shear_dissipation_J"], 0)
+        elastic = said["series"]["elastic_J"][-1]
+        lost = books["normal_dissipation_J"] + books["shear_dissipation_J"] + books["other_work_J"] + elastic
+        # of the first order in the step: 0.0015 measured here, 0.0005 and 0.0002 with half and a quarter of it
+        self.assertAlmostEqual((before - after) / before, lost / before, delta=2e-3)
 
     def test_ranks_agree(self):
         """Two ranks sum forces in another order; over some collisions each that differs by rounding."""

@@ -43,7 +43,7 @@ void write_heading(std::ostream& out, const Law& law, const ExportRequest& r)
          "0;\n"
          "#   phi = A u^1.5 + B u^2 + C u^2.5, A = foot, B = 5 - 2 A - 2 n, C = A + 2 n - 4, n = "
          "exponent,\n"
-         "#   d_r = residual_overlap of the row at d_m; contact radius a(d_m) phi'(u)/n\n"
+         "#   d_r = residual_overlap of the row at d_m; contact radius: docs/theory/law.md\n"
          "# while yielded = 0 at d_m the contact is elastic: loading, unloading and reloading are one curve\n"
          "# d_m is reset when the overlap ends; rows are uniform in overlap^(1/4): interpolate in that\n";
   if (r.dimensionless)

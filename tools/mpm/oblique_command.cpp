@@ -158,8 +158,8 @@ void define(Options& command)
 
 extern const Command oblique_command{
     "oblique",
-    "A sphere without spin hits a rigid wall obliquely: e, tangential velocity and spin after, by LIGGGHTS's\n"
-    "tangential history, by tangential plastic, or by the solver.\n"
+    "A sphere without spin hits a rigid wall obliquely: e, tangential velocity and spin after.\n"
+    "By LIGGGHTS's tangential history, by tangential plastic, or by the solver.\n"
     "Example: mpm oblique materials.toml --particle grain --velocity 1.0 --angle 45 --friction 0.3",
     of_oblique::define};
 
