@@ -57,5 +57,5 @@ evaluates, reads and writes contact laws, granulaw::shape, bodies of any shape,
 granulaw::solver, the material point method, and granulaw::characterise, which
 makes laws from runs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "granulaw (= ${PROJECT_VERSION}), libfmt-dev, libeigen3-dev, libgsl-dev, libhdf5-dev, libtomlplusplus-dev")
+    "granulaw (= ${PROJECT_VERSION}), libfmt-dev, libeigen3-dev, libhdf5-dev, libtomlplusplus-dev")
 include(CPack)

@@ -1,8 +1,7 @@
 #include "calibrate/calibrate.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 
@@ -58,7 +57,7 @@ void judge(Calibration& c, const CalibrationProblem& problem)
   c.p_value = c.interval_scale = 1;
   if (c.degrees_of_freedom <= 0) return;
   const auto degrees = static_cast<double>(c.degrees_of_freedom);
-  c.p_value = gsl_cdf_chisq_Q(c.chi_squared, degrees);
+  c.p_value = boost::math::gamma_q(degrees / 2, c.chi_squared / 2);
   // the variance of an estimate by a loss of slope psi is that of psi over psi' (Huber, Ann. Math. Statist.
   // 35, 1964); the curvature of the summed loss has one psi' of it already
   if (c.p_value < unlikely) c.interval_scale = c.chi_squared / degrees / scatter.share_within;

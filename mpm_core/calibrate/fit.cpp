@@ -1,74 +1,55 @@
 #include "calibrate/fit.hpp"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_multifit_nlinear.h>
-
 #include <algorithm>
-#include <memory>
-
-#include "base/error.hpp"
+#include <unsupported/Eigen/NonLinearOptimization>
 
 namespace granulaw {
 
 namespace {
 
-/// The free unknowns of a problem, for GSL.
+/// The free unknowns of a problem, as Eigen's minimiser asks for them. A negative answer ends the search.
 struct FreeProblem
 {
   const CalibrationProblem& problem;
   Coordinates q;                   ///< fixed unknowns keep these
   std::vector<Eigen::Index> free;  ///< the others' places
-  Eigen::Index rows;
 
-  Coordinates at(const gsl_vector* x) const
+  Coordinates at(const Eigen::VectorXd& x) const
   {
     Coordinates full = q;
-    for (std::size_t k = 0; k < free.size(); ++k) full[free[k]] = gsl_vector_get(x, k);
+    full(free) = x;
     return full;
   }
-};
 
-int evaluate(const gsl_vector* x, void* data, gsl_vector* f)
-{
-  const auto& problem = *static_cast<const FreeProblem*>(data);
-  const Coordinates q = problem.at(x);
-  if (!q.allFinite()) return GSL_EDOM;  // a step along a direction that nothing determines
-  const Eigen::VectorXd r = problem.problem.residuals(q);
-  if (!r.allFinite()) return GSL_EDOM;
-  for (Eigen::Index k = 0; k < r.size(); ++k) gsl_vector_set(f, static_cast<std::size_t>(k), r[k]);
-  return GSL_SUCCESS;
-}
-
-/// Forward differences over the unknowns' own steps: wide against what tables leave of the model's
-/// smoothness.
-Eigen::MatrixXd differences(const FreeProblem& p, const Coordinates& q)
-{
-  const Eigen::VectorXd base = p.problem.residuals(q);
-  Eigen::MatrixXd jacobian(base.size(), static_cast<Eigen::Index>(p.free.size()));
-  for (std::size_t k = 0; k < p.free.size(); ++k) {
-    const double step = p.problem.unknowns()[static_cast<std::size_t>(p.free[k])].step;
-    Coordinates moved = q;
-    moved[p.free[k]] += step;
-    jacobian.col(static_cast<Eigen::Index>(k)) = (p.problem.residuals(moved) - base) / step;
+  using Scalar = double;
+  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const
+  {
+    if (!x.allFinite()) return -1;  // a step along a direction that nothing determines
+    residuals = problem.residuals(at(x));
+    return residuals.allFinite() ? 0 : -1;
   }
-  return jacobian;
-}
+  int df(const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian) const
+  {
+    jacobian = differences(at(x));
+    return jacobian.allFinite() ? 0 : -1;
+  }
+  int inputs() const { return static_cast<int>(free.size()); }
+  int values() const { return static_cast<int>(problem.residuals(q).size()); }
 
-int derive(const gsl_vector* x, void* data, gsl_matrix* j)
-{
-  const auto& problem = *static_cast<const FreeProblem*>(data);
-  const Eigen::MatrixXd jacobian = differences(problem, problem.at(x));
-  if (!jacobian.allFinite()) return GSL_EDOM;
-  for (Eigen::Index row = 0; row < jacobian.rows(); ++row)
-    for (Eigen::Index column = 0; column < jacobian.cols(); ++column)
-      gsl_matrix_set(j, static_cast<std::size_t>(row), static_cast<std::size_t>(column),
-                     jacobian(row, column));
-  return GSL_SUCCESS;
-}
-
-struct FreeWorkspace
-{
-  void operator()(gsl_multifit_nlinear_workspace* w) const { gsl_multifit_nlinear_free(w); }
+  /// Forward differences over the unknowns' own steps: wide against what tables leave of the model's
+  /// smoothness.
+  Eigen::MatrixXd differences(const Coordinates& place) const
+  {
+    const Eigen::VectorXd base = problem.residuals(place);
+    Eigen::MatrixXd jacobian(base.size(), static_cast<Eigen::Index>(free.size()));
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const double step = problem.unknowns()[static_cast<std::size_t>(free[k])].step;
+      Coordinates moved = place;
+      moved[free[k]] += step;
+      jacobian.col(static_cast<Eigen::Index>(k)) = (problem.residuals(moved) - base) / step;
+    }
+    return jacobian;
+  }
 };
 
 }  // namespace
@@ -76,35 +57,23 @@ struct FreeWorkspace
 Minimum minimise(const CalibrationProblem& problem, const Coordinates& start, const std::vector<bool>& fixed,
                  int most_steps)
 {
-  gsl_set_error_handler_off();
-  FreeProblem free{problem, start, {}, 0};
+  FreeProblem free{problem, start, {}};
   for (std::size_t k = 0; k < fixed.size(); ++k)
     if (!fixed[k]) free.free.push_back(static_cast<Eigen::Index>(k));
-  free.rows = problem.residuals(start).size();
   Minimum found{start, problem.residuals(start).squaredNorm(), {}};
   if (free.free.empty()) return found;
 
-  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  settings.trs = gsl_multifit_nlinear_trs_lm;
-  settings.scale = gsl_multifit_nlinear_scale_more;
-  settings.solver =
-      gsl_multifit_nlinear_solver_svd;  // what the data do not determine leaves the matrix singular
-  gsl_multifit_nlinear_fdf functions{};
-  functions.f = evaluate, functions.df = derive;
-  functions.n = static_cast<std::size_t>(free.rows), functions.p = free.free.size();
-  functions.params = &free;
-  const std::unique_ptr<gsl_multifit_nlinear_workspace, FreeWorkspace> workspace(
-      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, functions.n, functions.p));
-  if (!workspace) fail("calibrate", "not enough memory for the fit");
-  gsl_vector* x = gsl_vector_alloc(functions.p);
-  for (std::size_t k = 0; k < functions.p; ++k) gsl_vector_set(x, k, start[free.free[k]]);
-  int why = 0;
-  gsl_multifit_nlinear_init(x, &functions, workspace.get());
-  gsl_multifit_nlinear_driver(static_cast<std::size_t>(most_steps), 1e-7, 1e-10, 1e-10, nullptr, nullptr,
-                              &why, workspace.get());
-  found.q = free.at(gsl_multifit_nlinear_position(workspace.get()));
-  gsl_vector_free(x);
-  found.cost = problem.residuals(found.q).squaredNorm();
+  using namespace Eigen::LevenbergMarquardtSpace;
+  Eigen::VectorXd x = start(free.free);
+  Eigen::LevenbergMarquardt<FreeProblem> search(free);
+  search.parameters.xtol = 1e-7, search.parameters.ftol = search.parameters.gtol = 1e-10;
+  search.parameters.factor = 0.3;  // of the scaled unknowns: the first step
+  Status status = search.minimizeInit(x);
+  for (int step = 0; step < most_steps && (status == NotStarted || status == Running); ++step) status = search.minimizeOneStep(x);
+  if (!x.allFinite()) return found;
+  const Coordinates end = free.at(x);
+  const double cost = problem.residuals(end).squaredNorm();
+  if (cost < found.cost) found.q = end, found.cost = cost;
   return found;
 }
 
@@ -139,9 +108,9 @@ Minimum polished(const CalibrationProblem& problem, const Coordinates& start)
 
 Eigen::MatrixXd jacobian_at(const CalibrationProblem& problem, const Coordinates& q)
 {
-  FreeProblem all{problem, q, {}, 0};
+  FreeProblem all{problem, q, {}};
   for (std::size_t k = 0; k < problem.count(); ++k) all.free.push_back(static_cast<Eigen::Index>(k));
-  return differences(all, q);
+  return all.differences(q);
 }
 
 Eigen::MatrixXd covariance(const Minimum& minimum)

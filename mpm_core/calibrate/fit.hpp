@@ -4,7 +4,7 @@
 
 namespace granulaw {
 
-/// Least squares by GSL's trust region (gsl_multifit_nlinear, Levenberg-Marquardt steps) from `start`; the
+/// Least squares by MINPACK's Levenberg-Marquardt steps in a trust region (Eigen's port of lmder) from `start`; the
 /// unknowns for which `fixed` is true stay there.
 Minimum minimise(const CalibrationProblem& problem, const Coordinates& start, const std::vector<bool>& fixed,
                  int most_steps = 60);

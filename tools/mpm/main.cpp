@@ -6,7 +6,6 @@
 // Ctrl-C. Under mpirun all ranks end with the largest of theirs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gsl/gsl_errno.h>
 #include <hdf5.h>
 
 #include <CLI/CLI.hpp>
@@ -184,7 +183,6 @@ Outcome run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  gsl_set_error_handler_off();  // its own prints and aborts
   // HDF5 prints at exit after it was fed a damaged file; every file is closed by its owner anyway.
   H5dont_atexit();
   for (int k = 0; k < argc; ++k) command_line += (k ? " " : "") + std::string(k ? argv[k] : "mpm");
