@@ -78,9 +78,10 @@ struct Reversal
     return u * root * ((term[0] + root * term[1]) + u * term[2]);
   }
   /// dF/du; at u = 1 it is F_m n.
-  double slope_at(double u, double root) const
+  double slope_at(double u, double root) const { return root * slope_over_root(u, root); }
+  double slope_over_root(double u, double root) const
   {
-    return root * ((1.5 * term[0] + root * (2.0 * term[1])) + u * (2.5 * term[2]));
+    return (1.5 * term[0] + root * (2.0 * term[1])) + u * (2.5 * term[2]);
   }
   UnloadingShape shape() const { return {slope_at(1.0, 1.0) / top(), term[0] / top()}; }
   double top() const { return term[0] + term[1] + term[2]; }  ///< F_m

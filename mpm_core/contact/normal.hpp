@@ -174,7 +174,7 @@ template <NormalLaw Law, class Books>
     const auto [force, k] = law.response(m.r_eff, m.overlap, delta_max, now.impact_overlap, own);
     now.law = force;
     now.stiffness = k;
-    if constexpr (Radiates<Law>) now.waves = std::max(law.radiation * k * k * m.approach, -force);
+    if constexpr (Radiates<Law>) now.waves = std::max(law.radiation * m.approach * (k * k), -force);
   };
   // one branch for force and books: in a bed that is pressed no processor can foresee which contacts grow
   if (m.overlap > delta_max) {

@@ -92,7 +92,11 @@ struct Tabulated
     const double unit = force_scale * r_eff * r_eff;
     if (curve->unloads(x, x_max)) {
       const Reversal back = reversal(x_max, impact_overlap, kept);
-      return {unit * back.force(x), unit * per_length * back.stiffness(x)};
+      const double u = back.part(x);
+      if (u <= 0.0) return {};
+      // what is known first is multiplied first: where waves act, the contact's force waits for the stiffness
+      const double root = std::sqrt(u);
+      return {unit * back.force_at(u, root), unit * per_length * back.per_span * root * back.slope_over_root(u, root)};
     }
     const Curve::Loading now = curve->loading(x, impact_overlap);
     return {unit * now.force, unit * per_length * now.stiffness};

@@ -6,6 +6,8 @@
     frozen_all  the same with `tangential history cohesion sjkr rolling_friction epsd2`
     hopper      the hopper of tools/demo with 1500 spheres and mesh walls, filled under each model, then open
     chute       loop.py's dense flow, 3000 spheres
+    two         2016 spheres of two materials (E*/Y = 100 and 1000) and two sizes (radii 1.5 : 1) at rest; laws of `mpm table --radius-ratio 1.5`
+    two_flow    the same on an incline of 23 degrees; Hertz has e = 0.1. Model mpm_nowaves: mpm with `waves off`
     N x C       N spheres of a periodic packing with C contacts a sphere, pressed together: 6 (cubic) and 3 (honeycombs)
 
 The law yields early (E*/Y = 1000), so that every contact has a dent: the worst case for both models. Every model and plug-in runs the same
@@ -59,6 +61,9 @@ class Program:
 def model_words(name, tangential="history"):
     """LIGGGHTS's own words of a model, and ours, which stand last."""
     return f"model {name} tangential {tangential}", "law mpm.h5 materials powder beyondRange continue" if name == "mpm" else ""
+
+
+MPM = os.environ.get("GRANULAW_MPM", "mpm")
 
 
 class Scene:
@@ -123,6 +128,49 @@ class Rest(Bed):
 
     def deck(self, program, model, steps):
         return self.head(f"read_restart rest.{program.label}.{model}\n") + bed(model) + self.end(steps)
+
+
+class Two(Bed):
+    """Two materials and two sizes, mixed at random, from the model's own restart file."""
+    spheres, small, yields = (12, 12, 14), R / 1.5, (1e6, 1e5)
+
+    def __init__(self, name, steps, gravity):
+        super().__init__(name, steps)
+        self.gravity = gravity
+
+    def prepare(self, folder, program, model):
+        if not (folder / "two.h5").exists():
+            (folder / "two.toml").write_text("".join(f"[material.{n}]\ndensity = 1500\nyoungs_modulus = {MODULUS}\npoisson_ratio = {loop.NU}\nyield_stress = {y}\n"
+                                                     for n, y in zip("ab", self.yields)))
+            subprocess.run([MPM, "table", "two.toml", "--radius-ratio", "1.5", "-o", "two.h5"], cwd=folder, check=True, capture_output=True)
+        if not (folder / "two.data").exists():
+            rng, spacing, rows, speeds = random.Random(5), 2.06 * R, "", ""
+            nx, ny, nz = self.spheres
+            for k in range(nx * ny * nz):
+                at = [(c + 0.5) * spacing + rng.uniform(-0.02, 0.02) * R for c in (k % nx, k // nx % ny, k // (nx * ny))]
+                rows += f"{k + 1} {rng.choice((1, 2))} {2 * rng.choice((R, self.small))!r} 1500 {' '.join(map(repr, at))}\n"
+                speeds += f"{k + 1} {' '.join(repr(rng.uniform(-0.2, 0.2)) for _ in range(3))} 0 0 0\n"
+            (folder / "two.data").write_text(f"two\n\n{nx * ny * nz} atoms\n2 atom types\n\n0 {nx * spacing} xlo xhi\n0 {ny * spacing} ylo yhi\n"
+                                             f"0 {1.5 * nz * spacing} zlo zhi\n\nAtoms\n\n{rows}\nVelocities\n\n{speeds}")
+        if not (folder / self.restart(program, model)).exists():
+            program.run(folder, self.head("read_data two.data\n") + self.two(model) + f"thermo 1000000\nrun 60000\nwrite_restart {self.restart(program, model)}\n")
+
+    def restart(self, program, model):
+        return f"{self.name}.{program.label}.{model}"
+
+    def two(self, model):
+        def pairs(name, value):
+            return f"fix {name} all property/global {name} peratomtypepair 2" + 4 * f" {value}" + "\n"
+
+        words = f"model {model.removesuffix('_nowaves')} tangential history"
+        law = "law two.h5 materials a b beyondRange continue" + (" waves off" if model.endswith("_nowaves") else "") if model != "hertz" else ""
+        return (f"fix E all property/global youngsModulus peratomtype {MODULUS} {MODULUS}\nfix nu all property/global poissonsRatio peratomtype {loop.NU} {loop.NU}\n" +
+                pairs("coefficientFriction", 0.5) + (pairs("coefficientRestitution", 0.1) if model == "hertz" else "") +
+                f"pair_style gran {words} {law}\npair_coeff * *\nfix w all wall/gran {words} primitive type 1 zplane 0.0\n"
+                f"fix g all gravity {loop.GRAVITY} vector {self.gravity}\nfix i all nve/sphere\ntimestep 3e-6\n")
+
+    def deck(self, program, model, steps):
+        return self.head(f"read_restart {self.restart(program, model)}\n") + self.two(model) + self.end(steps)
 
 
 class Frozen(Bed):
@@ -267,7 +315,8 @@ def measure(folder, scene, programs, models, rounds, error):
 def scenes(options):
     found = {"rest": Rest("rest", 2000), "frozen": Frozen("frozen", 2000, "history"), "frozen_off": Frozen("frozen_off", 2000, "off"),
              "frozen_all": Frozen("frozen_all", 2000, "history cohesion sjkr rolling_friction epsd2"),
-             "hopper": Hopper("hopper", 2000), "chute": Chute("chute", 1000)}
+             "hopper": Hopper("hopper", 2000), "chute": Chute("chute", 1000), "two": Two("two", 2000, "0 0 -1"),
+             "two_flow": Two("two_flow", 2000, f"{loop.ANGLE[0]} 0 {-loop.ANGLE[1]}")}
     for name in options.scenes:
         yield found[name]
     for size in options.sizes:
