@@ -24,9 +24,6 @@ struct MpmContact : Tabulated
   PairLaw law() const { return {{curve, mapping}, yielding}; }
 };
 
-/// Material name of types that follow plain Hertz with the deck's moduli and need no law.
-inline constexpr const char* elastic_name = "elastic";
-
 /// Model `mpm`: laws from a file, one material name for each atom type.
 class MpmPhysics
 {

@@ -59,6 +59,8 @@ struct BodyLaw
 
 /// Name of the rigid partner in pair names: "steel:wall".
 inline constexpr const char* wall_name = "wall";
+/// Name of types that follow plain Hertz with the deck's moduli and need no law.
+inline constexpr const char* elastic_name = "elastic";
 
 /// A pair that a law may be used for, and what the pair rule (PairMapping) costs there: 0 where it is exact.
 struct LawPair

@@ -6,6 +6,7 @@ a search goes on, and e moves by 4e-6 when E changes by one part in 1e15.
 import argparse
 import json
 import math
+import os
 import random
 import re
 import statistics
@@ -16,6 +17,8 @@ from pathlib import Path
 
 from browser import Browser, missing
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples/calibrate"
+LATER = "await new Promise((done) => setTimeout(done, 600));"  # fit and bed follow a change after 120 ms
 NUMBERS = ("e", "force_max_N", "delta_max_m", "delta_residual_m", "contact_time_s", "work_load_J", "work_unload_J", "error_estimate", "error_force",
            "error_restitution", "damage_number", "damage_number_max", "size_distance")
 WORDS = ("needs_velocity_axis", "beyond_velocity_axis", "below_velocity_axis", "law_kind")
@@ -170,6 +173,10 @@ def use(browser, page, failures):
     for text, value in (("2 m/s", 2), ("250 mm/s", 0.25), ("1,5", 1.5), ("1e0", 1)):
         type_in("speed", text)
         failures.check(float(speed()) == value, f"'{text}' is {speed()}")
+    type_in("fall", "5 cm")
+    failures.check(abs(float(speed()) / math.sqrt(2 * 9.81 * 0.05) - 1) < 1e-5, f"a fall of 5 cm gives {speed()} m/s")
+    failures.check(browser.run("return document.getElementById('fall').value") == "50 mm", "the height of fall is not shown")
+    type_in("speed", "1")
     type_in("speed", "fast")
     failures.check(browser.run("return document.getElementById('speed').getAttribute('aria-invalid')") == "true" and float(speed()) == 1, "a bad field changed the speed")
     type_in("speed", "1 m/s")
@@ -249,6 +256,109 @@ def deck_run(browser, mpm, launcher, failures):
     failures.check(onset == float(f"{limits['yield_speed']:.4g}") and step_to == deepest, f"start-up table {row[1]}, page {limits}")
 
 
+def drop_tests(browser, page, mpm, failures):
+    """The fit is that of `mpm calibrate`: by the function, and by the command that the page writes after rows were pasted. 1e-6: a search ends within 1e-7."""
+    data = (EXAMPLES / "drops.csv").read_text()
+    grain = {"name": "grain", "density": 1540, "youngs_modulus": 3.2e9, "poisson_ratio": 0.25}
+    steel = {"name": "steel", "density": 7850, "youngs_modulus": 200e9, "poisson_ratio": 0.3, "yield_stress": 1e9}
+    options = ["drops.csv", "--radius", "1e-3", "--density", "1540", "--poisson-ratio", "0.25", "--youngs-modulus", "3.2e9", "--fit", "yield_stress", "--json"]
+
+    def by_command(folder, *words):
+        done = subprocess.run([mpm, "calibrate", *words], cwd=folder, capture_output=True, text=True)
+        return json.loads(done.stdout) if done.returncode == 0 else {"problem": done.stderr.strip().splitlines()[-1].removeprefix("mpm: ")}
+
+    def agree(found, expected, what):
+        if "problem" in found or "problem" in expected:
+            return failures.append(f"{what}: {found}, {expected}")
+        a, b = found["parameters"]["yield_stress"], expected["parameters"]["yield_stress"]
+        worst = max(abs(a[key] / b[key] - 1) for key in ("value", "low68", "high68", "low95", "high95"))
+        failures.check(worst <= 1e-6 and a["told"] == b["told"] and found["verdict"] == expected["verdict"], f"{what}: {a}, {found['verdict']}; mpm calibrate {b}, {expected['verdict']}")
+        return worst
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "drops.csv").write_text(data)
+        (folder / "materials.toml").write_text(toml_of(steel))
+        worst = []
+        for partner, words in (("wall", []), ("like", ["--partner", "like"]), ({"material": steel, "radius": None}, ["--wall", "steel", "--materials", "materials.toml"])):
+            found = browser.run("return granulaw.calibrate(args[0])", {"data": data, "material": grain, "radius": 1e-3, "partner": partner})
+            worst.append(agree(found, by_command(folder, *options, *words), f"drops on {partner}"))
+        bad = browser.run("return granulaw.calibrate(args[0])", {"data": data.replace("velocity_m_per_s", "velocity"), "material": grain, "radius": 1e-3, "partner": "wall"})
+        (folder / "drops.csv").write_text(data.replace("velocity_m_per_s", "velocity"))
+        expected = by_command(folder, *options)
+        failures.check(bad.get("problem", "").split(": ", 1)[-1] == expected["problem"].split(": ", 1)[-1], f"a bad header: {bad}, {expected}")
+
+        # pasted as people write: spaces, a decimal comma; then the command of the tab drops.csv
+        rows = [line.split(",") for line in data.splitlines() if line and not line.startswith("#")][1:]
+        browser.open("about:blank")
+        browser.open(f"{page}#name=grain&E=3.2e9&nu=0.25&Y=5e7&H=0&rho=1540&R=0.001&with=wall&V=1")
+        browser.run(f"await granulaw.ready; const box = document.getElementById('drops'); box.value = args[0]; box.dispatchEvent(new Event('input')); {LATER}",
+                    "\n".join(" ".join(row[:2]).replace(".", ",") for row in rows))
+        said = browser.run("return document.getElementById('fitted').textContent")
+        browser.run(f"document.getElementById('tab-drops.csv').click(); document.getElementById('download').click(); {LATER}")
+        file = browser.downloaded("drops.csv")
+        (folder / "drops.csv").write_text(file)
+        command = file.splitlines()[0].split()
+        failures.check(command[:3] == ["#", "mpm", "calibrate"], f"no command in {file[:200]}")
+        expected = by_command(folder, *command[3:], "--json")
+        failures.check(said.startswith(expected.get("verdict", "?")), f"'{said}', mpm calibrate says '{expected}'")
+        browser.run(f"document.getElementById('take').click(); {LATER}")
+        taken = float(browser.run("return new URLSearchParams(location.hash.slice(1)).get('Y')"))
+        failures.check(abs(taken / expected["parameters"]["yield_stress"]["value"] - 1) < 1e-3, f"Y taken: {taken}")
+        failures.check(browser.run("return document.querySelectorAll('#speeds .dot.data').length") == len(rows), "the drops are not in the picture")
+    print(f"drop tests: largest relative difference of Y and its intervals from mpm calibrate {max(worst):.2g}")
+
+
+def bed(browser, mpm, launcher, failures):
+    """The bed's numbers are those of `mpm plan` and `mpm soften` for a deck of the same bodies, whose floor LIGGGHTS reads."""
+    wax = {"name": "wax", "density": 920, "youngs_modulus": 91e6, "poisson_ratio": 0.3, "yield_stress": 1e6}
+    lactose = {"name": "lactose", "density": 1540, "youngs_modulus": 24.1e9, "poisson_ratio": 0.12, "yield_stress": 180e6}
+    worst = 0.0
+    for partner, second, speed in (("wall", None, 1.0), ({"material": lactose, "radius": 1.5e-3}, lactose, 2.0), ({"material": lactose, "radius": None}, lactose, 0.5), ("like", None, 0.01)):
+        found = browser.run("return granulaw.bed(args[0])", {"material": wax, "radius": 3e-3, "partner": partner, "speed": speed, "bed_height": 0.2})
+        if "problem" in found:
+            failures.append(f"bed: {found}")
+            continue
+        types, materials = (2 if second else 1), [wax] + ([second] if second else [])
+        sphere = second and partner["radius"]
+        each = lambda key: " ".join(repr(m[key]) for m in materials)
+        wall = "2 zplane 0.0 wall deformable" if second and not sphere else "1 zplane 0.0"
+        deck = ["atom_style granular", "boundary f f f", "newton off", "communicate single vel yes", "units si", "region box block -0.1 0.1 -0.1 0.1 -0.01 0.2 units box",
+                f"create_box {types} box", "neighbor 0.002 bin", "neigh_modify delay 0", "hard_particles yes",
+                f"fix m1 all property/global youngsModulus peratomtype {each('youngs_modulus')}", f"fix m2 all property/global poissonsRatio peratomtype {each('poisson_ratio')}",
+                f"fix m3 all property/global coefficientFriction peratomtypepair {types} {' '.join(['0.3'] * types**2)}",
+                f"pair_style gran model mpm tangential history law law.h5 materials {' '.join(m['name'] for m in materials)}", "pair_coeff * *",
+                f"fix floor all wall/gran model mpm tangential history primitive type {wall}", "fix g all gravity 9.81 vector 0 0 -1", "timestep 1e-6",
+                "create_atoms 1 single 0 0 0.02", "create_atoms 1 single 0.03 0 0.02", "set type 1 diameter 0.006 density 920",
+                *(["create_atoms 2 single 0 0.03 0.02", "set type 2 diameter 0.003 density 1540"] if sphere else []), "fix i all nve/sphere", "run 1"]
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "in.deck").write_text("\n".join(deck) + "\n")
+            (folder / "materials.toml").write_text("\n".join(map(toml_of, materials)))
+            said = {}
+            for command, words in (("plan", []), ("soften", ["--fill-height", "0.2"])):
+                done = subprocess.run([mpm, command, "in.deck", "--materials-file", "materials.toml", "--speed", repr(speed), *words, "--json"], cwd=folder, capture_output=True, text=True,
+                                      env={**os.environ, "GRANULAW_LAUNCHER": launcher})
+                if done.returncode:
+                    failures.append(f"mpm {command}: {done.stderr[-400:]}")
+                    return
+                said[command] = json.loads(done.stdout)
+        pairs = {(*sorted(p["materials"]), p["wall"]): p for p in said["plan"]["pairs"]}
+        mine = {(*sorted(p["materials"]), p["wall"]): p for p in found["pairs"]}
+        failures.check(set(pairs) == set(mine), f"pairs of the bed {sorted(mine)}, of the plan {sorted(pairs)}")
+        numbers = [(mine[k][key], pairs[k][key]) for k in set(pairs) & set(mine) for key in ("onset_speed_m_per_s", "damage_number_max", "overlap_over_radius_max", "time_step_s")]
+        numbers.append((found["time_step_s"], said["plan"]["time_step_s"]["advised"]))
+        # the deck's own step may be the smaller one, the bed has none: both steps over their plan's
+        numbers += [(found["soften"][key], said["soften"][key]) for key in ("stretch", "overlap_over_radius", "static_load_over_yield_load")]
+        for a, b in numbers:
+            if a != b:
+                worst = max(worst, abs(a - b) / max(abs(a), abs(b)) if a is not None and b is not None else math.inf)
+        failures.check(found["soften"]["bound_by"] == said["soften"]["bound_by"] and found["beyond_laws"] == said["plan"]["beyond_laws"] and
+                       all(mine[k]["needs_table"] == pairs[k]["needs_table"] for k in set(pairs) & set(mine)), f"bed {found}; {said}")
+    failures.check(worst <= 1e-9, f"the bed differs from plan and soften by {worst:.2g}")
+    print(f"bed: largest relative difference from mpm plan and mpm soften {worst:.2g}")
+
+
 def times(browser):
     """Milliseconds: to the first curve; medians of 100 changes of speed, material, and a material of a pair."""
     script = """
@@ -305,6 +415,8 @@ def main():
         deck_commands(browser, mpm, failures)
         if arguments.launcher:
             deck_run(browser, mpm, str(Path(arguments.launcher).resolve()), failures)
+            bed(browser, mpm, str(Path(arguments.launcher).resolve()), failures)
+        drop_tests(browser, page, mpm, failures)
         refusals(browser, mpm, failures)
         compare(browser, mpm, arguments.cases, arguments.seed, failures)
         others = [url for url in browser.requests() if not url.startswith(("file:", "data:", "blob:", "about:", "chrome:"))]

@@ -10,7 +10,6 @@
 #include "deck/hertz.hpp"
 #include "law/contact_step.hpp"
 #include "law/replay.hpp"
-#include "liggghts_plugin/contact/mpm_physics.hpp"
 
 namespace granulaw::deck {
 
@@ -61,7 +60,7 @@ class LawsAtHand
   /// As the plug-in does for types that the deck calls `elastic`.
   static bool follows_hertz(const Meeting& m)
   {
-    return m.yields.name == plugin::elastic_name && !m.yields.yields();
+    return m.yields.name == elastic_name && !m.yields.yields();
   }
 
   /// The law of these radii (m; of a wall infinite), or of their ratio.

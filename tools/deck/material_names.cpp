@@ -7,7 +7,6 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "liggghts_plugin/contact/mpm_physics.hpp"
 
 namespace granulaw::deck {
 
@@ -63,7 +62,7 @@ void name_materials(PlanOptions& into, const Scene& scene, const NamedMaterials&
       continue;
     }
     const auto by_deck = material_by_deck(names[k], type, scene);
-    if (names[k] != plugin::elastic_name && deforming.contains(type))
+    if (names[k] != elastic_name && deforming.contains(type))
       fail_unknown(who, fmt::format("{} has no material for atom type {}", path, type), names[k],
                    known_names);
     if (by_deck) into.materials[type] = *by_deck;

@@ -9,7 +9,6 @@
 
 #include "law/law.hpp"
 #include "law/range.hpp"
-#include "liggghts_plugin/contact/mpm_physics.hpp"
 
 namespace granulaw::deck {
 
@@ -153,7 +152,7 @@ std::vector<std::string> pairs_of_law(const AtomTypes& types, const AtomTypes& w
   const auto names_of = [](const AtomTypes& bodies) {
     std::set<std::string> names;
     for (const auto& [type, t] : bodies)
-      if (t.material.name != plugin::elastic_name) names.insert(t.material.name);
+      if (t.material.name != elastic_name) names.insert(t.material.name);
     return names;
   };
   const std::set<std::string> particles = names_of(types);

@@ -1,10 +1,5 @@
-// The interactive page's module: requests as JSON in, answers as JSON out. It calls what `mpm table` and `mpm law` call.
-//
-// A request:
-//   {"material": {"name", "density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening_modulus"},
-//    "radius": m, "partner": "wall" | "like" | {"material": {...}, "radius": m}, "speed": m/s}
-// SI. yield_stress null or absent: elastic. A partner without a material is of the sphere's own, a partner without a radius
-// is a thick deformable wall. An answer is an object, or {"problem": sentence}.
+// The interactive page's module: requests as JSON in (request.hpp), answers as JSON out. It calls what `mpm table` and `mpm law`
+// call. An answer is an object, or {"problem": sentence}.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,123 +20,22 @@
 #include "base/error.hpp"
 #include "contact/tabulated.hpp"
 #include "contact/thornton.hpp"
+#include "bed.hpp"
+#include "drops.hpp"
 #include "law/contact_limits.hpp"
-#include "law/range.hpp"
 #include "law/stated_collision.hpp"
 #include "law_report.hpp"
-#include "material_file/material_range.hpp"
 #include "material_file/plausible.hpp"
+#include "request.hpp"
 
 namespace granulaw {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double infinite = std::numeric_limits<double>::infinity();
 const char* const source = "law";            // leads sentences about a collision
 
 std::optional<Atlas> atlas;
-
-/// A request, read and checked.
-struct Request
-{
-  LawMaterial first, second;  // second: without meaning at a rigid wall
-  enum class Partner { rigid_wall, like, sphere, thick_wall } partner = Partner::rigid_wall;
-  bool one_material = true;
-  double radius = 0, radius2 = 0, speed = 0;
-
-  bool has_rigid_wall() const { return partner == Partner::rigid_wall; }
-  SceneSizes sizes() const
-  {
-    SceneSizes sizes;
-    sizes.thick_walls = partner == Partner::thick_wall;
-    if (partner == Partner::sphere)
-      sizes.radius_ratio =
-          std::clamp(std::max(radius / radius2, radius2 / radius), 1.0, largest_radius_ratio);
-    return sizes;
-  }
-  PairAsked asked() const
-  {
-    PairAsked asked;
-    asked.pair = first.name + ":" + (has_rigid_wall() ? std::string(wall_name) : second.name);
-    asked.radius = radius;
-    if (!has_rigid_wall()) asked.radius2 = radius2;
-    return asked;
-  }
-  /// All that its law follows from.
-  std::string key() const
-  {
-    const auto text = [](const LawMaterial& m) {
-      return fmt::format("{} {} {} {} {} {} ", m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress,
-                         m.hardening_modulus);
-    };
-    const SceneSizes s = sizes();
-    return fmt::format("{}{}{} {} {}", text(first), has_rigid_wall() ? std::string() : text(second),
-                       static_cast<int>(partner), s.radius_ratio, s.thick_walls);
-  }
-};
-
-double number_of(const Json& object, const char* key, const std::string& where)
-{
-  const auto found = object.find(key);
-  if (found == object.end() || found->is_null()) fail(where, fmt::format("the key '{}' is missing", key));
-  if (!found->is_number()) fail(where, fmt::format("'{}' must be a number", key));
-  return found->get<double>();
-}
-
-double number_or(const Json& object, const char* key, const std::string& where, double otherwise)
-{
-  const auto found = object.find(key);
-  return found == object.end() || found->is_null() ? otherwise : number_of(object, key, where);
-}
-
-LawMaterial material_of(const Json& object, const char* usual_name)
-{
-  if (!object.is_object()) fail("request", "'material' must be an object");
-  LawMaterial m;
-  m.name = object.value("name", usual_name);
-  if (m.name == wall_name) fail("request", fmt::format("a material cannot be named '{}'", wall_name));
-  const std::string where = fmt::format("[material.{}]", m.name);
-  m.density = number_of(object, "density", where);
-  m.youngs_modulus = number_of(object, "youngs_modulus", where);
-  m.poisson_ratio = number_of(object, "poisson_ratio", where);
-  m.yield_stress = number_or(object, "yield_stress", where, infinite);
-  m.hardening_modulus = number_or(object, "hardening_modulus", where, 0);
-  const auto where_of = [&](const char*) { return where; };
-  check_elastic(m, where_of);
-  check_yield_stress(m, where_of);
-  if (m.yields())
-    check_hardening(m, fmt::format("[material.{}.hardening]", m.name));
-  else
-    m.hardening_modulus = 0;
-  return m;
-}
-
-Request request_of(const Json& json)
-{
-  if (!json.is_object() || !json.contains("material")) fail("request", "the key 'material' is missing");
-  Request r;
-  r.first = r.second = material_of(json.at("material"), "body");
-  r.radius = r.radius2 = number_of(json, "radius", "request");
-  r.speed = number_of(json, "speed", "request");
-  const Json partner = json.contains("partner") ? json.at("partner") : Json(wall_name);
-  if (partner == wall_name) return r;
-  if (partner == "like") {
-    r.partner = Request::Partner::like;
-    return r;
-  }
-  if (!partner.is_object())
-    fail("request", "'partner' cannot be used", partner.dump(), "\"wall\", \"like\" or {material, radius}");
-  if (partner.contains("material") && !partner.at("material").is_null()) {
-    r.one_material = false;
-    r.second = material_of(partner.at("material"), "partner");
-    if (r.second.name == r.first.name) r.second.name += "-2";
-  }
-  r.radius2 = number_or(partner, "radius", "partner", infinite);
-  r.partner = std::isinf(r.radius2) ? Request::Partner::thick_wall : Request::Partner::sphere;
-  return r;
-}
 
 /// The law of a request's pair, as `mpm table --radius-ratio RATIO` makes it.
 Law make_law(const Request& r)
@@ -317,9 +211,15 @@ struct Answered
   double cpu_s;
 };
 
-Answered answer(const char* text)
+const Atlas& opened()
 {
   if (!atlas) fail("explorer", "the atlas is not open");
+  return *atlas;
+}
+
+Answered answer(const char* text)
+{
+  opened();
   const Request r = request_of(Json::parse(text));
   const Law& law = law_of(r);
   const ChosenPair pair = choose_pair(law, r.asked());
@@ -380,6 +280,23 @@ const char* granulaw_open(const double* numbers, int count)
     ask_nothing_of_units();
     atlas.emplace(atlas_of(std::span<const double>(numbers, static_cast<std::size_t>(count))));
     return Json{{"error_force", atlas->claimed_force()}, {"error_restitution", atlas->claimed_restitution()}};
+  });
+}
+
+/// Yield stress of drop tests: the object of `mpm calibrate --json` (drops.hpp).
+const char* granulaw_calibrate(const char* request)
+{
+  using namespace granulaw;
+  return answered([&] { return drops_json(opened(), Json::parse(request)); });
+}
+
+/// Requirements of a bed of these bodies (bed.hpp). `bed_height`: m, beside the state's keys.
+const char* granulaw_bed(const char* request)
+{
+  using namespace granulaw;
+  return answered([&] {
+    const Json json = Json::parse(request);
+    return bed_json(opened(), request_of(json), number_of(json, "bed_height", "request"));
   });
 }
 

@@ -66,6 +66,12 @@ const granulaw = (() => {
     law: async (request) => (await ready, asked("granulaw_law", request)),
     // The same with curves and limits, once `ready`.
     explore: (request) => asked("granulaw_explore", request),
+    // Yield stress of drop tests, the object of `mpm calibrate --json`: {data: CSV, relative_sd, material, radius, partner}.
+    calibrate: async (request) => (await ready, asked("granulaw_calibrate", request)),
+    calibrate_now: (request) => asked("granulaw_calibrate", request),
+    // Requirements of a bed, with the keys of `mpm plan --json` and `mpm soften --json`: a state with bed_height, m.
+    bed: async (request) => (await ready, asked("granulaw_bed", request)),
+    bed_now: (request) => asked("granulaw_bed", request),
   };
 })();
 globalThis.granulaw = granulaw;

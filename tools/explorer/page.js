@@ -11,7 +11,11 @@
     density: {sign: "ρ", name: "density", unit: "kg/m³", low: 50, high: 20000},
     radius: {sign: "R", name: "radius", unit: "m", low: 1e-6, high: 0.1},
     speed: {sign: "V", name: "approach speed", unit: "m/s", low: 1e-4, high: 100},
+    fall: {sign: "h", name: "height of fall", unit: "m", low: 1e-8, high: 500},
+    bed: {sign: "B", name: "height of the bed", unit: "m", low: 1e-3, high: 100},
+    scatter: {sign: "s", name: "sd of e where none is stated", unit: "%", low: 0.1, high: 20},
   };
+  const GRAVITY = 9.81;
   const OF_MATERIAL = ["youngs_modulus", "poisson_ratio", "yield_stress", "hardening_modulus", "density"];
   const PARTNERS = {wall: "rigid wall", like: "its like", sphere: "another sphere", thick: "deformable wall"};
   const FACTORS = {p: 1e-12, n: 1e-9, u: 1e-6, "µ": 1e-6, "μ": 1e-6, m: 1e-3, c: 1e-2, k: 1e3, M: 1e6, G: 1e9, T: 1e12};
@@ -25,15 +29,17 @@
     const value = Number(found[1]), unit = found[2].replace(/\^|\*\*/g, "").replace("³", "3").trim();
     const base = kind.unit.replace("³", "3");
     if (unit === "" || unit === base) return value;
+    if (base === "%") return NaN;
     if (base === "kg/m3") return unit === "g/cm3" || unit === "t/m3" ? 1000 * value : NaN;
     if (base === "" || !unit.endsWith(base)) return NaN;
     return value * (FACTORS[unit.slice(0, -base.length)] ?? NaN);
   }
   const text_of = (value, kind) => !Number.isFinite(value) ? "never" : kind.unit === "" ? `${Number(value.toPrecision(5))}`
-    : kind.unit === "kg/m³" ? `${Number(value.toPrecision(5))} kg/m³` : with_unit(value, kind.unit, 5);
+    : kind.unit === "kg/m³" || kind.unit === "%" ? `${Number(value.toPrecision(5))} ${kind.unit}` : with_unit(value, kind.unit, 5);
 
   const copy_of = (name) => ({...(MATERIALS.find((m) => m.name === name) ?? MATERIALS[0])});
-  let state = {first: copy_of("wax"), second: copy_of("steel-elastic"), partner: "wall", radius: 3e-3, radius2: 3e-3, speed: 1};
+  let state = {first: copy_of("wax"), second: copy_of("steel-elastic"), partner: "wall", radius: 3e-3, radius2: 3e-3, speed: 1, bed: 0.1};
+  const drops = {scatter: 1, fit: null};
   let kept = null, now = null, then = null, shown = "materials.toml", pending = false, problem = null;
 
   function request_of(s) {
@@ -50,7 +56,7 @@
     const part = new URLSearchParams({name: s.first.name});
     const put = (material, tail) => OF_MATERIAL.forEach((key) => part.set(KEYS[key] + tail, `${material[key]}`));
     put(s.first, "");
-    part.set("R", s.radius), part.set("with", s.partner), part.set("V", s.speed);
+    part.set("R", s.radius), part.set("with", s.partner), part.set("V", s.speed), part.set("B", s.bed);
     if (s.partner === "sphere" || s.partner === "thick") part.set("name2", s.second.name), put(s.second, "2"), part.set("R2", s.radius2);
     return part.toString();
   }
@@ -67,7 +73,7 @@
       if (part.has("name" + tail)) material.name = safe_name(part.get("name" + tail)), material.source = "from a link";
       OF_MATERIAL.forEach((key) => take(material, key, KEYS[key] + tail, KINDS[key]));
     }
-    take(s, "radius", "R", KINDS.radius), take(s, "radius2", "R2", KINDS.radius), take(s, "speed", "V", KINDS.speed);
+    take(s, "radius", "R", KINDS.radius), take(s, "radius2", "R2", KINDS.radius), take(s, "speed", "V", KINDS.speed), take(s, "bed", "B", KINDS.bed);
     if (part.has("with")) part.get("with") in PARTNERS ? s.partner = part.get("with") : damaged.push("with");
     problem = damaged.length ? `The link is damaged: ${damaged.join(", ")} cannot be read, and other values stand in.` : null;
     return s;
@@ -139,7 +145,45 @@
     controls.push(() => {
       byId("partner").hidden = state.partner === "wall" || state.partner === "like";
       byId("radius2").closest(".row").hidden = state.partner === "thick";
-      byId("fall").textContent = `as after a fall from ${with_unit(state.speed ** 2 / 2 / 9.81, "m", 3)}`;
+    });
+  }
+
+  // The speed as the height of fall that gives it.
+  const falling = {get fall() { return state.speed ** 2 / 2 / GRAVITY; }, set fall(height) { state.speed = Number(Math.sqrt(2 * GRAVITY * height).toPrecision(6)); }};
+
+  // --- drop tests
+  // Rows of two or three numbers become the CSV of mpm calibrate; a text with a header is one already.
+  function drops_csv() {
+    const text = byId("drops").value, rows = text.split(/\r?\n/).map((row) => row.trim()).filter((row) => row && !row.startsWith("#"));
+    if (!rows.length || /[^\d\s.,;eE+-]/.test(rows[0])) return rows.length ? text : "";
+    const numbers = rows.map((row) => {
+      const spaced = row.replace(/,\s+/g, " ");
+      return (/[;\s]/.test(spaced) ? spaced.replace(/,/g, ".").split(/[;\s]+/) : spaced.split(",")).join(",");
+    });
+    return `velocity_m_per_s,restitution${numbers[0].split(",").length === 3 ? ",restitution_sd" : ""}\n${numbers.join("\n")}\n`;
+  }
+  function fit_drops() {
+    const data = drops_csv(), {material, radius, partner} = request_of(state);
+    drops.fit = data ? granulaw.calibrate_now({data, relative_sd: drops.scatter / 100, material, radius, partner}) : null;
+    const fit = drops.fit, yield_stress = fit && !fit.problem ? fit.parameters.yield_stress : null;
+    byId("take").disabled = !yield_stress || fit.bound !== "";
+    byId("fitted").textContent = !fit ? "" : fit.problem ? `${fit.problem}.`
+      : `${fit.verdict} E, ν, H and ρ above are taken as known. To fit several numbers, or other measurements, use mpm calibrate: the tab drops.csv has the command.`;
+  }
+  function drops_command() {
+    const {first, second, partner, radius} = state;
+    const words = ["mpm calibrate drops.csv", `--radius ${radius}`, `--density ${first.density}`, `--poisson-ratio ${first.poisson_ratio}`, `--youngs-modulus ${first.youngs_modulus}`,
+      ...(first.hardening_modulus > 0 ? [`--hardening-modulus ${first.hardening_modulus}`] : []), "--fit yield_stress", ...(drops.scatter === 1 ? [] : [`--relative-sd ${Number((drops.scatter / 100).toPrecision(6))}`]),
+      ...(partner === "like" ? ["--partner like"] : partner === "thick" ? [`--wall ${own_name()} --materials materials.toml`] : [])];
+    return partner === "sphere" ? "# two spheres that differ are not fitted" : `# ${words.join(" ")}`;
+  }
+  function add_drops() {
+    byId("drops").addEventListener("input", () => update());
+    byId("drops-file").addEventListener("change", async (event) => { const file = event.target.files[0]; if (file) byId("drops").value = await file.text(), update(); });
+    byId("take").addEventListener("click", () => {
+      state.first.yield_stress = Number(drops.fit.parameters.yield_stress.value.toPrecision(4));
+      state.first.source = "Y from your drop tests";
+      update();
     });
   }
 
@@ -190,6 +234,30 @@
     }));
   }
 
+  // What mpm plan and mpm soften say of a bed of these bodies: rows of [name, text, class].
+  function bed_rows(b) {
+    const yielding = b.pairs.filter((pair) => pair.needs_table), deepest = top_of(b.pairs.map((pair) => pair.depth)), {soften} = b;
+    const onset = Math.min(...b.pairs.map((pair) => pair.onset_speed_m_per_s ?? Infinity));
+    return [
+      ["plastic law", yielding.length ? `needed: ${yielding.map((pair) => pair.materials.join(":")).join(", ")}; yield begins at ${with_unit(onset, "m/s", 3)}`
+        : `not needed: ${Number.isFinite(onset) ? `yield begins at ${with_unit(onset, "m/s", 3)}` : "nothing yields"}, Hertz suffices`, yielding.length ? "fair" : "good"],
+      ["Hertz instead", now.problem ? "no law" : `e 1 for ${now.law.e.toFixed(3)}, F ${change(now.hertz.force_max_N, now.law.force_max_N)}: the contact shown`, ""],
+      ["time step", `up to ${with_unit(b.time_step_s ?? Infinity, "s", 3)}, of the stiffest contact at this speed`, ""],
+      ["neighbours", `overlaps to ${Number(deepest.toPrecision(2))} of a radius: ${deepest < 0.1 ? "each contact is on its own" : "other contacts of a particle change the force by 9 % at 0.1, by 41 % at 0.2"}`, deepest < 0.1 ? "good" : "fair"],
+      ["velocity axis", b.velocity_axis_matters ? "inertia changes e: the law needs it" : "not needed", ""],
+      ["stretch", soften.stretch > 1 ? `${Number(soften.stretch.toPrecision(3))}: steps of ${with_unit(soften.time_step_s, "s", 3)}, the same e; bound by the ${soften.bound_by}` : `none: bound by the ${soften.bound_by}`, ""],
+      ...b.beyond_laws.map((sentence) => ["beyond all laws", sentence, "bad"]),
+    ];
+  }
+  function show_bed() {
+    const b = granulaw.bed_now({...request_of(state), bed_height: state.bed}), rows = b.problem ? [["no answer", `${b.problem}.`, "bad"]] : bed_rows(b);
+    byId("needs").replaceChildren(...rows.flatMap(([name, text, kind]) => {
+      const term = document.createElement("dt"), said = document.createElement("dd");
+      term.textContent = name, said.textContent = text, said.className = kind;
+      return [term, said];
+    }));
+  }
+
   // --- pictures
   const top_of = (list) => list.reduce((a, b) => Math.max(a, b), 0);
   function summit(curve) { const k = curve.overlap.indexOf(top_of(curve.overlap)); return [curve.overlap[k], curve.force[k]]; }
@@ -215,8 +283,10 @@
     p.label(h.overlap[Math.max(0, last)], h.force[Math.max(0, last)], "Hertz", "hertz");
     p.dot(...summit(now.curve), "law");
   }
+  // [speed, e, sd] of the drop tests.
+  const measured = () => { const m = drops.fit?.measurements?.[0]; return m ? m.x.map((v, k) => [v, m.measured[k], m.sd[k]]) : []; };
   const speed_axis = () => {
-    const all = [now.sweep.speed[0], now.sweep.speed.at(-1), state.speed, ...(then && !then.problem ? [then.sweep.speed[0], then.sweep.speed.at(-1)] : [])];
+    const all = [now.sweep.speed[0], now.sweep.speed.at(-1), state.speed, ...(then && !then.problem ? [then.sweep.speed[0], then.sweep.speed.at(-1)] : []), ...measured().map(([v]) => v)];
     return {low: 0.8 * Math.min(...all), high: 1.8 * Math.max(...all), log: true, label: "approach speed V", unit: "m/s"};
   };
   function speed_zones(p) {
@@ -238,6 +308,7 @@
     if (then && !then.problem) p.line(then.sweep.speed, then.sweep.e, "kept"), p.dot(kept.speed, then.law.e, "kept"), p.label(then.sweep.speed.at(-1), then.sweep.e.at(-1), "kept", "kept");
     p.line(w.speed, w.e, "law");
     p.label(w.speed.at(-1), w.e.at(-1), "law", "law"), p.label(w.speed[45], w.thornton[45], "Thornton", "thornton"), p.label(p.x.low * 1.1, 1, "Hertz", "hertz");
+    for (const [v, e, sd] of measured()) p.line([v, v], [e - 1.96 * sd, e + 1.96 * sd], "data"), p.dot(v, e, "data").setAttribute("r", 4);
     const handle = p.dot(state.speed, now.law.e, "law");
     for (const [key, value] of Object.entries({tabindex: 0, role: "slider", "aria-label": "approach speed", "aria-valuetext": with_unit(state.speed, "m/s", 3), "aria-valuenow": state.speed, id: "handle"})) handle.setAttribute(key, value);
     handle.addEventListener("keydown", (event) => {
@@ -292,11 +363,13 @@
         (step === null ? "" : `timestep ${step}    # at most ${now.limits.largest_time_step.toPrecision(4)}, of every contact of these spheres\n`),
       "curves.csv": now.problem ? "" : "time_s,overlap_m,force_N\n" + c.time.map((t, k) => `${t},${c.overlap[k]},${c.force[k]}`).join("\n") +
         "\n\nspeed_m_s,e,error_e,e_thornton,largest_overlap_m\n" + w.speed.map((v, k) => `${v},${w.e[k]},${w.error[k] ?? ""},${w.thornton[k]},${w.overlap[k]}`).join("\n") + "\n",
+      ...(drops_csv() ? {"drops.csv": `${drops_command()}\n${drops_csv()}`} : {}),
       "law.json": JSON.stringify(now.problem ? now : now.law, null, 2) + "\n",
     };
   }
   function show_text() {
-    const all = texts();
+    const all = texts(), focused = document.activeElement?.id ?? "";
+    if (!(shown in all)) shown = "materials.toml";
     byId("text").textContent = all[shown];
     byId("tabs").replaceChildren(...Object.keys(all).map((name) => {
       const tab = document.createElement("button");
@@ -305,6 +378,7 @@
       tab.addEventListener("click", () => { shown = name; show_text(); byId(`tab-${name}`).focus(); });
       return tab;
     }));
+    if (focused.startsWith("tab-")) byId(focused)?.focus();
   }
   function download(name, text, type = "text/plain") {
     const link = document.createElement("a");
@@ -358,6 +432,19 @@
     to_address();
     if (focus_handle) byId("handle")?.focus();
     granulaw.last_change_ms = performance.now() - start;
+    clearTimeout(later);
+    later = setTimeout(refresh_rest, 120);
+  }
+  // The slower rest, once the hand rests.
+  let later = 0;
+  function refresh_rest() {
+    const start = performance.now();
+    fit_drops();
+    show_bed();
+    if (!now.problem) draw_speeds();
+    show_text();
+    if (focus_handle) byId("handle")?.focus();
+    granulaw.last_rest_ms = performance.now() - start;
   }
   let focus_handle = false;
   function update() {
@@ -375,6 +462,10 @@
     OF_MATERIAL.forEach((key) => add_row(byId("rows2"), key, () => state.second, "2"));
     add_row(byId("rows2"), "radius", () => state, "2");
     add_row(byId("rows3"), "speed", () => state);
+    add_row(byId("rows3"), "fall", () => falling);
+    add_row(byId("rows4"), "scatter", () => drops);
+    add_row(byId("rows5"), "bed", () => state);
+    add_drops();
     add_partners();
     add_drag();
     add_buttons();
