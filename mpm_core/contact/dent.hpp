@@ -18,6 +18,12 @@ struct DiscSegment
     const double w = std::sqrt(std::max(0.0, 1.0 - h * h)), zeroth = std::acos(h) - h * w;
     return {h, zeroth / M_PI, 2.0 / 3.0 * w * w * w / zeroth};
   }
+  /// A lower bound of the area of the segment of this centroid; for a small segment the area goes as (1 - c)^1.5.
+  static double least_area(double centroid)
+  {
+    const double rest = std::max(0.0, 1.0 - centroid);
+    return rest * std::sqrt(rest);
+  }
   /// The segment of this centroid, by Newton's method between bounds; beyond(smallest) is the last.
   static DiscSegment with_centroid(double centroid)
   {
@@ -30,7 +36,7 @@ struct DiscSegment
       if (!(h > low && h < high)) h = 0.5 * (low + high);
       const DiscSegment now = beyond(h);
       const double miss = now.centroid - centroid;
-      if (std::abs(miss) < 1e-10 || high - low < 1e-14) return now;
+      if (std::abs(miss) < 1e-7 || high - low < 1e-12) return now;
       (miss > 0 ? high : low) = h;
       // d(centroid)/dh = 2 w (centroid - h)/(area of the segment)
       h -= miss * M_PI * now.area / (2.0 * std::sqrt(1.0 - h * h) * (now.centroid - h));
@@ -84,6 +90,8 @@ struct ShearYield
   static constexpr double normal_loss = 0.5;  ///< c: slip lines under a flat punch that slides leave half of F_m
   static constexpr double exponent = 0.35;    ///< m: c m as of the ellipse c = 0.35 m = 0.5, fitted to small shear
 
+  /// Not above share(), without a power.
+  static double least_share(double q) { return 1.0 - normal_loss + normal_loss * std::sqrt(std::max(0.0, 1.0 - q * q)); }
   static double share(double q)
   {
     return 1.0 - normal_loss + normal_loss * std::pow(std::max(0.0, 1.0 - q * q), exponent);
@@ -109,7 +117,7 @@ struct ShearYield
           strength / (t2 * root) + give * two_cm * power * (1.0 + (1.0 - 2.0 * exponent) * tau * tau / t2);
       const double before = tau;
       tau = std::max(0.0, tau - miss / slope);
-      if (std::abs(tau - before) <= 1e-10 * (1.0 + tau)) break;
+      if (std::abs(tau - before) <= 1e-5 * (1.0 + tau)) break;  // of the second order: the error is its square
     }
     return tau / std::sqrt(1.0 + tau * tau);
   }

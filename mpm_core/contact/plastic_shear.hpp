@@ -84,11 +84,11 @@ class PlasticShear
     const double depth = normal_kept[0] * per_stretch, latched = NormalState<Normal>::impact_overlap(normal_kept);
     if (normal_kept[0] <= law.yield_overlap() * m.r_eff) {
       held.depth = depth;
-      const double a = law.contact_radius(m.r_eff, m.overlap, normal_kept[0], latched);
+      const double a = std::sqrt(m.r_eff * step.overlap);  // Hertz's
       answer.force = hold(held, bodies_.stiffness * a, force * stretch_, step, m, books);
     } else {
       const auto dent_at = [&](double d) { return law.dent(m.r_eff, d, latched); };
-      const auto dent = dent_at(depth);
+      const auto dent = law.dent(m.r_eff, depth, latched, normal_kept + NormalState<Normal>::own);
       const double before = dent.force_at(step.overlap);
       Memory whole = held;
       State tried, now = yield(dent_at, dent, whole, step, tried);
@@ -123,7 +123,7 @@ class PlasticShear
   static constexpr double pressure_shift = 0.25;  // zeta: T moves the pressure back by zeta a T/F, measured
   static constexpr double tabor_strain = 0.2;     // of the indentation, times a/R: Tabor, The Hardness of Metals (1951)
   static constexpr double shear_strain = 1.1;     // of the shear, times its sliding over a, measured
-  static constexpr double tolerance = 1e-9;       // of F_m, in the yield condition
+  static constexpr double tolerance = 1e-4;       // of F_m, in the yield condition: e and spin change by 1e-4
 
   static Vector times(const Vector& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
   static Vector sum(const Vector& v, const Vector& w, double factor = 1.0)
@@ -155,14 +155,14 @@ class PlasticShear
       return {radius, overlap - deepening * (all - which) * one, deepening * one, times(slide, one), times(turn, one)};
     }
   };
-  /// A flow is explicit in its direction and in the sheared area: parts of a two hundredth of the depth are as good as
-  /// small steps (docs/evidence/oblique.md).
+  /// A flow is explicit in its direction and in the sheared area. In dents of a tenth of R, parts of a two hundredth of
+  /// the depth are as good as small steps, and whole steps as good as them in shallow dents (docs/evidence/oblique.md).
   template <class Dent>
   static int parts_of(const Step& step, const Dent& dent)
   {
-    constexpr double finest = 0.005, most = 16;
-    const double moves = std::max(std::abs(step.deepening), dent.radius * size(step.turn));
-    return static_cast<int>(std::min(most, std::max(1.0, std::ceil(moves / (finest * dent.depth)))));
+    constexpr double finest = 0.005, most = 16, deep = 0.1;
+    const double moves = std::max(std::abs(step.deepening), dent.radius * size(step.turn)) / (finest * dent.depth);
+    return static_cast<int>(std::ceil(std::min(most, moves) * std::min(1.0, dent.depth / (deep * step.radius)))) | 1;
   }
 
   /// `keeps`.
@@ -282,8 +282,24 @@ class PlasticShear
     };
     const double cut = std::min(stretched, friction * first.force);
     const Vector lean = leaning(held.tilt, cut);
+    const double softest = wide_strength(held, step, first.radius, a);
+    {
+      // most contacts, by bounds that cost no root
+      const double area = DiscSegment::least_area(first.stiffness / (first.force * a) * size(lean));
+      const double least = softest * std::min(first.radius * first.radius, area * a * a);
+      if (cut < least && first.force <= area * ShearYield::least_share(cut / least) * start.force) {
+        tried = {.force = first.force,
+                 .moment = first.stiffness - first.force * (step.radius - start.residual),
+                 .depth = start.depth,
+                 .pull = cut,
+                 .rubbed = softened + cut * (stretched - cut) / k,
+                 .tilt = held.tilt};
+        held.pull = times(along, cut);
+        return tried;
+      }
+    }
     const DiscSegment segment = segment_of(first, a, size(lean));
-    const double strength = shear_strength(held, step, first.radius, a, segment.area);
+    const double strength = softest * std::min(first.radius * first.radius, segment.area * a * a);
     const auto state_of = [&](const Elastic& e, const auto& dent, double area, double pull) {
       return State{.force = e.force,
                    .moment = e.stiffness - e.force * (step.radius - dent.residual),
@@ -371,13 +387,14 @@ class PlasticShear
                                law.dissipated(m.r_eff, stretch_ * depth, stretch_ * now.depth, latched);
   }
 
-  /// T_0, N: of the present contact, and of what bears of the whole one.
-  double shear_strength(const Memory& held, const Step& step, double present, double whole, double bearing) const
+  /// Pa, T_0 over the area that bears of a contact of radius `whole` at full load.
+  double wide_strength(const Memory& held, const Step& step, double present, double whole) const
   {
     const double ratio = whole / (step.radius * per_radius_);
-    const double strain = std::hypot(tabor_strain * ratio, shear_strain * held.sheared / present);
-    return widening * (1.0 - ratio * ratio) * flow_stress_.at(strain) / std::sqrt(3.0) * M_PI *
-           std::min(present * present, bearing * whole * whole);
+    double stress = flow_stress_.yield;
+    if (flow_stress_.hardening > 0)
+      stress = flow_stress_.at(std::hypot(tabor_strain * ratio, shear_strain * held.sheared / present));
+    return widening * (1.0 - ratio * ratio) / std::sqrt(3.0) * M_PI * stress;
   }
 
   /// The point of no excess on a path where it falls: from `low`, where it is positive, by steps from `width` on.

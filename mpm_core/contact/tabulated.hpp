@@ -154,9 +154,18 @@ struct Tabulated
   };
   Dent dent(double r_eff, double depth, double impact_overlap) const
   {
+    return dent(r_eff, depth, curve->reversal(depth * (per_lambda * scale.stretch / r_eff), impact_overlap));
+  }
+  /// The same of a contact whose largest overlap it is; `kept`: as in force().
+  Dent dent(double r_eff, double depth, double impact_overlap, double* kept) const
+  {
+    // the same product as force() has
+    return dent(r_eff, depth, reversal(depth * scale.stretch * (per_lambda / r_eff), impact_overlap, kept));
+  }
+  Dent dent(double r_eff, double depth, const Reversal& back) const
+  {
     const double per_length = per_lambda * scale.stretch / r_eff, x = depth * per_length;
     const double unit = force_scale * scale.stretch * r_eff * r_eff;
-    const Reversal back = curve->reversal(x, impact_overlap);
     return {back,  per_length, unit, depth, unit * back.top(), mapping.radius(r_eff) * curve->radius(x),
             back.residual() / per_length};
   }

@@ -10,6 +10,8 @@
     two_flow    the same on an incline of 23 degrees; Hertz has e = 0.1. Model mpm_nowaves: mpm with `waves off`
     N x C       N spheres of a periodic packing with C contacts a sphere, pressed together: 6 (cubic) and 3 (honeycombs)
 
+`--models plastic` is model mpm with `tangential plastic`.
+
 The law yields early (E*/Y = 1000), so that every contact has a dent: the worst case for both models. Every model and plug-in runs the same
 deck in turn, --rounds times; each round's numbers are divided by those of stock Hertz in the same round. User CPU is that of all processes
 without what `run 0` takes. On one line with them stand the error of the force that the loop computes (against the functions the law was
@@ -60,7 +62,8 @@ class Program:
 
 def model_words(name, tangential="history"):
     """LIGGGHTS's own words of a model, and ours, which stand last."""
-    return f"model {name} tangential {tangential}", "law mpm.h5 materials powder beyondRange continue" if name == "mpm" else ""
+    stock = f"model mpm tangential {tangential.replace('history', 'plastic')}" if name == "plastic" else f"model {name} tangential {tangential}"
+    return stock, "law mpm.h5 materials powder beyondRange continue" if name in ("mpm", "plastic") else ""
 
 
 MPM = os.environ.get("GRANULAW_MPM", "mpm")
@@ -201,8 +204,8 @@ class Chute(Scene):
             loop.prepare(folder, 3000)
 
     def deck(self, program, model, steps):
-        words = model_words(model)[1]
-        text = loop.head(data="dense.data") + properties(model) + loop.flow(model, words)
+        stock, words = model_words(model)
+        text = loop.head(data="dense.data") + properties(model) + loop.flow(model, words).replace(f"model {model} tangential history", stock)
         return text[:text.index("thermo 1000000")] + self.end(steps)
 
 
@@ -261,7 +264,10 @@ class Hopper(Scene):
         for key, value in {"model": model, "scene": "scene", "out": f"hopper.{program.label}.{model}", "law": "mpm.h5",
                            "material": "powder", **more}.items():
             text += f"variable {key} index {value}\n"
-        return text + (HOPPER / "in.hopper").read_text()
+        text += (HOPPER / "in.hopper").read_text()
+        if model == "plastic":
+            text = text.replace("index plastic", "index mpm", 1).replace("tangential history", "tangential plastic")
+        return text
 
     def prepare(self, folder, program, model):
         if not (folder / "scene").exists():
