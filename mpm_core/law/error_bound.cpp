@@ -56,11 +56,13 @@ ErrorBound bound_of(const Certificate& c)
   const bool elastic = std::isinf(c.damage_number_max);
   const ErrorBound atlas{c.atlas_error_force, c.atlas_error_restitution, 0};
   const bool composed = c.origin == composed_origin && c.verification_impacts == 0;
-  if ((c.origin == "atlas" && !elastic) || composed) return atlas;
-  const ErrorBound fitted = c.verification_impacts > 0
-                                ? ErrorBound{c.verification_error_force, 0, c.verification_error_restitution}
-                                : atlas.with({c.interpolation_error, 0, c.held_out_error});
-  return fitted.with({c.solver_error_force, 0, c.solver_error_restitution});
+  const bool checked = (c.origin == "atlas" && !elastic) || composed;  // by impacts: in what they found
+  ErrorBound law = atlas;
+  if (!checked && c.verification_impacts > 0)
+    law = {c.verification_error_force, 0, c.verification_error_restitution};
+  else if (!checked)
+    law = atlas.with({c.interpolation_error, 0, c.held_out_error});
+  return law.with({c.solver_error_force, 0, c.solver_error_restitution});
 }
 
 ErrorBound bound_of(const BodyLaw& body)

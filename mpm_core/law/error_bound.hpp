@@ -9,7 +9,7 @@
 
 namespace granulaw {
 
-/// Error bound of a law against a fresh computation of the same impact: 95 % of impacts lie within. 0 0 0:
+/// Error bound of a law against the exact result of the same impact: 95 % of impacts lie within. 0 0 0:
 /// not stated.
 struct ErrorBound
 {
@@ -36,14 +36,14 @@ struct ErrorBound
   std::string text() const;
 };
 
-/// Bound of a law used for what it was made for.
-/// - Atlas: the bound of its checks (docs/evidence/atlas.md). These are fresh impacts, so it includes the
-///   atlas's own runs, fit, interpolation and table.
-/// - Composed of the two bodies' laws: the bound of two-body impacts that took no part in the rule
-///   (docs/evidence/pairs.md).
-/// - By runs, or corrected by impacts: the largest error of its verification, impacts that took no part in
-///   the fit, and the error of their cells (solver/run/accuracy.hpp). Without impacts, the errors of fit and
-///   table.
+/// Bound of a law used for what it was made for: the law's error, and that of the solver's cells
+/// (solver_error_* of the certificate). The law's error is
+/// - from the atlas, that of its checks near this E*/Y (docs/evidence/atlas.md). These are fresh impacts, so it
+///   includes the atlas's own runs, fit, interpolation and table;
+/// - composed of the two bodies' laws, that of two-body impacts that took no part in the rule
+///   (docs/evidence/pairs.md); their solver's error is not stated;
+/// - by runs, or corrected by impacts, the largest error of its verification, impacts that took no part in the
+///   fit. Without impacts, the errors of fit and table.
 ErrorBound bound_of(const Certificate& certificate);
 /// The same of a body's law. Of a particle with a shape: that of its orientations, each compared with a fresh
 /// impact.

@@ -7,16 +7,17 @@
 
 namespace granulaw::error_bound_test {
 
-/// Fresh impacts include every error of an atlas law: nothing is added to what its checks bound.
-TEST(ErrorBound, OfTheAtlasIsTheBoundOfItsChecks)
+/// Fresh impacts include every error of an atlas law but that of their cells.
+TEST(ErrorBound, OfTheAtlasIsThatOfItsChecksAndOfTheirCells)
 {
   Certificate c;
   c.origin = "atlas";
-  c.atlas_error_force = 0.002, c.atlas_error_restitution = 0.02;  // of e: absolute
-  c.solver_error_force = c.solver_error_restitution = 0.04;
+  c.atlas_error_force = 0.003, c.atlas_error_restitution = 0.015;  // of e: absolute
+  c.solver_error_force = 0.004, c.solver_error_restitution = 0.04;
+  c.interpolation_error = c.held_out_error = 0.1;  // in what the checks found
   const ErrorBound bound = bound_of(c);
-  EXPECT_DOUBLE_EQ(bound.force, 0.002);
-  EXPECT_DOUBLE_EQ(bound.restitution_at(0.5), 0.02);
+  EXPECT_DOUBLE_EQ(bound.force, 0.005);
+  EXPECT_DOUBLE_EQ(bound.restitution_at(0.5), 0.025);
 }
 
 TEST(ErrorBound, OfRunsIsWhatImpactsFoundAndWhatTheCellsCost)

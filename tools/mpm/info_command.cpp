@@ -63,9 +63,8 @@ void print_errors(const BodyLaw& body)
   fmt::print("  error bound          {} (95 % of {}, against new computations)\n", bound_of(body).text(),
              body.shape ? "orientations" : "impacts");
   if (body.shape) fmt::print("  of spheres           {} (the same law, of a sphere)\n", bound_of(c).text());
-  fmt::print("  solver error         force {}, e {} (of a computation, by two resolutions; {} the bound)\n",
-             percent(c.solver_error_force), percent(c.solver_error_restitution),
-             c.origin == "atlas" ? "not in" : "included in");
+  fmt::print("  solver error         force {}, e {} (of a computation, by two resolutions; included in the bound)\n",
+             percent(c.solver_error_force), percent(c.solver_error_restitution));
   fmt::print("  interpolation error  {}", percent(c.interpolation_error));
   if (c.origin == "runs")
     fmt::print(";  held-out e {};  scatter of the runs {}\n  reload loop          {} of the loading work",

@@ -1,0 +1,55 @@
+#!/usr/bin/python3
+"""Table of docs/evidence/atlas.md: error bounds of atlas laws by E*/Y, each check by the 93 nearest others (mpm_core/atlas/law_from_atlas.cpp).
+
+    bounds_by_stiffness.py mpm_core/characterise/atlas.h5
+"""
+import math
+import sys
+
+import h5py
+import numpy as np
+
+NEAR, TRUE_OVER_ESTIMATE = 93, 0.67
+REGIONS = (20, 100, 600, 2500, 5000.1)
+
+
+def confident_bound(values):
+    """As mpm_core/atlas/confident_bound.hpp."""
+    v = np.sort(np.abs(values))
+    k, exactly = len(v), 0.95**len(v)
+    at_least = exactly
+    while k > 1:
+        exactly *= k / (len(v) - k + 1) * 0.05 / 0.95
+        if at_least + exactly > 0.05:
+            break
+        at_least += exactly
+        k -= 1
+    return max(v[k - 1], 0.5 * v[-1])
+
+
+def bounds(checks, stiffness):
+    """Error of F, of e, and of the solver, by the checks nearest in ln(E*/Y)."""
+    near = checks[np.argsort(np.abs(np.log(checks[:, 0] / stiffness)), kind="stable")[:NEAR]]
+    estimates = np.sort(near[:, 6])
+    return confident_bound(near[:, 4]), confident_bound(near[:, 5]), TRUE_OVER_ESTIMATE * estimates[math.ceil(0.95 * len(estimates)) - 1]
+
+
+def table(path):
+    with h5py.File(path) as file:
+        checks = file["checks"][()].reshape(-1, 7)
+    found = np.array([bounds(np.delete(checks, k, 0), checks[k, 0]) for k in range(len(checks))])
+    force, e = np.abs(checks[:, 4]), np.abs(checks[:, 5])
+    lines = ["| E*/Y | checks | 95 % of errors: F, e | law's part: F, e | holds: F, e | with the solver's: F, e at e = 0.5 |", "|---|---|---|---|---|---|"]
+    for low, high in zip(REGIONS, REGIONS[1:]):
+        some = (checks[:, 0] >= low) & (checks[:, 0] < high)
+        f, r, s = (np.median(found[some, k]) for k in range(3))
+        lines.append(f"| {low:g} to {math.floor(high)} | {some.sum()} | {100 * np.quantile(force[some], 0.95):.2f} %, {np.quantile(e[some], 0.95):.4f} | "
+                     f"{100 * f:.2f} %, {r:.4f} | {100 * np.mean(force[some] <= found[some, 0]):.1f}, {100 * np.mean(e[some] <= found[some, 1]):.1f} % | "
+                     f"{100 * math.hypot(f, s):.2f} %, {math.hypot(r, 0.5 * s):.4f} |")
+    return lines
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    print("\n".join(table(sys.argv[1])))
