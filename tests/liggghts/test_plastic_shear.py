@@ -5,7 +5,7 @@ import os
 import subprocess
 import unittest
 
-from harness import POWDER, Deck, Material, head, properties, sphere_mass, worst
+from harness import POWDER, Deck, Material, head, plane_stl, properties, sphere_mass, worst
 
 MPM = os.environ["GRANULAW_MPM"]
 R = 1e-3
@@ -108,6 +108,47 @@ class PlasticShear(Deck):
                  f"pair_style gran {models} {own}\npair_coeff * *\n" + self.wall() + f"fix i all nve/sphere\ntimestep {step_of(speed, steps)!r}\nrun 100\n" + self.motion())
         for a, b in zip(whole, self.end(again)):
             self.assertAlmostEqual(a, b, delta=1e-9 * speed / R)
+
+    def test_a_mesh_is_the_primitive_wall(self):
+        (self.folder / "plane.stl").write_text(plane_stl(0.02))
+        primitive = self.thrown(39, 45, 0.3, 100)
+        mesh = primitive.replace("fix w all wall/gran model mpm tangential plastic  primitive type 2 zplane 0.0\n",
+                                 "fix m all mesh/surface file plane.stl type 2\nfix w all wall/gran model mpm tangential plastic mesh n_meshes 1 meshes m\n")
+        self.assertNotEqual(mesh, primitive)
+        for a, b in zip(self.end(primitive), self.end(mesh)):
+            self.assertAlmostEqual(a, b, delta=1e-6 * 39 / R)
+
+    def test_two_spheres_keep_their_momenta(self):
+        """Force and couple on one are the opposite of those on the other: linear and angular momentum to rounding."""
+        radii, speed = (R, 1.6 * R), 39.0
+        mass = [sphere_mass(r, POWDER.density) for r in radii]
+        place = [(0.0, 0.0, 0.0), (0.7 * sum(radii), 0.1 * sum(radii), math.sqrt(1 - 0.5) * sum(radii))]
+        text = self.begin(0.4) + "".join(f"create_atoms 1 single {' '.join(map(repr, x))} units box\n" for x in place)
+        for k in (0, 1):
+            text += f"group a{k} id {k + 1}\nset group a{k} diameter {2 * radii[k]!r} density {POWDER.density}\n"
+        text += f"velocity a0 set 0 0 {speed!r}\nfix i all nve/sphere\ntimestep {step_of(speed, 100)!r}\n"
+        columns = "".join(f"variable {q}{k} equal {q}[{k}]\n" for k in (1, 2) for q in ("x", "y", "z", "vx", "vy", "vz"))
+        for k in (0, 1):
+            for axis in "xyz":
+                columns += f"compute o{axis}{k} a{k} property/atom omega{axis}\ncompute p{axis}{k} a{k} reduce sum c_o{axis}{k}\nvariable o{axis}{k + 1} equal c_p{axis}{k}\n"
+        names = [f"{q}{k}" for k in (1, 2) for q in ("x", "y", "z", "vx", "vy", "vz", "ox", "oy", "oz")]
+        text += "run 350\n" + columns + "thermo_style custom step " + " ".join(f"c_p{a}{k}" for k in (0, 1) for a in "xyz") + "\nrun 0\n"
+        text += 'print "END ' + " ".join(f"${{{name}}}" for name in names) + '"\n'
+        found = self.end(text)
+
+        def momenta(bodies):
+            linear, angular = [0.0] * 3, [0.0] * 3
+            for m, r, (x, v, w) in zip(mass, radii, bodies):
+                for c in range(3):
+                    d, e = (c + 1) % 3, (c + 2) % 3
+                    linear[c] += m * v[c]
+                    angular[c] += m * (x[d] * v[e] - x[e] * v[d]) + 0.4 * m * r * r * w[c]
+            return linear + [a / R for a in angular]
+
+        before = momenta([(place[0], (0, 0, speed), (0, 0, 0)), (place[1], (0, 0, 0), (0, 0, 0))])
+        after = momenta([(found[9 * k:9 * k + 3], found[9 * k + 3:9 * k + 6], found[9 * k + 6:9 * k + 9]) for k in (0, 1)])
+        self.assertGreater(worst(map(abs, found[6:9])), 100)  # it spins
+        self.assertLess(worst(abs(a - b) for a, b in zip(before, after)), 1e-9 * mass[0] * speed)  # rounding
 
     def gas(self, ranks, run="run 4000\n", tangential="plastic", words="energy on"):
         """Spheres with friction in a box of periodic sides, that collide at some 100 V_y."""
