@@ -84,7 +84,7 @@ class Computed(Drops, Deck):
         pairs = [word for pair in ("powder:glass", "powder:powder", "glass:glass", "powder:wall") for word in ("--pair", pair)]
         done = subprocess.run([os.environ["GRANULAW_MPM"], "table", materials, *pairs, "--own-law", "-o", self.law], check=True,
                               capture_output=True, text=True)
-        self.assertIn("powder:glass: by ", done.stdout + done.stderr)
+        self.assertIn("powder:glass: corrected by ", done.stdout + done.stderr)
 
 
 if __name__ == "__main__":
