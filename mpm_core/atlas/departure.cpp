@@ -18,7 +18,9 @@ double coordinate(double over_onset)
 
 Departure::Departure(const Points& points)
 {
-  constexpr int intervals = 24;
+  /// Intervals of the coordinate that are shorter follow the vibration of an impact, up to .3 % of its force.
+  constexpr double least_interval = 0.25;
+  constexpr int fewest = 6, most = 24;
   /// Penalty over the mean weight: it bridges a factor of three between runs and follows each within 1e-3 of a
   /// difference.
   constexpr double stiffness = 0.02;
@@ -36,6 +38,7 @@ Departure::Departure(const Points& points)
       half.q *= 0.5, half.value *= 0.25;
       samples.push_back(half);
     }
+    const int intervals = std::clamp(static_cast<int>(last / least_interval), fewest, most);
     functions_[f] = {Spline::fit(samples, last, intervals, stiffness, 2), last};
   }
 }

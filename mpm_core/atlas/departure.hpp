@@ -11,7 +11,7 @@ namespace granulaw {
 /// Difference between a law and its guide, a law that needs no run: by overlap/onset, in which it is small, smooth
 /// and hardly depends on the stiffness. So few runs show it, and spheres of other stiffness share it.
 ///
-/// Each of the five functions (LawShape::functions) is a cubic spline by (x/onset)^(1/4) in 24 intervals that
+/// Each of the five functions (LawShape::functions) is a cubic spline by (x/onset)^(1/4) in up to 24 intervals that
 /// leaves the onset with zero value and slope, by penalised least squares on second differences. Knots even in
 /// ln x, or a penalty on third differences, swing between the onset and the first run. Beyond the last point it
 /// keeps its value.

@@ -55,6 +55,7 @@ Guide guide_of(const Atlas& atlas, const PoleMaterial& pole, double onset, doubl
     }
     return guide;
   }
+  const auto effects = guide.master.velocity_effects;
   if (elastic->force_ratio(std::pow(onset, 0.25)) < guide.master.elastic.force_ratio(std::pow(onset, 0.25))) {
     const LawShape skin = guide.master.at_range(guide.master.onset, end);
     guide.master = skin.as_skin_of(*elastic, end).at_range(onset, end);
@@ -64,6 +65,7 @@ Guide guide_of(const Atlas& atlas, const PoleMaterial& pole, double onset, doubl
     guide.master.elastic = *elastic;
     guide.from += ", on the body's elastic curve";
   }
+  guide.master.velocity_effects = effects;
   return guide;
 }
 

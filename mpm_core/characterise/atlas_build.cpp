@@ -14,7 +14,6 @@
 #include "characterise/fit/fit_curve.hpp"
 #include "atlas/interpolation.hpp"
 #include "atlas/law_from_atlas.hpp"
-#include "characterise/shape_prior.hpp"
 #include "law/replay.hpp"
 
 namespace granulaw {
@@ -46,7 +45,7 @@ const LawShape* shape_in(const KnownAtlas& known, const MaterialRatios& m)
 /// The runs of a material, but for what is known of it.
 SamplingPlan plan_for(const MaterialRatios& m, const KnownAtlas& known)
 {
-  SamplingPlan plan = plan_sampling(sphere_of(m), {});
+  SamplingPlan plan = plan_sampling(sphere_of(m));
   plan.ringing_resolution = 36;
   if (shape_in(known, m)) {
     plan.presses.clear(), plan.slow_impacts.clear();
@@ -89,12 +88,12 @@ class Assembly
   Atlas take() { return Atlas(grid_, std::move(nodes_), std::move(spheres_)); }
 
  private:
-  ContactRecords records_of(const SamplingPlan& plan);
+  ContactRecords records_of(const MaterialRatios& m);
   LawShape fitted(const MaterialRatios& m, const ContactRecords& records) const;
   LawShape main_shape(double stiffness, double hardening) const;
-  ShapePrior main_prior(double stiffness, double hardening) const;
-  ShapePrior prior_in_main_plane(const MaterialRatios& m) const;
-  ShapePrior prior_in_block(const MaterialRatios& m) const;
+  LawShape main_at(double onset, double stiffness, double hardening) const;
+  LawShape known_in_main_plane(const MaterialRatios& m) const;
+  LawShape known_in_block(const MaterialRatios& m) const;
 
   const AtlasGrid& grid_;
   const std::vector<RunOutcome>& outcomes_;
@@ -117,18 +116,19 @@ void Assembly::add_elastic_spheres()
   }
 }
 
-ContactRecords Assembly::records_of(const SamplingPlan& plan)
+ContactRecords Assembly::records_of(const MaterialRatios& m)
 {
+  const SamplingPlan plan = plan_for(m, known_);
   const auto first = outcomes_.begin() + static_cast<std::ptrdiff_t>(next_);
   ContactRecords records;
-  add_to(records, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
+  add_to(records, sphere_of(m), plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
   next_ += plan.runs();
   return records;
 }
 
 void Assembly::add(const MaterialRatios& m)
 {
-  const ContactRecords records = records_of(plan_for(m, known_));
+  const ContactRecords records = records_of(m);
   const LawShape* shape = shape_in(known_, m);
   nodes_.push_back({m, shape ? *shape : fitted(m, records)});
   if (shape && known_.impacts_anew)
@@ -141,10 +141,11 @@ LawShape Assembly::fitted(const MaterialRatios& m, const ContactRecords& records
   const auto ratio = std::find(ratios_.begin(), ratios_.end(), m.poisson_ratio) - ratios_.begin();
   const ElasticCorrection& elastic = elastic_[static_cast<std::size_t>(ratio)];
   const double onset = onset_of(m);
-  std::optional<ShapePrior> prior;
-  if (needs_prior(records.slow.front().depth, onset))
-    prior = m.poisson_ratio == grid_.main_poisson_ratio ? prior_in_main_plane(m) : prior_in_block(m);
-  return fit_shape(records, elastic, onset, Atlas::depth, prior ? &*prior : nullptr).shape;
+  // Up to twice the onset's overlap a fit that leaves the onset with zero slope follows the law.
+  std::optional<LawShape> below;
+  if (records.slow.front().depth > 2 * onset)
+    below = m.poisson_ratio == grid_.main_poisson_ratio ? known_in_main_plane(m) : known_in_block(m);
+  return fit_shape(records, elastic, onset, Atlas::depth, below ? &*below : nullptr).shape;
 }
 
 /// From the nodes made so far at one stiffness of the reference set.
@@ -164,27 +165,33 @@ LawShape Assembly::main_shape(double stiffness, double hardening) const
   return sum;
 }
 
-ShapePrior as_prior(const MaterialRatios& m, const LawShape& shape)
+// Near the onset of yield a law is a function of overlap/onset, but for the finite body: a term in Y/E*, which goes
+// as sqrt(onset/R), and one in its square (docs/develop/runs-and-laws.md).
+
+/// The law of the reference set at one stiffness, brought to another onset.
+LawShape Assembly::main_at(double onset, double stiffness, double hardening) const
 {
-  return ShapePrior::of(shape, onset_of(m), Atlas::depth, Atlas::depth);
+  LawShape shape = main_shape(stiffness, hardening);
+  shape.onset = onset_of({stiffness, grid_.main_poisson_ratio, hardening}), shape.end = Atlas::depth;
+  return shape.at_range(onset, Atlas::depth);
 }
 
-ShapePrior Assembly::main_prior(double stiffness, double hardening) const
-{
-  return as_prior({stiffness, grid_.main_poisson_ratio, hardening}, main_shape(stiffness, hardening));
-}
-
-ShapePrior Assembly::prior_in_main_plane(const MaterialRatios& m) const
+/// Linear in Y/E* through the next two less stiff materials.
+LawShape Assembly::known_in_main_plane(const MaterialRatios& m) const
 {
   const auto at = std::find(grid_.stiffnesses.begin(), grid_.stiffnesses.end(), m.stiffness);
   if (at - grid_.stiffnesses.begin() < 2)
     fail("atlas", "its two least stiff materials must yield above the shallowest runs");
-  return similar_by_two(onset_of(m), Atlas::depth, main_prior(at[-1], m.hardening),
-                        main_prior(at[-2], m.hardening));
+  const double onset = onset_of(m);
+  const LawShape stiffer = main_at(onset, at[-1], m.hardening), softer = main_at(onset, at[-2], m.hardening);
+  const double slope = (1 / m.stiffness - 1 / at[-1]) / (1 / at[-1] - 1 / at[-2]);
+  LawShape known = stiffer;
+  known.add(slope, stiffer), known.add(-slope, softer);
+  return known;
 }
 
 /// From the block's next less stiff material, and what stiffness changes in the reference set.
-ShapePrior Assembly::prior_in_block(const MaterialRatios& m) const
+LawShape Assembly::known_in_block(const MaterialRatios& m) const
 {
   const auto at = std::find(grid_.block_stiffnesses.begin(), grid_.block_stiffnesses.end(), m.stiffness);
   if (at == grid_.block_stiffnesses.begin())
@@ -192,8 +199,13 @@ ShapePrior Assembly::prior_in_block(const MaterialRatios& m) const
   const MaterialRatios softer{at[-1], m.poisson_ratio, m.hardening};
   const auto made = std::find_if(nodes_.begin(), nodes_.end(),
                                  [&](const Atlas::Node& node) { return node.material == softer; });
-  return similar_by_change(onset_of(m), Atlas::depth, as_prior(softer, made->shape),
-                           main_prior(softer.stiffness, m.hardening), main_prior(m.stiffness, m.hardening));
+  const double onset = onset_of(m);
+  LawShape known = made->shape;
+  known.onset = onset_of(softer), known.end = Atlas::depth;
+  known = known.at_range(onset, Atlas::depth);
+  known.add(1, main_at(onset, m.stiffness, m.hardening));
+  known.add(-1, main_at(onset, softer.stiffness, m.hardening));
+  return known;
 }
 
 }  // namespace

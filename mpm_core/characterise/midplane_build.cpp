@@ -86,14 +86,13 @@ MidplaneShapes midplane_from(const Atlas& free, const MidplaneGrid& grid,
     const SamplingPlan plan = plan_for(m);
     const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
     ContactRecords records;
-    add_to(records, plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
+    add_to(records, sphere_of(m), plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
     next += plan.runs();
     const auto ratio = std::find(ratios.begin(), ratios.end(), m.poisson_ratio) - ratios.begin();
     const ElasticCorrection& correction = elastic[static_cast<std::size_t>(ratio)];
     const double onset = sphere_of(m).onset;
     const LawShape guide = skin_of(free, m, correction);
-    const ShapePrior prior = ShapePrior::of(guide, onset, Atlas::depth, Atlas::depth);
-    LawShape change = fit_shape(records, correction, onset, Atlas::depth, &prior).shape;
+    LawShape change = fit_shape(records, correction, onset, Atlas::depth, &guide).shape;
     change.add(-1, guide);
     nodes.push_back({m, std::move(change)});
   }

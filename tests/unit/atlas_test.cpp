@@ -78,7 +78,7 @@ TEST(Atlas, RunsOnlyMaterialsThatTheOneItStartsFromLacks)
   std::size_t lacking = 0;
   for (const double h : grid.hardenings_at(300)) {
     const CharacterisedBody sphere = characterised_body_of(300, grid.main_poisson_ratio, h);
-    lacking += sampling_jobs(sphere, plan_sampling(sphere, {}), source).size();
+    lacking += sampling_jobs(sphere, plan_sampling(sphere), source).size();
   }
   ASSERT_GT(lacking, 0u);
   EXPECT_EQ(atlas_jobs(grid, source, all).size(), elastic + lacking);

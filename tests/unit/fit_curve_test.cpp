@@ -79,6 +79,57 @@ TEST(FitCurve, RecoversALawFromSmoothPresses)
   EXPECT_TRUE(tests::loses_no_less_further_on(curve));
 }
 
+/// Four runs, each six times as deep as the one before, show what a guide is off by; without it they do not.
+TEST(FitCurve, FewRunsShowTheDepartureFromAGuide)
+{
+  const Curve truth = SyntheticLaw{}.curve();
+  ContactRecords all, few;
+  all.slow = presses(truth, 0.0);
+  for (const double depth : {5e-4, 3e-3, 0.018, 0.1}) {
+    few.slow.push_back(noisy_press(truth, depth, 0.0, 12));
+    few.slow.back().run_depth = depth;
+  }
+  LawShape guide = fit_shape(all, finite_sphere, truth.onset(), 0.1).shape;
+  for (double& value : guide.force_reduction) value *= 0.9;
+  for (double& value : guide.dissipation) value *= 1.1;
+  const Errors off = compare(tabulate(guide, 0.1), truth);
+  const Errors about = compare(tabulate(fit_about(guide, few).shape, 0.1), truth);
+  const Errors alone = compare(tabulate(fit_shape(few, finite_sphere, truth.onset(), 0.1).shape, 0.1), truth);
+  EXPECT_GT(off.force, 0.05);
+  EXPECT_GT(off.e, 0.05);
+  // a third of the tolerance of laws
+  EXPECT_LT(about.force, 0.003);
+  EXPECT_LT(about.e, 0.003);
+  EXPECT_LT(about.e, 0.5 * alone.e);
+}
+
+/// At a speed between those of the guide, of what is linear in the speed.
+TEST(FitCurve, AnImpactWithoutItsInertiaIsAPress)
+{
+  std::vector<LawShape::VelocityEffect> effects;
+  for (const double v : {0.02, 0.05, 0.1}) {
+    LawShape::VelocityEffect effect{v, 0, 0.2 * v, 0.1 * v, std::vector<double>(LawShape::VelocityEffect::shares, -0.3 * v)};
+    effects.push_back(effect);
+  }
+  ContactRecord press;
+  press.depth = 0.02, press.residual = 0.015, press.work_ratio = 0.3, press.peak = press.reversal_force = 1;
+  press.loading = {{0.01, 0.4, 0.1}, {0.02, 1, 0.14}};
+  ContactRecord impact = press;
+  impact.speed = 0.07;
+  const double force = std::exp(-0.021);
+  for (ContactRecord::Sample& s : impact.loading) s.force *= force;
+  impact.peak *= force, impact.reversal_force *= force;
+  impact.work_ratio *= std::exp(-0.014);
+  impact.residual = impact.depth * (1 - (1 - press.residual / press.depth) * std::exp(-0.007));
+  const ContactRecord slow = without_inertia(impact, effects);
+  EXPECT_EQ(slow.speed, 0);
+  EXPECT_NEAR(slow.loading[0].force, 0.4, 1e-12);
+  EXPECT_NEAR(slow.peak, 1, 1e-12);
+  EXPECT_NEAR(slow.reversal_force, 1, 1e-12);
+  EXPECT_NEAR(slow.work_ratio, press.work_ratio, 1e-12);
+  EXPECT_NEAR(slow.residual, press.residual, 1e-12);
+}
+
 TEST(FitCurve, DoesNotFollowTheContactEdgeNoise)
 {
   const Curve truth = SyntheticLaw{}.curve();

@@ -62,8 +62,8 @@ TEST(Refinement, AnEBelowAHalfCountsOverAHalf)
 TEST(Refinement, InertiaIsKnownAtStandstill)
 {
   std::vector<LeftOutRun> runs{{0.06, 0.03, {1, 0.5}, AtReversal{1.05, 0.5}}, {0.12, 0.06, {1, 0.4}, {}}};
-  EXPECT_EQ(bisections(runs, tolerance, 0.025), (std::vector{0.03, 0.09}));
-  EXPECT_EQ(bisections(runs, tolerance, 0.035), (std::vector{0.09}));  // as slow as a press
+  EXPECT_EQ(bisections(runs, tolerance, Exact{0, 0.025}), (std::vector{0.03, 0.09}));
+  EXPECT_EQ(bisections(runs, tolerance, Exact{0, 0.035}), (std::vector{0.09}));  // as slow as a press
   EXPECT_EQ(bisections(runs, tolerance), (std::vector{0.09}));         // a rate: nothing is known below
 }
 
@@ -92,7 +92,7 @@ TEST(Refinement, EffectsThatGoAsTheDamageNumberAreNotMissed)
   const auto bump = [&](double v) { return square(v) + (v == 0.125 ? 0.03 : 0); };
   const auto missed = impacts_left_out({0.0625, 0.125, 0.25}, AxisTable::By::inertia, bump, square);
   EXPECT_NEAR(missed[1].predicted->force / missed[1].measured.force, std::exp(-0.03), 1e-3);
-  EXPECT_EQ(bisections(missed, tolerance, 0.04).size(), 2u);  // not below 0.04
+  EXPECT_EQ(bisections(missed, tolerance, Exact{0, 0.04}).size(), 2u);  // not below 0.04
 }
 
 TEST(Refinement, ARateGoesByTheLogarithmOfTheSpeed)
@@ -105,27 +105,54 @@ TEST(Refinement, ARateGoesByTheLogarithmOfTheSpeed)
   EXPECT_TRUE(runs[1].predicted);
 }
 
-/// A press keeps its loading where its reversal is left out; an impact is left out whole.
-TEST(Refinement, APressLosesItsReversalAnImpactAll)
+/// A run is left out whole, a press with all its reversal points; the deepest is not.
+TEST(Refinement, ARunIsLeftOutWhole)
 {
   ContactRecords records;
-  for (const double x : {0.001, 0.004, 0.016, 0.064, 0.2}) {
+  const auto add = [&](int run, double depth, double run_depth) {
     ContactRecord record;
-    record.depth = x, record.work_ratio = 0.25;
-    record.of_press = x > 0.002;
+    record.depth = depth, record.work_ratio = 0.25, record.run = run, record.run_depth = run_depth;
     records.slow.push_back(record);
-  }
-  std::vector<std::pair<std::size_t, std::size_t>> left;  // records, reversals
+  };
+  add(0, 0.001, 0.001), add(1, 0.004, 0.016), add(1, 0.008, 0.016), add(1, 0.016, 0.016);
+  add(2, 0.05, 0.2), add(2, 0.2, 0.2);
+  std::vector<std::size_t> left;
   const auto shape = [&](const ContactRecords& others) {
-    left.emplace_back(others.slow.size(), std::count_if(others.slow.begin(), others.slow.end(),
-                                                        [](const auto& r) { return r.reversal_counts; }));
+    left.push_back(others.slow.size());
     return LawShape::zero();
   };
-  const std::vector<LeftOutRun> runs = leave_out_slow(records, shape, 5e-4, 0.2);
-  EXPECT_EQ(left, (std::vector<std::pair<std::size_t, std::size_t>>{{4, 4}, {5, 4}, {5, 4}, {5, 4}}));
+  const std::vector<LeftOutRun> runs = leave_out_slow(records, shape, 5e-4, 0.2, 3);
+  EXPECT_EQ(left, (std::vector<std::size_t>{5, 3}));
+  ASSERT_EQ(runs.size(), 3u);
   EXPECT_FALSE(runs.back().predicted);
   EXPECT_NEAR(runs[1].predicted->restitution, 1, 1e-12);
-  EXPECT_NEAR(runs[1].predicted->force, std::pow(0.004, 1.5), 1e-12);
+  EXPECT_NEAR(runs[1].predicted->force, std::pow(0.016, 1.5), 1e-12);
+  EXPECT_FALSE(leave_out_slow(records, shape, 5e-4, 0.2, 4).front().predicted);  // too few for a fit of the others
+}
+
+/// A guide is exact at the onset: a missed first run is followed by one half-way to it, not nearer than may be run.
+TEST(Refinement, BisectsBelowTheFirstRunWhereALawIsExact)
+{
+  std::vector<LeftOutRun> runs = runs_at({0.004, 0.016});
+  runs[0].predicted->force *= 1.02;
+  const double onset = std::log(0.001);
+  const std::vector<double> wanted = bisections(runs, tolerance, Exact{onset, std::log(0.00125)});
+  ASSERT_EQ(wanted.size(), 2u);
+  EXPECT_NEAR(std::exp(wanted[0]), 0.002, 1e-12);
+  EXPECT_EQ(bisections(runs, tolerance, Exact{onset, std::log(0.0021)}).size(), 1u);
+}
+
+TEST(FirstOverlaps, BeginAtThreeOnsetsOrWhereRunsGetDear)
+{
+  EXPECT_NEAR(first_overlaps(1e-3, 0.1, true).front(), 3e-3, 1e-12);
+  EXPECT_NEAR(first_overlaps(1e-6, 0.1, true).front(), 5e-4, 1e-12);
+  EXPECT_NEAR(first_overlaps(1e-3, 0.1, false).front(), 2e-3, 1e-12);
+  for (const bool guided : {true, false}) {
+    const std::vector<double> overlaps = first_overlaps(1e-3, 0.1, guided);
+    EXPECT_EQ(overlaps.back(), 0.1);
+    for (std::size_t k = 1; k < overlaps.size(); ++k)
+      EXPECT_LE(overlaps[k] / overlaps[k - 1], (guided ? 4 : 2.5) + 1e-9);
+  }
 }
 
 TEST(FirstSpeeds, AreHalvesOfTheFastestAsFarAsInertiaCounts)
@@ -135,18 +162,20 @@ TEST(FirstSpeeds, AreHalvesOfTheFastestAsFarAsInertiaCounts)
   EXPECT_EQ(first_inertia_speeds(0.03, tolerance), (std::vector{0.03}));
 }
 
-/// One press serves the overlaps down to a quarter of its depth; impacts reach those below 1e-3 R.
+/// One press serves the overlaps down to a quarter of its depth; impacts reach those where they are slow enough:
+/// .49 sqrt(I) R.
 TEST(SlowRuns, ShareAPressWhereItsContactIsResolved)
 {
   const CharacterisedBody body = characterised_body_of(100, 0.3, 0);
-  const std::vector<double> overlaps{5e-4, 0.002, 0.01, 0.02, 0.03};
-  const SamplingPlan plan = slow_runs_to(overlaps, body, tolerance, 34);
+  const std::vector<double> overlaps{5e-4, 0.008, 0.012, 0.03, 0.06};
+  const SamplingPlan plan = slow_runs_to(overlaps, body, tolerance, 34, 0.02);
   ASSERT_EQ(plan.presses.size(), 2u);
-  EXPECT_EQ(plan.presses[0].depth, 0.03);
-  EXPECT_EQ(plan.presses[0].stops, (std::vector{0.01, 0.02}));
+  EXPECT_EQ(plan.presses[0].depth, 0.06);
+  EXPECT_EQ(plan.presses[0].stops, (std::vector{0.03}));
   EXPECT_EQ(plan.presses[0].resolution, 34);
-  EXPECT_EQ(plan.presses[1].depth, 0.002);
-  EXPECT_EQ(plan.slow_impacts.size(), 1u);
+  EXPECT_EQ(plan.presses[1].depth, 0.012);
+  EXPECT_EQ(plan.slow_impacts.size(), 2u);
+  EXPECT_EQ(slow_runs_to(overlaps, body, tolerance, 34, 0.1).slow_impacts.size(), 4u);
 }
 
 TEST(Verification, StandsHalfWayBetweenTheRuns)

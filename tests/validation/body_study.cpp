@@ -125,7 +125,7 @@ void study(const Body& of, const Atlas& atlas, Farm& farm, Farm& checks, int imp
              "of {}; cells F {:.4f} e {:.4f}; [{}]\n{}",
              of.name, runs, cpu, 100 * force, e, built.sampling_error, c.verification_error_force,
              c.verification_error_restitution, c.verification_impacts, c.solver_error_force, c.solver_error_restitution,
-             built.shallow, lines);
+             built.guide, lines);
   for (const std::string& hole : built.holes) fmt::print("    hole: {}\n", hole);
   std::fflush(stdout);
 }

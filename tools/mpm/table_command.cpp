@@ -94,8 +94,8 @@ void print_expected(const LawFilePlan& plan)
     if (body.from_atlas()) continue;
     const ExpectedRuns runs =
         expected_runs(body.body->material, body.body->characterised, plan.build_options());
-    fmt::print("{}: by the solver ({}): {} runs to begin with, about {:.0f} s of CPU, and up to {}\n", name,
-               body.why_runs, runs.first, std::max(1.0, runs.first_cpu_s), runs.most);
+    fmt::print("{}: by the solver ({}): {} runs to begin with, about {:.0f} s of CPU\n", name,
+               body.why_runs, runs.first, std::max(1.0, runs.first_cpu_s));
   }
   std::fflush(stdout);
 }
@@ -104,8 +104,7 @@ void print_body(const std::string& name, const LawFilePlan::Body& planned, const
 {
   if (planned.from_atlas()) return fmt::print("{}: from the atlas\n", name);
   const MadeLawFile::Runs& runs = file.runs.at(name);
-  fmt::print("{}: by {} runs, {} of the densest sampling plan ({})\n", name, runs.made, runs.densest,
-             planned.why_runs);
+  fmt::print("{}: by {} runs ({})\n", name, runs.made, planned.why_runs);
   if (!runs.size.empty()) fmt::print("{}: {}\n", name, runs.size);
 }
 

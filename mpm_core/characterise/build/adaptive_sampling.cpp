@@ -10,14 +10,6 @@ namespace granulaw {
 
 namespace {
 
-/// A plan of a body, and the records that its runs go to.
-struct SamplingPart
-{
-  const CharacterisedBody& body;
-  const SamplingPlan& plan;
-  ContactRecords& records;
-};
-
 /// Coordinates of runs that were asked for, whatever became of them.
 class Asked
 {
@@ -35,62 +27,45 @@ class Asked
   std::vector<double> asked_;
 };
 
-/// Runs several plans as one batch.
-void run(const std::vector<SamplingPart>& parts, const RunSource& source, BuildRuns& runs, double until)
-{
-  std::vector<RunJob> jobs;
-  for (const SamplingPart& part : parts)
-    for (RunJob& job : sampling_jobs(part.body, part.plan, source)) jobs.push_back(std::move(job));
-  const std::vector<RunOutcome> outcomes = runs.make(jobs, until);
-  auto next = outcomes.begin();
-  for (const SamplingPart& part : parts) {
-    const auto end = next + static_cast<std::ptrdiff_t>(part.plan.runs());
-    add_to(part.records, part.plan, {next, end});
-    next = end;
-  }
-}
-
-/// One round: presses of the body without rate, its impacts, and with the first round the guide's spheres.
-void run_round(const SamplingPlan& plan, const SamplingSetting& setting, ContactRecords& records,
-               std::vector<OnsetSimilarity::Sphere>* spheres, BuildRuns& runs)
+/// One round: slow runs of the body without rate, its impacts.
+void run_round(const SamplingPlan& plan, const SamplingSetting& s, ContactRecords& records, BuildRuns& runs)
 {
   SamplingPlan slow = plan, fast = plan;
   slow.fast_speeds.clear();
-  slow.resolution = setting.press_cells;
+  slow.resolution = s.press_cells;
   fast.presses.clear();
   fast.slow_impacts.clear();
-  fast.resolution = setting.impact_cells;
-  std::vector<SamplingPart> parts{{setting.slow, slow, records}, {setting.body, fast, records}};
-  if (spheres)
-    for (OnsetSimilarity::Sphere& sphere : *spheres)
-      parts.push_back({sphere.body, sphere.plan, sphere.found});
+  fast.resolution = s.impact_cells;
+  std::vector<RunJob> jobs = sampling_jobs(s.slow, slow, s.source);
+  for (RunJob& job : sampling_jobs(s.body, fast, s.source)) jobs.push_back(std::move(job));
   // of the progress that is left before the law is verified: how many rounds there will be is not known
-  run(parts, setting.source, runs, runs.done() + 0.7 * (0.9 - runs.done()));
+  const std::vector<RunOutcome> outcomes = runs.make(jobs, runs.done() + 0.7 * (0.9 - runs.done()));
+  const auto middle = outcomes.begin() + static_cast<std::ptrdiff_t>(slow.runs());
+  add_to(records, s.slow, slow, {outcomes.begin(), middle});
+  if (const std::optional<LawShape> guide = s.guide(s.elastic))
+    for (ContactRecord& record : records.slow)
+      if (record.speed > 0) record = without_inertia(record, guide->velocity_effects);
+  add_to(records, s.body, fast, {middle, outcomes.end()});
 }
 
-ElasticCorrection elastic_of(const ContactRecords& records, const SamplingSetting& s)
+FittedShape fit(const ContactRecords& records, const SamplingSetting& s)
 {
-  return s.elastic_press ? measured_elastic(*s.elastic_press, records.slow, s.body.onset) : s.elastic;
-}
-
-FittedShape fit(const ContactRecords& records, const SamplingSetting& s, const ShapePrior* prior)
-{
+  const ElasticCorrection elastic =
+      s.elastic_press ? measured_elastic(*s.elastic_press, records.slow, s.body.onset) : s.elastic;
+  const std::optional<LawShape> guide = s.guide(elastic);
   if (s.known) {
-    FittedShape fitted{*s.known, {}};
-    fitted.shape.velocity_effects = fit_velocity_effects(records.fast, *s.known, s.body.onset, s.shape_end());
+    FittedShape fitted{*guide, {}};
+    fitted.shape.velocity_effects = fit_velocity_effects(records.fast, *guide, guide->onset, guide->end);
     return fitted;
   }
-  return fit_shape(records, elastic_of(records, s), s.body.onset, s.options.depth, prior);
+  return guide ? fit_about(*guide, records) : fit_shape(records, elastic, s.body.onset, s.options.depth);
 }
 
-void fit_and_leave_out(Sampled& sampled, const SamplingSetting& s, const OnsetSimilarity* similarity)
+void fit_and_leave_out(Sampled& sampled, const SamplingSetting& s)
 {
-  std::optional<ShapePrior> known;
-  if (similarity) known = similarity->prior(elastic_of(sampled.records, s));
-  const ShapePrior* prior = known ? &*known : nullptr;
-  sampled.fitted = fit(sampled.records, s, prior);
-  const auto shape_of = [&](const ContactRecords& others) { return fit(others, s, prior).shape; };
-  sampled.slow = leave_out_slow(sampled.records, shape_of, s.body.onset, s.options.depth);
+  sampled.fitted = fit(sampled.records, s);
+  const auto shape_of = [&](const ContactRecords& others) { return fit(others, s).shape; };
+  sampled.slow = leave_out_slow(sampled.records, shape_of, s.body.onset, s.options.depth, s.guided() ? 2 : 4);
   sampled.fast =
       leave_out_fast(sampled.records.fast, sampled.fitted.shape.velocity_effects, axis_kind_of(s.body));
 }
@@ -100,12 +75,14 @@ SamplingPlan refinement(const Sampled& sampled, const SamplingSetting& s, Asked&
 {
   const double tolerance = s.options.tolerance;
   const bool rate = axis_kind_of(s.body) == AxisTable::By::rate;
-  std::optional<double> least_speed;
-  if (!rate) least_speed = std::sqrt(negligible_damage_number(tolerance));
-  std::vector<double> slow = overlaps.of(bisections(sampled.slow, tolerance));
+  const double onset = s.body.onset;
+  std::optional<Exact> at_onset, standstill;
+  if (s.guided()) at_onset = {std::log(onset), std::log(nearest_to_onset * onset)};
+  if (!rate) standstill = {0, std::sqrt(negligible_damage_number(tolerance))};
+  std::vector<double> slow = overlaps.of(bisections(sampled.slow, tolerance, at_onset));
   for (double& x : slow) x = std::exp(x);
-  SamplingPlan more = slow_runs_to(slow, s.slow, tolerance, s.press_cells);
-  more.fast_speeds = speeds.of(bisections(sampled.fast, tolerance, least_speed));
+  SamplingPlan more = slow_runs_to(slow, s.slow, tolerance, s.press_cells, s.guided() ? slow_with_guide : slow_without);
+  more.fast_speeds = speeds.of(bisections(sampled.fast, tolerance, standstill));
   if (rate)
     for (double& v : more.fast_speeds) v = std::exp(v);
   return more;
@@ -118,13 +95,13 @@ AxisTable::By axis_kind_of(const CharacterisedBody& body)
   return body.rate_dependent() ? AxisTable::By::rate : AxisTable::By::inertia;
 }
 
-Sampled sample(SamplingPlan plan, const SamplingSetting& setting, OnsetSimilarity* guide, BuildRuns& runs)
+Sampled sample(SamplingPlan plan, const SamplingSetting& setting, BuildRuns& runs)
 {
   Sampled sampled;
   Asked overlaps, speeds;
-  for (bool first = true; plan.runs() > 0; first = false) {
-    run_round(plan, setting, sampled.records, guide && first ? &guide->spheres() : nullptr, runs);
-    fit_and_leave_out(sampled, setting, guide);
+  while (plan.runs() > 0) {
+    run_round(plan, setting, sampled.records, runs);
+    fit_and_leave_out(sampled, setting);
     plan = refinement(sampled, setting, overlaps, speeds);
   }
   return sampled;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "characterise/run/request.hpp"
 #include "characterise/run/build_runs.hpp"
 #include "characterise/fit/fit_curve.hpp"
-#include "characterise/onset_similarity.hpp"
 #include "characterise/run/refinement.hpp"
 #include "characterise/run/sampling_plan.hpp"
 
@@ -17,14 +19,14 @@ struct SamplingSetting
       slow;  ///< the same without rate: its presses and slow impacts give the rate-independent law
   const BuildOptions& options;
   const RunSource& source;
-  const LawShape*
-      known;  ///< the rate-independent law, to Atlas::depth, where no run is needed for it; else null
   ElasticCorrection elastic;
   const ContactRecord* elastic_press;  ///< of a body of several materials; else null
   int press_cells, impact_cells;
+  /// The law without runs, by the elastic correction; none: there is no guide.
+  std::function<std::optional<LawShape>(const ElasticCorrection&)> guide;
+  bool known;  ///< the guide is the rate-independent law, for which no run is needed
 
-  /// End of the shape's functions of u.
-  double shape_end() const { return known ? Atlas::depth : options.depth; }
+  bool guided() const { return guide(elastic).has_value(); }
 };
 
 /// Runs made, the law's shape by them, and that shape without each run.
@@ -36,8 +38,7 @@ struct Sampled
 };
 
 /// Runs a plan, fits, and adds runs where a run left out is missed, until no interval is left to bisect.
-/// `guide`: gives the law below the first run; its spheres are run beside the plan; may be null.
-Sampled sample(SamplingPlan plan, const SamplingSetting& setting, OnsetSimilarity* guide, BuildRuns& runs);
+Sampled sample(SamplingPlan plan, const SamplingSetting& setting, BuildRuns& runs);
 
 /// Which axis a body's law has.
 AxisTable::By axis_kind_of(const CharacterisedBody& body);

@@ -17,7 +17,7 @@
 #include "atlas/finish_curve.hpp"
 #include "characterise/fit/fit_curve.hpp"
 #include "characterise/run/onset_of_yield.hpp"
-#include "characterise/onset_similarity.hpp"
+#include "atlas/guide.hpp"
 #include "atlas/overlap_at_work.hpp"
 #include "characterise/body/law_material.hpp"
 #include "characterise/run/refinement.hpp"
@@ -67,19 +67,17 @@ class Build
 
  private:
   void require_lawful() const;
-  SamplingRange widest_range() const;
+  double least_onset() const;
+  std::optional<Guide> guide(const ElasticCorrection* elastic) const;
   SamplingPlan first_plan() const;
-  std::size_t most_runs(const std::optional<OnsetSimilarity>& guide) const;
 
   void resolve(const SamplingPlan& plan);
   std::vector<Probe> probes(const SamplingPlan& plan);
   void find_onset();
   void note_solver_error(const ResolutionChoice& choice);
 
-  double first_overlap(const SamplingPlan& plan) const;
-  std::optional<OnsetSimilarity> onset_similarity(double first) const;
   void certify(const Sampled& sampled);
-  double slowest_verification() const;
+  double slowest_verification(double first) const;
   void verify_impacts(const ContactRecords& records);
 
   BuiltLaw built_;
@@ -90,7 +88,8 @@ class Build
   const BuildOptions& options_;
   const RunSource& source_;
   BuildRuns runs_;
-  std::optional<LawShape> known_;  ///< a rate-dependent body's rate-independent law, where the atlas gives it
+  std::optional<PoleMaterial> pole_;  ///< with a guide
+  bool known_ = false;  ///< the guide is a rate-dependent body's rate-independent law
   ElasticCorrection elastic_;
   std::optional<ContactRecord> elastic_press_;  ///< of a body of several materials
   int press_cells_ = first_resolution, impact_cells_ = first_resolution;
@@ -105,10 +104,21 @@ Build::Build(const LawMaterial& material, const CharacterisedBody& body, const B
       runs_(options)
 {
   law_.material = material;
-  if (!body.rate_dependent() || !slow_.is_plain()) return;
-  if (!options.atlas || options.tolerance < options.atlas->claimed_force()) return;
-  if (const MaterialRatios ratios = MaterialRatios::of(material); options.atlas->why_not(ratios).empty())
-    known_ = options.atlas->shape(ratios);
+  if (!options.atlas || !body.yields()) return;
+  const Material& at_pole = body.particle.materials[static_cast<std::size_t>(body.pole_material)];
+  PoleMaterial pole{MaterialRatios::of(law_material("", at_pole))};
+  if (!at_pole.hardening.name.empty()) pole.flow = flow_curve(at_pole), pole.ratios.hardening = 0;
+  if (!why_no_guide(*options.atlas, pole).empty()) return;
+  pole_ = pole;
+  known_ = body.rate_dependent() && slow_.is_plain() && options.tolerance >= guide({})->error_force;
+}
+
+/// By this elastic correction; a sphere's is the atlas's.
+std::optional<Guide> Build::guide(const ElasticCorrection* elastic) const
+{
+  if (!pole_) return {};
+  if (body_.particle.is_homogeneous_sphere()) elastic = nullptr;
+  return guide_of(*options_.atlas, *pole_, body_.onset, known_ ? Atlas::depth : options_.depth, elastic);
 }
 
 BuiltLaw Build::take()
@@ -119,6 +129,15 @@ BuiltLaw Build::take()
 
 // -- plan --
 
+/// Least onset: the guide reaches from there to the first run; without a guide an impact to 2e-6 R takes minutes.
+double Build::least_onset() const
+{
+  constexpr double without_guide = 1e-6;
+  if (!pole_) return without_guide;
+  const MaterialRatios stiffest{options_.atlas->grid().stiffnesses.back(), body_.poisson_ratio, 0};
+  return onset_of(stiffest) * shallowest_with_guide / Atlas::depth;
+}
+
 void Build::require_lawful() const
 {
   const std::string where = fmt::format("material '{}'", law_.material.name);
@@ -126,46 +145,26 @@ void Build::require_lawful() const
     fail(where, "yields too late in the overlaps that a law covers",
          fmt::format("onset at delta/R = {:.3g}", body_.onset),
          fmt::format("up to {:.3g}", latest_onset * options_.depth));
+  if (const double least = least_onset(); body_.onset < least)
+    fail(where, "yields at overlaps too small to be run", fmt::format("onset at delta/R = {:.2g}", body_.onset),
+         fmt::format("{:.2g} or more", least));
   if (body_.rate_dependent() && options_.fastest == 0)
     fail(where, "depends on the rate: its law needs impacts, not the quasi-static law alone", "I = 0",
          "over 0");
 }
 
-/// The runs to begin with: two reversal points a press, the fewest impacts.
+/// The runs to begin with.
 SamplingPlan Build::first_plan() const
 {
-  std::vector<double> speeds;
+  SamplingPlan plan;
+  if (!known_)
+    plan = slow_runs_to(first_overlaps(body_.onset, options_.depth, pole_.has_value()), slow_, options_.tolerance, press_cells_,
+                        pole_ ? slow_with_guide : slow_without);
   if (body_.rate_dependent())
-    speeds = first_rate_speeds(slowest_of(body_, options_), options_.fastest);
+    plan.fast_speeds = first_rate_speeds(slowest_of(body_, options_), options_.fastest);
   else if (options_.fastest > 0)
-    speeds = first_inertia_speeds(options_.fastest, options_.tolerance);
-  SamplingRange range = widest_range();
-  range.stops = 2;
-  range.speeds = speeds;
-  return plan_sampling(slow_, range);
-}
-
-/// Number of runs of the densest plan: a rate's impacts as near to each other as refinement puts them.
-std::size_t Build::most_runs(const std::optional<OnsetSimilarity>& guide) const
-{
-  SamplingRange range = widest_range();
-  if (body_.rate_dependent()) range.speeds = {};
-  std::size_t runs = plan_sampling(slow_, range).runs();
-  if (body_.rate_dependent())
-    runs += 1 + static_cast<std::size_t>(std::log(options_.fastest / slowest_of(body_, options_)) /
-                                         least_interval(options_.tolerance));
-  if (guide)
-    for (const OnsetSimilarity::Sphere& sphere : guide->spheres()) runs += sphere.plan.runs();
-  return runs;
-}
-
-SamplingRange Build::widest_range() const
-{
-  SamplingRange range;
-  range.depth = options_.depth;
-  range.fastest = options_.fastest;
-  range.tolerance = options_.tolerance;
-  return range;
+    plan.fast_speeds = first_inertia_speeds(options_.fastest, options_.tolerance);
+  return plan;
 }
 
 // -- resolve --
@@ -225,25 +224,17 @@ void Build::find_onset()
 void Build::resolve(const SamplingPlan& plan)
 {
   std::vector<RunJob> beside;
-  if (!known_ && body_.is_uniform()) beside.push_back(elastic_press_job(body_, first_resolution, source_));
+  const bool of_atlas = pole_ && body_.particle.is_homogeneous_sphere();
+  if (of_atlas) elastic_ = guide({})->master.elastic;
+  if (!of_atlas && body_.is_uniform()) beside.push_back(elastic_press_job(body_, first_resolution, source_));
   const ResolutionChoice choice = choose_resolutions(probes(plan), beside, options_.tolerance, runs_);
   note_solver_error(choice);
   if (!beside.empty()) elastic_ = fit_elastic(contact_record_of(choice.beside.front().result));
-  if (known_ || press_cells_ == first_resolution) return;
+  if (of_atlas || press_cells_ == first_resolution) return;
   const RunJob finer = elastic_press_job(body_, press_cells_, source_);
   const RunOutcome press = runs_.make_needed({finer}, runs_.done() + 0.05, "the elastic press").front();
   if (elastic_press_) elastic_press_ = contact_record_of(press.result);
   elastic_ = fit_elastic(contact_record_of(press.result));
-}
-
-/// Source of the law below `first`, the overlap of the shallowest run planned, if that is far from the onset.
-std::optional<OnsetSimilarity> Build::onset_similarity(double first) const
-{
-  if (known_ || !needs_prior(first, body_.onset)) return {};
-  OnsetSimilarity::Needs needs;
-  needs.first = first, needs.depth = options_.depth;
-  needs.tolerance = options_.tolerance, needs.press_cells = press_cells_;
-  return OnsetSimilarity(body_, needs, options_.atlas);
 }
 
 // -- certify, tabulate, verify --
@@ -263,11 +254,10 @@ void Build::certify(const Sampled& sampled)
   c.atlas_error_restitution = options_.atlas->claimed_restitution();
 }
 
-/// sqrt(I) of an impact within four onsets, where layers show: twice as deep as the onset, or as the
-/// shallowest runs.
-double Build::slowest_verification() const
+/// sqrt(I) of an impact half-way between the onset and the shallowest run, where layers show.
+double Build::slowest_verification(double first) const
 {
-  const double overlap = 2 * std::max(body_.onset, SamplingRange{}.shallowest);
+  const double overlap = std::sqrt(body_.onset * first);
   return std::sqrt(law_.curve.work(overlap) / energy_unit(body_.mass, body_.yield));
 }
 
@@ -277,31 +267,22 @@ void Build::verify_impacts(const ContactRecords& records)
   const double fastest = std::sqrt(law_.certificate.damage_number_max);
   std::vector<double> speeds = verification_speeds(records.fast, fastest, axis_kind_of(body_),
                                                    body_.rate_dependent() ? of_rate : of_inertia);
-  if (!body_.is_uniform()) speeds.insert(speeds.begin(), slowest_verification());
+  if (!body_.is_uniform()) speeds.insert(speeds.begin(), slowest_verification(records.slow.front().depth));
   const double error = verify(law_, body_, speeds, impact_cells_, source_, runs_);
   built_.sampling_error = larger(built_.sampling_error, error);
-}
-
-/// Overlap of the shallowest run planned.
-double Build::first_overlap(const SamplingPlan& plan) const
-{
-  return plan.slow_impacts.empty() ? plan.presses.front().stops.front()
-                                   : expected_depth(plan.slow_impacts.front(), slow_);
 }
 
 void Build::require_reachable() const
 {
   if (!body_.yields() || !body_.is_uniform()) return;  // else a press gives the onset
   require_lawful();
-  onset_similarity(first_overlap(first_plan()));
 }
 
 ExpectedRuns Build::expected() const
 {
-  if (!body_.yields()) return {2, 2, 2 * press_job(body_, {options_.depth, {}, press_cells_, 2}, source_).cost};
-  SamplingPlan plan = first_plan();
-  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
-  ExpectedRuns expected{plan.runs(), most_runs({}), 0};
+  if (!body_.yields()) return {2, 2 * press_job(body_, {options_.depth, {}, press_cells_, 2}, source_).cost};
+  const SamplingPlan plan = first_plan();
+  ExpectedRuns expected{plan.runs(), 0};
   for (const RunJob& job : sampling_jobs(slow_, plan, source_)) expected.first_cpu_s += job.cost;
   return expected;
 }
@@ -311,23 +292,18 @@ void Build::plastic()
   find_onset();
   require_lawful();
   SamplingPlan plan = first_plan();
-  const double first = first_overlap(plan);
-  onset_similarity(first);  // refuses, before the runs, an onset that it does not reach
-  if (known_) plan.presses.clear(), plan.slow_impacts.clear();
   resolve(plan);
-  for (SamplingPlan::Press& press : plan.presses) press.resolution = std::max(press.resolution, press_cells_);
-  std::optional<OnsetSimilarity> guide = onset_similarity(first);
-  // the first impact would show what is known then, for a third of the time
-  if (guide && guide->spares_first() && !plan.slow_impacts.empty())
-    plan.slow_impacts.erase(plan.slow_impacts.begin());
-
+  for (SamplingPlan::Press& press : plan.presses) press.resolution = press_cells_;
   const std::size_t before = runs_.count();
-  const SamplingSetting setting{body_,    slow_,        options_,     source_, known_ ? &*known_ : nullptr,
-                                elastic_, elastic_press_ ? &*elastic_press_ : nullptr,
-                                press_cells_, impact_cells_};
-  const Sampled sampled = sample(plan, setting, guide ? &*guide : nullptr, runs_);
-  built_.runs_full = most_runs(guide);
-  if (guide) built_.shallow = guide->how();
+  const auto guide_by = [this](const ElasticCorrection& elastic) -> std::optional<LawShape> {
+    const std::optional<Guide> found = guide(&elastic);
+    if (found) return found->master;
+    return {};
+  };
+  const SamplingSetting setting{body_, slow_, options_, source_, elastic_, elastic_press_ ? &*elastic_press_ : nullptr,
+                                press_cells_, impact_cells_, guide_by, known_};
+  const Sampled sampled = sample(plan, setting, runs_);
+  if (const auto found = guide(&elastic_)) built_.guide = found->from;
 
   certify(sampled);
   const LawShape& shape = sampled.fitted.shape;
@@ -357,7 +333,7 @@ void Build::elastic()
   c.interpolation_error = fit.error;
   c.residual_scatter = scatter_about(law_.curve, presses.back());
   c.damage_number_max = std::numeric_limits<double>::infinity();
-  built_.runs = built_.runs_full = runs_.count();
+  built_.runs = runs_.count();
 }
 
 }  // namespace

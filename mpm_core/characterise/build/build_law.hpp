@@ -15,12 +15,11 @@ struct BuiltLaw
   BodyLaw law;
   std::vector<std::string>
       holes;              ///< runs that failed twice, each with its sentence: the law has no sample there
-  std::string shallow;    ///< where the law comes from at overlaps too small to be run; empty: there are none
+  std::string guide;      ///< the law without runs, from which the runs show the departure; empty: there is none
   std::string rate_free;  ///< where a rate-dependent body's rate-independent law comes from; empty: from runs
   double change_of_restitution = 0;  ///< largest relative change of the fitted e that admissibility took
   double sampling_error = 0;         ///< largest where nothing was sampled, as it counts for the tolerance
   std::size_t runs = 0;              ///< that the adaptive sampling asked for
-  std::size_t runs_full = 0;         ///< that the densest one would have
 };
 
 /// Throws Error, before anything is run, where the law of a body of one material cannot be made: it yields too
@@ -30,7 +29,7 @@ void require_reachable(const LawMaterial& material, const CharacterisedBody& bod
 /// The first runs of the sampling, and how far it may be refined.
 struct ExpectedRuns
 {
-  std::size_t first = 0, most = 0;
+  std::size_t first = 0;
   double first_cpu_s = 0;  ///< CPU seconds, about, of the first ones
 };
 ExpectedRuns expected_runs(const LawMaterial& material, const CharacterisedBody& body,

@@ -64,9 +64,8 @@ void note_holes(const std::string& name, const std::vector<std::string>& holes, 
 void note_runs(const std::string& name, const BuiltLaw& built, Provenance& provenance)
 {
   note_holes(name, built.holes, provenance);
-  provenance["sampling_plan." + name] = provenance["survey." + name] =
-      fmt::format("{} runs, {} of the densest sampling plan", built.runs, built.runs_full);
-  if (!built.shallow.empty()) provenance["shallow." + name] = built.shallow;
+  provenance["sampling_plan." + name] = fmt::format("{} runs", built.runs);
+  if (!built.guide.empty()) provenance["guide." + name] = built.guide;
   if (!built.rate_free.empty()) provenance["rate_free." + name] = built.rate_free;
   provenance["admissible." + name] =
       fmt::format("the fitted e changed by {:.2g} % at most", 100 * built.change_of_restitution);
@@ -170,7 +169,7 @@ class Maker
     note_runs(name, built, provenance);
     note_flow_laws(name, body.characterised.particle.materials, provenance);
     MadeLawFile::Runs& runs = file_.runs[name];
-    runs = {built.runs, built.runs_full, built.sampling_error, {}};
+    runs = {built.runs, built.sampling_error, {}};
     if (body.characterised.rate_dependent())
       runs.size = provenance["size." + name] = size_of(body, built.law);
     return std::move(built.law);
@@ -223,7 +222,7 @@ class Maker
     CorrectedLaws made = corrected_laws(bodies, pair_body(bodies.yielding), pair_body(bodies.partner),
                                         pair.composed_at, options_named(pair.name()));
     note_holes(pair.name(), made.holes, file_.law.provenance);
-    file_.runs[pair.name()] = {made.runs, made.runs, made.sampling_error, {}};
+    file_.runs[pair.name()] = {made.runs, made.sampling_error, {}};
     ++finished_;
     return std::move(made.laws);
   }
@@ -243,7 +242,7 @@ class Maker
     const UnlikePair bodies = unlike_pair(material(pair.a), material(pair.b), own_law_radius_ratio);
     BuiltLaw built = build_two_body_law(bodies, options_named(pair.name()));
     note_holes(pair.name(), built.holes, file_.law.provenance);
-    file_.runs[pair.name()] = {built.runs, built.runs_full, built.sampling_error, {}};
+    file_.runs[pair.name()] = {built.runs, built.sampling_error, {}};
     ++finished_;
     return {{std::move(built.law), own_law_radius_ratio}};
   }

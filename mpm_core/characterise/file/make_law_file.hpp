@@ -12,7 +12,6 @@ struct MadeLawFile
   struct Runs
   {
     std::size_t made = 0;       ///< runs that the sampling asked for
-    std::size_t densest = 0;    ///< runs that the densest sampling would have
     double sampling_error = 0;  ///< largest where nothing was sampled, as it counts for the tolerance: above
                                 ///< it where sampling ended before it was reached
     std::string size;           ///< of a rate-dependent body: the size and the speeds that its law holds for

@@ -8,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "base/larger.hpp"
+#include "atlas/departure.hpp"
+#include "atlas/speed_interpolation.hpp"
 #include "atlas/spline.hpp"
 
 namespace granulaw {
@@ -23,12 +25,18 @@ constexpr double elastic_from = 0.1;
 constexpr double yielded_from = 1. / 3;
 
 /// Grid noise of a sample grows as (cell/contact radius)^1.65 (formulations.md, sect. 3): its weight falls as
-/// x^0.8. Samples stand at equal times; what counts is equal steps of ln x.
+/// x^0.8.
+double resolution_weight(double x, double depth)
+{
+  return std::pow(x / depth, 0.8);
+}
+
+/// Samples stand at equal times; what counts is equal steps of ln x.
 double weight_of(const ContactRecord& press, std::size_t k)
 {
   const auto& l = press.loading;
   const double before = l[k > 0 ? k - 1 : k].x, after = l[std::min(k + 1, l.size() - 1)].x;
-  return std::pow(l[k].x / press.depth, 0.8) * std::sqrt(std::max(1e-9, std::log(after / before)));
+  return resolution_weight(l[k].x, press.depth) * std::sqrt(std::max(1e-9, std::log(after / before)));
 }
 
 double hertz_force(double x)
@@ -67,14 +75,14 @@ double elastic_hertz_share(const ElasticCorrection& elastic, double x)
 
 using Samples = std::vector<Spline::Sample>;
 
-/// Adds what a prior knows of one function below the first run.
-void add_prior(Samples& samples, const ShapePrior* prior, std::vector<double> LawShape::*function,
-               double q_first, double q_end, double weight)
+/// Adds one function of a law that is known below the first run.
+void add_known(Samples& samples, const LawShape* known, std::vector<double> LawShape::*function, double q_first,
+               double q_end, double weight)
 {
-  if (!prior) return;
-  const std::vector<double>& values = prior->shape.*function;
+  if (!known) return;
+  const std::vector<double>& values = known->*function;
   const auto last = static_cast<double>(values.size() - 1);
-  for (std::size_t k = 1; k < values.size() && std::isfinite(prior->error[k]); ++k)
+  for (std::size_t k = 1; k < values.size(); ++k)
     if (const double q = q_end * static_cast<double>(k) / last; q < q_first)
       samples.push_back({q, values[k], weight});
 }
@@ -82,7 +90,7 @@ void add_prior(Samples& samples, const ShapePrior* prior, std::vector<double> La
 /// A reversal point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
 /// is only enough to bridge gaps.
 Spline reversal_spline(std::span<const ContactRecord> presses, double onset, double q_end,
-                             const auto& of, const ShapePrior* prior, std::vector<double> LawShape::*function,
+                             const auto& of, const LawShape* known, std::vector<double> LawShape::*function,
                              double smoothing = 0.03)
 {
   Samples samples;
@@ -91,7 +99,7 @@ Spline reversal_spline(std::span<const ContactRecord> presses, double onset, dou
     samples.push_back({q_of(p.depth, onset), of(p), 1.0});
     q_first = std::min(q_first, samples.back().q);
   }
-  add_prior(samples, prior, function, q_first, q_end, 1.0);
+  add_known(samples, known, function, q_first, q_end, 1.0);
   const int intervals = std::max(4, static_cast<int>(samples.size()) - 2);
   return Spline::fit(samples, q_end, std::min(intervals, 24), smoothing);
 }
@@ -249,53 +257,67 @@ namespace {
 struct ShapeFit
 {
   const ContactRecords& records;
-  const ElasticCorrection& elastic;
-  double onset, x_end, q_end;
-  const ShapePrior* prior;
-  Spline force_reduction, widening;
-  std::vector<ContactRecord> reversals;  ///< those beyond the onset
+  const LawShape* known;                   ///< without a guide: the law below the first run; null: none
+  bool guided;
+  LawShape shape;                          ///< the guide, or 0; becomes the law's
+  std::vector<ContactRecord> reversals{};  ///< those beyond the onset
 
-  ShapeFit(const ContactRecords& found, const ElasticCorrection& correction, double begin, double end,
-           const ShapePrior* known)
-      : records(found), elastic(correction), onset(begin), x_end(end), q_end(q_of(end, begin)), prior(known)
+  FittedShape run()
   {
+    fit_loading();
+    correct_reversals();
+    fit_reversals();
+    return {shape, quality()};
   }
-  double press_force(double x) const { return press_force_at(x, elastic, force_reduction, onset); }
+
+ private:
   void fit_loading();
   void correct_reversals();
-  Spline dissipation(std::span<const ContactRecord> points) const
-  {
-    return reversal_spline(points, onset, q_end, dissipation_measure, prior, &LawShape::dissipation);
-  }
-  LawShape shape() const;
+  void fit_reversals();
   double scatter() const;
   FitQuality quality() const;
+  Spline force_reduction() const { return shape.by_q(&LawShape::force_reduction); }
+  double q_end() const { return shape.q(shape.end); }
+  void add_departure(const std::array<Samples, 5>& samples);
 };
+
+/// Adds what runs differ by from the guide.
+void ShapeFit::add_departure(const std::array<Samples, 5>& samples)
+{
+  Departure::Points points;
+  for (std::size_t f = 0; f < points.size(); ++f) {
+    const Spline of_guide = shape.by_q(LawShape::functions[f]);
+    for (const Spline::Sample& s : samples[f])
+      points[f].push_back({std::exp(4 * s.q), s.value - of_guide.value(s.q), s.weight});
+  }
+  Departure(points).add_to(shape);
+}
 
 void ShapeFit::fit_loading()
 {
   Samples force, radius;
-  double q_first = q_end;
+  double q_first = q_end();
   for (const ContactRecord& press : records.slow)
     for (std::size_t k = 0; k < press.loading.size(); ++k) {
       const auto& [x, f, a] = press.loading[k];
-      if (x < std::max(onset, yielded_from * press.depth) || f <= 0 || a <= 0) continue;
-      const double s = std::pow(x, 0.25), q = q_of(x, onset), weight = weight_of(press, k);
-      force.push_back({q, -std::log(f / (hertz_force(x) * elastic.force_ratio(s))), weight});
-      radius.push_back({q, std::log(a / (std::sqrt(x) * elastic.radius_ratio(s))), weight});
+      if (x < std::max(shape.onset, yielded_from * press.depth) || f <= 0 || a <= 0) continue;
+      const double s = std::pow(x, 0.25), q = shape.q(x), weight = weight_of(press, k);
+      force.push_back({q, -std::log(f / (hertz_force(x) * shape.elastic.force_ratio(s))), weight});
+      radius.push_back({q, std::log(a / (std::sqrt(x) * shape.elastic.radius_ratio(s))), weight});
       q_first = std::min(q_first, q);
     }
-  if (prior) {
+  if (guided) return add_departure({force, radius, {}, {}, {}});
+  if (known) {
     // as much as a press's samples would weigh there, all in all
     double weights = 0;
     for (const auto& s : force) weights += s.weight * s.weight;
-    const double weight = std::sqrt(weights / (LawShape::nodes * std::max(0.1, 1 - q_first / q_end)));
-    add_prior(force, prior, &LawShape::force_reduction, q_first, q_end, weight);
-    add_prior(radius, prior, &LawShape::widening, q_first, q_end, weight);
+    const double weight = std::sqrt(weights / (LawShape::nodes * std::max(0.1, 1 - q_first / q_end())));
+    add_known(force, known, &LawShape::force_reduction, q_first, q_end(), weight);
+    add_known(radius, known, &LawShape::widening, q_first, q_end(), weight);
   }
-  const int intervals = std::clamp(static_cast<int>(std::lround(q_end / 0.15)), 6, 40);
-  force_reduction = Spline::fit(force, q_end, intervals, 0.02);
-  widening = Spline::fit(radius, q_end, intervals, 0.05);
+  const int intervals = std::clamp(static_cast<int>(std::lround(q_end() / 0.15)), 6, 40);
+  shape.force_reduction = Spline::fit(force, q_end(), intervals, 0.02).values(LawShape::nodes);
+  shape.widening = Spline::fit(radius, q_end(), intervals, 0.05).values(LawShape::nodes);
 }
 
 /// The recovered work follows the force at the reversal, which swings with the contact edge about the law:
@@ -303,35 +325,43 @@ void ShapeFit::fit_loading()
 void ShapeFit::correct_reversals()
 {
   for (const ContactRecord& p : records.slow)
-    if (p.depth > onset && p.reversal_counts) reversals.push_back(p);
-  if (reversals.size() < 3)
+    if (p.depth > shape.onset) reversals.push_back(p);
+  if (reversals.size() < 3 && !guided)
     fail("fit", "too few reversal points beyond the onset of yield", std::to_string(reversals.size()),
          "3 or more");
+  const Spline reduction = force_reduction();
   for (ContactRecord& p : reversals)
     if (p.reversal_force > 0)
-      p.work_ratio *= 1 + (press_force(p.depth) / p.reversal_force - 1) * (1 - p.work_ratio);
+      p.work_ratio *= 1 + (press_force_at(p.depth, shape.elastic, reduction, shape.onset) / p.reversal_force - 1) *
+                              (1 - p.work_ratio);
 }
 
-LawShape ShapeFit::shape() const
+void ShapeFit::fit_reversals()
 {
-  LawShape shape = LawShape::zero(onset, x_end);
-  shape.elastic = elastic;
-  shape.force_reduction = force_reduction.values(LawShape::nodes);
-  shape.widening = widening.values(LawShape::nodes);
   const auto residual = [](const ContactRecord& p) { return residual_measure(p.residual / p.depth); };
   const auto hertz_share = [&](const ContactRecord& p) {
-    return p.hertz_share - elastic_hertz_share(elastic, p.depth);
+    return p.hertz_share - elastic_hertz_share(shape.elastic, p.depth);
   };
-  shape.residual =
-      reversal_spline(reversals, onset, q_end, residual, prior, &LawShape::residual).values(LawShape::nodes);
-  shape.dissipation = dissipation(reversals).values(LawShape::nodes);
-  // The contact edge's grid noise of a per cent of F moves a Hertz coefficient by 0.3.
-  constexpr double smoothing = 0.1;
-  shape.hertz_share =
-      reversal_spline(reversals, onset, q_end, hertz_share, prior, &LawShape::hertz_share, smoothing)
-          .values(LawShape::nodes);
-  shape.velocity_effects = fit_velocity_effects(records.fast, shape, onset, x_end);
-  return shape;
+  if (guided) {
+    std::array<Samples, 5> samples;
+    for (const ContactRecord& p : reversals) {
+      const double q = shape.q(p.depth), weight = resolution_weight(p.depth, p.run_depth);
+      samples[2].push_back({q, residual(p), weight});
+      samples[3].push_back({q, dissipation_measure(p), weight});
+      samples[4].push_back({q, hertz_share(p), weight});
+    }
+    add_departure(samples);
+  } else {
+    const auto spline = [&](const auto& of, std::vector<double> LawShape::*function, double smoothing) {
+      shape.*function = reversal_spline(reversals, shape.onset, q_end(), of, known, function, smoothing)
+                            .values(LawShape::nodes);
+    };
+    spline(residual, &LawShape::residual, 0.03);
+    spline(dissipation_measure, &LawShape::dissipation, 0.03);
+    // The contact edge's grid noise of a per cent of F moves a Hertz coefficient by 0.3.
+    spline(hertz_share, &LawShape::hertz_share, 0.1);
+  }
+  shape.velocity_effects = fit_velocity_effects(records.fast, shape, shape.onset, shape.end);
 }
 
 /// Rms of the presses' loading samples about the fit, over the upper half of each.
@@ -339,10 +369,11 @@ double ShapeFit::scatter() const
 {
   double sum = 0;
   int count = 0;
+  const Spline reduction = force_reduction();
   for (const ContactRecord& press : records.slow)
     for (const auto& [x, f, a] : press.loading)
-      if (x >= std::max(onset, 0.5 * press.depth) && x <= x_end) {
-        sum += std::pow(f / press_force(x) - 1, 2);
+      if (x >= std::max(shape.onset, 0.5 * press.depth) && x <= shape.end) {
+        sum += std::pow(f / press_force_at(x, shape.elastic, reduction, shape.onset) - 1, 2);
         ++count;
       }
   return count ? std::sqrt(sum / count) : 0;
@@ -352,25 +383,16 @@ FitQuality ShapeFit::quality() const
 {
   FitQuality quality;
   quality.scatter = scatter();
-  const Spline fitted = dissipation(reversals);
+  const Spline fitted = shape.by_q(&LawShape::dissipation);
   for (const ContactRecord& p : reversals) {
-    const double missed = fitted.value(q_of(p.depth, onset)) - dissipation_measure(p);
+    const double missed = fitted.value(shape.q(p.depth)) - dissipation_measure(p);
     quality.reversal_error = larger(quality.reversal_error, std::abs(std::expm1(-0.5 * missed)));
   }
   return quality;
 }
 
-}  // namespace
-
-FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
-                      double x_end, const ShapePrior* prior)
+FittedShape checked(const FittedShape& fitted)
 {
-  if (records.slow.size() < 3)
-    fail("fit", "too few reversal points", std::to_string(records.slow.size()), "3 or more");
-  ShapeFit fit(records, elastic, onset, x_end, prior);
-  fit.fit_loading();
-  fit.correct_reversals();
-  const FittedShape fitted{fit.shape(), fit.quality()};
   // Smoothing differs from a run by a per cent at most; what differs by more contradicts its neighbours.
   constexpr double contradiction = 0.05;
   if (fitted.quality.reversal_error > contradiction)
@@ -378,6 +400,49 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
          fmt::format("by {:.2g} %", 100 * fitted.quality.reversal_error),
          fmt::format("up to {:.0f} %", 100 * contradiction));
   return fitted;
+}
+
+}  // namespace
+
+ContactRecord without_inertia(const ContactRecord& impact, std::span<const LawShape::VelocityEffect> effects)
+{
+  std::vector<double> speeds;
+  for (const LawShape::VelocityEffect& e : effects) speeds.push_back(e.speed);
+  const SpeedInterpolation between(speeds, AxisTable::By::inertia);
+  const auto effect = [&](const auto& of) {
+    return between.at(impact.speed, [&](std::size_t j) { return of(effects[j]); });
+  };
+  std::vector<double> force;
+  for (std::size_t n = 0; n < LawShape::VelocityEffect::shares; ++n)
+    force.push_back(effect([n](const LawShape::VelocityEffect& e) { return e.force[n]; }));
+  ContactRecord slow = impact;
+  slow.speed = 0;
+  const auto last = static_cast<double>(force.size() - 1);
+  for (ContactRecord::Sample& s : slow.loading) {
+    const double place = std::min(s.x / slow.depth, 1.0) * last;
+    const auto k = std::min(static_cast<std::size_t>(place), force.size() - 2);
+    s.force /= std::exp(force[k] + (place - static_cast<double>(k)) * (force[k + 1] - force[k]));
+  }
+  slow.peak /= std::exp(force.back()), slow.reversal_force /= std::exp(force.back());
+  slow.work_ratio *= std::exp(effect([](const LawShape::VelocityEffect& e) { return e.dissipation; }));
+  slow.residual = slow.depth * (1 - (1 - slow.residual / slow.depth) *
+                                        std::exp(effect([](const LawShape::VelocityEffect& e) { return e.residual; })));
+  return slow;
+}
+
+FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
+                      double x_end, const LawShape* known)
+{
+  if (records.slow.size() < 3)
+    fail("fit", "too few reversal points", std::to_string(records.slow.size()), "3 or more");
+  LawShape shape = LawShape::zero(onset, x_end);
+  shape.elastic = elastic;
+  return checked(ShapeFit{records, known, false, std::move(shape)}.run());
+}
+
+FittedShape fit_about(const LawShape& guide, const ContactRecords& records)
+{
+  return checked(ShapeFit{records, nullptr, true, guide}.run());
 }
 
 FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,

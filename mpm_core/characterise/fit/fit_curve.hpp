@@ -4,7 +4,6 @@
 
 #include "atlas/law_shape.hpp"
 #include "characterise/run/sampling_plan.hpp"
-#include "characterise/shape_prior.hpp"
 #include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
@@ -35,10 +34,14 @@ struct FittedShape
 };
 
 /// The law of a yielding sphere from its records, by smooth splines that start with zero value and slope at
-/// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `prior`: what
-/// is known over the same range without the runs; may be null where they begin near the onset.
+/// the onset of yield. `onset`, `x_end`: overlap/R where yield begins and where the shape ends. `known`: the law
+/// below the first run, over the same range; null where the runs begin near the onset.
 FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
-                      double x_end, const ShapePrior* prior = nullptr);
+                      double x_end, const LawShape* known = nullptr);
+
+/// The law of a body with a guide, over the guide's range: guide plus departure (atlas/departure.hpp), which the
+/// records show. A reversal counts as well as the cells of its run resolve its contact.
+FittedShape fit_about(const LawShape& guide, const ContactRecords& records);
 
 /// The same from presses alone, tabulated: a rate-independent curve to x_end.
 struct FittedCurve
@@ -49,6 +52,9 @@ struct FittedCurve
 };
 FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,
                         double onset, double x_end);
+
+/// An impact as if it were slow: without these effects of inertia, by their speed.
+ContactRecord without_inertia(const ContactRecord& impact, std::span<const LawShape::VelocityEffect> effects);
 
 /// Velocity effects of a body whose quasi-static presses have this shape, its own inertia apart; at the
 /// impacts' speeds.

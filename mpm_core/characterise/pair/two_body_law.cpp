@@ -22,6 +22,7 @@ BuiltLaw build_two_body_law(const UnlikePair& pair, const BuildOptions& options)
   PairFarm farm(options.farm ? *options.farm : alone, pair);
   BuildOptions own = options;
   own.farm = &farm;
+  own.atlas = nullptr;  // whose guide is of one body
   own.depth = std::min(options.depth, deepest_of_two_bodies(pair));
   const double speed_ratio = pair.axis_speed_ratio();
   own.fastest = options.fastest * speed_ratio;

@@ -41,8 +41,9 @@ struct ContactRecord
   double reversal_force = 0;    ///< as computed just before the reversal, F/(4/3 E* R^2); 0: not known
   double peak = 0;              ///< the summary's force_max, F/(4/3 E* R^2); 0: not known
   UnloadingPath unloading;      ///< from the reversal on, F/(4/3 E* R^2)
-  bool of_press = false;        ///< its loading belongs to a press's other reversal points too
-  bool reversal_counts = true;  ///< false: a fit takes its loading only
+  double speed = 0;             ///< sqrt(I) of an impact; 0: a press
+  int run = 0;                  ///< which run it is of: a press has several reversal points
+  double run_depth = 0;         ///< where that run reverses last; its cells resolve a contact of that depth
 };
 
 /// Records of the runs of one body.

@@ -37,13 +37,10 @@ AtReversal at_reversal(const LawShape& shape, double onset, double x_end, double
   return {elastic * std::exp(-reduction), std::exp(-0.5 * dissipation)};
 }
 
-ContactRecords without(const ContactRecords& records, std::size_t left_out)
+ContactRecords without(const ContactRecords& records, int run)
 {
-  ContactRecords others{records.slow, {}};
-  if (records.slow[left_out].of_press)
-    others.slow[left_out].reversal_counts = false;
-  else
-    others.slow.erase(others.slow.begin() + static_cast<std::ptrdiff_t>(left_out));
+  ContactRecords others = records;
+  std::erase_if(others.slow, [run](const ContactRecord& record) { return record.run == run; });
   return others;
 }
 
@@ -100,12 +97,14 @@ double least_interval(double tolerance)
 }
 
 std::vector<double> bisections(std::span<const LeftOutRun> runs, double tolerance,
-                               std::optional<double> least_speed)
+                               std::optional<Exact> exact)
 {
   const auto missed = [&](std::size_t k) { return miss(runs[k]) > tolerance; };
   std::vector<double> wanted;
-  if (least_speed && !runs.empty() && missed(0) && 0.5 * runs[0].coordinate >= *least_speed)
-    wanted.push_back(0.5 * runs[0].coordinate);
+  if (exact && !runs.empty() && missed(0)) {
+    const double middle = 0.5 * (exact->coordinate + runs[0].coordinate);
+    if (middle >= exact->nearest) wanted.push_back(middle);
+  }
   for (std::size_t k = 1; k < runs.size(); ++k) {
     const bool wide = std::log(runs[k].overlap / runs[k - 1].overlap) > least_interval(tolerance);
     if (wide && (missed(k - 1) || missed(k)))
@@ -115,18 +114,18 @@ std::vector<double> bisections(std::span<const LeftOutRun> runs, double toleranc
 }
 
 std::vector<LeftOutRun> leave_out_slow(const ContactRecords& records, const ShapeOf& fit, double onset,
-                                       double x_end)
+                                       double x_end, long least)
 {
-  constexpr long least = 4;  // a fit needs three beyond the onset
-  const auto beyond =
-      std::count_if(records.slow.begin(), records.slow.end(), [&](const auto& r) { return r.depth > onset; });
+  const auto is_end = [](const ContactRecord& r) { return r.depth == r.run_depth; };
+  const auto beyond = std::count_if(records.slow.begin(), records.slow.end(),
+                                    [&](const auto& r) { return is_end(r) && r.depth > onset; });
   std::vector<LeftOutRun> runs;
-  for (std::size_t k = 0; k < records.slow.size(); ++k) {
-    const ContactRecord& record = records.slow[k];
+  for (const ContactRecord& record : records.slow) {
+    if (!is_end(record)) continue;
     LeftOutRun run{std::log(record.depth), record.depth, {record.peak, restitution_of(record)}, {}};
-    const bool last = k + 1 == records.slow.size();
+    const bool last = record.depth == records.slow.back().depth;
     if (!last && beyond >= least && record.depth > onset)
-      run.predicted = at_reversal(fit(without(records, k)), onset, x_end, record.depth);
+      run.predicted = at_reversal(fit(without(records, record.run)), onset, x_end, record.depth);
     runs.push_back(run);
   }
   return runs;

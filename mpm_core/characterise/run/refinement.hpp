@@ -44,18 +44,22 @@ double largest_miss_of_restitution(std::span<const LeftOutRun> runs);
 /// the tolerance the runs scatter, which no further run mends.
 double least_interval(double tolerance);
 
+/// A place where the law is exact without a run, and the nearest place to it that may be run.
+struct Exact
+{
+  double coordinate, nearest;
+};
 /// Places that need runs: half-way between each run that is missed by more than the tolerance and its
-/// neighbours; ascending coordinates. `runs` ascend. `least_speed` is given for inertia, which is known to
-/// change nothing at standstill, coordinate 0; that interval is bisected down to this speed.
-std::vector<double> bisections(std::span<const LeftOutRun> runs, double tolerance,
-                               std::optional<double> least_speed = {});
+/// neighbours; ascending coordinates. `runs` ascend. `exact`: below the first of them.
+std::vector<double> bisections(std::span<const LeftOutRun> runs, double tolerance, std::optional<Exact> exact = {});
 
 /// Slow runs, each left out of the law that `fit` makes of the others. An impact is left out whole. A press
 /// loses one reversal point: its loading is continuous, and belongs to its other reversal points too. The
-/// deepest run has no prediction. `onset`, `x_end`: as in fit_shape().
+/// deepest run has no prediction, nor has any of fewer runs beyond the onset than `least`. `onset`, `x_end`: as in
+/// fit_shape().
 using ShapeOf = std::function<LawShape(const ContactRecords&)>;
 std::vector<LeftOutRun> leave_out_slow(const ContactRecords& records, const ShapeOf& fit, double onset,
-                                       double x_end);
+                                       double x_end, long least);
 
 /// Fast impacts, each left out of the interpolation between the others' velocity effects. The ends of the
 /// axis have no prediction; the lower end of inertia's is the standstill.

@@ -11,16 +11,8 @@ namespace granulaw {
 
 namespace {
 
-constexpr double slowest_press = 1e-3;  // overlap: below, slow impacts are cheaper than presses
-
 /// Depth of a press over its shallowest partial unloading, whose contact then spans half the cells.
 constexpr double press_span = 4;
-/// Ends of the presses, about press_span apart.
-constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};
-
-/// Overlap beyond which no pair law is exact, so that fewer cells and one grid will do.
-constexpr double exact_end = 0.2;
-
 /// Single precision changes e and F by less than 1e-6 and takes two thirds of the time.
 constexpr Precision precision = Precision::single;
 
@@ -135,42 +127,39 @@ RunJob with_estimate(RunJob job)
   return job;
 }
 
-SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& range)
+SamplingPlan plan_sampling(const CharacterisedBody& body)
 {
+  constexpr double slowest_press = 1e-3, shallowest = 2e-4;    // overlaps
+  constexpr double press_depths[] = {0.0075, 0.03, 0.13, 0.5};  // about press_span apart
+  constexpr double exact_end = 0.2;  // beyond, no pair law is exact: fewer cells and one grid will do
   SamplingPlan plan;
-  const double first = std::max(range.shallowest, range.from_onset * body.onset);
+  const double first = std::max(shallowest, nearest_to_onset * body.onset);
   double done = std::max(slowest_press, first);
-  for (double depth : press_depths) {
-    depth = std::min(depth, range.depth);
-    if (range.depth <= exact_end && range.depth < 1.6 * depth)
-      depth = range.depth;  // one that goes a little deeper spares the next
+  for (const double depth : press_depths) {
     if (depth < 1.3 * done) continue;
-    SamplingPlan::Press press{depth, between(done, depth, range.stops), 24, 2,
-                              loading_ramp(body, depth, range.tolerance)};
+    SamplingPlan::Press press{depth, between(done, depth, 3), 24, 2};
     if (depth > exact_end) press.resolution = 20, press.shifted_grids = 1;
     plan.presses.push_back(press);
     done = depth;
   }
   if (first < slowest_press) {
-    const double factor = range.stops > 2 ? 1.8 : 3.0;
-    const int count =
-        std::max(1, static_cast<int>(std::lround(std::log(slowest_press / first) / std::log(factor))));
+    const int count = std::max(1, static_cast<int>(std::lround(std::log(slowest_press / first) / std::log(1.8))));
     for (const double x : between(first, slowest_press, count))
       plan.slow_impacts.push_back(velocity_to(x, body));
   }
-  for (const double speed : range.speeds)
-    if (speed <= range.fastest * 1.0001) plan.fast_speeds.push_back(speed);
+  plan.fast_speeds.assign(std::begin(impact_speeds), std::end(impact_speeds));
   return plan;
 }
 
 SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedBody& body, double tolerance,
-                          int press_cells)
+                          int press_cells, double slow)
 {
   SamplingPlan plan;
   for (std::size_t k = overlaps.size(); k-- > 0;) {
     const double x = overlaps[k];
-    if (x < slowest_press) {
-      plan.slow_impacts.push_back(velocity_to(x, body));
+    const double velocity = velocity_to(x, body);
+    if (velocity * velocity <= slow * slow * body.yield) {
+      plan.slow_impacts.push_back(velocity);
     } else if (plan.presses.empty() || press_span * x < plan.presses.back().depth) {
       plan.presses.push_back({x, {}, press_cells, 2, loading_ramp(body, x, tolerance)});
     } else {
@@ -179,6 +168,15 @@ SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedB
     }
   }
   return plan;
+}
+
+std::vector<double> first_overlaps(double onset, double depth, bool guided)
+{
+  const double factor = guided ? 4 : 2.5, first = guided ? std::max(3 * onset, shallowest_with_guide) : 2 * onset;
+  const int count = std::max(1, static_cast<int>(std::ceil(std::log(depth / first) / std::log(factor))));
+  std::vector<double> overlaps = between(std::min(first, 0.5 * depth), depth, count);
+  overlaps.push_back(depth);
+  return overlaps;
 }
 
 std::vector<double> first_inertia_speeds(double fastest, double tolerance)
@@ -212,23 +210,30 @@ std::vector<RunJob> sampling_jobs(const CharacterisedBody& body, const SamplingP
   return jobs;
 }
 
-void add_to(ContactRecords& records, const SamplingPlan& plan, const std::vector<RunOutcome>& outcomes)
+void add_to(ContactRecords& records, const CharacterisedBody& body, const SamplingPlan& plan, const std::vector<RunOutcome>& outcomes)
 {
+  int run = 0;  // the next one's
+  for (const ContactRecord& record : records.slow) run = std::max(run, record.run + 1);
+  const auto take = [&](ContactRecord record, double depth) {
+    record.run = run, record.run_depth = depth;
+    records.slow.push_back(std::move(record));
+  };
   std::size_t next = 0;
-  for (std::size_t k = 0; k < plan.presses.size(); ++k) {
-    const RunOutcome& run = outcomes[next++];
-    if (run.failed()) continue;
-    for (ContactRecord& reversal : partial_unloadings(run.result, records.reload_loop))
-      records.slow.push_back(std::move(reversal));
-    records.slow.push_back(contact_record_of(run.result));
-    records.slow.back().of_press = true;
+  for (std::size_t k = 0; k < plan.presses.size() + plan.slow_impacts.size(); ++k, ++run) {
+    const RunOutcome& outcome = outcomes[next++];
+    if (outcome.failed()) continue;
+    const double depth = outcome.result.summary.delta_max;
+    ContactRecord last = contact_record_of(outcome.result);
+    if (k < plan.presses.size())
+      for (ContactRecord& reversal : partial_unloadings(outcome.result, records.reload_loop))
+        take(std::move(reversal), depth);
+    else
+      last.speed = plan.slow_impacts[k - plan.presses.size()] / std::sqrt(body.yield);
+    take(std::move(last), depth);
   }
-  for (std::size_t k = 0; k < plan.slow_impacts.size(); ++k)
-    if (const RunOutcome& run = outcomes[next++]; !run.failed())
-      records.slow.push_back(contact_record_of(run.result));
   for (const double speed : plan.fast_speeds)
-    if (const RunOutcome& run = outcomes[next++]; !run.failed())
-      records.fast.push_back({speed, contact_record_of(run.result)});
+    if (const RunOutcome& outcome = outcomes[next++]; !outcome.failed())
+      records.fast.push_back({speed, contact_record_of(outcome.result)});
   std::sort(records.slow.begin(), records.slow.end(),
             [](const ContactRecord& a, const ContactRecord& b) { return a.depth < b.depth; });
   std::sort(

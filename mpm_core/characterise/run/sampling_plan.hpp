@@ -64,24 +64,29 @@ struct SamplingPlan
 /// per cent of the loss, as is the contact-edge grid noise of two grids.
 inline constexpr int fast_shifted_grids = 4;
 
-/// Range of a law, and the density of its samples.
-struct SamplingRange
-{
-  double depth = 0.5;        ///< overlap of the deepest press, up to 0.5
-  double fastest = 0.3;      ///< sqrt(I) of the fastest impact, up to 0.3
-  double shallowest = 2e-4;  ///< overlap below which nothing is run: similarity in delta/delta_onset gives
-  double from_onset = 1.25;  ///< overlap over the onset's nearer to which nothing is run
-  double tolerance = 0;      ///< of F and e: presses load in loading_ramp()
-  int stops = 3;             ///< reversal points a press, its end among them
-  std::span<const double> speeds = impact_speeds;  ///< sqrt(I) of impacts, those up to the fastest
-};
+/// Overlap/onset nearer to the onset than which nothing is run.
+inline constexpr double nearest_to_onset = 1.25;
 
-SamplingPlan plan_sampling(const CharacterisedBody& body, const SamplingRange& range);
+/// The runs of a material of the atlas: three reversal points a press, slow impacts below the presses from
+/// 2e-4 R on, and fast ones at all impact_speeds.
+SamplingPlan plan_sampling(const CharacterisedBody& body);
 
-/// Slow runs to these ascending overlaps: presses, of which one serves every overlap from a quarter of its
-/// depth on, and impacts where these cost less.
+/// sqrt(I) up to which a slow run may be an impact. With a guide its inertia is the guide's (without_inertia());
+/// else it changes F by .3 %, e by .002 at most (the atlas's effects).
+inline constexpr double slow_with_guide = 0.06, slow_without = 0.02;
+
+/// Slow runs to these ascending overlaps: impacts up to the speed `slow`, sqrt(I), which cost less than presses; and
+/// presses, of which one serves every overlap from a quarter of its depth on.
 SamplingPlan slow_runs_to(std::span<const double> overlaps, const CharacterisedBody& body, double tolerance,
-                          int press_cells);
+                          int press_cells, double slow);
+
+/// Overlap of the shallowest first run with a guide: an impact to 2e-4 R costs twice as much, and shows no more.
+inline constexpr double shallowest_with_guide = 5e-4;
+
+/// The overlaps of the first slow runs of a law to `depth`, ascending. With a guide: by factors of four at most, from
+/// three onsets on, at which a departure is a sixth of what it is at ten. Without one: by factors of
+/// 2.5, from two onsets on, up to which a fit that leaves the onset with zero slope follows the law.
+std::vector<double> first_overlaps(double onset, double depth, bool guided);
 
 /// sqrt(I) of the first fast impacts, ascending. Leaving one out must leave what interpolates there
 /// (refinement.hpp).
@@ -113,7 +118,7 @@ RunJob impact_job(const CharacterisedBody& body, double velocity, int resolution
 RunJob with_estimate(RunJob job);
 
 /// Adds what the runs of a plan found; a failed run adds nothing.
-void add_to(ContactRecords& records, const SamplingPlan& plan, const std::vector<RunOutcome>& outcomes);
+void add_to(ContactRecords& records, const CharacterisedBody& body, const SamplingPlan& plan, const std::vector<RunOutcome>& outcomes);
 
 /// Overlap that an impact is expected to reach: Hertz's, or that of a mean pressure of 2.8 Y over the area
 /// 2 pi R delta, whichever is deeper. Only costs and the choice of runs depend on it.
