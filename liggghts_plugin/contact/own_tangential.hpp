@@ -59,7 +59,7 @@ class OwnTangential : public cm::TangentialModelBase
     if (*depth != before) {
       normal_->change_depth(s, entry, r_eff, before);
       // it goes deeper, though its overlap is less than its depth: `elasticDamping` is of contacts that return
-      if (*depth > before && s.vn < 0.0) normal_force = std::max(0.0, normal_force + s.gamman * s.vn);
+      if (*depth > before && s.vn < 0.0) normal_force = std::max(normal_force + s.gamman * s.vn, 0.0);
     }
     normal_->book(s, entry, books);
     add(s, grip, shorter, normal_force - s.Fn, on_i, on_j);

@@ -105,7 +105,7 @@ class PlasticShear
         }
       }
       held.depth = now.depth;
-      force = std::max(0.0, force + (now.force - before) * per_stretch);
+      force = std::max(force + (now.force - before) * per_stretch, 0.0);  // keeps what is no number
       answer.force = times(held.pull, -1.0);
       answer.couple = times(cross(m.normal, held.tilt), -now.moment);
       if (m.advances && now.depth != depth) {
@@ -162,7 +162,7 @@ class PlasticShear
   {
     constexpr double finest = 0.005, most = 16, deep = 0.1;
     const double moves = std::max(std::abs(step.deepening), dent.radius * size(step.turn)) / (finest * dent.depth);
-    return static_cast<int>(std::ceil(std::min(most, moves) * std::min(1.0, dent.depth / (deep * step.radius)))) | 1;
+    return static_cast<int>(std::max(1.0, std::ceil(std::min(most, moves) * std::min(1.0, dent.depth / (deep * step.radius)))));
   }
 
   /// `keeps`.

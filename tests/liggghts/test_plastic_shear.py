@@ -109,6 +109,12 @@ class PlasticShear(Deck):
         for a, b in zip(whole, self.end(again)):
             self.assertAlmostEqual(a, b, delta=1e-9 * speed / R)
 
+    def test_elastic_types_follow_history_to_the_bit(self):
+        ends = [self.end(self.thrown(5, 40, 0.3, 60, tangential).replace("materials powder rigid", "materials elastic elastic"))
+                for tangential in ("history", "plastic")]
+        self.assertEqual(*ends)
+        self.assertGreater(abs(ends[0][4]), 0)
+
     def test_a_mesh_is_the_primitive_wall(self):
         (self.folder / "plane.stl").write_text(plane_stl(0.02))
         primitive = self.thrown(39, 45, 0.3, 100)
