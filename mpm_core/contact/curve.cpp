@@ -90,6 +90,9 @@ Fault curve_fault(const CurveTable& t)
   if (Fault f = wrong_column("span", t.span, late, 1e-6, 1)) return f;
   if (Fault f = wrong_column("hertz_share", t.hertz_share, late, 0, UnloadingShape::largest_hertz_share))
     return f;
+  // below its first node the curve is Hertz's: it starts as that; a fit may round
+  if (const double ratio = t.force.value.front() / std::pow(x.front(), 1.5); !(std::abs(ratio - 1) <= 1e-3))
+    return {"the force does not begin as Hertz's: 'force' at node 0 over it is out of range", number(ratio), "1"};
   if (Fault f = turns("force", t.force, x, 1)) return f;
   if (Fault f = turns("radius", t.radius, x, 1)) return f;
   if (Fault f = turns("kept", t.kept, yielding, -1)) return f;
