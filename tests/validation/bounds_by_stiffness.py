@@ -38,7 +38,7 @@ def bounds(checks, stiffness):
 
 def fresh_impacts(path):
     """E*/Y, nu, H/E, sqrt(I), errors of F and e, the solver's estimate: as the atlas keeps its checks."""
-    rows = [line.replace("%", "").split() for line in open(path)]
+    rows = [line.replace("%", "").replace("<", "").split() for line in open(path)]  # "<" marks the largest errors
     rows = [[float(x) for x in row] for row in rows if len(row) == 7 and re.fullmatch(r"[\d.]+", row[0])]
     return np.array(rows) * [1, 1, 1, 1, 0.01, 1, 0.01]
 
