@@ -53,8 +53,7 @@ struct Exact
 /// neighbours; ascending coordinates. `runs` ascend. `exact`: below the first of them.
 std::vector<double> bisections(std::span<const LeftOutRun> runs, double tolerance, std::optional<Exact> exact = {});
 
-/// Slow runs, each left out of the law that `fit` makes of the others. An impact is left out whole. A press
-/// loses one reversal point: its loading is continuous, and belongs to its other reversal points too. The
+/// Slow runs, each left out whole of the law that `fit` makes of the others, a press with all its reversal points. The
 /// deepest run has no prediction, nor has any of fewer runs beyond the onset than `least`. `onset`, `x_end`: as in
 /// fit_shape().
 using ShapeOf = std::function<LawShape(const ContactRecords&)>;
