@@ -32,6 +32,22 @@ Eigen::MatrixXd correlation_of(const Minimum& minimum, std::size_t parameters)
 
 }  // namespace
 
+const char* name_of(Told told)
+{
+  switch (told) {
+    case Told::value:
+      return "value";
+    case Told::from_below:
+      return "from below";
+    case Told::from_above:
+      return "from above";
+    case Told::at_bound:
+      return "at a bound";
+    default:
+      return "not determined";
+  }
+}
+
 Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
 {
   const bool below = ends_below(problem, unknown, p), above = p.within95.high_told;

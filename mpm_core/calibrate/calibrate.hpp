@@ -45,6 +45,8 @@ enum class Told {
   nothing,
   at_bound  ///< the fit lies at an end of the method's range: neither value nor interval
 };
+/// "value", "from below", ..., "not determined".
+const char* name_of(Told told);
 
 struct FittedParameter
 {

@@ -39,7 +39,7 @@ MIRRORED = {
     "mpm_core/solver": ("solver", "base"),
     "mpm_core/contact": ("contact",),
     "mpm_core/law": ("law", "contact", "base"),
-    "mpm_core/characterise": ("characterise", "farm", "solver", "law", "contact", "base"),
+    "mpm_core/characterise": ("characterise", "calibrate", "atlas", "farm", "solver", "law", "contact", "base"),
     "liggghts_plugin": (),
     "tools/deck": ("deck", "law", "contact", "base"),
     "tools/mpm": ("mpm_parts", "material_file", "run_files", "deck", "characterise", "farm", "solver", "law", "contact", "base"),

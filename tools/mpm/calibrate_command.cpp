@@ -6,6 +6,7 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
+#include "calibrate/material_toml.hpp"
 #include "calibrate/sphere_laws.hpp"
 #include "characterise/build/slow_law.hpp"
 #include "calibration_options.hpp"

@@ -3,27 +3,12 @@
 #include <fmt/format.h>
 
 #include "calibrate/kind/kind.hpp"
+#include "calibrate/material_toml.hpp"
 #include "json_output.hpp"
 
 namespace granulaw {
 
 namespace {
-
-const char* word_of(Told told)
-{
-  switch (told) {
-    case Told::value:
-      return "value";
-    case Told::from_below:
-      return "from below";
-    case Told::from_above:
-      return "from above";
-    case Told::at_bound:
-      return "at a bound";
-    default:
-      return "not determined";
-  }
-}
 
 nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const Calibration& c,
                                         std::size_t k)
@@ -61,7 +46,7 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
         {"value", json_number(p.profile.value)}, {"low68", json_number(a.low)},
         {"high68", json_number(a.high)},         {"low95", json_number(b.low)},
         {"high95", json_number(b.high)},         {"unit", is_stress(p.parameter) ? "Pa" : ""},
-        {"identifiable", p.identifiable()},      {"told", word_of(p.told)}};
+        {"identifiable", p.identifiable()},      {"told", name_of(p.told)}};
   }
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (Eigen::Index a = 0; a < c.correlation.rows(); ++a) {
@@ -95,37 +80,6 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   return out;
 }
 
-std::string interval_comments(const CalibrationProblem& problem, const Calibration& c)
-{
-  std::string text;
-  for (const FittedParameter& p : c.parameters) {
-    if (p.told == Told::at_bound) continue;
-    text +=
-        fmt::format("# {}: {:.4g}{}, 68 %: {:.4g} to {:.4g}, 95 %: {:.4g} to {:.4g}{}\n",
-                    name_of(p.parameter), p.profile.value, is_stress(p.parameter) ? " Pa" : "",
-                    p.profile.within68.low, p.profile.within68.high, p.profile.within95.low,
-                    p.profile.within95.high, p.identifiable() ? "" : fmt::format(" ({})", word_of(p.told)));
-  }
-  return text + fmt::format("# {}\n", verdict(problem, c));
-}
-
-std::string material_toml(const CandidateMaterial& m, const std::string& comments)
-{
-  std::string text = comments + fmt::format(
-                                    "[material.{}]\ndensity = {:.6g}\nyoungs_modulus = {:.6g}\n"
-                                    "poisson_ratio = {:.6g}\nyield_stress = {:.6g}\n",
-                                    m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress);
-  if (!m.hardens_linearly()) {
-    const FlowLaw law = solver_material(m).hardening;
-    text += fmt::format("hardening = {{law = \"{}\"", law.name);
-    for (const auto& [key, values] : law.values) text += fmt::format(", {} = {:.8g}", key, values.front());
-    return text + "}\n";
-  }
-  if (m.hardening_modulus > 0)
-    text += fmt::format("hardening = {{law = \"linear\", modulus = {:.6g}}}\n", m.hardening_modulus);
-  return text;
-}
-
 void print_calibration(const CalibrationProblem& problem, const Calibration& c)
 {
   fmt::print("{:<20}{:>12}{:>26}{:>26}\n", "", "SI", "68 %", "95 %");
@@ -133,11 +87,11 @@ void print_calibration(const CalibrationProblem& problem, const Calibration& c)
     const Interval &a = p.profile.within68, &b = p.profile.within95;
     if (p.told == Told::at_bound) {
       fmt::print("{:<20}{:>12.4g}{:>26}{:>26}\n", name_of(p.parameter), p.profile.value, "no interval",
-                 word_of(p.told));
+                 name_of(p.told));
       continue;
     }
     fmt::print("{:<20}{:>12.4g}{:>12.4g} to {:<10.4g}{:>12.4g} to {:<10.4g}{}\n", name_of(p.parameter),
-               p.profile.value, a.low, a.high, b.low, b.high, p.identifiable() ? "" : word_of(p.told));
+               p.profile.value, a.low, a.high, b.low, b.high, p.identifiable() ? "" : name_of(p.told));
   }
   for (std::size_t k = 0; k < c.machines.size(); ++k) {
     const Measurement& m = problem.request().measurements[k];

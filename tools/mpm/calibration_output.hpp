@@ -11,10 +11,6 @@ namespace granulaw {
 /// The keys of mpm calibrate --json.
 nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const Calibration& calibration);
 
-/// [material.NAME] as `mpm table` reads it, with the intervals as comments.
-std::string material_toml(const CandidateMaterial& material, const std::string& comments);
-std::string interval_comments(const CalibrationProblem& problem, const Calibration& calibration);
-
 /// The summary for a person.
 void print_calibration(const CalibrationProblem& problem, const Calibration& calibration);
 
