@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "contact/element.hpp"
+#include "contact/plastic_shear.hpp"
 #include "contact/tabulated.hpp"
 #include "law/law_file.hpp"
 
@@ -23,7 +24,9 @@ struct granulaw_law
 struct granulaw_contact_law
 {
   std::shared_ptr<const Law> law;  // its curve is the element's
-  std::variant<ContactElement<Tabulated>, ContactElement<Tabulated, Spring>> element;
+  std::variant<ContactElement<Tabulated>, ContactElement<Tabulated, Spring>,
+               ContactElement<Tabulated, PlasticShear>>
+      element;
 };
 
 static_assert(GRANULAW_MECHANISMS == static_cast<int>(Mechanism::count));
@@ -78,15 +81,15 @@ const char* wrong_number(const granulaw_pair& pair)
   return nullptr;
 }
 
-/// Pa, 8 G* of the file's materials.
-double eight_shear_moduli_of(const Law& law, const std::string& a, const std::string& b)
+/// The pair's, Pa of the file's materials; a rigid wall is no material.
+BodiesInShear bodies_in_shear(const Law& law, const granulaw_pair& pair)
 {
-  const auto compliance = [&](const std::string& name) {
-    if (name == wall_name) return 0.0;
+  const auto body = [&](const std::string& name) {
+    if (name == wall_name) return ElasticBody{};
     const LawMaterial& material = law.bodies.at(name).material;
-    return shear_compliance(material.youngs_modulus, material.poisson_ratio);
+    return ElasticBody{material.youngs_modulus, material.poisson_ratio};
   };
-  return 8.0 / (compliance(a) + compliance(b));
+  return BodiesInShear::of(body(pair.a), body(pair.b), pair.shear_damping);
 }
 
 void make_element(granulaw_contact_law& contact, const granulaw_pair& pair)
@@ -95,15 +98,15 @@ void make_element(granulaw_contact_law& contact, const granulaw_pair& pair)
   const PairLaw law = resolve_pair(*contact.law, pair.a, pair.b, "granulaw_contact", said(pair.radius_a, 1.0),
                                    said(pair.radius_b, 1.0));
   const Tabulated normal(law, law.measure(), scale);
-  if (pair.friction == 0.0) {
+  BodiesInShear bodies = bodies_in_shear(*contact.law, pair);
+  bodies.stiffness = said(pair.shear_stiffness, bodies.stiffness / scale.pressure());
+  const ShearPair spring = ShearPair::of(bodies.stiffness, pair.friction, pair.shear_damping, scale.stretch);
+  if (pair.yields_in_shear)
+    contact.element = ContactElement<Tabulated, PlasticShear>{normal, PlasticShear(normal, spring, bodies)};
+  else if (pair.friction == 0.0)
     contact.element = ContactElement<Tabulated>{normal};
-    return;
-  }
-  const double stiffness = pair.shear_stiffness > 0
-                               ? pair.shear_stiffness
-                               : eight_shear_moduli_of(*contact.law, pair.a, pair.b) / scale.pressure();
-  contact.element = ContactElement<Tabulated, Spring>{
-      normal, Spring(ShearPair::of(stiffness, pair.friction, pair.shear_damping, scale.stretch))};
+  else
+    contact.element = ContactElement<Tabulated, Spring>{normal, Spring(spring)};
 }
 
 const Tabulated& normal_of(const granulaw_contact_law& contact)
@@ -116,6 +119,7 @@ bool has_numbers(const granulaw_motion& m)
   double sum = m.overlap + m.approach + m.dt;
   for (const double value : m.normal) sum += value;
   for (const double value : m.slide) sum += value;
+  for (const double value : m.turn) sum += value;
   return std::isfinite(sum) && m.r_eff > 0 && m.m_eff > 0 && std::isfinite(m.r_eff) && std::isfinite(m.m_eff);
 }
 
@@ -130,12 +134,14 @@ int advance(const Element& element, std::size_t n, const granulaw_motion* motion
                                                 m.m_eff,
                                                 m.dt,
                                                 {m.normal[0], m.normal[1], m.normal[2]},
-                                                {m.slide[0], m.slide[1], m.slide[2]}},
+                                                {m.slide[0], m.slide[1], m.slide[2]},
+                                                {m.turn[0], m.turn[1], m.turn[2]}},
                                                kept, books);
     answer[k] = {force.normal,
                  force.stiffness,
                  force.contact_radius,
-                 {force.shear[0], force.shear[1], force.shear[2]}};
+                 {force.shear[0], force.shear[1], force.shear[2]},
+                 {force.couple[0], force.couple[1], force.couple[2]}};
   }
   return GRANULAW_OK;
 }

@@ -53,6 +53,7 @@ typedef struct {
   double friction;           /* coefficient; 0: no tangential force, and three values less */
   double shear_stiffness;    /* 8 G* of Mindlin's spring; 0: of the file's moduli, of body a alone at a rigid wall */
   double shear_damping;      /* of the spring, as part of critical */
+  int yields_in_shear;       /* not 0: `tangential plastic` in place of Mindlin's spring, with any friction */
 } granulaw_pair;
 
 /* A contact's motion in a step, in the caller's units. */
@@ -63,8 +64,10 @@ typedef struct {
   double approach;    /* normal speed, positive: the surfaces come nearer */
   double dt;          /* s */
   double normal[3];   /* unit vector from j to i */
-  double slide[3];    /* velocity of i's surface against j's at the contact, along it */
+  double slide[3];    /* velocity of i's surface against j's at the contact, along it: a distance R_i - overlap/2
+                         from i's centre; R_i - overlap at a rigid wall where the contact yields in shear */
   int asked_again;    /* not 0: nothing is kept and nothing booked */
+  double turn[3];     /* rad/s, (omega_i - omega_j) x normal; of a contact that yields in shear */
 } granulaw_motion;
 
 /* Force on i; j gets the opposite. */
@@ -73,6 +76,7 @@ typedef struct {
   double stiffness;       /* slope of the normal law on its branch */
   double contact_radius;  /* of the real, unstretched contact */
   double shear[3];
+  double couple[3];       /* on i, beside the torque of `shear`; j gets the opposite */
 } granulaw_answer;
 
 /* Places of the ledger: energy that contacts took and do not give back. */

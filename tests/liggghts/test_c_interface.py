@@ -5,10 +5,11 @@ import os
 import subprocess
 import unittest
 
-from harness import GLASS, POWDER, Deck, head, properties, sphere_mass
+from harness import GLASS, POWDER, Deck, Material, head, properties, sphere_mass, worst
 
 COLLIDE, FORCES, MPM = (os.environ[k] for k in ("GRANULAW_COLLIDE", "GRANULAW_CONTACT_FORCES", "GRANULAW_MPM"))
 RADIUS = 1.7e-3
+RIGID = Material("rigid", 1500.0, 1e30, 0.3, 1e30)
 
 
 class CInterface(Deck):
@@ -47,38 +48,63 @@ class CInterface(Deck):
                 self.assertAlmostEqual(found["plastic"] + found["waves"], 1 - found["e"]**2, delta=1e-9 if kind == "plain" else 2e-4)
                 self.assertEqual(found["waves"] > 0, kind == "composed" and pair == "powder:glass" and partner == math.inf)
 
-    def test_forces_are_those_of_the_plugin(self):
-        """A sphere led into a wall, back and in again, sideways: F and the spring's force, to the last bit."""
+    def led(self, tangential, spin=(0.0, 0.0)):
+        """A sphere that turns is led into a wall, back and in again, sideways: force and torque on it by granulaw.h, and by LIGGGHTS."""
         dt, friction, damping = 1e-6, 0.4, 0.3
         velocities = ((0.7, -0.4, -2.0), (-0.9, 0.2, 1.5), (0.01, 0.02, -1.9), (0.3, 0.1, 0.8), (0.1, 0.3, 2.0))
-        words = f"law {self.law} materials powder elasticDamping off tangentialDampingRatio {damping} beyondRange continue"
+        # tangential plastic has the wall's stiffness from its material: rigid by a modulus that no sum keeps
+        materials, rigid = ("powder powder", [POWDER, POWDER]) if tangential == "history" else ("powder rigid", [POWDER, RIGID])
+        words = f"law {self.law} materials {materials} elasticDamping off tangentialDampingRatio {damping} beyondRange continue"
         moves = "".join(f"fix m all move linear {' '.join(map(repr, v))} units box\nrun 17\nunfix m\n" for v in velocities)
-        self.run_deck(head(half=20 * RADIUS) + properties([POWDER], friction) +
-                      f"pair_style gran model mpm tangential history {words}\npair_coeff * *\n"
-                      "fix w all wall/gran model mpm tangential history primitive type 1 zplane 0.0\n"
+        self.run_deck(head(types=2, half=20 * RADIUS) + properties(rigid, friction) +
+                      f"pair_style gran model mpm tangential {tangential} {words}\npair_coeff * *\n"
+                      f"fix w all wall/gran model mpm tangential {tangential} primitive type 2 zplane 0.0\n"
                       f"create_atoms 1 single 0 0 {1.0003 * RADIUS!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
-                      f"timestep {dt!r}\ndump d all custom 1 forces.txt mass radius z fx fy fz\n"
-                      'dump_modify d format "%.17g %.17g %.17g %.17g %.17g %.17g"\n' + moves)
+                      f"set group all omegax {spin[0]!r} omegay {spin[1]!r}\n"
+                      f"timestep {dt!r}\ndump d all custom 1 forces.txt mass radius z fx fy fz tqx tqy tqz\n"
+                      'dump_modify d format "%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g"\n' + moves)
         frames = (self.folder / "forces.txt").read_text().split("ITEM: TIMESTEP\n")[1:]
         rows = {int(f.split("\n")[0]): [float(w) for w in f.strip().split("\n")[-1].split()] for f in frames}
         compliance = 2.0 * (2.0 - POWDER.poisson_ratio) * (1.0 + POWDER.poisson_ratio) / POWDER.youngs_modulus
-        given, normals, expected = "", [], []
-        for step, (mass, radius, z, fx, fy, fz) in sorted(rows.items()):
+        stiffness = 8.0 / (compliance + compliance) if tangential == "history" else 8.0 / compliance
+        given, levers, expected = "", [], []
+        for step, (mass, radius, z, *force) in sorted(rows.items()):
             if step == 0:
                 continue
             vx, vy, vz = velocities[(step - 1) // 17]
             nz = z * (1.0 / z)  # LIGGGHTS's normal is off one by rounding
-            vn = vz * nz
-            given += " ".join(repr(w) for w in (radius, mass, radius - z, -vn, dt, 0, 0, nz, vx, vy, vz - vn * nz)) + "\n"
-            normals.append(nz)
-            expected.append([fx, fy, fz])
-        found = self.call(FORCES, self.law, "powder", "wall", friction, repr(8.0 / (compliance + compliance)), damping, given=given)
-        rows = ([float(w) for w in line.split()] for line in found.splitlines())
-        found = [[x, y, normal * nz + z] for (normal, x, y, z), nz in zip(rows, normals)]
+            vn, overlap = vz * nz, radius - z
+            lever = radius - overlap if tangential == "plastic" else radius - 0.5 * overlap
+            turn = spin[1] * nz, -spin[0] * nz  # spin x n
+            slide = vx - lever * turn[0], vy - lever * turn[1], vz - vn * nz
+            given += " ".join(repr(w) for w in (radius, mass, overlap, -vn, dt, 0, 0, nz, *slide, *turn, 0.0)) + "\n"
+            levers.append((lever, nz))
+            expected.append(force)
+        said = self.call(FORCES, self.law, "powder", "wall", friction, repr(stiffness), damping, tangential, given=given)
+        found, couples = [], []
+        for (lever, nz), line in zip(levers, said.splitlines()):
+            normal, x, y, z, *couple = map(float, line.split())
+            couples.append(abs(couple[0]))
+            # torque of a force at -lever n: -lever n x F
+            found.append([x, y, normal * nz + z, couple[0] + lever * nz * y, couple[1] - lever * nz * x, couple[2]])
         self.assertEqual(len(found), 17 * len(velocities))
         self.assertGreater(sum(f[2] > 0 for f in found), 30)
         self.assertGreater(sum(abs(f[0]) > 0 for f in found), 30)
-        self.assertEqual(found, expected)
+        self.assertEqual(sum(c > 0 for c in couples) > 30, tangential == "plastic")
+        return found, expected
+
+    def test_forces_are_those_of_the_plugin(self):
+        for tangential in ("history", "plastic"):
+            found, expected = self.led(tangential)
+            self.assertEqual([f[:3] for f in found], [f[:3] for f in expected])
+
+    def test_forces_and_couples_of_a_sphere_that_turns_are_those_of_the_plugin(self):
+        """The lever, by which spin slides the surface, is rounded in another order."""
+        for tangential in ("history", "plastic"):
+            found, expected = self.led(tangential, spin=(300.0, -500.0))
+            for k in range(6):
+                unit = max(abs(f[k]) for f in expected) or 1.0
+                self.assertLess(worst(abs(f[k] - g[k]) / unit for f, g in zip(found, expected)), 1e-9, f"{tangential} {k}")
 
     def test_what_cannot_be_used_is_one_sentence(self):
         for words, said in ((("no.h5", "powder", "wall"), "no.h5"), ((self.law, "powder", "clay"), "clay"), ((self.law, "mud", "wall"), "mud")):
