@@ -74,9 +74,21 @@ Atlas::Atlas(AtlasGrid grid, std::vector<Node> nodes, std::vector<ElasticSphere>
   for (Node& node : nodes_) node.shape.onset = onset_of(node.material), node.shape.end = depth;
   claimed_force_ = confident_bound(checks_, &AtlasCheck::error_force);
   claimed_restitution_ = confident_bound(checks_, &AtlasCheck::error_restitution);
-  std::vector<double> solver;
-  for (const AtlasCheck& c : checks_) solver.push_back(c.solver_estimate);
-  solver_error_ = percentile95(std::move(solver));
+}
+
+NearBounds Atlas::bounds_near(double stiffness) const
+{
+  constexpr std::size_t near = 93;
+  constexpr double true_over_estimate = 0.67;
+  std::vector<AtlasCheck> checks = checks_;
+  const auto distance = [&](const AtlasCheck& c) { return std::abs(std::log(c.material.stiffness / stiffness)); };
+  std::sort(checks.begin(), checks.end(),
+            [&](const AtlasCheck& a, const AtlasCheck& b) { return distance(a) < distance(b); });
+  checks.resize(std::min(checks.size(), near));
+  std::vector<double> estimates;
+  for (const AtlasCheck& c : checks) estimates.push_back(c.solver_estimate);
+  return {confident_bound(checks, &AtlasCheck::error_force), confident_bound(checks, &AtlasCheck::error_restitution),
+          true_over_estimate * percentile95(std::move(estimates))};
 }
 
 std::string Atlas::why_not(const MaterialRatios& m) const

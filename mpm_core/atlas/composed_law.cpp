@@ -238,7 +238,9 @@ PairMapping mapping_of(const PairBody& yielding, const PairBody& partner)
 
 ComposedError error_of(const PairBody& yielding, const PairBody& partner)
 {
-  return composed_error(partner.material().e_star() / yielding.material().e_star());
+  ComposedError error = composed_error(partner.material().e_star() / yielding.material().e_star());
+  error.solver = larger(yielding.solver_error(), partner.solver_error());
+  return error;
 }
 
 /// Radii of the yielding body and its partner: only their ratio counts.
@@ -375,7 +377,7 @@ std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, cons
 ComposedError composed_error(double e_star_ratio)
 {
   const double softness = 1 / (1 + e_star_ratio);
-  return {0.006 + 0.036 * softness * softness, 0.0058 + 0.023 * softness * softness};
+  return {0.006 + 0.036 * softness * softness, 0.0058 + 0.023 * softness * softness, 0};
 }
 
 namespace {
@@ -395,7 +397,9 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
       tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, std::sqrt(depth), 3), depth);
   law.certificate.origin = composed_origin;
   law.certificate.damage_number_max = std::numeric_limits<double>::infinity();
-  law.certificate.atlas_error_force = error_of(yielding, partner).force;
+  const ComposedError error = error_of(yielding, partner);
+  law.certificate.atlas_error_force = error.force;  // e is 1
+  law.certificate.solver_error_force = error.solver;
   return result;
 }
 
@@ -464,6 +468,7 @@ TwoBodyLaw law_of(const ComposedShape& composed, const LawRange& range)
   law.certificate.origin = composed_origin;
   law.certificate.atlas_error_force = composed.stated.force;
   law.certificate.atlas_error_restitution = composed.stated.restitution;
+  law.certificate.solver_error_force = law.certificate.solver_error_restitution = composed.stated.solver;
   LawRange of_pair = range;
   of_pair.depth = composed.end;
   of_pair.fastest = range.fastest * composed.speed_ratio;

@@ -57,10 +57,11 @@ class ComposedPair
   double radius_, partner_radius_, r_eff_, yield_radius_;
 };
 
-/// Errors that 95 % of collisions by a composed law lie within: of F_max, relative, and of e, absolute.
+/// Errors that 95 % of collisions by a composed law lie within.
 struct ComposedError
 {
-  double force = 0, restitution = 0;
+  double force = 0, restitution = 0;  ///< of composing, against impacts of the two bodies: of F_max relative, of e absolute
+  double solver = 0;                  ///< of the bodies' laws, of F and e, relative: the larger of the two
 };
 /// Fitted to the 95th percentiles of two-body impacts against stiffer, like and softer partners
 /// (docs/theory/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.

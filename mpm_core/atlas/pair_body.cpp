@@ -65,11 +65,12 @@ double PressureShape::strength(double flatness)
 }
 
 PairBody::PairBody(const Atlas& atlas, const LawMaterial& material)
-    : material_(material),
-      ratios_(MaterialRatios::of(material)),
-      elastic_(atlas.elastic(material.poisson_ratio).fit.correction)
+    : material_(material), ratios_(MaterialRatios::of(material))
 {
+  const ElasticSphere sphere = atlas.elastic(material.poisson_ratio);
+  elastic_ = sphere.fit.correction;
   finite_body_ = 0.5 * elastic_.c1;
+  solver_error_ = sphere.solver_error;
   if (material.yields()) make_twins(atlas);
 }
 
@@ -93,6 +94,7 @@ LawShape PairBody::shape(const Atlas& atlas, double stiffness) const
 void PairBody::make_twins(const Atlas& atlas)
 {
   const MaterialRatios& own = ratios_;
+  solver_error_ = atlas.bounds_near(own.stiffness).solver;
   const AtlasGrid& grid = atlas.grid();
   const double stiffest = std::min(grid.stiffnesses.back(), own.stiffness * farthest_twin);
   const double softest = std::max(grid.stiffnesses.front(), stiffest / (farthest_twin * farthest_twin));

@@ -80,6 +80,8 @@ class PairBody
   bool yields() const { return !twins_.empty(); }
   /// k of the finite sphere: its centre comes nearer by k F/(E* R) less than its half-space's.
   double finite_body() const { return finite_body_; }
+  /// The solver's error in its law, relative: as that of the atlas's (Atlas::bounds_near).
+  double solver_error() const { return solver_error_; }
 
  private:
   /// Equivalent sphere of one stiffness, at equal steps of ln(overlap/overlap at first yield).
@@ -114,7 +116,7 @@ class PairBody
   FlowCurve flow_;  ///< null: linear
   Departure departure_;
   ElasticCorrection elastic_;
-  double finite_body_ = 0;
+  double finite_body_ = 0, solver_error_ = 0;
   std::vector<Twin> twins_;
   std::vector<double> log_stiffnesses_;
 };

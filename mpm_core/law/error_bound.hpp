@@ -41,7 +41,7 @@ struct ErrorBound
 /// - from the atlas, that of its checks near this E*/Y (docs/evidence/atlas.md). These are fresh impacts, so it
 ///   includes the atlas's own runs, fit, interpolation and table;
 /// - composed of the two bodies' laws, that of two-body impacts that took no part in the rule
-///   (docs/evidence/pairs.md); their solver's error is not stated;
+///   (docs/evidence/pairs.md). The solver's error is the larger one of the two bodies' laws;
 /// - by runs, or corrected by impacts, the largest error of its verification, impacts that took no part in the
 ///   fit. Without impacts, the errors of fit and table.
 ErrorBound bound_of(const Certificate& certificate);

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "atlas/law_from_atlas.hpp"
+#include "law/error_bound.hpp"
 #include "law/radiation.hpp"
 #include "law/replay.hpp"
 #include "own_atlas.hpp"
@@ -252,6 +253,23 @@ TEST(ComposedLaw, TwinsHaveTheBodysHardeningOverItsModulus)
     EXPECT_NEAR(a.pressure / b.pressure, 1, 0.004);  // the atlas between its stiffnesses
     EXPECT_NEAR((a.residual + a.recovered) / (b.residual + b.recovered), 2, 0.02);
   }
+}
+
+/// The rule was measured by impacts whose cells have an error, too: as for an atlas law, it adds to the rule's.
+TEST(ComposedLaw, ItsBoundIncludesTheSolversErrorOfTheLessCertainBody)
+{
+  const LawMaterial s = material("s", 1, 1 / 100.0), h = material("h", 2, 1 / 500.0);
+  const double softer = atlas().bounds_near(100).solver, stiffer = atlas().bounds_near(1000).solver;
+  ASSERT_GT(stiffer, 1.5 * softer);  // the larger of the two is not the yielding body's
+  const Certificate c = composed(s, h, 1).law.certificate;
+  EXPECT_EQ(c.solver_error_force, stiffer);
+  EXPECT_EQ(c.solver_error_restitution, stiffer);
+  const ComposedError composing = composed_error(2);
+  EXPECT_DOUBLE_EQ(bound_of(c).force, std::hypot(composing.force, stiffer));
+  EXPECT_DOUBLE_EQ(bound_of(c).restitution_at(0.5), std::hypot(composing.restitution, 0.5 * stiffer));
+  const Certificate elastic = composed(material("s", 1, never), material("h", 2, never), 1).law.certificate;
+  EXPECT_GT(elastic.solver_error_force, 0);
+  EXPECT_EQ(elastic.solver_error_restitution, 0);  // e is 1
 }
 
 }  // namespace granulaw::composed_law_test

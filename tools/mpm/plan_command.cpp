@@ -67,7 +67,7 @@ bool is_unlike(const deck::PairPlan& p)
   return p.needs_table && p.visited && (m.wall ? m.deformable : m.name_a != m.name_b);
 }
 
-/// Error bound of such a law.
+/// Error of composing such a law; the errors of the two bodies' laws come on top.
 ComposedError law_error(const deck::PairPlan& p)
 {
   return composed_error(1 / (p.meeting.mapping.sqrt_lambda - 1));
@@ -208,7 +208,7 @@ void print_law_errors(const std::vector<deck::PairPlan>& pairs)
   for (const deck::PairPlan& p : pairs) {
     if (!is_unlike(p)) continue;
     const ComposedError stated = law_error(p);
-    fmt::print("  {}:{}{}: composed law: {} (95 % of collisions){}\n", printable(p.meeting.name_a),
+    fmt::print("  {}:{}{}: composing the law adds an error of {} (95 % of collisions){}\n", printable(p.meeting.name_a),
                printable(p.meeting.name_b), p.meeting.wall ? " (deformable wall)" : "",
                ErrorBound{stated.force, stated.restitution}.text(),
                stated.restitution > worth_runs && !p.meeting.wall

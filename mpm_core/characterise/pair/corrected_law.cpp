@@ -456,6 +456,7 @@ void correct(ComposedShape& composed, const Correction& correction)
   using D = PairDeparture;
   const double size_share = 1 / (1 + composed.radius_ratio);
   LawShape& shape = composed.shape;
+  composed.stated.solver = 0;  // but that of the impacts (certify)
   const auto place_of = [&](double x) { return std::log(x / shape.onset) / std::log(shape.end / shape.onset); };
   for (std::size_t node = 1; node < LawShape::nodes; ++node) {
     const double place = static_cast<double>(node) / (LawShape::nodes - 1);
