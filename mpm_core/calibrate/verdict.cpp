@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "calibrate/calibrate.hpp"
 #include "calibrate/kind/kind.hpp"
@@ -23,6 +24,12 @@ std::string stress(double pa)
   return fmt::format("{:.3g} Pa", pa);
 }
 
+/// 180 for 184, where {:.2g} would have 1.8e+02.
+std::string two_digits(double value)
+{
+  return value < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:g}", std::stod(fmt::format("{:.1e}", value)));
+}
+
 /// The range of the data, as the beginning of a sentence.
 std::string span_of(const CalibrationProblem& problem, const Calibration& c)
 {
@@ -38,7 +45,7 @@ std::string span_of(const CalibrationProblem& problem, const Calibration& c)
   if (all.fastest > 0)
     span = all.fastest < 2
                ? fmt::format("These impacts are all below {:.2g} V_y", all.fastest)
-               : fmt::format("These impacts are at {:.2g} to {:.2g} V_y", all.slowest, all.fastest);
+               : fmt::format("These impacts are at {:.2g} to {} V_y", all.slowest, two_digits(all.fastest));
   if (all.overlap_over_onset > 0)
     span += (span.empty() ? "The curve goes to " : ", the curve to ") +
             fmt::format("{:.3g} times the overlap at which yield begins", all.overlap_over_onset);

@@ -19,7 +19,7 @@ def missing():
 
 
 class Browser:
-    def __init__(self, width=1560, height=980, dark=False):
+    def __init__(self, width=1560, height=980):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
@@ -28,7 +28,7 @@ class Browser:
         self.url, self.session = f"http://127.0.0.1:{port}", ""
         arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
                      f"--window-size={width},{height}",
-                     f"--user-data-dir={self.folder.name}/profile", *(["--force-dark-mode"] if dark else [])]
+                     f"--user-data-dir={self.folder.name}/profile"]
         options = {"args": arguments, "prefs": {"download.default_directory": self.folder.name, "download.prompt_for_download": False,
                                                 "profile.default_content_setting_values.automatic_downloads": 1}}
         self._wait_for_driver()
@@ -90,6 +90,9 @@ class Browser:
 
     def resize(self, width, height):
         self.command("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+
+    def dark(self, on):
+        self.command("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark" if on else "light"}]})
 
     def command(self, name, parameters):
         """One command of the DevTools protocol."""

@@ -411,6 +411,13 @@ def main():
                 browser.run("dispatchEvent(new Event('resize')); await new Promise((done) => setTimeout(done, 600))")
                 browser.picture(arguments.pictures / f"explorer-{width}.png")
             browser.command("Emulation.clearDeviceMetricsOverride", {})
+            browser.dark(True)
+            browser.run("document.querySelector('[value=sphere]').click(); document.getElementById('keep').click(); await new Promise((done) => setTimeout(done, 600))")
+            browser.picture(arguments.pictures / "explorer-dark.png")
+            browser.dark(False)
+            browser.open("about:blank")
+            browser.open(page)
+            browser.run("await granulaw.ready")
         use(browser, page, failures)
         deck_commands(browser, mpm, failures)
         if arguments.launcher:

@@ -54,6 +54,8 @@ class Contents(unittest.TestCase):
             self.assertIn(f"usr/{path}", files)
         if shutil.which("sphinx-build"):  # without it the package has no book
             self.assertIn("usr/share/doc/granulaw/html/index.html", files)
+        if (pathlib.Path(MPM).parents[2] / "explorer/index.html").exists():  # of the build that made the package
+            self.assertIn("usr/share/doc/granulaw/html/_static/explorer/index.html", files)
 
     def test_every_example(self):
         """All that git keeps of examples/."""

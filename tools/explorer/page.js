@@ -297,7 +297,7 @@
     p.zone(never(end_speed), p.x.high, "beyond", "beyond the law");
   }
   function draw_speeds() {
-    const p = new Picture(byId("speeds"), speed_axis(), {low: 0, high: 1.05, label: "restitution e", unit: ""}, `Restitution against speed: ${words_of(state)}`), w = now.sweep;
+    const p = new Picture(byId("speeds"), speed_axis(), {low: 0, high: 1.15, label: "restitution e", unit: ""}, `Restitution against speed: ${words_of(state)}`), w = now.sweep;
     speed_zones(p);
     const known = w.speed.map((v, k) => k).filter((k) => w.error[k] !== null), up = known.map((k) => w.e[k] + w.error[k]), down = known.map((k) => w.e[k] - w.error[k]);
     p.area([...known.map((k) => w.speed[k]), ...known.map((k) => w.speed[k]).reverse()], [...up, ...down.reverse()], "band");
@@ -307,7 +307,7 @@
     p.upright(state.speed, "", "now");
     if (then && !then.problem) p.line(then.sweep.speed, then.sweep.e, "kept"), p.dot(kept.speed, then.law.e, "kept"), p.label(then.sweep.speed.at(-1), then.sweep.e.at(-1), "kept", "kept");
     p.line(w.speed, w.e, "law");
-    p.label(w.speed.at(-1), w.e.at(-1), "law", "law"), p.label(w.speed[45], w.thornton[45], "Thornton", "thornton"), p.label(p.x.low * 1.1, 1, "Hertz", "hertz");
+    p.label(w.speed[22], w.e[22], "law", "law"), p.label(w.speed[36], w.thornton[36], "Thornton", "thornton", true), p.label(p.x.low * 1.1, 1, "Hertz", "hertz");
     for (const [v, e, sd] of measured()) p.line([v, v], [e - 1.96 * sd, e + 1.96 * sd], "data"), p.dot(v, e, "data").setAttribute("r", 4);
     const handle = p.dot(state.speed, now.law.e, "law");
     for (const [key, value] of Object.entries({tabindex: 0, role: "slider", "aria-label": "approach speed", "aria-valuetext": with_unit(state.speed, "m/s", 3), "aria-valuenow": state.speed, id: "handle"})) handle.setAttribute(key, value);

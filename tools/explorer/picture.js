@@ -105,9 +105,9 @@ class Picture {
   line(xs, ys, kind) { element("path", {d: this.path(xs, ys), class: `line ${kind}`}, null, this.inside); }
   area(xs, ys, kind) { element("path", {d: `${this.path(xs, ys)}Z`, class: `area ${kind}`}, null, this.under); }
 
-  // Text beside a point, moved up or down where another label lies.
-  label(x, y, text, kind) {
-    const px = this.at_x(x), toLeft = px > this.right - 70;
+  // Text beside a point, at its left if asked or where the picture ends, moved up or down where another label lies.
+  label(x, y, text, kind, left_side = false) {
+    const px = this.at_x(x), toLeft = left_side || px > this.right - 70;
     let py = Math.min(Math.max(this.at_y(y), this.top + 10), this.bottom - 6);
     const left = toLeft ? px - 70 : px, clash = () => this.taken.find(([l, at]) => Math.abs(l - left) < 80 && Math.abs(at - py) < 13);
     for (let tries = 0; tries < 12 && clash(); ++tries) py = clash()[1] + (clash()[1] + 14 > this.bottom - 4 ? -14 * (tries + 1) : 14);

@@ -60,7 +60,7 @@ void print_origin(const Certificate& c)
 void print_errors(const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
-  fmt::print("  error bound          {} (95 % of {}, against new computations)\n", bound_of(body).text(),
+  fmt::print("  error bound          {} (95 % of {})\n", bound_of(body).text(),
              body.shape ? "orientations" : "impacts");
   if (body.shape) fmt::print("  of spheres           {} (the same law, of a sphere)\n", bound_of(c).text());
   fmt::print("  solver error         force {}, e {} (of a computation, by two resolutions; included in the bound)\n",
