@@ -148,6 +148,12 @@ void MpmPhysics::check_sizes(int i, int j, bool is_wall, const Contact& contact,
   }
 }
 
+void MpmPhysics::check_flow_stress(const Contact& contact) const
+{
+  if (const std::string why = unknown_flow_stress(setup_->law->law, contact.law()); !why.empty())
+    fail(fmt::format("{}: law file {}", setup_->where, setup_->law->path), why);
+}
+
 SizeChoice MpmPhysics::laws_by_size(int i, int j) const
 {
   const std::string &a = material(i), &b = material(j);

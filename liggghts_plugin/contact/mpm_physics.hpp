@@ -48,6 +48,8 @@ class MpmPhysics
   /// A rate-dependent body has one radius: the rate is the speed over it.
   void check_sizes(int i, int j, bool is_wall, const Contact& contact, const ParticleSizes& sizes) const;
   PairInfo describe(const Contact& contact, const PairKey& key) const;
+  /// Throws Error where `tangential plastic` has no flow stress.
+  void check_flow_stress(const Contact& contact) const;
 
  private:
   /// The deck's name of the material of type t.

@@ -63,9 +63,10 @@ class PairTable
   }
 
   std::size_t place(const Entry& entry) const { return static_cast<std::size_t>(&entry - entries_.data()); }
-  /// A tangential law of ours for each entry, at its place. `friction`: coefficient by types.
-  template <class Law>
-  std::vector<Law> tangential_laws(double** friction) const
+  /// A tangential law of ours for each entry, at its place. `friction`: coefficient by types; `check` may refuse a
+  /// contact for it.
+  template <class Law, class Check>
+  std::vector<Law> tangential_laws(double** friction, const Check& check) const
   {
     std::vector<Law> laws(entries_.size());
     for (int i = 1; i < stride_; ++i)
@@ -73,6 +74,7 @@ class PairTable
         for (std::size_t k = 0; k < laws_; ++k) {
           const Entry& entry = first_entry(i, j)[k];
           if (entry.largest_overlap < 0) continue;
+          if (entry.counts->info.needed) check(entry.contact);
           const ShearPair spring{entry.tangential, friction[i][j], entry.tangential_damping};
           if constexpr (std::constructible_from<Law, const Contact&, const ShearPair&, const BodiesInShear&>)
             laws[place(entry)] = Law(entry.contact, spring, in_shear_[pair_of(i, j)]);

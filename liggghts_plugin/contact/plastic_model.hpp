@@ -174,7 +174,9 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   template <class Law>
   std::vector<Law> tangential_laws(double** friction) const
   {
-    return pairs_.template tangential_laws<Law>(friction);
+    return pairs_.template tangential_laws<Law>(friction, [this](const auto& contact) {
+      if constexpr (requires { physics_.check_flow_stress(contact); }) physics_.check_flow_stress(contact);
+    });
   }
   std::size_t place(const Entry& entry) const { return pairs_.place(entry); }
   /// Part of the overlap that belongs to the real contact.

@@ -101,9 +101,10 @@ void make_element(granulaw_contact_law& contact, const granulaw_pair& pair)
   BodiesInShear bodies = bodies_in_shear(*contact.law, pair);
   bodies.stiffness = said(pair.shear_stiffness, bodies.stiffness / scale.pressure());
   const ShearPair spring = ShearPair::of(bodies.stiffness, pair.friction, pair.shear_damping, scale.stretch);
-  if (pair.yields_in_shear)
+  if (pair.yields_in_shear) {
+    if (const std::string why = unknown_flow_stress(*contact.law, law); !why.empty()) fail("granulaw_contact", why);
     contact.element = ContactElement<Tabulated, PlasticShear>{normal, PlasticShear(normal, spring, bodies)};
-  else if (pair.friction == 0.0)
+  } else if (pair.friction == 0.0)
     contact.element = ContactElement<Tabulated>{normal};
   else
     contact.element = ContactElement<Tabulated, Spring>{normal, Spring(spring)};

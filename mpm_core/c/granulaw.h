@@ -53,7 +53,8 @@ typedef struct {
   double friction;           /* coefficient; 0: no tangential force, and three values less */
   double shear_stiffness;    /* 8 G* of Mindlin's spring; 0: of the file's moduli, of body a alone at a rigid wall */
   double shear_damping;      /* of the spring, as part of critical */
-  int yields_in_shear;       /* not 0: `tangential plastic` in place of Mindlin's spring, with any friction */
+  int yields_in_shear;       /* not 0: `tangential plastic` in place of Mindlin's spring, with any friction;
+                                GRANULAW_NO_LAW where the file has no flow stress of the body that yields */
 } granulaw_pair;
 
 /* A contact's motion in a step, in the caller's units. */

@@ -1,18 +1,40 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "contact/curve.hpp"
 #include "contact/pair.hpp"
 
 namespace granulaw {
 
-/// Flow stress of a material that hardens linearly, Pa; infinite: elastic.
+/// Flow stress over equivalent plastic strain, of hardening that is not linear: straight between the nodes, the
+/// first at no strain, and constant beyond the last. Pa.
+struct FlowNodes
+{
+  std::vector<double> strain, stress;
+
+  double at(double strain_now) const
+  {
+    const auto after = std::upper_bound(strain.begin(), strain.end(), strain_now);
+    if (after == strain.end()) return stress.back();
+    const auto k = static_cast<std::size_t>(after - strain.begin());
+    return stress[k - 1] +
+           (stress[k] - stress[k - 1]) * (strain_now - strain[k - 1]) / (strain[k] - strain[k - 1]);
+  }
+};
+
+/// Flow stress of a material in the caller's unit; infinite: elastic.
 struct FlowStress
 {
   double yield = std::numeric_limits<double>::infinity(), hardening = 0;
-  double at(double strain) const { return yield + hardening * strain; }
+  const FlowNodes* nodes = nullptr;  ///< null: it hardens linearly
+  double unit = 1;                   ///< Pa, of the nodes
+
+  bool hardens() const { return nodes || hardening > 0; }
+  double at(double strain) const { return nodes ? nodes->at(strain) / unit : yield + hardening * strain; }
 };
 
 /// Numbers of the yielding body: how fast an impact is, and what shear it bears.
@@ -22,8 +44,7 @@ struct ImpactMeasure
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
   double mass_ratio = 1;                                          ///< mass over rho 4/3 pi R^3
   double hardening_modulus = 0;                                   ///< Pa
-
-  FlowStress flow_stress() const { return {yield_stress, hardening_modulus}; }
+  const FlowNodes* flow = nullptr;                                ///< null: it hardens linearly
 
   /// v = sqrt(I) of a collision at this relative normal speed, m/s: see AxisTable.
   double axis_speed(const PairMapping& mapping, double r_eff, double m_eff, double speed) const

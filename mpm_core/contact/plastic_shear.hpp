@@ -392,7 +392,7 @@ class PlasticShear
   {
     const double ratio = whole / (step.radius * per_radius_);
     double stress = flow_stress_.yield;
-    if (flow_stress_.hardening > 0)
+    if (flow_stress_.hardens())
       stress = flow_stress_.at(std::hypot(tabor_strain * ratio, shear_strain * held.sheared / present));
     return widening * (1.0 - ratio * ratio) / std::sqrt(3.0) * M_PI * stress;
   }

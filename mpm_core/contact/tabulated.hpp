@@ -174,8 +174,8 @@ struct Tabulated
   double stretch() const { return scale.stretch; }
   FlowStress flow_stress() const
   {
-    const FlowStress real = measure.flow_stress();
-    return {real.yield / scale.pressure(), real.hardening / scale.pressure()};
+    const double unit = scale.pressure();
+    return {measure.yield_stress / unit, measure.hardening_modulus / unit, measure.flow, unit};
   }
 
   double yield_overlap() const { return curve->onset() / per_lambda; }

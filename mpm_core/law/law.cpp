@@ -102,6 +102,22 @@ void check_size(const PairLaw& pair, double radius, const std::string& where)
          fmt::format("{:.6g} m within {:.0f} %: make a law for each size", only, 100 * size_tolerance));
 }
 
+std::string unknown_flow_stress(const Law& law, const PairLaw& pair)
+{
+  const BodyLaw& body = *pair.yielding;
+  const std::string& name = body.material.name;
+  const char* what = nullptr;
+  if (!body.material.yields()) return {};
+  if (!body.is_sphere()) what = "has several materials";
+  if (body.curve.axis() && body.curve.axis()->by == AxisTable::By::rate) what = "depends on the strain rate";
+  if (what)
+    return fmt::format("'{}' {}: 'tangential plastic' needs one flow stress of the body; say 'tangential history'", name, what);
+  if (!law.provenance.contains("hardening." + name) || !body.material.flow.strain.empty()) return {};
+  const auto command = law.provenance.find("command");
+  return fmt::format("'{}' hardens, and this older file lacks its flow stress, which 'tangential plastic' needs: make it anew with `{}`",
+                     name, command == law.provenance.end() ? "mpm table" : command->second);
+}
+
 PairLaw wall_pair(const BodyLaw& body)
 {
   return {{&body.curve, PairMapping::rigid_partner(body.material.e_star())}, &body};

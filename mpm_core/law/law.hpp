@@ -136,8 +136,9 @@ struct PairLaw : PairContact  // its curve is the Law's
   /// Measure of an impact, for the yielding body.
   ImpactMeasure measure() const
   {
-    return {yielding->material.density, yielding->material.yield_stress, yielding->mass_ratio,
-            yielding->material.hardening_modulus};
+    const LawMaterial& m = yielding->material;
+    return {m.density, m.yield_stress, yielding->mass_ratio, m.hardening_modulus,
+            m.flow.strain.empty() ? nullptr : &m.flow};
   }
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without a velocity axis or approach, clamped beyond max_speed().
@@ -171,6 +172,10 @@ struct PairLaw : PairContact  // its curve is the Law's
     return measure().per_speed(*curve->axis(), mapping, r_eff, m_eff);
   }
 };
+
+/// Reason why the flow stress of the body that yields is not known, which `tangential plastic` needs: layers, a
+/// rate, or a file older than flow curves. Empty: it is known, or the bodies are elastic.
+std::string unknown_flow_stress(const Law& law, const PairLaw& pair);
 
 /// A body against the rigid wall.
 PairLaw wall_pair(const BodyLaw& body);

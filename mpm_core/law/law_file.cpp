@@ -63,6 +63,20 @@ void check_name(const std::string& name, const std::string& where)
          fmt::format("{}, and not '{}'", name_rule, wall_name));
 }
 
+/// Nodes as FlowNodes has them.
+void check_flow(const FlowNodes& flow, const std::string& where)
+{
+  constexpr std::size_t most = 4096;
+  if (flow.strain.size() != flow.stress.size() || flow.strain.size() == 1 || flow.strain.size() > most)
+    fail(where, fmt::format("'{}' and '{}' have the wrong lengths", h5::flow_strain.name, h5::flow_stress.name),
+         fmt::format("{} and {}", flow.strain.size(), flow.stress.size()), fmt::format("alike, 2 to {}", most));
+  for (std::size_t k = 0; k < flow.strain.size(); ++k) {
+    if (k == 0 ? flow.strain[k] != 0 : !(flow.strain[k] > flow.strain[k - 1] && std::isfinite(flow.strain[k])))
+      fail(where, fmt::format("'{}' is no ascending row from 0", h5::flow_strain.name), fmt::format("{:.6g}", flow.strain[k]));
+    require_positive(flow.stress[k], where, h5::flow_stress);
+  }
+}
+
 /// Conditions between the numbers of one body, beyond what Curve::fault() finds in its nodes.
 void check_body(const BodyLaw& body, const std::string& where)
 {
@@ -73,6 +87,7 @@ void check_body(const BodyLaw& body, const std::string& where)
     fail(where, "'poisson_ratio' is out of range", fmt::format("{:.6g}", m.poisson_ratio), "0 to below 0.5");
   if (m.yields() || !(m.yield_stress > 0)) require_positive(m.yield_stress, where, h5::yield_stress);
   if (m.hardening_modulus != 0) require_positive(m.hardening_modulus, where, h5::hardening_modulus);
+  check_flow(m.flow, where);
   if (m.yields() != std::isfinite(body.curve.onset()))
     fail(where, m.yields() ? "the material yields but its curve has no onset"
                            : "the material is elastic but its curve has an onset of yield");
@@ -278,6 +293,9 @@ BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
   if (h5::has_link(m, h5::yield_stress.name))
     body.material.yield_stress = h5::read_scalar(m, h5::yield_stress, where);
   body.material.hardening_modulus = h5::read_scalar(m, h5::hardening_modulus, where);
+  if (h5::has_link(m, h5::flow_strain.name))
+    body.material.flow = {h5::read_vector(m, h5::flow_strain, most_nodes, where),
+                          h5::read_vector(m, h5::flow_stress, most_nodes, where)};
 
   body.curve = read_curve(group, where);
   body.certificate = read_certificate(group, where);
@@ -298,6 +316,10 @@ void write_body(hid_t group, const BodyLaw& body, const std::string& path)
   h5::write_scalar(m, h5::poisson_ratio, body.material.poisson_ratio, path);
   if (body.material.yields()) h5::write_scalar(m, h5::yield_stress, body.material.yield_stress, path);
   h5::write_scalar(m, h5::hardening_modulus, body.material.hardening_modulus, path);
+  if (!body.material.flow.strain.empty()) {
+    h5::write_vector(m, h5::flow_strain, body.material.flow.strain, path);
+    h5::write_vector(m, h5::flow_stress, body.material.flow.stress, path);
+  }
 
   write_curve(group, body.curve, path);
   write_certificate(group, body.certificate, path);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/scales.hpp"
+#include "contact/contact.hpp"
 
 namespace granulaw {
 
@@ -16,6 +17,7 @@ struct LawMaterial
   double poisson_ratio = 0;
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
   double hardening_modulus = 0;  ///< Pa, d(yield stress)/d(equivalent plastic strain); 0: perfectly plastic
+  FlowNodes flow{};              ///< of hardening that is not linear; no nodes: it is, or is not known
 
   double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
   bool yields() const { return yield_stress < std::numeric_limits<double>::infinity(); }

@@ -20,7 +20,7 @@ inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
 inline constexpr int major = 4;                      ///< counts up where an old reader would misread the file
-inline constexpr int minor = 1;                      ///< counts up where something is only added
+inline constexpr int minor = 2;                      ///< counts up where something is only added
 inline constexpr int first_minor_with_checksum = 1;  ///< files of other writers may say 0 and have none
 
 inline constexpr const char* command = "command";  ///< attribute of provenance: what made the file
@@ -78,6 +78,10 @@ inline constexpr Field poisson_ratio{"poisson_ratio", "1", "Poisson's ratio nu"}
 inline constexpr Field yield_stress{"yield_stress", "Pa", "uniaxial yield stress Y; absent: elastic"};
 inline constexpr Field hardening_modulus{"hardening_modulus", "Pa",
                                          "linear hardening d(yield stress)/d(equivalent plastic strain)"};
+// since minor version 2
+inline constexpr Field flow_strain{"flow_strain", "1",
+                                   "equivalent plastic strain, ascending from 0; absent: hardens linearly"};
+inline constexpr Field flow_stress{"flow_stress", "Pa", "flow stress at flow_strain; linear between, constant beyond"};
 
 // bodies/<name>/curve
 inline constexpr Field onset{"onset", "1", "x at the onset of yield; absent: never"};

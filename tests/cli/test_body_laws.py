@@ -148,7 +148,16 @@ def stiff():
         end_to_end(name, 0.04, 0.05, 0.01, 0.01, 0.01)
         assert "the atlas, at the hardening of each strain" in mpm("info", "law.h5")
         compare(name, 0.09, 0.01, 0.01)
+        oblique(name)
     assert "johnson-cook, exponent = 0.3" in mpm("info", "law.h5")
+
+
+def oblique(name):
+    """The law file's flow stress enters `tangential plastic`. Measured: e within 3 %, tangential velocity 3, spin 6; by the yield stress alone 25, 31, 50."""
+    words = ["oblique", "m.toml", "--particle", name, "--velocity", 2, "--angle", 60, "--friction", 0.6, "--law", "law.h5", "--json"]
+    plastic, solver = (json.loads(mpm(*words, "--tangential", way)) for way in ("plastic", "solver"))
+    for key, within in (("e", 0.06), ("e_tangential", 0.05), ("spin_after_rad_s", 0.1)):
+        assert abs(plastic[key] / solver[key] - 1) < within, (name, key, plastic, solver)
 
 
 def skin():

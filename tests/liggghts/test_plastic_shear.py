@@ -243,6 +243,11 @@ class PlasticShear(Deck):
         self.refused(thornton + "run 0\n", "'tangential plastic' is for 'model mpm'")
         hertz = thornton.replace("model thornton", "model hertz")
         self.refused(hertz + "run 0\n", "'tangential plastic' is for 'model mpm'")
+        rated = str(self.folder / "rated.h5")
+        self.fixture("write", rated, "rate", R)
+        by_rate = self.thrown(1.0, 45, 0.3, 50).replace(self.atlas_law, rated).replace("materials powder rigid", "materials powder elastic")
+        self.refused(by_rate, f"law file {rated}: 'powder' depends on the strain rate: 'tangential plastic' needs one flow stress")
+        self.run_deck(by_rate.replace("tangential plastic", "tangential history"))
 
 
 if __name__ == "__main__":

@@ -23,6 +23,22 @@ TEST(LawMaterial, KeepsTheFiveNumbersBothWays)
   EXPECT_NEAR(speed_unit(law), 258.2, 0.1);  // sqrt(1e8/1500) m/s
 }
 
+/// Nodes lie so close that straight lines between them are the flow curve.
+TEST(LawMaterial, KeepsTheFlowStressOfHardeningThatIsNotLinear)
+{
+  Material m = soft_powder();
+  EXPECT_TRUE(law_material("powder", m).flow.strain.empty());
+  for (const FlowLaw& hardening : {FlowLaw{"voce", {{"saturation_stress", {2e8}}, {"strain", {0.1}}}},
+                                   FlowLaw{"johnson-cook", {{"strength", {1.5e8}}, {"exponent", {0.3}}}}}) {
+    m.hardening = hardening;
+    const FlowNodes flow = law_material("powder", m).flow;
+    EXPECT_EQ(flow.at(0), m.yield_stress);
+    for (double strain = 1e-3; strain < flow.strain.back(); strain *= 1.1)
+      EXPECT_NEAR(flow.at(strain) / flow_stress(m, strain), 1, 2e-3) << hardening.name << " " << strain;
+    EXPECT_EQ(flow.at(100), flow.stress.back());
+  }
+}
+
 TEST(LawBody, AMaterialIsItsSphere)
 {
   const LawBody body = law_body("powder", some_materials());

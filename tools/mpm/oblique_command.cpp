@@ -106,10 +106,14 @@ void oblique(const ObliqueRequest& r)
   if (r.tangential == "solver")
     rows.push_back(by_solver(r, particle, thrown));
   else {
-    const LawMaterial named = law_material(material_name(file, material), material);
+    LawMaterial named = law_material(material_name(file, material), material);
     const Law law = law_of(r, named, material);
-    const PairLaw pair = resolve_pair(law, named.name, wall_name, r.law.empty() ? r.materials : r.law);
+    if (law.bodies.contains(r.particle)) named.name = r.particle;
+    const std::string& source = r.law.empty() ? r.materials : r.law;
+    const PairLaw pair = resolve_pair(law, named.name, wall_name, source);
     check_size(pair, particle.radius, "mpm oblique");
+    if (const std::string why = unknown_flow_stress(law, pair); r.tangential == "plastic" && !why.empty())
+      fail(source, why);
     rows.push_back(by_law(r, pair, thrown,
                           r.tangential == "history" ? TangentialKind::history : TangentialKind::plastic));
     if (!r.json && r.tangential == "plastic") rows.push_back(by_law(r, pair, thrown, TangentialKind::history));
