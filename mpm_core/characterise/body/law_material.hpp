@@ -10,8 +10,8 @@
 
 namespace granulaw {
 
-/// What a law file keeps of a material: its name there, five numbers, and the flow stress of hardening that is not
-/// linear.
+/// The part of a material that a law file keeps: its name there, five numbers, and the flow stress of hardening
+/// that is not linear.
 inline LawMaterial law_material(const std::string& name, const Material& m)
 {
   LawMaterial kept{name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus};
