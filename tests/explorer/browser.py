@@ -1,4 +1,4 @@
-"""Chromium without a window, through chromedriver (W3C WebDriver): standard library only."""
+"""Chromium without a window, through chromedriver (W3C WebDriver), and Firefox: standard library only."""
 import base64
 import json
 import shutil
@@ -18,11 +18,77 @@ def missing():
     return None
 
 
+def wrapped(script):
+    return ("const done = arguments[arguments.length - 1], args = [...arguments].slice(0, -1);"
+            "(async () => {" + script + "})().then((value) => done({value}), (error) => done({error: String(error.stack || error)}));")
+
+
+def value_of(answer):
+    if "error" in answer:
+        raise RuntimeError(answer["error"])
+    return answer.get("value")
+
+
+def free_port():
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return free.getsockname()[1]
+
+
+class Firefox:
+    """By its own protocol, Marionette: messages of JSON, each behind its length."""
+
+    def __init__(self):
+        port, self.last = free_port(), 0
+        self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        (Path(self.folder.name) / "user.js").write_text(f'user_pref("marionette.port", {port});\n')
+        self.program = subprocess.Popen(["firefox-esr", "--headless", "--marionette", "--no-remote", "--profile", self.folder.name],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for _ in range(600):
+            try:
+                self.socket = socket.create_connection(("127.0.0.1", port))
+                break
+            except OSError:
+                time.sleep(0.1)
+        self.answers = self.socket.makefile("rb")
+        self._answer()  # its name
+        self._call("WebDriver:NewSession", {"capabilities": {"alwaysMatch": {"timeouts": {"script": 240000}}}})
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.program.terminate()
+        self.program.wait()
+        self.folder.cleanup()
+
+    def _answer(self):
+        length = b""
+        while (byte := self.answers.read(1)) not in (b":", b""):
+            length += byte
+        return json.loads(self.answers.read(int(length)))
+
+    def _call(self, name, parameters):
+        self.last += 1
+        text = json.dumps([0, self.last, name, parameters]).encode()
+        self.socket.sendall(b"%d:%b" % (len(text), text))
+        _, _, error, result = self._answer()
+        if error:
+            raise RuntimeError(error["message"])
+        return result
+
+    def open(self, address):
+        self._call("WebDriver:Navigate", {"url": address})
+
+    def run(self, script, *arguments):
+        """As Browser.run."""
+        answer = self._call("WebDriver:ExecuteAsyncScript", {"script": wrapped(script), "args": list(arguments), "newSandbox": False, "sandbox": None})
+        return value_of(answer["value"])
+
+
 class Browser:
     def __init__(self, width=1560, height=980):
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
+        port = free_port()
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.url, self.session = f"http://127.0.0.1:{port}", ""
@@ -69,12 +135,7 @@ class Browser:
 
     def run(self, script, *arguments):
         """The value of an async function's body; `args` are the arguments."""
-        wrapped = ("const done = arguments[arguments.length - 1], args = [...arguments].slice(0, -1);"
-                   "(async () => {" + script + "})().then((value) => done({value}), (error) => done({error: String(error.stack || error)}));")
-        answer = self._call("POST", "/execute/async", {"script": wrapped, "args": list(arguments)})
-        if "error" in answer:
-            raise RuntimeError(answer["error"])
-        return answer.get("value")
+        return value_of(self._call("POST", "/execute/async", {"script": wrapped(script), "args": list(arguments)}))
 
     def log(self, kind):
         return self._call("POST", "/se/log", {"type": kind})
