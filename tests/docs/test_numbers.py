@@ -38,7 +38,7 @@ class Flows(unittest.TestCase):
         rows = table_with(page("docs/evidence/flows.md"), "| deck (seeds) | observable | wanted |")
         self.assertEqual(len(rows), 5)
         for deck, what, _, *margins in rows:
-            name, seeds = re.fullmatch(r"(\w+) \((\d)\)", deck).groups()
+            name, seeds = re.fullmatch(r"(\w+) \((\d+)\)", deck).groups()
             text = page(f"examples/{name}/README.md")
             cells = next(row for table in tables(text) for row in table if row[0] == what and len(row) == 4)[1:]
             values = [tuple(map(float, re.match(r"([-\d.e]+) ± ([-\d.e+]+)", c).groups())) for c in cells]
