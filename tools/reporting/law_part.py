@@ -1,4 +1,6 @@
 """(b) Law: size and time of a lookup with the velocity axis and without it, and what leaving it out costs."""
+import math
+
 from . import files
 from .page import number
 
@@ -25,7 +27,7 @@ def whole(rows):
 
 def glance(found):
     full, own, rows = whole(found["rows"]), found["own_errors"], []
-    stated = 100 * max(own.get("solver_error_force", 0), own.get("atlas_error_force", 0))
+    stated = 100 * math.hypot(own.get("solver_error_force", 0), own.get("atlas_error_force", 0))
     for r in found["rows"]:
         rows.append([f"law: lookup by the plug-in, {kind(r)}" if full["slices"] else "law: lookup by the plug-in",
                      f"{number(r['ns_load'])} ns loading, {number(r['ns_unload'])} ns unloading\nHertz's formula {number(found['hertz']['ns'])} ns; "
