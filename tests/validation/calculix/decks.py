@@ -260,21 +260,23 @@ def run(case, n, steps, folder):
 def extrapolated(runs):
     """{quantity: (value, uncertainty)} of a case's runs, to no cell size and no step.
 
-    Cells: from 24 and the finest, as the error falls like the cell size. Steps: by the change of 24 cells from 40 steps to more,
+    Cells: from 24 and the finest, as the error falls like the cell size; the uncertainty is at least the change if the two finest
+    are taken instead. Steps: by the change of 24 cells from 40 steps to more,
     as 1/steps; where there is none, no correction but an uncertainty as large as the largest that was found (STEPS). The
-    uncertainty is half of either correction, added."""
+    uncertainty of either is at least half of the correction; both are added."""
     plain = sorted((r for r in runs if int(r["steps"]) == 40 and int(r["cells"]) >= 24), key=lambda r: int(r["cells"]))
-    coarse, fine = plain[0], plain[-1]
+    coarse, near, fine = plain[0], plain[-2], plain[-1]
     more = [r for r in runs if int(r["steps"]) > 40 and r["cells"] == coarse["cells"]]
     out = {}
     for q in ("force", "e", "residual"):
-        n, m = int(coarse["cells"]), int(fine["cells"])
-        by_cells = (float(fine[q]) - float(coarse[q])) * n / (m - n)
+        to_none = lambda first: (float(fine[q]) - float(first[q])) * int(first["cells"]) / (int(fine["cells"]) - int(first["cells"]))  # noqa: E731
+        by_cells = to_none(coarse)
+        doubt_of_cells = max(abs(by_cells) / 2, abs(to_none(near) - by_cells))
         by_steps, doubt = 0.0, STEPS[q] * (float(fine[q]) if q == "force" else 1)
         if more:
             by_steps = (float(more[0][q]) - float(coarse[q])) / (1 - 40 / int(more[0]["steps"]))
             doubt = abs(by_steps) / 2
-        out[q] = float(fine[q]) + by_cells + by_steps, abs(by_cells) / 2 + doubt
+        out[q] = float(fine[q]) + by_cells + by_steps, doubt_of_cells + doubt
     return out
 
 
