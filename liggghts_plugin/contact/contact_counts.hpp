@@ -90,9 +90,10 @@ class ContactCounts
     if (!energy_) return;
     const double held = entry.contact.stored_energy(r_eff, contact.deltan, to, impact_overlap) -
                         entry.contact.stored_energy(r_eff, contact.deltan, from, impact_overlap);
-    energy_->share(contact, EnergyTally::dissipated, entry.contact.dissipated(r_eff, from, to, impact_overlap),
-                   lmp_->atom->nlocal);
+    const double lost = entry.contact.dissipated(r_eff, from, to, impact_overlap);
+    energy_->share(contact, EnergyTally::dissipated, lost, lmp_->atom->nlocal);
     energy_->share(contact, EnergyTally::stored, held, lmp_->atom->nlocal);
+    energy_->share(contact, EnergyTally::other_work, -(lost + held), lmp_->atom->nlocal);  // the shear's work, booked there
     entry.counts->other_work -= weight * held;
   }
 
