@@ -284,6 +284,7 @@ void Planner::find_materials()
         record_.restitution = std::min(values[k], record_.restitution.value_or(1.0));
       return;
     }
+    if (name == "coefficientFriction") record_.friction.assign(values, values + count);
     for (int k = 0; k < std::min(count, lmp_->atom->ntypes); ++k) {
       if (name == "youngsModulus" || name == "YoungsModulus")
         record_.materials[k + 1].youngs_modulus = values[k];

@@ -133,6 +133,7 @@ std::string Record::json() const
       {"types", types},
       {"materials", types_list},
       {"restitution", to_json(restitution)},
+      {"friction", friction},
       {"pair_style", {{"model", model}, {"law", law}, {"materials", material_names}, {"stretch", stretch}, {"yield_pressure", yield_pressure}}},
       {"sources", list(sources)},
       {"walls", list(walls)},

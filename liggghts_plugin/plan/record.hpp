@@ -62,6 +62,7 @@ struct Record
   int types = 0;
   std::map<int, Material> materials;
   std::optional<double> restitution;  ///< the smallest coefficientRestitution
+  std::vector<double> friction;       ///< coefficientFriction, types x types; empty: the deck has none
   std::string model, law;             ///< words of pair_style gran: model, law, materials, stretch
   std::vector<std::string> material_names;
   double stretch = 1;

@@ -128,6 +128,7 @@ Scene scene_of(const json& j, const Places& places)
   for (const json& m : j["materials"]) scene.materials[m["type"]] = material_of(m);
   scene.restart_stretch = optional_number(j["restart_stretch"]);
   scene.restitution = optional_number(j["restitution"]);
+  scene.friction = j["friction"].get<std::vector<double>>();
   const json& style = j["pair_style"];
   scene.model = style["model"];
   scene.law_file = places.path(style["law"]);

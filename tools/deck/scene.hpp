@@ -82,6 +82,7 @@ struct Scene
   double stretch = 1;                       ///< and stretch: the time step is this much longer
   std::optional<double> restart_stretch;    ///< of the contacts in the restart file that the deck reads
   double yield_pressure = customary_yield_pressure;  ///< of model thornton, over the yield stress
+  std::vector<double> friction;             ///< coefficientFriction, types x types; empty: none
   std::optional<double> restitution;        ///< the smallest coefficientRestitution of the deck
   std::string left_loop;                    ///< "FILE:LINE" of a run in a loop that the plan left; empty: none
   std::vector<std::string> notes;           ///< "FILE:LINE: what was not followed"

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "atlas/composed_law.hpp"
 #include "command.hpp"
+#include "deck/tangential_need.hpp"
 #include "deck_options.hpp"
 #include "json_output.hpp"
 #include "law/contact_step.hpp"
@@ -132,6 +133,8 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
   root["types"] = types_json(d);
   root["pairs"] = pairs;
   root["velocity_axis_matters"] = plan.axis_matters;
+  const deck::TangentialNeed need = deck::tangential_need(d.scene, plan);
+  root["tangential"] = {{"law", need.pair ? "plastic" : "history"}, {"reason", need.reason}};
   root["time_step_s"] = {{"deck", json_number(d.scene.time_step)}, {"advised", json_number(plan.time_step)}};
   root["cost"] = cost_json(d);
   root["law_pairs"] = plan.law_pairs;
@@ -233,6 +236,13 @@ void print_pairs(const PlannedDeck& d)
                  p.meeting.a, p.meeting.b, std::sqrt(2 * deck::norm(d.scene.gravity) * d.plan.fall));
 }
 
+/// One line: which tangential law, and why.
+void print_tangential(const PlannedDeck& d)
+{
+  const deck::TangentialNeed need = deck::tangential_need(d.scene, d.plan);
+  fmt::print("tangential law: {} ({})\n", need.pair ? "plastic" : "history serves", need.reason);
+}
+
 /// Requirements on the law and on the simulation.
 void print_needs(const PlannedDeck& d)
 {
@@ -242,6 +252,7 @@ void print_needs(const PlannedDeck& d)
                plan.axis_matters
                    ? fmt::format("(I up to {:.2g})", plan.damage_number)
                    : fmt::format("not needed (I stays below {:g})", deck::negligible_damage_number));
+  if (plan.complete() && !plan.pairs.empty()) print_tangential(d);
   if (const deck::PairPlan* pair = plan.stiffest())
     fmt::print("time step: up to {} s (1/{:g} of the period of types {} at d/R* {:.3g}); the deck has {:.3g} s\n",
                step_text(plan.time_step), 1 / step_fraction, types_text(pair->meeting), pair->overlap,
