@@ -16,6 +16,7 @@ struct HistoryMeaning
   static constexpr long energy = 1l << 32,  ///< `energy on`: values of its own
       contact_map = 1l << 33,               ///< `contactMap on`: a value of its own
       deformable_wall = 1l << 34,           ///< `wall deformable`: X is over lambda R*, lambda of the pair
+      body_compliance = 1l << 36,           ///< `bodyCompliance on`: a value of its own
       computed_stiffness = 1l << 35;        ///< `tangentialStiffness computed`: of the spring in the history
   static constexpr long since_stretch = deformable_wall | computed_stiffness;  ///< kept since stretch is
   /// `stretch S`: overlaps are S times the real ones. 0: of a file that does not say.

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "law/contact_limits.hpp"
+#include "contact/body_behind.hpp"
 #include "contact/pair.hpp"
 #include "contact/plastic_shear.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
@@ -51,6 +52,7 @@ class PairTable
     Contact contact;
     double damage_number_per_speed2 =
         0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
+    double behind_i = 0.0, behind_j = 0.0;  // k/E*, stretched, of the bodies behind a contact (body_behind.hpp)
   };
 
   /// The law of a contact: one for as long as it lasts, as radii do not change. At a wall radius_j is not
@@ -111,6 +113,8 @@ class PairTable
         each_entry(i, j, [&](Entry& entry) {
           complete(entry, setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
                    damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+          entry.behind_i = behind(types, i, setup.options.stretch.value_or(1.0));
+          entry.behind_j = is_wall ? 0.0 : behind(types, j, setup.options.stretch.value_or(1.0));
         });
       }
     radiates_ = any_contact([](const Contact& contact) {
@@ -298,6 +302,13 @@ class PairTable
     BodiesInShear bodies = BodiesInShear::of(body(i), second, damping_ratio);
     bodies.stiffness /= types.units.pressure();
     return bodies;
+  }
+
+  /// k/E* of a type; stretched S^2, as forces are 1/S and overlaps S of the real ones.
+  static double behind(const Types& types, int t, double stretch)
+  {
+    const double nu = types.poisson_ratio[t], e_star = plane_strain_modulus(types.youngs_modulus[t], nu);
+    return stretch * stretch * far_field(nu) / (e_star / types.units.pressure());
   }
 
   /// Completes an entry with numbers that follow from the law and the moduli.

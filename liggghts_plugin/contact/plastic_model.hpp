@@ -68,6 +68,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
            "'computeElasticPotential' is not available with this model: 'energy on' gives the elastic energy "
            "of each "
            "particle's contacts, f_granulaw[1] in a dump");
+    if (setup_->options.body_compliance.value_or(false))
+      behind_offset_ = hsetup->add_history_value("body_compliance", "0");
     tangential_.damping =
         tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
     tangential_.computed = setup_->options.tangential_computed.value_or(false);
@@ -85,7 +87,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     units_ = types.units;
     const ParticleSizes sizes = particle_sizes(lmp);
     pairs_.resolve(physics_, *setup_, types, sizes, tangential_, damping_ratios(registry, *setup_, types));
-    Bodies::provide(lmp, pairs_.needs_mass());
+    Bodies::provide(lmp, pairs_.needs_mass() || behind_offset_ >= 0);
     pairs_.enter(lmp, physics_, *setup_, types, sizes);
     counts_.connect(lmp, *setup_->session);
     energy_ = setup_->session->energy;
@@ -102,6 +104,11 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double delta_max = State::largest(kept);
     if (sidata.is_wall && !layout_checked_) [[unlikely]]
       check_layout(sidata);
+    if constexpr (!Law::keeps.empty())
+      if (update->ntimestep == first_step_) [[unlikely]]
+        State::forget_derived(kept);  // what a restart brings may be of another law
+    if (behind_offset_ >= 0) [[unlikely]]
+      sidata.deltan = overlap_of_law(entry.contact, r_eff, sidata.deltan, compliance_behind(sidata, entry, delta_max), kept);
     if (sidata.deltan > entry.largest_overlap * r_eff) [[unlikely]] {
       if (began_beyond(sidata, entry, r_eff, delta_max)) {
         sidata.deltan = entry.largest_overlap * r_eff;  // a bounded force
@@ -112,10 +119,6 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       }
     }
     const double delta = sidata.deltan;
-    if constexpr (!Law::keeps.empty())
-      if (update->ntimestep == first_step_) [[unlikely]]
-        State::forget_derived(kept);  // what a restart brings may be of another law
-
     const NormalForces now =
         advance_normal(entry.contact, {r_eff, delta, -sidata.vn, sidata.computeflag && sidata.shearupdate},
                        Radiates<Law> && pairs_.radiates(), kept, Books{*this, sidata, entry, r_eff});
@@ -161,6 +164,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       return;  // near neighbours that never touched: leave their cache lines alone
     counts_.forget_speed(scdata.contact_history);
     std::fill_n(kept, State::values, 0.0);
+    if (behind_offset_ >= 0) scdata.contact_history[behind_offset_] = 0.0;
   }
 
   // For a tangential law of ours (OwnTangential).
@@ -209,7 +213,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double* const kept = contact.history + history_offset_;
     const double delta_max = State::largest(kept), impact_overlap = State::impact_overlap(kept),
                  r_eff = contact.r_eff();
-    return {pair.contact.contact_radius(r_eff, contact.overlap, delta_max, impact_overlap), delta_max,
+    double copy[State::values];
+    std::copy_n(kept, State::values, copy);
+    const double overlap = overlap_of_law(pair.contact, r_eff, contact.overlap, kept_compliance(contact.history), copy);
+    return {pair.contact.contact_radius(r_eff, overlap, delta_max, impact_overlap), delta_max,
             pair.contact.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
   }
 
@@ -252,6 +259,23 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     return 0.0;
   }
 
+  /// m/N, of the bodies behind the contact. It stays that of the first touch: while a clump turns over a contact the
+  /// force is then a function of its overlap alone, and no closed path gains energy.
+  [[gnu::noinline]] double compliance_behind(SurfacesIntersectData sidata, const Entry& entry, double delta_max) const
+  {
+    double& kept = sidata.contact_history[behind_offset_];
+    const Bodies& bodies = setup_->session->bodies;
+    if (delta_max > 0.0) return kept;
+    if (!bodies.known()) return 0.0;
+    const double* n = sidata.en;
+    const double inward[3] = {-n[0], -n[1], -n[2]}, outward[3] = {n[0], n[1], n[2]};
+    double sum = entry.behind_i * reach_behind(sidata.radi, bodies.height(sidata.i, inward, sidata.radi));
+    if (!sidata.is_wall) sum += entry.behind_j * reach_behind(sidata.radj, bodies.height(sidata.j, outward, sidata.radj));
+    if (sidata.computeflag && sidata.shearupdate) kept = sum;
+    return sum;
+  }
+  double kept_compliance(const double* history) const { return behind_offset_ >= 0 ? history[behind_offset_] : 0.0; }
+
   // Entry::damping where the law is elastic, else 0. Elastic is a contact that never yielded, both ways; a
   // yielded one on its way back to delta_max, but not when it parts, so that the rebound of a plastic impact
   // is the law's own. Without a branch: in a bed contacts approach and part at random.
@@ -289,7 +313,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     energy_->counts = entry.counts;
     if (sidata.computeflag)
       energy_->share(sidata, EnergyTally::stored,
-                     entry.contact.stored_energy(r_eff, sidata.deltan, delta_max, impact_overlap),
+                     entry.contact.stored_energy(r_eff, sidata.deltan, delta_max, impact_overlap) +
+                         energy_behind(kept_compliance(sidata.contact_history), law_force),
                      atom->nlocal);
   }
 
@@ -368,6 +393,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   ContactCounts<Entry> counts_;
   EnergyTally* energy_ = nullptr;  // null: energy off
   int history_offset_ = -1;        // of State's values
+  int behind_offset_ = -1;         // of the compliance of bodies behind a contact; -1: `bodyCompliance` is off
   LAMMPS_NS::bigint first_step_ = 0;  // of this run
   TangentialChoice tangential_;
   double stretch_ = 1.0;

@@ -83,6 +83,8 @@ inline void refuse_shape(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, bool superq
   if constexpr (superquadrics_built) {
     if (!superquadric_surface && lmp->atom->superquadric_flag)
       fail(setup.where, "atom_style superquadric needs 'surface superquadric' behind the other models");
+    if (superquadric_surface && setup.options.body_compliance.value_or(false))
+      fail(setup.where, "'bodyCompliance on' is for clumps of spheres");
     if (superquadric_surface && setup.session->energy)
       fail(setup.where,
            "'energy on' is for spheres: of superquadrics the normal force does work on rotations, too, which "

@@ -29,6 +29,7 @@ inline constexpr std::array shared_keywords{
     Keyword{.name = "tangentialDampingRatio", .least = 0.0, .most = 1.0},
     Keyword{.name = "tangentialStiffness", .words = {"computed", "mindlin"}},
     Keyword{.name = "elasticDamping", .words = {"off", "restitution"}, .least = 0.0, .most = 1.0},
+    Keyword{.name = "bodyCompliance", .words = {"on", "off"}},
     Keyword{.name = "stretch", .least = 1.0, .most = 1000.0},
     Keyword{.name = "heatArea", .words = {"law", "overlap"}},
     Keyword{.name = "wall", .in_pair_style = false, .words = {"deformable", "rigid"}},

@@ -164,6 +164,7 @@ Options shared_options(const Said& said)
   if (const std::string* text = value("tangential_damping")) options.tangential_damping_on = *text != "off";
   options.tangential_computed = choice("tangentialStiffness", "computed");
   if (const std::string* text = value("elasticDamping")) options.elastic_damping = elastic_damping(*text);
+  options.body_compliance = choice("bodyCompliance", "on");
   options.stretch = quantity("stretch");
   if (const std::string* text = value("stats")) options.stats_path = *text;
   options.energy = is("energy", "on");
@@ -197,6 +198,7 @@ void Options::inherit(const Options& pair)
   take(tangential_damping_on, pair.tangential_damping_on);
   take(tangential_computed, pair.tangential_computed);
   take(elastic_damping, pair.elastic_damping);
+  take(body_compliance, pair.body_compliance);
   take(stretch, pair.stretch);
   take(stop_beyond_range, pair.stop_beyond_range);
   take(heat_by_law, pair.heat_by_law);

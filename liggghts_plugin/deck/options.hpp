@@ -30,6 +30,7 @@ struct Options
   std::optional<bool> tangential_damping_on;  ///< LIGGGHTS's own `tangential_damping on|off`
   std::optional<bool> tangential_computed;    ///< `tangentialStiffness mindlin|computed`
   std::optional<ElasticDamping> elastic_damping;  ///< `elasticDamping Z|off|restitution`
+  std::optional<bool> body_compliance;            ///< `bodyCompliance on|off`: of the body behind a contact
   std::optional<double> stretch;                  ///< `stretch S`: F_s(d) = F(d/S)/S
   std::string stats_path;                 ///< `stats FILE` (pair): JSON written at the end of each run
   bool energy = false;                    ///< `energy on|off` (pair): energies per particle, friction

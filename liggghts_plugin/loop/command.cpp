@@ -72,6 +72,7 @@ void note_meaning(const CommandModels& models, Setup& setup)
   const auto bit = [](bool said, long bit) { return said ? bit : 0l; };
   setup.meaning = {models.ids.hash() | bit(setup.energy, HistoryMeaning::energy) |
                        bit(setup.contact_map, HistoryMeaning::contact_map) |
+                       bit(options.body_compliance.value_or(false), HistoryMeaning::body_compliance) |
                        bit(options.deformable_wall, HistoryMeaning::deformable_wall) |
                        bit(options.tangential_computed.value_or(false), HistoryMeaning::computed_stiffness),
                    options.stretch.value_or(1.0)};

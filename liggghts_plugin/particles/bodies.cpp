@@ -151,6 +151,12 @@ void Bodies::fill_clumps(LAMMPS_NS::LAMMPS* lmp) const
   }
 }
 
+const double* Bodies::looked_up(int i) const
+{
+  if (alone_ && row(i)[mass_column] == not_looked_up) find_clump(alone_, i);
+  return row(i);
+}
+
 void Bodies::find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const
 {
   row(i)[mass_column] = 0.0;
@@ -189,10 +195,17 @@ void Bodies::fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double*
   }
 }
 
+double Bodies::height(int i, const double* n, double sphere_radius) const
+{
+  const double* values = looked_up(i);
+  if (!(values[mass_column] > 0.0)) return sphere_radius;
+  const double* r = values + arm;
+  return sphere_radius + r[0] * n[0] + r[1] * n[1] + r[2] * n[2];
+}
+
 double Bodies::inverse_mass(int i, const double* n, double sphere_mass) const
 {
-  const double* values = row(i);
-  if (alone_ && values[mass_column] == not_looked_up) find_clump(alone_, i);
+  const double* values = looked_up(i);
   if (!(values[mass_column] > 0.0)) return 1.0 / sphere_mass;
   const double *r = values + arm, *v = values + inverse_inertia;
   const double t[3] = {r[1] * n[2] - r[2] * n[1], r[2] * n[0] - r[0] * n[2], r[0] * n[1] - r[1] * n[0]};

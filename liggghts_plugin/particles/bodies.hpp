@@ -32,6 +32,9 @@ class Bodies
   /// body's centre of mass to the sphere's centre. What an impulse along n changes the normal velocity there
   /// by. `sphere_mass` counts where the sphere is no part of a body.
   double inverse_mass(int i, const double* n, double sphere_mass) const;
+  /// m, from the body's centre of mass to a point of contact on sphere `i` in the direction n from the sphere's
+  /// centre, along n. The sphere's radius where it is no part of a body.
+  double height(int i, const double* n, double sphere_radius) const;
 
  private:
   enum Column : int { mass_column, arm, inverse_inertia = 4, columns = 10 };  // xx yy zz xy xz yz
@@ -47,6 +50,8 @@ class Bodies
   void fill(LAMMPS_NS::LAMMPS* lmp, int i, double body_mass, const double* centre, const double* moments,
             const double* ex, const double* ey, const double* ez) const;
 
+  /// row(i), with the numbers of now.
+  const double* looked_up(int i) const;
   /// Row of a sphere of a clump of this rank, with the numbers of now.
   void find_clump(LAMMPS_NS::LAMMPS* lmp, int i) const;
 

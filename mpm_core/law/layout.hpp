@@ -209,5 +209,9 @@ inline constexpr Field solver_restitution{"restitution", "1", "e = sqrt(W_u/W_l)
 inline constexpr Field law_force_max{"law_force_max", "N",
                                      "by the law of a sphere of radius sqrt(R' R''); 0: no answer"};
 inline constexpr Field law_restitution{"law_restitution", "1", "the same of e"};
+inline constexpr Field height{"height", "m", "of the centre of mass over the contact; absent: not stated"};
+inline constexpr Field body_force_max{"body_force_max", "N",
+                                      "by the law with the body behind the contact; 0: no answer"};
+inline constexpr Field body_restitution{"body_restitution", "1", "the same of e"};
 
 }  // namespace granulaw::h5

@@ -42,14 +42,19 @@ const char* name_of(OrientationCheck::Local local)
   }
 }
 
-ErrorQuantiles ShapeCertificate::force() const
+ErrorQuantiles ShapeCertificate::force(ContactAnswer OrientationCheck::* by) const
 {
-  return quantiles(checks, [](const OrientationCheck& c) { return c.force_error(); });
+  return quantiles(checks, [&](const OrientationCheck& c) { return c.force_error(c.*by); });
 }
 
-ErrorQuantiles ShapeCertificate::restitution() const
+ErrorQuantiles ShapeCertificate::restitution(ContactAnswer OrientationCheck::* by) const
 {
-  return quantiles(checks, [](const OrientationCheck& c) { return c.restitution_error(); });
+  return quantiles(checks, [&](const OrientationCheck& c) { return c.restitution_error(c.*by); });
+}
+
+bool ShapeCertificate::has_body() const
+{
+  return std::all_of(checks.begin(), checks.end(), [](const OrientationCheck& c) { return c.height > 0; });
 }
 
 double ShapeCertificate::covered() const

@@ -32,13 +32,17 @@ struct OrientationCheck
   /// m, principal radii of curvature of the surface that touches first; infinite in a flat.
   double sharper_radius = 0, flatter_radius = 0;
   double effective_mass = 1;  ///< that resists there, over the body's (effective_mass_share)
+  double height = 0;  ///< m, of the centre of mass over the contact; 0: of a file that does not say
   Local local = Local::curved;
-  ContactAnswer solver, law;  ///< law: only where Local::curved
+  ContactAnswer solver;
+  /// By the law, and by it with the body behind the contact (contact/body_behind.hpp): only where Local::curved, the
+  /// second only with a height.
+  ContactAnswer law, law_with_body;
 
   /// sqrt(R' R''), m: the Gaussian radius of curvature.
   double local_radius() const;
-  double force_error() const { return law.force_max / solver.force_max - 1; }        ///< relative
-  double restitution_error() const { return law.restitution - solver.restitution; }  ///< absolute
+  double force_error(const ContactAnswer& by) const { return by.force_max / solver.force_max - 1; }  ///< relative
+  double restitution_error(const ContactAnswer& by) const { return by.restitution - solver.restitution; }  ///< absolute
 };
 
 /// "curved", "edge", "flat", "beyond the law".
@@ -60,8 +64,11 @@ struct ShapeCertificate
   double solver_error = 0;               ///< relative, of F and e: four directions by two resolutions
   std::vector<OrientationCheck> checks;  ///< by velocity, then by direction
 
-  ErrorQuantiles force() const;
-  ErrorQuantiles restitution() const;
+  /// Errors of the law, or of the law with the body behind the contact.
+  ErrorQuantiles force(ContactAnswer OrientationCheck::* by = &OrientationCheck::law) const;
+  ErrorQuantiles restitution(ContactAnswer OrientationCheck::* by = &OrientationCheck::law) const;
+  /// True: every answer of the law has one with the body, too.
+  bool has_body() const;
   /// Share of all directions where the law has an answer.
   double covered() const;
 };

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/larger.hpp"
+#include "contact/body_behind.hpp"
 
 namespace granulaw {
 
@@ -65,25 +66,31 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
 }
 
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
-                        int steps_per_contact)
+                        int steps_per_contact, double compliance)
 {
   // Hertz's contact time 2.87 (m*^2/(E*^2 R* V))^(1/5): at most a few times too short for a plastic contact.
   const double e_star = pair.mapping.e_star_pair();
   const double duration =
       2.87 * std::pow(effective_mass * effective_mass / (e_star * e_star * r_eff * velocity), 0.2);
   const double impact_overlap = pair.impact_overlap(r_eff, effective_mass, velocity);
+  double deepest = 0;  // of the law
+  const auto respond = [&](double x) { return pair.evaluate(r_eff, x, deepest, impact_overlap); };
   Replay result = replay(
-      [&](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max, impact_overlap); },
+      [&](double delta, double) {
+        const Answer now = respond(overlap_of_law(delta, compliance, deepest, respond));
+        deepest = now.delta_max;
+        return now;
+      },
       pair.radiation, effective_mass, velocity, duration, steps_per_contact);
   result.left_speeds = velocity > pair.max_speed(r_eff, effective_mass);
   result.held_speed = velocity < pair.min_speed(r_eff, effective_mass);
-  result.left_range = result.delta_max > pair.max_overlap(r_eff);
+  result.left_range = deepest > pair.max_overlap(r_eff);
   return result;
 }
 
-Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity)
+Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity, double compliance)
 {
-  return replay_collision(wall_pair(body), radius, mass, velocity);
+  return replay_collision(wall_pair(body), radius, mass, velocity, 20000, compliance);
 }
 
 }  // namespace granulaw

@@ -38,11 +38,11 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
                         int steps_per_contact = 20000);
 
 /// The same for a pair of a Law: latches the impact overlap X of `velocity` at first touch, and lets waves
-/// take their part.
+/// take their part. `compliance`: m/N, of bodies behind the contact (contact/body_behind.hpp); overlaps hold theirs.
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
-                        int steps_per_contact = 20000);
+                        int steps_per_contact = 20000, double compliance = 0);
 
 /// One body against the rigid wall: `radius` of curvature at its pole (m), its mass (kg).
-Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity);
+Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity, double compliance = 0);
 
 }  // namespace granulaw

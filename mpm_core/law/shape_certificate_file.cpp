@@ -34,7 +34,10 @@ const std::vector<Column>& columns()
       {solver_force_max, [](Check& c) -> double& { return c.solver.force_max; }},
       {solver_restitution, [](Check& c) -> double& { return c.solver.restitution; }},
       {law_force_max, [](Check& c) -> double& { return c.law.force_max; }},
-      {law_restitution, [](Check& c) -> double& { return c.law.restitution; }}};
+      {law_restitution, [](Check& c) -> double& { return c.law.restitution; }},
+      {height, [](Check& c) -> double& { return c.height; }},
+      {body_force_max, [](Check& c) -> double& { return c.law_with_body.force_max; }},
+      {body_restitution, [](Check& c) -> double& { return c.law_with_body.restitution; }}};
   return all;
 }
 
@@ -61,6 +64,10 @@ void check_orientation(const OrientationCheck& c, const std::string& where)
   require_within(c.flatter_radius, 1e-20, 1e20, flatter_radius, where);
   require_within(c.law.force_max, 1e-30, 1e30, law_force_max, where);
   require_within(c.law.restitution, 0, 1.5, law_restitution, where);
+  if (c.height == 0) return;
+  require_within(c.height, -1e20, 1e20, height, where);
+  require_within(c.law_with_body.force_max, 1e-30, 1e30, body_force_max, where);
+  require_within(c.law_with_body.restitution, 0, 1.5, body_restitution, where);
 }
 
 OrientationCheck::Local local_of(double number, const std::string& where)
@@ -86,7 +93,9 @@ ShapeCertificate read_shape_certificate(hid_t owner, const std::string& where)
   const std::vector<double> kinds = read_vector(group, contact_kind, most_orientations, where);
   oriented.checks.resize(kinds.size());
   for (std::size_t k = 0; k < kinds.size(); ++k) oriented.checks[k].local = local_of(kinds[k], where);
+  const bool has_body = has_link(group, height.name);  // older files have none
   for (const Column& column : columns()) {
+    if (!has_body && &column.field == &height) break;  // the last columns belong together
     const std::vector<double> values = read_vector(group, column.field, most_orientations, where);
     if (values.size() != kinds.size())
       fail(where, fmt::format("'{}' has the wrong length", column.field.name), std::to_string(values.size()),

@@ -16,7 +16,8 @@
 //   law_fixture force FILE A B R_EFF DELTA DELTA_MAX X       prints force (N)
 //   law_fixture radius FILE A B R_EFF DELTA DELTA_MAX X      prints contact radius (m)
 //   law_fixture impact FILE A B R_EFF M_EFF V                prints the impact overlap X of a contact
-//   law_fixture mpm FILE A B R_EFF M_EFF V                   one collision under the law
+//   law_fixture mpm FILE A B R_EFF M_EFF V [C]               one collision under the law; C: m/N, of the
+//                       bodies behind the contact
 //   law_fixture collision FILE A B R_A R_B R_EFF M_EFF V     the same under the law for these radii
 //   law_fixture still FILE A B R_A R_B R_EFF M_EFF V         the same without waves
 //   law_fixture elastic FILE A E_STAR R_EFF M_EFF V          A against an elastic body of modulus E_STAR
@@ -143,7 +144,7 @@ int run(int argc, char** argv)
   if (word(1) == "mpm") {
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
-    print(granulaw::replay_collision(pair, number(5), number(6), number(7)));
+    print(granulaw::replay_collision(pair, number(5), number(6), number(7), 20000, number(8)));
     return 0;
   }
   if (word(1) == "collision" || word(1) == "still") {

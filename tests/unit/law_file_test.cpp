@@ -324,8 +324,8 @@ Law law_with_orientations()
   shape.shape = "box 1 1 1 0.1", shape.mirrors = {true, false, true};
   shape.volume = 1.0 / 3, shape.solver_error = 0.01;
   using Local = OrientationCheck::Local;
-  shape.checks = {{{0, 0.6, -0.8}, 0.7, 1e-3, 2e-3, 0.9, Local::curved, {2.5, 0.5}, {2.6, 0.45}},
-                  {{1, 0, 0}, 0.7, 1e-4, INFINITY, 1, Local::flat, {3.5, 0.6}, {}}};
+  shape.checks = {{{0, 0.6, -0.8}, 0.7, 1e-3, 2e-3, 0.9, 1.8e-3, Local::curved, {2.5, 0.5}, {2.6, 0.45}, {2.525, 0.48}},
+                  {{1, 0, 0}, 0.7, 1e-4, INFINITY, 1, 1e-3, Local::flat, {3.5, 0.6}, {}, {}}};
   law.bodies["powder"].shape = shape;
   return law;
 }
@@ -353,10 +353,26 @@ TEST_F(LawFile, OrientationsComeBackBitExact)
     EXPECT_EQ(x.solver.restitution, y.solver.restitution);
     EXPECT_EQ(x.law.force_max, y.law.force_max);
     EXPECT_EQ(x.law.restitution, y.law.restitution);
+    EXPECT_EQ(x.height, y.height);
+    EXPECT_EQ(x.law_with_body.force_max, y.law_with_body.force_max);
+    EXPECT_EQ(x.law_with_body.restitution, y.law_with_body.restitution);
   }
   EXPECT_EQ(b.covered(), 0.5);
   EXPECT_NEAR(b.force().largest, 0.04, 1e-12);
+  EXPECT_NEAR(b.force(&OrientationCheck::law_with_body).largest, 0.01, 1e-12);
+  EXPECT_TRUE(b.has_body());
   EXPECT_FALSE(read_law(path_).bodies.at("glass").shape.has_value());
+}
+
+TEST_F(LawFile, OlderOrientationsHaveNoBodyBehindTheContact)
+{
+  const auto older = [](hid_t file) {
+    tests::without_checksum(file);
+    for (const char* name : {"height", "body_force_max", "body_restitution"})
+      H5Ldelete(file, (std::string("bodies/powder/orientations/") + name).c_str(), H5P_DEFAULT);
+  };
+  EXPECT_EQ(after(older, law_with_orientations()), "");
+  EXPECT_FALSE(read_law(path_).bodies.at("powder").shape->has_body());
 }
 
 TEST_F(LawFile, UnusableOrientationsAreRefused)
@@ -372,6 +388,9 @@ TEST_F(LawFile, UnusableOrientationsAreRefused)
                                     {"effective_mass", 2},
                                     {"sharper_radius", INFINITY},
                                     {"law_force_max", 0},
+                                    {"body_force_max", 0},
+                                    {"body_restitution", NAN},
+                                    {"height", NAN},
                                     {"volume", 0}})
     says(set(group + name, value), name, law);
   says(without(group + "law_restitution"), "law_restitution", law);

@@ -223,7 +223,7 @@ TEST(Options, UnknownKeywordsGetTheNearestAndAll)
   EXPECT_EQ(refusal("strech 2", thornton),
             "HERE: unknown keyword 'strech' (did you mean 'stretch'?): allowed is tangentialDampingRatio, "
             "tangentialStiffness, "
-            "elasticDamping, stretch, heatArea, stats, energy, contactMap, computeDissipatedEnergy, yieldPressure, "
+            "elasticDamping, bodyCompliance, stretch, heatArea, stats, energy, contactMap, computeDissipatedEnergy, yieldPressure, "
             "tangential_damping, limitForce, "
             "tangential_reduce, computeElasticPotential, heating_tracking, heating_tangential_history, "
             "heating_tangential_no_history, torsionTorque");
@@ -264,7 +264,7 @@ TEST(Options, AWallInheritsWhatItLeavesOpen)
 {
   const Options from = options(
       "law a.h5 materials a b stretch 2 elasticDamping off beyondRange continue tangentialDampingRatio 0.5 "
-      "tangentialStiffness computed heatArea law tangential_damping off energy on stats out.json");
+      "tangentialStiffness computed heatArea law bodyCompliance on tangential_damping off energy on stats out.json");
   Options bare = options("wall deformable", mpm, wall);
   bare.inherit(from);
   EXPECT_EQ(bare.own, from.own);
@@ -274,6 +274,7 @@ TEST(Options, AWallInheritsWhatItLeavesOpen)
   EXPECT_EQ(bare.tangential_damping, 0.5);
   EXPECT_EQ(bare.tangential_computed, true);
   EXPECT_EQ(bare.heat_by_law, true);
+  EXPECT_EQ(bare.body_compliance, true);
   EXPECT_EQ(bare.tangential_damping_on, false);
   EXPECT_TRUE(bare.deformable_wall);
   EXPECT_FALSE(bare.energy);  // these two are the pair style's alone

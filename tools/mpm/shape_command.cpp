@@ -66,27 +66,29 @@ void write_map(const ShapeCertificate& certificate, const std::string& path)
 {
   std::string text =
       "direction_x,direction_y,direction_z,velocity_m_per_s,contact,sharper_radius_m,flatter_radius_m,"
-      "effective_mass_share,force_max_N,restitution,law_force_max_N,law_restitution\n";
+      "effective_mass_share,height_m,force_max_N,restitution,law_force_max_N,law_restitution,law_with_body_force_max_N,"
+      "law_with_body_restitution\n";
   for (const OrientationCheck& c : certificate.checks) {
     const std::array<double, 3>& n = c.direction;
-    text += fmt::format("{:.6f},{:.6f},{:.6f},{:g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+    text += fmt::format("{:.6f},{:.6f},{:.6f},{:g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
                         n[0], n[1], n[2], c.velocity, name_of(c.local), c.sharper_radius, c.flatter_radius,
-                        c.effective_mass, c.solver.force_max, c.solver.restitution, c.law.force_max,
-                        c.law.restitution);
+                        c.effective_mass, c.height, c.solver.force_max, c.solver.restitution, c.law.force_max,
+                        c.law.restitution, c.law_with_body.force_max, c.law_with_body.restitution);
   }
   write_text_atomically(path, text);
 }
 
 void print_directions(const ShapeCertificate& certificate)
 {
-  fmt::print("   direction            V m/s   R', R'' mm       m_e/m   F_max N    e      law: F      e\n");
+  fmt::print("   direction            V m/s   R', R'' mm       m_e/m   F_max N    e      law: F      e    with body: F   e\n");
   for (const OrientationCheck& c : certificate.checks) {
     const std::array<double, 3>& n = c.direction;
     fmt::print("{:6.2f} {:6.2f} {:6.2f}  {:7.4g}  {:7.4g} {:7.4g}  {:6.3f}  {:9.4g}  {:.3f}", n[0], n[1],
                n[2], c.velocity, 1e3 * c.sharper_radius, 1e3 * c.flatter_radius, c.effective_mass,
                c.solver.force_max, c.solver.restitution);
     if (c.local == OrientationCheck::Local::curved)
-      fmt::print("  {:+6.1f} %  {:+.3f}\n", 100 * c.force_error(), c.restitution_error());
+      fmt::print("  {:+6.1f} %  {:+.3f}  {:+6.1f} %  {:+.3f}\n", 100 * c.force_error(c.law), c.restitution_error(c.law),
+                 100 * c.force_error(c.law_with_body), c.restitution_error(c.law_with_body));
     else
       fmt::print("  {}\n", name_of(c.local));
   }

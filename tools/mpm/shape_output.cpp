@@ -26,6 +26,11 @@ nlohmann::ordered_json as_json(const OrientationCheck& c)
   const bool answered = c.local == OrientationCheck::Local::curved;
   out["law_force_max_N"] = answered ? json_number(c.law.force_max) : nullptr;
   out["law_e"] = answered ? json_number(c.law.restitution) : nullptr;
+  if (c.height != 0) {
+    out["height_m"] = c.height;
+    out["law_with_body_force_max_N"] = answered ? json_number(c.law_with_body.force_max) : nullptr;
+    out["law_with_body_e"] = answered ? json_number(c.law_with_body.restitution) : nullptr;
+  }
   return out;
 }
 
@@ -50,6 +55,14 @@ nlohmann::ordered_json as_json(const ShapeCertificate& certificate)
   out["force_error_95"] = force.largest;
   out["restitution_error_median"] = e.median;
   out["restitution_error_95"] = e.largest;
+  if (certificate.has_body()) {
+    const auto with_body = &OrientationCheck::law_with_body;
+    const ErrorQuantiles body_force = certificate.force(with_body), body_e = certificate.restitution(with_body);
+    out["with_body"] = {{"force_error_median", body_force.median},
+                        {"force_error_95", body_force.largest},
+                        {"restitution_error_median", body_e.median},
+                        {"restitution_error_95", body_e.largest}};
+  }
   out["solver_error"] = certificate.solver_error;
   out["mirrors"] = certificate.mirrors;
   for (const OrientationCheck& check : certificate.checks) out["directions"].push_back(as_json(check));
@@ -66,6 +79,12 @@ void print_shape(const std::string& name, const ShapeCertificate& certificate)
         "{}: F_max off by {:.2g} % in the median, within {:.2g} % in 95 %; e by {:.2g} and {:.2g}; solver "
         "error {:.2g} %\n",
         name, 100 * force.median, 100 * force.largest, e.median, e.largest, 100 * certificate.solver_error);
+  if (certificate.covered() > 0 && certificate.has_body()) {
+    const auto with_body = &OrientationCheck::law_with_body;
+    const ErrorQuantiles body_force = certificate.force(with_body), body_e = certificate.restitution(with_body);
+    fmt::print("{}: with the body behind the contact (bodyCompliance on) F_max by {:.2g} and {:.2g} %, e by {:.2g} and {:.2g}\n",
+               name, 100 * body_force.median, 100 * body_force.largest, body_e.median, body_e.largest);
+  }
   if (certificate.covered() < 1)
     fmt::print(
         "{}: at its edges, corners and flats no sphere is like the contact: the runs' own F_max and e "

@@ -30,7 +30,7 @@ std::vector<Orientation> orientations_of(const Shape& solid, int count)
     Vector3 contact;
     solid.support(direction, &contact);
     orientations.push_back({direction, contact, solid.principal_radii(direction),
-                            effective_mass_share(mass, contact, direction)});
+                            effective_mass_share(mass, contact, direction), (contact - mass.centre).dot(direction)});
   }
   return orientations;
 }

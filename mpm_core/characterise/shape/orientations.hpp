@@ -13,6 +13,7 @@ struct Orientation
   Vector3 contact;        ///< m, the body's point that touches first
   PrincipalRadii radii;   ///< there
   double effective_mass;  ///< over the body's mass (effective_mass_share)
+  double height;          ///< m, of the centre of mass over the contact
 };
 
 /// Quasi-uniform directions over the part of the sphere that the body's mirror planes leave: a Fibonacci

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/state_archive.hpp"
+#include "contact/body_behind.hpp"
 #include "characterise/body/characterised_body.hpp"
 #include "characterise/shape/energetic_restitution.hpp"
 #include "characterise/body/law_material.hpp"
@@ -35,7 +36,7 @@ OrientationCheck check_of(const Orientation& o, double velocity)
   check.direction = {o.direction.x(), o.direction.y(), o.direction.z()};
   check.velocity = velocity;
   check.sharper_radius = o.radii.sharper, check.flatter_radius = o.radii.flatter;
-  check.effective_mass = o.effective_mass;
+  check.effective_mass = o.effective_mass, check.height = o.height;
   check.local = local_contact(o.radii);
   return check;
 }
@@ -122,16 +123,21 @@ double solver_error(const std::vector<ContactAnswer>& answers, const std::vector
   return std::max(spatial_rule.left(in_force, ratio), spatial_rule.left(in_restitution, ratio));
 }
 
-/// The law's answer; nothing where the overlap leaves its table.
+/// The law's answers, alone and with the body behind the contact; nothing where the overlap leaves its table.
 void replay(OrientationCheck& check, const BodyLaw& law, double mass)
 {
   if (check.local != OrientationCheck::Local::curved) return;
-  const Replay replay = replay_on_wall(law, check.local_radius(), mass, check.velocity);
+  const double radius = check.local_radius();
+  const Replay replay = replay_on_wall(law, radius, mass, check.velocity);
   if (replay.left_range) {
     check.local = OrientationCheck::Local::beyond_law;
     return;
   }
   check.law = {replay.force_max, replay.restitution};
+  const double compliance =
+      far_field(law.material.poisson_ratio) / law.material.e_star() * reach_behind(radius, check.height);
+  const Replay with_body = replay_on_wall(law, radius, mass, check.velocity, compliance);
+  check.law_with_body = {with_body.force_max, with_body.restitution};
 }
 
 }  // namespace
