@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/vector.hpp"
 #include "liggghts_plugin/books/contact_statistics.hpp"
 #include "liggghts_plugin/particles/particle_columns.hpp"
 
@@ -76,8 +77,7 @@ class EnergyTally
     const double* n = sidata.en;
     double force[3], couple[3];
     for (int c = 0; c < 3; ++c) force[c] = i_forces.delta_F[c] - law_force * n[c];
-    double arm[3];
-    cross(n, force, arm);  // torque on i is -cri en x F, and the couple
+    Vector arm = cross(n, force);  // torque on i is -cri en x F, and the couple
     for (int c = 0; c < 3; ++c) couple[c] = i_forces.delta_torque[c] + sidata.cri * arm[c];
 
     if (sidata.shearupdate) {
@@ -86,7 +86,7 @@ class EnergyTally
         mean_force[c] = 0.5 * (force[c] + last[c]);
         mean_couple[c] = 0.5 * (couple[c] + last[3 + c]);
       }
-      cross(n, mean_force, arm);
+      arm = cross(n, mean_force);
       for (int c = 0; c < 3; ++c) {
         power += mean_force[c] * (sidata.v_i[c] - sidata.v_j[c]) +
                  (mean_couple[c] - sidata.cri * arm[c]) * sidata.omega_i[c];
@@ -104,13 +104,6 @@ class EnergyTally
   {
     per_atom.rows()[particle][column] += energy;
     if (dissipated_energy && column != stored) dissipated_energy.rows()[particle][0] += energy;
-  }
-
-  static void cross(const double* a, const double* b, double* out)
-  {
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
   }
 };
 

@@ -74,11 +74,6 @@ class OwnTangential : public cm::TangentialModelBase
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
 
  private:
-  template <class V, class W>
-  static Vector cross(const V& v, const W& w)
-  {
-    return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
-  }
   /// (omega_i - omega_j) x en; walls do not turn.
   static Vector rolling(const SurfacesIntersectData& s)
   {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // Geometry of a dent that turns against what it is pressed on, and the yield curve of a contact under shear.
 // docs/theory/oblique.md has the equations by their numbers.
@@ -24,13 +25,16 @@ struct DiscSegment
     const double rest = std::max(0.0, 1.0 - centroid);
     return rest * std::sqrt(rest);
   }
-  /// The segment of this centroid, by Newton's method between bounds; beyond(smallest) is the last.
-  static DiscSegment with_centroid(double centroid)
+  /// The segment of this centroid, by Newton's method between bounds, from h = `near` where one is known;
+  /// beyond(smallest) is the last.
+  static DiscSegment with_centroid(double centroid, double near = 2.0)
   {
     if (!(centroid > 0.0)) return {};
     if (const DiscSegment last = beyond(smallest); centroid >= last.centroid) return last;
     // the limits of a small and of a large h: c = 4 sqrt(2)/(3 pi) (1 + h)^1.5, 1 - c = 0.6 (1 - h)
-    double h = std::min(std::pow(0.75 * M_PI * M_SQRT1_2 * centroid, 2.0 / 3.0) - 1.0, 1.0 - (1.0 - centroid) / 0.6);
+    double h = near;
+    if (!(h < smallest))
+      h = std::min(std::pow(0.75 * M_PI * M_SQRT1_2 * centroid, 2.0 / 3.0) - 1.0, 1.0 - (1.0 - centroid) / 0.6);
     double low = -1.0, high = smallest;
     for (int step = 0; step < 40; ++step) {
       if (!(h > low && h < high)) h = 0.5 * (low + high);
@@ -96,20 +100,30 @@ struct ShearYield
   {
     return 1.0 - normal_loss + normal_loss * std::pow(std::max(0.0, 1.0 - q * q), exponent);
   }
-  /// -ds/dq at q = tau/sqrt(1 + tau^2).
-  static double fall(double tau)
+  /// q, s and -ds/dq.
+  struct Point
   {
-    return 2.0 * exponent * normal_loss * tau * std::pow(1.0 + tau * tau, 0.5 - exponent);
+    double q, share, fall;
+  };
+  static double tau(double q) { return q / std::sqrt(1.0 - q * q); }
+  /// At q = tau/sqrt(1 + tau^2).
+  static Point at_tau(double tau)
+  {
+    if (std::isinf(tau)) return {1.0, 1.0 - normal_loss, tau};  // sliding at T_0 alone
+    const double t2 = 1.0 + tau * tau, root = std::sqrt(t2), power = std::pow(t2, 0.5 - exponent);
+    return {tau / root, 1.0 - normal_loss + normal_loss * power / root, two_cm * tau * power};
   }
-  /// q where the force of a spring, `pull` before, is what the flow has left of it: T_0 q = pull - give (-ds/dq).
-  /// Newton's method in tau, where the equation is nearly linear.
-  static double share_of_strength(double pull, double strength, double give)
+  /// tau where the force of a spring, `pull` before, is what the flow has left of it: T_0 q = pull - give (-ds/dq).
+  /// Newton's method in tau, where the equation is nearly linear; from `near` where one is known.
+  static double tau_of(double pull, double strength, double give, double near = -1.0)
   {
     const double q = pull / strength;
-    if (!(give > 0.0)) return std::min(q, 1.0);
-    constexpr double two_cm = 2.0 * exponent * normal_loss;
-    double tau = pull / (strength + two_cm * give);
-    if (q > 1.0) tau = std::max(tau, std::pow((pull - strength) / (two_cm * give), 0.5 / (1.0 - exponent)));
+    if (!(give > 0.0)) return q < 1.0 ? tau(q) : std::numeric_limits<double>::infinity();
+    double tau = near;
+    if (!(tau >= 0.0 && tau < 1e100)) {
+      tau = pull / (strength + two_cm * give);
+      if (q > 1.0) tau = std::max(tau, std::pow((pull - strength) / (two_cm * give), 0.5 / (1.0 - exponent)));
+    }
     for (int step = 0; step < 30; ++step) {
       const double t2 = 1.0 + tau * tau, root = std::sqrt(t2), power = std::pow(t2, 0.5 - exponent);
       const double miss = strength * tau / root + give * two_cm * tau * power - pull;
@@ -119,8 +133,11 @@ struct ShearYield
       tau = std::max(0.0, tau - miss / slope);
       if (std::abs(tau - before) <= 1e-5 * (1.0 + tau)) break;  // of the second order: the error is its square
     }
-    return tau / std::sqrt(1.0 + tau * tau);
+    return tau;
   }
+
+ private:
+  static constexpr double two_cm = 2.0 * exponent * normal_loss;
 };
 
 }  // namespace granulaw

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "contact/contact.hpp"
 #include "contact/dent.hpp"
@@ -92,9 +93,10 @@ class PlasticShear
       const double before = dent.force_at(step.overlap);
       Memory whole = held;
       State tried, now = yield(dent_at, dent, whole, step, tried);
+      double lost = 0;
       if (const int parts = now.flows ? parts_of(step, dent) : 1; parts == 1) {
         held = whole;
-        if (m.advances) book(law, m, latched, held, step, depth, tried, now, books);
+        if (m.advances) lost = book(law, m, latched, held, step, depth, tried, now, books);
       } else {
         for (int part = 1; part <= parts; ++part) {
           const Step some = step.part(part, parts);
@@ -103,13 +105,14 @@ class PlasticShear
           held.depth = now.depth;
           book(law, m, latched, held, some, begins, tried, now, books);
         }
+        lost = law.dissipated(m.r_eff, normal_kept[0], now.depth * stretch_, latched);
       }
       held.depth = now.depth;
       force = std::max(force + (now.force - before) * per_stretch, 0.0);  // keeps what is no number
       answer.force = times(held.pull, -1.0);
       answer.couple = times(cross(m.normal, held.tilt), -now.moment);
       if (m.advances && now.depth != depth) {
-        books[Mechanism::plastic] += law.dissipated(m.r_eff, normal_kept[0], now.depth * stretch_, latched);
+        books[Mechanism::plastic] += lost;
         normal_kept[0] = now.depth * stretch_;
       }
     }
@@ -124,6 +127,8 @@ class PlasticShear
   static constexpr double tabor_strain = 0.2;     // of the indentation, times a/R: Tabor, The Hardness of Metals (1951)
   static constexpr double shear_strain = 1.1;     // of the shear, times its sliding over a, measured
   static constexpr double tolerance = 1e-4;       // of F_m, in the yield condition: e and spin change by 1e-4
+  static constexpr double linear = 0.005;         // of the depth, over which a dent is linear: its force to 2e-5
+  static constexpr double nearly = 1e-4;          // of the depth, the last Newton step in the elastic overlap: the error is its square
 
   static Vector times(const Vector& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
   static Vector sum(const Vector& v, const Vector& w, double factor = 1.0)
@@ -136,10 +141,6 @@ class PlasticShear
   {
     const double length = size(v);
     return length > 0 ? times(v, 1.0 / length) : Vector{};
-  }
-  static Vector cross(const Vector& v, const Vector& w)
-  {
-    return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
   }
 
   /// Motion of the real contact in a step: lengths in m, turning in rad.
@@ -224,8 +225,7 @@ class PlasticShear
   struct Elastic
   {
     double force, share, stiffness, radius;
-    double untilted;  // overlap of the same force without a tilt
-    double energy;    // beyond the law's there, J
+    double energy;  // J, that it holds
   };
   /// F = F_u(delta + (K'(F) - (R - delta_r)) phi^2/2), K = F (r + (K_m/F_m - r) F/F_m).
   template <class Dent>
@@ -234,15 +234,18 @@ class PlasticShear
     const double four_thirds = 4.0 / 3.0 * e_star_, r = dent.radius * dent.radius / (dent.depth - dent.residual);
     const double excess = four_thirds * dent.radius * dent.radius * dent.radius / dent.force - r;
     const double base = step.overlap + 0.5 * (r - (step.radius - dent.residual)) * tilt2, per_share = excess * tilt2;
-    double share = dent.force_at(base) / dent.force;
-    for (int newton = 0; newton < 3 && std::abs(per_share * share) > 1e-12 * dent.depth; ++newton) {
-      const double at = base + per_share * share;
-      share -= (share - dent.force_at(at) / dent.force) / (1.0 - per_share * dent.slope_at(at) / dent.force);
+    const double per_force = 1.0 / dent.force;
+    double at = base, share = dent.force_at(at) * per_force;
+    for (int newton = 0; newton < 3 && std::abs(base + per_share * share - at) > nearly * dent.depth; ++newton) {
+      at = base + per_share * share;
+      const Response there = dent.response_at(at);
+      share -= (share - there.force * per_force) / (1.0 - per_share * there.stiffness * per_force);
       share = std::max(0.0, share);
     }
     const double force = share * dent.force, stiffness = force * (r + excess * share);
-    return {force, share, stiffness, std::cbrt(stiffness / four_thirds), base + per_share * share,
-            -0.5 * tilt2 * force * excess * share};
+    at = base + per_share * share;
+    return {force, share, stiffness, std::cbrt(stiffness / four_thirds),
+            dent.work_at(at) - 0.5 * tilt2 * force * excess * share};
   }
 
   /// State of the contact, elastic or after flow.
@@ -251,7 +254,7 @@ class PlasticShear
     double force = 0, moment = 0, depth = 0;    // moment: per tilt
     double excess = 0;                          // of F beyond yield
     double pull = 0, slid = 0;                  // T, and the sliding of the flow
-    double untilted = 0, energy = 0;            // Elastic's, and the spring's energy
+    double energy = 0;                          // J, that the contact holds
     double rubbed = 0;                          // J, taken by friction
     Vector tilt{};
     bool flows = false;
@@ -277,8 +280,9 @@ class PlasticShear
     const Vector along = unit(held.pull);
     const double shift = bodies_.asymmetry * pressure_shift * first.radius / first.stiffness;  // of the axis, per T
     const auto leaning = [&](const Vector& tilt, double pull) { return sum(tilt, along, shift * pull); };
+    double near = 2.0;  // h of the last segment: the next one begins there
     const auto segment_of = [&](const Elastic& e, double radius, double lean) {
-      return DiscSegment::with_centroid(e.force > 0 ? e.stiffness / (e.force * radius) * lean : 0.0);
+      return DiscSegment::with_centroid(e.force > 0 ? e.stiffness / (e.force * radius) * lean : 0.0, near);
     };
     const double cut = std::min(stretched, friction * first.force);
     const Vector lean = leaning(held.tilt, cut);
@@ -299,17 +303,17 @@ class PlasticShear
       }
     }
     const DiscSegment segment = segment_of(first, a, size(lean));
+    near = segment.h;
     const double strength = softest * std::min(first.radius * first.radius, segment.area * a * a);
-    const auto state_of = [&](const Elastic& e, const auto& dent, double area, double pull) {
+    const auto state_of = [&](const Elastic& e, const Dent& dent, double area, double pull, double share) {
       return State{.force = e.force,
                    .moment = e.stiffness - e.force * (step.radius - dent.residual),
                    .depth = dent.depth,
-                   .excess = e.force - area * ShearYield::share(std::min(1.0, pull / strength)) * dent.force,
+                   .excess = e.force - area * share * dent.force,
                    .pull = pull,
-                   .untilted = e.untilted,
                    .energy = e.energy + 0.5 * pull * pull / k};
     };
-    tried = state_of(first, start, segment.area, cut);
+    tried = state_of(first, start, segment.area, cut, ShearYield::share(std::min(1.0, cut / strength)));
     tried.tilt = held.tilt;
     tried.rubbed = softened;
     if (cut <= strength && tried.excess <= tolerance * start.force) {
@@ -319,72 +323,113 @@ class PlasticShear
     }
     tried.pull = stretched, tried.energy = first.energy + 0.5 * stretched * stretched / k;
 
+    // a dent nearly as deep is linear in its depth
+    std::optional<Dent> deeper;
+    const auto dent_of = [&](double depth) {
+      const double more = depth / start.depth - 1.0;
+      if (more == 0.0) return start;
+      if (std::abs(more) > 2.0 * linear) return dent_at(depth);
+      if (!deeper) deeper = dent_at((1.0 + linear) * start.depth);
+      return start.toward(*deeper, more / linear, depth);
+    };
     // `moved`: volume of the flow over the contact's area; turning gives `back` to the spring
-    const auto flowed = [&](double depth, const Vector& tilt, double moved, double back, const auto& area_of) {
-      const auto dent = dent_at(std::max(depth, step.overlap));
-      const Elastic e = elastic(dent, step, dot(tilt, tilt));
+    double tau = -1.0;  // of the last state: the next one begins there
+    const auto flowed = [&](const Dent& dent, const Elastic& e, const Vector& tilt, double moved, double back,
+                            const auto& area_of) {
       const double give = moved * start.force / strength, spring = std::max(0.0, stretched + k * back);
-      const double stuck = strength * ShearYield::share_of_strength(spring, strength, k * give);
-      const double pull = std::min(stuck, friction * e.force), q = std::min(pull / strength, 1.0 - 1e-12);
-      State now = state_of(e, dent, area_of(e, dent.radius, pull), pull);
-      now.slid = give * ShearYield::fall(q / std::sqrt(1.0 - q * q));
-      now.rubbed = pull * std::max(0.0, (stretched - pull) / k - now.slid + back);
+      tau = ShearYield::tau_of(spring, strength, k * give, tau);
+      ShearYield::Point shear = ShearYield::at_tau(tau);
+      double pull = strength * shear.q, slid = (spring - pull) / k;
+      if (const double most = friction * e.force; pull > most) {
+        pull = most, shear = ShearYield::at_tau(ShearYield::tau(most / strength));
+        slid = give * shear.fall;
+      }
+      State now = state_of(e, dent, area_of(e, dent.radius, pull), pull, shear.share);
+      now.slid = slid;
+      now.rubbed = pull * std::max(0.0, (spring - pull) / k - slid);
       now.tilt = tilt;
       now.flows = true;
       return now;
     };
+    const auto flowed_to = [&](double depth, const Vector& tilt, double moved, double back, const auto& area_of) {
+      const Dent dent = dent_of(std::max(depth, step.overlap));
+      return flowed(dent, elastic(dent, step, dot(tilt, tilt)), tilt, moved, back, area_of);
+    };
+    // from T_0 on the force falls as the root of the flow (s - 1 + c as its power m/(2 - 2 m) = 0.54)
+    const bool steep = cut > strength;
+    const auto amount_at = [&](double place) { return steep ? place * place : place; };
+    const auto place_of = [&](double amount) { return steep ? std::sqrt(amount) : amount; };
     // the whole contact moves in
     const double from = held.depth;
     const Vector upright = times(along, -shift * std::min(cut, strength));
-    const auto corner = [&](double deeper) {
-      return flowed(from + deeper, upright, deeper, 0.0, [](const Elastic&, double, double) { return 1.0; });
+    const auto corner = [&](double place) {
+      const double more = amount_at(place);
+      return flowed_to(from + more, upright, more, 0.0, [](const Elastic&, double, double) { return 1.0; });
     };
     const double needed = a * size(sum(held.tilt, upright, -1.0));
-    State end = corner(needed);
-    if (end.excess >= 0) {
-      end = root(corner, needed, end, std::max({needed, std::abs(step.deepening), 1e-6 * from}), start.force);
-    } else {
-      // a segment moves in
-      const Vector toward = unit(lean);
-      const double rolled = dot(step.turn, toward);
-      const DentFlow flow = DentFlow::of(segment, rolled > 0 ? -step.deepening / (a * rolled) : -1.0);
-      const double back = bodies_.asymmetry * pressure_shift * a * flow.turning * dot(along, toward);
-      const auto slice = [&](double amount) {
-        const Vector tilt = sum(held.tilt, toward, -flow.turning * amount);
-        return flowed(from + flow.deepening * a * amount, tilt, flow.mean * a * amount, back * amount,
-                      [&](const Elastic& e, double radius, double pull) {
-                        return segment_of(e, radius, std::max(0.0, dot(leaning(tilt, pull), toward))).area;
-                      });
+    // a segment moves in
+    const Vector toward = unit(lean);
+    const double rolled = dot(step.turn, toward);
+    const DentFlow flow = DentFlow::of(segment, rolled > 0 ? -step.deepening / (a * rolled) : -1.0);
+    const double back = bodies_.asymmetry * pressure_shift * a * flow.turning * dot(along, toward);
+    const auto area_at = [&](const Vector& tilt) {
+      return [&](const Elastic& e, double radius, double pull) {
+        const DiscSegment now = segment_of(e, radius, std::max(0.0, dot(leaning(tilt, pull), toward)));
+        near = now.h;
+        return now.area;
       };
-      const double most = size(lean) / flow.turning;
-      const State none = slice(0.0), last = slice(most);
-      if (last.excess > 0)
-        end = root(corner, 0.0, corner(0.0), needed, start.force);
-      else
-        end = none.excess > 0 ? between(slice, 0.0, none, most, last, start.force) : none;
+    };
+    const auto slice = [&](double place) {
+      const double amount = amount_at(place);
+      const Vector tilt = sum(held.tilt, toward, -flow.turning * amount);
+      return flowed_to(from + flow.deepening * a * amount, tilt, flow.mean * a * amount, back * amount, area_at(tilt));
+    };
+    // where a segment alone moves in, the corner lies beyond: it is tried first where the turning is small
+    const double most = size(lean) / flow.turning;
+    State end;
+    bool found = false;
+    if (needed > step.deepening) {
+      end = flowed(start, first, held.tilt, 0.0, 0.0, area_at(held.tilt));
+      const double steady = std::max(rolled, step.deepening / a) / flow.turning;
+      found = !(end.excess > 0) ||
+              root(slice, 0.0, end, place_of(std::max(steady, 1e-3 * most)), place_of(most), start.force, end);
+    }
+    if (!found) {
+      constexpr double endless = std::numeric_limits<double>::infinity();
+      const double least = place_of(needed);
+      end = corner(least);
+      if (end.excess >= 0) {
+        const double steady = std::max({needed, std::abs(step.deepening), 1e-6 * from});
+        root(corner, least, end, place_of(steady), endless, start.force, end);
+      } else {
+        const State none = corner(0.0);
+        end = none.excess > 0 ? between(corner, 0.0, none, least, end, start.force) : none;
+      }
     }
     held.sheared += end.slid;
     held.pull = times(along, end.pull), held.tilt = end.tilt;
     return end;
   }
 
-  /// Books a part of a step that began at `depth`. The flow's loss is what the contact held before it and does not hold
-  /// after it, less what it was not given: motion works against the mean of the forces before and after. What the
-  /// normal law has lost at the new depth is its own.
+  /// Books a part of a step that began at `depth`, and gives what the normal law has lost at the new depth, J. The
+  /// flow's loss is what the contact held before it and does not hold after it, less what it was not given: motion works
+  /// against the mean of the forces before and after; and less the normal law's.
   template <class Normal>
-  void book(const Normal& law, const ContactMotion& m, double latched, const Memory& held, const Step& step,
-            double depth, const State& tried, const State& now, Ledger& books) const
+  double book(const Normal& law, const ContactMotion& m, double latched, const Memory& held, const Step& step,
+              double depth, const State& tried, const State& now, Ledger& books) const
   {
     books[Mechanism::friction] += tried.rubbed + now.rubbed * now.flows;
-    if (!now.flows) return;
+    if (!now.flows) return 0.0;
+    const Vector along = unit(held.pull);
     const auto energy = [&](const State& state) {
-      const double given = state.force * step.deepening + state.pull * dot(unit(held.pull), step.slide) +
+      const double given = state.force * step.deepening + state.pull * dot(along, step.slide) +
                            state.moment * dot(state.tilt, step.turn);
-      return law.stored_energy(m.r_eff, stretch_ * state.untilted, stretch_ * state.depth, latched) + state.energy -
-             0.5 * given;
+      return state.energy - 0.5 * given;
     };
-    books[Mechanism::shear] += energy(tried) - energy(now) - now.rubbed -
-                               law.dissipated(m.r_eff, stretch_ * depth, stretch_ * now.depth, latched);
+    const double lost =
+        now.depth != depth ? law.dissipated(m.r_eff, stretch_ * depth, stretch_ * now.depth, latched) : 0.0;
+    books[Mechanism::shear] += energy(tried) - energy(now) - now.rubbed - lost;
+    return lost;
   }
 
   /// Pa, T_0 over the area that bears of a contact of radius `whole` at full load.
@@ -397,38 +442,43 @@ class PlasticShear
     return widening * (1.0 - ratio * ratio) / std::sqrt(3.0) * M_PI * stress;
   }
 
-  /// The point of no excess on a path where it falls: from `low`, where it is positive, by steps from `width` on.
+  /// `found`: the point of no excess on a path where it falls: from `low`, where it is positive, by steps from `width` on
+  /// to `most`. False: there is none.
   template <class Path>
-  static State root(const Path& path, double low, State at_low, double width, double unit)
+  static bool root(const Path& path, double low, State at_low, double width, double most, double unit, State& found)
   {
-    for (int doubling = 0; doubling < 60; ++doubling, width *= 3.0) {
-      const State at = path(low + width);
-      if (at.excess <= 0) return between(path, low, at_low, low + width, at, unit);
-      low += width, at_low = at;
+    for (int tripling = 0; tripling < 60 && low < most; ++tripling, width *= 3.0) {
+      const double high = std::min(low + width, most);
+      found = path(high);
+      if (found.excess <= 0) {
+        found = between(path, low, at_low, high, found, unit);
+        return true;
+      }
+      low = high, at_low = found;
     }
-    return at_low;
+    return false;
   }
-  /// The same between two points, by the rule of Illinois.
+  /// The same between two points: through the last three by inverse interpolation of the second order where that is
+  /// monotonic (Chandrupatla, Adv. Eng. Software 28, 1997), else by the rule of Illinois.
   template <class Path>
   static State between(const Path& path, double low, const State& at_low, double high, const State& at_high,
                        double unit)
   {
-    double left = at_low.excess, right = at_high.excess;
     State at = at_high;
-    int side = 0;
-    for (int step = 0; step < 60 && std::abs(at.excess) > tolerance * unit; ++step) {
-      const double middle = left > right ? (low * right - high * left) / (right - left) : 0.5 * (low + high);
-      if (!(middle > low && middle < high)) break;
+    double x = high, f = at_high.excess, other = low, across = at_low.excess, stale = 1.0, part = f / (f - across);
+    for (int step = 0; step < 60 && std::abs(f) > tolerance * unit && part > 0.0 && part < 1.0; ++step) {
+      const double middle = x + part * (other - x);
       at = path(middle);
-      if (at.excess > 0) {
-        low = middle, left = at.excess;
-        if (side == 1) right *= 0.5;
-        side = 1;
-      } else {
-        high = middle, right = at.excess;
-        if (side == -1) left *= 0.5;
-        side = -1;
-      }
+      double third = x, at_third = f;
+      stale *= 0.5;
+      if ((at.excess > 0) != (f > 0)) std::swap(third, other), std::swap(at_third, across), stale = 1.0;
+      x = middle, f = at.excess;
+      const double place = (x - other) / (third - other), rise = (f - across) / (at_third - across);
+      if (rise * rise < place && (1.0 - rise) * (1.0 - rise) < 1.0 - place)
+        part = f / (across - f) * at_third / (across - at_third) +
+               (third - x) / (other - x) * f / (at_third - f) * across / (at_third - across);
+      else
+        part = f / (f - stale * across);
     }
     return at;
   }

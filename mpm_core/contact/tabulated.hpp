@@ -150,7 +150,28 @@ struct Tabulated
     double depth, force, radius, residual;  ///< m, F_m in N, a_m in m, delta_r in m
 
     double force_at(double delta) const { return unit * back.force(delta * per_length); }
-    double slope_at(double delta) const { return unit * per_length * back.stiffness(delta * per_length); }
+    /// force_at and its slope.
+    Response response_at(double delta) const
+    {
+      const double u = back.part(delta * per_length);
+      if (u <= 0.0) return {};
+      const double root = std::sqrt(u);
+      return {unit * back.force_at(u, root), unit * per_length * back.per_span * back.slope_at(u, root)};
+    }
+    /// J, given back from this overlap to where the force ends.
+    double work_at(double delta) const { return unit / per_length * back.work(delta * per_length); }
+    /// On the straight line from this dent through another: `part` of the way, where the depth is `at`.
+    Dent toward(const Dent& other, double part, double at) const
+    {
+      const auto mean = [part](double one, double two) { return one + part * (two - one); };
+      Dent now = *this;
+      now.back.x_max = at * per_length;
+      now.back.per_span = mean(back.per_span, other.back.per_span);
+      for (int k = 0; k < 3; ++k) now.back.term[k] = mean(back.term[k], other.back.term[k]);
+      now.depth = at, now.force = unit * now.back.top(), now.radius = mean(radius, other.radius);
+      now.residual = now.back.residual() / per_length;
+      return now;
+    }
   };
   Dent dent(double r_eff, double depth, double impact_overlap) const
   {

@@ -6,12 +6,11 @@
 
 #include "contact/ledger.hpp"
 #include "contact/normal.hpp"
+#include "contact/vector.hpp"
 
 // The tangential law of a contact. It has the normal law and its memory, so that a law whose dent grows under
 // shear can deepen the contact.
 namespace granulaw {
-
-using Vector = std::array<double, 3>;
 
 /// A contact's motion in a step, in the caller's units.
 struct ContactMotion : NormalMotion

@@ -53,6 +53,7 @@ TEST(DiscSegment, ItsCentroidGivesItBack)
     const DiscSegment segment = DiscSegment::beyond(h), again = DiscSegment::with_centroid(segment.centroid);
     EXPECT_LE(DiscSegment::least_area(segment.centroid), segment.area);
     EXPECT_NEAR(again.area, segment.area, 1e-6);  // the centroid is met to 1e-7, and the area changes with it by no more than that
+    EXPECT_NEAR(DiscSegment::with_centroid(segment.centroid, -0.5 * h).area, segment.area, 1e-6);
   }
   EXPECT_EQ(DiscSegment::with_centroid(0.0).area, 1.0);
   EXPECT_LT(DiscSegment::with_centroid(1.3).area, 1e-4);
@@ -62,9 +63,12 @@ TEST(ShearYield, ItsRootSolvesItsEquation)
 {
   for (const double pull : {0.1, 0.9, 1.0, 1.7, 30.0})
     for (const double give : {1e-6, 0.03, 1.0, 50.0}) {
-      const double q = ShearYield::share_of_strength(pull, 1.0, give), tau = q / std::sqrt(1 - q * q);
-      if (1 - q > 1e-6) EXPECT_NEAR(q + give * ShearYield::fall(tau), pull, 1e-4 * pull);  // nearer to 1 tau has no digits
-      EXPECT_LE(ShearYield::least_share(q), ShearYield::share(q));
+      for (const double near : {-1.0, 0.0, 0.7, 1e4}) {
+        const auto [q, share, fall] = ShearYield::at_tau(ShearYield::tau_of(pull, 1.0, give, near));
+        EXPECT_NEAR(q + give * fall, pull, 1e-4 * pull) << near;
+        EXPECT_NEAR(share, ShearYield::share(q), 1e-5);  // q nearly 1 has few digits of 1 - q^2
+        EXPECT_LE(ShearYield::least_share(q), share + 1e-5);
+      }
     }
 }
 
