@@ -127,6 +127,7 @@ class PlasticShear
   static constexpr double tabor_strain = 0.2;     // of the indentation, times a/R: Tabor, The Hardness of Metals (1951)
   static constexpr double shear_strain = 1.1;     // of the shear, times its sliding over a, measured
   static constexpr double tolerance = 1e-4;       // of F_m, in the yield condition: e and spin change by 1e-4
+  static constexpr double step_tolerance = 0.02;  // of what the step exceeds yield by, where that is more
   static constexpr double linear = 0.005;         // of the depth, over which a dent is linear: its force to 2e-5
   static constexpr double nearly = 1e-4;          // of the depth, the last Newton step in the elastic overlap: the error is its square
 
@@ -359,6 +360,7 @@ class PlasticShear
     const bool steep = cut > strength;
     const auto amount_at = [&](double place) { return steep ? place * place : place; };
     const auto place_of = [&](double amount) { return steep ? std::sqrt(amount) : amount; };
+    const double within = std::max(tolerance * start.force, step_tolerance * tried.excess);
     // the whole contact moves in
     const double from = held.depth;
     const Vector upright = times(along, -shift * std::min(cut, strength));
@@ -392,18 +394,18 @@ class PlasticShear
       end = flowed(start, first, held.tilt, 0.0, 0.0, area_at(held.tilt));
       const double steady = std::max(rolled, step.deepening / a) / flow.turning;
       found = !(end.excess > 0) ||
-              root(slice, 0.0, end, place_of(std::max(steady, 1e-3 * most)), place_of(most), start.force, end);
+              root(slice, 0.0, end, place_of(std::max(steady, 1e-3 * most)), place_of(most), within, end);
     }
     if (!found) {
       constexpr double endless = std::numeric_limits<double>::infinity();
       const double least = place_of(needed);
       end = corner(least);
-      if (end.excess >= 0) {
+      if (end.excess > within) {
         const double steady = std::max({needed, std::abs(step.deepening), 1e-6 * from});
-        root(corner, least, end, place_of(steady), endless, start.force, end);
-      } else {
+        root(corner, least, end, place_of(steady), endless, within, end);
+      } else if (end.excess < -within) {
         const State none = corner(0.0);
-        end = none.excess > 0 ? between(corner, 0.0, none, least, end, start.force) : none;
+        end = none.excess > 0 ? between(corner, 0.0, none, least, end, within) : none;
       }
     }
     held.sheared += end.slid;
@@ -445,13 +447,13 @@ class PlasticShear
   /// `found`: the point of no excess on a path where it falls: from `low`, where it is positive, by steps from `width` on
   /// to `most`. False: there is none.
   template <class Path>
-  static bool root(const Path& path, double low, State at_low, double width, double most, double unit, State& found)
+  static bool root(const Path& path, double low, State at_low, double width, double most, double within, State& found)
   {
     for (int tripling = 0; tripling < 60 && low < most; ++tripling, width *= 3.0) {
       const double high = std::min(low + width, most);
       found = path(high);
-      if (found.excess <= 0) {
-        found = between(path, low, at_low, high, found, unit);
+      if (found.excess <= within) {
+        found = between(path, low, at_low, high, found, within);
         return true;
       }
       low = high, at_low = found;
@@ -462,11 +464,11 @@ class PlasticShear
   /// monotonic (Chandrupatla, Adv. Eng. Software 28, 1997), else by the rule of Illinois.
   template <class Path>
   static State between(const Path& path, double low, const State& at_low, double high, const State& at_high,
-                       double unit)
+                       double within)
   {
     State at = at_high;
     double x = high, f = at_high.excess, other = low, across = at_low.excess, stale = 1.0, part = f / (f - across);
-    for (int step = 0; step < 60 && std::abs(f) > tolerance * unit && part > 0.0 && part < 1.0; ++step) {
+    for (int step = 0; step < 60 && std::abs(f) > within && part > 0.0 && part < 1.0; ++step) {
       const double middle = x + part * (other - x);
       at = path(middle);
       double third = x, at_third = f;
