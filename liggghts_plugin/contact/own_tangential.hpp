@@ -37,7 +37,9 @@ class OwnTangential : public cm::TangentialModelBase
     const Law& law = laws_[normal_->place(entry)];
     double* const depth = normal_->kept_of(s.contact_history);
     const double before = *depth, r_eff = effective_radius(s);
-    ContactMotion motion{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate},
+    // inserted beyond the law's end, where the normal model holds its overlap and depth until it parts
+    const bool inserted = s.deltan == entry.largest_overlap * r_eff;
+    ContactMotion motion{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !inserted},
                          s.meff,
                          update->dt,
                          {s.en[0], s.en[1], s.en[2]},

@@ -115,6 +115,14 @@ class PlasticShear(Deck):
         self.assertEqual(*ends)
         self.assertGreater(abs(ends[0][4]), 0)
 
+    def test_a_sphere_inserted_beyond_the_law_parts(self):
+        """It slides and its dent would deepen: its largest overlap stays the table's end, as under history."""
+        for tangential in ("history", "plastic"):
+            deck = self.thrown(0.01, 89, 0.5, 100, tangential).replace(f"create_atoms 1 single 0 0 {R!r}", f"create_atoms 1 single 0 0 {0.4 * R!r}")
+            text = self.run_deck(deck)
+            self.assertIn("1 contacts began deeper than the motion of a step can bring them", text)
+            self.assertGreater(self.result(text, "END")[2], 0)
+
     def test_a_mesh_is_the_primitive_wall(self):
         (self.folder / "plane.stl").write_text(plane_stl(0.02))
         primitive = self.thrown(39, 45, 0.3, 100)
