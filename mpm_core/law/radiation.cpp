@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/gauss.hpp"
-#include "contact/hertz.hpp"
 #include "contact/pair.hpp"
 
 namespace granulaw {
@@ -29,7 +28,9 @@ double contact_duration(const LawMaterial& a, double radius_a, const LawMaterial
   const double yield = std::min(a.yield_stress, b.yield_stress);
   const double e_star = 1 / (1 / a.e_star() + 1 / b.e_star());
   const double slowest = std::min(wave_speed(a), wave_speed(b));
-  const auto elastic = [&](double velocity) { return hertz::duration(e_star, radius, mass, velocity); };
+  const auto elastic = [&](double velocity) {
+    return 2.87 * std::pow(mass * mass / (e_star * e_star * radius * velocity), 0.2);
+  };
   if (!std::isfinite(yield)) return elastic(0.01 * slowest);
   return std::max(std::sqrt(mass / (radius * yield)), elastic(0.05 * slowest));
 }

@@ -6,7 +6,6 @@
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "contact/body_behind.hpp"
-#include "contact/hertz.hpp"
 
 namespace granulaw {
 
@@ -69,8 +68,10 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
                         int steps_per_contact, double compliance)
 {
-  // at most a few times too short for a plastic contact
-  const double duration = hertz::duration(pair.mapping.e_star_pair(), r_eff, effective_mass, velocity);
+  // Hertz's contact time 2.87 (m*^2/(E*^2 R* V))^(1/5): at most a few times too short for a plastic contact.
+  const double e_star = pair.mapping.e_star_pair();
+  const double duration =
+      2.87 * std::pow(effective_mass * effective_mass / (e_star * e_star * r_eff * velocity), 0.2);
   const double impact_overlap = pair.impact_overlap(r_eff, effective_mass, velocity);
   double deepest = 0;  // of the law
   const auto respond = [&](double x) { return pair.evaluate(r_eff, x, deepest, impact_overlap); };

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "atlas/law_from_atlas.hpp"
-#include "contact/hertz.hpp"
 #include "contact/thornton.hpp"
+#include "deck/hertz.hpp"
 #include "law/contact_step.hpp"
 #include "law/replay.hpp"
 
@@ -109,7 +109,7 @@ ThorntonPair thornton_of(const Meeting& m, double yield_pressure)
 std::optional<Collision> collide_by_thornton(const ThorntonPair& law, const Meeting& m, double r_eff, double m_eff,
                                              double speed)
 {
-  const double duration = hertz::duration(law.e_star, r_eff, m_eff, speed);
+  const double duration = hertz_time(law.e_star, r_eff, m_eff, speed);
   const Replay replay =
       replay_collision([&](double delta, double delta_max) { return law.evaluate(r_eff, delta, delta_max); },
                        m_eff, speed, duration, 2000);

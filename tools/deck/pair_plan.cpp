@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/scales.hpp"
-#include "contact/hertz.hpp"
 #include "deck/geometry.hpp"
+#include "deck/hertz.hpp"
 #include "deck/plan_options.hpp"
 #include "law/contact_step.hpp"
 #include "law/damage_number.hpp"
@@ -76,11 +76,11 @@ void include_collision(PairPlan& p, const Effective& size, const PlanOptions& op
   if (p.speed <= 0) return;
   const Meeting& m = p.meeting;
   const double e_star = m.mapping.e_star_pair(), length = m.mapping.length(size.radius);
-  p.contact_time = std::min(p.contact_time, hertz::duration(e_star, size.radius, size.mass, p.speed));
+  p.contact_time = std::min(p.contact_time, hertz_time(e_star, size.radius, size.mass, p.speed));
   std::optional<Collision> collision;
   if (options.collide && m.known_yield) collision = options.collide(m, size.radius, size.mass, p.speed);
   const double depth =
-      collision ? collision->depth : hertz::overlap(e_star, size.radius, size.mass, p.speed) / length;
+      collision ? collision->depth : hertz_overlap(e_star, size.radius, size.mass, p.speed) / length;
   p.overlap_basis = collision ? collision->basis : "Hertz";
   p.depth = std::max(p.depth, depth);
   p.overlap = std::max(p.overlap, depth * length / size.radius);
@@ -105,7 +105,7 @@ void include_time_step(PairPlan& p, const Effective& size, const PlanOptions& op
     std::optional<double> by_law;
     if (options.stiffness && m.known_yield)
       by_law = options.stiffness(m, size.radius_a, size.radius_b, size.radius, overlap);
-    return by_law.value_or(hertz::stiffness(m.mapping.e_star_pair(), size.radius, overlap));
+    return by_law.value_or(hertz_stiffness(m.mapping.e_star_pair(), size.radius, overlap));
   };
   p.time_step = std::min(p.time_step, largest_step_to(p.overlap * size.radius, size.mass, stiffness));
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/scales.hpp"
-#include "contact/hertz.hpp"
+#include "deck/hertz.hpp"
 #include "contact/thornton.hpp"
 
 namespace granulaw::deck {
@@ -101,7 +101,7 @@ PairStretch stretch_of(const PairPlan& p, const Plan& plan, const Softening& sce
   q.pair = &p;
   q.slow_speed = g > 0 ? std::min(p.speed, std::sqrt(2 * g * diameter)) : p.speed;
   const EffectiveBody large = largest(plan, m);
-  q.contact_time = hertz::duration(m.mapping.e_star_pair(), large.radius, large.mass, q.slow_speed);
+  q.contact_time = hertz_time(m.mapping.e_star_pair(), large.radius, large.mass, q.slow_speed);
   q.static_load = limits.solid_fraction * density * g * scene.fill_height * diameter * diameter;
   q.yield_load = yield_load(m, smallest(plan, m).radius);
   const double time = std::isfinite(scene.flow_time) ? scene.flow_time : diameter / p.speed;

@@ -1,11 +1,11 @@
 #include "base/larger.hpp"
-#include "contact/hertz.hpp"
 #include "deck/soften.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "deck/hertz.hpp"
 #include "deck/plan.hpp"
 #include "deck_fixture.hpp"
 
@@ -77,7 +77,7 @@ TEST_F(DeckSoften, SoftenStatesItsNumbers)
     const double r_eff = q.pair->meeting.wall ? r : r / 2, m_eff = r_eff / r * rho * ball;
     const double speed = std::sqrt(2 * g * d), e_star = q.pair->meeting.mapping.e_star_pair();
     EXPECT_NEAR(q.slow_speed / speed, 1, rounding);  // a fall through one diameter
-    EXPECT_NEAR(q.contact_time / hertz::duration(e_star, r_eff, m_eff, speed), 1, rounding);
+    EXPECT_NEAR(q.contact_time / hertz_time(e_star, r_eff, m_eff, speed), 1, rounding);
     EXPECT_NEAR(q.by_time / (0.2 * own.flow_time / q.contact_time), 1, rounding);
     EXPECT_NEAR(q.by_overlap / (0.3 / q.pair->overlap), 1, rounding);
     EXPECT_NEAR(q.static_load / (0.6 * rho * g * own.fill_height * d * d), 1, rounding);
