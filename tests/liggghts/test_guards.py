@@ -125,7 +125,7 @@ class Guards(Deck):
         """Every keyword, said otherwise behind read_restart: one that gives the histories another meaning is refused, any other goes on.
         A keyword that is new stands in neither list: the test asks where it belongs."""
         meaning = {"stretch": "3", "tangentialStiffness": "computed", "wall": "deformable"}
-        sizes = {"energy": "on", "contactMap": "on", "computeDissipatedEnergy": "on"}  # values of their own: another number of them
+        sizes = {"energy": "on", "contactMap": "on", "computeDissipatedEnergy": "on", "bodyCompliance": "on"}  # values of their own: another number of them
         free = {"tangentialDampingRatio": "0.5", "elasticDamping": "0.2", "heatArea": "law", "stats": "s.json", "beyondRange": "continue", "waves": "off", "law": None,
                 "materials": None, "tangential_damping": "off", "limitForce": "on", "heating_tracking": "off", "heating_tangential_history": "off"}
         # refused anyway; of other tangential and rolling models; of superquadrics
