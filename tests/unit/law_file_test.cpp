@@ -397,6 +397,28 @@ TEST_F(LawFile, UnusableOrientationsAreRefused)
   says([&](hid_t f) { H5Adelete_by_name(f, group.c_str(), "shape", H5P_DEFAULT); }, "shape", law);
 }
 
+TEST_F(LawFile, FlowStressComesBackBitExact)
+{
+  Law law = SyntheticLaw{}.law();
+  const PairLaw linear = wall_pair(law.bodies.at("powder"));
+  EXPECT_EQ(unknown_flow_stress(law, linear), "");
+  law.provenance["hardening.powder"] = "voce";
+  EXPECT_NE(unknown_flow_stress(law, linear).find("make it anew"), std::string::npos);  // of an older file
+  FlowNodes& flow = law.bodies.at("powder").material.flow;
+  flow = {{0, 0.1, 1}, {1e8, 1.3e8, 1.7e8}};
+  EXPECT_EQ(unknown_flow_stress(law, wall_pair(law.bodies.at("powder"))), "");
+  write_law(law, path_);
+  const Law back = read_law(path_);
+  EXPECT_EQ(back.bodies.at("powder").material.flow.strain, flow.strain);
+  EXPECT_EQ(back.bodies.at("powder").material.flow.stress, flow.stress);
+
+  const std::string group = "bodies/powder/material/";
+  for (const double value : {0.1, -1.0, std::nan("")}) says(set(group + "flow_strain", value), "flow_strain", law);
+  says(set(group + "flow_stress", 0), "flow_stress", law);
+  says(set(group + "flow_stress", NAN), "flow_stress", law);
+  says(without(group + "flow_stress"), "flow_stress", law);
+}
+
 TEST_F(LawFile, MissingAndForeignFilesAreRefused)
 {
   EXPECT_NE(refusal().find("no such file"), std::string::npos);
