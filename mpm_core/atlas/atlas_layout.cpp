@@ -14,6 +14,7 @@ namespace {
 
 using Numbers = std::vector<double*>;
 using Presence = AtlasDataset::Presence;
+using Form = AtlasDataset::Form;
 using Effect = LawShape::VelocityEffect;
 
 void add(Numbers& all, std::vector<double>& list)
@@ -81,7 +82,8 @@ AtlasDataset of_shapes(const char* name, const char* legend)
   return {{name, "1", legend},
           of_each<&AtlasParts::nodes, [](Numbers& all, LatticeNode& n) { add(all, n.shape.*function); }>,
           nullptr,
-          Presence::always};
+          Presence::always,
+          Form::rounded_list};
 }
 
 template <auto number>
@@ -93,7 +95,8 @@ AtlasDataset of_impacts(const char* name, const char* legend)
                     for (Effect& e : n.shape.velocity_effects) all.push_back(&(e.*number));
                   }>,
           nullptr,
-          Presence::always};
+          Presence::always,
+          Form::rounded_list};
 }
 
 template <auto grid>
@@ -125,7 +128,7 @@ std::vector<AtlasDataset> make_datasets()
        [](AtlasParts& p) { return Numbers{&p.grid.main_poisson_ratio}; },
        nullptr,
        Presence::always,
-       true},
+       Form::scalar},
       of_materials<&MaterialRatios::stiffness>("stiffness", "E*/Y of each material", true),
       of_materials<&MaterialRatios::poisson_ratio>("poisson_ratio", "Poisson's ratio of each material"),
       of_materials<&MaterialRatios::hardening>("hardening", "H/E of each material"),
@@ -147,7 +150,8 @@ std::vector<AtlasDataset> make_datasets()
                  for (Effect& e : node.shape.velocity_effects) add(n, e.force);
                }>,
        nullptr,
-       Presence::always},
+       Presence::always,
+       Form::rounded_list},
       {{"elastic_spheres", "1",
         "without yield, to 0.2 R: rows of Poisson's ratio, c1, c2, c3, d1, largest misfit of F, the solver's error"},
        of_each<&AtlasParts::elastic,
@@ -185,7 +189,8 @@ std::vector<AtlasDataset> make_datasets()
                  for (const auto function : LawShape::functions) add(n, node.shape.*function);
                }>,
        nullptr,
-       Presence::midplane},
+       Presence::midplane,
+       Form::rounded_list},
       {{"midplane_press_checks", "1",
         "rows of E*/Y, nu, H/E, delta/R, rms relative error of F, error of e, relative error of delta_m - delta_r"},
        of_each<&AtlasParts::midplane_checks,

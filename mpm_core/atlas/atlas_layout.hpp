@@ -33,7 +33,8 @@ struct AtlasDataset
   void (*make_room)(AtlasParts&, std::size_t count);
   /// May be absent: the atlas has no checks, or no midplane.
   enum class Presence { always, checks, midplane, midplane_checks } presence;
-  bool is_scalar = false;  ///< in the file
+  /// In the file. Law shapes are rounded to single precision (6e-8), which halves it.
+  enum class Form { list, rounded_list, scalar } form = Form::list;
 };
 const std::vector<AtlasDataset>& atlas_datasets();
 

@@ -21,6 +21,7 @@ constexpr int first_minor_with_checksum = 1;  // files without the attribute ver
 constexpr std::size_t most_numbers = 1u << 20;        // numbers in one dataset
 
 using Presence = AtlasDataset::Presence;
+using Form = AtlasDataset::Form;
 
 bool is_of_midplane(const AtlasDataset& d)
 {
@@ -39,7 +40,7 @@ Atlas read_open(hid_t file, const std::string& path)
     if (is_of_midplane(dataset) && !has_midplane) continue;
     if (is_of_checks(dataset) && !h5::has_link(file, dataset.field.name)) continue;
     fill(parts, dataset,
-         dataset.is_scalar ? std::vector{h5::read_scalar(file, dataset.field, path)}
+         dataset.form == Form::scalar ? std::vector{h5::read_scalar(file, dataset.field, path)}
                            : h5::read_vector(file, dataset.field, most_numbers, path),
          path);
   }
@@ -62,10 +63,11 @@ void write_atlas(const Atlas& atlas, const std::string& path)
       if (is_of_midplane(dataset) && atlas.midplane().empty()) continue;
       std::vector<double> values;
       for (const double* number : dataset.numbers(parts)) values.push_back(*number);
-      if (dataset.is_scalar)
+      if (dataset.form == Form::scalar)
         h5::write_scalar(file, dataset.field, values.front(), path);
       else if (!values.empty())
-        h5::write_vector(file, dataset.field, values, path);
+        h5::write_vector(file, dataset.field, values, path,
+                         dataset.form == Form::rounded_list ? H5T_IEEE_F32LE : H5T_IEEE_F64LE);
     }
     h5::Checksum written;
     read_open(file, path);

@@ -158,12 +158,12 @@ void write_scalar(hid_t group, const Field& field, double value, const std::stri
   describe(set, field, file);
 }
 
-void write_vector(hid_t group, const Field& field, std::span<const double> values, const std::string& file)
+void write_vector(hid_t group, const Field& field, std::span<const double> values, const std::string& file,
+                  hid_t stored)
 {
   const hsize_t extent = values.size();
   const Handle space(H5Screate_simple(1, &extent, nullptr));
-  const Handle set(
-      H5Dcreate2(group, field.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const Handle set(H5Dcreate2(group, field.name, stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   require(set.ok() && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
           file, "cannot write", field.name);
   describe(set, field, file);

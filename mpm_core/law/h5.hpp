@@ -48,7 +48,9 @@ Handle create_group(hid_t parent, const char* name, const std::string& file);
 void write_text_attribute(hid_t object, const char* name, const std::string& text, const std::string& file);
 void write_int_attribute(hid_t object, const char* name, int value, const std::string& file);
 void write_scalar(hid_t group, const Field& field, double value, const std::string& file);
-void write_vector(hid_t group, const Field& field, std::span<const double> values, const std::string& file);
+/// `stored`: the type in the file; with H5T_IEEE_F32LE numbers are rounded to single precision.
+void write_vector(hid_t group, const Field& field, std::span<const double> values, const std::string& file,
+                  hid_t stored = H5T_IEEE_F64LE);
 /// A one-dimensional dataset of fixed-length UTF-8 strings.
 void write_texts(hid_t group, const char* name, const std::vector<std::string>& texts,
                  const std::string& file);
