@@ -8,23 +8,24 @@
 #include <fstream>
 
 #include "law/law_file.hpp"
+#include "scratch_folder.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw::atomic_write_test {
 
-namespace fs = std::filesystem;
+class AtomicWrite : public ScratchFolder
+{
+};
 
 /// Two builders write one law file over and over while this process reads it: every read sees the whole law
 /// of one of them, and nothing is left beside it.
-TEST(AtomicWrite, TwoWritersOfOneFileNeverSpoilIt)
+TEST_F(AtomicWrite, TwoWritersOfOneFileNeverSpoilIt)
 {
   constexpr int rounds = 60;
-  const fs::path folder = fs::temp_directory_path() / ("granulaw_two_writers_" + std::to_string(getpid()));
-  fs::create_directories(folder);
-  const std::string path = (folder / "law.h5").string();
+  const std::string file = path("law.h5");
   Law law = tests::SyntheticLaw{}.law();
   law.provenance["command"] = "0";
-  write_law(law, path);
+  write_law(law, file);
 
   pid_t writers[2];
   for (const int who : {0, 1}) {
@@ -36,7 +37,7 @@ TEST(AtomicWrite, TwoWritersOfOneFileNeverSpoilIt)
       law.provenance["command"] = std::to_string(who);
       int code = 0;
       for (int k = 0; k < rounds && code == 0; ++k) try {
-          write_law(law, path);
+          write_law(law, file);
         } catch (...) {
           code = 1;
         }
@@ -46,7 +47,7 @@ TEST(AtomicWrite, TwoWritersOfOneFileNeverSpoilIt)
 
   int reads = 0, running = 2;
   while (running > 0) {
-    const Law seen = read_law(path);  // throws where a reader could see a part
+    const Law seen = read_law(file);  // throws where a reader could see a part
     const int who = seen.bodies.at("powder").material.density > 1500.5;
     EXPECT_EQ(seen.provenance.at("command"), std::to_string(who)) << "one's numbers with the other's words";
     ++reads;
@@ -57,27 +58,20 @@ TEST(AtomicWrite, TwoWritersOfOneFileNeverSpoilIt)
     }
   }
   EXPECT_GT(reads, 1);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << "a temporary file was left";
-  fs::remove_all(folder);
+  EXPECT_EQ(files(), 1u) << "a temporary file was left";
 }
 
-TEST(AtomicWrite, AFailingWriterLeavesTheOldFile)
+TEST_F(AtomicWrite, AFailingWriterLeavesTheOldFile)
 {
-  const fs::path folder = fs::temp_directory_path() / ("granulaw_failing_writer_" + std::to_string(getpid()));
-  fs::create_directories(folder);
-  const std::string path = (folder / "text").string();
-  write_atomically(path, [](const std::string& t) { std::ofstream(t) << "old"; });
-  EXPECT_THROW(write_atomically(path,
+  write_atomically(path("text"), [](const std::string& t) { std::ofstream(t) << "old"; });
+  EXPECT_THROW(write_atomically(path("text"),
                                 [](const std::string& t) {
                                   std::ofstream(t) << "ne";
                                   throw std::runtime_error("disk full");
                                 }),
                std::runtime_error);
-  std::string text;
-  std::ifstream(path) >> text;
-  EXPECT_EQ(text, "old");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << "a temporary file was left";
-  fs::remove_all(folder);
+  EXPECT_EQ(read(path("text")), "old");
+  EXPECT_EQ(files(), 1u) << "a temporary file was left";
 }
 
 }  // namespace granulaw::atomic_write_test

@@ -8,26 +8,15 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "scratch_folder.hpp"
 
 namespace granulaw::checkpoint_file_test {
 
 namespace fs = std::filesystem;
 
-std::string contents(const std::string& path)
-{
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-/// A file of its own for each test: they may run at the same time.
-class CheckpointFileTest : public testing::Test
+class CheckpointFileTest : public ScratchFolder
 {
  protected:
-  void SetUp() override { fs::remove(path_); }
-  void TearDown() override { fs::remove(path_); }
-
   /// A file with two states, as a killed run leaves it.
   std::string written()
   {
@@ -35,24 +24,18 @@ class CheckpointFileTest : public testing::Test
     EXPECT_FALSE(file.was_found());
     file.store().save("a", "state of a");
     file.store().save("b", std::string("b\0\n", 3));
-    return contents(path_);
+    return read(path_);
   }
   /// Message about a file of these bytes; it must not be touched.
   std::string said_about(const std::string& bytes, const RunIdentity& asked)
   {
-    std::ofstream(path_, std::ios::binary) << bytes;
-    std::string said;
-    try {
-      const CheckpointFile file(path_, 0, asked);
-    } catch (const Error& error) {
-      said = error.what();
-    }
-    EXPECT_EQ(contents(path_), bytes);
+    write("run.checkpoint", bytes);
+    const std::string said = sentence_of([&] { CheckpointFile(path_, 0, asked); });
+    EXPECT_EQ(read(path_), bytes);
     return said;
   }
 
-  const std::string path_ = testing::TempDir() + "granulaw_" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".checkpoint";
+  const std::string path_ = path("run.checkpoint");
   const RunIdentity asked_{
       {"command", "impact"}, {"--velocity", "1"}, {"particle's materials", std::string(50, 'x')}};
 };
@@ -86,10 +69,7 @@ TEST_F(CheckpointFileTest, IsDue)
 TEST_F(CheckpointFileTest, LeavesNothingElseBehind)
 {
   written();
-  int beside = 0;
-  for (const auto& entry : fs::directory_iterator(testing::TempDir()))
-    beside += entry.path().filename().string().find("LeavesNothingElseBehind") != std::string::npos;
-  EXPECT_EQ(beside, 1);
+  EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(CheckpointFileTest, RefusesEveryFlippedByte)

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "refusal.hpp"
+
 namespace granulaw::error_test {
 
 TEST(Error, NothingPrintableCommandsATerminal)
@@ -39,12 +41,8 @@ TEST(Error, AListOfManyWordsNamesTheFirstTwenty)
 TEST(Error, AnUnknownWordIsNamedWithTheNearestKnownOne)
 {
   const std::vector<std::string> known{"powder", "glass"};
-  const auto sentence = [&](const std::string& word, const std::string& more) -> std::string {
-    try {
-      fail_unknown("m.toml", "no material", word, known, more);
-    } catch (const Error& error) {
-      return error.what();
-    }
+  const auto sentence = [&](const std::string& word, const std::string& more) {
+    return sentence_of([&] { fail_unknown("m.toml", "no material", word, known, more); });
   };
   EXPECT_EQ(sentence("powdr", ""),
             "m.toml: no material 'powdr' (did you mean 'powder'?): allowed is powder, glass");

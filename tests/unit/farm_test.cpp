@@ -7,10 +7,14 @@
 #include <new>
 #include <thread>
 
-#include "base/error.hpp"
+#include "scratch_folder.hpp"
 #include "some_runs.hpp"
 
 namespace granulaw::farm_test {
+
+class CachedFarm : public ScratchFolder
+{
+};
 
 struct UserStop
 {
@@ -26,9 +30,8 @@ RunJob good(int k, std::atomic<int>* runs = nullptr)
           }};
 }
 
-TEST(ThreadFarm, RunsWhatIsNotInTheCacheAndKeepsTheOrder)
+TEST_F(CachedFarm, RunsWhatIsNotInTheCacheAndKeepsTheOrder)
 {
-  const Scratch scratch;
   std::atomic<int> runs{0};
   std::vector<RunJob> jobs;
   for (int k = 0; k < 8; ++k) jobs.push_back(good(k, &runs));
@@ -37,7 +40,7 @@ TEST(ThreadFarm, RunsWhatIsNotInTheCacheAndKeepsTheOrder)
     EXPECT_GE(done, last);
     last = done;
   };
-  ThreadFarm first(3, RunCache(scratch.folder.string()));
+  ThreadFarm first(3, RunCache(path("")));
   const auto made = first.run(jobs, progress);
   ASSERT_EQ(made.size(), 8u);
   EXPECT_EQ(runs, 8);
@@ -49,7 +52,7 @@ TEST(ThreadFarm, RunsWhatIsNotInTheCacheAndKeepsTheOrder)
     EXPECT_EQ(made[static_cast<std::size_t>(k)].result.summary.restitution,
               some_result(k).summary.restitution);
 
-  ThreadFarm second(2, RunCache(scratch.folder.string()));
+  ThreadFarm second(2, RunCache(path("")));
   jobs.push_back(good(8, &runs));  // a wider range
   const auto again = second.run(jobs);
   EXPECT_EQ(runs, 9);
@@ -91,11 +94,10 @@ RunJob failing(const std::string& key, double until)
           }};
 }
 
-TEST(ThreadFarm, ARunThatFailsIsTriedOnAFinerGridAndThenReported)
+TEST_F(CachedFarm, ARunThatFailsIsTriedOnAFinerGridAndThenReported)
 {
-  const Scratch scratch;
   const std::vector<RunJob> jobs{good(0), failing("once", 1.0), failing("always", 99.0)};
-  ThreadFarm farm(2, RunCache(scratch.folder.string()));
+  ThreadFarm farm(2, RunCache(path("")));
   const auto outcomes = farm.run(jobs);
   EXPECT_FALSE(outcomes[0].failed());
   EXPECT_EQ(outcomes[0].first_error, "");
@@ -108,29 +110,23 @@ TEST(ThreadFarm, ARunThatFailsIsTriedOnAFinerGridAndThenReported)
   EXPECT_EQ(farm.count().retried, 2);
   EXPECT_EQ(farm.count().failed, 1);
   // the second attempt's result is kept, with the reason; what failed is tried again
-  ThreadFarm again(1, RunCache(scratch.folder.string()));
+  ThreadFarm again(1, RunCache(path("")));
   EXPECT_EQ(bytes_of(again.run(jobs)[1]), bytes_of(outcomes[1]));
   EXPECT_EQ(again.count().from_cache, 2);
   EXPECT_EQ(again.count().failed, 1);
-  try {
-    farm.run_all(jobs);
-    FAIL() << "a run is missing";
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "bad run: the run failed, on a finer grid too (unstable at refine 1.400000)");
-  }
+  EXPECT_EQ(sentence_of([&] { farm.run_all(jobs); }),
+            "bad run: the run failed, on a finer grid too (unstable at refine 1.400000)");
 }
 
-TEST(ThreadFarm, WhatProgressThrowsStopsTheRunsAndGoesThrough)
+TEST_F(CachedFarm, WhatProgressThrowsStopsTheRunsAndGoesThrough)
 {
-  const Scratch scratch;
   RunJob endless{"endless", "endless", 0.5, [](const RunOptions& options) -> RunResult {
                    for (;;) {
                      options.progress(0.1);
                      std::this_thread::sleep_for(std::chrono::milliseconds(1));
                    }
                  }};
-  const RunCache cache(scratch.folder.string());
+  const RunCache cache(path(""));
   ThreadFarm farm(2, cache);
   const auto stop = [](double done, const std::string&) {
     if (done > 0.6) throw UserStop{};  // the first run is two thirds of the cost

@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.hpp"
 #include "counted_memory.hpp"
 #include "hostile_file.hpp"
 #include "law/h5.hpp"
 #include "law/law_file.hpp"
+#include "scratch_folder.hpp"
 #include "synthetic_law.hpp"
 #include "usable_law.hpp"
 #include "without_checksum.hpp"
@@ -26,32 +25,27 @@ using tests::SyntheticLaw;
 // HDF5 1.10 complains at exit after it was fed damaged files; nothing is open then.
 [[maybe_unused]] const herr_t no_exit_handler = H5dont_atexit();
 
-class HostileLaw : public ::testing::Test
+class HostileLaw : public ScratchFolder
 {
  protected:
   void SetUp() override
   {
-    folder_ = fs::temp_directory_path() / ("granulaw_hostile_" + std::to_string(getpid()) + "_" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-    path_ = (folder_ / "law.h5").string();
-    const std::string good = (folder_ / "other.h5").string();
-    write_law(SyntheticLaw{}.whole_law(3, 10), good);
-    tests::without_checksum(h5::Handle(H5Fopen(good.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)));
-    fs::copy_file(folder_ / "other.h5", folder_ / "good.h5");
-    ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
-    damages_ = tests::hostile_damages(folder_.string());
+    ScratchFolder::SetUp();
+    write_law(SyntheticLaw{}.whole_law(3, 10), path("other.h5"));
+    tests::without_checksum(h5::Handle(H5Fopen(path("other.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT)));
+    fs::copy_file(path("other.h5"), path("good.h5"));
+    ASSERT_EQ(mkfifo(path("fifo").c_str(), 0600), 0);
+    damages_ = tests::hostile_damages(path("."));
     ASSERT_GT(damages_.size(), 1000u);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// A good law at a new `path_`, changed. HDF5 may fail to close what it was made to write: not our
   /// reader's.
   void spoil(const std::vector<const Damage*>& list)
   {
     fs::remove(path_);
-    path_ = (folder_ / ("law" + std::to_string(++files_) + ".h5")).string();
-    fs::copy_file(folder_ / "good.h5", path_);
+    path_ = path("law" + std::to_string(++files_) + ".h5");
+    fs::copy_file(path("good.h5"), path_);
     const h5::Silence silence;
     const h5::Handle access(H5Pcreate(H5P_FILE_ACCESS));
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -87,8 +81,7 @@ class HostileLaw : public ::testing::Test
     return accepted;
   }
 
-  fs::path folder_;
-  std::string path_;
+  std::string path_ = path("law.h5");
   int files_ = 0;
   std::vector<Damage> damages_;
 };
@@ -130,9 +123,9 @@ TEST_F(HostileLaw, DamagesTogether)
 
 TEST_F(HostileLaw, CutAtEvery64thByte)
 {
-  const auto size = fs::file_size(folder_ / "good.h5");
+  const auto size = fs::file_size(path("good.h5"));
   for (std::uintmax_t end = 0; end < size; end = end + 64 < size || end == size - 1 ? end + 64 : size - 1) {  // the last: by one byte
-    fs::copy_file(folder_ / "good.h5", path_, fs::copy_options::overwrite_existing);
+    fs::copy_file(path("good.h5"), path_, fs::copy_options::overwrite_existing);
     fs::resize_file(path_, end);
     EXPECT_FALSE(judge("cut to " + std::to_string(end)));
     if (HasFailure()) break;

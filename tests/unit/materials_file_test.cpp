@@ -10,26 +10,18 @@
 #include <set>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "scratch_folder.hpp"
 #include "solver/shape/shapes.hpp"
 
 namespace granulaw::materials_file_test {
 
 using std::numbers::pi;
 
-/// A file of its own for each test: they may run at the same time.
-class MaterialsFileTest : public testing::Test
+class MaterialsFileTest : public ScratchFolder
 {
  protected:
-  MaterialsFile read(const std::string& text) const
-  {
-    std::ofstream(path_) << text;
-    return read_materials(path_);
-  }
-  void TearDown() override { std::filesystem::remove(path_); }
-
-  const std::string path_ = testing::TempDir() + "granulaw_" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+  MaterialsFile read(const std::string& text) const { return read_materials(write("m.toml", text)); }
+  const std::string path_ = path("m.toml");
 };
 
 /// All ```toml blocks of docs/guide/particles.md, one after the other.
@@ -101,35 +93,21 @@ TEST_F(MaterialsFileTest, YieldSurfaces)
 
 TEST_F(MaterialsFileTest, YieldSurfacesThatCannotBeUsed)
 {
-  const auto complaint = [&](const std::string& surface) {
-    try {
-      read(frictional + surface + "\n");
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+  const auto refused = [&](const std::string& surface, const char* part) {
+    expect_error(part, [&] { read(frictional + surface + "\n"); });
   };
-  const auto has = [](const std::string& text, const char* part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-  };
-  has(complaint("{kind = \"druker-prager\"}"),
-      ":6: [material.m.yield_surface]: no yield surface 'druker-prager'");
-  has(complaint("{kind = \"drucker-prager\", friction_angle = 30}"), "the key 'dilatancy_angle' is missing");
-  has(complaint("{kind = \"drucker-prager\", friction_angle = 30, dilatancy_angle = 10, cohesion = 1}"),
-      "unknown key 'cohesion'");
-  has(complaint("{kind = \"drucker-prager\", friction_angle = 90, dilatancy_angle = 10}"), "0 to 75");
-  has(complaint("{kind = \"drucker-prager\", friction_angle = 10, dilatancy_angle = 30}"), "is larger than");
+  refused("{kind = \"druker-prager\"}", ":6: [material.m.yield_surface]: no yield surface 'druker-prager'");
+  refused("{kind = \"drucker-prager\", friction_angle = 30}", "the key 'dilatancy_angle' is missing");
+  refused("{kind = \"drucker-prager\", friction_angle = 30, dilatancy_angle = 10, cohesion = 1}", "unknown key 'cohesion'");
+  refused("{kind = \"drucker-prager\", friction_angle = 90, dilatancy_angle = 10}", "0 to 75");
+  refused("{kind = \"drucker-prager\", friction_angle = 10, dilatancy_angle = 30}", "is larger than");
 }
 
 TEST_F(MaterialsFileTest, UnknownParticleIsNamedWithTheNearest)
 {
   const std::string sphere = std::string(head) + "radius = 1e-3\nmaterial = \"powder\"\n";
-  try {
-    read(sphere).particle("grian");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.what(), path_ + ": no particle 'grian' (did you mean 'grain'?): allowed is grain");
-  }
+  EXPECT_EQ(sentence_of([&] { read(sphere).particle("grian"); }),
+            path_ + ": no particle 'grian' (did you mean 'grain'?): allowed is grain");
 }
 
 TEST_F(MaterialsFileTest, ParticlesThatCannotBeUsed)
@@ -216,13 +194,8 @@ TEST_F(MaterialsFileTest, ParticlesThatCannotBeUsed)
        ":5: [particle.grain]: the profile crosses or touches itself"},
   };
   for (const auto& [text, sentence] : cases) {
-    std::string found = "accepted";
-    try {
-      read(head + text + "\n");
-    } catch (const Error& error) {
-      found = std::string(error.what()).substr(path_.size());
-    }
-    EXPECT_EQ(found.rfind(sentence, 0), 0u) << "wanted: " << sentence << "\nfound:  " << found;
+    const std::string found = sentence_of([&] { read(head + text + "\n"); });
+    EXPECT_TRUE(found.starts_with(path_ + sentence)) << "wanted: " << sentence << "\nfound:  " << found;
   }
   // an outline whose radius agrees to 1 % is taken as drawn
   EXPECT_EQ(read(head + body + "profile = {points = [[0, 0], [0.995e-3, 1e-3], [0, 2e-3]]}")

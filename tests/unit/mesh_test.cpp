@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "base/error.hpp"
+#include "refusal.hpp"
 #include "shape_checks.hpp"
 #include "solver/shape/shapes.hpp"
 
@@ -58,12 +58,7 @@ TriangleMesh ellipsoid_mesh(const Vector3& axes, int refinements)
 
 std::string sentence_of(const TriangleMesh& mesh)
 {
-  try {
-    mesh_shape(mesh, "m.stl");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
+  return granulaw::sentence_of([&] { mesh_shape(mesh, "m.stl"); });
 }
 
 TEST(Mesh, CubeIsTheSharpBox)

@@ -6,9 +6,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "base/error.hpp"
 #include "liggghts_plugin/contact/mpm_physics.hpp"
 #include "liggghts_plugin/contact/thornton_physics.hpp"
+#include "refusal.hpp"
 
 namespace granulaw::plugin::options_test {
 
@@ -46,12 +46,7 @@ Options options(const std::string& text, const ModelInfo& model = mpm, bool is_w
 /// The sentence that refuses the words; empty: they are accepted.
 std::string refusal(const std::string& text, const ModelInfo& model = mpm, bool is_wall = pair)
 {
-  try {
-    parse(text, model, is_wall);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
+  return sentence_of([&] { parse(text, model, is_wall); });
 }
 
 std::string refused_at_wall(const std::string& text)

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "refusal.hpp"
 #include "solver/shape/shapes.hpp"
 
 namespace granulaw::particle_test {
@@ -407,16 +408,6 @@ RC_GTEST_PROP(Particle, EveryShapeThatIsMadeIsValid, ())
   RC_ASSERT(p.pole_curvature_radius() > 0);
 }
 
-std::string refusal(const std::function<void()>& act)
-{
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(Particle, RefusesWithASentence)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
@@ -490,7 +481,7 @@ TEST(Particle, RefusesWithASentence)
        "here: inclusion 2 reaches the surface: its radius: found 0.2 m"},
   };
   for (const auto& [particle, sentence] : cases) {
-    const std::string found = refusal([&] { validate(particle, "here"); });
+    const std::string found = sentence_of([&] { validate(particle, "here"); });
     EXPECT_EQ(found.rfind(sentence, 0), 0u) << "wanted: " << sentence << "\nfound:  " << found;
   }
   // just below the pole is fine; a ring that touches the axis too
@@ -501,7 +492,7 @@ TEST(Particle, RefusesWithASentence)
 TEST(Particle, ShapesRefuseWhatDoesNotFit)
 {
   const auto begins = [](const std::function<void()>& act, const std::string& sentence) {
-    const std::string found = refusal(act);
+    const std::string found = sentence_of(act);
     EXPECT_EQ(found.rfind(sentence, 0), 0u) << "wanted: " << sentence << "\nfound:  " << found;
   };
   begins([] { flattened_sphere(1, 0.9, 0.1, "p"); }, "p: 'flat_radius' and 'fillet' leave no sphere");

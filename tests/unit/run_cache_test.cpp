@@ -3,32 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <thread>
 #include <vector>
 
+#include "scratch_folder.hpp"
 #include "some_runs.hpp"
 
 namespace granulaw::run_cache_test {
 
 namespace fs = std::filesystem;
 
-std::string read(const fs::path& file)
+class CacheFolder : public ScratchFolder
 {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+ protected:
+  std::string name() const { return fs::directory_iterator(path(""))->path().filename(); }
+};
 
-void write(const fs::path& file, const std::string& bytes)
+TEST_F(CacheFolder, RoundTripIsExactAndKeysDecide)
 {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
-
-TEST(RunCache, RoundTripIsExactAndKeysDecide)
-{
-  const Scratch scratch;
-  const RunCache cache(scratch.folder.string());
+  const RunCache cache(path(""));
   RunOutcome found;
   EXPECT_FALSE(cache.load("one", found));
   cache.store("one", 2.5, some_outcome(1.1));
@@ -37,19 +30,18 @@ TEST(RunCache, RoundTripIsExactAndKeysDecide)
   EXPECT_EQ(bytes_of(found), bytes_of(some_outcome(1.1)));
   EXPECT_EQ(found.result.trace[13].force, some_result(1.1).trace[13].force);
   EXPECT_FALSE(cache.load("two", found));
-  const fs::path file = fs::directory_iterator(scratch.folder)->path();
-  EXPECT_TRUE(read(file).starts_with("granulaw run 3\nkey one\ncost 2.5\ncpu_s 0.366667\noutcome "));
+  const std::string file = name();
+  EXPECT_TRUE(read(path(file)).starts_with("granulaw run 3\nkey one\ncost 2.5\ncpu_s 0.366667\noutcome "));
   // the file of another key under this one's name
   cache.store("two", 1, some_outcome(2));
-  for (const fs::directory_entry& other : fs::directory_iterator(scratch.folder))
-    if (other.path() != file) fs::rename(other.path(), file);
+  for (const fs::directory_entry& other : fs::directory_iterator(path("")))
+    if (other.path() != path(file)) fs::rename(other.path(), path(file));
   EXPECT_FALSE(cache.load("one", found));
 }
 
-TEST(RunCache, KeepsWhatThreeDimensionsAdd)
+TEST_F(CacheFolder, KeepsWhatThreeDimensionsAdd)
 {
-  const Scratch scratch;
-  const RunCache cache(scratch.folder.string());
+  const RunCache cache(path(""));
   RunOutcome outcome = some_outcome(1.1), found;
   outcome.result.planes = {{{0, 0, 1}, {{1e-6, 2.0 / 3, {0.1, 0, 2.0 / 3}, {}, {}, {}}}}};
   outcome.result.rebound = {0.5, 0.7, {0, 1.0 / 3, 0}, 0.01, 0.002};
@@ -61,13 +53,12 @@ TEST(RunCache, KeepsWhatThreeDimensionsAdd)
   EXPECT_EQ(found.result.rebound->spin[1], 1.0 / 3);
 }
 
-TEST(RunCache, ADamagedFileCountsAsNotThere)
+TEST_F(CacheFolder, ADamagedFileCountsAsNotThere)
 {
-  const Scratch scratch;
-  const RunCache cache(scratch.folder.string());
+  const RunCache cache(path(""));
   cache.store("one", 2.5, some_outcome(1.1));
-  const fs::path file = fs::directory_iterator(scratch.folder)->path();
-  const std::string whole = read(file), result = bytes_of(some_outcome(1.1));
+  const std::string file = name();
+  const std::string whole = read(path(file)), result = bytes_of(some_outcome(1.1));
   RunOutcome found;
   for (std::size_t size = 0; size < whole.size(); size += size < 150 ? 1 : 7) {
     write(file, whole.substr(0, size));
@@ -89,10 +80,9 @@ TEST(RunCache, ADamagedFileCountsAsNotThere)
   }
 }
 
-TEST(RunCache, WritersOfOneFolderLeaveWholeFiles)
+TEST_F(CacheFolder, WritersOfOneFolderLeaveWholeFiles)
 {
-  const Scratch scratch;
-  const RunCache cache(scratch.folder.string());
+  const RunCache cache(path(""));
   const auto work = [&] {
     for (int k = 0; k < 200; ++k) {
       const std::string key = std::to_string(k % 3);
@@ -106,14 +96,12 @@ TEST(RunCache, WritersOfOneFolderLeaveWholeFiles)
     std::vector<std::jthread> writers;
     for (int k = 0; k < 4; ++k) writers.emplace_back(work);
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder), {}), 3) << "nothing temporary is left";
+  EXPECT_EQ(files(), 3u) << "nothing temporary is left";
 }
 
-TEST(RunCache, AFolderThatCannotBeWrittenIsNoCache)
+TEST_F(CacheFolder, AFolderThatCannotBeWrittenIsNoCache)
 {
-  const Scratch scratch;
-  write(scratch.folder, "a file, not a folder");
-  const RunCache cache(scratch.folder.string());
+  const RunCache cache(write("file", "a file, not a folder"));
   cache.store("one", 1, some_outcome(1));
   RunOutcome found;
   EXPECT_FALSE(cache.load("one", found));

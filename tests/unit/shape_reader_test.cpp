@@ -8,50 +8,34 @@
 #include <fstream>
 #include <numbers>
 
-#include "base/error.hpp"
 #include "material_file/materials_file.hpp"
+#include "scratch_folder.hpp"
 
 namespace granulaw::shape_reader_test {
 
 namespace fs = std::filesystem;
 
 /// A folder of its own for each test, with the files that the shapes name.
-class ShapeReader : public testing::Test
+class ShapeReader : public ScratchFolder
 {
  protected:
   void SetUp() override
   {
-    fs::create_directories(folder_);
+    ScratchFolder::SetUp();
     for (const char* name : {"grain.stl", "grain.clump"})
-      fs::copy_file(fs::path(GRANULAW_SOURCE_DIR "/examples/irregular") / name, folder_ / name,
-                    fs::copy_options::overwrite_existing);
+      fs::copy_file(fs::path(GRANULAW_SOURCE_DIR "/examples/irregular") / name, path(name));
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  MaterialsFile read(const std::string& text) const
-  {
-    std::ofstream(path_) << text;
-    return read_materials(path_);
-  }
+  MaterialsFile read(const std::string& text) const { return read_materials(write("m.toml", text)); }
   /// Message about [particle.grain] with these lines, from line 6 on; without the folder.
   std::string sentence(const std::string& lines) const
   {
-    try {
-      read(
-          "[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = "
-          "0.3\n[particle.grain]\n" +
-          lines + "\nmaterial = \"powder\"\n");
-    } catch (const Error& error) {
-      return std::string(error.what()).substr(folder_.string().size() + 1);
-    }
-    return "accepted";
+    const std::string said = sentence_of([&] {
+      read("[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = 0.3\n[particle.grain]\n" +
+           lines + "\nmaterial = \"powder\"\n");
+    });
+    return said.empty() ? "accepted" : said.substr(path("").size());
   }
-  void write(const char* name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-
-  const fs::path folder_ =
-      fs::path(testing::TempDir()) /
-      (std::string("granulaw_shapes_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-  const std::string path_ = (folder_ / "m.toml").string();
 };
 
 TEST_F(ShapeReader, DocumentedExamplesAreWhatTheySay)

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <numbers>
 
-#include "base/error.hpp"
+#include "refusal.hpp"
 #include "shape_checks.hpp"
 #include "solver/shape/particle.hpp"
 #include "solver/shape/rotation.hpp"
@@ -238,16 +237,6 @@ TEST(Clump, TwoBallsInClosedForm)
   const double r = std::sqrt(2.0), h = r - 1;
   EXPECT_NEAR(clump->mass_properties().volume / (2 * (4 * pi / 3 * r * r * r - pi * h * h * (3 * r - h) / 3)),
               1, 2e-5);
-}
-
-std::string sentence_of(const std::function<void()>& action)
-{
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(Clump, Refused)

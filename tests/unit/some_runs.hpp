@@ -1,9 +1,6 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "farm/run_queue.hpp"
@@ -39,13 +36,5 @@ inline std::string bytes_of(RunOutcome outcome)
   visit_state(archive, outcome);
   return archive.take();
 }
-
-/// A folder of this process in which a test may do as it likes.
-struct Scratch
-{
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("granulaw_test_" + std::to_string(getpid()));
-  ~Scratch() { std::filesystem::remove_all(folder); }
-};
 
 }  // namespace granulaw

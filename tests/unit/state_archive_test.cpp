@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.hpp"
+#include "refusal.hpp"
 
 namespace granulaw::state_archive_test {
 
@@ -39,14 +39,11 @@ std::string saved()
 
 std::string sentence(std::string bytes, State& s)
 {
-  try {
+  return sentence_of([&] {
     StateArchive archive(std::move(bytes), "here");
     s.visit_state(archive);
     archive.finish();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(StateArchive, KeepsEveryBit)

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <sstream>
 
-#include "base/error.hpp"
 #include "references.hpp"
+#include "refusal.hpp"
 #include "solver/run/accuracy.hpp"
 #include "solver/runs.hpp"
 
@@ -286,16 +286,6 @@ TEST(CheckpointTime, AddsUp)
   EXPECT_GT(once, 0);
 }
 
-std::string sentence(const std::function<void()>& act)
-{
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 class CheckpointRefusals : public testing::Test
 {
  protected:
@@ -308,7 +298,7 @@ class CheckpointRefusals : public testing::Test
   std::string& state() { return memory.states.begin()->second; }
   std::string resumed()
   {
-    return sentence([&] { impact(soft())(options); });
+    return sentence_of([&] { impact(soft())(options); });
   }
   RunOptions options = small(GridKind::mapped);
   Memory memory;
@@ -317,8 +307,8 @@ class CheckpointRefusals : public testing::Test
 TEST_F(CheckpointRefusals, AnotherGrid)
 {
   // the same keys; the expected overlap, and with it the block, is another one
-  const std::string said = sentence([&] { impact(soft(), {}, 0.02)(options); });
-  EXPECT_NE(said.find("memory: its state does not fit this run (reference grid)"), std::string::npos) << said;
+  expect_error("memory: its state does not fit this run (reference grid)",
+               [&] { impact(soft(), {}, 0.02)(options); });
 }
 
 TEST_F(CheckpointRefusals, CutOff)
@@ -336,7 +326,7 @@ TEST_F(CheckpointRefusals, TooLong)
 TEST_F(CheckpointRefusals, Fields)
 {
   options.fields.frame = [](const FieldFrame&) {};
-  EXPECT_NE(resumed().find("--checkpoint: cannot go with --fields"), std::string::npos);
+  expect_error("--checkpoint: cannot go with --fields", [&] { impact(soft())(options); });
 }
 
 }  // namespace granulaw::checkpoint_test

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "base/error.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
+#include "refusal.hpp"
 
 namespace granulaw::measurement_file_test {
 
@@ -12,13 +12,10 @@ using testing::HasSubstr;
 
 std::string complaint(const std::string& text)
 {
-  try {
+  return sentence_of([&] {
     Measurement m = parse_measurement(text, "data.csv");
     complete_standard_deviations(m, 0.01);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(MeasurementFile, TellsTheKindByItsHeader)
