@@ -19,7 +19,7 @@ class OwnTangential : public cm::TangentialModelBase
   {
   }
   /// The contact's normal model, which is called before this one.
-  void follow(const PlasticModel<Physics>& normal) { normal_ = &normal; }
+  void follow(PlasticModel<Physics>& normal) { normal_ = &normal; }
 
   void registerSettings(Settings&) override {}
   void postSettings(LIGGGHTS::IContactHistorySetup*, cm::ContactModelBase*) override {}
@@ -37,9 +37,7 @@ class OwnTangential : public cm::TangentialModelBase
     const Law& law = laws_[normal_->place(entry)];
     double* const depth = normal_->kept_of(s.contact_history);
     const double before = *depth, r_eff = effective_radius(s);
-    // inserted beyond the law's end, where the normal model holds its overlap and depth until it parts
-    const bool inserted = s.deltan == entry.largest_overlap * r_eff;
-    ContactMotion motion{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !inserted},
+    ContactMotion motion{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !normal_->was_held()},
                          s.meff,
                          update->dt,
                          {s.en[0], s.en[1], s.en[2]},
@@ -109,7 +107,7 @@ class OwnTangential : public cm::TangentialModelBase
     }
   }
 
-  const PlasticModel<Physics>* normal_ = nullptr;
+  PlasticModel<Physics>* normal_ = nullptr;
   std::vector<Law> laws_;  // by PlasticModel::place
   double** friction_ = nullptr;
   int offset_;

@@ -108,10 +108,9 @@ class PairTable
           if (types.can_meet(i, j, is_wall)) throw;
           continue;  // PlasticModel::beyond_table says so if such particles meet after all
         }
-        in_shear_[pair_of(i, j)] = bodies_in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j,
-                                                   tangential.damping);
+        in_shear_[pair_of(i, j)] = in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j, tangential.damping);
         each_entry(i, j, [&](Entry& entry) {
-          complete(entry, setup.options.stretch.value_or(1.0), tangential, eight_shear_moduli(types, i, j),
+          complete(entry, setup.options.stretch.value_or(1.0), tangential, in_shear(types, i, j, tangential.damping).stiffness,
                    damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
           entry.behind_i = behind(types, i, setup.options.stretch.value_or(1.0));
           entry.behind_j = is_wall ? 0.0 : behind(types, j, setup.options.stretch.value_or(1.0));
@@ -285,23 +284,11 @@ class PairTable
     info.dt_overlap = is_first ? dt_overlap : std::min(info.dt_overlap, dt_overlap);
   }
 
-  /// Pa, 8 G* of Mindlin's tangential stiffness.
-  static double eight_shear_moduli(const Types& types, int i, int j)
-  {
-    const auto compliance = [&](int t) {
-      return shear_compliance(types.youngs_modulus[t], types.poisson_ratio[t]);
-    };
-    return 8.0 / (compliance(i) + compliance(j)) / types.units.pressure();
-  }
-
   /// `j` 0: a rigid wall.
-  static BodiesInShear bodies_in_shear(const Types& types, int i, int j, double damping_ratio)
+  static BodiesInShear in_shear(const Types& types, int i, int j, double damping_ratio)
   {
-    const auto body = [&](int t) { return ElasticBody{types.youngs_modulus[t], types.poisson_ratio[t]}; };
-    const ElasticBody second = j > 0 ? body(j) : ElasticBody{};
-    BodiesInShear bodies = BodiesInShear::of(body(i), second, damping_ratio);
-    bodies.stiffness /= types.units.pressure();
-    return bodies;
+    const auto body = [&](int t) { return t > 0 ? ElasticBody{types.youngs_modulus[t], types.poisson_ratio[t]} : ElasticBody{}; };
+    return BodiesInShear::of(body(i), body(j), damping_ratio, types.units.pressure());
   }
 
   /// k/E* of a type; stretched S^2, as forces are 1/S and overlaps S of the real ones.

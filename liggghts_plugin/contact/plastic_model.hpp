@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/error.hpp"
 #include "law/range.hpp"
@@ -112,6 +113,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if (sidata.deltan > entry.largest_overlap * r_eff) [[unlikely]] {
       if (began_beyond(sidata, entry, r_eff, delta_max)) {
         sidata.deltan = entry.largest_overlap * r_eff;  // a bounded force
+        held_ = true;
         parts_freely_ = parts_freely(sidata, entry, r_eff);
       } else {
         check_stretched(sidata, r_eff);
@@ -183,6 +185,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     });
   }
   std::size_t place(const Entry& entry) const { return pairs_.place(entry); }
+  /// True of the contact at hand if its overlap and depth are held at the law's end until it parts; asked for once.
+  bool was_held() { return std::exchange(held_, false); }
   /// Part of the overlap that belongs to the real contact.
   double per_stretch() const { return 1.0 / stretch_; }
   bool rigid_wall() const { return setup_->wall && !setup_->options.deformable_wall; }
@@ -400,6 +404,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   DeckUnits units_;
   bool tangential_damping_ = true, limit_force_ = false, elastic_potential_ = false;
   bool layout_checked_ = false;
+  bool held_ = false;          // the contact at hand began beyond the table; was_held() resets it
   bool parts_freely_ = false;  // the contact at hand began beyond the table and gets no force
 };
 

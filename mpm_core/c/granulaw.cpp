@@ -81,15 +81,12 @@ const char* wrong_number(const granulaw_pair& pair)
   return nullptr;
 }
 
-/// The pair's, Pa of the file's materials; a rigid wall is no material.
-BodiesInShear bodies_in_shear(const Law& law, const granulaw_pair& pair)
+/// Of the file's material of this name; a rigid wall is no material.
+ElasticBody body_of(const Law& law, const std::string& name)
 {
-  const auto body = [&](const std::string& name) {
-    if (name == wall_name) return ElasticBody{};
-    const LawMaterial& material = law.bodies.at(name).material;
-    return ElasticBody{material.youngs_modulus, material.poisson_ratio};
-  };
-  return BodiesInShear::of(body(pair.a), body(pair.b), pair.shear_damping);
+  if (name == wall_name) return {};
+  const LawMaterial& material = law.bodies.at(name).material;
+  return {material.youngs_modulus, material.poisson_ratio};
 }
 
 void make_element(granulaw_contact_law& contact, const granulaw_pair& pair)
@@ -98,8 +95,9 @@ void make_element(granulaw_contact_law& contact, const granulaw_pair& pair)
   const PairLaw law = resolve_pair(*contact.law, pair.a, pair.b, "granulaw_contact", said(pair.radius_a, 1.0),
                                    said(pair.radius_b, 1.0));
   const Tabulated normal(law, law.measure(), scale);
-  BodiesInShear bodies = bodies_in_shear(*contact.law, pair);
-  bodies.stiffness = said(pair.shear_stiffness, bodies.stiffness / scale.pressure());
+  BodiesInShear bodies = BodiesInShear::of(body_of(*contact.law, pair.a), body_of(*contact.law, pair.b), pair.shear_damping,
+                                           scale.pressure());
+  bodies.stiffness = said(pair.shear_stiffness, bodies.stiffness);
   const ShearPair spring = ShearPair::of(bodies.stiffness, pair.friction, pair.shear_damping, scale.stretch);
   if (pair.yields_in_shear) {
     if (const std::string why = unknown_flow_stress(*contact.law, law); !why.empty()) fail("granulaw_contact", why);
