@@ -217,8 +217,8 @@ Curve::Curve(CurveTable table, std::optional<AxisTable> axis)
   const Two now = p.loading.both(p.t);
   last_ = {now[0], p.loading.first_slope(p.t) * per_unit_, now[1]};
   // an end that is a node begins an interval
-  const double width = (table_.node(intervals) - table_.node(intervals - 1)) * per_unit_;
-  loading_.push_back(loading_.back().continued(width)), work_.push_back(work);
+  const double last_width = (table_.node(intervals) - table_.node(intervals - 1)) * per_unit_;
+  loading_.push_back(loading_.back().continued(last_width)), work_.push_back(work);
 
   if (table_.yields()) {
     yields_from_ = table_.onset;
@@ -242,7 +242,8 @@ Curve::Curve(CurveTable table, std::optional<AxisTable> axis)
       cubic_of(table_.hertz_share, k, length, width, turns_[k].share);
     }
     const Turn& end = turns_.back();
-    turns_.push_back({end.losses.continued(width), {cubic(end.share, width), cubic_slope(end.share, width), 0, 0}});
+    turns_.push_back(
+        {end.losses.continued(last_width), {cubic(end.share, last_width), cubic_slope(end.share, last_width), 0, 0}});
   }
   if (axis_table_) add_axis();
 }

@@ -10,10 +10,10 @@ namespace granulaw {
 struct StatedCollision
 {
   Replay replay;
-  double damage_number;     ///< of damage_number.hpp
-  PairStatement statement;  ///< for these sizes
-  bool beyond_bound;        ///< the damage number is above that up to which the error bound holds
-  bool needs_axis;          ///< ... and the law has no velocity axis
+  double damage_number = 0;     ///< of damage_number.hpp
+  PairStatement statement;      ///< for these sizes
+  bool beyond_bound = false;    ///< the damage number is above that up to which the error bound holds
+  bool needs_axis = false;      ///< ... and the law has no velocity axis
 
   /// False where the law's error bound does not hold: beyond its damage number, and at speeds outside its velocity
   /// axis, where the corrections of the nearest speed stand in.
