@@ -66,14 +66,14 @@ class WallStyle final : public WallLoop<Contact>, public CommandStyle
     });
   }
 
-  double heat_overlap(const cm::SurfacesIntersectData& contact) const override
+  double heat_overlap(const cm::SurfacesIntersectData& contact, double overlap) const override
   {
-    if (!setup().options.heat_by_law.value_or(false)) return contact.deltan;
+    if (!setup().options.heat_by_law.value_or(false)) return overlap;
     // area pi a^2 of the law's own contact radius, which is less than R
     const double r = contact.radi;
     const double a =
         contacts()
-            ->state({contact.itype, contact.jtype, r, flat, contact.deltan, contact.contact_history})
+            ->state({contact.itype, contact.jtype, r, flat, overlap, contact.contact_history})
             .contact_radius;
     return r - std::sqrt(std::max(0.0, r * r - a * a));
   }

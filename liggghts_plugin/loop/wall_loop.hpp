@@ -79,6 +79,7 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
     contact.computeflag = wall->computeflag();
     contact.shearupdate = wall->shearupdate();
 
+    const double overlap = contact.deltan;  // a body behind the contact takes a part of it
     ForceData on_i, on_wall;
     contact.has_force_update = touches;
     if (touches) {
@@ -104,7 +105,7 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
     if (touches && wall->compute_wall_gran_local() && wall->addflag())
       list(wall, contact, on_i, wall_velocity, mesh_number, triangle_id);
     if (touches && wall->heattransfer_flag())
-      wall->addHeatFlux(mesh, i, contact.radi, heat_overlap(contact), 1.0);
+      wall->addHeatFlux(mesh, i, contact.radi, heat_overlap(contact, overlap), 1.0);
     if (!contact.has_force_update) return;
     double force[3] = {0, 0, 0}, lever[3];
     for (int c = 0; c < 3; ++c) {
@@ -117,8 +118,8 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
   }
 
  protected:
-  /// The overlap whose circle heat passes through, in LIGGGHTS's formula: area pi (R^2 - (R - overlap)^2).
-  virtual double heat_overlap(const SurfacesIntersectData& contact) const = 0;
+  /// The overlap whose circle heat passes through, in LIGGGHTS's formula: area pi (R^2 - (R - overlap)^2). `overlap`: the geometric one.
+  virtual double heat_overlap(const SurfacesIntersectData& contact, double overlap) const = 0;
 
   /// Calls visit(i, atom type of the wall, history) for each contact of a local sphere that is open now.
   template <class Visit>

@@ -162,6 +162,22 @@ class Clumps(Trial):
             self.assertGreater(with_body[0].vcm[2] - without.vcm[2], 0.01)  # of 2 m/s: five times the tolerance above
         self.check("mpm", (), UPRIGHT, 2.0, 1e-3, 1, "bodyCompliance on stretch 3", behind)  # tilted it turns in the longer contact
 
+    def test_the_body_behind_a_contact_of_fix_rigid(self):
+        """Two spheres, upright, that `fix rigid` holds together: e on a wall is that of the law in series with the field up to the body's
+        centre of mass, to 1e-3, on 1 and 2 ranks; that of the law alone is further off."""
+        mass, height, speed, nu = 2 * sphere_mass(RADIUS, POWDER.density), RADIUS + A, 2.0, POWDER.poisson_ratio
+        behind = (3 - 2 * nu) / (2 * math.pi * (1 - nu)) / POWDER.e_star * (1 / RADIUS - 1 / height)
+        law, expected = (self.fixture("mpm", self.law, "powder", "wall", RADIUS, mass, speed, c)[0] for c in (0.0, behind))
+        self.assertGreater(expected - law, 0.005)
+        for ranks in (1, 2):
+            self.run_deck(head(half=12 * RADIUS, skin=RADIUS / 2) + properties([POWDER]) +
+                          f"pair_style gran model mpm tangential off {self.words('mpm', 'bodyCompliance on')}\npair_coeff * *\n"
+                          f"fix w all wall/gran model mpm tangential off {PLANE}\ncreate_atoms 1 single 0 0 {1.001 * RADIUS!r} units box\n"
+                          f"create_atoms 1 single 0 0 {1.001 * RADIUS + 2 * A!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                          f"velocity all set 0 0 {-speed}\nneigh_modify exclude group all all\nfix rigid all rigid single\ntimestep 2e-8\n" +
+                          dump("vz", 3000, "rigid") + "run 3000\n", ranks=ranks)
+            self.assertAlmostEqual(self.last_frame("rigid.dump")[1][0] / speed, expected, delta=1e-3)
+
     def test_a_sphere_alone_has_no_body_behind_it(self):
         """Beside clumps and among spheres alone: the motion to the bit."""
         found = []

@@ -87,6 +87,22 @@ class Heat(Deck):
                     # LIGGGHTS integrates with the flux of the step before: explicit, 1e-6 of the difference to the wall
                     self.assertAlmostEqual(gained / self.conducted(a), 1.0, delta=1e-5, msg=f"{model} {wall} '{more}'")
 
+    def test_heat_of_a_body_behind_the_contact(self):
+        """A rigid body of two spheres set into a wall: `heatArea overlap` takes the circle of the geometric overlap under `bodyCompliance on`,
+        too; `heatArea law` that of the overlap that the body leaves to the law, which is less."""
+        depth, gained = 0.02, {}
+        for body in ("off", "on"):
+            for area in ("overlap", "law"):
+                deck = (self.start("mpm", "primitive type 1 zplane 0.0", f"heatArea {area} bodyCompliance {body}") +
+                        self.spheres([(1 - depth) * RADIUS]).replace("fix i all nve/sphere\n", "") +
+                        f"create_atoms 1 single 0 {-1.1 * RADIUS!r} {(3 - depth) * RADIUS!r} units box\n"
+                        f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nneigh_modify exclude group all all\n"
+                        'fix hold all rigid single\nrun 0\nrun 1\nprint "TEMP ${t}"\n')
+                gained[body, area] = self.result(self.run_deck(deck), "TEMP")[0] - 600.0
+        self.assertAlmostEqual(gained["on", "overlap"] / gained["off", "overlap"], 1.0, delta=1e-4)  # the step moves it by 1e-5 of the overlap
+        ratio = gained["on", "law"] / gained["off", "law"]
+        self.assertTrue(0.9 < ratio < 0.999, ratio)  # the radius goes as the root of the overlap, of which the body takes some per cent
+
     def radius_of_law(self, model, depth):
         if model == "mpm":  # a rigid wall would have another: the wall here is deformable and of the same material
             return self.fixture("radius", self.law, "powder", "powder", RADIUS, depth * RADIUS, depth * RADIUS, 0)[0]

@@ -9,6 +9,7 @@
 #include "base/state_archive.hpp"
 #include "contact/body_behind.hpp"
 #include "characterise/body/characterised_body.hpp"
+#include "characterise/shape/clump_impact.hpp"
 #include "characterise/shape/energetic_restitution.hpp"
 #include "characterise/body/law_material.hpp"
 #include "characterise/shape/orientations.hpp"
@@ -140,6 +141,21 @@ void replay(OrientationCheck& check, const BodyLaw& law, double mass)
   check.law_with_body = {with_body.force_max, with_body.restitution};
 }
 
+/// The same of all balls of a clump that touch.
+void replay_clump(OrientationCheck& check, const BodyLaw& law, std::vector<ClumpBall> balls, const MassProperties& of_one,
+                  double density)
+{
+  const RigidBody body{density * of_one.volume, density * of_one.inertia};
+  const Vector3 direction(check.direction[0], check.direction[1], check.direction[2]);
+  for (ClumpBall& ball : balls) ball.centre -= of_one.centre;
+  const auto impact = [&](bool with_body) { return clump_on_wall(law, balls, body, direction, check.velocity, with_body); };
+  const ClumpAnswer alone = impact(false);
+  if (alone.left_range)
+    check.local = OrientationCheck::Local::beyond_law;
+  else
+    check.law = alone.contact, check.law_with_body = impact(true).contact;
+}
+
 }  // namespace
 
 std::string shape_text(const Shape& solid)
@@ -157,6 +173,7 @@ ShapeCertificate certify_shape(const Particle& particle, const BodyLaw& law, con
          fmt::format("{} materials", particle.materials.size()), "one");
   const SharedShape solid = shape_of(particle);
   const MassProperties of_one = solid->mass_properties();
+  const std::vector<ClumpBall> balls = balls_of(*solid);
   const double density = particle.materials[0].density;
   ShapeCertificate certificate;
   certificate.shape = shape_text(*solid), certificate.volume = of_one.volume;
@@ -179,7 +196,10 @@ ShapeCertificate certify_shape(const Particle& particle, const BodyLaw& law, con
   for (std::size_t k = 0; k < count; ++k) {
     certificate.checks.push_back(impacts[k].check);
     certificate.checks.back().solver = answers[k];
-    replay(certificate.checks.back(), law, density * of_one.volume * impacts[k].check.effective_mass);
+    if (balls.empty())
+      replay(certificate.checks.back(), law, density * of_one.volume * impacts[k].check.effective_mass);
+    else
+      replay_clump(certificate.checks.back(), law, balls, of_one, density);
   }
   certificate.solver_error = solver_error(answers, again, count, question.resolution);
   return certificate;

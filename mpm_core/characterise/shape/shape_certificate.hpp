@@ -15,7 +15,8 @@ std::string shape_text(const Shape& solid);
 /// Throws the body in each direction and replays the law of a sphere of its material. The law's contact has
 /// the radius sqrt(R' R'') (a plastic contact of overlap delta has the area 2 pi delta sqrt(R' R''), whatever
 /// their ratio) and the mass that resists at the point (effective_mass_share). The first contact counts, as
-/// the law is of one contact: a body that turns over it may hit again. Frictionless. `particle`: of one
+/// the law is of one contact: a body that turns over it may hit again. Of a clump all balls that touch count
+/// (clump_on_wall), as in a particle code. Frictionless. `particle`: of one
 /// material; `law`: of that material's sphere. Throws Error where a run fails twice.
 ShapeCertificate certify_shape(const Particle& particle, const BodyLaw& law, const ShapeQuestion& question,
                                Farm& farm, const Progress& progress = {});
