@@ -37,7 +37,8 @@ class OwnTangential : public cm::TangentialModelBase
     const Law& law = laws_[normal_->place(entry)];
     double* const depth = normal_->kept_of(s.contact_history);
     const double before = *depth, r_eff = effective_radius(s);
-    ContactMotion motion{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !normal_->was_held()},
+    const bool held = normal_->was_held();
+    ContactMotion motion{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !held},
                          s.meff,
                          update->dt,
                          {s.en[0], s.en[1], s.en[2]},
