@@ -26,8 +26,14 @@ def options(description, out, seeds=5):
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks")
     parser.add_argument("--stretch", type=float, default=1.0, help="of model mpm: contacts this much longer")
     parser.add_argument("--law", help="law file; default: mpm table makes it")
+    tangential_options(parser)
     parser.add_argument("--quick", action="store_true", help="the small version that the tests run")
     return parser
+
+
+def tangential_options(parser):
+    parser.add_argument("--tangential", choices=("history", "plastic"), default="history", help="of model mpm")
+    parser.add_argument("--energy", action="store_true", help="of model mpm: books the elastic energy and the work of friction, too")
 
 
 def program(name):
@@ -78,6 +84,10 @@ def run(args, deck, model, folder, inputs=(), law=None, variables=None, more="")
         words["law"] = law
         if args.stretch != 1:
             more += f" stretch {args.stretch:g}"
+        if args.energy:
+            more += " energy on"
+        if args.tangential != "history":
+            words["tangential"] = args.tangential
         words.update({"more": more.strip()} if more else {})
     launcher = program("liggghts" if model == "hertz" else "liggghts-mpm")
     beside = pathlib.Path(launcher).resolve().parent  # as built; as installed
