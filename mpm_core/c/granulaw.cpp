@@ -81,7 +81,7 @@ const char* wrong_number(const granulaw_pair& pair)
   return nullptr;
 }
 
-/// Of the file's material of this name; a rigid wall is no material.
+/// Moduli of the file's material of this name; a rigid wall is no material.
 ElasticBody body_of(const Law& law, const std::string& name)
 {
   if (name == wall_name) return {};

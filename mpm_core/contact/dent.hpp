@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 // Geometry of a dent that turns against what it is pressed on, and the yield curve of a contact under shear.
@@ -25,32 +28,63 @@ struct DiscSegment
     const double rest = std::max(0.0, 1.0 - centroid);
     return rest * std::sqrt(rest);
   }
-  /// The segment of this centroid, by Newton's method between bounds, from h = `near` where one is known;
-  /// beyond(smallest) is the last.
-  static DiscSegment with_centroid(double centroid, double near = 2.0)
+  /// The segment of this centroid; of a centroid beyond `largest`, that one.
+  static DiscSegment with_centroid(double centroid)
   {
     if (!(centroid > 0.0)) return {};
-    if (const DiscSegment last = beyond(smallest); centroid >= last.centroid) return last;
-    // the limits of a small and of a large h: c = 4 sqrt(2)/(3 pi) (1 + h)^1.5, 1 - c = 0.6 (1 - h)
-    double h = near;
-    if (!(h < smallest))
-      h = std::min(std::pow(0.75 * M_PI * M_SQRT1_2 * centroid, 2.0 / 3.0) - 1.0, 1.0 - (1.0 - centroid) / 0.6);
-    double low = -1.0, high = smallest;
-    for (int step = 0; step < 40; ++step) {
-      if (!(h > low && h < high)) h = 0.5 * (low + high);
-      const DiscSegment now = beyond(h);
-      const double miss = now.centroid - centroid;
-      if (std::abs(miss) < 1e-7 || high - low < 1e-12) return now;
-      (miss > 0 ? high : low) = h;
-      // d(centroid)/dh = 2 w (centroid - h)/(area of the segment)
-      h -= miss * M_PI * now.area / (2.0 * std::sqrt(1.0 - h * h) * (now.centroid - h));
-    }
-    return beyond(h);
+    const double c = std::min(centroid, largest), u = std::sqrt(c), rest = 1.0 - c;
+    const Table::Point ratio = by_centroid.at(u);
+    // d(area)/dc = -area/(c - h)
+    return {c + rest * ratio.value / (rest * ratio.slope / (2.0 * u) - 1.5 * ratio.value), ratio.value * least_area(c), c};
+  }
+  /// Its area alone.
+  static double area_of(double centroid)
+  {
+    if (!(centroid > 0.0)) return 1.0;
+    const double c = std::min(centroid, largest);
+    return by_centroid.at(std::sqrt(c)).value * least_area(c);
   }
 
  private:
-  static constexpr double smallest = 0.999;
+  static constexpr double largest = 0.9994;  // h = 0.999
+
+  /// Area over least_area(), by the root of the centroid: cubic Hermite between nodes, the area to 1e-7.
+  struct Table
+  {
+    static constexpr int cells = 64;
+    double value[cells + 1], slope[cells + 1];
+
+    Table()
+    {
+      value[0] = 1.0, slope[0] = 0.0;
+      for (int k = 1; k <= cells; ++k) {
+        const double u = static_cast<double>(k) / cells, c = std::min(u * u, largest);
+        double low = -1.0, high = 1.0;
+        for (int bisection = 0; bisection < 50; ++bisection) {
+          const double h = 0.5 * (low + high);
+          (beyond(h).centroid > c ? high : low) = h;
+        }
+        const DiscSegment found = beyond(low);
+        value[k] = found.area / least_area(c);
+        slope[k] = 2.0 * std::sqrt(c) * value[k] * (1.5 / (1.0 - c) - 1.0 / (c - found.h));
+      }
+    }
+    struct Point
+    {
+      double value, slope;
+    };
+    Point at(double u) const
+    {
+      const double place = u * cells;
+      const int k = std::min(static_cast<int>(place), cells - 1);
+      const double t = place - k, v0 = value[k], rise = value[k + 1] - v0, s0 = slope[k] / cells, s1 = slope[k + 1] / cells;
+      const double second = 3.0 * rise - 2.0 * s0 - s1, third = s0 + s1 - 2.0 * rise;
+      return {v0 + t * (s0 + t * (second + t * third)), (s0 + t * (2.0 * second + t * 3.0 * third)) * cells};
+    }
+  };
+  static const Table by_centroid;
 };
+inline const DiscSegment::Table DiscSegment::by_centroid{};
 
 /// Flow of a segment. The surface beyond eta moves in by xi - eta, xi over the disc's radius from its centre in
 /// the direction of the tilt. As a plane A + B xi over the segment, by least squares; nothing moves out: where eta
@@ -63,7 +97,7 @@ struct DentFlow
   {
     const double h = segment.h, from = std::max(h, std::min(eta, largest_eta));
     if (from <= h) return {-h, 1.0, segment.centroid - h};
-    const Moments all = Moments::beyond(h), part = Moments::beyond(from);
+    const Moments all = Moments::of(segment), part = Moments::of(DiscSegment::beyond(from));
     const double f0 = part.first - from * part.zeroth, f1 = part.second - from * part.first;
     const double determinant = all.zeroth * all.second - all.first * all.first;
     return {(all.second * f0 - all.first * f1) / determinant, (all.zeroth * f1 - all.first * f0) / determinant,
@@ -74,15 +108,15 @@ struct DentFlow
   /// Beyond, so little moves in that A : B is what remains to know, and it hardly changes.
   static constexpr double largest_eta = 0.95;
 
-  /// Integrals of 1, xi, xi^2 over the disc beyond h.
+  /// Integrals of 1, xi, xi^2 over a segment.
   struct Moments
   {
     double zeroth, first, second;
 
-    static Moments beyond(double h)
+    static Moments of(const DiscSegment& s)
     {
-      const double w = std::sqrt(std::max(0.0, 1.0 - h * h)), angle = std::acos(h);
-      return {angle - h * w, 2.0 / 3.0 * w * w * w, 0.25 * (angle + h * w * (1.0 - 2.0 * h * h))};
+      const double zeroth = M_PI * s.area, hw = s.h * std::sqrt(std::max(0.0, 1.0 - s.h * s.h));
+      return {zeroth, zeroth * s.centroid, 0.25 * (zeroth + 2.0 * hw * (1.0 - s.h * s.h))};  // zeroth: acos h - h w
     }
   };
 };
@@ -98,46 +132,70 @@ struct ShearYield
   static double least_share(double q) { return 1.0 - normal_loss + normal_loss * std::sqrt(std::max(0.0, 1.0 - q * q)); }
   static double share(double q)
   {
-    return 1.0 - normal_loss + normal_loss * std::pow(std::max(0.0, 1.0 - q * q), exponent);
+    const double rest = std::max(0.0, 1.0 - q * q);
+    return 1.0 - normal_loss + (rest > 0.0 ? normal_loss * std::sqrt(rest) * root_power(1.0 / rest) : 0.0);
   }
-  /// q, s and -ds/dq.
+  /// tau = q/sqrt(1 - q^2), in which a flow under a spring is nearly linear.
+  static double tau_of(double q) { return q < 1.0 ? q / std::sqrt(1.0 - q * q) : std::numeric_limits<double>::infinity(); }
+  /// q, s and -ds/dq at tau.
   struct Point
   {
-    double q, share, fall;
+    double tau, q, share, fall, power, root;
+
+    explicit Point(double at) : tau(at), q(1.0), share(1.0 - normal_loss), fall(at), power(at), root(at)
+    {
+      if (std::isinf(tau)) return;  // sliding at T_0 alone
+      const double t2 = 1.0 + tau * tau;
+      root = std::sqrt(t2), power = root_power(t2);
+      q = tau / root, share = 1.0 - normal_loss + normal_loss * power / root, fall = two_cm * tau * power;
+    }
+    /// The point where the force of a spring, `pull` before over T_0, is what the flow has left of it: q = pull - give fall.
+    /// Newton's method from here, to `within` of 1 + tau; the error is its square.
+    Point under(double pull, double give, double within) const
+    {
+      if (!(give > 0.0)) return Point(tau_of(pull));
+      Point now = *this;
+      if (!(now.tau < 1e100)) {
+        double start = pull / (1.0 + two_cm * give);
+        if (pull > 1.0) start = std::max(start, std::pow((pull - 1.0) / (two_cm * give), 0.5 / (1.0 - exponent)));
+        now = Point(start);
+      }
+      for (int step = 0; step < 30; ++step) {
+        const double before = now.tau, per_root = 1.0 / now.root, part = now.q * now.q;
+        const double slope = per_root * per_root * per_root + give * two_cm * now.power * (1.0 + (1.0 - 2.0 * exponent) * part);
+        now = Point(std::max(0.0, before - (now.q + give * now.fall - pull) / slope));
+        if (!(std::abs(now.tau - before) > within * (1.0 + now.tau))) break;
+      }
+      return now;
+    }
   };
-  static double tau(double q) { return q / std::sqrt(1.0 - q * q); }
-  /// At q = tau/sqrt(1 + tau^2).
-  static Point at_tau(double tau)
-  {
-    if (std::isinf(tau)) return {1.0, 1.0 - normal_loss, tau};  // sliding at T_0 alone
-    const double t2 = 1.0 + tau * tau, root = std::sqrt(t2), power = std::pow(t2, 0.5 - exponent);
-    return {tau / root, 1.0 - normal_loss + normal_loss * power / root, two_cm * tau * power};
-  }
-  /// tau where the force of a spring, `pull` before, is what the flow has left of it: T_0 q = pull - give (-ds/dq).
-  /// Newton's method in tau, where the equation is nearly linear; from `near` where one is known.
-  static double tau_of(double pull, double strength, double give, double near = -1.0)
-  {
-    const double q = pull / strength;
-    if (!(give > 0.0)) return q < 1.0 ? tau(q) : std::numeric_limits<double>::infinity();
-    double tau = near;
-    if (!(tau >= 0.0 && tau < 1e100)) {
-      tau = pull / (strength + two_cm * give);
-      if (q > 1.0) tau = std::max(tau, std::pow((pull - strength) / (two_cm * give), 0.5 / (1.0 - exponent)));
-    }
-    for (int step = 0; step < 30; ++step) {
-      const double t2 = 1.0 + tau * tau, root = std::sqrt(t2), power = std::pow(t2, 0.5 - exponent);
-      const double miss = strength * tau / root + give * two_cm * tau * power - pull;
-      const double slope =
-          strength / (t2 * root) + give * two_cm * power * (1.0 + (1.0 - 2.0 * exponent) * tau * tau / t2);
-      const double before = tau;
-      tau = std::max(0.0, tau - miss / slope);
-      if (std::abs(tau - before) <= 1e-5 * (1.0 + tau)) break;  // of the second order: the error is its square
-    }
-    return tau;
-  }
 
  private:
   static constexpr double two_cm = 2.0 * exponent * normal_loss;
+
+  /// x^(1/2 - m) of x >= 1 to 2e-6: of its power of two by table, of the rest by the binomial series about 3/2.
+  static double root_power(double x)
+  {
+    constexpr double power = 0.5 - exponent;
+    constexpr int powers = 64, terms = 7;
+    static const auto of_two = [] {
+      std::array<double, powers> value;
+      for (int k = 0; k < powers; ++k) value[k] = std::pow(1.5 * std::ldexp(1.0, k), power);
+      return value;
+    }();
+    static constexpr auto binomial = [] {
+      std::array<double, terms + 1> value{1.0};
+      for (int k = 1; k <= terms; ++k) value[k] = value[k - 1] * (power - k + 1) / (k * 1.5);
+      return value;
+    }();
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const std::uint64_t k = (bits >> 52) - 1023;
+    if (!(k < powers)) return std::pow(x, power);
+    const double rest = std::bit_cast<double>((bits & ((1ULL << 52) - 1)) | (1023ULL << 52)) - 1.5;
+    const double rest2 = rest * rest;
+    const auto pair = [&](int term) { return binomial[term] + binomial[term + 1] * rest; };
+    return of_two[k] * ((pair(0) + rest2 * pair(2)) + rest2 * rest2 * (pair(4) + rest2 * pair(6)));
+  }
 };
 
 }  // namespace granulaw

@@ -89,18 +89,18 @@ class PlasticShear
       const auto dent = law.dent(m.r_eff, depth, latched, normal_kept + NormalState<Normal>::own);
       const double before = dent.force_at(step.overlap);
       DentMemory whole = held;
-      DentState tried, now = ShearReturn(material_, dent_at, dent, whole, step).solve(tried);
-      double lost = 0;
+      DentState tried, now = ShearReturn(material_, dent_at, dent, before, whole, step).solve(tried);
+      double lost = now.lost;
       if (const int parts = now.flows ? parts_of(step, dent) : 1; parts == 1) {
         held = whole;
-        if (m.advances) lost = book(law, m, latched, held, step, depth, tried, now, books);
+        if (m.advances) book(held, step, tried, now, books);
       } else {
         for (int part = 1; part <= parts; ++part) {
           const DentMotion some = step.part(part, parts);
           const double begins = std::max(held.depth, some.overlap);
-          now = ShearReturn(material_, dent_at, dent_at(begins), held, some).solve(tried);
+          now = ShearReturn(material_, dent_at, dent_at(begins), before, held, some).solve(tried);
           held.depth = now.depth;
-          book(law, m, latched, held, some, begins, tried, now, books);
+          book(held, some, tried, now, books);
         }
         lost = law.dissipated(m.r_eff, normal_kept[0], now.depth * stretch_, latched);
       }
@@ -163,25 +163,19 @@ class PlasticShear
     return sum(times(held.pull, -1.0), braking, -1.0);
   }
 
-  /// Books a part of a step that began at `depth`, and gives what the normal law has lost at the new depth, J. The
-  /// flow's loss is what the contact held before it and does not hold after it, less what it was not given: motion works
-  /// against the mean of the forces before and after; and less the normal law's.
-  template <class Normal>
-  double book(const Normal& law, const ContactMotion& m, double latched, const DentMemory& held, const DentMotion& step,
-              double depth, const DentState& tried, const DentState& now, Ledger& books) const
+  /// Books a part of a step. The flow's loss is what the contact held before it and does not hold after it, less what it
+  /// was not given: motion works against the mean of the forces before and after; and less the normal law's.
+  static void book(const DentMemory& held, const DentMotion& step, const DentState& tried, const DentState& now, Ledger& books)
   {
     books[Mechanism::friction] += tried.rubbed + now.rubbed * now.flows;
-    if (!now.flows) return 0.0;
+    if (!now.flows) return;
     const Vector along = unit(held.pull);
     const auto energy = [&](const DentState& state) {
       const double given = state.force * step.deepening + state.pull * dot(along, step.slide) +
                            state.moment * dot(state.tilt, step.turn);
       return state.energy - 0.5 * given;
     };
-    const double lost =
-        now.depth != depth ? law.dissipated(m.r_eff, stretch_ * depth, stretch_ * now.depth, latched) : 0.0;
-    books[Mechanism::shear] += energy(tried) - energy(now) - now.rubbed - lost;
-    return lost;
+    books[Mechanism::shear] += energy(tried) - energy(now) - now.rubbed - now.lost;
   }
 
   Spring elastic_;  // of a body that does not yield

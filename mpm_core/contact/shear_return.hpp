@@ -80,42 +80,70 @@ struct DentMemory
 struct DentState
 {
   double force = 0, moment = 0, depth = 0;  ///< moment: per tilt
-  double excess = 0;                        ///< of F beyond yield
   double pull = 0, slid = 0;                ///< T, and the sliding of the flow
   double energy = 0;                        ///< J, that the contact holds
   double rubbed = 0;                        ///< J, taken by friction
+  double lost = 0;                          ///< J, that the normal law has lost at the depth, beyond the depth before
   Vector tilt{};
   bool flows = false;
 };
 
-/// Elastic answer of a tilted dent; (1) and (2).
-struct DentAnswer
+/// A dent against tilting; (2).
+template <class Dent>
+struct TiltingDent : Dent
 {
-  double force, share, stiffness, radius;  ///< F, F/F_m, K against tilting, radius
-  double energy;                           ///< J, that it holds
+  double curvature;  ///< m, r
+  double excess;     ///< m, K_m/F_m - r
+  double lift;       ///< m, r - (R - delta_r)
+  double per_force;  ///< 1/F_m
 
-  template <class Dent>
-  static DentAnswer of(const Dent& dent, double e_star, double r_eff, double overlap, double tilt2)
+  TiltingDent(const Dent& dent, double e_star, double r_eff) : Dent(dent), per_force(1.0 / dent.force)
   {
-    const double four_thirds = 4.0 / 3.0 * e_star, r = dent.radius * dent.radius / (dent.depth - dent.residual);
-    const double excess = four_thirds * dent.radius * dent.radius * dent.radius / dent.force - r;
-    const double base = overlap + 0.5 * (r - (r_eff - dent.residual)) * tilt2, per_share = excess * tilt2;
-    const double per_force = 1.0 / dent.force;
-    double at = base, share = dent.force_at(at) * per_force;
-    for (int newton = 0; newton < 3 && std::abs(base + per_share * share - at) > nearly * dent.depth; ++newton) {
-      at = base + per_share * share;
-      const Response there = dent.response_at(at);
-      share -= (share - there.force * per_force) / (1.0 - per_share * there.stiffness * per_force);
-      share = std::max(0.0, share);
-    }
-    const double force = share * dent.force, stiffness = force * (r + excess * share);
-    at = base + per_share * share;
-    return {force, share, stiffness, std::cbrt(stiffness / four_thirds),
-            dent.work_at(at) - 0.5 * tilt2 * force * excess * share};
+    const double a2 = this->radius * this->radius;
+    curvature = a2 / (this->depth - this->residual);
+    excess = 4.0 / 3.0 * e_star * this->radius * a2 * per_force - curvature;
+    lift = curvature - (r_eff - this->residual);
+  }
+  /// Dent::toward.
+  TiltingDent toward(const TiltingDent& other, double part, double at) const
+  {
+    const auto mean = [part](double one, double two) { return one + part * (two - one); };
+    TiltingDent now = *this;
+    static_cast<Dent&>(now) = Dent::toward(other, part, at);
+    now.curvature = mean(curvature, other.curvature), now.excess = mean(excess, other.excess);
+    now.lift = mean(lift, other.lift), now.per_force = mean(per_force, other.per_force);
+    return now;
   }
 
- private:
-  static constexpr double nearly = 1e-4;  // of the depth, the last Newton step in the overlap: the error is its square
+  /// Elastic answer; (1).
+  struct Answer
+  {
+    double force, share, arm;  ///< F, F/F_m, K/F
+    double at;                 ///< overlap in F_u
+  };
+  /// By Newton's method in F/F_m from `share`, until it moves the overlap by no more than `within` of the depth; the error
+  /// is its square.
+  Answer answer(double overlap, double tilt2, double share, double within) const
+  {
+    const double base = overlap + 0.5 * lift * tilt2, per_share = excess * tilt2;
+    double at = base + per_share * share;
+    for (int newton = 0; newton < 4; ++newton) {
+      const Response there = this->response_at(at);
+      share -= (share - there.force * per_force) / (1.0 - per_share * there.stiffness * per_force);
+      share = std::max(0.0, share);
+      const double before = at;
+      at = base + per_share * share;
+      if (!(std::abs(at - before) > within * this->depth)) break;
+    }
+    return {share * this->force, share, curvature + excess * share, at};
+  }
+  /// J, that it holds.
+  double energy(const Answer& e, double tilt2) const
+  {
+    return this->work_at(e.at) - 0.5 * tilt2 * e.force * excess * e.share;
+  }
+  /// M per tilt.
+  double moment(const Answer& e) const { return e.force * (lift + excess * e.share); }
 };
 
 /// Return of a step to the yield surface (3). `DentAt`: the dent of a depth.
@@ -126,10 +154,11 @@ template <class Dent, class DentAt>
 class ShearReturn
 {
  public:
-  /// `held`: is taken along.
-  ShearReturn(const DentMaterial& material, const DentAt& dent_at, const Dent& start, DentMemory& held,
+  /// `held`: is taken along. `force`: near that of the dent.
+  ShearReturn(const DentMaterial& material, const DentAt& dent_at, const Dent& start, double force, DentMemory& held,
               const DentMotion& step)
-      : material_(material), dent_at_(dent_at), start_(start), held_(held), step_(step)
+      : material_(material), dent_at_(dent_at), start_(start, material.e_star, step.radius), held_(held), step_(step),
+        force_(force)
   {
   }
 
@@ -138,53 +167,71 @@ class ShearReturn
   {
     held_.tilt = sum(held_.tilt, step_.turn);
     if (!(held_.stiffness > 0)) end_tilt();
-    const DentAnswer first = answer(start_, held_.tilt);
+    const double tilt2 = dot(held_.tilt, held_.tilt);
+    const Answer first = start_.answer(step_.overlap, tilt2, force_ * start_.per_force, exactly);
     if (!(first.force > 0)) {
       held_.pull = {}, held_.stiffness = 0;
       return {.depth = start_.depth, .tilt = held_.tilt};
     }
-    const double softened = held_.stretch(step_.slide, material_.shear_stiffness * first.radius);
-    k_ = held_.stiffness, stretched_ = norm(held_.pull), along_ = unit(held_.pull);
-    shift_ = material_.asymmetry * pressure_shift * first.radius / first.stiffness;
-    const double cut = std::min(stretched_, material_.friction * first.force), a = start_.radius;
-    const Vector lean = leaning(held_.tilt, cut);
-    const double softest = material_.strength(a, step_.radius, held_.sheared, first.radius);
-    if (surely_elastic(first, norm(lean), cut, softest)) {
-      tried = {.force = first.force,
-               .moment = first.stiffness - first.force * (step_.radius - start_.residual),
-               .depth = start_.depth,
-               .pull = cut,
-               .rubbed = softened + cut * (stretched_ - cut) / k_,
-               .tilt = held_.tilt};
-      held_.pull = times(along_, cut);
-      return tried;
-    }
-    const DiscSegment segment = segment_of(first, a, norm(lean));
-    near_ = segment.h;
-    strength_ = softest * std::min(first.radius * first.radius, segment.area * a * a);
-    tried = state(first, start_, segment.area, cut, ShearYield::share(std::min(1.0, cut / strength_)));
-    tried.tilt = held_.tilt;
-    tried.rubbed = softened;
-    if (cut <= strength_ && tried.excess <= tolerance * start_.force) {
+    const double a = start_.radius, last = held_.stiffness / material_.shear_stiffness;
+    const double present = cube_root(first.force * first.arm / (4.0 / 3.0 * material_.e_star), last);
+    const double softened = held_.stretch(step_.slide, material_.shear_stiffness * present);
+    k_ = held_.stiffness, stretched_ = norm(held_.pull);
+    along_ = stretched_ > 0.0 ? times(held_.pull, 1.0 / stretched_) : Vector{};
+    shift_ = material_.asymmetry * pressure_shift * present / (first.force * first.arm);
+    const double cut = std::min(stretched_, material_.friction * first.force);
+    const double softest = material_.strength(a, step_.radius, held_.sheared, present);
+    tried = {.force = first.force,
+             .moment = start_.moment(first),
+             .depth = start_.depth,
+             .pull = cut,
+             .rubbed = softened,
+             .tilt = held_.tilt};
+    const auto strength_of = [&](double area) { return softest * std::min(present * present, area * a * a); };
+    const auto stays_elastic = [&] {
       tried.rubbed += cut * (stretched_ - cut) / k_;
       held_.pull = times(along_, cut);
       return tried;
+    };
+    {
+      // most contacts, by bounds
+      const double leans = std::sqrt(tilt2) + std::abs(shift_) * cut;
+      const double area = DiscSegment::least_area(first.arm / a * leans), least = strength_of(area);
+      if (cut < least && first.share - area * ShearYield::least_share(cut / least) <= tolerance) return stays_elastic();
     }
-    tried.pull = stretched_, tried.energy = first.energy + 0.5 * stretched_ * stretched_ / k_;
+    const Vector lean = sum(held_.tilt, along_, shift_ * cut);  // phi' of (3)
+    const double leans = norm(lean);
+    const DiscSegment bears = DiscSegment::with_centroid(first.arm / a * leans);
+    strength_ = strength_of(bears.area);
+    const double beyond = first.share - bears.area * ShearYield::share(std::min(1.0, cut / strength_));
+    if (cut <= strength_ && beyond <= tolerance) return stays_elastic();
 
-    within_ = std::max(tolerance * start_.force, step_tolerance * tried.excess);
+    tried.pull = stretched_, tried.energy = start_.energy(first, tilt2) + 0.5 * stretched_ * stretched_ / k_;
+    within_ = start_.force * std::max(tolerance, step_tolerance * beyond);
     steep_ = cut > strength_;
-    const DentState end = flow(first, lean, segment, cut);
+    answer_ = first, shear_ = ShearYield::Point(ShearYield::tau_of(cut / strength_));
+    const DentState end = flow(lean, leans, bears, cut);
     held_.sheared += end.slid;
     held_.pull = times(along_, end.pull), held_.tilt = end.tilt;
     return end;
   }
 
  private:
+  using Tilting = TiltingDent<Dent>;
+  using Answer = typename Tilting::Answer;
   static constexpr double pressure_shift = 0.25;  // zeta: T moves the pressure back by zeta a T/F, measured
   static constexpr double tolerance = 1e-4;       // of F_m, in the yield condition: e and spin change by 1e-4
   static constexpr double step_tolerance = 0.02;  // of what the step exceeds yield by, where that is more
   static constexpr double linear = 0.005;         // of the depth, over which a dent is linear: its force to 2e-5
+  static constexpr double exactly = 1e-4, nearly = 1e-3;  // of Tilting::answer, at first and in the search: errors are the squares
+  static constexpr double roughly = 0.03;         // of ShearYield::Point::under, likewise
+
+  /// By a step of Halley's from `near`, which is as good as 1e-6 where it changes by a hundredth; else anew.
+  static double cube_root(double cube, double near)
+  {
+    const double of_near = near * near * near, root = near * (of_near + 2.0 * cube) / (2.0 * of_near + cube);
+    return std::abs(root - near) < 0.01 * near ? root : std::cbrt(cube);
+  }
 
   /// Parted: beyond this tilt the dent's rim would touch, around which the body is a sphere again.
   void end_tilt()
@@ -193,186 +240,161 @@ class ShearReturn
     if (tilt > rim) held_.tilt = times(held_.tilt, rim / tilt);
   }
 
-  /// True of most contacts that do not flow, by bounds that cost no root.
-  bool surely_elastic(const DentAnswer& e, double lean, double pull, double softest) const
-  {
-    const double a = start_.radius, area = DiscSegment::least_area(e.stiffness / (e.force * a) * lean);
-    const double least = softest * std::min(e.radius * e.radius, area * a * a);
-    return pull < least && e.force <= area * ShearYield::least_share(pull / least) * start_.force;
-  }
-
-  DentAnswer answer(const Dent& dent, const Vector& tilt) const
-  {
-    return DentAnswer::of(dent, material_.e_star, step_.radius, step_.overlap, dot(tilt, tilt));
-  }
-  /// phi' of (3).
-  Vector leaning(const Vector& tilt, double pull) const { return sum(tilt, along_, shift_ * pull); }
-  DiscSegment segment_of(const DentAnswer& e, double radius, double lean) const
-  {
-    return DiscSegment::with_centroid(e.force > 0 ? e.stiffness / (e.force * radius) * lean : 0.0, near_);
-  }
-  DentState state(const DentAnswer& e, const Dent& dent, double area, double pull, double share) const
-  {
-    return {.force = e.force,
-            .moment = e.stiffness - e.force * (step_.radius - dent.residual),
-            .depth = dent.depth,
-            .excess = e.force - area * share * dent.force,
-            .pull = pull,
-            .energy = e.energy + 0.5 * pull * pull / k_};
-  }
-
+  Tilting tilting(const Dent& dent) const { return {dent, material_.e_star, step_.radius}; }
   /// A dent nearly as deep as the first is linear in its depth.
-  Dent dent_of(double depth)
+  Tilting dent_of(double depth)
   {
-    const double more = depth / start_.depth - 1.0;
+    const double more = depth - start_.depth, most = linear * start_.depth;
     if (more == 0.0) return start_;
-    if (std::abs(more) > 2.0 * linear) return dent_at_(depth);
-    if (!deeper_) deeper_ = dent_at_((1.0 + linear) * start_.depth);
-    return start_.toward(*deeper_, more / linear, depth);
+    if (std::abs(more) > 2.0 * most) return tilting(dent_at_(depth));
+    if (!deeper_) deeper_ = tilting(dent_at_(start_.depth + std::copysign(most, more)));
+    return start_.toward(*deeper_, more / (deeper_->depth - start_.depth), depth);
   }
 
-  /// After a flow. `moved`: its volume over the contact's area; its turning gives `back` to the spring; `area`: the
-  /// part that bears, by answer, radius and pull.
-  template <class Area>
-  DentState flowed(const Dent& dent, const DentAnswer& e, const Vector& tilt, double moved, double back, const Area& area)
+  /// A way to flow, by its amount.
+  struct Path
   {
-    const double give = moved * start_.force / strength_, spring = std::max(0.0, stretched_ + k_ * back);
-    tau_ = ShearYield::tau_of(spring, strength_, k_ * give, tau_);
-    ShearYield::Point shear = ShearYield::at_tau(tau_);
-    double pull = strength_ * shear.q, slid = (spring - pull) / k_;
-    if (const double most = material_.friction * e.force; pull > most) {
-      pull = most, shear = ShearYield::at_tau(ShearYield::tau(most / strength_));
-      slid = give * shear.fall;
+    Vector tilt;                      // at its beginning
+    Vector toward{};                  // which turns, a unit vector
+    double deepening, turning, moved;  // per amount: of the depth, of the tilt, and volume over the contact's area
+    double back = 0;                  // what the spring gets back of the turning, per amount
+  };
+  struct Point
+  {
+    double amount = 0, excess = 0;          // N, of F beyond yield
+    double pull = 0, slid = 0, spring = 0;  // T, sliding of the flow, and T if nothing had slid
+  };
+
+  /// N, of F beyond yield; `lean`: phi' of (3).
+  double excess(const Tilting& dent, const Answer& e, double lean, double share) const
+  {
+    return e.force - DiscSegment::area_of(e.arm / dent.radius * lean) * share * dent.force;
+  }
+
+  Point at(const Path& path, double amount)
+  {
+    const double turned = path.turning * amount, leant = dot(path.tilt, path.toward);
+    const Tilting& dent = *(dent_ = dent_of(std::max(held_.depth + path.deepening * amount, step_.overlap)));
+    const double tilt2 = dot(path.tilt, path.tilt) + turned * (turned - 2.0 * leant);
+    const Answer& e = answer_ = dent.answer(step_.overlap, tilt2, answer_.share, nearly);
+    const double per_strength = 1.0 / strength_, give = path.moved * amount * start_.force * per_strength;
+    Point now{.amount = amount, .spring = std::max(0.0, stretched_ + k_ * path.back * amount)};
+    ShearYield::Point shear = shear_ = shear_.under(now.spring * per_strength, k_ * give * per_strength, roughly);
+    now.pull = strength_ * shear.q, now.slid = (now.spring - now.pull) / k_;
+    if (const double most = material_.friction * e.force; now.pull > most) {
+      now.pull = most, shear = ShearYield::Point(ShearYield::tau_of(most * per_strength));
+      now.slid = give * shear.fall;
     }
-    DentState now = state(e, dent, area(e, dent.radius, pull), pull, shear.share);
-    now.slid = slid;
-    now.rubbed = pull * std::max(0.0, (spring - pull) / k_ - slid);
-    now.tilt = tilt;
-    now.flows = true;
+    now.excess = excess(dent, e, leant - turned + shift_ * now.pull * dot(along_, path.toward), shear.share);
     return now;
   }
-  template <class Area>
-  DentState flowed_to(double depth, const Vector& tilt, double moved, double back, const Area& area)
+  /// State at the last point asked for.
+  DentState state(const Path& path, const Point& point) const
   {
-    const Dent dent = dent_of(std::max(depth, step_.overlap));
-    return flowed(dent, answer(dent, tilt), tilt, moved, back, area);
+    const Vector tilt = sum(path.tilt, path.toward, -path.turning * point.amount);
+    return {.force = answer_.force,
+            .moment = dent_->moment(answer_),
+            .depth = dent_->depth,
+            .pull = point.pull,
+            .slid = point.slid,
+            .energy = dent_->energy(answer_, dot(tilt, tilt)) + 0.5 * point.pull * point.pull / k_,
+            .rubbed = point.pull * std::max(0.0, (point.spring - point.pull) / k_ - point.slid),
+            .lost = 0.5 * (start_.force + dent_->force) * (dent_->depth - start_.depth) - (dent_->work() - start_.work()),
+            .tilt = tilt,
+            .flows = true};
   }
 
   /// Places on a path: from T_0 on the force falls as the root of the flow (s - 1 + c as its power m/(2 - 2 m) = 0.54).
   double amount(double place) const { return steep_ ? place * place : place; }
   double place(double amount) const { return steep_ ? std::sqrt(amount) : amount; }
 
-  /// Path of a segment that moves in.
-  struct Segment
-  {
-    Vector toward;
-    DentFlow flow;
-    double back;  // of the spring, per amount
-  };
-  auto area_of(const Segment& segment, const Vector& tilt)
-  {
-    return [&](const DentAnswer& e, double radius, double pull) {
-      const DiscSegment now = segment_of(e, radius, std::max(0.0, dot(leaning(tilt, pull), segment.toward)));
-      near_ = now.h;
-      return now.area;
-    };
-  }
-  DentState at(const Segment& segment, double amount)
-  {
-    const double a = start_.radius;
-    const Vector tilt = sum(held_.tilt, segment.toward, -segment.flow.turning * amount);
-    return flowed_to(held_.depth + segment.flow.deepening * a * amount, tilt, segment.flow.mean * a * amount,
-                     segment.back * amount, area_of(segment, tilt));
-  }
-  /// Path of the whole contact, which moves in by `more` and stands upright.
-  DentState at_corner(const Vector& upright, double more)
-  {
-    return flowed_to(held_.depth + more, upright, more, 0.0, [](const DentAnswer&, double, double) { return 1.0; });
-  }
-
-  DentState flow(const DentAnswer& first, const Vector& lean, const DiscSegment& bears, double cut)
+  /// `lean`: phi' before, of this length; `bears`: what bears there; `cut`: T.
+  DentState flow(const Vector& lean, double leans, const DiscSegment& bears, double cut)
   {
     const double a = start_.radius;
     const Vector upright = times(along_, -shift_ * std::min(cut, strength_));
     const double needed = a * norm(sum(held_.tilt, upright, -1.0));  // to stand upright
-    DentState end;
+    Point end;
     // where a segment alone moves in, the corner lies beyond: it is tried first where the turning is small
     if (needed > step_.deepening) {
-      const Vector toward = unit(lean);
+      const Vector toward = leans > 0.0 ? times(lean, 1.0 / leans) : Vector{};
       const double rolled = dot(step_.turn, toward);
       const DentFlow plane = DentFlow::of(bears, rolled > 0 ? -step_.deepening / (a * rolled) : -1.0);
-      const Segment segment{toward, plane, material_.asymmetry * pressure_shift * a * plane.turning * dot(along_, toward)};
-      end = flowed(start_, first, held_.tilt, 0.0, 0.0, area_of(segment, held_.tilt));
-      const double most = norm(lean) / plane.turning, steady = std::max(rolled, step_.deepening / a) / plane.turning;
-      const auto path = [&](double place) { return at(segment, amount(place)); };
-      if (!(end.excess > 0) || root(path, 0.0, end, place(std::max(steady, 1e-3 * most)), place(most), end)) return end;
+      const Path segment{held_.tilt, toward, plane.deepening * a, plane.turning, plane.mean * a,
+                         material_.asymmetry * pressure_shift * a * plane.turning * dot(along_, toward)};
+      const double pull = std::min(cut, strength_);
+      end = {.excess = excess(start_, answer_, leans + shift_ * (pull - cut) * dot(along_, toward), ShearYield::share(pull / strength_))};
+      const double most = leans / plane.turning, steady = std::max(rolled, step_.deepening / a) / plane.turning;
+      if (!(end.excess > 0)) return state(segment, at(segment, 0.0));
+      if (root(segment, end, std::max(steady, 1e-3 * most), most, end)) return state(segment, end);
     }
-    const auto path = [&](double place) { return at_corner(upright, amount(place)); };
-    const double least = place(needed);
-    end = path(least);
+    const Path corner{.tilt = upright, .deepening = 1.0, .turning = 0.0, .moved = 1.0};
+    end = at(corner, needed);
     if (end.excess > within_) {
       const double steady = std::max({needed, std::abs(step_.deepening), 1e-6 * held_.depth});
-      root(path, least, end, place(steady), std::numeric_limits<double>::infinity(), end);
+      root(corner, end, steady, std::numeric_limits<double>::infinity(), end);
     } else if (end.excess < -within_) {
-      const DentState none = path(0.0);
-      end = none.excess > 0 ? between(path, 0.0, none, least, end) : none;
+      const Point none = at(corner, 0.0);
+      end = none.excess > 0 ? between(corner, none, end) : none;
     }
-    return end;
+    return state(corner, end);
   }
 
   /// `found`: the point of no excess on a path where it falls: from `low`, where it is positive, by steps from `width` on
   /// to `most`. False: there is none.
-  template <class Path>
-  bool root(const Path& path, double low, DentState at_low, double width, double most, DentState& found) const
+  bool root(const Path& path, Point low, double width, double most, Point& found)
   {
-    for (int tripling = 0; tripling < 60 && low < most; ++tripling, width *= 3.0) {
-      const double high = std::min(low + width, most);
-      found = path(high);
+    const double end = place(most);
+    width = place(width);
+    for (int tripling = 0; tripling < 60 && place(low.amount) < end; ++tripling, width *= 3.0) {
+      found = at(path, amount(std::min(place(low.amount) + width, end)));
       if (found.excess <= within_) {
-        found = between(path, low, at_low, high, found);
+        found = between(path, low, found);
         return true;
       }
-      low = high, at_low = found;
+      low = found;
     }
     return false;
   }
   /// The same between two points: through the last three by inverse interpolation of the second order where that is
   /// monotonic (Chandrupatla, Adv. Eng. Software 28, 1997), else by the rule of Illinois.
-  template <class Path>
-  DentState between(const Path& path, double low, const DentState& at_low, double high, const DentState& at_high) const
+  Point between(const Path& path, const Point& low, const Point& high)
   {
-    DentState at = at_high;
-    double x = high, f = at_high.excess, other = low, across = at_low.excess, stale = 1.0, part = f / (f - across);
-    for (int step = 0; step < 60 && std::abs(f) > within_ && part > 0.0 && part < 1.0; ++step) {
-      const double middle = x + part * (other - x);
-      at = path(middle);
-      double third = x, at_third = f;
-      stale *= 0.5;
-      if ((at.excess > 0) != (f > 0)) std::swap(third, other), std::swap(at_third, across), stale = 1.0;
-      x = middle, f = at.excess;
+    Point now = high;
+    double x = place(high.amount), f = high.excess, other = place(low.amount), across = low.excess, stale = 1.0;
+    double third = x, at_third = f;
+    for (int step = 0; step < 60 && std::abs(f) > within_; ++step) {
       const double place = (x - other) / (third - other), rise = (f - across) / (at_third - across);
-      if (rise * rise < place && (1.0 - rise) * (1.0 - rise) < 1.0 - place)
+      double part = f / (f - stale * across);
+      if (step > 0 && rise * rise < place && (1.0 - rise) * (1.0 - rise) < 1.0 - place)
         part = f / (across - f) * at_third / (across - at_third) +
                (third - x) / (other - x) * f / (at_third - f) * across / (at_third - across);
-      else
-        part = f / (f - stale * across);
+      if (!(part > 0.0 && part < 1.0)) break;
+      const double middle = x + part * (other - x);
+      now = at(path, amount(middle));
+      third = x, at_third = f;
+      stale *= 0.5;
+      if ((now.excess > 0) != (f > 0)) std::swap(third, other), std::swap(at_third, across), stale = 1.0;
+      x = middle, f = now.excess;
     }
-    return at;
+    return now;
   }
 
   const DentMaterial& material_;
   const DentAt& dent_at_;
-  const Dent& start_;
+  Tilting start_;
   DentMemory& held_;
   const DentMotion& step_;
-  std::optional<Dent> deeper_;
+  double force_;                          // near that of the dent
+  std::optional<Tilting> deeper_, dent_;  // on the line of dent_of; of the last point
+  Answer answer_{};                       // of the last point: the next one begins there
+  ShearYield::Point shear_{std::numeric_limits<double>::infinity()};  // likewise
   double k_ = 0, stretched_ = 0;  // of the spring: N/m, and its force before the flow
   Vector along_{};
-  double shift_ = 0;           // of the axis, per T
-  double strength_ = 0;        // T_0
-  double within_ = 0;          // excess at which the search ends
-  bool steep_ = false;         // T before the flow is above T_0
-  double near_ = 2.0, tau_ = -1.0;  // of the last state: the next search begins there
+  double shift_ = 0;              // of the axis, per T
+  double strength_ = 0;           // T_0
+  double within_ = 0;             // excess at which the search ends
+  bool steep_ = false;            // T before the flow is above T_0
 };
 
 }  // namespace granulaw

@@ -158,8 +158,9 @@ struct Tabulated
       const double root = std::sqrt(u);
       return {unit * back.force_at(u, root), unit * per_length * back.per_span * back.slope_at(u, root)};
     }
-    /// J, given back from this overlap to where the force ends.
+    /// J, given back from this overlap, or from the depth, to where the force ends.
     double work_at(double delta) const { return unit / per_length * back.work(delta * per_length); }
+    double work() const { return unit / per_length * back.work(); }
     /// On the straight line from this dent through another: `part` of the way, where the depth is `at`.
     Dent toward(const Dent& other, double part, double at) const
     {
@@ -168,8 +169,8 @@ struct Tabulated
       now.back.x_max = at * per_length;
       now.back.per_span = mean(back.per_span, other.back.per_span);
       for (int k = 0; k < 3; ++k) now.back.term[k] = mean(back.term[k], other.back.term[k]);
-      now.depth = at, now.force = unit * now.back.top(), now.radius = mean(radius, other.radius);
-      now.residual = now.back.residual() / per_length;
+      now.depth = at, now.force = mean(force, other.force), now.radius = mean(radius, other.radius);
+      now.residual = mean(residual, other.residual);
       return now;
     }
   };
