@@ -19,16 +19,12 @@ if not shutil.which("sphinx-build") or not importlib.util.find_spec("myst_parser
 class Book(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.site = Path(cls.folder.name) / "html"
-        command = ["sphinx-build", "-q", "-W", "--keep-going", "-b", "html", "-d", cls.folder.name + "/doctrees"]
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        cls.site = Path(folder) / "html"
+        command = ["sphinx-build", "-q", "-W", "--keep-going", "-b", "html", "-d", folder + "/doctrees"]
         if os.environ.get("GRANULAW_MPM"):
             command += ["-D", "granulaw_mpm=" + os.environ["GRANULAW_MPM"]]
         cls.run_ = subprocess.run([*command, str(DOCS), str(cls.site)], capture_output=True, text=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def test_no_warning(self):
         self.assertEqual(self.run_.returncode, 0, self.run_.stderr[-3000:])

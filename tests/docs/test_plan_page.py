@@ -25,9 +25,7 @@ neighbor 0.002 bin
 
 class PlanPage(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def run_in(self, *command):
         # LIGGGHTS 3.8.0 adds bytes of freed memory to some of its errors

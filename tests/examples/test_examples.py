@@ -34,14 +34,9 @@ class Run(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory(prefix="granulaw-example-")
-        cls.folder = pathlib.Path(cls._folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="granulaw-example-")))
         cls.module = example(f"{cls.name}/run.py")
         cls.result = cls.module.main(["-o", str(cls.folder), "--quick", "--seeds", "1", *cls.words])
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._folder.cleanup()
 
     def test_plan_contains_what_was_visited(self):
         """Speeds of the yielding body. The plan bounds all but what particles hand on to each other (docs/guide/plan.md): a few contacts of a

@@ -77,15 +77,10 @@ def thornton(force):
 class Preload(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory(prefix="granulaw-preload-")
-        cls.folder = pathlib.Path(cls._folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="granulaw-preload-")))
         cls.law = cls.folder / "wax.h5"
         subprocess.run(["mpm", "table", str(ROOT / "examples/hopper/materials.toml"), "-o", str(cls.law)], check=True,
                        capture_output=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._folder.cleanup()
 
     def press(self, model, load, s):
         """(deflection under `load`, under REST of it afterwards), m."""

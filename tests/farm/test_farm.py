@@ -7,7 +7,6 @@ are what a hang is recognised by, far beyond what the case takes.
 import argparse
 import os
 import random
-import re
 import signal
 import subprocess
 import tempfile

@@ -3,7 +3,6 @@
 
     test_hopper.py MODEL LAUNCHER LAW MPIRUN PLUGIN_LAUNCHER      (LAW: a law file of the example's material; used by mpm)
 """
-import os
 import pathlib
 import subprocess
 import sys
@@ -26,15 +25,10 @@ class Hopper(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory(prefix="granulaw-hopper-")
-        cls.folder = pathlib.Path(cls._folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="granulaw-hopper-")))
         subprocess.run([sys.executable, str(EXAMPLE / "make_scene.py"), "-o", str(cls.folder / "scene"),
                         "--particles", str(PARTICLES), "--drop", "0.03"], check=True, capture_output=True)
         cls.runs = {ranks: cls.run_model(ranks) for ranks in (1, 2)}
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._folder.cleanup()
 
     @classmethod
     def run_model(cls, ranks):

@@ -1,4 +1,5 @@
 """Decks, runs and numbers for the tests of the LIGGGHTS plug-in."""
+import json
 import math
 import os
 import pathlib
@@ -55,13 +56,9 @@ class Deck(unittest.TestCase):
     """A test with a folder of its own."""
 
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-liggghts-")
-        self.folder = pathlib.Path(self._folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-liggghts-")))
         self.law = self.folder / "powder.h5"
         self.fixture("write", self.law)
-
-    def tearDown(self):
-        self._folder.cleanup()
 
     def fixture(self, *words):
         done = subprocess.run([FIXTURE, *map(str, words)], capture_output=True, text=True, check=True)
@@ -99,6 +96,14 @@ class Deck(unittest.TestCase):
         found = self.results(text, name)
         self.assertEqual(len(found), len(decks), text[-3000:])
         return found
+
+
+def mpm_law(law, pair, speed, radius, radius2=None):
+    """A collision as `mpm law` integrates it."""
+    words = ["--radius2", repr(radius2)] if radius2 else []
+    done = subprocess.run([os.environ["GRANULAW_MPM"], "law", law, "--pair", pair, "--radius", repr(radius), *words, "--velocity", repr(speed), "--json"],
+                          capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
 
 
 def sphere_mass(radius, density):

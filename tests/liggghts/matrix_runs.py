@@ -1,9 +1,7 @@
 """The matrix's features of output and of the run: computes, dumps, neighbour settings, boundaries, units, run forms, restarts."""
-import re
 
 import matrix_scene
-from harness import plane_stl
-from matrix_scene import RADIUS, Feature
+from matrix_scene import Feature
 
 BARE = {"neighbor": "neighbor 0.0004 bin\nneigh_modify delay 0"}  # with a contact_distance_factor hertz lists spheres near a wall
 LOCAL = "dump local all local 100 local.txt {}"

@@ -2,7 +2,7 @@
 import unittest
 
 from collisions import wall_deck
-from harness import GLASS, POWDER, Deck, Material, head, properties
+from harness import POWDER, Deck, Material
 
 RADIUS = 1.7e-3
 

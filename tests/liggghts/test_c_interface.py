@@ -1,13 +1,12 @@
 """granulaw.h, called from programs in C: against `mpm law`, and against the plug-in to the last bit."""
-import json
 import math
 import os
 import subprocess
 import unittest
 
-from harness import GLASS, POWDER, Deck, Material, head, properties, sphere_mass, worst
+from harness import GLASS, POWDER, Deck, Material, head, mpm_law, properties, sphere_mass, worst
 
-COLLIDE, FORCES, MPM = (os.environ[k] for k in ("GRANULAW_COLLIDE", "GRANULAW_CONTACT_FORCES", "GRANULAW_MPM"))
+COLLIDE, FORCES = (os.environ[k] for k in ("GRANULAW_COLLIDE", "GRANULAW_CONTACT_FORCES"))
 RADIUS = 1.7e-3
 RIGID = Material("rigid", 1500.0, 1e30, 0.3, 1e30)
 
@@ -17,11 +16,6 @@ class CInterface(Deck):
         done = subprocess.run([program, *map(str, words)], input=given, capture_output=True, text=True)
         self.assertEqual(done.returncode, 1 if expect_failure else 0, done.stderr)
         return done.stderr if expect_failure else done.stdout
-
-    def mpm_law(self, law, pair, radius, radius2, speed):
-        words = [MPM, "law", law, "--pair", pair, "--radius", radius, "--velocity", speed, "--json"]
-        words += [] if pair.endswith("wall") else ["--radius2", radius2]
-        return json.loads(subprocess.run([str(w) for w in words], capture_output=True, text=True, check=True).stdout)
 
     def test_collisions_are_those_of_mpm_law(self):
         """A law without and with a velocity axis, and one with waves; loading, unloading, X and waves are all in e."""
@@ -33,7 +27,7 @@ class CInterface(Deck):
                 if kind != "composed" and pair == "powder:glass" and partner == math.inf:
                     continue  # of composed laws alone a wall is another body than a sphere
                 a, b = pair.split(":")
-                expected = self.mpm_law(law, pair, radius, partner, speed)
+                expected = mpm_law(law, pair, speed, radius, None if b == "wall" else partner)
                 # as law_fixture has it, the glass of the composed law is heavier
                 density = {"powder": POWDER.density, "glass": GLASS.density * (60 if kind == "composed" else 1)}
                 mass = sphere_mass(radius, density[a])

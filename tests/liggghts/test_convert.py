@@ -52,14 +52,10 @@ def soft(types=1):
 
 class Convert(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-convert-")
-        self.folder = pathlib.Path(self._folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-convert-")))
         (self.folder / "post").mkdir()
         self.out = self.folder / "out"
         self.write("materials.toml", MATERIALS)
-
-    def tearDown(self):
-        self._folder.cleanup()
 
     def write(self, name, text):
         path = self.folder / name

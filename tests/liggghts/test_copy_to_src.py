@@ -14,15 +14,11 @@ NOT_COPIED = {"register_hertz.cpp"}  # a yardstick for benchmarks
 
 class CopyToSrc(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-copy-")
-        self.src = pathlib.Path(self._folder.name) / "src"
+        self.src = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-copy-"))) / "src"
         self.src.mkdir()
         for header in HEADERS.glob("*.h"):
             (self.src / header.name).symlink_to(header.resolve())
         (self.src / "version_liggghts.txt").write_text("3.8.0\n")
-
-    def tearDown(self):
-        self._folder.cleanup()
 
     def copy(self, folder="src", status=0):
         done = subprocess.run([ROOT / "liggghts_plugin" / "copy_to_src", folder], capture_output=True, text=True, cwd=self.src.parent)

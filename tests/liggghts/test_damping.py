@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from collisions import pair_deck, wall_deck
+from collisions import wall_deck
 from harness import POWDER, Deck, head, properties, sphere_mass
 
 RADIUS = 1.7e-3

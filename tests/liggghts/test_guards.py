@@ -1,12 +1,10 @@
 """Decks that LIGGGHTS accepts and that would go wrong without a word: refused in one sentence, or right."""
-import math
-import os
 import pathlib
 import re
 import unittest
 
 from collisions import pair_deck, wall_deck
-from harness import POWDER, Deck, head, plane_stl, properties, sphere_mass
+from harness import POWDER, Deck, head, plane_stl, properties
 
 RADIUS = 1.7e-3
 DT = 2e-7

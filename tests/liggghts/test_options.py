@@ -3,7 +3,7 @@ import unittest
 
 import gas
 from collisions import wall_deck
-from harness import PLUGIN, POWDER, Deck, head, properties
+from harness import PLUGIN, POWDER, Deck, properties
 
 RADIUS = 1.7e-3
 

@@ -2,13 +2,12 @@
 
     test_pair_laws.py Synthetic   quick
     test_pair_laws.py Computed    runs the solver (slow)"""
-import json
 import os
 import subprocess
 import unittest
 
 from collisions import pair_deck, wall_deck
-from harness import GLASS, POWDER, Deck
+from harness import GLASS, POWDER, Deck, mpm_law
 
 RADII = {"powder": 1.7e-3, "glass": 3.4e-3}
 SPEEDS = (0.05, 1.0, 5.0)  # from below the onset of yield to 4 % of R*
@@ -20,12 +19,7 @@ class Drops:
     """Entry of whatever law setUp wrote to self.law."""
 
     def tool(self, first, second, speed):
-        return self.tool_of(f"{first.name}:{second.name}", speed, "--radius", str(RADII[first.name]), "--radius2", str(RADII[second.name]))
-
-    def tool_of(self, pair, speed, *radii):
-        done = subprocess.run([os.environ["GRANULAW_MPM"], "law", str(self.law), "--pair", pair, *radii, "--velocity", repr(speed), "--json"],
-                              capture_output=True, text=True, check=True)
-        return json.loads(done.stdout)
+        return mpm_law(self.law, f"{first.name}:{second.name}", speed, RADII[first.name], RADII[second.name])
 
     def deck(self, first, second, speed, duration, steps=STEPS):
         return pair_deck("mpm", f"law {self.law} materials {first.name} {second.name} elasticDamping off", (first, second),
@@ -46,7 +40,7 @@ class Drops:
         """On the rigid wall and against its like, of the same radius and of another."""
         words, radius = f"law {self.law} materials powder elasticDamping off", RADII["powder"]
         for pair, radius2 in (("powder:wall", None), ("powder:powder", radius), ("powder:powder", 2 * radius)):
-            laws = [self.tool_of(pair, speed, "--radius", str(radius), *(["--radius2", str(radius2)] if radius2 else [])) for speed in SPEEDS]
+            laws = [mpm_law(self.law, pair, speed, radius, radius2) for speed in SPEEDS]
             steps = [law["contact_time_s"] / 50 for law in laws]
             found = self.run_each((wall_deck("mpm", words, POWDER, radius, v, dt) if pair == "powder:wall" else
                                    pair_deck("mpm", words, (POWDER, POWDER), (radius, radius2), v, dt) for v, dt in zip(SPEEDS, steps)), "SPEED")

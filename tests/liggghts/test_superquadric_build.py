@@ -23,11 +23,7 @@ message(STATUS "flags=${{LIGGGHTS_FLAGS}}")
 
 class Configure(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-superquadric-")
-        self.folder = pathlib.Path(self._folder.name)
-
-    def tearDown(self):
-        self._folder.cleanup()
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-superquadric-")))
 
     def configure(self, symbols, version="3.8.0"):
         """Exit status and text of liggghts_find() for a library that defines `symbols`."""

@@ -16,15 +16,9 @@ WORLD = pathlib.Path(__file__).resolve().parent / "world"
 
 
 class World(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-world-")
-
-    def tearDown(self):
-        self._folder.cleanup()
-
     def take(self, name):
         """A copy of the deck's folder."""
-        self.folder = pathlib.Path(self._folder.name) / name
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-world-"))) / name
         shutil.copytree(WORLD / name, self.folder)
 
     def command(self, words, code, cwd=None):

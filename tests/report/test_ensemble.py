@@ -48,11 +48,7 @@ class Numbers(unittest.TestCase):
 
 class Folders(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.root = pathlib.Path(self.folder.name) / "sweep"
-
-    def tearDown(self):
-        self.folder.cleanup()
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "sweep"
 
     def test_what_follows_the_material_is_named(self):
         noise = [3, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8]
@@ -103,16 +99,12 @@ class Driver(unittest.TestCase):
     """A program in place of mpm writes the yield stress for a law; the command measures it."""
 
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.root = pathlib.Path(self.folder.name)
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         fake = self.root / "mpm"
         fake.write_text('#!/bin/sh\necho ran >> "$(dirname "$0")/count"\ngrep yield_stress "$2" | cut -d" " -f3 > "$4"\n')
         fake.chmod(0o755)
         for k in range(1, 7):
             (self.root / f"grain-{k}.toml").write_text(f"[material.grain]\nyield_stress = {k}e6\n")
-
-    def tearDown(self):
-        self.folder.cleanup()
 
     def run_tool(self, *words):
         return subprocess.run([str(ROOT / "tools/ensemble"), *sorted(str(p) for p in self.root.glob("grain-*.toml")), "-o", str(self.root / "out"),

@@ -19,9 +19,7 @@ def run(*words, **environment):
 
 class Scripts(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-sentence-")
-        self.addCleanup(self._folder.cleanup)
-        self.folder = pathlib.Path(self._folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-sentence-")))
 
     def test_each_has_it(self):
         self.assertGreater(len(SCRIPTS), 25)

@@ -24,9 +24,7 @@ def script(name):
 
 class Pictures(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-pictures-")
-        self.addCleanup(self._folder.cleanup)
-        self.folder = pathlib.Path(self._folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-pictures-")))
         self.addCleanup(page.plt.close, "all")
 
     def check(self, figure, named=True, cropped=False):

@@ -84,16 +84,11 @@ def loads(text):
 class Whole(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory(prefix="granulaw-report-")
-        cls.folder = pathlib.Path(cls._folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="granulaw-report-")))
         run_files.everything(cls.folder)
         cls.done = report(cls.folder)
         cls.html = (cls.folder / "page" / "report.html").read_text()
         cls.markdown = (cls.folder / "page" / "report.md").read_text()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._folder.cleanup()
 
     def row(self, *cells):
         """The line of the Markdown that holds all of these; where it stands in two tables, it is the same in both."""
