@@ -124,9 +124,11 @@ def cell(history, plastic):
     error = np.hypot(history.error or 0, plastic.error or 0)
     if not error:
         return ""
-    t, change = (plastic.mean - history.mean) / error, 100 * (plastic.mean / history.mean - 1) if history.mean else np.inf
+    t = abs(plastic.mean - history.mean) / error
+    if not history.mean:
+        return f"(t = {t:.0f})"
     if spread.welch(plastic, history) < 0.05:
-        return f"{change:+.1f} % (t = {abs(t):.1f})"
+        return f"{100 * (plastic.mean / history.mean - 1):+.1f} % (t = {t:.1f})"
     return f"not resolved: below {100 * spread.resolved(plastic, history):.1f} %"
 
 
@@ -140,7 +142,7 @@ def table(out, decks):
         observed = [*OBSERVED[name], *((f"{e}, mJ", 1, f"dissipated: {e}, mJ") for e in ENERGIES)]
         for key, factor, *title in observed:
             a, b = (spread.Sample(factor * row[key] for row in rows[:count]) for rows in found)
-            lines.append(f"| {name} ({count}) | {title[0] if title else key} | {a} | {b} | {cell(a, b)} |")
+            lines.append(f"| {name} ({count}) | {title[0] if title else key} | {a if a.mean else 0} | {b} | {cell(a, b)} |")
     return "\n".join(lines)
 
 
