@@ -36,6 +36,7 @@ GRANULAW_EXPOSE(PrimitiveType, LAMMPS_NS::PrimitiveWall, wType);
 GRANULAW_EXPOSE(PrimitiveNumbers, LAMMPS_NS::PrimitiveWall, param);
 GRANULAW_EXPOSE(IsSheared, LAMMPS_NS::FixWallGran, shear_);
 GRANULAW_EXPOSE(ShearSpeed, LAMMPS_NS::FixWallGran, vshear_);
+GRANULAW_EXPOSE(ShearAxis, LAMMPS_NS::FixWallGran, shearAxis_);
 GRANULAW_EXPOSE(HasTotal, LAMMPS_NS::FixInsert, ninsert_exists);
 GRANULAW_EXPOSE(InsertionTotal, LAMMPS_NS::FixInsert, ninsert);
 GRANULAW_EXPOSE(Inserted, LAMMPS_NS::FixInsert, ninserted);
@@ -352,7 +353,10 @@ void Planner::add_primitive_wall(lmp::FixWallGran& fix)
       ++centre;
     }
   }
-  if (fix.*exposed(IsSheared{})) w.drag_speed = std::max(w.drag_speed, std::abs(fix.*exposed(ShearSpeed{})));
+  if (!(fix.*exposed(IsSheared{}))) return;
+  // shear of a cylinder across its axis is a turn, in rad per time
+  const bool turns = shape > ZPLANE && fix.*exposed(ShearAxis{}) >= 0;
+  w.drag_speed = std::max(w.drag_speed, std::abs(fix.*exposed(ShearSpeed{})) * (turns ? numbers[0] : 1.0));
 }
 
 void Planner::look_at_meshes(bool moving)

@@ -193,6 +193,9 @@ class Scenes(Planned):
         self.assertEqual((conveyor["speed"], conveyor["drag_speed"]), (0, 0.5))
         shear = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", "zplane 0.0 shear x -0.7") + "run 100\n")["walls"][0]
         self.assertEqual(shear["drag_speed"], 0.7)
+        for direction, speed in (("y", 1.5 * 0.03), ("z", 1.5)):  # a turn, rad/s; a speed along the axis
+            drum = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", f"zcylinder 0.03 0 0 shear {direction} 1.5") + "run 100\n")["walls"][0]
+            self.assertAlmostEqual(drum["drag_speed"], speed, delta=1e-15)
         pipe = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", "zcylinder 0.03 0.01 -0.02") + "run 100\n")["walls"][0]
         self.assertEqual([round(x, 12) for x in pipe["box"]["low"] + pipe["box"]["high"]], [-0.02, -0.05, 0.0, 0.04, 0.01, 0.5])
 
