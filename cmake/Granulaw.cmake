@@ -10,11 +10,11 @@ function(granulaw_target name)
   endif()
 endfunction()
 
-# Sources of a library or program are compiled in groups of eight: a third of the compiler's time. No two files of a group may give one name to two things.
+# Sources of a library or program are compiled in groups: a third of the compiler's time, or less. No two files of a group may give one name to two things.
 option(GRANULAW_UNITY "Compile the sources in groups" ON)
 function(granulaw_grouped)
   foreach(target IN LISTS ARGN)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${GRANULAW_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${GRANULAW_UNITY} UNITY_BUILD_BATCH_SIZE 16)
   endforeach()
 endfunction()
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <boost/math/interpolators/makima.hpp>
@@ -16,6 +15,7 @@
 #include "atlas/unlike_pair.hpp"
 #include "atlas/tabulate_curve.hpp"
 #include "contact/pair.hpp"
+#include "linear/linear.hpp"
 
 namespace granulaw {
 
@@ -227,7 +227,7 @@ ElasticCorrection fit_correction(const std::vector<Sample>& samples, int terms)
     root(row) = std::sqrt(s.x);
     radius(row) = s.radius / std::sqrt(s.x) - 1;
   }
-  const Eigen::VectorXd c = m.colPivHouseholderQr().solve(force);
+  const Eigen::VectorXd c = least_squares(m, force);
   return {c(0), c(1), root.dot(radius) / root.dot(root), terms > 2 ? c(2) : 0.0};
 }
 

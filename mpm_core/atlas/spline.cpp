@@ -1,11 +1,11 @@
 #include "atlas/spline.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 #include <boost/math/special_functions/cardinal_b_spline.hpp>
 
 #include "base/error.hpp"
+#include "linear/linear.hpp"
 
 namespace granulaw {
 
@@ -67,7 +67,7 @@ Spline Spline::fit(std::span<const Sample> samples, double end, int intervals, d
       binomial *= -static_cast<double>(order - j) / (j + 1);
     }
   }
-  const Eigen::VectorXd solved = a.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd solved = least_squares(a, b);
   std::vector<double> c{solved(0), -0.5 * solved(0)};
   c.insert(c.end(), solved.data(), solved.data() + solved.size());
   HermiteColumn nodes;

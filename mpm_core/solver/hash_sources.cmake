@@ -1,7 +1,7 @@
 # cmake -DROOT=mpm_core -DBUILD="compiler and flags" -DOUTPUT=FILE -P hash_sources.cmake
-# Writes a header with one hash of all files in base and solver and of BUILD. The file is left alone if the
+# Writes a header with one hash of all files in base, linear and solver and of BUILD. The file is left alone if the
 # hash is the same, so that nothing is compiled again.
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/base/* ${ROOT}/solver/*)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/base/* ${ROOT}/linear/* ${ROOT}/solver/*)
 list(SORT files)
 set(all "${BUILD}")
 foreach(file IN LISTS files)

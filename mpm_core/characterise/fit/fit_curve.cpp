@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +10,7 @@
 #include "atlas/departure.hpp"
 #include "atlas/speed_interpolation.hpp"
 #include "atlas/spline.hpp"
+#include "linear/linear.hpp"
 
 namespace granulaw {
 
@@ -127,7 +127,7 @@ std::vector<double> impact_force_ratios(const ContactRecord& impact, const auto&
     for (int k = 0; k < terms; ++k) a(row, k) = basis(s.x / impact.depth, k);
     b(row) = std::log(s.force / press_force(s.x));
   }
-  const Eigen::VectorXd c = a.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd c = least_squares(a, b);
   std::vector<double> values;
   for (int n = 0; n < LawShape::VelocityEffect::shares; ++n) {
     const double share = static_cast<double>(n) / (LawShape::VelocityEffect::shares - 1);
@@ -169,7 +169,7 @@ ElasticCorrection fit_elastic_terms(std::span<const ContactRecord> presses, int 
     root(row) = w * std::sqrt(x);
     r(row) = w * (radius / std::sqrt(x) - 1);
   }
-  const Eigen::VectorXd c = a.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd c = least_squares(a, b);
   return {c(0), c(1), root.dot(r) / root.dot(root), terms > 2 ? c(2) : 0.0};
 }
 

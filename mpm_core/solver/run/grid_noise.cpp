@@ -1,8 +1,9 @@
 #include "solver/run/grid_noise.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "linear/linear.hpp"
 
 namespace granulaw {
 
@@ -59,7 +60,7 @@ void TreatedLoading::fit(const std::vector<const TraceSample*>& used, double dee
       a(k, j) = weight * (j == 0 ? 1 : j == 1 ? t : 2 * t * a(k, j - 1) / weight - a(k, j - 2) / weight);
     b(k) = weight * std::log(s.force);
   }
-  const Eigen::VectorXd x = a.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd x = least_squares(a, b);
   coefficients_.assign(x.data(), x.data() + x.size());
 }
 

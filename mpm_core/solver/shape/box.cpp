@@ -13,8 +13,6 @@ namespace granulaw {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Integrals over the body of 1, x^2, y^2, z^2.
 struct Moments
 {
@@ -86,13 +84,14 @@ class Box : public Shape
   PrincipalRadii principal_radii(const Vector3& direction) const override
   {
     // The normal has one component that is not zero on a face, two on an edge, three at a corner.
+    constexpr double flat = std::numeric_limits<double>::infinity();
     int along = 0;
     direction.cwiseAbs().minCoeff(&along);
     switch ((direction.array() != 0).count()) {
       case 1:
-        return {infinity, infinity, direction.unitOrthogonal()};
+        return {flat, flat, direction.unitOrthogonal()};
       case 2:
-        return {edge_radius_, infinity, Vector3::Unit(along).cross(direction)};
+        return {edge_radius_, flat, Vector3::Unit(along).cross(direction)};
       default:
         return {edge_radius_, edge_radius_, direction.unitOrthogonal()};
     }

@@ -16,7 +16,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi, rounding_of_balls = 1e-12;
+constexpr double full_turn = 2 * std::numbers::pi, rounding_of_balls = 1e-12;
 
 bool contains(const ClumpBall& outer, const ClumpBall& inner)
 {
@@ -27,9 +27,9 @@ bool contains(const ClumpBall& outer, const ClumpBall& inner)
 std::vector<std::pair<double, double>> gaps_between(std::vector<std::pair<double, double>> covered)
 {
   for (std::size_t k = covered.size(); k-- > 0;)
-    if (covered[k].second > turn) {
-      covered.emplace_back(0, covered[k].second - turn);
-      covered[k].second = turn;
+    if (covered[k].second > full_turn) {
+      covered.emplace_back(0, covered[k].second - full_turn);
+      covered[k].second = full_turn;
     }
   std::sort(covered.begin(), covered.end());
   std::vector<std::pair<double, double>> gaps;
@@ -38,7 +38,7 @@ std::vector<std::pair<double, double>> gaps_between(std::vector<std::pair<double
     if (from > reached + rounding_of_balls) gaps.emplace_back(reached, from);
     reached = std::max(reached, to);
   }
-  if (reached < turn - rounding_of_balls) gaps.emplace_back(reached, turn);
+  if (reached < full_turn - rounding_of_balls) gaps.emplace_back(reached, full_turn);
   return gaps;
 }
 
@@ -235,7 +235,7 @@ class Clump : public Shape
       if (!(cosine < 1)) continue;
       if (cosine <= -1) return;
       const double half = std::acos(cosine), middle = std::atan2(v, u);
-      const double from = std::fmod(middle - half + 2 * turn, turn);
+      const double from = std::fmod(middle - half + 2 * full_turn, full_turn);
       covered.emplace_back(from, from + 2 * half);
     }
     groove.exposed = gaps_between(std::move(covered));
@@ -272,7 +272,7 @@ class Clump : public Shape
       const double u = q.dot(groove.along), v = q.dot(groove.across), in_plane = std::hypot(u, v);
       const double height2 = q.squaredNorm() - in_plane * in_plane, gap = in_plane - groove.radius;
       if (height2 + gap * gap >= best.distance * best.distance) continue;
-      const double angle = std::fmod(std::atan2(v, u) + turn, turn);
+      const double angle = std::fmod(std::atan2(v, u) + full_turn, full_turn);
       for (const auto& [from, to] : groove.exposed)
         if (angle >= from && angle <= to)
           improve(groove.centre +

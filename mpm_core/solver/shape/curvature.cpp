@@ -1,8 +1,9 @@
 #include "solver/shape/curvature.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <limits>
+
+#include "linear/linear.hpp"
 
 namespace granulaw {
 
@@ -16,12 +17,12 @@ Eigen::Matrix<double, 3, 2> tangents(const Vector3& normal)
 
 PrincipalRadii radii_of_curvatures(const Eigen::Matrix2d& curvature, const Eigen::Matrix<double, 3, 2>& frame)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(curvature);
+  const PlaneModes principal = symmetric_modes(curvature);
   const auto radius = [&](int k) {
-    const double value = principal.eigenvalues()[k];
+    const double value = principal.values[k];
     return value == 0 ? std::numeric_limits<double>::infinity() : 1 / value;
   };
-  return {radius(1), radius(0), frame * principal.eigenvectors().col(1)};
+  return {radius(1), radius(0), frame * principal.vectors.col(1)};
 }
 
 PrincipalRadii radii_of_level_set(const Vector3& gradient, const Eigen::Matrix3d& hessian)

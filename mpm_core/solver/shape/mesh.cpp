@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/stl_file.hpp"
+#include "linear/linear.hpp"
 #include "solver/shape/box_tree.hpp"
 #include "solver/shape/curvature.hpp"
 #include "solver/shape/shapes.hpp"
@@ -278,7 +279,7 @@ PrincipalRadii fit_paraboloid(const std::vector<Vector3>& points, const Vector3&
     terms.row(row) << 1, s.x(), s.y(), 0.5 * s.x() * s.x(), s.x() * s.y(), 0.5 * s.y() * s.y();
     height[row] = -normal.dot(points[k] - origin) / size;
   }
-  const Eigen::VectorXd fit = terms.colPivHouseholderQr().solve(height);
+  const Eigen::VectorXd fit = least_squares(terms, height);
   Eigen::Matrix2d curvature;
   curvature << fit[3], fit[4], fit[4], fit[5];
   return radii_of_curvatures(curvature / size, frame);

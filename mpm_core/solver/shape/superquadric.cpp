@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "linear/linear.hpp"
 #include "solver/shape/curvature.hpp"
 #include "solver/shape/shapes.hpp"
 
@@ -204,10 +205,9 @@ class Superquadric : public Shape
       if (b.norm() < 1e-8 * distance + 1e-15 * axes_.maxCoeff()) break;
       const Eigen::Matrix2d second =
           Eigen::Matrix2d::Identity() + w.dot(normal) / slope * (frame.transpose() * hessian * frame).eval();
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> modes(second);
-      const Eigen::Vector2d stiffness = modes.eigenvalues().cwiseAbs().cwiseMax(0.05);  // downhill always
-      Eigen::Vector2d step =
-          modes.eigenvectors() * (modes.eigenvectors().transpose() * b).cwiseQuotient(stiffness).eval();
+      const PlaneModes modes = symmetric_modes(second);
+      const Eigen::Vector2d stiffness = modes.values.cwiseAbs().cwiseMax(0.05);  // downhill always
+      Eigen::Vector2d step = modes.vectors * (modes.vectors.transpose() * b).cwiseQuotient(stiffness).eval();
       bool better = false;
       for (int halving = 0; halving < 30 && !better; ++halving, step *= 0.5) {
         const Vector3 trial = (p + frame * step).cwiseMax(0.0);
