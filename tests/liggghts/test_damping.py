@@ -3,7 +3,7 @@ import math
 import unittest
 
 from collisions import wall_deck
-from harness import POWDER, Deck, head, properties, sphere_mass
+from harness import POWDER, Deck, head, properties, sphere_mass, worst
 
 RADIUS = 1.7e-3
 MASS = sphere_mass(RADIUS, POWDER.density)
@@ -93,7 +93,7 @@ class Damping(Deck):
             self.assertEqual(len(values), 40)
             return values
         damped, free = energies("elasticDamping 0.02"), energies("elasticDamping off")
-        self.assertLess(max(damped[-5:]), 1e-6 * max(free[-5:]))
+        self.assertLess(worst(damped[-5:]), 1e-6 * max(free[-5:]))
         self.assertGreater(max(free[-10:]), 0.5 * max(free[:10]))
 
     def test_coefficient_of_restitution(self):

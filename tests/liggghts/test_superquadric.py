@@ -95,7 +95,7 @@ class Shapes(Deck):
     def difference(self, one, other):
         """Largest differences of each column of two paths, over its largest value."""
         self.assertEqual(len(one), len(other))
-        return [max(abs(a[c] - b[c]) for a, b in zip(one, other)) / max(1e-300, *(abs(a[c]) for a in one))
+        return [harness.worst(abs(a[c] - b[c]) for a, b in zip(one, other)) / max(1e-300, *(abs(a[c]) for a in one))
                 for c in range(len(one[0]))]
 
     def test_sphere(self):

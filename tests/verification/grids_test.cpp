@@ -194,10 +194,9 @@ TEST(Updated, FliesFreely)
   const MovingPoints& m = *b.moving;
   double worst = 0, worst_stress = 0, worst_place = 0;
   for (int p = 0; p < b.points(); ++p) {
-    worst = std::max({worst, std::abs(m.vz[p] - v), std::abs(m.vr[p])});
-    worst_stress = std::max({worst_stress, std::abs(m.tzz[p]), std::abs(m.trr[p]), std::abs(m.trz[p])});
-    worst_place = std::max(
-        {worst_place, std::abs(m.r[p] - before.r[p]), std::abs(m.z[p] - before.z[p] - v * dt * steps)});
+    worst = larger(worst, larger(std::abs(m.vz[p] - v), std::abs(m.vr[p])));
+    worst_stress = larger(worst_stress, larger(std::abs(m.tzz[p]), larger(std::abs(m.trr[p]), std::abs(m.trz[p]))));
+    worst_place = larger(worst_place, larger(std::abs(m.r[p] - before.r[p]), std::abs(m.z[p] - before.z[p] - v * dt * steps)));
   }
   EXPECT_LT(worst, 1e-12 * v);         // rounding of 500 transfers
   EXPECT_LT(worst_stress, 1e-14 * v);  // of v dt/h in a strain, 500 times at random
