@@ -80,6 +80,14 @@ class Deck(unittest.TestCase):
             self.assertEqual(done.returncode, 0, text[-3000:])
         return text
 
+    def refused(self, deck, *parts, **how):
+        """One sentence that holds all of these, the same on all ranks."""
+        text = self.run_deck(deck, expect_failure=True, **how)
+        errors = [line for line in text.splitlines() if line.startswith("ERROR")]
+        self.assertEqual(len(errors), 1, text[-3000:])
+        for part in parts:
+            self.assertIn(part, errors[0])
+
     def result(self, text, name):
         """The numbers behind `print "NAME ..."`."""
         found = self.results(text, name)

@@ -18,14 +18,6 @@ class Guards(Deck):
     def deck(self, model, more="", **keywords):
         return wall_deck(model, self.words(model, more), POWDER, RADIUS, 1.0, DT, **keywords)
 
-    def refused(self, deck, *sentences, ranks=1):
-        """One sentence, the same whoever asks."""
-        text = self.run_deck(deck, ranks=ranks, expect_failure=True)
-        errors = [line for line in text.splitlines() if line.startswith("ERROR")]
-        self.assertEqual(len(errors), 1, text[-2000:])
-        for sentence in sentences:
-            self.assertIn(sentence, errors[0])
-
     def test_pages_of_one_particle(self):
         """A page as short as LIGGGHTS allows, ten numbers for each of `one` neighbours, holds histories of more values than that, with a wall of each kind."""
         small = "neigh_modify delay 0 one 5000 page 50000"
