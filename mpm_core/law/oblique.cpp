@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "contact/element.hpp"
 #include "contact/tabulated.hpp"
+#include "law/contact_time.hpp"
 
 namespace granulaw {
 
@@ -66,7 +67,7 @@ ObliqueAnswer replay_oblique(const PairLaw& pair, const ObliqueThrow& thrown, Ta
   if (const double fastest = pair.max_speed(r, m); thrown.velocity > fastest)
     fail("replay of an oblique impact", "is faster than the law holds for", fmt::format("{:.4g} m/s", thrown.velocity),
          fmt::format("up to {:.4g} m/s", fastest));
-  const double dt = 2.87 * std::pow(m * m / (e_star * e_star * r * thrown.velocity), 0.2) / steps;
+  const double dt = customary_contact_time(e_star, r, m, thrown.velocity) / steps;
   const Tabulated normal(pair, pair.measure(), Scale{});
   const LawMaterial& material = pair.yielding->material;
   const ElasticBody body{material.youngs_modulus, material.poisson_ratio};

@@ -5,6 +5,7 @@
 
 #include "base/gauss.hpp"
 #include "contact/pair.hpp"
+#include "law/contact_time.hpp"
 
 namespace granulaw {
 
@@ -28,9 +29,7 @@ double contact_duration(const LawMaterial& a, double radius_a, const LawMaterial
   const double yield = std::min(a.yield_stress, b.yield_stress);
   const double e_star = 1 / (1 / a.e_star() + 1 / b.e_star());
   const double slowest = std::min(wave_speed(a), wave_speed(b));
-  const auto elastic = [&](double velocity) {
-    return 2.87 * std::pow(mass * mass / (e_star * e_star * radius * velocity), 0.2);
-  };
+  const auto elastic = [&](double velocity) { return customary_contact_time(e_star, radius, mass, velocity); };
   if (!std::isfinite(yield)) return elastic(0.01 * slowest);
   return std::max(std::sqrt(mass / (radius * yield)), elastic(0.05 * slowest));
 }

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "contact/body_behind.hpp"
+#include "law/contact_time.hpp"
 
 namespace granulaw {
 
@@ -68,10 +69,7 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
                         int steps_per_contact, double compliance)
 {
-  // Hertz's contact time 2.87 (m*^2/(E*^2 R* V))^(1/5): at most a few times too short for a plastic contact.
-  const double e_star = pair.mapping.e_star_pair();
-  const double duration =
-      2.87 * std::pow(effective_mass * effective_mass / (e_star * e_star * r_eff * velocity), 0.2);
+  const double duration = customary_contact_time(pair.mapping.e_star_pair(), r_eff, effective_mass, velocity);
   const double impact_overlap = pair.impact_overlap(r_eff, effective_mass, velocity);
   double deepest = 0;  // of the law
   const auto respond = [&](double x) { return pair.evaluate(r_eff, x, deepest, impact_overlap); };

@@ -23,6 +23,7 @@
 #include "bed.hpp"
 #include "drops.hpp"
 #include "law/contact_limits.hpp"
+#include "law/contact_time.hpp"
 #include "law/stated_collision.hpp"
 #include "law_report.hpp"
 #include "material_file/plausible.hpp"
@@ -72,7 +73,7 @@ struct Formula
 
   Replay collision(double speed, int steps) const
   {
-    const double duration = 2.87 * std::pow(m_eff * m_eff / (pair.e_star * pair.e_star * r_eff * speed), 0.2);
+    const double duration = customary_contact_time(pair.e_star, r_eff, m_eff, speed);
     return replay_collision(
         [this](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); }, m_eff, speed,
         duration, steps);
