@@ -28,7 +28,11 @@ class Sample:
         return None if self.deviation is None else self.deviation / math.sqrt(self.values.size)
 
     def __str__(self):
-        return f"{self.mean:.4g}" + ("" if self.error is None else f" ± {self.error:.1g}")
+        """The mean to the decimal of the error's first digit."""
+        if not self.error:
+            return f"{self.mean:.4g}" + ("" if self.error is None else " ± 0")
+        digits = max(0, -math.floor(math.log10(self.error)))
+        return f"{self.mean:.{digits}f} ± {self.error:.{digits}f}" if digits <= 5 else f"{self.mean:.4g} ± {self.error:.1g}"
 
 
 def student_tail(t, dof):
