@@ -10,6 +10,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+
 HERE = Path(__file__).parent
 RUNS = (("test_restitution.py",), ("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_invariance.py", "full", "Collapse"),
         ("test_geometry.py",), ("test_hard_cases.py", "full"))
@@ -26,13 +28,13 @@ OURS = ("mpm", "thornton")
 
 
 def worst(key, own=lambda row: row["model"] in OURS):
-    """The largest |row[key]| of our models' rows."""
-    return lambda rows: max(abs(row[key]) for row in rows if own(row))
+    """The largest |row[key]| of our models' rows; not a number where one is none."""
+    return lambda rows: float(np.max([abs(row[key]) for row in rows if own(row)]))
 
 
 def farthest(key, law, own=lambda row: True):
     """The largest |e - law|."""
-    return lambda rows: max(abs(row[key] - row[law]) for row in rows if own(row) and row[law] is not None)
+    return lambda rows: float(np.max([abs(row[key] - row[law]) for row in rows if own(row) and row[law] is not None]))
 
 
 # rows of the first table: a table below, what is measured, the test's limit, the largest value of our models
