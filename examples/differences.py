@@ -66,7 +66,8 @@ def table(out):
         lines.append(f"| {deck} ({seeds}) | {quantity} | " + " | ".join(str(f.get(m, "")) for m in sweep.MODELS) + " | " + " | ".join(verdicts) + " |")
     if alike:
         lines += ["", "No two models differ (p over 0.05) in:", ""]
-        lines += [f"- {deck}: {'; '.join(quantities)}" for deck, quantities in alike.items()]
+        for deck, quantities in alike.items():
+            lines += [f"- {deck}:", *(f"  - {quantity}" for quantity in quantities)]
     return "\n".join(lines + [""] + equivalence(found)) + "\n"
 
 
