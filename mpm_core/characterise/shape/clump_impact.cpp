@@ -6,8 +6,9 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "contact/body_behind.hpp"
 #include "base/larger.hpp"
+#include "contact/body_behind.hpp"
+#include "law/contact_time.hpp"
 
 namespace granulaw {
 
@@ -47,7 +48,7 @@ ClumpAnswer clump_on_wall(const BodyLaw& law, const std::vector<ClumpBall>& ball
     finest = std::min(finest, ball.radius);
   }
   // the replay of one contact has 20000 steps; 5000 give e within 1e-5 of it (clump_impact_test)
-  const double dt = 2.87 / 5000 * std::pow(std::pow(body.mass / law.material.e_star(), 2) / (finest * velocity), 0.2);
+  const double dt = customary_contact_time(law.material.e_star(), finest, body.mass, velocity) / 5000;
   const Eigen::Matrix3d compliance = body.inertia.inverse();
   Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
   Vector3 spin_momentum = Vector3::Zero(), torque = Vector3::Zero();
