@@ -1,17 +1,13 @@
 """Decks, runs and numbers for the tests of the LIGGGHTS plug-in."""
-import json
 import math
 import os
-import pathlib
 import re
-import subprocess
-import tempfile
-import unittest
 
-LAUNCHER = os.environ["GRANULAW_LAUNCHER"]
+import pytest
+from programs import LAUNCHER, MPIRUN, answer, run
+
 PLUGIN = os.environ["GRANULAW_PLUGIN"]
 FIXTURE = os.environ["GRANULAW_FIXTURE"]
-MPIRUN = os.environ.get("GRANULAW_MPIRUN", "mpirun")
 
 
 class Material:
@@ -52,46 +48,41 @@ def worst(values):
     return math.nan if any(v != v for v in values) else max(values)
 
 
-class Deck(unittest.TestCase):
-    """A test with a folder of its own."""
+class Deck:
+    """A test with a folder and a law of its own."""
 
-    def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-liggghts-")))
-        self.law = self.folder / "powder.h5"
+    @pytest.fixture(autouse=True)
+    def _own_folder(self, tmp_path):
+        self.folder, self.law = tmp_path, tmp_path / "powder.h5"
         self.fixture("write", self.law)
+        self.prepare()
+
+    def prepare(self):
+        """Further files."""
 
     def fixture(self, *words):
-        done = subprocess.run([FIXTURE, *map(str, words)], capture_output=True, text=True, check=True)
-        return [float(w) for w in done.stdout.split()] if done.stdout else []
+        return [float(w) for w in run(FIXTURE, *words).stdout.split()]
 
     def run_deck(self, deck, ranks=1, launcher=None, environment=None, expect_failure=False):
         """Runs and returns what was printed. Fails the test unless the exit status is as expected."""
-        path = self.folder / "in.deck"
-        path.write_text(deck)
-        command = [launcher or LAUNCHER, "-in", str(path), "-log", str(self.folder / "log.liggghts")]
-        if ranks > 1:
-            command = [MPIRUN, "--oversubscribe", "-np", str(ranks)] + command
-        done = subprocess.run(command, capture_output=True, text=True, errors="backslashreplace", cwd=self.folder, timeout=int(os.environ.get("GRANULAW_DECK_TIMEOUT", "300")),
-                              env={**os.environ, **(environment or {})})
-        text = done.stdout + done.stderr
-        if expect_failure:
-            self.assertNotEqual(done.returncode, 0, "should have failed:\n" + text[-3000:])
-        else:
-            self.assertEqual(done.returncode, 0, text[-3000:])
-        return text
+        (self.folder / "in.deck").write_text(deck)
+        command = [MPIRUN, "--oversubscribe", "-np", ranks] if ranks > 1 else []
+        done = run(*command, launcher or LAUNCHER, "-in", self.folder / "in.deck", "-log", self.folder / "log.liggghts", code=None if expect_failure else 0,
+                   cwd=self.folder, timeout=int(os.environ.get("GRANULAW_DECK_TIMEOUT", "300")), env=environment)
+        return done.stdout + done.stderr
 
     def refused(self, deck, *parts, **how):
         """One sentence that holds all of these, the same on all ranks."""
         text = self.run_deck(deck, expect_failure=True, **how)
         errors = [line for line in text.splitlines() if line.startswith("ERROR")]
-        self.assertEqual(len(errors), 1, text[-3000:])
+        assert len(errors) == 1, text[-3000:]
         for part in parts:
-            self.assertIn(part, errors[0])
+            assert part in errors[0]
 
     def result(self, text, name):
         """The numbers behind `print "NAME ..."`."""
         found = self.results(text, name)
-        self.assertTrue(found, f"no line '{name} ...' in:\n{text[-3000:]}")
+        assert found, f"no line '{name} ...' in:\n{text[-3000:]}"
         return found[-1]
 
     def results(self, text, name):
@@ -102,16 +93,14 @@ class Deck(unittest.TestCase):
         decks = list(decks)
         text = self.run_deck("clear\n".join(decks), ranks=ranks)
         found = self.results(text, name)
-        self.assertEqual(len(found), len(decks), text[-3000:])
+        assert len(found) == len(decks), text[-3000:]
         return found
 
 
 def mpm_law(law, pair, speed, radius, radius2=None):
     """A collision as `mpm law` integrates it."""
     words = ["--radius2", repr(radius2)] if radius2 else []
-    done = subprocess.run([os.environ["GRANULAW_MPM"], "law", law, "--pair", pair, "--radius", repr(radius), *words, "--velocity", repr(speed), "--json"],
-                          capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
+    return answer("law", law, "--pair", pair, "--radius", repr(radius), *words, "--velocity", repr(speed), "--json")
 
 
 def sphere_mass(radius, density):

@@ -1,5 +1,4 @@
 """Input that a user can get wrong: each ends with one clear sentence and a non-zero status."""
-import unittest
 
 from collisions import wall_deck
 from harness import POWDER, Deck, Material
@@ -7,7 +6,7 @@ from harness import POWDER, Deck, Material
 RADIUS = 1.7e-3
 
 
-class BadInput(Deck):
+class TestBadInput(Deck):
     def deck(self, words, material=POWDER, model="mpm", **keywords):
         return wall_deck(model, words, material, RADIUS, 1.0, 2e-7, **keywords)
 
@@ -82,11 +81,7 @@ class BadInput(Deck):
     def test_beyond_the_table(self):
         fast = wall_deck("mpm", self.good(), POWDER, RADIUS, 60.0, 2e-7)
         text = self.run_deck(fast, expect_failure=True)
-        self.assertIn("more than 5 % beyond the law's table, which ends at 0.1", text)
+        assert "more than 5 % beyond the law's table, which ends at 0.1" in text
         text = self.run_deck(wall_deck("mpm", self.good() + " beyondRange continue", POWDER, RADIUS, 60.0, 2e-7,
                                        wall_words="beyondRange continue"))
-        self.assertIn("contact-steps beyond the law's table", text)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert "contact-steps beyond the law's table" in text

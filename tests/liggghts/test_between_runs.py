@@ -1,11 +1,11 @@
 """Between two runs: the histories of open contacts outlast every command that leaves them alone (matrix_between.py).
 
-test_between_runs.py Commands   every command on one rank, those that touch lists and particles on two
-test_between_runs.py Thorough   every command on two ranks; a restart file after each, read on the other number of ranks"""
+::TestCommands   every command on one rank, those that touch lists and particles on two
+::TestThorough   every command on two ranks; a restart file after each, read on the other number of ranks"""
 import math
 import re
-import unittest
 
+from pytest import mark
 import matrix_between as between
 from harness import Deck, worst
 
@@ -16,10 +16,7 @@ SPLIT = f"run {between.BEFORE}\n{{}}\nrun {between.AFTER}\n"
 
 
 class Between(Deck):
-    maxDiff = None
-
-    def setUp(self):
-        super().setUp()
+    def prepare(self):
         for name, text in between.FILES.items():
             (self.folder / name).write_text(text)
 
@@ -42,7 +39,7 @@ class Between(Deck):
         if by_place:
             ours = {k: min(ours.values(), key=lambda row: math.dist(row[:3], there[:3])) for k, there in theirs.items()}
         common = ours.keys() & theirs.keys()
-        self.assertGreater(len(common), 50)
+        assert len(common) > 50
         scale = [max(map(abs, column)) for column in zip(*theirs.values())]
         return worst(abs(a - b) / s for k in common for a, b, s in zip(ours[k], theirs[k], scale))
 
@@ -60,27 +57,26 @@ class Between(Deck):
             apart = self.apart(f"{k}.txt", f"{k}.twin.txt" if twin else "whole.txt", by_place="delete_atoms" in lines or "compress_tags" in lines)
             if not apart <= ROUNDING:
                 found[lines] = apart
-        self.assertEqual(found, {}, (model, ranks))
+        assert found == {}, (model, ranks)
 
 
 TOUCHING = ("atom_modify", "change_box", "create_atoms", "delete_atoms", "neigh_modify", "neighbor", "run", "set", "write_restart")
 
 
-class Commands(Between):
-    def test_every_command(self):
-        for model in MODELS:
-            with self.subTest(model=model):
-                self.check(model, 1, between.rows())
+class TestCommands(Between):
+    @mark.parametrize("model", MODELS)
+    def test_every_command(self, model):
+        self.check(model, 1, between.rows())
 
     def test_commands_that_touch_lists_and_particles(self):
         self.check("mpm", 2, [row for row in between.rows() if row[0] in TOUCHING or "coord/atom" in row[1]])
 
-    def test_histories_matter(self):
+    @mark.parametrize("model", MODELS)
+    def test_histories_matter(self, model):
         """The rows would show it: beds whose contacts begin anew are others."""
-        for model in MODELS:
-            self.run_deck(self.deck(model, SPLIT.format(""), "whole.txt"))
-            self.run_deck(self.deck(model, SPLIT.format("neigh_modify exclude group all all\nrun 0\nneigh_modify exclude none"), "lost.txt"))
-            self.assertGreater(self.apart("lost.txt", "whole.txt"), 0.01, model)
+        self.run_deck(self.deck(model, SPLIT.format(""), "whole.txt"))
+        self.run_deck(self.deck(model, SPLIT.format("neigh_modify exclude group all all\nrun 0\nneigh_modify exclude none"), "lost.txt"))
+        assert self.apart("lost.txt", "whole.txt") > 0.01, model
 
     def test_another_search(self):
         """`neighbor ... nsq` makes all lists anew; it needs primitive walls."""
@@ -95,12 +91,12 @@ class Commands(Between):
             hybrid = lambda lines, file: re.sub(r"pair_style gran (.*)\npair_coeff \* \*", r"pair_style hybrid gran \1\npair_coeff * * gran", self.deck(model, lines, file))
             self.run_deck(self.deck(model, SPLIT.format(""), "alone.txt"))
             self.run_deck(hybrid(SPLIT.format("neigh_modify page 200000\ncompute n all coord/atom 0.0036"), "hybrid.txt"))
-            self.assertLess(self.apart("hybrid.txt", "alone.txt"), ROUNDING, model)
+            assert self.apart("hybrid.txt", "alone.txt") < ROUNDING, model
         for model in (*MODELS, "hertz"):
             two = ("fix v1 all property/global characteristicVelocity scalar 2.0\npair_style hybrid gran \\1 gran model hooke tangential off\n"
                    "pair_coeff 1 1 gran 1\npair_coeff 2 2 gran 1\npair_coeff 1 2 gran 2")
             text = self.run_deck(re.sub(r"pair_style gran (.*)\npair_coeff \* \*", two, self.deck(model, "run 1\n", "two.txt")), expect_failure=True)
-            self.assertIn("ERROR: pair_style hybrid: LIGGGHTS keeps the contact histories of one sub-style gran alone", text)
+            assert "ERROR: pair_style hybrid: LIGGGHTS keeps the contact histories of one sub-style gran alone" in text
 
     def test_a_servo_lid_and_a_box_that_shrinks(self):
         """The lid is pressed on by a controller; the box shrinks (fix deform stands behind the first run, which makes the histories)."""
@@ -111,7 +107,7 @@ class Commands(Between):
                 change = lambda lines, file: self.deck("mpm", first + lines, file).replace(old, new)
                 self.run_deck(change(f"run {between.BEFORE + between.AFTER}\n", "whole.txt"), ranks=ranks)
                 self.run_deck(change(SPLIT.format("neigh_modify page 200000\ncompute n all coord/atom 0.0036"), "split.txt"), ranks=ranks)
-                self.assertLess(self.apart("split.txt", "whole.txt"), ROUNDING, (new, ranks))
+                assert self.apart("split.txt", "whole.txt") < ROUNDING, (new, ranks)
 
     def test_growth_and_change_of_type(self):
         """Radii that grow and types that change while spheres touch: the run that foresaw them and runs that begin on the way see one bed."""
@@ -124,29 +120,29 @@ class Commands(Between):
                 self.run_deck(self.deck(model, whole, "whole.txt"))
                 for ranks in (1,) if name == "growth" else (1, 2):  # other ranks learn of new radii when lists are made, with every model
                     self.run_deck(self.deck(model, split, "split.txt"), ranks=ranks)
-                    self.assertLess(self.apart("split.txt", "whole.txt"), ROUNDING, (name, model, ranks))
+                    assert self.apart("split.txt", "whole.txt") < ROUNDING, (name, model, ranks)
 
     def test_stock_models(self):
         """Decks of Hertz alone, and with walls of ours, keep their springs under liggghts-mpm as well."""
         rows = [row for row in between.rows() if row[1] in ("neigh_modify page 200000", "write_restart other.restart\nneigh_modify page 200000", "compute n all coord/atom 0.0036",
                                                             "delete_atoms group low compress yes")]
-        self.assertEqual(len(rows), 4)
+        assert len(rows) == 4
         split = SPLIT.format("")  # Hertz keeps the springs of contacts that part until the lists are made again, as a run does when it begins
         self.check("hertz", 1, rows, split, one_process=False)  # `clear` takes the launcher's classes away where no model of ours brings them back
         self.check("hertz", 1, rows, split, wall_model="mpm")
 
-    def test_restart_on_the_way(self):
+    @mark.parametrize("model", MODELS)
+    def test_restart_on_the_way(self, model):
         """A file that a run writes on its way holds the histories of its step, not of the last rebuild of the lists."""
-        for model in MODELS:
-            self.run_deck(self.deck(model, f"restart {between.BEFORE} way.*.restart\nrun {between.BEFORE + between.AFTER}\n", "whole.txt"))
-            self.run_deck(between.again(model, f"way.{between.BEFORE}.restart") + f"run {between.AFTER}\n" + between.state("rest.txt"))
-            self.assertLess(self.apart("rest.txt", "whole.txt"), ROUNDING, model)
+        self.run_deck(self.deck(model, f"restart {between.BEFORE} way.*.restart\nrun {between.BEFORE + between.AFTER}\n", "whole.txt"))
+        self.run_deck(between.again(model, f"way.{between.BEFORE}.restart") + f"run {between.AFTER}\n" + between.state("rest.txt"))
+        assert self.apart("rest.txt", "whole.txt") < ROUNDING, model
 
 
-class Thorough(Between):
-    def test_every_command_on_two_ranks(self):
-        for model in MODELS:
-            self.check(model, 2, between.rows())
+class TestThorough(Between):
+    @mark.parametrize("model", MODELS)
+    def test_every_command_on_two_ranks(self, model):
+        self.check(model, 2, between.rows())
 
     def test_a_restart_file_after_every_command(self):
         rows = between.rows()
@@ -157,8 +153,4 @@ class Thorough(Between):
                 decks = [between.again(model, f"{k}.restart") + f"run {between.AFTER}\n" + between.state(f"{k}.rest.txt") for k in range(len(rows))]
                 self.run_deck("clear\n".join(decks), ranks=3 - ranks)
                 found = {lines: apart for k, (_, lines, _) in enumerate(rows) if not (apart := self.apart(f"{k}.txt", f"{k}.rest.txt", "compress_tags" in lines)) <= ROUNDING}
-                self.assertEqual(found, {}, (model, ranks))
-
-
-if __name__ == "__main__":
-    unittest.main()
+                assert found == {}, (model, ranks)

@@ -1,20 +1,20 @@
 """granulaw.h, called from programs in C: against `mpm law`, and against the plug-in to the last bit."""
 import math
 import os
-import subprocess
-import unittest
+import re
 
+from pytest import approx, mark
 from harness import GLASS, POWDER, Deck, Material, head, mpm_law, properties, sphere_mass, worst
+from programs import run
 
 COLLIDE, FORCES = (os.environ[k] for k in ("GRANULAW_COLLIDE", "GRANULAW_CONTACT_FORCES"))
 RADIUS = 1.7e-3
 RIGID = Material("rigid", 1500.0, 1e30, 0.3, 1e30)
 
 
-class CInterface(Deck):
+class TestCInterface(Deck):
     def call(self, program, *words, given="", expect_failure=False):
-        done = subprocess.run([program, *map(str, words)], input=given, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 1 if expect_failure else 0, done.stderr)
+        done = run(program, *words, input=given, code=1 if expect_failure else 0)
         return done.stderr if expect_failure else done.stdout
 
     def test_collisions_are_those_of_mpm_law(self):
@@ -37,10 +37,10 @@ class CInterface(Deck):
                 found = {name: float(value) for name, value in map(str.split, self.call(COLLIDE, law, a, b, radius, partner, repr(mass), speed).splitlines())}
                 # mpm law prints ten digits
                 for key, name in (("e", "e"), ("force_max", "force_max_N"), ("delta_max", "delta_max_m")):
-                    self.assertAlmostEqual(found[key] / expected[name], 1.0, delta=1e-9, msg=f"{kind} {pair} {speed} {key}")
+                    assert found[key] / expected[name] == approx(1.0, abs=1e-9), f"{kind} {pair} {speed} {key}"
                 # rounding of ten digits; with an axis the table of work, between levels as good as Curve::least_loss
-                self.assertAlmostEqual(found["plastic"] + found["waves"], 1 - found["e"]**2, delta=1e-9 if kind == "plain" else 2e-4)
-                self.assertEqual(found["waves"] > 0, kind == "composed" and pair == "powder:glass" and partner == math.inf)
+                assert found["plastic"] + found["waves"] == approx(1 - found["e"]**2, abs=(1e-9 if kind == "plain" else 2e-4))
+                assert (found["waves"] > 0) == (kind == "composed" and pair == "powder:glass" and partner == math.inf)
 
     def led(self, tangential, spin=(0.0, 0.0)):
         """A sphere that turns is led into a wall, back and in again, sideways: force and torque on it by granulaw.h, and by LIGGGHTS."""
@@ -81,32 +81,28 @@ class CInterface(Deck):
             couples.append(abs(couple[0]))
             # torque of a force at -lever n: -lever n x F
             found.append([x, y, normal * nz + z, couple[0] + lever * nz * y, couple[1] - lever * nz * x, couple[2]])
-        self.assertEqual(len(found), 17 * len(velocities))
-        self.assertGreater(sum(f[2] > 0 for f in found), 30)
-        self.assertGreater(sum(abs(f[0]) > 0 for f in found), 30)
-        self.assertEqual(sum(c > 0 for c in couples) > 30, tangential == "plastic")
+        assert len(found) == 17 * len(velocities)
+        assert sum(f[2] > 0 for f in found) > 30
+        assert sum(abs(f[0]) > 0 for f in found) > 30
+        assert (sum(c > 0 for c in couples) > 30) == (tangential == "plastic")
         return found, expected
 
-    def test_forces_are_those_of_the_plugin(self):
-        for tangential in ("history", "plastic"):
-            found, expected = self.led(tangential)
-            self.assertEqual([f[:3] for f in found], [f[:3] for f in expected])
+    @mark.parametrize("tangential", ("history", "plastic"))
+    def test_forces_are_those_of_the_plugin(self, tangential):
+        found, expected = self.led(tangential)
+        assert [f[:3] for f in found] == [f[:3] for f in expected]
 
-    def test_forces_and_couples_of_a_sphere_that_turns_are_those_of_the_plugin(self):
+    @mark.parametrize("tangential", ("history", "plastic"))
+    def test_forces_and_couples_of_a_sphere_that_turns_are_those_of_the_plugin(self, tangential):
         """The lever, by which spin slides the surface, is rounded in another order."""
-        for tangential in ("history", "plastic"):
-            found, expected = self.led(tangential, spin=(300.0, -500.0))
-            for k in range(6):
-                unit = max(abs(f[k]) for f in expected) or 1.0
-                self.assertLess(worst(abs(f[k] - g[k]) / unit for f, g in zip(found, expected)), 1e-9, f"{tangential} {k}")
+        found, expected = self.led(tangential, spin=(300.0, -500.0))
+        for k in range(6):
+            unit = max(abs(f[k]) for f in expected) or 1.0
+            assert worst(abs(f[k] - g[k]) / unit for f, g in zip(found, expected)) < 1e-9, f"{tangential} {k}"
 
     def test_what_cannot_be_used_is_one_sentence(self):
         for words, said in ((("no.h5", "powder", "wall"), "no.h5"), ((self.law, "powder", "clay"), "clay"), ((self.law, "mud", "wall"), "mud")):
             text = self.call(COLLIDE, *words, RADIUS, math.inf, 1e-6, 1.0, expect_failure=True)
-            self.assertRegex(text, rf"^collide: .*{said}.*\n$")
+            assert re.search(rf"^collide: .*{said}.*\n$", text)
         text = self.call(COLLIDE, self.law, "powder", "powder", RADIUS, -1.0, 1e-6, 1.0, expect_failure=True)
-        self.assertEqual(text, "collide: granulaw_contact: radius_a and radius_b: both over 0, one of them infinity for a deformable wall, or both 0\n")
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert text == "collide: granulaw_contact: radius_a and radius_b: both over 0, one of them infinity for a deformable wall, or both 0\n"

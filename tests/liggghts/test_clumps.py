@@ -1,7 +1,7 @@
 """Clumps (fix multisphere) and fix rigid: an impulse of the law's on a rigid body, with the mass that the point of contact has."""
 import math
-import unittest
 
+from pytest import approx
 from harness import POWDER, head, plane_stl, properties, sphere_mass, worst
 from trials import Trial, dump
 
@@ -50,7 +50,7 @@ class Body:
         return 1 / (1 / self.mass + dot(n, cross(self.turn(cross(r, n)), r)))
 
 
-class Clumps(Trial):
+class TestClumps(Trial):
     def words(self, model, more=""):
         return (f"law {self.law} materials powder " if model == "mpm" else "") + "elasticDamping off " + more
 
@@ -127,10 +127,10 @@ class Clumps(Trial):
         omega = before.turn(cross(r, [0.0, 0.0, impulse]))
         scale = max(abs(v), abs(speed))
         said = f"{model} {law_variant} {speed} ranks {ranks}: v {after.vcm} {v} omega {after.omega} {omega} e {e} m {mass / before.mass}"
-        self.assertLess(abs(after.vcm[2] - v) / scale, delta, said)
+        assert abs(after.vcm[2] - v) / scale < delta, said
         size = max(max(map(abs, omega)), speed / RADIUS)
         for found, expected in zip(after.omega, omega):
-            self.assertLess(abs(found - expected) / size, delta, said)
+            assert abs(found - expected) / size < delta, said
         return after
 
     def test_end_on_and_eccentric(self):
@@ -145,7 +145,7 @@ class Clumps(Trial):
                     one = self.check(model, variant, spheres, 0.3, 1e-3)
                     two = self.check(model, variant, spheres, 0.3, 1e-3, ranks=2)
                     for x, y in zip(one.vcm + one.omega, two.vcm + two.omega):
-                        self.assertAlmostEqual(x, y, delta=1e-9 * max(map(abs, one.omega + [0.3])))
+                        assert x == approx(y, abs=1e-9 * max(map(abs, one.omega + [0.3])))
 
     def test_the_body_behind_the_contact(self):
         """Two spheres thrown at a wall under `bodyCompliance on`: the impulse is that of the law in series with the field between the
@@ -157,9 +157,9 @@ class Clumps(Trial):
         for spheres in (UPRIGHT, TILTED):
             with_body = [self.check("mpm", (), spheres, 2.0, 1e-3, ranks, "bodyCompliance on", behind) for ranks in (1, 2)]
             for x, y in zip(with_body[0].vcm + with_body[0].omega, with_body[1].vcm + with_body[1].omega):
-                self.assertAlmostEqual(x, y, delta=1e-9 * max(map(abs, with_body[0].omega + [2.0])))
+                assert x == approx(y, abs=1e-9 * max(map(abs, with_body[0].omega + [2.0])))
             without = self.check("mpm", (), spheres, 2.0, 1e-3, more="bodyCompliance off")
-            self.assertGreater(with_body[0].vcm[2] - without.vcm[2], 0.01)  # of 2 m/s: five times the tolerance above
+            assert with_body[0].vcm[2] - without.vcm[2] > 0.01  # of 2 m/s: five times the tolerance above
         self.check("mpm", (), UPRIGHT, 2.0, 1e-3, 1, "bodyCompliance on stretch 3", behind)  # tilted it turns in the longer contact
 
     def test_the_body_behind_a_contact_of_fix_rigid(self):
@@ -168,7 +168,7 @@ class Clumps(Trial):
         mass, height, speed, nu = 2 * sphere_mass(RADIUS, POWDER.density), RADIUS + A, 2.0, POWDER.poisson_ratio
         behind = (3 - 2 * nu) / (2 * math.pi * (1 - nu)) / POWDER.e_star * (1 / RADIUS - 1 / height)
         law, expected = (self.fixture("mpm", self.law, "powder", "wall", RADIUS, mass, speed, c)[0] for c in (0.0, behind))
-        self.assertGreater(expected - law, 0.005)
+        assert expected - law > 0.005
         for ranks in (1, 2):
             self.run_deck(head(half=12 * RADIUS, skin=RADIUS / 2) + properties([POWDER]) +
                           f"pair_style gran model mpm tangential off {self.words('mpm', 'bodyCompliance on')}\npair_coeff * *\n"
@@ -176,7 +176,7 @@ class Clumps(Trial):
                           f"create_atoms 1 single 0 0 {1.001 * RADIUS + 2 * A!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
                           f"velocity all set 0 0 {-speed}\nneigh_modify exclude group all all\nfix rigid all rigid single\ntimestep 2e-8\n" +
                           dump("vz", 3000, "rigid") + "run 3000\n", ranks=ranks)
-            self.assertAlmostEqual(self.last_frame("rigid.dump")[1][0] / speed, expected, delta=1e-3)
+            assert self.last_frame("rigid.dump")[1][0] / speed == approx(expected, abs=1e-3)
 
     def test_a_sphere_alone_has_no_body_behind_it(self):
         """Beside clumps and among spheres alone: the motion to the bit."""
@@ -190,8 +190,8 @@ class Clumps(Trial):
                           "fix b ball nve/sphere\n" + self.insert(z, z + 0.2 * RADIUS, "0. 0. -0.3", side=RADIUS) +
                           "timestep 2e-8\n" + dump("x y z vx vy vz omegax omegay", 6000, word) + "run 6000\n")
             found.append({k: v for k, v in self.last_frame(f"{word}.dump").items() if k <= 2})
-        self.assertEqual(found[0], found[1])
-        self.assertGreater(found[0][2][5], 0.1)  # the upper one was thrown back
+        assert found[0] == found[1]
+        assert found[0][2][5] > 0.1  # the upper one was thrown back
 
     def test_the_body_behind_a_contact_goes_through_a_restart(self):
         """A file written within the contact is continued to the bit: the compliance is the one of the first touch."""
@@ -207,8 +207,8 @@ class Clumps(Trial):
                               f"run {steps}\nwrite_restart half{n}.bin\n")
                 file = f"half{n}.bin"
             found.append([f for f in self.read_bodies() if f][-1][0])
-        self.assertEqual(found[0].vcm + found[0].omega, found[1].vcm + found[1].omega)
-        self.assertGreater(found[0].omega[1]**2, 1.0)
+        assert found[0].vcm + found[0].omega == found[1].vcm + found[1].omega
+        assert found[0].omega[1]**2 > 1.0
 
     def test_books_of_clumps_with_bodies_behind_their_contacts(self):
         """Kinetic + elastic + dissipated energy of clumps thrown at a wall and each other without friction, on 1 and 2 ranks: constant to
@@ -228,11 +228,11 @@ class Clumps(Trial):
             rows = [[float(w) for w in line.split()] for line in text.splitlines() if len(line.split()) == 4 and line.split()[0].isdigit()]
             kinetic = [sum(0.5 * b.mass * dot(b.vcm, b.vcm) + 0.5 * sum(i * dot(a, b.omega)**2 for i, a in zip(b.inertia, b.axes))
                            for b in frame) for frame in self.read_bodies() if frame]
-            self.assertEqual(len(kinetic), len(rows))
+            assert len(kinetic) == len(rows)
             sums = [t + sum(row[1:]) for t, row in zip(kinetic, rows)]
             loss, held = sums[0] - kinetic[-1], max(row[1] for row in rows)
-            self.assertGreater(held, 0.01 * loss)
-            self.assertLess(worst(abs(s - sums[0]) for s in sums), allowed * loss)
+            assert held > 0.01 * loss
+            assert worst(abs(s - sums[0]) for s in sums) < allowed * loss
 
     def test_a_clump_that_is_a_sphere_follows_tangential_plastic(self):
         """A clump whose second sphere lies within the first, with the mass and inertia of the first, thrown obliquely: velocities and
@@ -263,11 +263,11 @@ class Clumps(Trial):
             return [x, z, RADIUS * spin]
 
         expected, history = alone("plastic"), alone("history")
-        self.assertGreater(expected[1], 0.5)
-        self.assertGreater(max(abs(a - b) for a, b in zip(expected, history)), 0.1)
+        assert expected[1] > 0.5
+        assert max(abs(a - b) for a, b in zip(expected, history)) > 0.1
         for more, ranks in (("", 1), ("", 2), ("bodyCompliance on", 1)):
             for found, value in zip(clump(more, ranks), expected):
-                self.assertLess(abs(found - value), 3e-3 * -vz, f"{more} {ranks}: {found} {value}")
+                assert abs(found - value) < 3e-3 * -vz, f"{more} {ranks}: {found} {value}"
 
     def test_books_of_clumps_under_tangential_plastic(self):
         """Kinetic + elastic + dissipated energy and the work of all other forces: constant to 1e-3 of the loss, with friction, bodies behind
@@ -296,13 +296,13 @@ class Clumps(Trial):
             before = next(f for f in self.read_bodies() if f)[0]
             lowest = min(next(f for f in self.frames("atoms.dump") if f).values(), key=lambda x: x[2])
             mass = before.contact_mass([a - b for a, b in zip(lowest, before.xcm)], [0.0, 0.0, 1.0])
-            self.assertLess(mass, 0.8 * before.mass)
+            assert mass < 0.8 * before.mass
             rows = [[float(w) for w in line.split()] for line in (self.folder / "rows.dump").read_text().splitlines()
                     if len(line.split()) == 5 and not line.startswith("ITEM")]
             latched = {row[4] for row in rows}
-            self.assertEqual(len(latched), 1)
+            assert len(latched) == 1
             expected = self.fixture("impact", self.law, "powder", "wall", RADIUS, mass, speed)[0]
-            self.assertAlmostEqual(latched.pop() / expected, 1.0, delta=1e-6)  # the first step's force does not act yet
+            assert latched.pop() / expected == approx(1.0, abs=1e-6)  # the first step's force does not act yet
 
     def test_a_frozen_partner_of_the_same_mass(self):
         """A rigid pair of spheres hits a frozen one beside its centre: the frozen mass does not count, least of all where it equals the body's."""
@@ -320,9 +320,9 @@ class Clumps(Trial):
             self.run_deck(deck)
             rows = [line.split() for line in (self.folder / "rows.dump").read_text().splitlines() if len(line.split()) == 5 and not line.startswith("ITEM")]
             found = {float(row[4]) for row in rows if float(row[4]) > 0}
-            self.assertEqual(len(found), 1)
+            assert len(found) == 1
             latched += found
-        self.assertAlmostEqual(latched[0] / latched[1], 1.0, delta=1e-12)
+        assert latched[0] / latched[1] == approx(1.0, abs=1e-12)
 
     def test_colliding_clumps_on_1_and_2_ranks(self):
         """Clumps thrown together over the boundary of the ranks, by a law with an axis: from one restart file the same motion."""
@@ -340,14 +340,10 @@ class Clumps(Trial):
             bodies = sorted((f for f in self.read_bodies() if f), key=len)[-1]
             found.append((loss, {int(b.id_multisphere[0]): b.vcm + b.omega for b in bodies}))
         (loss, one), (other_loss, two) = found
-        self.assertEqual(sorted(one), sorted(two))
-        self.assertGreater(len(one), 5)
-        self.assertGreater(loss, 0)
-        self.assertAlmostEqual(other_loss / loss, 1.0, delta=1e-8)
+        assert sorted(one) == sorted(two)
+        assert len(one) > 5
+        assert loss > 0
+        assert other_loss / loss == approx(1.0, abs=1e-8)
         for body, motion in one.items():  # rounding of sums in another order, carried through some collisions
             for a, b in zip(motion, two[body]):
-                self.assertAlmostEqual(a, b, delta=1e-6 * max(map(abs, motion)), msg=str(body))
-
-
-if __name__ == "__main__":
-    unittest.main()
+                assert a == approx(b, abs=1e-6 * max(map(abs, motion))), str(body)

@@ -1,7 +1,7 @@
 """Combinations that a deck may have: models, units, materials, elastic and plastic types, radii, laws for walls and pairs."""
 import itertools
-import unittest
 
+from pytest import approx, mark
 from collisions import pair_deck, wall_deck
 from harness import POWDER, Deck, Material, head, properties, sphere_mass
 
@@ -18,7 +18,7 @@ BRIDGE = "".join(f"fix l{k} all property/global {line}\n" for k, line in enumera
 LAW_TOLERANCE = 0.01  # 50 steps a contact, as test_restitution.py
 
 
-class Combinations(Deck):
+class TestCombinations(Deck):
     def words(self, materials="powder"):
         return f"law {self.law} materials {materials} elasticDamping off"
 
@@ -57,47 +57,43 @@ class Combinations(Deck):
             terms[2].extend((0.4 * m * radius**2 * spin, m * z * vx, -m * x * vz))
         return [sum(t) for t in terms], [sum(map(abs, t)) for t in terms]
 
-    def test_every_combination(self):
+    @mark.parametrize("model", ("mpm", "thornton"))
+    def test_every_combination(self, model):
         """All 45 without liquid, for walls and for pairs, of both models. Rolling and tangential models do not touch a head-on impact on a wall;
         the weak cohesion (its work is 1e-4 of the impact's) hardly. Between particles every one keeps the momenta, and
         each tangential and rolling model makes a difference of its own."""
-        for model in ("mpm", "thornton"):
-            every = list(itertools.product(("off", "history", "no_history"), ("", "sjkr", "sjkr2"), ("", "cdt", "epsd", "epsd2", "epsd3")))
-            names = [t + (f" cohesion {c}" if c else "") + (f" rolling_friction {r}" if r else "") for t, c, r in every]
-            walls = self.run_each((wall_deck(model, self.law_words(model), POWDER, RADIUS, 1.0, 2e-7, tangential=models)
-                                   .replace("fix p1", MORE) for models in names), "SPEED")
-            for (_, cohesion, _), models, (e,) in zip(every, names, walls):
-                self.assertAlmostEqual(e, walls[0][0], delta=1e-3 if cohesion else 1e-12, msg=f"{model} {models}")
-            decks = [self.oblique_pair(model, models) for models in names]
-            text = self.run_deck("clear\n".join(decks))
-            before, after = self.results(text, "BEFORE"), self.results(text, "AFTER")
-            self.assertEqual((len(before), len(after)), (45, 45))
-            seen = {}
-            for (tangential, cohesion, rolling), models, a, b in zip(every, names, before, after):
-                said = f"{model} {models}"
-                self.assertGreater(b[1] - b[6], 0.3, said)  # they have parted
-                (start, size), (end, _) = self.momenta(a), self.momenta(b)
-                for p, q, s in zip(start, end, size):
-                    self.assertAlmostEqual((q - p) / s, 0.0, delta=1e-12, msg=said)  # rounding of 150 steps
-                if tangential == "off" and not rolling:
-                    self.assertEqual((b[2], b[7]), (a[2], a[7]), said)
-                if not cohesion:
-                    seen[tangential, rolling] = (b[2], b[7])
-            self.assertEqual(len(set(seen.values())), len(seen), f"{model}: {seen}")
+        every = list(itertools.product(("off", "history", "no_history"), ("", "sjkr", "sjkr2"), ("", "cdt", "epsd", "epsd2", "epsd3")))
+        names = [t + (f" cohesion {c}" if c else "") + (f" rolling_friction {r}" if r else "") for t, c, r in every]
+        walls = self.run_each((wall_deck(model, self.law_words(model), POWDER, RADIUS, 1.0, 2e-7, tangential=models)
+                               .replace("fix p1", MORE) for models in names), "SPEED")
+        for (_, cohesion, _), models, (e,) in zip(every, names, walls):
+            assert e == approx(walls[0][0], abs=(1e-3 if cohesion else 1e-12)), f"{model} {models}"
+        decks = [self.oblique_pair(model, models) for models in names]
+        text = self.run_deck("clear\n".join(decks))
+        before, after = self.results(text, "BEFORE"), self.results(text, "AFTER")
+        assert (len(before), len(after)) == (45, 45)
+        seen = {}
+        for (tangential, cohesion, rolling), models, a, b in zip(every, names, before, after):
+            said = f"{model} {models}"
+            assert b[1] - b[6] > 0.3, said  # they have parted
+            (start, size), (end, _) = self.momenta(a), self.momenta(b)
+            for p, q, s in zip(start, end, size):
+                assert (q - p) / s == approx(0.0, abs=1e-12), said  # rounding of 150 steps
+            if tangential == "off" and not rolling:
+                assert (b[2], b[7]) == (a[2], a[7]), said
+            if not cohesion:
+                seen[tangential, rolling] = (b[2], b[7])
+        assert len(set(seen.values())) == len(seen), f"{model}: {seen}"
 
-    def test_what_is_not_built(self):
+    @mark.parametrize("command", ("pair_style", "fix w all"))
+    @mark.parametrize("models, ranks", (("tangential tan_luding", 1), ("tangential history rolling_friction luding", 1), ("tangential history rolling_friction luding", 2),
+                                 ("tangential history surface multicontact", 1), ("tangential history surface multicontact", 2),
+                                 ("tangential history surface superquadric", 1)))
+    def test_what_is_not_built(self, models, ranks, command):
         """Each other model of LIGGGHTS, for pairs and walls, is refused in one sentence that says what is possible."""
-        for kind, names in (("tangential", ("tan_luding",)), ("rolling_friction", ("luding",)), ("surface", ("multicontact", "superquadric"))):
-            for name in names:
-                models = f"tangential {name}" if kind == "tangential" else f"tangential history {kind} {name}"
-                for where in ("pair", "wall"):
-                    deck = wall_deck("mpm", self.words(), POWDER, RADIUS, 1.0, 2e-7)
-                    command = "pair_style" if where == "pair" else "fix w all"
-                    deck = "\n".join(line.replace("tangential history", models) if line.startswith(command) else line
-                                     for line in deck.splitlines()) + "\n"
-                    for ranks in (1, 2) if name in ("luding", "multicontact") else (1,):
-                        with self.subTest(models=models, where=where, ranks=ranks):
-                            self.refused(deck, "choose among these", ranks=ranks)
+        deck = wall_deck("mpm", self.words(), POWDER, RADIUS, 1.0, 2e-7).splitlines()
+        deck = "\n".join(line.replace("tangential history", models) if line.startswith(command) else line for line in deck) + "\n"
+        self.refused(deck, "choose among these", ranks=ranks)
 
     def test_liquid_bridges(self):
         """easo and washino pull across the gap after a contact: elastic spheres move as under stock Hertz with the same model, on 1
@@ -112,21 +108,21 @@ class Combinations(Deck):
                     return deck.replace("fix p1", BRIDGE + one, 1).replace("tangential history", f"tangential history {cohesion}")
                 ours = deck_of(model, words, f"cohesion {liquid}")
                 (stock,), (dry,), (alone,) = self.run_each((*(deck_of("hertz", "tangential_damping off", c) for c in (f"cohesion {liquid}", "")), ours), "SPEED")
-                self.assertLess(stock, 0.99 * dry)
+                assert stock < 0.99 * dry
                 for found in (alone, self.result(self.run_deck(ours, ranks=2), "SPEED")[0]):
                     # the re-tabulated x^1.5 is good to 1e-6, but the bridge may break a step earlier or later: its pull of 0.7 mN
                     # for 0.2 us is 1e-4 of the momentum
-                    self.assertAlmostEqual(found / stock, 1.0, delta=2e-4, msg=f"{model} {liquid}")
+                    assert found / stock == approx(1.0, abs=2e-4), f"{model} {liquid}"
                 deck = pair_deck(model, words + " energy on", (material, material), (RADIUS, RADIUS), slow, dt).replace(
                     "tangential history", f"tangential history cohesion {liquid}")
-                self.assertIn("does not book the work of liquid bridges", self.run_deck(deck, expect_failure=True))
+                assert "does not book the work of liquid bridges" in self.run_deck(deck, expect_failure=True)
 
     def test_cohesion_is_felt(self):
         strong = MORE.replace("1000", "1e6")
         deck = wall_deck("mpm", self.words(), POWDER, RADIUS, 1.0, 2e-7, tangential="history cohesion sjkr")
-        self.assertLess(self.e(deck.replace("fix p1", strong)), self.e(deck.replace("fix p1", MORE)) - 0.001)
+        assert self.e(deck.replace("fix p1", strong)) < self.e(deck.replace("fix p1", MORE)) - 0.001
         text = self.run_deck(deck.replace("fix p1", MORE).replace("materials powder", "materials powder stretch 3"))
-        self.assertEqual(text.count("does not reach into the cohesion model"), 1)
+        assert text.count("does not reach into the cohesion model") == 1
 
     def test_cgs(self):
         """The same collision in cgs: speeds 100 times the numbers, energy 1e7 times. The law file stays in SI."""
@@ -139,11 +135,11 @@ class Combinations(Deck):
                          POWDER.yield_stress * 10)
             cgs = self.run_deck(wall_deck(model, words, m, RADIUS * 100, 300.0, 2e-7).replace("units si", "units cgs") + loss)
             # rounding: 1e-16 R in overlaps of 1e-2 R, 50 steps
-            self.assertAlmostEqual(self.result(cgs, "SPEED")[0] / self.result(si, "SPEED")[0], 100, delta=1e-8)
-            self.assertAlmostEqual(self.result(cgs, "LOSS")[0] / self.result(si, "LOSS")[0], 1e7, delta=1)
+            assert self.result(cgs, "SPEED")[0] / self.result(si, "SPEED")[0] == approx(100, abs=1e-8)
+            assert self.result(cgs, "LOSS")[0] / self.result(si, "LOSS")[0] == approx(1e7, abs=1)
             said = [text[text.index("granulaw contacts"):text.index("Loop time")] for text in (si, cgs)]
-            self.assertEqual(said[0], said[1])  # the log is in SI
-            self.assertGreater(len(said[0].splitlines()), 4)
+            assert said[0] == said[1]  # the log is in SI
+            assert len(said[0].splitlines()) > 4
 
     def test_elastic_is_hertz(self):
         """Half-way through a contact, where velocities still change: against stock hertz with e = 1."""
@@ -154,7 +150,7 @@ class Combinations(Deck):
         for make in (wall, pair):
             ours, stock = (self.result(self.run_deck(make(*case).replace("fix p1", one).replace("run 120", "run 40")),
                                        "SPEED")[0] for case in (("mpm", self.words("elastic")), ("hertz", "")))
-            self.assertAlmostEqual(ours / stock, 1.0, delta=1e-6)  # the re-tabulated x^1.5
+            assert ours / stock == approx(1.0, abs=1e-6)  # the re-tabulated x^1.5
 
     def mixed(self, pair, wall):
         one = "fix p6 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
@@ -170,18 +166,14 @@ class Combinations(Deck):
         expected, _, _ = self.replay("powder", "wall", RADIUS, MASS, 1.0)
         wall = f"mpm tangential history primitive type 1 zplane 0.0 {self.words()}"
         deck = self.mixed("hertz tangential history", wall).replace("fix s all granulaw/stats\n", "")
-        self.assertAlmostEqual(self.e(deck) / expected, 1.0, delta=LAW_TOLERANCE)
+        assert self.e(deck) / expected == approx(1.0, abs=LAW_TOLERANCE)
         deck = self.mixed(f"mpm tangential history {self.words()}", "hertz tangential history primitive type 1 zplane 0.0")
-        self.assertAlmostEqual(self.e(deck), 1.0, delta=LAW_TOLERANCE)
+        assert self.e(deck) == approx(1.0, abs=LAW_TOLERANCE)
 
     def test_walls_inherit(self):
         """tangential_damping, tangentialStiffness, elasticDamping: said once. 0.03 m/s is elastic: damping shows."""
         words = f"law {self.law} materials powder elasticDamping 0.1 tangentialStiffness computed tangential_damping off"
         inherited = self.e(wall_deck("mpm", words, POWDER, RADIUS, 0.03, 4e-7), 0.03)
         own = self.e(wall_deck("mpm", words, POWDER, RADIUS, 0.03, 4e-7, wall_words="elasticDamping off"), 0.03)
-        self.assertLess(inherited, 0.8)
-        self.assertGreater(own, 0.99)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert inherited < 0.8
+        assert own > 0.99

@@ -3,8 +3,8 @@ import json
 import math
 import random
 import re
-import unittest
 
+from pytest import approx, mark
 import test_energy
 from collisions import pair_deck
 from harness import POWDER, Deck, Material, head, mpm_law, properties, sphere_mass, worst
@@ -32,8 +32,7 @@ def step(radius, radius2, speed):
 
 
 class Composed(Deck):
-    def setUp(self):
-        super().setUp()
+    def prepare(self):
         self.fixture("write", self.law, "by_size", "composed")
 
     def tool(self, radius2, speed):
@@ -61,7 +60,7 @@ class Composed(Deck):
                 f"variable v equal vcm(all,z)\nrun {int(1.2 * duration / dt)}\n" 'print "SPEED ${v}"\n')
 
 
-class Drops(Composed):
+class TestDrops(Composed):
     """e and F_max as `mpm law` replays them from the same file."""
 
     def test_two_spheres(self):
@@ -70,14 +69,14 @@ class Drops(Composed):
         decks = [self.pair(LARGE, speed, law["contact_time_s"], order) for (order, speed), law in zip(cases, laws)]
         for ranks in (1, 2):  # the contact lies on the border of two
             for ((first, _), speed), law, (after,) in zip(cases, laws, self.run_each(decks, "SPEED", ranks=ranks)):
-                self.assertAlmostEqual(after / speed, law["e"], delta=TOLERANCE, msg=f"{first.name} first, {speed} m/s, {ranks} ranks")
-        self.assertLess(laws[2]["e"], 0.97)
+                assert after / speed == approx(law["e"], abs=TOLERANCE), f"{first.name} first, {speed} m/s, {ranks} ranks"
+        assert laws[2]["e"] < 0.97
 
     def test_deformable_wall(self):
         laws = [self.tool(math.inf, speed) for speed in SPEEDS]
         decks = [self.wall(speed, law["contact_time_s"]) for speed, law in zip(SPEEDS, laws)]
         for speed, law, (after,) in zip(SPEEDS, laws, self.run_each(decks, "SPEED")):
-            self.assertAlmostEqual(after / speed, law["e"], delta=TOLERANCE, msg=f"{speed} m/s")
+            assert after / speed == approx(law["e"], abs=TOLERANCE), f"{speed} m/s"
 
     def test_largest_force(self):
         speed = 5.0
@@ -87,7 +86,7 @@ class Drops(Composed):
                  'thermo_modify format float %.12g norm no\nrun')
         text = self.run_deck(deck.replace("run", watch, 1))
         forces = [float(line.split()[1]) for line in text.splitlines() if len(line.split()) == 2 and line.split()[0].isdigit()]
-        self.assertAlmostEqual(worst(forces) / law["force_max_N"], 1.0, delta=TOLERANCE)
+        assert worst(forces) / law["force_max_N"] == approx(1.0, abs=TOLERANCE)
 
     def test_waves_off(self):
         """Then a composed law is its curve alone."""
@@ -95,13 +94,13 @@ class Drops(Composed):
         both = effective(mass, sphere_mass(LARGE, GUM.density))
         pair = self.fixture("still", self.law, "powder", "gum", 1, 6, effective(RADIUS, LARGE), both, speed)
         wall = self.fixture("still", self.law, "powder", "gum", 1, "inf", RADIUS, mass, speed)
-        self.assertGreater(pair[0] - self.tool(LARGE, speed)["e"], 1e-3)
+        assert pair[0] - self.tool(LARGE, speed)["e"] > 1e-3
         decks = [self.pair(LARGE, speed, pair[1], more="waves off"), self.wall(speed, wall[1], "waves off"),
                  self.wall(speed, wall[1], wall_words="wall deformable waves off")]
         for (after,), law in zip(self.run_each(decks, "SPEED"), (pair, wall, wall)):
-            self.assertAlmostEqual(after / speed, law[0], delta=TOLERANCE)
+            assert after / speed == approx(law[0], abs=TOLERANCE)
         text = self.run_deck(self.pair(LARGE, speed, 1e-5, more="waves maybe"), expect_failure=True)
-        self.assertIn("'waves' has an unknown value: found 'maybe', allowed is on, off", text)
+        assert "'waves' has an unknown value: found 'maybe', allowed is on, off" in text
 
     def test_stretch(self):
         """The same e in S times the time."""
@@ -110,10 +109,10 @@ class Drops(Composed):
         dt = step(RADIUS, LARGE, speed)
         deck = self.pair(LARGE, speed, stretch * law["contact_time_s"], more=f"stretch {stretch}", dt=stretch * dt)
         after, = self.result(self.run_deck(deck), "SPEED")
-        self.assertAlmostEqual(after / speed, law["e"], delta=TOLERANCE)
+        assert after / speed == approx(law["e"], abs=TOLERANCE)
 
 
-class Sizes(Composed):
+class TestSizes(Composed):
     """Which law a contact follows."""
 
     def collision(self, radius2, law_shares, speed=5.0):
@@ -129,7 +128,7 @@ class Sizes(Composed):
         shares = [RADIUS / (RADIUS + r) for r in radii]
         bound = 0.5 * (0.5 + 0.25)  # half-way between the laws' shares
         expected = [self.collision(radii[0], (bound, shares[0])), self.collision(radii[1], (shares[1], bound))]
-        self.assertGreater(abs(self.collision(radii[1], (bound + 1e-6, bound + 1e-6))[0] - expected[1][0]), 0.01)
+        assert abs(self.collision(radii[1], (bound + 1e-6, bound + 1e-6))[0] - expected[1][0]) > 0.01
         dt = step(RADIUS, radii[0], speed)
         text = head(types=2, half=40 * RADIUS) + properties(list(MIXED)) + (
             f"pair_style gran model mpm tangential history {self.words()}\npair_coeff * *\n")
@@ -141,16 +140,12 @@ class Sizes(Composed):
         text += (f"fix i all nve/sphere\ntimestep {dt!r}\nthermo 100000\nvariable e0 equal vcm(b0,z)-vcm(a0,z)\n"
                  f"variable e1 equal vcm(b1,z)-vcm(a1,z)\nrun {int(1.3 * max(c[1] for c in expected) / dt)}\n" 'print "E ${e0} ${e1}"\n')
         for found, law in zip(self.result(self.run_deck(text), "E"), expected):
-            self.assertAlmostEqual(found / speed, law[0], delta=TOLERANCE)
+            assert found / speed == approx(law[0], abs=TOLERANCE)
 
-    def test_an_unforeseen_size(self):
+    @mark.parametrize("radius2, share", ((5.0 * RADIUS, 0.25), (10.0 * RADIUS, 0.0)))  # the law's own ratio, 3, and a deformable wall: it served no known particle
+    def test_an_unforeseen_size(self, radius2, share):
         """A sphere that grows within a run, beyond what was known when the run began: its contacts follow the nearest law all the same."""
-        for radius2, share in ((5.0 * RADIUS, 0.25), (10.0 * RADIUS, 0.0)):  # at the law's own ratio, 3 and a deformable wall: it served no known particle
-            with self.subTest(share=share):
-                self.grows(radius2, share)
-
-    def grows(self, radius2, share, speed=5.0):
-        law = self.collision(radius2, (share, share))
+        speed, law = 5.0, self.collision(radius2, (share, share))
         dt = step(RADIUS, radius2, speed)
         steps = int(1.2 * law[1] / dt)
         z = RADIUS + radius2 + (steps + 0.3) * dt * speed  # they meet in the second half of the run
@@ -161,7 +156,7 @@ class Sizes(Composed):
                 f"velocity a set 0 0 {speed!r}\nfix i all nve/sphere\ntimestep {dt!r}\nthermo 100000\nvariable s equal vcm(b,z)-vcm(a,z)\n"
                 f'run {2 * steps} pre no every {steps} "set group b diameter {2 * radius2!r} density {GUM.density}"\n' 'print "SPEED ${s}"\n')
         after, = self.result(self.run_deck(text), "SPEED")
-        self.assertAlmostEqual(after / speed, law[0], delta=TOLERANCE)
+        assert after / speed == approx(law[0], abs=TOLERANCE)
 
     def test_wall_without_a_law(self):
         """No law for a deformable wall: that of the largest ratio."""
@@ -170,7 +165,7 @@ class Sizes(Composed):
         mass = sphere_mass(RADIUS, POWDER.density)
         law = self.fixture("collision", self.law, "powder", "gum", 1, 3, RADIUS, mass, speed)
         after, = self.result(self.run_deck(self.wall(speed, law[1])), "SPEED")
-        self.assertAlmostEqual(after / speed, law[0], delta=TOLERANCE)
+        assert after / speed == approx(law[0], abs=TOLERANCE)
 
     def test_particles_change_places(self):
         """i and j, whichever comes first in LIGGGHTS's lists: the same motion to the last bit."""
@@ -186,8 +181,8 @@ class Sizes(Composed):
                      'dump_modify d format "%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g"\nrun 0\n')
             self.run_deck(text)
             found.append(sorted((self.folder / "end.dump").read_text().splitlines()[-2:]))
-        self.assertEqual(found[0], found[1])
-        self.assertNotIn(" 4 ", found[0][0])  # they have met
+        assert found[0] == found[1]
+        assert " 4 " not in found[0][0]  # they have met
 
     def test_restart(self):
         """In the middle of a contact, in and after the reversal: as without, to the last bit."""
@@ -207,10 +202,10 @@ class Sizes(Composed):
                      properties(list(MIXED)) +
                      f"pair_style gran model mpm tangential history {self.words()}\npair_coeff * *\nfix i all nve/sphere\ntimestep {dt!r}\n")
             self.run_deck(again + rest + dump)
-            self.assertEqual((self.folder / "end.dump").read_text().splitlines()[-2:], whole, part)
+            assert (self.folder / "end.dump").read_text().splitlines()[-2:] == whole, part
 
 
-class Ledger(Composed):
+class TestLedger(Composed):
     """Energy before = after + all that was lost."""
 
     def test_one_collision(self):
@@ -225,23 +220,23 @@ class Ledger(Composed):
                              'print "LOST ${d} ${w} ${c}"\n')
         dissipated, booked, in_row = self.result(text, "LOST")
         lost = 0.5 * mass * speed**2 * (1 - e * e)
-        self.assertAlmostEqual(booked / waves, 1.0, delta=1e-4)  # of first order in the replay
+        assert booked / waves == approx(1.0, abs=1e-4)  # of first order in the replay
         # the work of loading with a velocity axis is a table, to 9e-5 of the work
-        self.assertAlmostEqual((dissipated + booked) / lost, 1.0, delta=9e-5)
-        self.assertEqual(in_row, booked)
+        assert (dissipated + booked) / lost == approx(1.0, abs=9e-5)
+        assert in_row == booked
         stats = json.loads((self.folder / "s.json").read_text())
-        self.assertAlmostEqual(stats["pair"]["wave_dissipation_J"] / booked, 1.0, delta=1e-8)
-        self.assertAlmostEqual(float(re.search(r"(?m)^  taken by waves, J +(\S+)", text)[1]) / booked, 1.0, delta=1e-5)  # six digits
+        assert stats["pair"]["wave_dissipation_J"] / booked == approx(1.0, abs=1e-8)
+        assert float(re.search(r"(?m)^  taken by waves, J +(\S+)", text)[1]) / booked == approx(1.0, abs=1e-5)  # six digits
 
-    def test_bed(self):
+    @mark.parametrize("friction, ranks", ((0.0, 1), (0.0, 2), (0.3, 1)))
+    def test_bed(self, friction, ranks):
         """Powder and gum of several sizes on a deformable floor, with and without friction, on 1 and 2 ranks."""
-        for friction, ranks in ((0.0, 1), (0.0, 2), (0.3, 1)):
-            error, dissipated, waves, other, of_particles = self.balance(friction, ranks)
-            self.assertLess(abs(error), 2e-5, (friction, ranks))
-            self.assertGreater(waves, 5e-4 * dissipated)
-            self.assertAlmostEqual(of_particles / (waves + other), 1.0, delta=1e-9)
-            if friction == 0:  # what the booking of waves leaves to the measured work of the other forces
-                self.assertLess(abs(other), 1e-3 * waves)
+        error, dissipated, waves, other, of_particles = self.balance(friction, ranks)
+        assert abs(error) < 2e-5, (friction, ranks)
+        assert waves > 5e-4 * dissipated
+        assert of_particles / (waves + other) == approx(1.0, abs=1e-9)
+        if friction == 0:  # what the booking of waves leaves to the measured work of the other forces
+            assert abs(other) < 1e-3 * waves
 
     def balance(self, friction, ranks, steps=30000):
         """Mechanical + elastic energy + losses, less that at the beginning, over the losses; what the losses are."""
@@ -268,7 +263,3 @@ class Ledger(Composed):
             material = rng.choice(MIXED)
             lines[k] = " ".join([number, str(1 + MIXED.index(material)), repr(float(diameter) * rng.uniform(0.5, 1.0)), str(material.density), *x])
         path.write_text("\n".join(lines) + "\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,7 @@
 """The contact statistics of fix granulaw/stats against the kinetic energy that really went."""
 import json
-import unittest
 
+from pytest import approx
 import gas
 from collisions import pair_deck, wall_deck
 from harness import POWDER, Deck, sphere_mass
@@ -9,7 +9,7 @@ from harness import POWDER, Deck, sphere_mass
 RADIUS = 1.7e-3
 
 
-class ContactStatistics(Deck):
+class TestContactStatistics(Deck):
     def words(self, model):
         if model == "mpm with axis":
             self.fixture("write", self.folder / "axis.h5", "axis")
@@ -37,16 +37,15 @@ class ContactStatistics(Deck):
                 text = self.run_deck(deck + out.format(*vector))
                 e = self.result(text, "SPEED")[0] / speed
                 dissipated, begun, impact, overlap = self.result(text, "STATISTICS")
-                self.assertLess(e, 0.95)
+                assert e < 0.95
                 # 2e-4 of the loss: the step's own error in e at this resolution
-                self.assertAlmostEqual(dissipated / (0.5 * m_eff * speed**2 * (1 - e * e)), 1.0, delta=2e-4,
-                                       msg=f"{case} {kind}")
-                self.assertEqual(begun, 1)
-                self.assertAlmostEqual(impact / speed, 1.0, delta=1e-6)  # nothing acts before first touch
+                assert dissipated / (0.5 * m_eff * speed**2 * (1 - e * e)) == approx(1.0, abs=2e-4), f"{case} {kind}"
+                assert begun == 1
+                assert impact / speed == approx(1.0, abs=1e-6)  # nothing acts before first touch
                 if case == "mpm":
                     other = "wall" if kind == "wall" else "powder"
                     _, _, delta = self.fixture("mpm", self.law, "powder", other, RADIUS * radius_ratio, m_eff, speed)
-                    self.assertAlmostEqual(overlap / (delta / (RADIUS * radius_ratio)), 1.0, delta=1e-4)
+                    assert overlap / (delta / (RADIUS * radius_ratio)) == approx(1.0, abs=1e-4)
 
     def test_gas_and_json(self):
         """Frictionless gas: what is gone from the kinetic energy is in the statistics, but for what contacts still hold."""
@@ -56,16 +55,12 @@ class ContactStatistics(Deck):
         before = self.result(self.run_deck(start + "run 0\n" + gas.PRINT), "GAS")
         after = self.result(self.run_deck(start + "run 16000\n" + gas.PRINT), "GAS")
         stats = json.loads((self.folder / "stats.json").read_text())
-        self.assertFalse(list(self.folder.glob("*.tmp.*")))
+        assert not list(self.folder.glob("*.tmp.*"))
         # contacts open at the end hold some elastic energy: a few of the 125 spheres, 3 % of the loss at most
-        self.assertAlmostEqual(after[1] / (before[0] - after[0]), 1.0, delta=0.03)
-        self.assertLessEqual(after[1], (before[0] - after[0]) * (1 + 2e-4))  # never more than was lost
-        self.assertAlmostEqual(stats["pair"]["normal_dissipation_J"] / after[1], 1.0, delta=1e-6)
-        self.assertAlmostEqual(stats["pair"]["contacts_begun"], after[2], delta=1e-6)
-        self.assertEqual(sum(stats["pair"]["impact_speed"]["count"]), stats["pair"]["contacts_begun"])
-        self.assertEqual(sum(stats["pair"]["largest_overlap_over_radius"]["count"]), stats["pair"]["contacts_ended"])
-        self.assertEqual(stats["wall"]["contacts_begun"], 0)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert after[1] / (before[0] - after[0]) == approx(1.0, abs=0.03)
+        assert after[1] <= (before[0] - after[0]) * (1 + 2e-4)  # never more than was lost
+        assert stats["pair"]["normal_dissipation_J"] / after[1] == approx(1.0, abs=1e-6)
+        assert stats["pair"]["contacts_begun"] == approx(after[2], abs=1e-6)
+        assert sum(stats["pair"]["impact_speed"]["count"]) == stats["pair"]["contacts_begun"]
+        assert sum(stats["pair"]["largest_overlap_over_radius"]["count"]) == stats["pair"]["contacts_ended"]
+        assert stats["wall"]["contacts_begun"] == 0

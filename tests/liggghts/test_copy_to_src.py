@@ -3,26 +3,25 @@ it prints compile what it copied."""
 import os
 import pathlib
 import re
-import subprocess
-import tempfile
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from programs import ROOT, run
+from pytest import fixture
+
 HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
 NOT_COPIED = {"register_hertz.cpp"}  # a yardstick for benchmarks
 
 
-class CopyToSrc(unittest.TestCase):
-    def setUp(self):
-        self.src = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-copy-"))) / "src"
+class TestCopyToSrc:
+    @fixture(autouse=True)
+    def _folder(self, tmp_path):
+        self.src = tmp_path / "src"
         self.src.mkdir()
         for header in HEADERS.glob("*.h"):
             (self.src / header.name).symlink_to(header.resolve())
         (self.src / "version_liggghts.txt").write_text("3.8.0\n")
 
     def copy(self, folder="src", status=0):
-        done = subprocess.run([ROOT / "liggghts_plugin" / "copy_to_src", folder], capture_output=True, text=True, cwd=self.src.parent)
-        self.assertEqual(done.returncode, status, done.stderr)
+        done = run(ROOT / "liggghts_plugin" / "copy_to_src", folder, code=status, cwd=self.src.parent)
         return done.stdout if status == 0 else done.stderr
 
     def test_all_sources(self):
@@ -34,9 +33,9 @@ class CopyToSrc(unittest.TestCase):
         expected = {"granulaw_" + str(path.relative_to(ROOT)).replace("/", "_") for folder in folders for path in folder.glob("*.cpp") if path.name not in NOT_COPIED}
         expected |= {"granulaw_mpm_core_base_version.cpp"}
         expected |= {f"granulaw_liggghts_plugin_loop_register_{model}.cpp" for model in ("mpm", "thornton")}  # of models.list
-        self.assertEqual({path.name for path in self.src.iterdir()} - before, expected | {"granulaw"})
+        assert {path.name for path in self.src.iterdir()} - before == expected | {"granulaw"}
         for filled_in in ("granulaw_mpm_core_base_version.cpp", "granulaw_liggghts_plugin_loop_register_mpm.cpp"):
-            self.assertNotIn("@", (self.src / filled_in).read_text())
+            assert "@" not in (self.src / filled_in).read_text()
 
     def test_what_is_copied_includes_what_is_copied(self):
         """A header that stays behind stops the build of a user's own LIGGGHTS."""
@@ -44,21 +43,20 @@ class CopyToSrc(unittest.TestCase):
         places = [self.src / "granulaw", self.src / "granulaw" / "mpm_core"]
         missing = [f"{file.name}: {name}" for file in [*self.src.glob("granulaw_*.cpp"), *(self.src / "granulaw").rglob("*.hpp")]
                    for name in re.findall(r'^#include "([a-z_]+/[^"]+)"', file.read_text(), re.M) if not any((place / name).exists() for place in places)]
-        self.assertEqual(missing, [])
+        assert missing == []
 
     def test_its_words_compile(self):
         """One file of each folder (docs/guide/own-liggghts.md: the whole of LIGGGHTS, done once)."""
         words = dict(line.split(" = ", 1) for line in self.copy().splitlines() if " = " in line)
         flags = words["MPI_CCFLAGS_USR"].split() + ["-O2", "-std=c++17"] + words["LMP_INC"].split()  # as Makefile.auto orders them
         for name in ("mpm_core_law_law.cpp", "liggghts_plugin_deck_options.cpp", "mpm_core_base_version.cpp"):
-            done = subprocess.run(["mpicxx", *flags, "-fsyntax-only", str(self.src / f"granulaw_{name}")], capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, f"{name}: {done.stderr[:2000]}")
+            run("mpicxx", *flags, "-fsyntax-only", self.src / f"granulaw_{name}")
 
     def test_its_flags_make_the_loop_fast(self):
         """Those of the plug-in's own build (NormalModels.cmake, cmake/Granulaw.cmake), each worth a tenth of the loop time or more."""
         flags = next(line for line in self.copy().splitlines() if line.startswith("MPI_CCFLAGS_USR = ")).split()
         for flag in ("-fno-math-errno", "-fno-tree-slp-vectorize"):
-            self.assertIn(flag, flags)
+            assert flag in flags
 
     def test_its_words_link_a_shared_library(self):
         """As the rule `shlib` of Makefile.auto links, without LDFLAGS; nothing of HDF5 and fmt may stay undefined."""
@@ -66,16 +64,10 @@ class CopyToSrc(unittest.TestCase):
         (self.src / "uses_hdf5.cpp").write_text("#include <hdf5.h>\nint version() { return H5open(); }\n")
         flags = words["MPI_CCFLAGS_USR"].split() + ["-std=c++17"] + words["LMP_INC"].split() + ["-fPIC", "-shared", "-Wl,--no-undefined"]
         libraries = ["-L" + words["MPI_LIB_USR"]] + words["MPI_ADDLIBS_USR"].split()
-        done = subprocess.run(["mpicxx", *flags, "-o", "libtest.so", "uses_hdf5.cpp", "granulaw_mpm_core_base_error.cpp", *libraries],
-                              capture_output=True, text=True, cwd=self.src)
-        self.assertEqual(done.returncode, 0, done.stderr[:2000])
+        run("mpicxx", *flags, "-o", "libtest.so", "uses_hdf5.cpp", "granulaw_mpm_core_base_error.cpp", *libraries, cwd=self.src)
 
     def test_refusals(self):
-        self.assertIn("holds no contact_models.h", self.copy(".", status=1))
+        assert "holds no contact_models.h" in self.copy(".", status=1)
         (self.src / "version_liggghts.txt").write_text("4.0.0\n")
-        self.assertIn("LIGGGHTS '4.0.0'; the models are written for 3.8.0", self.copy(status=1))
-        self.assertFalse((self.src / "granulaw").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert "LIGGGHTS '4.0.0'; the models are written for 3.8.0" in self.copy(status=1)
+        assert not (self.src / "granulaw").exists()

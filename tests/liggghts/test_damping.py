@@ -1,7 +1,7 @@
 """`elasticDamping` and `tangentialStiffness`: what they add, and what they leave alone."""
 import math
-import unittest
 
+from pytest import approx, mark
 from collisions import wall_deck
 from harness import POWDER, Deck, head, properties, sphere_mass, worst
 
@@ -23,7 +23,7 @@ def damped_restitution(z):
     return -v
 
 
-class Damping(Deck):
+class TestDamping(Deck):
     def deck(self, words, speed, model="mpm", **keywords):
         law = f"law {self.law} materials powder " if model == "mpm" else ""
         _, duration, _ = self.fixture("mpm", self.law, "powder", "wall", RADIUS, MASS, speed)
@@ -34,22 +34,21 @@ class Damping(Deck):
         return self.result(self.run_deck(deck), "SPEED")[0] / speed
 
     def test_restitution_below_yield(self):
-        self.assertAlmostEqual(damped_restitution(0.001), math.exp(-0.001 * math.pi), delta=1e-4)
+        assert damped_restitution(0.001) == approx(math.exp(-0.001 * math.pi), abs=1e-4)
         # 0.003: LIGGGHTS takes the velocity half a step late, at 100 steps a contact 1 % of the damping's loss
         for words, z in (("", 0.001), ("elasticDamping 0.05", 0.05), ("elasticDamping 0.2", 0.2)):
             for model in ("mpm", "thornton"):
-                self.assertAlmostEqual(self.e(self.deck(words, ELASTIC_SPEED, model), ELASTIC_SPEED),
-                                       damped_restitution(z), delta=0.003, msg=f"{model} {words}")
+                assert self.e(self.deck(words, ELASTIC_SPEED, model), ELASTIC_SPEED) == approx(damped_restitution(z), abs=0.003), f"{model} {words}"
 
     def test_off_is_the_pure_law(self):
-        self.assertAlmostEqual(self.e(self.deck("elasticDamping off", ELASTIC_SPEED), ELASTIC_SPEED), 1.0, delta=1e-4)
+        assert self.e(self.deck("elasticDamping off", ELASTIC_SPEED), ELASTIC_SPEED) == approx(1.0, abs=1e-4)
 
-    def test_default_stays_within_0_0035(self):
+    @mark.parametrize("speed", (0.03, 0.07, 0.1, 1.0))
+    def test_default_stays_within_0_0035(self, speed):
         """The default's e differs from the pure law's by at most 1 - exp(-0.001 pi) = 0.0031 (and rounding up)."""
-        for speed in (0.03, 0.07, 0.1, 1.0):
-            pure, default = (self.e(self.deck(w, speed), speed) for w in ("elasticDamping off", ""))
-            self.assertLess(abs(default - pure), 0.0035, msg=f"{speed} m/s")
-            self.assertLessEqual(default, pure)
+        pure, default = (self.e(self.deck(w, speed), speed) for w in ("elasticDamping off", ""))
+        assert abs(default - pure) < 0.0035, f"{speed} m/s"
+        assert default <= pure
 
     def test_plastic_impacts_keep_their_rebound(self):
         """Far above yield strong damping takes only what it took before yield."""
@@ -60,8 +59,8 @@ class Damping(Deck):
             return self.e(deck.replace(f"timestep {step}", f"timestep {float(step) / 10!r}").replace("run 240", "run 2400"), 3.0)
         pure, damped = e("elasticDamping off"), e("elasticDamping 0.1")
         # up to yield (V_y = 0.13 m/s) 4 Z V_y/V of the kinetic energy goes, half of that of the speed: 0.0067 of e
-        self.assertLess(damped, pure)
-        self.assertAlmostEqual(damped, pure, delta=pure * 2 * 0.1 * 0.133 / 3.0)
+        assert damped < pure
+        assert damped == approx(pure, abs=pure * 2 * 0.1 * 0.133 / 3.0)
 
     def test_stretched(self):
         """Damping is stretched with the force: the same e."""
@@ -73,7 +72,7 @@ class Damping(Deck):
         gap = RADIUS + 0.3 * 10 * step * ELASTIC_SPEED
         deck = deck.replace(line, " ".join(line.split()[:5] + [repr(gap), "units box"]))
         deck = deck.replace(f"timestep {step!r}", f"timestep {10 * step!r}")
-        self.assertAlmostEqual(self.e(deck, ELASTIC_SPEED), plain, delta=1e-6)
+        assert self.e(deck, ELASTIC_SPEED) == approx(plain, abs=1e-6)
 
     def test_bounces_come_to_rest(self):
         """A sphere under gravity that yielded, then rattles: mechanical energy falls and never grows; off: stays."""
@@ -90,30 +89,30 @@ class Damping(Deck):
                      'print "E ${v}"\nnext n\njump SELF again\n')
             out = self.run_deck(text)
             values = [float(l.split()[1]) for l in out.splitlines() if l.startswith("E ")]
-            self.assertEqual(len(values), 40)
+            assert len(values) == 40
             return values
         damped, free = energies("elasticDamping 0.02"), energies("elasticDamping off")
-        self.assertLess(worst(damped[-5:]), 1e-6 * max(free[-5:]))
-        self.assertGreater(max(free[-10:]), 0.5 * max(free[:10]))
+        assert worst(damped[-5:]) < 1e-6 * max(free[-5:])
+        assert max(free[-10:]) > 0.5 * max(free[:10])
 
     def test_coefficient_of_restitution(self):
         """Refused unless the deck says what it is for; `restitution` takes it below yield."""
         deck = self.deck("", ELASTIC_SPEED).replace("fix p1", RESTITUTION)
-        self.assertIn("say 'elasticDamping off'", self.run_deck(deck, expect_failure=True))
+        assert "say 'elasticDamping off'" in self.run_deck(deck, expect_failure=True)
         said = self.deck("elasticDamping restitution", ELASTIC_SPEED).replace("fix p1", RESTITUTION)
-        self.assertAlmostEqual(self.e(said, ELASTIC_SPEED), damped_restitution(0.1605), delta=0.003)
+        assert self.e(said, ELASTIC_SPEED) == approx(damped_restitution(0.1605), abs=0.003)
         # 0.6 is Z = 0.1605; that the force may not pull makes it 0.63
         ignored = self.deck("elasticDamping off", ELASTIC_SPEED)
-        self.assertEqual(self.e(ignored.replace("fix p1", RESTITUTION), ELASTIC_SPEED), self.e(ignored, ELASTIC_SPEED))
+        assert self.e(ignored.replace("fix p1", RESTITUTION), ELASTIC_SPEED) == self.e(ignored, ELASTIC_SPEED)
 
     def test_never_attractive(self):
         """Overdamped: the sphere never comes back faster, and nothing pulls it back to the wall."""
         e = self.e(self.deck("elasticDamping 0.9", ELASTIC_SPEED), ELASTIC_SPEED)
-        self.assertGreaterEqual(e, 0.0)
-        self.assertLess(e, 0.3)
+        assert e >= 0.0
+        assert e < 0.3
 
 
-class TangentialStiffness(Deck):
+class TestTangentialStiffness(Deck):
     def slip(self, stiffness, speed):
         """A pressed sphere pushed sideways: displacement over force gives k_t."""
         text = head(half=20 * RADIUS) + properties([POWDER], 0.5)
@@ -137,11 +136,7 @@ class TangentialStiffness(Deck):
         s = 0.02**0.25
         q = math.log(s / 6.4e-4**0.25)              # tests/unit/synthetic_law.hpp
         computed = mindlin * (1 + 0.3 * q * q / (1 + q))
-        self.assertGreater(computed / mindlin, 1.05)
+        assert computed / mindlin > 1.05
         # 1e-3: the sphere moves down and turns a little in the 50 steps
-        self.assertAlmostEqual(self.slip("mindlin", 1e-3) / mindlin, 1.0, delta=1e-3)
-        self.assertAlmostEqual(self.slip("computed", 1e-3) / computed, 1.0, delta=1e-3)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert self.slip("mindlin", 1e-3) / mindlin == approx(1.0, abs=1e-3)
+        assert self.slip("computed", 1e-3) / computed == approx(1.0, abs=1e-3)

@@ -1,7 +1,7 @@
 """Total energy of gravity-driven runs: kinetic + gravity + elastic + dissipated (+ taken by friction) is constant."""
 import random
-import unittest
 
+from pytest import approx, mark
 from harness import POWDER, Deck, properties
 
 RADIUS = 1.7e-3
@@ -47,7 +47,7 @@ SUM = (f"compute rot all erotate/sphere\nvariable e equal ke+c_rot+{G}*mass(all)
 PRINT = 'print "ENERGY ${e} ${d} ${s} ${o} ${a1} ${a2} ${a3}"\n'
 
 
-class Energy(Deck):
+class TestEnergy(Deck):
     def balance(self, tangential, friction, ranks, name="mpm", law=None, steps=30000, more="elasticDamping off"):
         data_file(self.folder / "bed.data")
         words = (f"law {law or self.law} materials powder " if name == "mpm" else "") + f"energy on {more}"
@@ -55,13 +55,13 @@ class Energy(Deck):
         text = self.run_deck(deck + "run 0\n" + PRINT + f"run {steps}\n" + PRINT, ranks=ranks)
         lines = [[float(w) for w in line.split()[1:]] for line in text.splitlines() if line.startswith("ENERGY")]
         before, after = lines[0], lines[-1]
-        self.assertEqual(before[1], 0.0)
+        assert before[1] == 0.0
         mechanical, dissipated, stored, other, a1, a2, a3 = after
         lost = dissipated + other
         # particles own what their contacts hold and lose: all of it, counted once
         for value, expected in ((a1, stored), (a2, dissipated), (a3, other)):
-            self.assertAlmostEqual(value, expected, delta=1e-9 * lost)
-        self.assertGreater(stored, 0.0)  # the sum is looked at while contacts are closed
+            assert value == approx(expected, abs=1e-9 * lost)
+        assert stored > 0.0  # the sum is looked at while contacts are closed
         return (mechanical + stored + lost - before[0]) / lost, dissipated, stored, other
 
     def test_frictionless(self):
@@ -73,22 +73,21 @@ class Energy(Deck):
         for name, law, ranks in (("mpm", None, 1), ("mpm", None, 2), ("mpm", self.folder / "axis.h5", 1),
                                  ("thornton", None, 1)):
             error, dissipated, stored, other = self.balance("off", 0.0, ranks, name, law)
-            self.assertLess(abs(error), 9e-5 if law else 2e-5, f"{name} {law} {ranks}")
-            self.assertLess(abs(other), 1e-9 * dissipated)
+            assert abs(error) < (9e-5 if law else 2e-5), f"{name} {law} {ranks}"
+            assert abs(other) < 1e-9 * dissipated
 
     def test_elastic_damping(self):
         """Work of damping below yield stands in the other work, and the balance stays closed to the same bound."""
         error, dissipated, stored, other = self.balance("off", 0.0, 1, more="elasticDamping 0.05")
-        self.assertLess(abs(error), 2e-5)
-        self.assertGreater(other, 1e-3 * dissipated)
+        assert abs(error) < 2e-5
+        assert other > 1e-3 * dissipated
 
-    def test_friction(self):
+    @mark.parametrize("tangential, ranks", (("history", 1), ("history", 2), ("no_history", 1), ("history rolling_friction epsd2", 1)))
+    def test_friction(self, tangential, ranks):
         """Sliding, tangential springs, rolling resistance: the same bound, with a fraction that matters."""
-        for tangential, ranks in (("history", 1), ("history", 2), ("no_history", 1),
-                                  ("history rolling_friction epsd2", 1)):
-            error, dissipated, stored, other = self.balance(tangential, 0.3, ranks)
-            self.assertLess(abs(error), 2e-5, f"{tangential} {ranks}")
-            self.assertGreater(other, 0.05 * dissipated)
+        error, dissipated, stored, other = self.balance(tangential, 0.3, ranks)
+        assert abs(error) < 2e-5, f"{tangential} {ranks}"
+        assert other > 0.05 * dissipated
 
     def test_property_removed_between_runs(self):
         """`unfix granulaw_energy`: what a dump, a variable and the thermo value read is a number of the particle, not what was freed."""
@@ -99,14 +98,14 @@ class Energy(Deck):
                  'print "BETWEEN ${one} ${s}"\n' + f"run 0\n{PRINT}run 5000\n{PRINT}")
         text = self.run_deck(deck, environment={"MALLOC_PERTURB_": "85"})  # what is freed becomes 0xaa
         before, start_again, after = self.results(text, "ENERGY")
-        self.assertEqual(self.result(text, "BETWEEN")[1], 0.0)  # no property, nothing held
-        self.assertGreater(before[5], 0.0)
-        self.assertEqual(start_again[5:], [0.0, 0.0])  # a new property begins at zero
-        self.assertAlmostEqual(start_again[4], start_again[2], delta=1e-9 * before[2])
-        self.assertGreater(after[5], 0.0)
+        assert self.result(text, "BETWEEN")[1] == 0.0  # no property, nothing held
+        assert before[5] > 0.0
+        assert start_again[5:] == [0.0, 0.0]  # a new property begins at zero
+        assert start_again[4] == approx(start_again[2], abs=1e-9 * before[2])
+        assert after[5] > 0.0
         rows = (self.folder / "end.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
         for column, total in zip((1, 2, 3), after[4:]):
-            self.assertAlmostEqual(sum(float(row.split()[column]) for row in rows), total, delta=1e-9 * abs(total))
+            assert sum(float(row.split()[column]) for row in rows) == approx(total, abs=1e-9 * abs(total))
 
     def test_off_by_default(self):
         """Without `energy on` nothing is stored, and switching it on does not change a single digit of the motion."""
@@ -116,10 +115,6 @@ class Energy(Deck):
         for word in ("", "energy on"):
             deck = start() + model(f"law {self.law} materials powder {word}", "history", 0.3) + sums
             found.append(self.result(self.run_deck(deck + 'run 15000\nprint "OFF ${e} ${d} ${s} ${o}"\n'), "OFF"))
-        self.assertEqual(found[0][:2], found[1][:2])
-        self.assertEqual(found[0][2:], [0.0, 0.0])
-        self.assertNotEqual(found[1][3], 0.0)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert found[0][:2] == found[1][:2]
+        assert found[0][2:] == [0.0, 0.0]
+        assert found[1][3] != 0.0

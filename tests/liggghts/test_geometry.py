@@ -1,8 +1,8 @@
 """Walls and particles of every kind: meshes that are flat, split, curved or moving; squeezed, periodic, frozen, rigid,
 inserted while running, of many sizes; multispheres as LIGGGHTS has them. Stock hertz beside where it has the same question."""
 import math
-import unittest
 
+from pytest import approx
 from harness import POWDER, head, properties, sphere_mass, worst
 from trials import Trial, dump
 
@@ -75,7 +75,7 @@ ON_MESH = "mesh n_meshes 1 meshes cad"
 PLANE = "primitive type 1 zplane 0.0"
 
 
-class Flat(Geometry):
+class TestFlat(Geometry):
     def traces(self, model, triangles, x, v, omega, friction, steps):
         """Forces at every step on the mesh and on a plane without seams; pressed on by 2 N."""
         (self.folder / "wall.stl").write_text(stl(triangles))
@@ -91,9 +91,9 @@ class Flat(Geometry):
     def check(self, table, triangles, x, v, omega, friction, steps):
         for model in MODELS:
             mesh, plane = self.traces(model, triangles, x, v, omega, friction, steps)
-            self.assertGreater(mesh[-1][0], -x[0])  # crossed all of it
+            assert mesh[-1][0] > -x[0]  # crossed all of it
             biggest = max(abs(row[2] + 2.0) for row in plane)
-            self.assertGreater(biggest, 1.0)
+            assert biggest > 1.0
             apart = worst(abs(a[c] - b[c]) for a, b in zip(mesh, plane) for c in (1, 2)) / biggest
             jump = worst(abs(b[2] - a[2]) for a, b in zip(mesh, mesh[1:])) / biggest
             smooth = worst(abs(b[2] - a[2]) for a, b in zip(plane, plane[1:])) / biggest
@@ -101,7 +101,7 @@ class Flat(Geometry):
             if model != "hertz":
                 # vertices are read at 9 digits and z = 0 exactly: only rounding of the distance is left, 1e-16 R against
                 # an overlap of 1e-3 R, carried through the oscillation of the contact
-                self.assertLess(apart, 1e-9, f"{table}, {model}")
+                assert apart < 1e-9, f"{table}, {model}"
 
     def test_sphere_rolls_over_the_edge(self):
         a, b, c, d = (-0.02, -0.02, 0.0), (0.02, -0.02, 0.0), (0.02, 0.02, 0.0), (-0.02, 0.02, 0.0)
@@ -139,12 +139,12 @@ class Flat(Geometry):
             limit = 2 * 2 * POWDER.e_star * math.sqrt(RADIUS * down / 2) * 2 * speed * DT
             self.record("squeezed", model=model, force=biggest, jump=jump, limit=limit, moved=moved / down)
             if model != "hertz":
-                self.assertLess(jump, limit, model)
-                self.assertGreater(moved, 0.3 * down, model)
-                self.assertLess(moved, 0.7 * down, model)
+                assert jump < limit, model
+                assert moved > 0.3 * down, model
+                assert moved < 0.7 * down, model
 
 
-class Curved(Geometry):
+class TestCurved(Geometry):
     def test_no_more_virgin_contacts_than_facets(self):
         """A sphere rolls down a trough of flat strips: stock geometry hands history on between coplanar triangles only."""
         big, facets = 12 * RADIUS, 60
@@ -171,11 +171,11 @@ class Curved(Geometry):
             turned = math.degrees(math.atan2(end[0], big - end[1]) - angle)
             strips = turned / (120 / facets)
             self.record("curved", model=model, contacts=counted, degrees=turned, strips=strips)
-            self.assertGreater(turned, 20)
+            assert turned > 20
             if model != "hertz":
-                self.assertGreater(counted, 0)
+                assert counted > 0
                 # one for each strip passed, and the two it starts and ends on
-                self.assertLessEqual(counted, strips + 2, model)
+                assert counted <= strips + 2, model
 
     def touches(self, name):
         """Sets of triangles in contact, frame by frame."""
@@ -191,7 +191,7 @@ class Curved(Geometry):
         return frames
 
 
-class Ridge(Geometry):
+class TestRidge(Geometry):
     """Effect of a convex edge of a mesh. LIGGGHTS gives the edge to one of its two triangles: passing from that one to the other, a pressed
     sphere begins a contact at full depth beside the one that it has; the other way, one vanishes at full depth."""
 
@@ -240,12 +240,12 @@ class Ridge(Geometry):
                     counted, brought = (n1 - n0, (b1 - b0) / one) if ours else (None, None)
                     self.record("ridge", degrees=degrees, way=way, model=model, gained=gained, contacts=counted, brought=brought)
                     if ours and way == "begins" and degrees <= 2:  # over a steeper ridge it flies
-                        self.assertGreaterEqual(counted, 1, f"{model} {degrees}")
+                        assert counted >= 1, f"{model} {degrees}"
                         # nothing is gained that the contact statistics does not name; what vanishes at full depth is lost
-                        self.assertLess(gained, brought + 0.05, f"{model} {degrees}")
+                        assert gained < brought + 0.05, f"{model} {degrees}"
 
 
-class Particles(Geometry):
+class TestParticles(Geometry):
     def bounce(self, deck):
         (self.folder / "end.dump").unlink(missing_ok=True)
         self.run_deck(deck)
@@ -265,7 +265,7 @@ class Particles(Geometry):
                 self.record("moving", model=model, mesh=mesh_speed, e=v)
                 # the mesh is moved at another point of the step than the sphere: half a step of first touch, 1/80 of a
                 # contact, whose error in e is its square
-                self.assertAlmostEqual(v / at_rest, 1.0, delta=1e-3, msg=f"{model} {mesh_speed}")
+                assert v / at_rest == approx(1.0, abs=1e-3), f"{model} {mesh_speed}"
 
     def two(self, model, x, v, **keywords):
         text = self.pair(model, **keywords)
@@ -287,9 +287,9 @@ class Particles(Geometry):
                                          boundary="p p p") + "fix i all nve/sphere\n" + dump("vx", 200) + "run 200\n")
                 found.append(v[2][0] - v[1][0])
             self.record("particles", case="across a periodic boundary", model=model, e=found[1], expected=found[0])
-            self.assertLess(found[0], 0.97)
+            assert found[0] < 0.97
             # the distance is rounded at 1e-16 of the box, 1e-13 of the overlap
-            self.assertAlmostEqual(found[1] / found[0], 1.0, delta=1e-10, msg=model)
+            assert found[1] / found[0] == approx(1.0, abs=1e-10), model
 
     def test_frozen_and_rigid(self):
         """A frozen sphere is an infinite mass; a rigid dumb-bell that lands flat rebounds as one sphere does."""
@@ -298,8 +298,8 @@ class Particles(Geometry):
         v = self.bounce(self.two("mpm", ((0.0, 0.0, 0.0), (gap, 0.0, 0.0)), ((0.0, 0.0, 0.0), (-1.0, 0.0, 0.0))) +
                         "fix z a0 freeze\nfix i a1 nve/sphere\n" + dump("vx", 200) + "run 200\n")
         self.record("particles", case="on a frozen sphere", model="mpm", e=v[2][0], expected=expected)
-        self.assertEqual(v[1][0], 0.0)
-        self.assertAlmostEqual(v[2][0] / expected, 1.0, delta=0.01)  # the step's error, as in test_restitution
+        assert v[1][0] == 0.0
+        assert v[2][0] / expected == approx(1.0, abs=0.01)  # the step's error, as in test_restitution
 
         expected = self.fixture("mpm", self.law, "powder", "wall", RADIUS, MASS, 1.0)[0]
         z = RADIUS + 0.3 * DT
@@ -307,7 +307,7 @@ class Particles(Geometry):
                         self.wall("mpm", PLANE) + "fix i all rigid single\n" + dump("vz", 200) + "run 200\n")
         self.record("particles", case="rigid dumb-bell, flat on a wall", model="mpm", e=v[1][0], expected=expected)
         for k in (1, 2):
-            self.assertAlmostEqual(v[k][0] / expected, 1.0, delta=0.01)
+            assert v[k][0] / expected == approx(1.0, abs=0.01)
 
     def test_insertion_of_three_sizes(self):
         """Spheres of three sizes thrown in every 2000 steps: none is lost, and energy is only ever dissipated."""
@@ -332,12 +332,12 @@ class Particles(Geometry):
             if len(words) == 6 and words[0].isdigit():
                 rows.append([float(w) for w in words])
         rows = rows[1:]
-        self.assertGreater(rows[-1][1], rows[0][1])  # more came in while others lay on the floor
-        self.assertGreater(rows[-1][4], 20)  # between particles
-        self.assertGreater(rows[-1][5], 20)  # with walls
+        assert rows[-1][1] > rows[0][1]  # more came in while others lay on the floor
+        assert rows[-1][4] > 20  # between particles
+        assert rows[-1][5] > 20  # with walls
         gained, level = 0.0, None
         for a, b in zip(rows, rows[1:]):
-            self.assertGreaterEqual(b[1], a[1])
+            assert b[1] >= a[1]
             if b[1] > a[1]:  # new ones bring energy
                 level = None
                 continue
@@ -346,7 +346,7 @@ class Particles(Geometry):
             gained = max(gained, (b[2] + b[3]) / level - 1)
         self.record("insertion", particles=rows[-1][1], contacts=rows[-1][4] + rows[-1][5], gained=gained)
         # what contacts held at the moment of the last insertion comes back later: 2 % at most (a few of 60 spheres)
-        self.assertLess(gained, 0.02)
+        assert gained < 0.02
 
     def test_multisphere_as_it_is(self):
         """A law without velocity axis gives a clump its forces, whatever mass LIGGGHTS hands over: what the body loses is what the
@@ -366,16 +366,12 @@ class Particles(Geometry):
                 'print "BODY ${k} ${r} ${d} ${n}"\nrun 19900\nprint "BODY ${k} ${r} ${d} ${n}"\n')
         first, last = self.results(self.run_deck(deck), "BODY")
         rows = [[row[0] for row in frame.values()] for frame in self.frames("end.dump") if frame]
-        self.assertEqual(len(rows[-1]), 2)
+        assert len(rows[-1]) == 2
         before, after = sum(rows[1]) / 2, sum(rows[-1]) / 2
         self.record("particles", case="multisphere clump of two on a wall", model="mpm", e=-after / before, expected=None)
-        self.assertGreater(after, before)  # it came back or was slowed
-        self.assertGreater(last[3], 0)
+        assert after > before  # it came back or was slowed
+        assert last[3] > 0
         loss = first[0] + first[1] - last[0] - last[1]
         # some 50 steps a contact: 3e-4 of e (test_restitution.py, LIMITS), twice that of the energy
-        self.assertAlmostEqual(loss / last[2], 1.0, delta=1e-3)
-        self.assertLess(worst(abs(v) for row in rows for v in row), 3 * abs(before))
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert loss / last[2] == approx(1.0, abs=1e-3)
+        assert worst(abs(v) for row in rows for v in row) < 3 * abs(before)

@@ -1,8 +1,8 @@
 """Decks that LIGGGHTS accepts and that would go wrong without a word: refused in one sentence, or right."""
 import pathlib
 import re
-import unittest
 
+from pytest import approx, mark
 from collisions import pair_deck, wall_deck
 from harness import POWDER, Deck, head, plane_stl, properties
 
@@ -11,7 +11,7 @@ DT = 2e-7
 MODELS = ("mpm", "thornton")
 
 
-class Guards(Deck):
+class TestGuards(Deck):
     def words(self, model, more=""):
         return (f"law {self.law} materials powder " if model == "mpm" else "") + more
 
@@ -27,56 +27,56 @@ class Guards(Deck):
             for model in MODELS:
                 for wall in ({}, mesh):
                     deck = self.deck(model, more, tangential=tangential, **wall)
-                    self.assertEqual(self.result(self.run_deck(deck.replace("neigh_modify delay 0", small)), "SPEED"), self.result(self.run_deck(deck), "SPEED"))
+                    assert self.result(self.run_deck(deck.replace("neigh_modify delay 0", small)), "SPEED") == self.result(self.run_deck(deck), "SPEED")
 
-    def test_multi(self):
-        for model in MODELS:
-            deck = self.deck(model)
-            line = next(l for l in deck.splitlines() if l.startswith("neighbor "))
-            self.refused(deck.replace(line, line.replace("bin", "multi")), "'neighbor ... multi' lets spheres of unlike size")
+    @mark.parametrize("model", MODELS)
+    def test_multi(self, model):
+        deck = self.deck(model)
+        line = next(l for l in deck.splitlines() if l.startswith("neighbor "))
+        self.refused(deck.replace(line, line.replace("bin", "multi")), "'neighbor ... multi' lets spheres of unlike size")
 
-    def test_respa(self):
+    @mark.parametrize("model", MODELS)
+    def test_respa(self, model):
         """Pairs work at every level; walls and energies do not: LIGGGHTS calls no wall there, not stock Hertz's either."""
-        for model in MODELS:
-            pair = lambda more="", style="": pair_deck(model, self.words(model, more), (POWDER, POWDER), (RADIUS, RADIUS), 1.0,
-                                                       DT).replace("timestep", f"{style}\ntimestep")
-            plain, *levels = (self.result(self.run_deck(pair(style=style)), "SPEED")[0]
-                              for style in ("", "run_style respa 1", "run_style respa 2 2 pair 2", "run_style respa 2 2 pair 1"))
-            for e, delta in zip(levels, (1e-12, 1e-12, 1e-3)):  # the last has half the step: its own error in e
-                self.assertAlmostEqual(e / plain, 1.0, delta=delta)
-            self.refused(self.deck(model).replace("timestep", "run_style respa 1\ntimestep"), "does not call fix wall/gran")
-            self.refused(pair("energy on", "run_style respa 1"), "run_style verlet")
+        pair = lambda more="", style="": pair_deck(model, self.words(model, more), (POWDER, POWDER), (RADIUS, RADIUS), 1.0,
+                                                   DT).replace("timestep", f"{style}\ntimestep")
+        plain, *levels = (self.result(self.run_deck(pair(style=style)), "SPEED")[0]
+                          for style in ("", "run_style respa 1", "run_style respa 2 2 pair 2", "run_style respa 2 2 pair 1"))
+        for e, delta in zip(levels, (1e-12, 1e-12, 1e-3)):  # the last has half the step: its own error in e
+            assert e / plain == approx(1.0, abs=delta)
+        self.refused(self.deck(model).replace("timestep", "run_style respa 1\ntimestep"), "does not call fix wall/gran")
+        self.refused(pair("energy on", "run_style respa 1"), "run_style verlet")
 
-    def test_wall_before_the_pair_style(self):
+    @mark.parametrize("model", MODELS)
+    def test_wall_before_the_pair_style(self, model):
         """A wall that stands first cannot take what the pair style says later."""
-        for model in MODELS:
-            for more in ("energy on", "contactMap on", "stretch 3", "elasticDamping 0.1"):
-                deck = self.deck(model, more)
-                wall = next(l for l in deck.splitlines() if l.startswith("fix w "))
-                first = deck.replace(wall + "\n", "").replace("pair_style", wall + " " + self.words(model) + "\npair_style")
-                self.refused(first, "put it behind")
-            deck = self.deck(model)
+        for more in ("energy on", "contactMap on", "stretch 3", "elasticDamping 0.1"):
+            deck = self.deck(model, more)
             wall = next(l for l in deck.splitlines() if l.startswith("fix w "))
             first = deck.replace(wall + "\n", "").replace("pair_style", wall + " " + self.words(model) + "\npair_style")
-            if model == "thornton":  # has nothing to take
-                self.assertEqual(self.result(self.run_deck(first), "SPEED"), self.result(self.run_deck(deck), "SPEED"))
+            self.refused(first, "put it behind")
+        deck = self.deck(model)
+        wall = next(l for l in deck.splitlines() if l.startswith("fix w "))
+        first = deck.replace(wall + "\n", "").replace("pair_style", wall + " " + self.words(model) + "\npair_style")
+        if model == "thornton":  # has nothing to take
+            assert self.result(self.run_deck(first), "SPEED") == self.result(self.run_deck(deck), "SPEED")
 
-    def test_pair_style_again_with_other_words(self):
-        for model in MODELS:
-            deck = self.deck(model)
-            again = f"pair_style gran model {model} tangential history {self.words(model, 'stretch 3')}\npair_coeff * *\ntimestep"
-            self.refused(deck.replace("timestep", again), "put it behind")
+    @mark.parametrize("model", MODELS)
+    def test_pair_style_again_with_other_words(self, model):
+        deck = self.deck(model)
+        again = f"pair_style gran model {model} tangential history {self.words(model, 'stretch 3')}\npair_coeff * *\ntimestep"
+        self.refused(deck.replace("timestep", again), "put it behind")
 
-    def test_two_spheres_at_one_place(self):
-        for model in MODELS:
-            place = "0.001 0.002 0.003"
-            deck = (head(half=20 * RADIUS) + properties([POWDER]) +
-                    f"pair_style gran model {model} tangential history {self.words(model)}\npair_coeff * *\n" +
-                    f"create_atoms 1 single {place} units box\n" * 2 +
-                    f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nfix i all nve/sphere\ntimestep {DT}\nrun 1\n")
-            text = self.run_deck(deck, expect_failure=True)
-            self.assertIn("particles 1 and 2 are at one place (0.001, 0.002, 0.003)", text)
-            self.assertNotIn("nan", text.lower())
+    @mark.parametrize("model", MODELS)
+    def test_two_spheres_at_one_place(self, model):
+        place = "0.001 0.002 0.003"
+        deck = (head(half=20 * RADIUS) + properties([POWDER]) +
+                f"pair_style gran model {model} tangential history {self.words(model)}\npair_coeff * *\n" +
+                f"create_atoms 1 single {place} units box\n" * 2 +
+                f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nfix i all nve/sphere\ntimestep {DT}\nrun 1\n")
+        text = self.run_deck(deck, expect_failure=True)
+        assert "particles 1 and 2 are at one place (0.001, 0.002, 0.003)" in text
+        assert "nan" not in text.lower()
 
     def test_axis_of_a_cylinder(self):
         """On the axis of a narrow pipe a sphere touches nothing, whatever LIGGGHTS calls it; later it hits the wall as any other."""
@@ -92,24 +92,24 @@ class Guards(Deck):
                         "velocity all set 3.0 0.0 0.0\n" f"run {int(0.9 * RADIUS / 3.0 / DT)}\n"
                         'print "SPEED ${v}"\n')
                 found.append(self.result(self.run_deck(deck), "SPEED")[0])
-            self.assertLess(found[0], -1.0)
+            assert found[0] < -1.0
             # the phase of the step at first touch differs: its error in e, 1e-3 at 25 steps a contact
-            self.assertAlmostEqual(found[0] / found[1], 1.0, delta=5e-3)
+            assert found[0] / found[1] == approx(1.0, abs=5e-3)
 
-    def test_restart_of_another_combination(self):
+    @mark.parametrize("model", MODELS)
+    def test_restart_of_another_combination(self, model):
         """Histories of as many values are not those of another model."""
-        for model in MODELS:
-            viscous = "fix p6 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.1\nfix p1"
-            base = self.deck(model).replace("run 120", "run 20").replace("fix p1", viscous)
-            write = base.replace("history ", "history rolling_friction epsd2 ") + "write_restart r.bin\n"
-            self.run_deck(write)
-            text = write[write.index("fix p6"):write.index("create_atoms")]
-            read = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                    f"communicate single vel yes\nread_restart r.bin\nneighbor {RADIUS / 2} bin\n" + text +
-                    f"fix i all nve/sphere\ntimestep {DT!r}\nrun 10\n")
-            self.run_deck(read)
-            other = read.replace("rolling_friction epsd2", "rolling_friction epsd")
-            self.refused(other, "written with other models", "rolling_friction epsd2", "found model mpm tangential history rolling_friction epsd,".replace("mpm", model))
+        viscous = "fix p6 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.1\nfix p1"
+        base = self.deck(model).replace("run 120", "run 20").replace("fix p1", viscous)
+        write = base.replace("history ", "history rolling_friction epsd2 ") + "write_restart r.bin\n"
+        self.run_deck(write)
+        text = write[write.index("fix p6"):write.index("create_atoms")]
+        read = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+                f"communicate single vel yes\nread_restart r.bin\nneighbor {RADIUS / 2} bin\n" + text +
+                f"fix i all nve/sphere\ntimestep {DT!r}\nrun 10\n")
+        self.run_deck(read)
+        other = read.replace("rolling_friction epsd2", "rolling_friction epsd")
+        self.refused(other, "written with other models", "rolling_friction epsd2", "found model mpm tangential history rolling_friction epsd,".replace("mpm", model))
 
     def test_restart_into_every_changed_keyword(self):
         """Every keyword, said otherwise behind read_restart: one that gives the histories another meaning is refused, any other goes on.
@@ -122,7 +122,7 @@ class Guards(Deck):
         foreign = {"computeElasticPotential", "heating_tangential_no_history", "tangential_reduce", "torsionTorque", "meanCurvature", "gaussianCurvature", "curvatureLimitFactor"}
         sources = pathlib.Path(__file__).resolve().parents[2] / "liggghts_plugin"
         said = {word for name in ("deck/keywords.hpp", "contact/mpm_physics.hpp") for word in re.findall(r'Keyword(?: beyond_range)?\{\.name = "(\w+)"', (sources / name).read_text())}
-        self.assertEqual(said - foreign, meaning.keys() | sizes.keys() | free.keys())
+        assert said - foreign == meaning.keys() | sizes.keys() | free.keys()
         other = self.folder / "other.h5"
         self.fixture("write", other, "depth", 0.8)
         for model in MODELS:
@@ -161,44 +161,40 @@ class Guards(Deck):
             places = [line for line in text.splitlines() if line.startswith("create_atoms")]
             for sign, place in zip((-1, 1), places):
                 text = text.replace(place, f"create_atoms 1 single {sign * 0.6 * RADIUS!r} 0 0 units box")
-            self.assertIn("began deeper than the motion of a step", self.run_deck(re.sub("velocity .*", "", text)))  # no motion, no stop
+            assert "began deeper than the motion of a step" in self.run_deck(re.sub("velocity .*", "", text))  # no motion, no stop
         text = self.run_deck(self.deck("mpm").replace(str(self.law), str(self.folder)), expect_failure=True)
-        self.assertIn(f"{self.folder}: cannot be read as a file", text)
+        assert f"{self.folder}: cannot be read as a file" in text
 
     def test_other_allocators(self):
         """jemalloc and tcmalloc round sizes up in their own way."""
         libraries = pathlib.Path("/usr/lib/x86_64-linux-gnu")
         found = [libraries / name for name in ("libjemalloc.so.2", "libtcmalloc_minimal.so.4") if (libraries / name).exists()]
-        self.assertTrue(found, "tools/setup installs libjemalloc2")
+        assert found, "tools/setup installs libjemalloc2"
         deck = self.deck("mpm")
         expected = self.result(self.run_deck(deck), "SPEED")
         for library in found:
-            self.assertEqual(self.result(self.run_deck(deck, environment={"LD_PRELOAD": str(library)}), "SPEED"), expected)
+            assert self.result(self.run_deck(deck, environment={"LD_PRELOAD": str(library)}), "SPEED") == expected
 
 
-class GapDamping(Deck):
-    def test_no_force_below_the_residual_overlap(self):
+class TestGapDamping(Deck):
+    @mark.parametrize("model", MODELS)
+    def test_no_force_below_the_residual_overlap(self, model):
         """`elasticDamping` works where the law carries force: not in the gap of a dent, neither on the way out nor in."""
-        for model in MODELS:
-            law = f"law {self.law} materials powder " if model == "mpm" else ""
-            # down, up until the force is gone, and back in within the same overlap, without friction and with
-            deck = (head(half=20 * RADIUS) + properties([POWDER], 0.5) +
-                    f"pair_style gran model {model} tangential history {law}elasticDamping 0.2\npair_coeff * *\n"
-                    f"fix w all wall/gran model {model} tangential history primitive type 1 zplane 0.0\n"
-                    f"create_atoms 1 single 0.0 0.0 {RADIUS!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
-                    f"timestep {DT!r}\nfix m all move linear 0.0 0.0 -1.0\nvariable f equal fcm(all,z)\nvariable z equal xcm(all,z)\n"
-                    "thermo_style custom step\nrun 200\n"   # 40 um down: 2 % of R, far beyond yield
-                    "unfix m\nfix m all move linear 0.0 0.0 1.0\nrun 180\n")  # 4 um below the first touch
-            deck += ('print "OUT ${z} ${f}"\nunfix m\nfix m all move linear 1.0 0.0 -1.0\nrun 5\nvariable t equal fcm(all,x)\n'
-                     'print "IN ${z} ${f} ${t}"\n')
-            text = self.run_deck(deck)
-            z, force = self.result(text, "OUT")
-            self.assertLess(z, RADIUS)  # they overlap still
-            self.assertEqual(force, 0.0, model)
-            z, force, friction = self.result(text, "IN")
-            self.assertLess(z, RADIUS)
-            self.assertEqual((force, friction), (0.0, 0.0), model)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        law = f"law {self.law} materials powder " if model == "mpm" else ""
+        # down, up until the force is gone, and back in within the same overlap, without friction and with
+        deck = (head(half=20 * RADIUS) + properties([POWDER], 0.5) +
+                f"pair_style gran model {model} tangential history {law}elasticDamping 0.2\npair_coeff * *\n"
+                f"fix w all wall/gran model {model} tangential history primitive type 1 zplane 0.0\n"
+                f"create_atoms 1 single 0.0 0.0 {RADIUS!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                f"timestep {DT!r}\nfix m all move linear 0.0 0.0 -1.0\nvariable f equal fcm(all,z)\nvariable z equal xcm(all,z)\n"
+                "thermo_style custom step\nrun 200\n"   # 40 um down: 2 % of R, far beyond yield
+                "unfix m\nfix m all move linear 0.0 0.0 1.0\nrun 180\n")  # 4 um below the first touch
+        deck += ('print "OUT ${z} ${f}"\nunfix m\nfix m all move linear 1.0 0.0 -1.0\nrun 5\nvariable t equal fcm(all,x)\n'
+                 'print "IN ${z} ${f} ${t}"\n')
+        text = self.run_deck(deck)
+        z, force = self.result(text, "OUT")
+        assert z < RADIUS  # they overlap still
+        assert force == 0.0, model
+        z, force, friction = self.result(text, "IN")
+        assert z < RADIUS
+        assert (force, friction) == (0.0, 0.0), model

@@ -1,7 +1,7 @@
 """Heat beside our models: `temperature` of walls, `compute wall/gran/local`, heat through the law's own contact radius."""
 import math
-import unittest
 
+from pytest import approx, mark
 from harness import POWDER, Deck, head, plane_stl, properties
 
 RADIUS = 1.7e-3
@@ -15,7 +15,7 @@ CONDUCTION = "fix heat all heat/gran/conduction initial_temperature 300.0\n"
 MODELS = ("hertz", "mpm", "thornton")
 
 
-class Heat(Deck):
+class TestHeat(Deck):
     def words(self, model, more=""):
         own = {"mpm": f"law {self.law} materials powder elasticDamping off ", "thornton": "elasticDamping off ", "hertz": ""}[model]
         return own + more
@@ -36,37 +36,37 @@ class Heat(Deck):
                 f"velocity all set 0.0 0.0 {-speed!r}\nfix i all nve/sphere\ntimestep {DT!r}\n"
                 "compute t all reduce sum f_Temp\nvariable t equal c_t\nthermo_style custom step c_t\nthermo 100\n")
 
-    def test_spheres_beside_a_hot_wall_stay_cold(self):
+    @mark.parametrize("wall", ("primitive type 1 zplane 0.0", "mesh n_meshes 1 meshes cad"))
+    @mark.parametrize("model", MODELS)
+    def test_spheres_beside_a_hot_wall_stay_cold(self, model, wall):
         """0.5 % of R off the wall: no contact, no heat."""
-        for model in MODELS:
-            for wall in ("primitive type 1 zplane 0.0", "mesh n_meshes 1 meshes cad"):
-                deck = self.start(model, wall) + self.spheres([1.005 * RADIUS]) + 'run 10\nprint "TEMP ${t}"\n'
-                self.assertEqual(self.result(self.run_deck(deck), "TEMP"), [300.0], f"{model}, {wall}")
+        deck = self.start(model, wall) + self.spheres([1.005 * RADIUS]) + 'run 10\nprint "TEMP ${t}"\n'
+        assert self.result(self.run_deck(deck), "TEMP") == [300.0], f"{model}, {wall}"
 
-    def test_an_impact_on_a_hot_wall_takes_heat(self):
+    @mark.parametrize("wall", ("primitive type 1 zplane 0.0", "mesh n_meshes 1 meshes cad"))
+    def test_an_impact_on_a_hot_wall_takes_heat(self, wall):
         """Below yield (0.03 m/s) all three models make the same contact: stock Hertz's heat, to the law's table."""
-        for wall in ("primitive type 1 zplane 0.0", "mesh n_meshes 1 meshes cad"):
-            found = {}
-            for model in MODELS:
-                deck = self.start(model, wall) + self.spheres([RADIUS * (1 + 1e-6)], 0.03) + 'run 300\nprint "TEMP ${t}"\n'
-                found[model] = self.result(self.run_deck(deck), "TEMP")[0] - 300.0
-            self.assertGreater(found["hertz"], 1e-3)
-            # thornton has Hertz's formula itself; the law is Hertz corrected for a finite sphere, 0.9 sqrt(d/R) = 1 % of F
-            # at d/R = 2e-4 here, and the time in contact follows; elastic spheres meet deformable walls of the same material
-            self.assertAlmostEqual(found["thornton"] / found["hertz"], 1.0, delta=1e-6, msg=wall)
-            self.assertAlmostEqual(found["mpm"] / found["hertz"], 1.0, delta=0.02, msg=wall)
-
-    def test_local_rows_are_contacts(self):
-        """Two spheres hover within 1 % of R, one is pressed 1 % in: one row, and the hovering ones get no heat."""
+        found = {}
         for model in MODELS:
-            deck = (self.start(model, "mesh n_meshes 1 meshes cad") +
-                    self.spheres([1.001 * RADIUS, 1.009 * RADIUS, 0.9999 * RADIUS]) +
-                    "compute rows all wall/gran/local id force contactArea heatFlux\n".replace(" heatFlux", "") +
-                    "compute n all reduce sum c_rows[1]\ndump d all local 1 rows.dump c_rows[1] c_rows[2] c_rows[3]\n"
-                    "run 1\n")
-            self.run_deck(deck)
-            lines = (self.folder / "rows.dump").read_text().splitlines()
-            self.assertEqual([int(b) for a, b in zip(lines, lines[1:]) if a == "ITEM: NUMBER OF ENTRIES"], [1, 1], model)
+            deck = self.start(model, wall) + self.spheres([RADIUS * (1 + 1e-6)], 0.03) + 'run 300\nprint "TEMP ${t}"\n'
+            found[model] = self.result(self.run_deck(deck), "TEMP")[0] - 300.0
+        assert found["hertz"] > 1e-3
+        # thornton has Hertz's formula itself; the law is Hertz corrected for a finite sphere, 0.9 sqrt(d/R) = 1 % of F
+        # at d/R = 2e-4 here, and the time in contact follows; elastic spheres meet deformable walls of the same material
+        assert found["thornton"] / found["hertz"] == approx(1.0, abs=1e-6), wall
+        assert found["mpm"] / found["hertz"] == approx(1.0, abs=0.02), wall
+
+    @mark.parametrize("model", MODELS)
+    def test_local_rows_are_contacts(self, model):
+        """Two spheres hover within 1 % of R, one is pressed 1 % in: one row, and the hovering ones get no heat."""
+        deck = (self.start(model, "mesh n_meshes 1 meshes cad") +
+                self.spheres([1.001 * RADIUS, 1.009 * RADIUS, 0.9999 * RADIUS]) +
+                "compute rows all wall/gran/local id force contactArea heatFlux\n".replace(" heatFlux", "") +
+                "compute n all reduce sum c_rows[1]\ndump d all local 1 rows.dump c_rows[1] c_rows[2] c_rows[3]\n"
+                "run 1\n")
+        self.run_deck(deck)
+        lines = (self.folder / "rows.dump").read_text().splitlines()
+        assert [int(b) for a, b in zip(lines, lines[1:]) if a == "ITEM: NUMBER OF ENTRIES"] == [1, 1], model
 
     def conducted(self, a):
         """K in one step that a contact of radius `a` with a wall at HOT gives: hc = 4 k k/(k + k) sqrt(pi a^2)."""
@@ -85,7 +85,7 @@ class Heat(Deck):
                     if a is None:
                         a = self.radius_of_law(model, depth)
                     # LIGGGHTS integrates with the flux of the step before: explicit, 1e-6 of the difference to the wall
-                    self.assertAlmostEqual(gained / self.conducted(a), 1.0, delta=1e-5, msg=f"{model} {wall} '{more}'")
+                    assert gained / self.conducted(a) == approx(1.0, abs=1e-5), f"{model} {wall} '{more}'"
 
     def test_heat_of_a_body_behind_the_contact(self):
         """A rigid body of two spheres set into a wall: `heatArea overlap` takes the circle of the geometric overlap under `bodyCompliance on`,
@@ -99,9 +99,9 @@ class Heat(Deck):
                         f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nneigh_modify exclude group all all\n"
                         'fix hold all rigid single\nrun 0\nrun 1\nprint "TEMP ${t}"\n')
                 gained[body, area] = self.result(self.run_deck(deck), "TEMP")[0] - 600.0
-        self.assertAlmostEqual(gained["on", "overlap"] / gained["off", "overlap"], 1.0, delta=1e-4)  # the step moves it by 1e-5 of the overlap
+        assert gained["on", "overlap"] / gained["off", "overlap"] == approx(1.0, abs=1e-4)  # the step moves it by 1e-5 of the overlap
         ratio = gained["on", "law"] / gained["off", "law"]
-        self.assertTrue(0.9 < ratio < 0.999, ratio)  # the radius goes as the root of the overlap, of which the body takes some per cent
+        assert 0.9 < ratio < 0.999, ratio  # the radius goes as the root of the overlap, of which the body takes some per cent
 
     def radius_of_law(self, model, depth):
         if model == "mpm":  # a rigid wall would have another: the wall here is deformable and of the same material
@@ -126,10 +126,6 @@ class Heat(Deck):
             geometric = math.sqrt(RADIUS**2 - ((1 - depth / 2) * RADIUS)**2)
             a = (self.fixture("radius", self.law, "powder", "powder", RADIUS / 2, depth * RADIUS, depth * RADIUS, 0)[0]
                  if model == "mpm" else math.sqrt(RADIUS / 2 * depth * RADIUS))
-            self.assertAlmostEqual(gained[model, "heatArea law", 1] / gained[model, "", 1], a / geometric, delta=1e-5, msg=model)
+            assert gained[model, "heatArea law", 1] / gained[model, "", 1] == approx(a / geometric, abs=1e-5), model
             for more in ("", "heatArea law"):
-                self.assertAlmostEqual(gained[model, more, 2] / gained[model, more, 1], 1.0, delta=1e-12)
-
-
-if __name__ == "__main__":
-    unittest.main()
+                assert gained[model, more, 2] / gained[model, more, 1] == approx(1.0, abs=1e-12)

@@ -1,7 +1,7 @@
 """History of a contact, which must not depend on how LIGGGHTS keeps its lists."""
 import math
-import unittest
 
+from pytest import approx, mark
 import gas
 from harness import POWDER, Deck, head, properties, sphere_mass
 
@@ -9,9 +9,8 @@ RADIUS = 1.7e-3
 STEPS = 5000  # every sphere has collided several times: the kinetic energy has fallen to a third
 
 
-class History(Deck):
-    def setUp(self):
-        super().setUp()
+class TestHistory(Deck):
+    def prepare(self):
         gas.data_file(self.folder / "gas.data")
         self.axis_law = self.folder / "axis.h5"
         self.fixture("write", self.axis_law, "axis")
@@ -25,23 +24,23 @@ class History(Deck):
                              gas.PRINT)
         return self.result(text, "GAS")
 
-    def test_invariance(self):
+    @mark.parametrize("model", ("mpm", "mpm with axis", "thornton"))
+    def test_invariance(self, model):
         """Kinetic energy, dissipation, number of contacts and largest overlap for five ways to run one case."""
-        for model in ("mpm", "mpm with axis", "thornton"):
-            reference = self.energy(model, extra="sort 0 0.0")
-            start = self.energy(model, run="run 0\n")
-            self.assertLess(reference[0], 0.7 * start[0])  # plastic contacts took part
-            self.assertGreater(reference[2], 200)          # and there were many of them
-            ways = {"rebuild at every step": {"extra": "sort 0 0.0", "neigh": "every 1 delay 0 check no"},
-                    "sort at every rebuild": {"extra": "sort 1 0.0003", "neigh": "every 1 delay 0 check no"},
-                    "split run": {"extra": "sort 0 0.0", "run": "run 777\n" * 6 + f"run {STEPS - 6 * 777}\n"},
-                    "wider contact distance": {"extra": "sort 0 0.0", "neigh": "delay 0 contact_distance_factor 1.05"}}
-            for name, way in ways.items():
-                found = self.energy(model, **way)
-                for value, expected in zip(found, reference):
-                    # another order of summation: 1e-16 a step, amplified by the collisions to 1e-9 or so;
-                    # without the contact distance factor it shows at 2e-4, with newton flag "1" at 2e-3 (both tried)
-                    self.assertAlmostEqual(value / expected, 1.0, delta=1e-6, msg=f"{model}, {name}")
+        reference = self.energy(model, extra="sort 0 0.0")
+        start = self.energy(model, run="run 0\n")
+        assert reference[0] < 0.7 * start[0]  # plastic contacts took part
+        assert reference[2] > 200          # and there were many of them
+        ways = {"rebuild at every step": {"extra": "sort 0 0.0", "neigh": "every 1 delay 0 check no"},
+                "sort at every rebuild": {"extra": "sort 1 0.0003", "neigh": "every 1 delay 0 check no"},
+                "split run": {"extra": "sort 0 0.0", "run": "run 777\n" * 6 + f"run {STEPS - 6 * 777}\n"},
+                "wider contact distance": {"extra": "sort 0 0.0", "neigh": "delay 0 contact_distance_factor 1.05"}}
+        for name, way in ways.items():
+            found = self.energy(model, **way)
+            for value, expected in zip(found, reference):
+                # another order of summation: 1e-16 a step, amplified by the collisions to 1e-9 or so;
+                # without the contact distance factor it shows at 2e-4, with newton flag "1" at 2e-3 (both tried)
+                assert value / expected == approx(1.0, abs=1e-6), f"{model}, {name}"
 
 
 def thornton_unloading(r, delta, largest):
@@ -55,7 +54,7 @@ def thornton_unloading(r, delta, largest):
     return 4 / 3 * e_star * math.sqrt(flattened) * (delta - left)**1.5
 
 
-class KeptReversal(Deck):
+class TestKeptReversal(Deck):
     """The reversal values that a contact keeps are the present law's, not those of the time when they were worked out."""
 
     PRINT = "dump d all custom 1 now.txt fz z radius f_history_w[1] f_history_w[2]\ndump_modify d format \"%.15g %.15g %.15g %.15g %.15g\"\n"
@@ -67,8 +66,7 @@ class KeptReversal(Deck):
                 f"fix w all wall/gran model {model} tangential off primitive type 1 zplane 0.0 elasticDamping off\n"
                 f"fix i all nve/sphere\ntimestep {self.dt!r}\n")
 
-    def setUp(self):
-        super().setUp()
+    def prepare(self):
         mass = sphere_mass(RADIUS, POWDER.density)
         self.dt = self.fixture("mpm", self.law, "powder", "wall", RADIUS, mass, 1.0)[1] / 200
         self.start = (f"create_atoms 1 single 0 0 {RADIUS!r} units box\nset group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
@@ -78,12 +76,12 @@ class KeptReversal(Deck):
         self.run_deck(deck + self.PRINT + run)
         force, z, radius, largest, impact = map(float, (self.folder / "now.txt").read_text().split("\n")[-2].split())
         delta = radius - z
-        self.assertLess(delta, 0.999 * largest)  # it unloads
+        assert delta < 0.999 * largest  # it unloads
         expected = (self.fixture("force", law, "powder", "wall", repr(radius), repr(delta), repr(largest), repr(impact))[0] if law else
                     thornton_unloading(radius, delta, largest))
         # the loop's table against the curve: 2e-5 of the force at the reversal
-        self.assertAlmostEqual(force / expected, 1.0, delta=1e-4)
-        self.assertGreater(force, 1.0)
+        assert force / expected == approx(1.0, abs=1e-4)
+        assert force > 1.0
 
     def test_another_law_after_a_restart(self):
         other = self.folder / "other.h5"
@@ -102,7 +100,3 @@ class KeptReversal(Deck):
         grow = (f"run 130\nvariable g equal {2 * RADIUS!r}*(1+0.01*(step-130)/25)\n"
                 f"fix a all adapt 1 atom diameter v_g\nvelocity all set 0 0 {0.01 * RADIUS / (25 * self.dt) + 0.1!r}\n")
         self.check(head(half=20 * RADIUS) + self.rules(law) + self.start + grow, law, "run 25\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,22 +1,21 @@
 """Results must not depend on how LIGGGHTS keeps its lists, splits the box, or is started and stopped. Stock models beside.
 
-    test_invariance.py [Forces Collapse Rejoin]     quick: 1000 steps of the collapse, our models only
-    test_invariance.py full                         10,000 steps, stock models beside (slow)
+1000 steps of the collapse, our models only; with GRANULAW_FULL=1 10,000 steps, stock models beside (slow).
 
 Runs that differ only in the order of floating-point sums drift apart as fast as a run whose particles were moved by one
 unit in the last place. That is measured in the same test, and is the yardstick: a lost or wrong contact history shows at
 1e-3 of a radius (stock thornton_ning does it here)."""
 import math
+import os
 import random
-import sys
-import unittest
 
+from pytest import approx
 from harness import POWDER, properties, worst
 from trials import Trial, dump
 
 RADIUS = 1.7e-3
 DT = 2e-7  # a contact lasts 80 steps
-FULL = "full" in sys.argv
+FULL = "GRANULAW_FULL" in os.environ
 STEPS = 10000 if FULL else 1000
 MODELS = ("mpm", "thornton", "hertz", "thornton_ning")
 ELASTIC = "fix q1 all property/global coefficientRestitution peratomtypepair 1 1.0\n"  # stock hertz without damping
@@ -87,7 +86,7 @@ def difference(a, b, columns):
     return worst(abs(a[i][c] - b[i][c]) for i in a for c in columns)
 
 
-class Forces(Invariance):
+class TestForces(Invariance):
     def test_exchange_rebuild_sort(self):
         """A cluster in contact: forces on every sphere, over the largest force, for four ways to hold the same lists."""
         steps = 100  # the first contacts load, turn and unload
@@ -104,14 +103,14 @@ class Forces(Invariance):
                     frames.append([{(28 - i if reverse else i): f for i, f in frame.items()} for frame in self.frames("end.dump")])
                 biggest = max(abs(c) for frame in frames[0] for f in frame.values() for c in f)
                 upper = {i for frame in frames[0] for i, f in frame.items() if i > 9 and max(map(abs, f)) > 1e-3 * biggest}
-                self.assertGreater(len(upper), 10)  # spheres that the floor cannot reach: pairs do touch
+                assert len(upper) > 10  # spheres that the floor cannot reach: pairs do touch
                 found = max(difference(a, b, (0, 1, 2)) for a, b in zip(*frames)) / biggest
                 self.record("forces", model=model, way=way, difference=found)
                 if model in ("mpm", "thornton"):
-                    self.assertLess(found, 1e-12, f"{model}, {way}")  # required
+                    assert found < 1e-12, f"{model}, {way}"  # required
 
 
-class Collapse(Invariance):
+class TestCollapse(Invariance):
     def test_collapse(self):
         """500 spheres from one restart file that already holds contacts."""
         for model in MODELS if FULL else MODELS[:2]:
@@ -126,7 +125,7 @@ class Collapse(Invariance):
             nudge = ("variable nudge atom x*(1+2.3e-16)\nset group all x v_nudge\n")
             nudged = self.frame_after(self.deck(model, start="read_restart start.restart\n" + nudge, output=end))
             yardstick = difference(reference, nudged, (0, 1, 2)) / RADIUS
-            self.assertGreater(yardstick, 0, "the nudge changed nothing")
+            assert yardstick > 0, "the nudge changed nothing"
 
             tenth = STEPS // 10
             middle = (f"run {STEPS // 2}\nwrite_restart middle.restart\n")
@@ -147,14 +146,14 @@ class Collapse(Invariance):
                 self.record("collapse", model=model, way=way, steps=STEPS, difference=apart, yardstick=yardstick)
                 if way in ("1 rank again", "output at every step"):
                     if model in ("mpm", "thornton"):
-                        self.assertEqual(apart, 0.0, f"{model}, {way}")  # the same sums in the same order
+                        assert apart == 0.0, f"{model}, {way}"  # the same sums in the same order
                 elif model in ("mpm", "thornton"):
                     # A rounding error enters at every step of these runs, once in the yardstick: 100 times as much, and
                     # no less than 1e-12 R, is still rounding.
-                    self.assertLess(apart, max(100 * yardstick, 1e-12), f"{model}, {way}")
+                    assert apart < max(100 * yardstick, 1e-12), f"{model}, {way}"
 
 
-class Rejoin(Invariance):
+class TestRejoin(Invariance):
     def test_pair_that_meets_again_is_virgin(self):
         """A sphere bounces off a frozen one, returns from an elastic wall and hits again: inside the contact distance
         (gap 0.002 R) and far outside it (gap 0.2 R), with and without a rebuild in between."""
@@ -182,17 +181,13 @@ class Rejoin(Invariance):
                 # after each reversal at the sphere: negative to positive
                 rebounds = [max(velocities[k:k + 12]) for k in range(1, len(velocities))
                             if velocities[k - 1] < 0 <= velocities[k]]
-                self.assertGreaterEqual(len(rebounds), 2, f"gap {gap}: {velocities[::10]}")
+                assert len(rebounds) >= 2, f"gap {gap}: {velocities[::10]}"
                 results.append(rebounds[:2])
                 e = rebounds[1] / rebounds[0]
                 self.record("rejoin", gap=gap, neigh=neigh, e=e, virgin=second)
                 # 1 %: the step's error, as in test_restitution; with the dent kept e would be 1 within 0.01
-                self.assertAlmostEqual(rebounds[0] / speed / first, 1.0, delta=0.01)
-                self.assertAlmostEqual(e / second, 1.0, delta=0.01)
-                self.assertLess(second, 0.97)
+                assert rebounds[0] / speed / first == approx(1.0, abs=0.01)
+                assert e / second == approx(1.0, abs=0.01)
+                assert second < 0.97
             for a, b in zip(*results):
-                self.assertAlmostEqual(a / b, 1.0, delta=1e-12)  # the rebuild changes nothing
-
-
-if __name__ == "__main__":
-    unittest.main(argv=[word for word in sys.argv if word != "full"])
+                assert a / b == approx(1.0, abs=1e-12)  # the rebuild changes nothing

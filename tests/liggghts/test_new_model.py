@@ -1,20 +1,19 @@
 """A model made as docs/guide/new-contact-model.md says, of two files and a line (plain_hertz): against stock Hertz, and what a user sees."""
 import os
-import pathlib
-import subprocess
-import unittest
+import re
 
+from pytest import approx, mark
 from collisions import pair_deck, wall_deck
 from harness import GLASS, POWDER, Deck, head, properties
+from programs import ROOT, run
 
 RADIUS, SPEED, DT = 1.7e-3, 1.0, 2e-7
 STEPS = 40  # within the contact, which takes 50 to 60 steps
 PLAIN = {"LD_PRELOAD": os.environ["GRANULAW_PLAIN_HERTZ"]}
 WORDS = "elasticDamping off tangentialDampingRatio 0"
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-class NewModel(Deck):
+class TestNewModel(Deck):
     def pair(self, model, words, materials=(POWDER, POWDER), radii=(RADIUS, RADIUS), run="run 120"):
         deck = pair_deck(model, words, materials, radii, SPEED, DT, run=run)
         if model == "hertz":  # elastic
@@ -25,51 +24,51 @@ class NewModel(Deck):
     def speed(self, deck):
         return self.result(self.run_deck(deck, launcher="liggghts", environment=PLAIN), "SPEED")[0]
 
-    def test_two_spheres_collide_as_under_stock_hertz(self):
+    @mark.parametrize("materials, radii", (((POWDER, POWDER), (RADIUS, RADIUS)), ((POWDER, GLASS), (RADIUS, 2 * RADIUS))))
+    def test_two_spheres_collide_as_under_stock_hertz(self, materials, radii):
         """In the middle of the collision and behind it, of like and of unlike spheres; to rounding, summed over the steps."""
-        for materials, radii in (((POWDER, POWDER), (RADIUS, RADIUS)), ((POWDER, GLASS), (RADIUS, 2 * RADIUS))):
-            for run in (f"run {STEPS}", "run 120"):
-                stock = self.speed(self.pair("hertz", "tangential_damping off", materials, radii, run))
-                ours = self.speed(self.pair("plain_hertz", WORDS, materials, radii, run))
-                self.assertAlmostEqual(ours, stock, delta=1e-9 * SPEED)
-            self.assertAlmostEqual(ours / SPEED, 1.0, delta=1e-3)  # elastic; the deck's 120 steps hold the whole collision
+        for run in (f"run {STEPS}", "run 120"):
+            stock = self.speed(self.pair("hertz", "tangential_damping off", materials, radii, run))
+            ours = self.speed(self.pair("plain_hertz", WORDS, materials, radii, run))
+            assert ours == approx(stock, abs=1e-9 * SPEED)
+        assert ours / SPEED == approx(1.0, abs=1e-3)  # elastic; the deck's 120 steps hold the whole collision
 
-    def test_a_tangential_law_of_ours(self):
+    @mark.parametrize("rolling", ("", " rolling_friction epsd2"))
+    def test_a_tangential_law_of_ours(self, rolling):
         """Spring in LIGGGHTS's place: spheres that meet beside their centres and spin, on a floor too, with a rolling model; to the last bit."""
-        for rolling in ("", " rolling_friction epsd2"):
-            ends = []
-            for tangential in ("history", "own_spring"):
-                style = f"model plain_hertz tangential {tangential}{rolling}"
-                words = "elasticDamping off tangentialDampingRatio 0.2"
-                deck = (head(half=20 * RADIUS) + properties([POWDER], 0.3) + f"pair_style gran {style} {words}\npair_coeff * *\n"
-                        f"fix w all wall/gran {style} primitive type 1 zplane 0.0 {words}\n"
-                        f"create_atoms 1 single 0 0 {1.0005 * RADIUS!r} units box\ncreate_atoms 1 single {1.2 * RADIUS!r} {0.4 * RADIUS!r} {2.5543 * RADIUS!r} units box\n"
-                        f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nset atom 1 vx 0.4 vy -0.2 vz -1.0\nset atom 2 vx -1.0 vy 0.7 vz -1.5\n"
-                        f"fix i all nve/sphere\ntimestep {DT!r}\nrun 30\nrun 300\n" +
-                        "".join(f"variable {q}{k} equal {q[:-1]}{q[-1]}[{k}]\n" for q in ("vx", "vy", "vz") for k in (1, 2)) +
-                        "compute spin all erotate/sphere\nthermo_style custom step c_spin\nvariable s equal c_spin\nrun 0\n"
-                        'print "END ' + " ".join(f"$(v_{q}{k})" for q in ("vx", "vy", "vz") for k in (1, 2)) + ' $(v_s)"\n')
-                text = self.run_deck(deck, launcher="liggghts", environment=PLAIN)
-                ends.append(text[text.index("END "):].split("\n")[0])
-            self.assertEqual(*ends)
-            self.assertGreater(float(ends[0].split()[-1]), 0)
+        ends = []
+        for tangential in ("history", "own_spring"):
+            style = f"model plain_hertz tangential {tangential}{rolling}"
+            words = "elasticDamping off tangentialDampingRatio 0.2"
+            deck = (head(half=20 * RADIUS) + properties([POWDER], 0.3) + f"pair_style gran {style} {words}\npair_coeff * *\n"
+                    f"fix w all wall/gran {style} primitive type 1 zplane 0.0 {words}\n"
+                    f"create_atoms 1 single 0 0 {1.0005 * RADIUS!r} units box\ncreate_atoms 1 single {1.2 * RADIUS!r} {0.4 * RADIUS!r} {2.5543 * RADIUS!r} units box\n"
+                    f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nset atom 1 vx 0.4 vy -0.2 vz -1.0\nset atom 2 vx -1.0 vy 0.7 vz -1.5\n"
+                    f"fix i all nve/sphere\ntimestep {DT!r}\nrun 30\nrun 300\n" +
+                    "".join(f"variable {q}{k} equal {q[:-1]}{q[-1]}[{k}]\n" for q in ("vx", "vy", "vz") for k in (1, 2)) +
+                    "compute spin all erotate/sphere\nthermo_style custom step c_spin\nvariable s equal c_spin\nrun 0\n"
+                    'print "END ' + " ".join(f"$(v_{q}{k})" for q in ("vx", "vy", "vz") for k in (1, 2)) + ' $(v_s)"\n')
+            text = self.run_deck(deck, launcher="liggghts", environment=PLAIN)
+            ends.append(text[text.index("END "):].split("\n")[0])
+        assert ends[0] == ends[1]
+        assert float(ends[0].split()[-1]) > 0
 
     def test_its_own_keyword(self):
         stiff = type(POWDER)("powder", POWDER.density, 4 * POWDER.youngs_modulus, POWDER.poisson_ratio, POWDER.yield_stress)
         expected = self.speed(self.pair("plain_hertz", WORDS, (stiff, stiff), run=f"run {STEPS}"))
         found = self.speed(self.pair("plain_hertz", WORDS + " modulusFactor 4", run=f"run {STEPS}"))
-        self.assertAlmostEqual(found, expected, delta=1e-9 * SPEED)
+        assert found == approx(expected, abs=1e-9 * SPEED)
 
     def test_a_wall_takes_the_keyword_from_the_pair_style(self):
         deck = wall_deck("plain_hertz", WORDS + " modulusFactor 4", POWDER, RADIUS, SPEED, DT)
         again = wall_deck("plain_hertz", WORDS + " modulusFactor 4", POWDER, RADIUS, SPEED, DT, wall_words="modulusFactor 4")
-        self.assertEqual(self.speed(deck), self.speed(again))
-        self.assertNotEqual(self.speed(deck), self.speed(wall_deck("plain_hertz", WORDS, POWDER, RADIUS, SPEED, DT)))
+        assert self.speed(deck) == self.speed(again)
+        assert self.speed(deck) != self.speed(wall_deck("plain_hertz", WORDS, POWDER, RADIUS, SPEED, DT))
 
     def refused(self, deck, *parts):
         text = self.run_deck(deck, launcher="liggghts", environment=PLAIN, expect_failure=True)
         for part in parts:
-            self.assertIn(part, text)
+            assert part in text
 
     def test_refusals(self):
         self.refused(self.pair("plain_hertz", "modulusFacto 4"), "pair_style gran model plain_hertz", "unknown keyword 'modulusFacto'",
@@ -83,23 +82,17 @@ class NewModel(Deck):
 
     def test_statistics(self):
         text = self.run_deck(self.pair("plain_hertz", WORDS), launcher="liggghts", environment=PLAIN)
-        self.assertIn("plain_hertz; none: elastic", text)
-        self.assertRegex(text, r"(?m)^  contacts begun +1 +0$")
+        assert "plain_hertz; none: elastic" in text
+        assert re.search(r"(?m)^  contacts begun +1 +0$", text)
 
 
-class Concept(unittest.TestCase):
+class TestConcept:
     def test_a_missing_member_is_named(self):
         """A model that lacks something does not compile, and the compiler says what."""
         source = (ROOT / "tests" / "liggghts" / "plain_hertz" / "plain_hertz_physics.hpp").read_text()
         for member, without in (("law.stiffness(", source.replace("double stiffness(", "double rigidity(")),
                                 ("prepared.describe(", source.replace("PairInfo describe(", "PairInfo explain(")),
                                 ("Physics::id", source.replace("id = 44", "id = 9"))):
-            done = subprocess.run(["c++", "-std=c++20", "-fsyntax-only", "-x", "c++", f"-I{ROOT}", f"-I{ROOT / 'mpm_core'}", "-"],
-                                  input=without.replace("#pragma once", ""), capture_output=True, text=True)
-            self.assertNotEqual(done.returncode, 0)
-            self.assertIn("static assertion failed", done.stderr)
-            self.assertIn(member, done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()
+            done = run("c++", "-std=c++20", "-fsyntax-only", "-x", "c++", f"-I{ROOT}", f"-I{ROOT / 'mpm_core'}", "-", input=without.replace("#pragma once", ""), code=None)
+            assert "static assertion failed" in done.stderr
+            assert member in done.stderr

@@ -3,9 +3,11 @@
 Material `elastic` is Hertz from the law's tables (error 3e-6 of the force: docs/evidence/trials.md), without damping;
 stock Hertz with restitution 1 has none either. One state, so that nothing has time to drift apart.
 """
-import unittest
 
 import gas
+import re
+
+from pytest import approx
 from harness import POWDER, Deck, properties
 
 TOLERANCE = 1e-5  # of the largest value: three times the table's error, and six printed digits
@@ -17,7 +19,7 @@ PRESSURE = ("compute p all pressure thermo_temp virial\n" +
             "thermo_style custom step c_p[1] c_p[2] c_p[3] c_p[4] c_p[5] c_p[6]\nthermo 1\nthermo_modify norm no\n")
 
 
-class Observers(Deck):
+class TestObservers(Deck):
     def run_gas(self, name, words, extra):
         gas.data_file(self.folder / "gas.data")
         restitution = "fix p6 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
@@ -40,16 +42,15 @@ class Observers(Deck):
     def compare(self, extra=""):
         hertz_pressure, hertz = self.run_gas("hertz", "", extra)
         pressure, ours = self.run_gas("mpm", f"law {self.law} materials elastic elasticDamping off", extra)
-        self.assertGreater(len(hertz), 10, "the state shows nothing: hardly a contact")
-        self.assertEqual(ours.keys() ^ hertz.keys(), set(), "pairs in contact under one model only")
+        assert len(hertz) > 10, "the state shows nothing: hardly a contact"
+        assert ours.keys() ^ hertz.keys() == set(), "pairs in contact under one model only"
         for column in range(9, 15):
             largest = max(abs(r[column]) for r in hertz.values())
             for pair, row in hertz.items():
-                self.assertAlmostEqual(ours[pair][column], row[column], delta=TOLERANCE * max(largest, 1e-12),
-                                       msg=f"pair {pair}, column {column + 1}")
+                assert ours[pair][column] == approx(row[column], abs=TOLERANCE * max(largest, 1e-12)), f"pair {pair}, column {column + 1}"
         scale = max(map(abs, hertz_pressure))
         for found, wanted in zip(pressure, hertz_pressure):
-            self.assertAlmostEqual(found, wanted, delta=TOLERANCE * scale)
+            assert found == approx(wanted, abs=TOLERANCE * scale)
 
     def test_pressure_and_local_forces(self):
         self.compare()
@@ -62,8 +63,4 @@ class Observers(Deck):
         gas.data_file(self.folder / "gas.data")
         deck = (gas.start() + gas.model(f"law {self.law} materials powder") + gas.MOVE +
                 "fix m all multicontact/halfspace\nrun 1\n")
-        self.assertRegex(self.run_deck(deck, expect_failure=True), "multicontact")
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert re.search("multicontact", self.run_deck(deck, expect_failure=True))

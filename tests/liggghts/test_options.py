@@ -1,6 +1,6 @@
 """The ways a deck can be written: order of commands, restart, LD_PRELOAD, rolling friction, converted Hertz decks."""
-import unittest
 
+from pytest import approx, mark
 import gas
 from collisions import wall_deck
 from harness import PLUGIN, POWDER, Deck, properties
@@ -8,9 +8,8 @@ from harness import PLUGIN, POWDER, Deck, properties
 RADIUS = 1.7e-3
 
 
-class Options(Deck):
-    def setUp(self):
-        super().setUp()
+class TestOptions(Deck):
+    def prepare(self):
         self.words = f"law {self.law} materials powder"
 
     def deck(self, words=None, **keywords):
@@ -19,46 +18,46 @@ class Options(Deck):
     def speed(self, deck, **keywords):
         return self.result(self.run_deck(deck, **keywords), "SPEED")[0]
 
-    def test_pair_style_before_create_box(self):
+    @mark.parametrize("words", ("", " energy on"))
+    def test_pair_style_before_create_box(self, words):
         """Then the first wall adds the fixes, with `energy on` the particles' energies too."""
-        for words in ("", " energy on"):
-            deck = self.deck(self.words + words) + 'variable d equal f_granulaw\nprint "LOSS ${d}"\n'
-            style = next(l for l in deck.splitlines() if l.startswith("pair_style"))
-            early = deck.replace(style + "\n", "").replace("region box", style + "\nregion box")
-            early, late = self.run_deck(early), self.run_deck(deck)
-            for name in ("SPEED", "LOSS"):
-                self.assertEqual(self.result(early, name), self.result(late, name))
+        deck = self.deck(self.words + words) + 'variable d equal f_granulaw\nprint "LOSS ${d}"\n'
+        style = next(l for l in deck.splitlines() if l.startswith("pair_style"))
+        early = deck.replace(style + "\n", "").replace("region box", style + "\nregion box")
+        early, late = self.run_deck(early), self.run_deck(deck)
+        for name in ("SPEED", "LOSS"):
+            assert self.result(early, name) == self.result(late, name)
 
     def test_ld_preload_with_the_stock_binary(self):
         found = self.speed(self.deck(), launcher="liggghts", environment={"LD_PRELOAD": PLUGIN})
-        self.assertEqual(found, self.speed(self.deck()))
+        assert found == self.speed(self.deck())
 
     def test_converted_hertz_deck(self):
         """limitForce and tangential_damping are known; the deck says that coefficientRestitution is not for us."""
         e = "fix p6 all property/global coefficientRestitution peratomtypepair 1 0.5\nfix p1"
         words = self.words + " elasticDamping off"
         text = self.run_deck(self.deck(words + " limitForce on tangential_damping on").replace("fix p1", e))
-        self.assertEqual(self.result(text, "SPEED")[0], self.speed(self.deck(words)))
+        assert self.result(text, "SPEED")[0] == self.speed(self.deck(words))
 
     def test_density_warning(self):
         text = self.run_deck(self.deck().replace("density 1500.0", "density 1600.0"))
-        self.assertEqual(text.count("have density 1600 to 1600 kg/m^3"), 1)
+        assert text.count("have density 1600 to 1600 kg/m^3") == 1
 
     def test_density_of_a_template(self):
         """Said in the first run, ahead of the first particle that it makes."""
         template = "fix pt all particletemplate/sphere 15485863 atom_type 1 density constant 15000 radius constant 0.001\nrun 120"
         text = self.run_deck(self.deck().replace("run 120", template))
-        self.assertEqual(text.count("have density 1500 to 15000 kg/m^3"), 1)
+        assert text.count("have density 1500 to 15000 kg/m^3") == 1
 
     def test_own_statistics_fix(self):
         """`fix ID all granulaw/stats` by the user takes the place of the automatic one."""
         deck = self.deck().replace("run 120", "fix s all granulaw/stats file s.json\nvariable d equal f_s\nrun 120")
         self.run_deck(deck + 'print "D ${d}"\n')
-        self.assertTrue((self.folder / "s.json").exists())
+        assert (self.folder / "s.json").exists()
 
     def test_check_timestep(self):
         deck = self.deck().replace("run 120", "fix c all check/timestep/gran 10 0.5 0.5\nrun 120")
-        self.assertGreater(self.speed(deck), 0.1)
+        assert self.speed(deck) > 0.1
 
     def test_restart(self):
         """A run through a restart file equals the run in one go; without pair_style it says what to do."""
@@ -73,10 +72,6 @@ class Options(Deck):
                      "neigh_modify delay 0\n")
             resumed = self.run_deck(again + model + gas.MOVE + gas.OUTPUT + "run 2000\n" + gas.PRINT)
             # rounding, amplified by 2000 steps of collisions
-            self.assertAlmostEqual(self.result(resumed, "GAS")[0] / self.result(whole, "GAS")[0], 1.0, delta=1e-8)
+            assert self.result(resumed, "GAS")[0] / self.result(whole, "GAS")[0] == approx(1.0, abs=1e-8)
         bare = self.run_deck(again + properties([POWDER], 0.3) + gas.MOVE + "run 1\n", expect_failure=True)
-        self.assertIn("repeat pair_style and pair_coeff after read_restart", bare)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert "repeat pair_style and pair_coeff after read_restart" in bare

@@ -2,8 +2,8 @@
 computeDissipatedEnergy, contacts that begin overlapping."""
 import json
 import math
-import unittest
 
+from pytest import approx, mark
 from collisions import pair_deck, wall_deck
 from harness import GLASS, POWDER, Deck, head, plane_stl, properties, sphere_mass
 
@@ -23,7 +23,7 @@ def thornton_radius(r_eff, share, delta, largest):
     return edge * math.sqrt((delta - (largest - elastic)) / elastic)
 
 
-class Outputs(Deck):
+class TestOutputs(Deck):
     def words(self, model, more="", names="powder"):
         return (f"law {self.law} materials {names} " if model == "mpm" else "") + "elasticDamping off " + more
 
@@ -37,92 +37,92 @@ class Outputs(Deck):
                 frames.append([[float(w) for w in row.split()] for row in lines[k + 1:k + 1 + count]])
         return [f for f in frames if len(f[0]) < 7 or f[0][4] > 0][-1]
 
-    def test_columns_of_single_contacts(self):
+    @mark.parametrize("kind", ("pair", "wall"))
+    @mark.parametrize("model", MODELS)
+    def test_columns_of_single_contacts(self, model, kind):
         """contactRadius, largestOverlap and dissipatedEnergy stand behind LIGGGHTS's own columns; on the way out of an impact they are
         the law's: of the present overlap, of the largest one, and what the contact statistics have."""
-        for model in MODELS:
-            for kind in ("pair", "wall"):
-                make = "wall/gran/local" if kind == "wall" else "pair/gran/local"
-                ours = (f"compute c all {make} delta id contactRadius largestOverlap dissipatedEnergy\n"
-                        "dump d all local 10 rows.dump c_c[1] c_c[2] c_c[3] c_c[4] c_c[5] c_c[6] c_c[7]\n"
-                        'dump_modify d format "%.12g %.12g %.12g %.12g %.12g %.12g %.12g"\nvariable l equal f_granulaw\n')
-                if kind == "wall":
-                    (self.folder / "plane.stl").write_text(plane_stl())
-                    deck = wall_deck(model, self.words(model), POWDER, RADIUS, 3.0, DT, wall="mesh n_meshes 1 meshes cad",
-                                     before_wall="fix cad all mesh/surface file plane.stl type 1\n")
-                    r_eff, partner = RADIUS, "wall"
-                else:
-                    deck = pair_deck(model, self.words(model), (POWDER, POWDER), (RADIUS, RADIUS), 3.0, DT)
-                    r_eff, partner = RADIUS / 2, "powder"
-                run = 'run 900\nprint "LOSS ${l}"\n'
-                text = self.run_deck(deck.replace("run 120", ours + run))
-                loss = self.result(text, "LOSS")[0]
-                (*ids, delta, a, largest, dissipated), = self.rows()
-                self.assertEqual(sorted(int(i) for i in ids)[-1], 2 if kind == "pair" else 1)
-                self.assertLess(delta, largest)
-                self.assertGreater(delta, 0)
-                if model == "mpm":
-                    expected = self.fixture("radius", self.law, "powder", partner, r_eff, delta, largest, 0)[0]
-                    self.assertAlmostEqual(a / expected, 1.0, delta=1e-5)  # text of the dump
-                else:
-                    self.assertAlmostEqual(a / thornton_radius(r_eff, 1 if kind == "wall" else 0.5, delta, largest), 1.0, delta=1e-9)
-                self.assertAlmostEqual(dissipated / loss, 1.0, delta=1e-9)
+        make = "wall/gran/local" if kind == "wall" else "pair/gran/local"
+        ours = (f"compute c all {make} delta id contactRadius largestOverlap dissipatedEnergy\n"
+                "dump d all local 10 rows.dump c_c[1] c_c[2] c_c[3] c_c[4] c_c[5] c_c[6] c_c[7]\n"
+                'dump_modify d format "%.12g %.12g %.12g %.12g %.12g %.12g %.12g"\nvariable l equal f_granulaw\n')
+        if kind == "wall":
+            (self.folder / "plane.stl").write_text(plane_stl())
+            deck = wall_deck(model, self.words(model), POWDER, RADIUS, 3.0, DT, wall="mesh n_meshes 1 meshes cad",
+                             before_wall="fix cad all mesh/surface file plane.stl type 1\n")
+            r_eff, partner = RADIUS, "wall"
+        else:
+            deck = pair_deck(model, self.words(model), (POWDER, POWDER), (RADIUS, RADIUS), 3.0, DT)
+            r_eff, partner = RADIUS / 2, "powder"
+        run = 'run 900\nprint "LOSS ${l}"\n'
+        text = self.run_deck(deck.replace("run 120", ours + run))
+        loss = self.result(text, "LOSS")[0]
+        (*ids, delta, a, largest, dissipated), = self.rows()
+        assert sorted(int(i) for i in ids)[-1] == (2 if kind == "pair" else 1)
+        assert delta < largest
+        assert delta > 0
+        if model == "mpm":
+            expected = self.fixture("radius", self.law, "powder", partner, r_eff, delta, largest, 0)[0]
+            assert a / expected == approx(1.0, abs=1e-5)  # text of the dump
+        else:
+            assert a / thornton_radius(r_eff, 1 if kind == "wall" else 0.5, delta, largest) == approx(1.0, abs=1e-9)
+        assert dissipated / loss == approx(1.0, abs=1e-9)
 
     def test_words_alone_and_of_other_models(self):
         deck = pair_deck("mpm", self.words("mpm"), (POWDER, POWDER), (RADIUS, RADIUS), 3.0, DT)
         ours = "compute c all pair/gran/local largestOverlap\ndump d all local 10 rows.dump c_c[1] c_c[2] c_c[3] c_c[4]\n"
         self.run_deck(deck.replace("run 120", ours + "run 50"))
         (*ids, periodic, largest), = self.rows()
-        self.assertEqual((sorted(ids), periodic), ([1, 2], 0))
-        self.assertGreater(largest, 0)
+        assert (sorted(ids), periodic) == ([1, 2], 0)
+        assert largest > 0
         one = "fix p6 all property/global coefficientRestitution peratomtypepair 1 1.0\nfix p1"
         walls = f"fix w all wall/gran model mpm tangential history primitive type 1 zplane -0.01 {self.words('mpm')}\n"
         hertz = pair_deck("hertz", "", (POWDER, POWDER), (RADIUS, RADIUS), 3.0, DT).replace("fix p1", one).replace("create_atoms", walls + "create_atoms", 1)
         text = self.run_deck(hertz.replace("run 120", ours + "run 50"), expect_failure=True)
-        self.assertIn("are known of contacts of the models mpm and thornton", text)
+        assert "are known of contacts of the models mpm and thornton" in text
 
-    def test_pairs_of_types_in_thermo(self):
+    @mark.parametrize("ranks", (1, 2))
+    def test_pairs_of_types_in_thermo(self, ranks):
         """f_granulaw[row][column]: rows 1-1, 1-2, 2-2, then the walls of each type."""
-        for ranks in (1, 2):
-            deck = pair_deck("mpm", self.words("mpm", names="powder glass"), (POWDER, GLASS), (RADIUS, RADIUS), 2.0, 5e-8, run="run 600")
-            names = [f"f_granulaw[{r}][{c}]" for r in range(1, 8) for c in (1, 2, 3, 5)]
-            out = "".join(f"variable q{k} equal {n}\n" for k, n in enumerate(names))
-            text = self.run_deck(deck + out + 'print "ROWS ' + " ".join(f"${{q{k}}}" for k in range(len(names))) + '"\n'.replace("\n", "\n"),
-                                 ranks=ranks)
-            values = self.result(text, "ROWS")
-            rows = [values[4 * k:4 * k + 4] for k in range(7)]
-            for k, row in enumerate(rows):
-                self.assertEqual(row[0], 1 if k == 1 else 0, rows)
-            self.assertEqual(rows[1][1], 1)  # it has ended
-            self.assertGreater(rows[1][2], 0)
-            self.assertAlmostEqual(rows[1][3], 2.0, delta=1e-6)
+        deck = pair_deck("mpm", self.words("mpm", names="powder glass"), (POWDER, GLASS), (RADIUS, RADIUS), 2.0, 5e-8, run="run 600")
+        names = [f"f_granulaw[{r}][{c}]" for r in range(1, 8) for c in (1, 2, 3, 5)]
+        out = "".join(f"variable q{k} equal {n}\n" for k, n in enumerate(names))
+        text = self.run_deck(deck + out + 'print "ROWS ' + " ".join(f"${{q{k}}}" for k in range(len(names))) + '"\n'.replace("\n", "\n"),
+                             ranks=ranks)
+        values = self.result(text, "ROWS")
+        rows = [values[4 * k:4 * k + 4] for k in range(7)]
+        for k, row in enumerate(rows):
+            assert row[0] == (1 if k == 1 else 0), rows
+        assert rows[1][1] == 1  # it has ended
+        assert rows[1][2] > 0
+        assert rows[1][3] == approx(2.0, abs=1e-6)
 
-    def test_compute_dissipated_energy(self):
+    @mark.parametrize("model", MODELS)
+    def test_compute_dissipated_energy(self, model):
         """LIGGGHTS's own property dissipated_energy of each particle, out of the statistics."""
-        for model in MODELS:
-            deck = wall_deck(model, self.words(model, "computeDissipatedEnergy on"), POWDER, RADIUS, 1.0, DT)
-            out = ("compute e all reduce sum f_dissipated_energy_[1]\nvariable e equal c_e\nvariable l equal f_granulaw\n"
-                   "thermo_style custom step c_e f_granulaw\n")
-            text = self.run_deck(deck.replace("run 120", out + "run 1500") + 'print "LOSS ${e} ${l}"\n')
-            speed = self.result(text, "SPEED")[0]
-            lost = 0.5 * sphere_mass(RADIUS, POWDER.density) * (1 - speed**2)
-            dissipated, statistics = self.result(text, "LOSS")
-            self.assertAlmostEqual(dissipated / statistics, 1.0, delta=1e-9)
-            self.assertAlmostEqual(dissipated / lost, 1.0, delta=1e-3)  # 200 steps a contact: the step's error
+        deck = wall_deck(model, self.words(model, "computeDissipatedEnergy on"), POWDER, RADIUS, 1.0, DT)
+        out = ("compute e all reduce sum f_dissipated_energy_[1]\nvariable e equal c_e\nvariable l equal f_granulaw\n"
+               "thermo_style custom step c_e f_granulaw\n")
+        text = self.run_deck(deck.replace("run 120", out + "run 1500") + 'print "LOSS ${e} ${l}"\n')
+        speed = self.result(text, "SPEED")[0]
+        lost = 0.5 * sphere_mass(RADIUS, POWDER.density) * (1 - speed**2)
+        dissipated, statistics = self.result(text, "LOSS")
+        assert dissipated / statistics == approx(1.0, abs=1e-9)
+        assert dissipated / lost == approx(1.0, abs=1e-3)  # 200 steps a contact: the step's error
 
-    def test_energies_of_particles_that_came_since_the_last_run(self):
+    @mark.parametrize("model", MODELS)
+    def test_energies_of_particles_that_came_since_the_last_run(self, model):
         """So many come that all arrays move, and the energies are asked for before the next run."""
-        for model in MODELS:
-            deck = wall_deck(model, self.words(model, "energy on"), POWDER, RADIUS, 1.0, DT)
-            more = ("lattice sc 0.002\nregion some block -0.03 0.03 -0.03 0.03 0.005 0.03 units box\ncreate_atoms 1 region some\n"
-                    f"set region some diameter 0.0015 density {POWDER.density}\nvariable held equal f_granulaw[14]\n"
-                    'print "HELD ${held}"\nwrite_dump all custom new.txt id f_granulaw[1] f_granulaw[2] modify sort id\n')
-            text = self.run_deck(deck.replace("run 120", "run 120\n" + more))
-            rows = [line.split() for line in (self.folder / "new.txt").read_text().splitlines() if len(line.split()) == 3 and line[0].isdigit()]
-            self.assertGreater(len(rows), 10000)
-            self.assertGreater(float(rows[0][1]), 0)  # it is in contact
-            self.assertAlmostEqual(float(rows[0][1]) / self.result(text, "HELD")[0], 1.0, delta=1e-4)  # six digits are written
-            self.assertEqual({(held, lost) for _, held, lost in rows[1:]}, {("0", "0")})
+        deck = wall_deck(model, self.words(model, "energy on"), POWDER, RADIUS, 1.0, DT)
+        more = ("lattice sc 0.002\nregion some block -0.03 0.03 -0.03 0.03 0.005 0.03 units box\ncreate_atoms 1 region some\n"
+                f"set region some diameter 0.0015 density {POWDER.density}\nvariable held equal f_granulaw[14]\n"
+                'print "HELD ${held}"\nwrite_dump all custom new.txt id f_granulaw[1] f_granulaw[2] modify sort id\n')
+        text = self.run_deck(deck.replace("run 120", "run 120\n" + more))
+        rows = [line.split() for line in (self.folder / "new.txt").read_text().splitlines() if len(line.split()) == 3 and line[0].isdigit()]
+        assert len(rows) > 10000
+        assert float(rows[0][1]) > 0  # it is in contact
+        assert float(rows[0][1]) / self.result(text, "HELD")[0] == approx(1.0, abs=1e-4)  # six digits are written
+        assert {(held, lost) for _, held, lost in rows[1:]} == {("0", "0")}
 
     def test_energies_follow_their_particles(self):
         """Three spheres that lost different energies on a floor: one is deleted, numbers change, a file is written and read on other ranks."""
@@ -146,9 +146,9 @@ class Outputs(Deck):
                     lines = (self.folder / name).read_text().partition("ITEM: ATOMS")[2].splitlines()[1:]
                     found[name] = {round(float(x), 6): float(energy) for x, energy in map(str.split, lines)}
                 lost = [found["before.txt"][x] for x in places]
-                self.assertTrue(0 < lost[0] < lost[1] < lost[2], lost)
+                assert 0 < lost[0] < lost[1] < lost[2], lost
                 for name in ("after.txt", "read.txt"):
-                    self.assertEqual(found[name], {x: found["before.txt"][x] for x in places[1:]}, (model, ranks, name))
+                    assert found[name] == {x: found["before.txt"][x] for x in places[1:]}, (model, ranks, name)
 
     def test_types_that_change_in_contact(self):
         """`set type` while two spheres touch: the contact is open, and ends once: in the row of the types with which it last grew."""
@@ -160,31 +160,27 @@ class Outputs(Deck):
                 deck = deck.replace("create_box 1", "create_box 2").replace(properties([POWDER]), properties([POWDER, POWDER]))
                 text = self.run_deck(deck.replace("run 120", f"{count}run 120\nset atom 1 type 2\nrun 30\n{show}run 2000\n{show}"), ranks=ranks)
                 touching, parted = self.results(text, "ROWS")
-                self.assertEqual(touching, [1, 0, 0, 0, 0, 0])
-                self.assertEqual((parted[0::2], parted[1] + parted[3], parted[5]), ([1, 0, 0], 1, 0), (model, ranks))
+                assert touching == [1, 0, 0, 0, 0, 0]
+                assert (parted[0::2], parted[1] + parted[3], parted[5]) == ([1, 0, 0], 1, 0), (model, ranks)
 
-    def test_contacts_that_begin_overlapping(self):
+    @mark.parametrize("model", MODELS)
+    def test_contacts_that_begin_overlapping(self, model):
         """Two spheres put into each other, and none that moved there: counted, with what they brought; the balance closes with it."""
-        for model in MODELS:
-            for depth in (1e-4, 0.02):  # below yield, and beyond
-                x = (1 - depth / 2) * RADIUS
-                deck = (head(half=20 * RADIUS) + properties([POWDER]) +
-                        f"pair_style gran model {model} tangential off {self.words(model, 'energy on stats s.json')}\npair_coeff * *\n"
-                        f"create_atoms 1 single {-x!r} 0 0 units box\ncreate_atoms 1 single {x!r} 0 0 units box\n"
-                        f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nfix i all nve/sphere\ntimestep {DT!r}\n"
-                        "variable k equal ke\nvariable n equal f_granulaw[17]\nvariable b equal f_granulaw[18]\nvariable l equal f_granulaw\n"
-                        'variable s equal f_granulaw[14]\nthermo_style custom step ke\nthermo_modify norm no\nrun 1500\n'
-                        'print "BROUGHT ${n} ${b} ${k} ${s} ${l}"\n')
-                text = self.run_deck(deck)
-                count, brought, kinetic, stored, dissipated = self.result(text, "BROUGHT")
-                self.assertEqual((count, dissipated), (1, 0))
-                self.assertAlmostEqual((kinetic + stored) / brought, 1.0, delta=1e-3)  # the step's error
-                self.assertIn("1 contacts began deeper than the motion of a step can bring them", text)
-                stats = json.loads((self.folder / "s.json").read_text())["pair"]
-                self.assertEqual(stats["contacts_begun_overlapping"], 1)
-            text = self.run_deck(pair_deck(model, self.words(model), (POWDER, POWDER), (RADIUS, RADIUS), 5.0, DT))
-            self.assertNotIn("began deeper", text)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        for depth in (1e-4, 0.02):  # below yield, and beyond
+            x = (1 - depth / 2) * RADIUS
+            deck = (head(half=20 * RADIUS) + properties([POWDER]) +
+                    f"pair_style gran model {model} tangential off {self.words(model, 'energy on stats s.json')}\npair_coeff * *\n"
+                    f"create_atoms 1 single {-x!r} 0 0 units box\ncreate_atoms 1 single {x!r} 0 0 units box\n"
+                    f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\nfix i all nve/sphere\ntimestep {DT!r}\n"
+                    "variable k equal ke\nvariable n equal f_granulaw[17]\nvariable b equal f_granulaw[18]\nvariable l equal f_granulaw\n"
+                    'variable s equal f_granulaw[14]\nthermo_style custom step ke\nthermo_modify norm no\nrun 1500\n'
+                    'print "BROUGHT ${n} ${b} ${k} ${s} ${l}"\n')
+            text = self.run_deck(deck)
+            count, brought, kinetic, stored, dissipated = self.result(text, "BROUGHT")
+            assert (count, dissipated) == (1, 0)
+            assert (kinetic + stored) / brought == approx(1.0, abs=1e-3)  # the step's error
+            assert "1 contacts began deeper than the motion of a step can bring them" in text
+            stats = json.loads((self.folder / "s.json").read_text())["pair"]
+            assert stats["contacts_begun_overlapping"] == 1
+        text = self.run_deck(pair_deck(model, self.words(model), (POWDER, POWDER), (RADIUS, RADIUS), 5.0, DT))
+        assert "began deeper" not in text

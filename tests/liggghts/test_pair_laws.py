@@ -1,13 +1,10 @@
 """Pairs with a law of their own in the file (/pair_laws, `mpm table --own-law`): drops in LIGGGHTS against `mpm law` of the file.
 
-    test_pair_laws.py Synthetic   quick
-    test_pair_laws.py Computed    runs the solver (slow)"""
-import os
-import subprocess
-import unittest
-
+::TestComputed runs the solver (slow)."""
+from pytest import approx
 from collisions import pair_deck, wall_deck
 from harness import GLASS, POWDER, Deck, mpm_law
+from programs import material, mpm
 
 RADII = {"powder": 1.7e-3, "glass": 3.4e-3}
 SPEEDS = (0.05, 1.0, 5.0)  # from below the onset of yield to 4 % of R*
@@ -16,7 +13,7 @@ TOLERANCE = 1e-6           # of e: the step's error, 1e-3 at 50 steps (test_rest
 
 
 class Drops:
-    """Entry of whatever law setUp wrote to self.law."""
+    """Entry of whatever law prepare() wrote to self.law."""
 
     def tool(self, first, second, speed):
         return mpm_law(self.law, f"{first.name}:{second.name}", speed, RADII[first.name], RADII[second.name])
@@ -33,8 +30,8 @@ class Drops:
         for ranks in (1, 2):
             found = self.run_each(decks, "SPEED", ranks=ranks)
             for ((first, _), speed), law, (after,) in zip(cases, laws, found):
-                self.assertAlmostEqual(after / speed, law["e"], delta=TOLERANCE, msg=f"{first.name} first, {speed} m/s, {ranks} ranks")
-        self.assertLess(laws[1]["e"], 0.97)
+                assert after / speed == approx(law["e"], abs=TOLERANCE), f"{first.name} first, {speed} m/s, {ranks} ranks"
+        assert laws[1]["e"] < 0.97
 
     def test_of_one_body(self):
         """On the rigid wall and against its like, of the same radius and of another."""
@@ -45,41 +42,33 @@ class Drops:
             found = self.run_each((wall_deck("mpm", words, POWDER, radius, v, dt) if pair == "powder:wall" else
                                    pair_deck("mpm", words, (POWDER, POWDER), (radius, radius2), v, dt) for v, dt in zip(SPEEDS, steps)), "SPEED")
             for speed, law, (after,) in zip(SPEEDS, laws, found):
-                self.assertAlmostEqual(after / speed, law["e"], delta=1e-3, msg=f"{pair} {radius2} {speed} m/s")  # test_restitution.LIMITS[50]
+                assert after / speed == approx(law["e"], abs=1e-3), f"{pair} {radius2} {speed} m/s"  # test_restitution.LIMITS[50]
 
 
-class Synthetic(Drops, Deck):
-    def setUp(self):
-        super().setUp()
+class TestSynthetic(Drops, Deck):
+    def prepare(self):
         self.fixture("write", self.law, "pair_law")
 
     def test_it_is_the_pairs_own(self):
         """Without it e is another, and the start-up table says whose law it is."""
         law = self.tool(POWDER, GLASS, 5.0)
         self.fixture("write", self.law, "axis")
-        self.assertGreater(abs(self.tool(POWDER, GLASS, 5.0)["e"] - law["e"]), 0.01)
+        assert abs(self.tool(POWDER, GLASS, 5.0)["e"] - law["e"]) > 0.01
         rules = []
         for variant in ("axis", "pair_law"):
             self.fixture("write", self.law, variant)
             text = self.run_deck(self.deck(POWDER, GLASS, 5.0, law["contact_time_s"], steps=50))
             line, = [line for line in text.splitlines() if line.startswith("  1 powder -  2 glass")]
             rules.append(line.split()[5])
-        self.assertEqual(rules, ["reduced", "two-body"])
+        assert rules == ["reduced", "two-body"]
 
 
-class Computed(Drops, Deck):
+class TestComputed(Drops, Deck):
     """The whole chain: `mpm table --own-law` runs the solver with the two bodies, 140 CPU s where its cache is empty."""
-    def setUp(self):
-        super().setUp()
-        materials = self.folder / "materials.toml"
-        materials.write_text("".join(
-            f"[material.{m.name}]\ndensity = {m.density}\nyoungs_modulus = {m.youngs_modulus}\npoisson_ratio = {m.poisson_ratio}\n" +
-            (f"yield_stress = {m.yield_stress}\n" if m is POWDER else "") for m in (POWDER, GLASS)))
+
+    def prepare(self):
+        file = self.folder / "materials.toml"
+        file.write_text("".join(material(m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress if m is POWDER else None) for m in (POWDER, GLASS)))
         pairs = [word for pair in ("powder:glass", "powder:powder", "glass:glass", "powder:wall") for word in ("--pair", pair)]
-        done = subprocess.run([os.environ["GRANULAW_MPM"], "table", materials, *pairs, "--own-law", "-o", self.law], check=True,
-                              capture_output=True, text=True)
-        self.assertIn("powder:glass: corrected by ", done.stdout + done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        done = mpm("table", file, *pairs, "--own-law", "-o", self.law, timeout=7000)
+        assert "powder:glass: corrected by " in done.stdout + done.stderr

@@ -1,17 +1,13 @@
 """`liggghts-mpm -plan`: the scene that LIGGGHTS reads from a deck, without running it, and what `mpm plan` makes of it."""
 import json
 import math
-import os
 import pathlib
 import shutil
-import subprocess
-import tempfile
-import unittest
 
-import harness
+from pytest import approx, mark
+from harness import Deck
+from programs import LAUNCHER, MPIRUN, MPM, ROOT, mpm, run
 
-MPM = os.environ["GRANULAW_MPM"]
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
 TUTORIALS = pathlib.Path("/usr/share/doc/liggghts/examples/LIGGGHTS/Tutorials_public")
 BOX = """units si
 hard_particles yes
@@ -61,97 +57,84 @@ def state_of(folder):
     return {str(p.relative_to(folder)): p.read_bytes() if p.is_file() else None for p in sorted(folder.rglob("*"))}
 
 
-class Planned(harness.Deck):
-    def setUp(self):  # no law
-        self._folder = tempfile.TemporaryDirectory(prefix="granulaw-plan-")
-        self.folder = pathlib.Path(self._folder.name)
-
-    def run_plan(self, text, *words, cwd=None):
-        (self.folder / "in.deck").write_text(text)
-        return subprocess.run([harness.LAUNCHER, "-plan", "scene.json", "-in", "in.deck", *words], cwd=cwd or self.folder, capture_output=True, text=True, errors="replace",
-                              timeout=120)
-
+class Planned(Deck):
     def scene(self, text, *words):
-        done = self.run_plan(text, *words)
-        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
+        (self.folder / "in.deck").write_text(text)
+        run(LAUNCHER, "-plan", "scene.json", "-in", "in.deck", *words, cwd=self.folder)
         return json.loads((self.folder / "scene.json").read_text())
 
     def mpm(self, *words, code=0):
-        done = subprocess.run([MPM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, code, done.stdout[-2000:] + done.stderr[-2000:])
-        return done
+        return mpm(*words, code=code, cwd=self.folder)
 
     def refused(self, text, *wanted):
         """One sentence, and the exit code of bad input."""
         (self.folder / "in.deck").write_text(text)
         said = self.mpm("plan", "in.deck", code=1).stderr
-        self.assertEqual(len(said.strip().splitlines()), 1, said)
+        assert len(said.strip().splitlines()) == 1, said
         for part in wanted:
-            self.assertIn(part, said)
+            assert part in said
 
 
-class Scenes(Planned):
+class TestScenes(Planned):
     def test_settings_materials_and_runs(self):
         scene = self.scene(BOX + FLOOR + ONE + "run 300\ntimestep 2e-5\nrun 1000 upto\n")
-        self.assertEqual(scene["units"], "si")
-        self.assertAlmostEqual(scene["gravity"][2], -9.81, places=12)
-        self.assertEqual(scene["domain"], {"low": [-0.1, -0.1, 0.0], "high": [0.1, 0.1, 0.5]})
-        self.assertEqual(scene["periodic"], [False] * 3)
-        self.assertEqual([(m["type"], m["youngs_modulus"], m["poisson_ratio"]) for m in scene["materials"]], [(1, 91e6, 0.3), (2, 210e9, 0.25)])
-        self.assertEqual(scene["restitution"], 0.4)
-        self.assertEqual([(r["steps"], r["time_step"], r["particles"], r["where"].split(":")[0]) for r in scene["runs"]],
-                         [(300, 1e-5, 1, "in.deck"), (700, 2e-5, 1, "in.deck")])
-        self.assertEqual(scene["time_step"], 2e-5)
+        assert scene["units"] == "si"
+        assert scene["gravity"][2] == approx(-9.81, abs=0.5e-12)
+        assert scene["domain"] == {"low": [-0.1, -0.1, 0.0], "high": [0.1, 0.1, 0.5]}
+        assert scene["periodic"] == [False] * 3
+        assert [(m["type"], m["youngs_modulus"], m["poisson_ratio"]) for m in scene["materials"]] == [(1, 91e6, 0.3), (2, 210e9, 0.25)]
+        assert scene["restitution"] == 0.4
+        assert [(r["steps"], r["time_step"], r["particles"], r["where"].split(":")[0]) for r in scene["runs"]] == [(300, 1e-5, 1, "in.deck"), (700, 2e-5, 1, "in.deck")]
+        assert scene["time_step"] == 2e-5
         floor, = scene["walls"]
-        self.assertEqual((floor["id"], floor["type"], floor["model"], floor["box"]["low"], floor["box"]["high"]),
-                         ("floor", 2, "hertz", [-0.1, -0.1, 0.0], [0.1, 0.1, 0.0]))
-        self.assertEqual(floor["where"], f"in.deck:{BOX.count(chr(10)) + 1}")
+        assert (floor["id"], floor["type"], floor["model"], floor["box"]["low"], floor["box"]["high"]) == ("floor", 2, "hertz", [-0.1, -0.1, 0.0], [0.1, 0.1, 0.0])
+        assert floor["where"] == f"in.deck:{BOX.count(chr(10)) + 1}"
 
     def test_particles_of_commands(self):
         more = ("create_atoms 2 single 0.01 0 0.2 units box\nset type 2 diameter 0.008 density 2000\nvelocity all set 0 3 -4\n"
                 "run 10\nset type 1 diameter 0.006\ndisplace_atoms all move 0 0 0.1\nrun 10\n")
         one, two = sorted(self.scene(BOX + FLOOR + ONE + more)["sources"], key=lambda s: s["type"])
-        self.assertEqual((one["type"], two["type"], one["count"], two["count"]), (1, 2, 1, 1))
-        self.assertEqual(one["radius"], [0.002, 0.003])  # before and after the set
-        self.assertEqual(two["radius"], [0.004, 0.004])
-        self.assertAlmostEqual(two["density"], 2000, delta=1e-9)
-        self.assertAlmostEqual(one["speed"], 5, delta=1e-12)
-        self.assertAlmostEqual(one["centres"]["high"][2], 0.4, places=12)  # 0.3, and then 0.1 more
-        self.assertEqual(one["centres"]["low"], [0.0, 0.0, 0.3])
+        assert (one["type"], two["type"], one["count"], two["count"]) == (1, 2, 1, 1)
+        assert one["radius"] == [0.002, 0.003]  # before and after the set
+        assert two["radius"] == [0.004, 0.004]
+        assert two["density"] == approx(2000, abs=1e-9)
+        assert one["speed"] == approx(5, abs=1e-12)
+        assert one["centres"]["high"][2] == approx(0.4, abs=0.5e-12)  # 0.3, and then 0.1 more
+        assert one["centres"]["low"] == [0.0, 0.0, 0.3]
 
     def test_clouds_are_listed_while_at_rest_and_alike(self):
         two = ONE + "create_atoms 1 single 0 0.01 0.2 units box\nset type 1 diameter 0.004 density 1000\n"
-        self.assertEqual(sorted(self.scene(BOX + two + "run 1\n")["sources"][0]["together"]), [[0.0, 0.0, 0.3], [0.0, 0.01, 0.2]])
+        assert sorted(self.scene(BOX + two + "run 1\n")["sources"][0]["together"]) == [[0.0, 0.0, 0.3], [0.0, 0.01, 0.2]]
         for change in ("velocity all set 0 0 -0.1\n", "set atom 2 diameter 0.006\n", "set atom 2 density 2000\n"):
-            self.assertEqual(self.scene(BOX + two + change + "run 1\n")["sources"][0]["together"], [], change)
+            assert self.scene(BOX + two + change + "run 1\n")["sources"][0]["together"] == [], change
 
     def test_insertions(self):
         deck = BOX + FLOOR + SPHERES
         source, = self.scene(deck + insertion("particles_in_region 100") + "run 1000\n")["sources"]
-        self.assertEqual((source["type"], source["radius"], source["count"]), (1, [0.002, 0.002], 100))
-        self.assertAlmostEqual(source["density"], 1000, delta=1e-9)
-        self.assertEqual((source["speed"], source["centres"]["low"], source["centres"]["high"]), (0.5, [-0.05, -0.05, 0.1], [0.05, 0.05, 0.2]))
+        assert (source["type"], source["radius"], source["count"]) == (1, [0.002, 0.002], 100)
+        assert source["density"] == approx(1000, abs=1e-9)
+        assert (source["speed"], source["centres"]["low"], source["centres"]["high"]) == (0.5, [-0.05, -0.05, 0.1], [0.05, 0.05, 0.2])
         # as LIGGGHTS counts: every 400 steps from the first on, in two runs as in one
         for runs, expected in (("run 1000\n", 3), ("run 399\nrun 601\n", 3), ("run 0\nrun 1\n", 1), ("run 1\nrun 399\n", 1), ("run 1\nrun 400\n", 2)):
             scene = self.scene(deck + insertion("nparticles 5000 particlerate 5000", 400, "rate/region") + runs)
-            self.assertAlmostEqual(sum(s["count"] for s in scene["sources"]), 20 * expected, delta=1e-9, msg=runs)
+            assert sum(s["count"] for s in scene["sources"]) == approx(20 * expected, abs=1e-9), runs
         limited = self.scene(deck + insertion("nparticles 50 particlerate 5000", 400, "rate/region") + "run 1000\n")
-        self.assertEqual(limited["sources"][0]["count"], 50)
+        assert limited["sources"][0]["count"] == 50
         ended = self.scene(deck + insertion("nparticles 5000 particlerate 5000", 400, "rate/region") + "run 400\nunfix ins\nrun 1000\n")
-        self.assertAlmostEqual(ended["sources"][0]["count"], 20, delta=1e-9)
+        assert ended["sources"][0]["count"] == approx(20, abs=1e-9)
         # the same numbers as a run of LIGGGHTS gives
         text = self.run_deck(deck + insertion("nparticles 50 particlerate 5000", 400, "rate/region") + "run 1000\nvariable n equal atoms\nprint \"n ${n}\"\n")
-        self.assertEqual(self.result(text, "n"), [50])
+        assert self.result(text, "n") == [50]
         # what does not fit into the region is not inserted
         full = self.scene(deck + insertion("particles_in_region 20000") + "run 10\n")["sources"][0]["count"]
         text = self.run_deck(deck + insertion("particles_in_region 20000") + "run 10\nvariable n equal atoms\nprint \"n ${n}\"\n")
-        self.assertEqual([full], self.result(text, "n"))
-        self.assertLess(full, 20000)
+        assert [full] == self.result(text, "n")
+        assert full < 20000
 
-    def test_spread_velocities(self):
-        for words, speed in (("constant 0 3 -4", 5), ("uniform 0 3 -3 0 0 1", 5), ("gaussian 0 3 -1 0 0 1", 5)):
-            deck = BOX + FLOOR + SPHERES + insertion("particles_in_region 10").replace("constant 0 0 -0.5", words) + "run 10\n"
-            self.assertAlmostEqual(self.scene(deck)["sources"][0]["speed"], speed, delta=1e-12, msg=words)
+    @mark.parametrize("words, speed", (("constant 0 3 -4", 5), ("uniform 0 3 -3 0 0 1", 5), ("gaussian 0 3 -1 0 0 1", 5)))
+    def test_spread_velocities(self, words, speed):
+        deck = BOX + FLOOR + SPHERES + insertion("particles_in_region 10").replace("constant 0 0 -0.5", words) + "run 10\n"
+        assert self.scene(deck)["sources"][0]["speed"] == approx(speed, abs=1e-12), words
 
     def test_streams_start_at_their_face(self):
         (self.folder / "face.stl").write_text(two_triangles(0.04, 0.4))
@@ -159,11 +142,11 @@ class Scenes(Planned):
                 "fix ins all insert/stream seed 49979687 distributiontemplate d nparticles 1000 particlerate 1000 vel constant 0 0 -1 insert_every 2000 overlapcheck yes "
                 "all_in no insertion_face face\nrun 5000\n")
         scene = self.scene(deck)
-        self.assertEqual([w["id"] for w in scene["walls"]], ["floor"])  # the face is none
+        assert [w["id"] for w in scene["walls"]] == ["floor"]  # the face is none
         source, = scene["sources"]
-        self.assertAlmostEqual(source["count"], 60, delta=1e-9)  # 20 each at steps 1, 2001, 4001
-        self.assertAlmostEqual(source["centres"]["high"][2], 0.4, delta=1e-9)
-        self.assertEqual(source["speed"], 1)
+        assert source["count"] == approx(60, abs=1e-9)  # 20 each at steps 1, 2001, 4001
+        assert source["centres"]["high"][2] == approx(0.4, abs=1e-9)
+        assert source["speed"] == 1
 
     def test_walls_and_their_motion(self):
         (self.folder / "plate.stl").write_text(two_triangles(0.05, 0.0))
@@ -174,30 +157,30 @@ class Scenes(Planned):
             return wall, wall["box"]["low"], wall["box"]["high"]
 
         still, low, high = plate("")
-        self.assertEqual((still["speed"], still["drag_speed"], low, high), (0, 0, [-0.05, -0.05, 0.1], [0.05, 0.05, 0.1]))
+        assert (still["speed"], still["drag_speed"], low, high) == (0, 0, [-0.05, -0.05, 0.1], [0.05, 0.05, 0.1])
         lifted, low, high = plate("fix mv all move/mesh mesh plate linear 0 0 0.5\n")  # 0.2 s
-        self.assertAlmostEqual(lifted["speed"], 0.5, delta=1e-12)
-        self.assertAlmostEqual(low[2], 0.1, delta=1e-5)  # a step of 1e-5 s at 0.5 m/s
-        self.assertAlmostEqual(high[2], 0.2, delta=1e-5)
+        assert lifted["speed"] == approx(0.5, abs=1e-12)
+        assert low[2] == approx(0.1, abs=1e-5)  # a step of 1e-5 s at 0.5 m/s
+        assert high[2] == approx(0.2, abs=1e-5)
         turned, low, high = plate("fix mv all move/mesh mesh plate rotate origin 0 0 0.1 axis 0 0 1 period 0.1\n")
-        self.assertAlmostEqual(turned["speed"], 2 * math.pi / 0.1 * 0.05 * math.sqrt(2), delta=1e-9)  # of its corners
-        self.assertAlmostEqual(high[0], 0.05 * math.sqrt(2), delta=0.05 * 0.01)  # within strides of a twentieth of a radian
+        assert turned["speed"] == approx(2 * math.pi / 0.1 * 0.05 * math.sqrt(2), abs=1e-9)  # of its corners
+        assert high[0] == approx(0.05 * math.sqrt(2), abs=0.05 * 0.01)  # within strides of a twentieth of a radian
         # an arm whose corners lie at unlike distances: the fastest is that of its corners, not that of a box around it
         long, low, high = plate("fix mv all move/mesh mesh plate rotate origin 0.05 0 0.1 axis 0 1 0 period 0.1\n")
-        self.assertAlmostEqual(long["speed"], 2 * math.pi / 0.1 * 0.1, delta=1e-9)
+        assert long["speed"] == approx(2 * math.pi / 0.1 * 0.1, abs=1e-9)
         wiggled, low, high = plate("fix mv all move/mesh mesh plate wiggle amplitude 0 0 0.02 period 0.03\n")
-        self.assertAlmostEqual(wiggled["speed"], 2 * math.pi / 0.03 * 0.02, delta=0.01)
+        assert wiggled["speed"] == approx(2 * math.pi / 0.03 * 0.02, abs=0.01)
         for got, wanted in ((low[2], 0.08), (high[2], 0.12)):
-            self.assertAlmostEqual(got, wanted, delta=0.001)  # the mover adds velocities times strides, a twentieth of a radian of 0.02 m late
+            assert got == approx(wanted, abs=0.001)  # the mover adds velocities times strides, a twentieth of a radian of 0.02 m late
         conveyor = self.scene(BOX + ONE + meshes.replace("move 0 0 0.1", "move 0 0 0.1 surface_vel 0.3 0.4 0") + "run 100\n")["walls"][0]
-        self.assertEqual((conveyor["speed"], conveyor["drag_speed"]), (0, 0.5))
+        assert (conveyor["speed"], conveyor["drag_speed"]) == (0, 0.5)
         shear = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", "zplane 0.0 shear x -0.7") + "run 100\n")["walls"][0]
-        self.assertEqual(shear["drag_speed"], 0.7)
+        assert shear["drag_speed"] == 0.7
         for direction, speed in (("y", 1.5 * 0.03), ("z", 1.5)):  # a turn, rad/s; a speed along the axis
             drum = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", f"zcylinder 0.03 0 0 shear {direction} 1.5") + "run 100\n")["walls"][0]
-            self.assertAlmostEqual(drum["drag_speed"], speed, delta=1e-15)
+            assert drum["drag_speed"] == approx(speed, abs=1e-15)
         pipe = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", "zcylinder 0.03 0.01 -0.02") + "run 100\n")["walls"][0]
-        self.assertEqual([round(x, 12) for x in pipe["box"]["low"] + pipe["box"]["high"]], [-0.02, -0.05, 0.0, 0.04, 0.01, 0.5])
+        assert [round(x, 12) for x in pipe["box"]["low"] + pipe["box"]["high"]] == [-0.02, -0.05, 0.0, 0.04, 0.01, 0.5]
 
     def test_words_of_our_models(self):
         """No law is there, and none is needed."""
@@ -205,12 +188,12 @@ class Scenes(Planned):
                 + FLOOR.replace("model hertz tangential history primitive type 2 zplane 0.0", "model mpm tangential history primitive type 2 zplane 0.0 wall deformable"))
         deck = deck.replace("fix m3", "#")  # refused beside a law
         scene = self.scene(deck + ONE + "variable p equal f_granulaw\nthermo_style custom step atoms v_p\nrun 1000\n")
-        self.assertEqual(scene["pair_style"], {"model": "mpm", "law": "gone.h5", "materials": ["wax", "steel"], "stretch": 4.0, "yield_pressure": 1.6})
-        self.assertTrue(scene["walls"][0]["deformable"])
-        self.assertEqual(scene["walls"][0]["model"], "mpm")
+        assert scene["pair_style"] == {"model": "mpm", "law": "gone.h5", "materials": ["wax", "steel"], "stretch": 4.0, "yield_pressure": 1.6}
+        assert scene["walls"][0]["deformable"]
+        assert scene["walls"][0]["model"] == "mpm"
         thornton = BOX.replace("model hertz tangential history", "model thornton tangential history yieldPressure 2.5")
         thornton += "fix m5 all property/global yieldStress peratomtype 1e7 1e7\n"
-        self.assertEqual(self.scene(thornton + ONE + "run 1000\n")["pair_style"]["yield_pressure"], 2.5)
+        assert self.scene(thornton + ONE + "run 1000\n")["pair_style"]["yield_pressure"] == 2.5
 
     def test_clumps_have_their_bodys_mass(self):
         (self.folder / "two").write_text("0 0 -0.002 0.002\n0 0 0.002 0.003\n")
@@ -222,24 +205,24 @@ run 100
 """
         deck = deck.replace("fix move all nve/sphere\n", "")
         source, = self.scene(deck)["sources"]
-        self.assertEqual((source["radius"], source["count"]), ([0.002, 0.003], 40))
+        assert (source["radius"], source["count"]) == ([0.002, 0.003], 40)
         ball = 4 / 3 * math.pi * 0.002**3
         body = 1000 * 4 / 3 * math.pi * (0.002**3 + 0.003**3)
-        self.assertAlmostEqual(source["density"] * ball / body, 1, delta=0.05)  # LIGGGHTS counts the overlap of the spheres by 10,000 throws
+        assert source["density"] * ball / body == approx(1, abs=0.05)  # LIGGGHTS counts the overlap of the spheres by 10,000 throws
 
     def test_decks_without_a_run(self):
         scene = self.scene(BOX + FLOOR + SPHERES)
-        self.assertEqual(scene["sources"][0]["radius"], [0.002, 0.002])
-        self.assertEqual([w["id"] for w in scene["walls"]], ["floor"])
+        assert scene["sources"][0]["radius"] == [0.002, 0.002]
+        assert [w["id"] for w in scene["walls"]] == ["floor"]
 
     def test_radii_that_a_fix_changes(self):
         grow = "variable grown equal 0.004+0.002*step/1000\nfix a all adapt 1 atom diameter v_grown\n"
         source, = self.scene(BOX + FLOOR + ONE + grow + "run 1000\n")["sources"]
-        self.assertAlmostEqual(source["radius"][0], 0.002, delta=1e-5)
-        self.assertAlmostEqual(source["radius"][1], 0.003, delta=1e-5)
+        assert source["radius"][0] == approx(0.002, abs=1e-5)
+        assert source["radius"][1] == approx(0.003, abs=1e-5)
 
 
-class WeakPoints(Planned):
+class TestWeakPoints(Planned):
     """What a deck can do that a run of two steps cannot."""
 
     def test_nothing_is_written(self):
@@ -264,67 +247,68 @@ write_data saved.data
 run 1
 """
         before = state_of(self.folder)
-        done = self.run_plan(deck, "-echo", "none")
-        self.assertEqual(done.returncode, 0, done.stdout[-1500:] + done.stderr)
+        self.scene(deck, "-echo", "none")
         after = state_of(self.folder)
         for made in ("scene.json", "in.deck"):
             after.pop(made)
-        self.assertEqual(before, after)
+        assert before == after
 
-    def test_open_mpi_takes_its_own_files_away(self):
+    @mark.parametrize("end", ("run 10\n", "run 10\nquit\n", "xyzzy\n", "read_restart gone\n"))
+    @mark.parametrize("isolated", ("0", "1"))  # with a daemon of Open MPI, and without
+    def test_open_mpi_takes_its_own_files_away(self, end, isolated):
         """They would stay where the process ends with its files closed, and stop later ones of the same number."""
-        for end in ("run 10\n", "run 10\nquit\n", "xyzzy\n", "read_restart gone\n"):
-            with tempfile.TemporaryDirectory() as folder:
-                (self.folder / "in.deck").write_text(BOX + FLOOR + ONE + end)
-                subprocess.run([harness.LAUNCHER, "-plan", "scene.json", "-in", "in.deck"], cwd=self.folder, capture_output=True, timeout=120, env={**os.environ, "TMPDIR": folder})
-                self.assertEqual([p for p in pathlib.Path(folder).rglob("*") if not p.is_dir()], [], end)
-                self.assertEqual([p.name for p in pathlib.Path(folder).glob("*/*")], [], end)
+        (self.folder / "in.deck").write_text(BOX + FLOOR + ONE + end)
+        session = self.folder / "session"
+        session.mkdir()
+        run(LAUNCHER, "-plan", "scene.json", "-in", "in.deck", cwd=self.folder, code=..., env={"OMPI_MCA_orte_tmpdir_base": str(session), "OMPI_MCA_ess_singleton_isolated": isolated})
+        assert [p for p in session.rglob("*") if not p.is_dir()] == []
+        assert list(session.glob("*/*")) == []
 
     def test_what_the_deck_wrote_it_can_read(self):
         deck = BOX + FLOOR + ONE + "run 10\nwrite_restart saved.restart\nclear\n"
         again = BOX.replace("region box block -0.1 0.1 -0.1 0.1 0 0.5 units box\ncreate_box 2 box\n", "read_restart saved.restart\n")
         scene = self.scene(deck + again + FLOOR + "run 10\n")
-        self.assertEqual([r["particles"] for r in scene["runs"]], [1, 1])
-        self.assertFalse((self.folder / "saved.restart").exists())
+        assert [r["particles"] for r in scene["runs"]] == [1, 1]
+        assert not (self.folder / "saved.restart").exists()
 
     def test_examples_and_tutorials_write_nothing(self):
         """Whatever the deck says of files; some of them end with an error, for want of a file that another deck writes."""
-        decks = [d for root in (SOURCE / "examples", TUTORIALS) if root.is_dir() for d in sorted(root.rglob("in.*"))]
-        self.assertGreater(len(decks), 5)
+        decks = [d for root in (ROOT / "examples", TUTORIALS) if root.is_dir() for d in sorted(root.rglob("in.*"))]
+        assert len(decks) > 5
         for deck in decks:
             before = state_of(deck.parent)
-            subprocess.run([harness.LAUNCHER, "-plan", str(self.folder / "scene.json"), "-in", deck.name], cwd=deck.parent, capture_output=True, timeout=120)
-            self.assertEqual(before, state_of(deck.parent), deck)
+            run(LAUNCHER, "-plan", self.folder / "scene.json", "-in", deck.name, cwd=deck.parent, code=...)
+            assert before == state_of(deck.parent), deck
 
     def test_lists_of_contacts_are_empty(self):
         """No contact acts, and no history is kept: decks that list contacts are planned all the same."""
         lists = ("compute l all pair/gran/local pos id force history contactRadius\ncompute one all pair/gran/local delta\ncompute n all reduce sum c_l[20]\n"
                  "dump l all local 1 contacts c_l[1] c_l[30] c_one[1]\nthermo_style custom step c_n\n")
-        self.assertEqual(len(self.scene(BOX + FLOOR + ONE + lists + "run 10\n")["runs"]), 1)
+        assert len(self.scene(BOX + FLOOR + ONE + lists + "run 10\n")["runs"]) == 1
 
     def test_scenes_behind_clear(self):
         two = "create_atoms 1 single 0 0 0.1 units box\n"
         first, second = self.scene(BOX + FLOOR + ONE + "run 10\nclear\n" + BOX + FLOOR + two + ONE + "run 20\n")["runs"]
-        self.assertEqual((first["particles"], second["particles"]), (1, 2))
+        assert (first["particles"], second["particles"]) == (1, 2)
 
     def test_loops_that_wait(self):
         deck = BOX + FLOOR + ONE + 'compute ke all ke\nthermo_style custom step c_ke\nlabel settle\nrun 1\nvariable k equal c_ke\nif "${k} > -1" then "jump SELF settle"\nrun 77\n'
         scene = self.scene(deck)
-        self.assertEqual(len(scene["runs"]), 1002)  # the first is new, and the second: its branch is noted
-        self.assertTrue(any("1000 runs in turn bring nothing new" in note for note in scene["notes"]), scene["notes"])
+        assert len(scene["runs"]) == 1002  # the first is new, and the second: its branch is noted
+        assert any("1000 runs in turn bring nothing new" in note for note in scene["notes"]), scene["notes"]
         counted = BOX + FLOOR + ONE + "variable n loop 1500\nlabel again\nvariable dt equal 1e-6*$n\ntimestep ${dt}\nrun 2\nnext n\njump SELF again\n"
         scene = self.scene(counted)  # each run is new
-        self.assertEqual((len(scene["runs"]), scene["notes"]), (1500, []))
+        assert (len(scene["runs"]), scene["notes"]) == (1500, [])
 
     def test_branches_on_a_runs_value_are_named(self):
         start = BOX + FLOOR + ONE + "compute ke all ke\nthermo_style custom step c_ke\nrun 10\nvariable k equal c_ke\nvariable twice equal 2*v_k\n"
         line = start.count("\n") + 1
         for condition in ("${k} > 1", "${twice} > 1"):
             scene = self.scene(start + f'if "{condition}" then "run 5" else "run 7"\n')
-            self.assertEqual([r["steps"] for r in scene["runs"]], [10, 7], condition)
-            self.assertEqual(scene["notes"], [f"in.deck:{line}: the branch depends on a value of a run: it takes the side of the start"], condition)
+            assert [r["steps"] for r in scene["runs"]] == [10, 7], condition
+            assert scene["notes"] == [f"in.deck:{line}: the branch depends on a value of a run: it takes the side of the start"], condition
         scene = self.scene(start + 'variable s equal step\nif "${s} > 3" then "run 5" else "run 7"\n')
-        self.assertEqual(([r["steps"] for r in scene["runs"]], scene["notes"]), ([10, 5], []))
+        assert ([r["steps"] for r in scene["runs"]], scene["notes"]) == ([10, 5], [])
 
     def test_meshes_that_forces_move_ask_for_their_speed(self):
         (self.folder / "plate.stl").write_text(two_triangles(0.05, 0.1))
@@ -332,15 +316,15 @@ run 1
             BOX + FLOOR + ONE + "fix plate all mesh/surface/stress/servo file plate.stl type 2 com 0 0 0.1 axis 0 0 -1 vel_max 0.1 target_val 1 ctrlPV force kp 1\n"
             "fix plates all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\nrun 1000\n")
         asked = json.loads(self.mpm("plan", "in.deck", "--json").stdout)["asks_for"]
-        self.assertTrue(any(q["option"] == "--speed V" and "mesh/surface/stress/servo" in q["what"] for q in asked), asked)
+        assert any(q["option"] == "--speed V" and "mesh/surface/stress/servo" in q["what"] for q in asked), asked
 
-    def test_fixes_that_give_velocities_ask_for_them(self):
-        for fix in ("addforce 0 0 1", "setforce 0 0 1", "aveforce 0 0 1", "drag 0 0 0 1 1", "nve/limit absolute 1"):
-            deck = BOX + FLOOR + ONE + f"fix f all {fix}\nrun 10\n"
-            if fix.startswith("nve"):
-                deck = deck.replace("fix move all nve/sphere\n", "")
-            scene = self.scene(deck)
-            self.assertTrue(any(fix.split()[0] in text and "in.deck:" in text for text in scene["unknown_speeds"]), (fix, scene["unknown_speeds"]))
+    @mark.parametrize("fix", ("addforce 0 0 1", "setforce 0 0 1", "aveforce 0 0 1", "drag 0 0 0 1 1", "nve/limit absolute 1"))
+    def test_fixes_that_give_velocities_ask_for_them(self, fix):
+        deck = BOX + FLOOR + ONE + f"fix f all {fix}\nrun 10\n"
+        if fix.startswith("nve"):
+            deck = deck.replace("fix move all nve/sphere\n", "")
+        scene = self.scene(deck)
+        assert any(fix.split()[0] in text and "in.deck:" in text for text in scene["unknown_speeds"]), (fix, scene["unknown_speeds"])
 
     def test_liggghts_errors_are_passed_on(self):
         last = BOX.count("\n") + 1
@@ -357,10 +341,8 @@ run 1
 
     def test_a_plan_needs_one_rank(self):
         (self.folder / "in.deck").write_text(BOX + ONE + "run 1\n")
-        done = subprocess.run([harness.MPIRUN, "--oversubscribe", "-np", "2", harness.LAUNCHER, "-plan", "scene.json", "-in", "in.deck"], cwd=self.folder, capture_output=True, text=True,
-                              timeout=120)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("-plan needs one rank", done.stdout + done.stderr)
+        done = run(MPIRUN, "--oversubscribe", "-np", 2, LAUNCHER, "-plan", "scene.json", "-in", "in.deck", cwd=self.folder, code=None)
+        assert "-plan needs one rank" in done.stdout + done.stderr
 
     def test_paths_count_from_the_deck_or_from_here(self):
         (self.folder / "meshes").mkdir()
@@ -370,22 +352,21 @@ run 1
         for mesh in ("here", "there"):
             (self.folder / "decks" / "in.paths").write_text(
                 BOX + ONE + f"fix p all mesh/surface file meshes/{mesh}.stl type 1\nfix w all wall/gran model hertz tangential history mesh n_meshes 1 meshes p\nrun 10\n")
-            plan = json.loads(self.mpm("plan", "decks/in.paths", "--json", "--materials-file", SOURCE / "examples/hopper/materials.toml", "--materials", "wax").stdout)
-            self.assertEqual(len(plan["pairs"]), 1, mesh)
+            plan = json.loads(self.mpm("plan", "decks/in.paths", "--json", "--materials-file", ROOT / "examples/hopper/materials.toml", "--materials", "wax").stdout)
+            assert len(plan["pairs"]) == 1, mesh
 
-    def test_a_missing_launcher_is_named(self):
+    def test_a_missing_launcher_is_named(self, monkeypatch):
         (self.folder / "in.deck").write_text(BOX)
-        done = subprocess.run([MPM, "plan", "in.deck"], cwd=self.folder, capture_output=True, text=True, env={**os.environ, "GRANULAW_LAUNCHER": "/gone/liggghts-mpm"})
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("/gone/liggghts-mpm: cannot be started", done.stderr)
+        done = mpm("plan", "in.deck", cwd=self.folder, code=1, env={"GRANULAW_LAUNCHER": "/gone/liggghts-mpm"})
+        assert "/gone/liggghts-mpm: cannot be started" in done.stderr
         alone = self.folder / "mpm"
         shutil.copy(MPM, alone)
-        done = subprocess.run([alone, "plan", "in.deck"], cwd=self.folder, capture_output=True, text=True, env={k: v for k, v in os.environ.items() if k != "GRANULAW_LAUNCHER"})
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("liggghts-mpm is not beside this program", done.stderr)
+        monkeypatch.delenv("GRANULAW_LAUNCHER")
+        done = run(alone, "plan", "in.deck", cwd=self.folder, code=1)
+        assert "liggghts-mpm is not beside this program" in done.stderr
 
 
-class Units(Planned):
+class TestUnits(Planned):
     def test_a_deck_in_cgs_gives_the_plan_of_si(self):
         deck = BOX + FLOOR + SPHERES + insertion("particles_in_region 100") + "fix y all property/global yieldStress peratomtype 1e6 1e9\nrun 1000\n"
         swaps = (("units si", "units cgs"), ("block -0.1 0.1 -0.1 0.1 0 0.5", "block -10 10 -10 10 0 50"), ("block -0.05 0.05 -0.05 0.05 0.1 0.2", "block -5 5 -5 5 10 20"),
@@ -393,24 +374,20 @@ class Units(Planned):
                  ("constant 0 0 -0.5", "constant 0 0 -50"), ("neighbor 0.002", "neighbor 0.2"))
         cgs = deck
         for si, other in swaps:
-            self.assertIn(si, cgs)
+            assert si in cgs
             cgs = cgs.replace(si, other)
         plans = []
         for text in (deck, cgs):
             (self.folder / "in.deck").write_text(text)
             plans.append(json.loads(self.mpm("plan", "in.deck", "--json").stdout))
         a, b = plans
-        self.assertEqual(len(a["pairs"]), 2)
+        assert len(a["pairs"]) == 2
         for key in ("radius_m", "mass_kg"):
             for x, y in zip(a[key], b[key]):
-                self.assertAlmostEqual(x / y, 1, delta=1e-12)
+                assert x / y == approx(1, abs=1e-12)
         for p, q in zip(a["pairs"], b["pairs"]):
             for key in ("speed_max_m_per_s", "time_step_s", "overlap_over_radius_max"):
-                self.assertAlmostEqual(p[key] / q[key], 1, delta=1e-12, msg=key)
+                assert p[key] / q[key] == approx(1, abs=1e-12), key
         ours = BOX.replace("model hertz tangential history", "model mpm tangential history law x materials a a").replace("hard_particles yes\n", "")
         self.refused(ours.replace("units si", "units micro") + ONE + "run 1\n", "micro", "si")
         self.refused(BOX.replace("units si", "units lj").replace("hard_particles yes\n", "") + ONE + "run 1\n", "units lj", "units si")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,12 +1,13 @@
 """Restart files: the trajectory, the contacts' history, the contact statistics' counts and the particles' energies go on."""
 import json
-import unittest
+import re
 
+from pytest import approx
 from test_energy import DT, PRINT, SUM, data_file, model, start
 from harness import POWDER, Deck, properties
 
 
-class Restart(Deck):
+class TestRestart(Deck):
     def test_goes_on(self):
         """Half a run, a restart file, the other half: as the run in one go (in two pieces, for the set-up's sake)."""
         data_file(self.folder / "bed.data")
@@ -19,14 +20,14 @@ class Restart(Deck):
             resumed = self.result(text, "ENERGY")
             for k, (value, expected) in enumerate(zip(resumed, whole)):
                 # rounding, amplified by 5000 steps of collisions
-                self.assertAlmostEqual(value / expected, 1.0, delta=1e-7, msg=f"{k} {written_on} {read_on}")
+                assert value / expected == approx(1.0, abs=1e-7), f"{k} {written_on} {read_on}"
             stats = json.loads((self.folder / "s.json").read_text())
             for side in ("pair", "wall"):
                 for name in ("contacts_begun", "contacts_ended", "impact_speed_max_m_per_s", "impact_speed_min_m_per_s",
                              "overlap_over_radius_max", "normal_dissipation_J", "time_step_allowed_s"):
-                    self.assertAlmostEqual(stats[side][name] / whole_stats[side][name], 1.0, delta=1e-7, msg=name)
-                self.assertEqual(stats[side]["impact_speed"]["count"], whole_stats[side]["impact_speed"]["count"])
-            self.assertGreater(whole_stats["pair"]["contacts_begun"], 10)
+                    assert stats[side][name] / whole_stats[side][name] == approx(1.0, abs=1e-7), name
+                assert stats[side]["impact_speed"]["count"] == whole_stats[side]["impact_speed"]["count"]
+            assert whole_stats["pair"]["contacts_begun"] > 10
 
     def test_pair_style_forgotten(self):
         data_file(self.folder / "bed.data")
@@ -34,7 +35,7 @@ class Restart(Deck):
         self.run_deck(start() + rules + "run 10\nwrite_restart half.restart\n")
         text = self.run_deck(start("read_restart half.restart") + properties([POWDER], 0.3) +
                              f"fix i all nve/sphere\ntimestep {DT}\nrun 1\n", expect_failure=True)
-        self.assertIn("repeat pair_style and pair_coeff after read_restart", text)
+        assert "repeat pair_style and pair_coeff after read_restart" in text
 
     def test_another_number_of_values(self):
         """`energy on` on one side alone: the sentence names both numbers."""
@@ -42,9 +43,5 @@ class Restart(Deck):
         words = f"law {self.law} materials powder"
         self.run_deck(start() + model(words, "history", 0.3) + "run 10\nwrite_restart half.restart\n")
         text = self.run_deck(start("read_restart half.restart") + model(words + " energy on", "history", 0.3) + "run 1\n", expect_failure=True)
-        self.assertIn("the restart file has another number of values for each contact", text)
-        self.assertRegex(text, "found 10, .*16")
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert "the restart file has another number of values for each contact" in text
+        assert re.search("found 10, .*16", text)

@@ -1,8 +1,8 @@
 """e of single collisions in LIGGGHTS: one table of laws, bodies and speeds, against the law replayed outside LIGGGHTS and Thornton's
 closed form. All collisions under one law run in one process."""
 import collections
-import unittest
 
+from pytest import approx
 from collisions import pair_deck, wall_deck
 from harness import GLASS, POWDER, Material, sphere_mass, thornton_closed_form, thornton_yield_velocity
 from trials import Trial
@@ -38,7 +38,7 @@ MODULI = [Bodies(f"moduli {'1:1000' if ratio > 1 else '1000:1'}, {pair[0].name} 
           for ratio in (1000.0, 0.001) for pair in ((POWDER, elastic(ratio)), (elastic(ratio), POWDER))]
 
 
-class Restitution(Trial):
+class TestRestitution(Trial):
     def effective(self, bodies):
         radii = [RADIUS * r for r in bodies.radii]
         masses = [sphere_mass(r, m.density) for r, m in zip(radii, bodies.materials)]
@@ -62,8 +62,7 @@ class Restitution(Trial):
                 self.record("steps", kind=bodies.name, speed=speed, steps=steps, e=e, law=expected)
             elif bodies in UNLIKE + MODULI or model == "thornton" and STIFF in bodies.materials:
                 self.record("ratios", case=bodies.name, model=model, speed=speed, e=e, law=expected)
-            self.assertAlmostEqual(e / expected if relative else e, 1.0 if relative else expected, delta=limit,
-                                   msg=f"{model}, {bodies.name}, {speed} m/s, {steps} steps: e {e} for {expected}")
+            assert (e / expected if relative else e) == approx((1.0 if relative else expected), abs=limit), f"{model}, {bodies.name}, {speed} m/s, {steps} steps: e {e} for {expected}"
 
     def rows(self, cases, speeds, steps=(50,), limit=None, replay="mpm"):
         table = []
@@ -89,15 +88,15 @@ class Restitution(Trial):
         fastest = next(row for row in table if row[:2] == (WALL, 12.0))
         self.fixture("write", self.law)
         e, *_ = self.fixture("mpm", self.law, *WALL.replay, *self.effective(WALL), 12.0)
-        self.assertGreater(abs(e / fastest[2] - 1), 0.01)  # else the table would pass without an axis
+        assert abs(e / fastest[2] - 1) > 0.01  # else the table would pass without an axis
 
     def test_speeds_beyond_the_axis_are_counted(self):
         self.fixture("write", self.law, "axis")
         for speed, count in ((12.0, 0), (20.0, 1)):
             deck = wall_deck("mpm", f"law {self.law} materials powder beyondRange continue", POWDER, RADIUS, speed, 1e-8)
             text = self.run_deck(deck + '\nvariable d equal f_granulaw[11]\nprint "FAST ${d}"\n')
-            self.assertEqual("1 contacts began faster than the law's velocity axis goes" in text, count == 1)
-            self.assertEqual(self.result(text, "FAST")[0], count)
+            assert ("1 contacts began faster than the law's velocity axis goes" in text) == (count == 1)
+            assert self.result(text, "FAST")[0] == count
 
     def test_rate_law(self):
         self.fixture("write", self.law, "rate", RADIUS)
@@ -130,7 +129,3 @@ class Restitution(Trial):
             table = self.thornton(Bodies("wall", (), (m,)), m.e_star, m.yield_stress, RATIOS[1:4], 0.003, factor)
             table += self.thornton(Bodies("pair", (), (m, m)), m.e_star / 2, m.yield_stress, RATIOS[1:4], 0.003, factor)
             self.compare(table, "thornton", relative=True, damping=f"elasticDamping off yieldPressure {factor}")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,8 +2,8 @@
 import json
 import math
 import re
-import unittest
 
+from pytest import approx, mark
 from collisions import pair_deck, wall_deck
 from harness import POWDER, Deck, head, properties, sphere_mass, worst
 
@@ -16,7 +16,7 @@ TOLERANCE = 0.002          # of e: required
 ROUNDING = 1e-8            # a stretched head-on impact is the same arithmetic on other numbers, 1e-16 R in overlaps of 1e-4 R
 
 
-class Stretch(Deck):
+class TestStretch(Deck):
     def words(self, stretch, model="mpm"):
         law = f"law {self.law} materials powder " if model == "mpm" else ""
         return law + f"stretch {stretch}"
@@ -41,8 +41,8 @@ class Stretch(Deck):
                         decks[partner, speed, s] = deck(self.words(s), speed, s * duration / STEPS)
         found = dict(zip(decks, self.speeds(decks.values())))
         for (partner, speed, s), e in found.items():
-            self.assertAlmostEqual(e / found[partner, speed, 1], 1.0, delta=ROUNDING, msg=f"{partner}, {speed} m/s, s = {s}")
-        self.assertGreaterEqual(len(found), 10 + 2 * len(SPEEDS))
+            assert e / found[partner, speed, 1] == approx(1.0, abs=ROUNDING), f"{partner}, {speed} m/s, s = {s}"
+        assert len(found) >= 10 + 2 * len(SPEEDS)
 
     def test_law_with_axis(self):
         """The speed that a contact latches is the real one."""
@@ -51,12 +51,12 @@ class Stretch(Deck):
         _, duration, _ = self.replay("wall", RADIUS, sphere_mass(RADIUS, POWDER.density), speed)
         plain, stretched = self.speeds(wall_deck("mpm", self.words(s), POWDER, RADIUS, speed, s * duration / STEPS)
                                        for s in (1, 3))
-        self.assertAlmostEqual(stretched / plain, 1.0, delta=ROUNDING)
+        assert stretched / plain == approx(1.0, abs=ROUNDING)
 
     def test_thornton(self):
         plain, stretched = self.speeds(wall_deck("thornton", self.words(s, "thornton"), POWDER, RADIUS, 1.0, s * 2e-7)
                                        for s in (1, 10))
-        self.assertAlmostEqual(stretched / plain, 1.0, delta=ROUNDING)
+        assert stretched / plain == approx(1.0, abs=ROUNDING)
 
     def oblique_deck(self, stretch, speed, angle_ratio, dt, pair, stiffness):
         """An impact whose tangential speed is angle_ratio * speed, friction 0.3."""
@@ -111,10 +111,10 @@ class Stretch(Deck):
     def check_wall(self, case):
         """Impulses are kept; what differs is their lever arm, which LIGGGHTS shortens by the overlap."""
         (e, slip, spin), (found_e, found_slip, found_spin), depth, _, ratio = case
-        self.assertAlmostEqual(found_e, e, delta=1e-6)  # e is not affected: rounding, as head-on
-        self.assertLess(abs(found_spin - spin), depth * abs(spin))
+        assert found_e == approx(e, abs=1e-6)  # e is not affected: rounding, as head-on
+        assert abs(found_spin - spin) < depth * abs(spin)
         # sliding: the impulse is mu times the normal one; sticking: it also turns the sphere, by the same arm
-        self.assertLess(abs(found_slip - slip), 1e-6 if ratio > 1 else 0.2 * depth)
+        assert abs(found_slip - slip) < (1e-6 if ratio > 1 else 0.2 * depth)
 
     def test_oblique_wall(self):
         """Sticking (v_t/v_n = 0.3) and sliding (3)."""
@@ -123,16 +123,16 @@ class Stretch(Deck):
         for case in self.oblique_cases("wall", (0.3,), (10,), "computed"):
             self.check_wall(case)
 
-    def test_oblique_pair(self):
+    @mark.parametrize("ratio, stretches", ((0.3, STRETCHES), (3.0, (3, 30))))
+    def test_oblique_pair(self, ratio, stretches):
         """e within 0.002 where spheres do not slide past each other. Where they do, the line of centres turns
         by phi = v_t t_c/(2R) during the longer contact and the centrifugal term takes phi v_t/v_n from the
         normal impulse: softness of any kind does that, and this is the bound here."""
-        for ratio, stretches in ((0.3, STRETCHES), (3.0, (3, 30))):
-            for plain, found, depth, turned, _ in self.oblique_cases("powder", (ratio,), stretches):
-                if ratio < 1:
-                    self.assertLess(abs(found[0] - plain[0]), TOLERANCE)
-                for value, expected in zip(found, plain):
-                    self.assertLess(abs(value - expected), turned * ratio + depth * abs(plain[2]))
+        for plain, found, depth, turned, _ in self.oblique_cases("powder", (ratio,), stretches):
+            if ratio < 1:
+                assert abs(found[0] - plain[0]) < TOLERANCE
+            for value, expected in zip(found, plain):
+                assert abs(value - expected) < turned * ratio + depth * abs(plain[2])
 
     def test_walls_inherit(self):
         """The factor stands with the pair style alone; a wall may say otherwise."""
@@ -140,23 +140,23 @@ class Stretch(Deck):
         own = wall_deck("mpm", self.words(10), POWDER, RADIUS, 0.3, 2e-7, wall_words="stretch 1")
         plain = wall_deck("mpm", self.words(1), POWDER, RADIUS, 0.3, 2e-7)
         inherited, otherwise, alone = self.speeds((deck, own, plain))
-        self.assertAlmostEqual(inherited / alone, 1.0, delta=ROUNDING)
-        self.assertEqual(otherwise, alone)
+        assert inherited / alone == approx(1.0, abs=ROUNDING)
+        assert otherwise == alone
 
     def test_too_deep(self):
         """An overlap of more than half of R* ends the run, whatever beyondRange says."""
         deck = wall_deck("mpm", self.words(100) + " beyondRange continue", POWDER, RADIUS, 3.0, 2e-5)
         text = self.run_deck(deck, expect_failure=True)
-        self.assertIn("'stretch 100' takes the overlap of types 1 and 1 to", text)
-        self.assertIn("stretch less", text)
+        assert "'stretch 100' takes the overlap of types 1 and 1 to" in text
+        assert "stretch less" in text
 
     def test_dissipated_energy(self):
         """The contact statistics' work is the real one."""
         out = '\nvariable d equal f_granulaw\nprint "LOSS ${d}"\n'
         (plain,), (stretched,) = self.run_each((wall_deck("mpm", self.words(s), POWDER, RADIUS, 1.0, s * 2e-7) + out for s in (1, 10)),
                                                "LOSS")
-        self.assertGreater(plain, 0)
-        self.assertAlmostEqual(stretched / plain, 1.0, delta=ROUNDING)
+        assert plain > 0
+        assert stretched / plain == approx(1.0, abs=ROUNDING)
 
     def energies(self, deck, start):
         """Kinetic + elastic + dissipated energy over what there was at the start, at every step; the last row's f_ID[13]."""
@@ -164,7 +164,7 @@ class Stretch(Deck):
         deck = re.sub(r"thermo 1000?\n", every, deck)
         rows = [[float(w) for w in line.split()] for line in self.run_deck(deck).splitlines()
                 if re.fullmatch(r"\s*\d+(\s+[-+.\deE]+){4}\s*", line)]
-        self.assertGreater(len(rows), 100)
+        assert len(rows) > 100
         return [(ke + dissipated + stored) / start for _, ke, dissipated, stored, _ in rows], rows[-1][4]
 
     def test_energy_is_kept_at_every_stretch(self):
@@ -183,19 +183,15 @@ class Stretch(Deck):
                     total, allowed[s] = self.energies(deck.replace("run 120", f"run {2 * steps}"), 0.5 * m_eff * speed**2)
                     said = f"{model} {law} {partner} {s}"
                     # LIGGGHTS's kinetic energy is that of a whole step: velocity Verlet's own error, 1/steps^2 of the exchange
-                    self.assertLess(worst(abs(t - 1) for t in total), 2e-3, said)
-                    self.assertAlmostEqual(allowed[s] / allowed[1], s, delta=1e-6 * s, msg=said)
+                    assert worst(abs(t - 1) for t in total) < 2e-3, said
+                    assert allowed[s] / allowed[1] == approx(s, abs=1e-6 * s), said
 
-    def test_start_up_time_step_moves_with_the_stretch(self):
+    @mark.parametrize("model", ("mpm", "thornton"))
+    def test_start_up_time_step_moves_with_the_stretch(self, model):
         """The limit of the whole law: 1/20 of the period of the stiffest contact."""
-        for model in ("mpm", "thornton"):
-            limits = []
-            for s in (1, 10):
-                self.run_deck(wall_deck(model, self.words(s, model) + " stats s.json", POWDER, RADIUS, 0.1, 1e-8))
-                stats = json.loads((self.folder / "s.json").read_text())
-                limits.append(next(p for p in stats["pairs"] if p["kind"] == "rigid wall")["time_step_limit_of_law_s"])
-            self.assertAlmostEqual(limits[1] / limits[0], 10.0, delta=1e-6, msg=model)  # ten printed digits
-
-
-if __name__ == "__main__":
-    unittest.main()
+        limits = []
+        for s in (1, 10):
+            self.run_deck(wall_deck(model, self.words(s, model) + " stats s.json", POWDER, RADIUS, 0.1, 1e-8))
+            stats = json.loads((self.folder / "s.json").read_text())
+            limits.append(next(p for p in stats["pairs"] if p["kind"] == "rigid wall")["time_step_limit_of_law_s"])
+        assert limits[1] / limits[0] == approx(10.0, abs=1e-6), model  # ten printed digits

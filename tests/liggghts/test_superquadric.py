@@ -6,32 +6,25 @@ import math
 import os
 import pathlib
 import re
-import subprocess
-import sys
-import unittest
+
+from pytest import approx, fixture, mark, skip
+from harness import POWDER, Deck, head, plane_stl, properties, worst
+from programs import LAUNCHER, ROOT, material, particle, run, table
 
 LIGGGHTS = os.environ.get("GRANULAW_SUPERQUADRIC_LIGGGHTS", "")
 if not LIGGGHTS:
-    print("skipped: GRANULAW_SUPERQUADRIC_LIGGGHTS names no LIGGGHTS with superquadrics (docs/guide/own-liggghts.md)")
-    sys.exit(77)
-
-import harness
-from harness import POWDER, Deck
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+    skip("GRANULAW_SUPERQUADRIC_LIGGGHTS names no LIGGGHTS with superquadrics (docs/guide/own-liggghts.md)", allow_module_level=True)
 BUILD = pathlib.Path(os.environ["GRANULAW_SUPERQUADRIC_BUILD"])
 WITH_SHAPES = BUILD / "liggghts_plugin" / "liggghts-mpm"
 TUTORIAL = pathlib.Path(LIGGGHTS) / "examples" / "LIGGGHTS" / "Tutorials_public" / "superquadric" / "in.particle_particle"
 GAUSSIAN, MEAN = (f"{kind}Curvature yes curvatureLimitFactor 100" for kind in ("gaussian", "mean"))
 
 
-def setUpModule():
-    for command in (["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DGRANULAW_BUILD_TESTS=OFF",
-                     "-DGRANULAW_BUILD_BENCHMARKS=OFF", f"-DGRANULAW_LIGGGHTS_ROOT={LIGGGHTS}"],
-                    ["cmake", "--build", BUILD, "--target", "liggghts-mpm"]):
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-        if done.returncode:
-            raise RuntimeError(f"the plug-in was not built against {LIGGGHTS}:\n{(done.stdout + done.stderr)[-3000:]}")
+@fixture(autouse=True, scope="module")
+def plugin():
+    run("cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DGRANULAW_BUILD_TESTS=OFF", "-DGRANULAW_BUILD_BENCHMARKS=OFF",
+        f"-DGRANULAW_LIGGGHTS_ROOT={LIGGGHTS}")
+    run("cmake", "--build", BUILD, "--target", "liggghts-mpm", timeout=3000)
 
 
 def mass(shape):
@@ -52,8 +45,8 @@ class Impact:
         shapes = self.surface == "superquadric"
         models = f"model {self.model} tangential history" + (f" surface {self.surface}" if shapes else "")
         curvature = self.curvature if shapes else ""
-        text = harness.head(half=0.02, skin=1e-3).replace("atom_style granular", f"atom_style {'superquadric' if shapes else 'granular'}")
-        text += harness.properties([POWDER], self.friction)
+        text = head(half=0.02, skin=1e-3).replace("atom_style granular", f"atom_style {'superquadric' if shapes else 'granular'}")
+        text += properties([POWDER], self.friction)
         if self.model == "hertz":
             text += "fix p9 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
             curvature = self.curvature
@@ -83,9 +76,9 @@ class Impact:
         return text
 
 
-class Shapes(Deck):
+class TestShapes(Deck):
     def path(self, impact, speed, dt, steps, every=1, launcher=WITH_SHAPES):
-        (self.folder / "plane.stl").write_text(harness.plane_stl())
+        (self.folder / "plane.stl").write_text(plane_stl())
         self.text = self.run_deck(impact.deck(speed, dt, steps, every), launcher=launcher)
         return self.results(self.text, "PATH")
 
@@ -94,60 +87,57 @@ class Shapes(Deck):
 
     def difference(self, one, other):
         """Largest differences of each column of two paths, over its largest value."""
-        self.assertEqual(len(one), len(other))
-        return [harness.worst(abs(a[c] - b[c]) for a, b in zip(one, other)) / max(1e-300, *(abs(a[c]) for a in one))
+        assert len(one) == len(other)
+        return [worst(abs(a[c] - b[c]) for a, b in zip(one, other)) / max(1e-300, *(abs(a[c]) for a in one))
                 for c in range(len(one[0]))]
 
-    def test_sphere(self):
+    @mark.parametrize("turn", ("", "1 1 0 37"))
+    @mark.parametrize("partner", ("wall", "mesh", "pair"))
+    @mark.parametrize("model", ("mpm", "thornton"))
+    def test_sphere(self, model, partner, turn):
         """Against the plug-in for spheres and its LIGGGHTS: the same path, velocity and force; measured 1e-13."""
-        for model in ("mpm", "thornton"):
-            for partner in ("wall", "mesh", "pair"):
-                for turn in ("", "1 1 0 37"):
-                    impact = Impact((2.5e-3,) * 3, partner, model, self.words(model), turn=turn)
-                    found = self.path(impact, 1.0, 2e-7, 400)
-                    impact.surface = "default"
-                    expected = self.path(impact, 1.0, 2e-7, 400, launcher=harness.LAUNCHER)
-                    self.assertGreater(found[-1][1], 0.5)  # it did rebound
-                    for what, off in zip(("place", "velocity", "force"), self.difference(expected, found)):
-                        self.assertLess(off, 1e-9, f"{model}, {partner}, turned '{turn}': {what}")
+        impact = Impact((2.5e-3,) * 3, partner, model, self.words(model), turn=turn)
+        found = self.path(impact, 1.0, 2e-7, 400)
+        impact.surface = "default"
+        expected = self.path(impact, 1.0, 2e-7, 400, launcher=LAUNCHER)
+        assert found[-1][1] > 0.5  # it did rebound
+        for what, off in zip(("place", "velocity", "force"), self.difference(expected, found)):
+            assert off < 1e-9, f"{model}, {partner}, turned '{turn}': {what}"
 
-    def test_pole_of_an_ellipsoid(self):
+    @mark.parametrize("a, b, c", ((2e-3, 2e-3, 4e-3), (4e-3, 4e-3, 2e-3), (2e-3, 4e-3, 3e-3)))
+    def test_pole_of_an_ellipsoid(self, a, b, c):
         """e and largest overlap are the replayed law's at R* of the pole, a b/c or 2/(c/a^2 + c/b^2)."""
-        for a, b, c in ((2e-3, 2e-3, 4e-3), (4e-3, 4e-3, 2e-3), (2e-3, 4e-3, 3e-3)):
-            for curvature, radius in ((GAUSSIAN, a * b / c), (MEAN, 2 / (c / a**2 + c / b**2))):
-                for partner, share in (("wall", 1.0), ("pair", 0.5)):
-                    other = "wall" if partner == "wall" else "powder"
-                    e, duration, deepest = self.fixture("mpm", self.law, "powder", other, share * radius, share * mass((a, b, c)), 1 / share)
-                    impact = Impact((a, b, c), partner, "mpm", self.words("mpm") + " elasticDamping off", curvature=curvature)
-                    path = self.path(impact, 1.0, duration / 400, 500)
-                    where = f"half-axes {a} {b} {c}, {curvature}, {partner}"
-                    self.assertAlmostEqual(path[-1][1] / e, 1, delta=2e-5, msg=where)  # measured 4e-6, 400 steps a contact
-                    self.assertAlmostEqual(self.result(self.text, "DEPTH")[0] * share * radius / deepest, 1, delta=2e-5, msg=where)
+        for curvature, radius in ((GAUSSIAN, a * b / c), (MEAN, 2 / (c / a**2 + c / b**2))):
+            for partner, share in (("wall", 1.0), ("pair", 0.5)):
+                other = "wall" if partner == "wall" else "powder"
+                e, duration, deepest = self.fixture("mpm", self.law, "powder", other, share * radius, share * mass((a, b, c)), 1 / share)
+                impact = Impact((a, b, c), partner, "mpm", self.words("mpm") + " elasticDamping off", curvature=curvature)
+                path = self.path(impact, 1.0, duration / 400, 500)
+                where = f"half-axes {a} {b} {c}, {curvature}, {partner}"
+                assert path[-1][1] / e == approx(1, abs=2e-5), where  # measured 4e-6, 400 steps a contact
+                assert self.result(self.text, "DEPTH")[0] * share * radius / deepest == approx(1, abs=2e-5), where
 
-    def test_tilted_against_stock_hertz(self):
+    @mark.parametrize("partner", ("wall", "mesh", "pair"))
+    @mark.parametrize("friction", (0.0, 0.3))
+    def test_tilted_against_stock_hertz(self, friction, partner):
         """Elastic and off the centre: force, torque and friction as LIGGGHTS's own Hertz gives them; measured 2e-7."""
-        for friction in (0.0, 0.3):
-            for partner in ("wall", "mesh", "pair"):
-                impact = Impact((2e-3, 3e-3, 4e-3), partner, "hertz", turn="1 2 0.5 31", friction=friction)
-                if partner == "pair":
-                    impact.height, impact.aside = 2.65e-3, "0.0008 0.0007"
-                expected = self.path(impact, 1.0, 1e-7, 16000, 5)
-                impact.model = "mpm"
-                impact.words = self.words("mpm", "elastic") + " elasticDamping off tangentialDampingRatio 0"
-                impact.wall_words = "wall deformable"
-                found = self.path(impact, 1.0, 1e-7, 16000, 5)
-                self.assertGreater(max(row[4] for row in found), 1e-3 * found[0][3])  # it turns
-                for off in self.difference(expected, found):
-                    self.assertLess(off, 1e-5, f"{partner}, friction {friction}")
+        impact = Impact((2e-3, 3e-3, 4e-3), partner, "hertz", turn="1 2 0.5 31", friction=friction)
+        if partner == "pair":
+            impact.height, impact.aside = 2.65e-3, "0.0008 0.0007"
+        expected = self.path(impact, 1.0, 1e-7, 16000, 5)
+        impact.model = "mpm"
+        impact.words = self.words("mpm", "elastic") + " elasticDamping off tangentialDampingRatio 0"
+        impact.wall_words = "wall deformable"
+        found = self.path(impact, 1.0, 1e-7, 16000, 5)
+        assert max(row[4] for row in found) > 1e-3 * found[0][3]  # it turns
+        for off in self.difference(expected, found):
+            assert off < 1e-5, f"{partner}, friction {friction}"
 
     def test_tutorial(self):
         """LIGGGHTS's own deck (without its VTK dump), the models' names and words changed; on 2 ranks as on 1."""
         if not TUTORIAL.exists():
-            self.skipTest(f"no {TUTORIAL}: {LIGGGHTS} is no source tree")
-        materials, law = self.folder / "soft.toml", self.folder / "soft.h5"
-        materials.write_text("[material.soft]\ndensity = 2500\nyoungs_modulus = 1e7\npoisson_ratio = 0.3\nyield_stress = 1e5\n"
-                             "[particle.grain]\nradius = 2.5e-3\nmaterial = \"soft\"\n")
-        subprocess.run([os.environ["GRANULAW_MPM"], "table", materials, "-o", law], check=True, capture_output=True)
+            skip(f"no {TUTORIAL}: {LIGGGHTS} is no source tree")
+        law = table(material("soft", 2500, 1e7, 0.3, 1e5) + particle("grain", "soft", 2.5e-3))
         kept = [line for line in TUTORIAL.read_text().splitlines()
                 if not line.startswith(("dump", "shell")) and "coefficientRestitution" not in line]
         curvature = "gaussianCurvature yes curvatureLimitFactor 10"
@@ -160,16 +150,16 @@ class Shapes(Deck):
             text += '\nvariable a equal f_granulaw\nvariable b equal f_granulaw[3]\nvariable c equal f_granulaw[4]\n'
             text += 'variable k equal c_kin_e+c_rke\nprint "END $b $c $a $k"\n'
             one, two = (self.result(self.run_deck(text, ranks=ranks, launcher=WITH_SHAPES), "END") for ranks in (1, 2))
-            self.assertEqual(one[0], 1.0, "the two particles meet once")
-            self.assertGreater(one[2], 0.0, "they yield")
+            assert one[0] == 1.0, "the two particles meet once"
+            assert one[2] > 0.0, "they yield"
             for a, b in zip(one, two):
-                self.assertAlmostEqual(b / a, 1.0, delta=1e-6, msg=model)
+                assert b / a == approx(1.0, abs=1e-6), model
 
     def test_refusals(self):
         sphere = (2.5e-3,) * 3
 
         def refused(sentence, deck, **more):
-            self.assertIn(sentence, self.run_deck(deck, expect_failure=True, launcher=WITH_SHAPES, **more))
+            assert sentence in self.run_deck(deck, expect_failure=True, launcher=WITH_SHAPES, **more)
 
         for curvature in ("", "curvatureLimitFactor 10", "meanCurvature yes", "gaussianCurvature no curvatureLimitFactor 10",
                           "meanCurvature yes gaussianCurvature yes curvatureLimitFactor 10", "meanCurvature yes curvatureLimitFactor 0"):
@@ -188,17 +178,11 @@ class Shapes(Deck):
     def test_other_library(self):
         """Each plug-in refuses the other LIGGGHTS, loaded before its own."""
         def library(launcher):
-            text = subprocess.run(["ldd", launcher], capture_output=True, text=True, check=True).stdout
-            return re.search(r"libliggghts\S* => (\S+)", text).group(1)
+            return re.search(r"libliggghts\S* => (\S+)", run("ldd", launcher).stdout)[1]
 
         impact = Impact((2.5e-3,) * 3, model="thornton")
         impact.surface = "default"
         deck = impact.deck(1.0, 1e-7, 1)
-        for launcher, other, sentence in ((harness.LAUNCHER, WITH_SHAPES, "this LIGGGHTS was built with superquadrics"),
-                                          (WITH_SHAPES, harness.LAUNCHER, "this LIGGGHTS was built without superquadrics")):
-            self.assertIn(sentence, self.run_deck(deck, expect_failure=True, launcher=launcher,
-                                                  environment={"LD_PRELOAD": library(other)}))
-
-
-if __name__ == "__main__":
-    unittest.main()
+        for launcher, other, sentence in ((LAUNCHER, WITH_SHAPES, "this LIGGGHTS was built with superquadrics"),
+                                          (WITH_SHAPES, LAUNCHER, "this LIGGGHTS was built without superquadrics")):
+            assert sentence in self.run_deck(deck, expect_failure=True, launcher=launcher, environment={"LD_PRELOAD": library(other)})

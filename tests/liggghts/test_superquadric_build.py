@@ -2,11 +2,10 @@
 that the plug-in's sources compile with the flags, against the headers at hand. Runs without such a LIGGGHTS."""
 import os
 import pathlib
-import subprocess
-import tempfile
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from pytest import fixture, mark
+from programs import ROOT, run
+
 HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
 STYLES = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_STYLES"])  # the generated style_*_model.h and register_*.cpp
 SMALLBIG = ["_ZN9LAMMPS_NS6Domain5remapEPdRi", "_ZN9LAMMPS_NS6Update14reset_timestepEl"]
@@ -21,40 +20,40 @@ message(STATUS "flags=${{LIGGGHTS_FLAGS}}")
 """
 
 
-class Configure(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-superquadric-")))
+class TestConfigure:
+    @fixture(autouse=True)
+    def _folder(self, tmp_path):
+        self.folder = tmp_path
 
     def configure(self, symbols, version="3.8.0"):
         """Exit status and text of liggghts_find() for a library that defines `symbols`."""
         (self.folder / "contact_models.h").write_text("")
         (self.folder / "version_liggghts.txt").write_text(version + "\n")
         (self.folder / "library.c").write_text("".join(f"char {symbol} = 1;\n" for symbol in symbols))
-        subprocess.run(["cc", "-shared", "-fPIC", "-o", "libliggghts.so", "library.c"], cwd=self.folder, check=True)
-        (self.folder / "find.cmake").write_text(
-            SCRIPT.format(styles=ROOT / "liggghts_plugin" / "LiggghtsStyles.cmake", root=self.folder))
-        done = subprocess.run(["cmake", "-P", "find.cmake"], cwd=self.folder, capture_output=True, text=True)
+        run("cc", "-shared", "-fPIC", "-o", "libliggghts.so", "library.c", cwd=self.folder)
+        (self.folder / "find.cmake").write_text(SCRIPT.format(styles=ROOT / "liggghts_plugin" / "LiggghtsStyles.cmake", root=self.folder))
+        done = run("cmake", "-P", "find.cmake", cwd=self.folder, code=...)
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
     def test_spheres(self):
         status, text = self.configure(SMALLBIG)
-        self.assertEqual(status, 0, text)
-        self.assertIn("(spheres only, SMALLBIG)", text)
-        self.assertTrue(text.endswith("flags="), text)
+        assert status == 0, text
+        assert "(spheres only, SMALLBIG)" in text
+        assert text.endswith("flags="), text
 
     def test_superquadrics(self):
         status, text = self.configure([*SMALLBIG, SUPERQUADRIC])
-        self.assertEqual(status, 0, text)
-        self.assertIn("(superquadrics, SMALLBIG)", text)
-        self.assertIn("flags=SUPERQUADRIC_ACTIVE_FLAG;NONSPHERICAL_ACTIVE_FLAG", text)
+        assert status == 0, text
+        assert "(superquadrics, SMALLBIG)" in text
+        assert "flags=SUPERQUADRIC_ACTIVE_FLAG;NONSPHERICAL_ACTIVE_FLAG" in text
 
-    def test_refusals(self):
-        for symbols, version, sentence in (([*SMALLBIG, SUPERQUADRIC, CONVEX], "3.8.0", "was built with convex particles"),
-                                           ([SUPERQUADRIC], "3.8.0", "was not built with LAMMPS_SMALLBIG"),
-                                           ([*SMALLBIG, SUPERQUADRIC], "4.0.0", "the plug-in is written for 3.8.0")):
-            status, text = self.configure(symbols, version)
-            self.assertNotEqual(status, 0, text)
-            self.assertIn(sentence, text)
+    @mark.parametrize("symbols, version, sentence", (([*SMALLBIG, SUPERQUADRIC, CONVEX], "3.8.0", "was built with convex particles"),
+                                                     ([SUPERQUADRIC], "3.8.0", "was not built with LAMMPS_SMALLBIG"),
+                                                     ([*SMALLBIG, SUPERQUADRIC], "4.0.0", "the plug-in is written for 3.8.0")))
+    def test_refusals(self, symbols, version, sentence):
+        status, text = self.configure(symbols, version)
+        assert status != 0, text
+        assert sentence in text
 
     def test_sources_compile(self):
         """With the flags, as an object: the library at hand has not what it needs to be linked."""
@@ -63,11 +62,5 @@ class Configure(unittest.TestCase):
                  f"-isystem{STYLES}", f"-isystem{HEADERS}"]
         for source in (*(ROOT / "liggghts_plugin" / f"{name}.cpp" for name in ("run/checks", "loop/registration", "deck/particle_sizes")),
                        STYLES / "register_thornton.cpp"):
-            done = subprocess.run(["mpicxx", *words, str(source)], capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, f"{source.name}: {done.stderr[:2000]}")
-        symbols = subprocess.run(["nm", self.folder / "object.o"], capture_output=True, text=True, check=True).stdout
-        self.assertTrue("extended_overlap_algorithm" in symbols, "the pair loop has no narrow phase")
-
-
-if __name__ == "__main__":
-    unittest.main()
+            run("mpicxx", *words, source)
+        assert "extended_overlap_algorithm" in run("nm", self.folder / "object.o").stdout, "the pair loop has no narrow phase"

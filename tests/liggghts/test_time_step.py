@@ -1,8 +1,8 @@
 """The time step: how deep a contact it is short enough for, the warning, what the stiffest contact allowed, and what the fraction is worth."""
 import json
 import math
-import unittest
 
+from pytest import approx
 from collisions import pair_deck, wall_deck
 from harness import GLASS, POWDER, Deck, sphere_mass
 
@@ -10,7 +10,7 @@ RADIUS = 1.7e-3
 FRACTION = 1 / 20
 
 
-class TimeStep(Deck):
+class TestTimeStep(Deck):
     def stats(self, deck):
         text = self.run_deck(deck)
         return text, json.loads((self.folder / "s.json").read_text())
@@ -29,9 +29,9 @@ class TimeStep(Deck):
                              (pair["time_step_limit_of_law_s"], pair["overlap_over_radius_limit"])):
             k = 2 * (GLASS.e_star / 2) * r * math.sqrt(depth) * (1 + 1.2 * math.sqrt(depth / 4))
             # 1e-4: the table's interpolation
-            self.assertAlmostEqual(found / (FRACTION * 2 * math.pi * math.sqrt(m / k)), 1.0, delta=1e-4)
-        self.assertNotIn("is over", text)
-        self.assertEqual(stats["time_step_used_s"], 1e-8)
+            assert found / (FRACTION * 2 * math.pi * math.sqrt(m / k)) == approx(1.0, abs=1e-4)
+        assert "is over" not in text
+        assert stats["time_step_used_s"] == 1e-8
 
     def test_yielded_contact(self):
         """Powder on a wall: the limit is that of the steepest branch, loading or unloading from a reversal, of 64 overlaps.
@@ -53,9 +53,9 @@ class TimeStep(Deck):
             h, top = 1e-3 * d, force(d, d)
             for at in (lambda x: force(x, x), lambda x: force(x, d)):
                 slopes.append((3 * top - 4 * at(d - h) + at(d - 2 * h)) / (2 * h))
-        self.assertGreater(max(slopes[1::2]), 1.2 * max(slopes[::2]))  # it is an unloading
+        assert max(slopes[1::2]) > 1.2 * max(slopes[::2])  # it is an unloading
         allowed = FRACTION * 2 * math.pi * math.sqrt(m / max(slopes))
-        self.assertAlmostEqual(wall["time_step_limit_of_law_s"] / allowed, 1.0, delta=1e-4)
+        assert wall["time_step_limit_of_law_s"] / allowed == approx(1.0, abs=1e-4)
 
     def test_largest_step_used(self):
         """The longer step of two runs is stated, whichever was the first."""
@@ -63,7 +63,7 @@ class TimeStep(Deck):
         for first, second in ((1e-8, 4e-9), (4e-9, 1e-8)):
             deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, first)
             _, stats = self.stats(deck.replace("run 120", f"run 60\ntimestep {second!r}\nrun 60"))
-            self.assertEqual(stats["time_step_used_s"], 1e-8)
+            assert stats["time_step_used_s"] == 1e-8
 
     def wall(self, deck):
         text, stats = self.stats(deck)
@@ -79,17 +79,16 @@ class TimeStep(Deck):
         words = f"law {self.law} materials powder stats s.json"
         _, fine = self.wall(wall_deck("mpm", words, POWDER, RADIUS, 0.5, 1e-8).replace("run 120", "run 8000"))
         limit, allowed = fine["time_step_limit_of_law_s"], fine["time_step_allowed_s"]
-        self.assertGreater(allowed, 1.1 * limit)
+        assert allowed > 1.1 * limit
         for step, count in ((1.05 * limit, 0), (0.97 * allowed, 0), (1.03 * allowed, 1)):
             deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, step)
             text, wall = self.wall(deck.replace("run 120", "run 10\nrun 50\nrun 50"))
-            self.assertEqual(text.count("a contact of type 1 with a wall of type 1 was so deep that"), count, (step, limit, allowed))
+            assert text.count("a contact of type 1 with a wall of type 1 was so deep that") == count, (step, limit, allowed)
             deep = wall["overlap_over_radius_limit_of_time_step"]
-            self.assertEqual(deep < wall["overlap_over_radius_max"], count == 1)
+            assert (deep < wall["overlap_over_radius_max"]) == (count == 1)
         # the period goes with the radius: rho R^3/(E R)
         _, small = self.stats(wall_deck("mpm", words, POWDER, RADIUS / 3, 0.5, 1e-8))
-        self.assertAlmostEqual(3 * next(p for p in small["pairs"] if p["kind"] == "rigid wall")["time_step_limit_of_law_s"]
-                               / limit, 1.0, delta=1e-9)
+        assert 3 * next(p for p in small["pairs"] if p["kind"] == "rigid wall")["time_step_limit_of_law_s"] / limit == approx(1.0, abs=1e-9)
 
     def test_later_runs_begin_anew(self):
         """A contact of an earlier run with a shorter step earns a longer one no warning."""
@@ -98,7 +97,7 @@ class TimeStep(Deck):
         allowed = fine["time_step_allowed_s"]
         deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, 0.9 * allowed)
         text, _ = self.wall(deck.replace("run 120", f"run 60\ntimestep {2 * allowed!r}\nrun 5"))
-        self.assertNotIn("was so deep that", text)
+        assert "was so deep that" not in text
 
     def test_overlap_of_the_step(self):
         """The synthetic glass in closed form: where k(d) requires just this step."""
@@ -109,7 +108,7 @@ class TimeStep(Deck):
             step = FRACTION * 2 * math.pi * math.sqrt(m / k)
             _, stats = self.stats(pair_deck("mpm", words, (GLASS, GLASS), (RADIUS, RADIUS), 1.0, step))
             # the interpolation's 1e-4 of k is four times that of the overlap
-            self.assertAlmostEqual(stats["pairs"][0]["overlap_over_radius_limit_of_time_step"] / depth, 1.0, delta=5e-4)
+            assert stats["pairs"][0]["overlap_over_radius_limit_of_time_step"] / depth == approx(1.0, abs=5e-4)
 
     def test_template_counts(self):
         """A particle that can be inserted later is smaller than all that exist: the limit is its own."""
@@ -119,7 +118,7 @@ class TimeStep(Deck):
         deck = wall_deck("mpm", words, POWDER, RADIUS, 0.5, 1e-8)
         limit = [self.stats(d)[1]["pairs"][-1]["time_step_limit_of_law_s"]
                  for d in (deck, deck.replace("run 120", template))]
-        self.assertAlmostEqual(limit[0] / limit[1], 4.0, delta=1e-9)
+        assert limit[0] / limit[1] == approx(4.0, abs=1e-9)
 
     def test_what_the_fraction_is_worth(self):
         """At the step that the visited stiffness allows, e is within 0.005 of the law (issue 5) whatever the phase."""
@@ -129,12 +128,8 @@ class TimeStep(Deck):
             words = f"law {self.law} materials powder stats s.json"
             _, stats = self.stats(wall_deck("mpm", words, POWDER, RADIUS, speed, duration / 400).replace("run 120", "run 700"))
             dt = stats["wall"]["time_step_allowed_s"]
-            self.assertGreater(duration / dt, 10)
+            assert duration / dt > 10
             for phase in (0.05, 0.55):
                 deck = wall_deck("mpm", words, POWDER, RADIUS, speed, dt).replace(
                     repr(RADIUS + 0.3 * dt * speed), repr(RADIUS + phase * dt * speed)).replace("run 120", "run 60")
-                self.assertAlmostEqual(self.result(self.run_deck(deck), "SPEED")[0] / speed, e, delta=0.005)
-
-
-if __name__ == "__main__":
-    unittest.main()
+                assert self.result(self.run_deck(deck), "SPEED")[0] / speed == approx(e, abs=0.005)

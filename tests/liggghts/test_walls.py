@@ -1,6 +1,6 @@
 """Walls: primitive and mesh, rigid and deformable, the history of a contact that slides over a seam."""
-import unittest
 
+from pytest import approx, mark
 from collisions import wall_deck
 from harness import GLASS, POWDER, Deck, head, plane_stl, properties, sphere_mass
 
@@ -9,22 +9,21 @@ MESH = "fix cad all mesh/surface file plane.stl type 1\n"
 ON_MESH = "mesh n_meshes 1 meshes cad"
 
 
-class Walls(Deck):
-    def setUp(self):
-        super().setUp()
+class TestWalls(Deck):
+    def prepare(self):
         (self.folder / "plane.stl").write_text(plane_stl())
 
     def speed_after(self, speed, dt, model="mpm", **keywords):
         words = f"law {self.law} materials powder" if model == "mpm" else ""
         return self.result(self.run_deck(wall_deck(model, words, POWDER, RADIUS, speed, dt, **keywords)), "SPEED")[0]
 
-    def test_mesh_equals_primitive(self):
-        for model in ("mpm", "thornton"):
-            for tangential in ("history", "no_history", "off"):
-                primitive = self.speed_after(1.0, 2e-7, model, tangential=tangential)
-                mesh = self.speed_after(1.0, 2e-7, model, wall=ON_MESH, before_wall=MESH, tangential=tangential)
-                # the same arithmetic but for the distance to the wall: rounding of 1e-16 R against an overlap of 1e-2 R
-                self.assertAlmostEqual(mesh / primitive, 1.0, delta=1e-9, msg=f"{model} {tangential}")
+    @mark.parametrize("tangential", ("history", "no_history", "off"))
+    @mark.parametrize("model", ("mpm", "thornton"))
+    def test_mesh_equals_primitive(self, model, tangential):
+        primitive = self.speed_after(1.0, 2e-7, model, tangential=tangential)
+        mesh = self.speed_after(1.0, 2e-7, model, wall=ON_MESH, before_wall=MESH, tangential=tangential)
+        # the same arithmetic but for the distance to the wall: rounding of 1e-16 R against an overlap of 1e-2 R
+        assert mesh / primitive == approx(1.0, abs=1e-9), f"{model} {tangential}"
 
     def test_wall_of_another_type(self):
         """A rigid wall's material needs no law of its own; a mesh wall takes its type from the mesh."""
@@ -37,7 +36,7 @@ class Walls(Deck):
                 "fix i all nve/sphere\ntimestep 2e-7\nvariable v equal vcm(all,z)\nrun 150\n"
                 'print "SPEED ${v}"\n')
         expected = self.fixture("mpm", self.law, "powder", "wall", RADIUS, sphere_mass(RADIUS, POWDER.density), 1.0)[0]
-        self.assertAlmostEqual(self.result(self.run_deck(deck), "SPEED")[0] / expected, 1.0, delta=0.01)
+        assert self.result(self.run_deck(deck), "SPEED")[0] / expected == approx(1.0, abs=0.01)
 
     def slide(self, wall, before_wall, start):
         """Pressed on and sliding without friction along the seam's normal; the plastic dent travels with the contact."""
@@ -55,10 +54,6 @@ class Walls(Deck):
         start = -0.03  # crosses x = 0 (on y = 0) after 6 of the 25 steps
         mesh = self.result(self.run_deck(self.slide(ON_MESH, MESH, start)), "SPEED")
         plane = self.result(self.run_deck(self.slide("primitive type 1 zplane 0.0", "", start)), "SPEED")
-        self.assertLess(start, 0)
-        self.assertGreater(mesh[1], 0)  # it did cross
-        self.assertAlmostEqual(mesh[0] / plane[0], 1.0, delta=1e-9)  # rounding of the distance, as above
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert start < 0
+        assert mesh[1] > 0  # it did cross
+        assert mesh[0] / plane[0] == approx(1.0, abs=1e-9)  # rounding of the distance, as above

@@ -2,8 +2,8 @@
 walls, in every order of the deck's commands."""
 import json
 import re
-import unittest
 
+from pytest import approx
 from harness import POWDER, Deck, head, properties, sphere_mass
 
 RADIUS = 1.7e-3
@@ -13,7 +13,7 @@ RESTITUTION = "fix q1 all property/global coefficientRestitution peratomtypepair
 PAIR = "pair_style gran model hertz tangential history tangential_damping off\npair_coeff * *\n"
 
 
-class WallsOnly(Deck):
+class TestWallsOnly(Deck):
     def wall(self, model="mpm", name="w", plane="primitive type 1 zplane 0.0", more=""):
         law = f"law {self.law} materials powder " if model == "mpm" else ""
         return f"fix {name} all wall/gran model {model} tangential history {plane} {law}elasticDamping off {more}\n"
@@ -42,15 +42,15 @@ class WallsOnly(Deck):
             for ranks in (1, 2) if name == "one wall" else (1,):
                 text = self.run_deck(self.deck(walls) + out, ranks=ranks)
                 loss, begun, between, rebound = self.result(text, "SAID")
-                self.assertEqual((begun, between), (1, 0), name)
+                assert (begun, between) == (1, 0), name
                 # 500 steps a contact: the step's own error, as in test_contact_statistics.py
-                self.assertAlmostEqual(loss / (0.5 * MASS * (SPEED**2 - rebound**2)), 1.0, delta=2e-4, msg=name)
-                self.assertLess(rebound, 0.95)
-                self.assertEqual(text.count("granulaw contact laws"), 1, name)
-                self.assertEqual(len(re.findall("^granulaw contacts ", text, re.M)), 2, text[-3000:])  # one for each run
+                assert loss / (0.5 * MASS * (SPEED**2 - rebound**2)) == approx(1.0, abs=2e-4), name
+                assert rebound < 0.95
+                assert text.count("granulaw contact laws") == 1, name
+                assert len(re.findall("^granulaw contacts ", text, re.M)) == 2, text[-3000:]  # one for each run
                 stats = json.loads((self.folder / "s.json").read_text())
-                self.assertAlmostEqual(stats["wall"]["impact_speed_max_m_per_s"], SPEED, delta=1e-9)
-                self.assertEqual(stats["pair"]["contacts_begun"], 0)
+                assert stats["wall"]["impact_speed_max_m_per_s"] == approx(SPEED, abs=1e-9)
+                assert stats["pair"]["contacts_begun"] == 0
                 (self.folder / "s.json").unlink()
 
     def test_thornton_and_replaced_models(self):
@@ -58,7 +58,7 @@ class WallsOnly(Deck):
         out = "variable n equal f_granulaw[4]\nrun 3000\n" 'print "SAID ${n}"\n'
         hertz = "fix w all wall/gran model hertz tangential history primitive type 1 zplane 0.0 tangential_damping off\n"
         for walls in (self.wall("thornton"), hertz + self.wall("thornton"), hertz + self.wall()):
-            self.assertEqual(self.result(self.run_deck(self.deck(walls) + out), "SAID"), [1.0])
+            assert self.result(self.run_deck(self.deck(walls) + out), "SAID") == [1.0]
 
     def test_other_fixes_stay_whole(self):
         """The wall's own fixes stand behind ours in LIGGGHTS's list: all of them still act, history survives a restart."""
@@ -70,9 +70,9 @@ class WallsOnly(Deck):
         moving = "fix i all nve/sphere\ntimestep 2e-8\n"
         resumed = self.result(self.run_deck(again + properties([POWDER]) + RESTITUTION + PAIR + self.wall() + moving +
                                             run.format(100)), "SAID")
-        self.assertGreater(whole[1], 0.0)  # half-way in, plastic
+        assert whole[1] > 0.0  # half-way in, plastic
         for a, b in zip(resumed, whole):
-            self.assertAlmostEqual(a / b, 1.0, delta=1e-9)  # rounding of positions of 1e-3 R deep, as in test_restart.py
+            assert a / b == approx(1.0, abs=1e-9)  # rounding of positions of 1e-3 R deep, as in test_restart.py
 
     def test_they_stop(self):
         """Runaway particle, NaN, table left behind: one sentence, on 1 and 2 ranks."""
@@ -83,7 +83,3 @@ class WallsOnly(Deck):
         for deck, sentence in cases:
             for ranks in (1, 2):
                 self.refused(deck, sentence, ranks=ranks)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,37 +1,33 @@
 """Public decks in small, one folder of world/ for each: what `mpm plan`, `mpm table --deck`, `mpm soften` and the run make of them."""
 import json
-import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
-import unittest
 
-import harness
+from pytest import approx, fixture
+from harness import PLUGIN
+from programs import LAUNCHER, MPM, run
 
-MPM = os.environ["GRANULAW_MPM"]
 WORLD = pathlib.Path(__file__).resolve().parent / "world"
 
 
-class World(unittest.TestCase):
+class World:
+    @fixture(autouse=True)
+    def _folder(self, tmp_path):
+        self.folder = tmp_path
+
     def take(self, name):
         """A copy of the deck's folder."""
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-world-"))) / name
+        self.folder /= name
         shutil.copytree(WORLD / name, self.folder)
 
-    def command(self, words, code, cwd=None):
-        done = subprocess.run([str(w) for w in words], cwd=cwd or self.folder, capture_output=True, text=True, errors="replace", timeout=300)
-        text = done.stdout + done.stderr
-        if code is None:
-            self.assertNotEqual(done.returncode, 0, text[-2000:])
-        else:
-            self.assertEqual(done.returncode, code, text[-2000:])
-        return text
+    def command(self, *words, **how):
+        done = run(*words, cwd=self.folder, **how)
+        return done.stdout + done.stderr
 
-    def mpm(self, *words, code=0):
-        return self.command([MPM, *words], code)
+    def mpm(self, *words, **how):
+        return self.command(MPM, *words, **how)
 
     def plan(self, deck, *words):
         return json.loads(self.mpm("plan", deck, "--materials-file", "materials.toml", *words, "--json"))
@@ -42,30 +38,30 @@ class World(unittest.TestCase):
         return re.search(r"wrote law.h5: pairs (.*)", text)[1]
 
     def run_deck(self, deck, *words, code=0):
-        return self.command([harness.LAUNCHER, "-in", deck, "-log", "none", *words], code)
+        return self.command(LAUNCHER, "-in", deck, "-log", "none", *words, code=code)
 
     def change(self, deck, old, new):
         path = self.folder / deck
         text = path.read_text()
-        self.assertIn(old, text)
+        assert old in text
         path.write_text(text.replace(old, new))
 
 
-class Laws(World):
+class TestLaws(World):
     """The law of `mpm table --deck` is the law that the run demands."""
 
     def test_one_sphere(self):
         self.take("one_sphere")
         self.change("in.one", "run          200000", "run 2000")
-        self.assertEqual(sorted(self.table("in.one").split(", ")), ["bead:bead", "bead:wall"])
+        assert sorted(self.table("in.one").split(", ")) == ["bead:bead", "bead:wall"]
         self.run_deck("in.one")
 
     def test_walls_count_beside_particles_of_a_program(self):
         self.take("driver_inserts")
         plan = self.plan("in.driver", "--drop-height", "0.1", "--particles", "100")
-        self.assertEqual(plan["radius_m"], [0.004, 0.004])  # of the templates
-        self.assertEqual([p["materials"] for p in plan["pairs"]], [["bead", "bead"], ["bead", "wall"]])
-        self.assertIn("bead:wall", self.table("in.driver", "--drop-height", "0.1"))
+        assert plan["radius_m"] == [0.004, 0.004]  # of the templates
+        assert [p["materials"] for p in plan["pairs"]] == [["bead", "bead"], ["bead", "wall"]]
+        assert "bead:wall" in self.table("in.driver", "--drop-height", "0.1")
 
     def test_walls_count_beside_a_restart_file(self):
         self.take("restart_walls")
@@ -74,30 +70,30 @@ class Laws(World):
         first = first.replace("run 10000", "create_atoms 1 single 0 0 0.05 units box\nset group all diameter 0.008 density 2500\nrun 10\nwrite_restart bed.restart")
         (self.folder / "in.first").write_text(first)
         self.change("in.second", "run 10000", "run 200")
-        self.assertIn("bead:wall", self.table("in.first"))
+        assert "bead:wall" in self.table("in.first")
         self.run_deck("in.first")
         plan = self.plan("in.second", "--drop-height", "0.1")
-        self.assertEqual([p["materials"] for p in plan["pairs"]], [["bead", "wall"]])
-        self.assertIn("bead:wall", self.table("in.second", "--drop-height", "0.1"))
+        assert [p["materials"] for p in plan["pairs"]] == [["bead", "wall"]]
+        assert "bead:wall" in self.table("in.second", "--drop-height", "0.1")
         self.run_deck("in.second")
 
     def test_a_mesh_may_be_called_wall(self):
         self.take("mesh_named_wall")
         self.change("in.beaker", "run          20000", "run 2000")
-        self.assertEqual(self.plan("in.beaker")["not_followed"], [])
-        self.assertIn("bead:wall", self.table("in.beaker"))
+        assert self.plan("in.beaker")["not_followed"] == []
+        assert "bead:wall" in self.table("in.beaker")
         self.run_deck("in.beaker")
 
 
-class Beginnings(World):
+class TestBeginnings(World):
     def test_particles_inserted_into_a_wall_do_not_stop_the_run(self):
         """Each contact that began beyond the table parts with no more energy than the table's end holds, so no motion leads beyond it."""
         self.take("inserted_into_wall")
         self.table("in.wall")
         self.change("in.wall", "run          20000", "variable n equal atoms\nrun 20000\nprint \"END ${n}\"")
         text = self.run_deck("in.wall")
-        self.assertRegex(text, r"END 100\b")
-        self.assertIn("began deeper than the motion of a step", text)
+        assert re.search(r"END 100\b", text)
+        assert "began deeper than the motion of a step" in text
 
     def test_particles_that_nothing_moves_do_not_run_away(self):
         self.take("no_integrator")
@@ -105,73 +101,73 @@ class Beginnings(World):
         self.run_deck("in.still")
 
 
-class Limits(World):
+class TestLimits(World):
     def test_a_scene_beyond_all_laws_is_named(self):
         self.take("plan_past_law")
         self.change("in.soft", "materials soft", "materials soft stats stats.json")
         plan = self.plan("in.soft")
-        self.assertEqual(len(plan["beyond_laws"]), len(plan["pairs"]))
+        assert len(plan["beyond_laws"]) == len(plan["pairs"])
         for text in (plan["beyond_laws"][0], self.mpm("plan", "in.soft", "--materials-file", "materials.toml"),
                      self.mpm("table", "materials.toml", "--deck", "in.soft", "-o", "law.h5"), self.mpm("soften", "in.soft", "--materials-file", "materials.toml")):
-            self.assertIn("the material is too soft for these speeds", text)
-        self.assertIn("no law goes beyond 0.5 of the radius", self.run_deck("in.soft", code=None))
+            assert "the material is too soft for these speeds" in text
+        assert "no law goes beyond 0.5 of the radius" in self.run_deck("in.soft", code=None)
         # the file of the stop holds the contact that stopped the run
         stats = json.loads((self.folder / "stats.json").read_text())
-        self.assertIn("beyond the law's table", stats["stopped"])
-        self.assertGreater(stats["step"], 0)
-        self.assertGreater(max(stats["pair"]["overlap_over_radius_max"], stats["wall"]["overlap_over_radius_max"]), 0.5)
+        assert "beyond the law's table" in stats["stopped"]
+        assert stats["step"] > 0
+        assert max(stats["pair"]["overlap_over_radius_max"], stats["wall"]["overlap_over_radius_max"]) > 0.5
         visited = self.plan("in.soft", "--from", "stats.json")
-        self.assertIn("visited", [p["speed_by"] for p in visited["pairs"]])
+        assert "visited" in [p["speed_by"] for p in visited["pairs"]]
 
     def test_the_step_of_soften_is_that_of_the_real_contacts(self):
         self.take("soften_step")
         plan = self.plan("in.pour")
         soft = json.loads(self.mpm("soften", "in.pour", "--materials-file", "materials.toml", "--json"))
-        self.assertLess(plan["time_step_s"]["advised"], 1e-5)
-        self.assertAlmostEqual(soft["time_step_s"] / (soft["stretch"] * plan["time_step_s"]["advised"]), 1, delta=1e-6)
+        assert plan["time_step_s"]["advised"] < 1e-5
+        assert soft["time_step_s"] / (soft["stretch"] * plan["time_step_s"]["advised"]) == approx(1, abs=1e-6)
         self.change("in.pour", "timestep     1e-5", "timestep     1e-7")  # for another reason than contacts
         short = json.loads(self.mpm("soften", "in.pour", "--materials-file", "materials.toml", "--json"))
-        self.assertAlmostEqual(short["time_step_s"] / (short["stretch"] * 1e-7), 1, delta=1e-6)
+        assert short["time_step_s"] / (short["stretch"] * 1e-7) == approx(1, abs=1e-6)
 
     def test_a_loop_that_only_a_run_ends_has_no_cost(self):
         self.take("loop_cost")
         plan = self.plan("in.settle")
-        self.assertIsNone(plan["cost"]["hours"])
-        self.assertRegex(plan["cost"]["unknown_loop"], r"in\.settle:3\d$")
-        self.assertIn("cost: not known (the loop of in.settle:", self.mpm("plan", "in.settle", "--materials-file", "materials.toml"))
+        assert plan["cost"]["hours"] is None
+        assert re.search(r"in\.settle:3\d$", plan["cost"]["unknown_loop"])
+        assert "cost: not known (the loop of in.settle:" in self.mpm("plan", "in.settle", "--materials-file", "materials.toml")
 
 
-class Sentences(World):
+class TestSentences(World):
     def test_a_wall_before_its_pair_style(self):
         self.take("wall_before_pair")
         self.mpm("table", "materials.toml", "-o", "law.h5")
-        self.assertIn("put the wall behind its pair_style", self.run_deck("in.order", code=None))
-        self.assertTrue(any("the wall stands before its pair_style" in note for note in self.plan("in.order")["not_followed"]))
+        assert "put the wall behind its pair_style" in self.run_deck("in.order", code=None)
+        assert any("the wall stands before its pair_style" in note for note in self.plan("in.order")["not_followed"])
 
     def test_cohesion_above_the_pressure_of_yield(self):
         self.take("cohesion_over_hardness")
         self.change("in.cohesive", "run          60000", "run 10")
         self.table("in.cohesive")
-        self.assertIn("cohesion pulls the particles into each other", self.run_deck("in.cohesive"))
+        assert "cohesion pulls the particles into each other" in self.run_deck("in.cohesive")
         self.change("in.cohesive", "peratomtypepair 1 3e5", "peratomtypepair 1 3e3")
-        self.assertNotIn("cohesion pulls", self.run_deck("in.cohesive"))
+        assert "cohesion pulls" not in self.run_deck("in.cohesive")
 
     def test_paths_from_where_liggghts_is_started(self):
         self.take("paths_from_cwd")
-        self.assertEqual(len(self.plan("decks/in.paths")["pairs"]), 2)
+        assert len(self.plan("decks/in.paths")["pairs"]) == 2
         self.table("decks/in.paths")
         self.run_deck("decks/in.paths")
 
     def test_a_yield_stress_above_a_lowered_modulus(self):
         self.take("plan_past_law")
         self.change("materials.toml", "25e3", "50e6")
-        self.assertIn("where 'youngs_modulus' is lowered for the time step, give the real one", self.mpm("plan", "in.soft", "--materials-file", "materials.toml", code=1))
+        assert "where 'youngs_modulus' is lowered for the time step, give the real one" in self.mpm("plan", "in.soft", "--materials-file", "materials.toml", code=1)
 
     def test_the_check_of_the_time_step(self):
         self.take("one_sphere")
         self.change("in.one", "run          200000", "fix ts all check/timestep/gran 100 0.1 0.1\nrun 200")
         self.table("in.one")
-        self.assertIn("check/timestep/gran takes Hertz's contact time of the deck's moduli", self.run_deck("in.one"))
+        assert "check/timestep/gran takes Hertz's contact time of the deck's moduli" in self.run_deck("in.one")
 
 
 DRIVER = """import ctypes, sys
@@ -185,7 +181,7 @@ library.lammps_command(liggghts, b'print "END ${speed}"')
 """
 
 
-class Coupling(World):
+class TestCoupling(World):
     def steps(self, more="", *words):
         self.change("in.one", "run          200000", f"{more}variable speed equal vcm(all,z)\nrun 100\nprint \"END ${{speed}}\"")
         self.table("in.one", *words)
@@ -197,18 +193,12 @@ class Coupling(World):
         self.take("one_sphere")
         self.steps()
         (self.folder / "driver.py").write_text(DRIVER)
-        done = subprocess.run([sys.executable, "driver.py", "in.one"], cwd=self.folder, capture_output=True, text=True, timeout=300,
-                              env={**os.environ, "LD_PRELOAD": harness.PLUGIN})
-        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
-        for found, steps in zip(self.end(done.stdout), (100, 150), strict=True):
-            self.assertAlmostEqual(found, -9.81 * steps * 1e-6, delta=1e-8)  # free fall; print has six digits
+        said = self.command(sys.executable, "driver.py", "in.one", env={"LD_PRELOAD": PLUGIN})
+        for found, steps in zip(self.end(said), (100, 150), strict=True):
+            assert found == approx(-9.81 * steps * 1e-6, abs=1e-8)  # free fall; print has six digits
 
     def test_the_coupling_to_a_fluid(self):
         self.take("one_sphere")
         self.change("in.one", "atom_style   granular", "atom_style   granular\natom_modify  map array")
         self.steps("fix cfd all couple/cfd couple_every 100 mpi\nfix drag all couple/cfd/force\n", "--speed", "1")
-        self.assertAlmostEqual(self.end(self.run_deck("in.one"))[0], -9.81 * 1e-4, delta=1e-8)  # without a fluid no drag
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)
+        assert self.end(self.run_deck("in.one"))[0] == approx(-9.81 * 1e-4, abs=1e-8)  # without a fluid no drag

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).parent
-RUNS = (("test_restitution.py",), ("test_drop50.py",), ("test_invariance.py", "Forces", "Rejoin"), ("test_invariance.py", "full", "Collapse"),
-        ("test_geometry.py",), ("test_hard_cases.py", "full"))
+QUICK = ("test_restitution.py", "test_drop50.py", "test_invariance.py::TestForces", "test_invariance.py::TestRejoin", "test_geometry.py")
+FULL = ("test_invariance.py::TestCollapse", "test_hard_cases.py")
 
 INTRO = """# Trials of the LIGGGHTS models
 
@@ -192,9 +192,9 @@ def main():
         folder = Path("trials_rows").resolve()
         folder.mkdir(exist_ok=True)
         (folder / "rows.jsonl").unlink(missing_ok=True)
-        for run in RUNS:
-            print(" ".join(run), flush=True)
-            subprocess.run([sys.executable, str(HERE / run[0]), *run[1:]], check=True, env={**os.environ, "GRANULAW_TRIALS": str(folder)})
+        for tests, more in ((QUICK, {}), (FULL, {"GRANULAW_FULL": "1"})):
+            print(" ".join(tests), flush=True)
+            subprocess.run([sys.executable, "-m", "pytest", *(str(HERE / test) for test in tests)], check=True, env={**os.environ, "GRANULAW_TRIALS": str(folder), **more})
         lines = (folder / "rows.jsonl").read_text().splitlines()
     (Path(sys.argv[1]) / "trials.md").write_text(page([json.loads(line) for line in lines]))
 
