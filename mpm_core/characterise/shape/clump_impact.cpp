@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "base/larger.hpp"
@@ -22,18 +21,6 @@ struct BallContact
 };
 
 }  // namespace
-
-std::vector<ClumpBall> balls_of(const Shape& shape)
-{
-  std::vector<ClumpBall> balls;
-  const std::string kind = "clump";
-  if (shape.kind() != kind) return balls;
-  std::string numbers = shape.definition().substr(kind.size());
-  std::replace(numbers.begin(), numbers.end(), ',', ' ');
-  std::istringstream words(numbers);
-  for (ClumpBall ball{}; words >> ball.centre[0] >> ball.centre[1] >> ball.centre[2] >> ball.radius;) balls.push_back(ball);
-  return balls;
-}
 
 ClumpAnswer clump_on_wall(const BodyLaw& law, const std::vector<ClumpBall>& balls, const RigidBody& body,
                           const Vector3& direction, double velocity, bool with_body)

@@ -14,9 +14,6 @@ struct ClumpAnswer
   bool left_range = false;  ///< an overlap went past the law's table
 };
 
-/// Those that a clump's definition() lists; none of any other shape.
-std::vector<ClumpBall> balls_of(const Shape& shape);
-
 /// A rigid clump, without spin, flies into a rigid wall; every ball that touches it follows the law of a sphere of its
 /// radius, as in LIGGGHTS, frictionless. `balls`: about the centre of mass; `direction`: unit vector to the wall, in the
 /// frame of the balls and of `body`. `with_body`: in series with the body behind each (contact/body_behind.hpp).

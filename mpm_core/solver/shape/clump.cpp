@@ -187,6 +187,7 @@ class Clump : public Shape
     return moments.mass();
   }
   const char* kind() const override { return "clump"; }
+  const std::vector<ClumpBall>& balls() const { return balls_; }
   std::string definition() const override
   {
     std::string text = kind();
@@ -333,6 +334,12 @@ ClumpBall read_ball(const std::string& line, const std::string& where)
 }
 
 }  // namespace
+
+std::vector<ClumpBall> balls_of(const Shape& shape)
+{
+  const auto* clump = dynamic_cast<const Clump*>(&shape);
+  return clump ? clump->balls() : std::vector<ClumpBall>{};
+}
 
 SharedShape clump_shape(const std::vector<ClumpBall>& balls, const std::string& where)
 {

@@ -45,6 +45,9 @@ struct ClumpBall
 /// The union of overlapping balls: LIGGGHTS's multisphere. Balls inside others are left out.
 SharedShape clump_shape(const std::vector<ClumpBall>& balls, const std::string& where);
 
+/// Those of a clump that no other one hides; none of any other shape.
+std::vector<ClumpBall> balls_of(const Shape& shape);
+
 /// Balls of LIGGGHTS's multisphere file (fix particletemplate/multisphere, spheres file): lines of x y z r,
 /// '#' begins a comment; all times `scale`.
 std::vector<ClumpBall> read_clump(const std::string& path, double scale);
