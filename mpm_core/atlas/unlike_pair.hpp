@@ -39,21 +39,21 @@ struct ReductionError
 
 /// Bound of the error of F_max and e of a collision at the relative `velocity` (m/s, > 0) by the pair rule,
 /// from pairs.csv of tests/validation (docs/evidence/pairs.md): at least 95 % of the measured collisions lie
-/// below it, typically at a third. Never below 0.002, what the measurements resolve. Grows with the velocity,
-/// so that a law's certificate takes the largest velocity it is meant for (`fastest_of_law`). Four causes add
+/// below it, typically at a half. Never below 0.002, what the measurements resolve. Grows with the velocity,
+/// so that a law's certificate takes the largest velocity it is meant for (`fastest_of_law`). Three causes add
 /// up:
 /// - a stronger partner stays elastic, and the rule lets it yield along: Y_h/Y_s, E_s/E_h;
 /// - a finite body is stiffer than its half-space, and the rule counts as if both were like the yielding one;
-/// - the smaller of two unlike spheres gives way more than its half of the overlap: radii and depth;
-/// - waves in the larger one are lost, where a like one gives them back: radii and V/c.
+/// - the smaller of two unlike spheres gives way more than its half of the overlap: radii and depth. What waves in the
+///   larger one take lies below the same bound.
 /// `within_measured`: E*_h >= 0.3 E*_s, Y_h >= Y_s, radii 1:10 to 10:1 or a wall, I of the one body up to
 /// 0.003, Hertz's overlap below 0.13 R*. Else the numbers are an extrapolation: `run_two_bodies` computes the
-/// collision. The yielding body must yield; an elastic pair has only the second and the fourth cause, not
-/// bounded here.
+/// collision. The yielding body must yield; an elastic pair has only the second cause and waves, not bounded
+/// here.
 ReductionError estimate_reduction_error(const UnlikePair& pair, double velocity);
 
 /// Bound of what a law of the pair's own (two_body_law.hpp), made at the radius ratio `law_radius_ratio`,
-/// costs at pair.radius_ratio and the relative `velocity` (m/s): the last three causes, as far as they change
+/// costs at pair.radius_ratio and the relative `velocity` (m/s): the last two causes, as far as they change
 /// with the radii; 0 at its own ratio. What that law's certificate states comes on top.
 ReductionError estimate_remaining_error(const UnlikePair& pair, double law_radius_ratio, double velocity);
 
