@@ -16,7 +16,7 @@ double coordinate(double over_onset)
 
 }  // namespace
 
-Departure::Departure(const Points& points)
+Departure::Function::Function(const std::vector<Point>& points)
 {
   /// Intervals of the coordinate that are shorter follow the vibration of an impact, up to .3 % of its force.
   constexpr double least_interval = 0.25;
@@ -24,22 +24,30 @@ Departure::Departure(const Points& points)
   /// Penalty over the mean weight: it bridges a factor of three between runs and follows each within 1e-3 of a
   /// difference.
   constexpr double stiffness = 0.02;
+  if (points.empty()) return;
+  std::vector<Spline::Sample> samples;
+  for (const Point& p : points) {
+    samples.push_back({coordinate(p.over_onset), p.value, p.weight});
+    end_ = std::max(end_, samples.back().q);
+  }
+  if (samples.size() == 1) {
+    Spline::Sample half = samples.front();
+    half.q *= 0.5, half.value *= 0.25;
+    samples.push_back(half);
+  }
+  spline_ = Spline::fit(samples, end_, std::clamp(static_cast<int>(end_ / least_interval), fewest, most), stiffness, 2);
+}
+
+double Departure::Function::at(double over_onset) const
+{
+  return spline_.value(std::min(coordinate(over_onset), end_));
+}
+
+Departure::Departure(const Points& points)
+{
   for (std::size_t f = 0; f < points.size(); ++f) {
-    if (points[f].empty()) continue;
-    std::vector<Spline::Sample> samples;
-    double last = 0;
-    for (const Point& p : points[f]) {
-      samples.push_back({coordinate(p.over_onset), p.value, p.weight});
-      last = std::max(last, samples.back().q);
-      end_ = std::max(end_, p.over_onset);
-    }
-    if (samples.size() == 1) {
-      Spline::Sample half = samples.front();
-      half.q *= 0.5, half.value *= 0.25;
-      samples.push_back(half);
-    }
-    const int intervals = std::clamp(static_cast<int>(last / least_interval), fewest, most);
-    functions_[f] = {Spline::fit(samples, last, intervals, stiffness, 2), last};
+    functions_[f] = Function(points[f]);
+    for (const Point& p : points[f]) end_ = std::max(end_, p.over_onset);
   }
 }
 
@@ -58,12 +66,6 @@ Departure Departure::between(const Curve& own, const LawShape& guide)
     for (std::size_t f = 0; f < points.size(); ++f) points[f].push_back({over_onset, difference[f]});
   }
   return Departure(points);
-}
-
-double Departure::at(std::size_t function, double over_onset) const
-{
-  const Function& f = functions_[function];
-  return f.spline.value(std::min(coordinate(over_onset), f.end));
 }
 
 void Departure::add_to(LawShape& master) const

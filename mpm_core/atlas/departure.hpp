@@ -26,25 +26,32 @@ class Departure
   };
   using Points = std::array<std::vector<Point>, 5>;  ///< in the order of LawShape::functions
 
+  /// One function. With a single point it is proportional to the square of the coordinate, with none 0.
+  class Function
+  {
+   public:
+    Function() = default;
+    explicit Function(const std::vector<Point>& points);
+    double at(double over_onset) const;
+
+   private:
+    Spline spline_;
+    double end_ = 0;  // by the coordinate
+  };
+
   /// None: 0.
   Departure() = default;
-  /// A function with a single point, or none, is proportional to the square of the coordinate, or 0.
   explicit Departure(const Points& points);
   /// Departure of a quasi-static law from its guide, up to where one of them ends.
   static Departure between(const Curve& own, const LawShape& guide);
 
   /// Adds it to a master at the same overlap/onset; velocity effects stay.
   void add_to(LawShape& master) const;
-  double at(std::size_t function, double over_onset) const;
+  double at(std::size_t function, double over_onset) const { return functions_[function].at(over_onset); }
   /// Overlap/onset of the last point; 0 of none.
   double end() const { return end_; }
 
  private:
-  struct Function
-  {
-    Spline spline;
-    double end = 0;  // by the coordinate
-  };
   std::array<Function, 5> functions_;
   double end_ = 0;
 };

@@ -323,6 +323,24 @@ TEST(ResolutionChoice, EachRungIsComparedWithTheOneBelow)
   EXPECT_EQ(found.choice.error.force, error_of_cells(converging_run(49), converging_run(34)).force);
 }
 
+/// A probe may know its error better than by its loading force.
+TEST(ResolutionChoice, AsksTheProbeForItsError)
+{
+  int cells = 0;
+  const auto run = [](int n) {
+    return RunJob{"probe", fmt::format("{}", n), 1, [n](const RunOptions&) { return converging_run(n, 0.5); }};
+  };
+  const auto error = [](const RunResult& fine, const RunResult&) {
+    return CellsError{fine.summary.resolution < 34 ? 1. : 0.001, 0.002};
+  };
+  const BuildOptions options;
+  BuildRuns runs(options);
+  const ResolutionChoice choice = choose_resolutions({{run, &cells, error}}, {}, 0.005, runs);
+  EXPECT_EQ(cells, 34);
+  EXPECT_EQ(choice.error.force, 0.001);
+  EXPECT_EQ(choice.error.restitution, 0.002);
+}
+
 TEST(ResolutionChoice, AnErrorOfRestitutionThatIsNoNumberIsNotMet)
 {
   EXPECT_THROW(Chosen(0.05, [](int n) { return n; }, std::numeric_limits<double>::quiet_NaN()), Error);

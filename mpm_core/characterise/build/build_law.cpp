@@ -246,7 +246,7 @@ void Build::certify(const Sampled& sampled)
   c.damage_number_max = options_.fastest * options_.fastest;
   c.reload_loop_area = sampled.records.reload_loop;
   c.residual_scatter = sampled.fitted.quality.scatter;
-  c.held_out_error = largest_miss_of_restitution(sampled.slow);
+  c.held_out_error = largest_errors(sampled.slow).restitution;
   built_.sampling_error = largest_miss(sampled.slow);
   if (!known_) return;
   built_.rate_free = "from the atlas";

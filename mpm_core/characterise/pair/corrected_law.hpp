@@ -22,9 +22,9 @@ struct CorrectedLaws
 /// A pair's own laws: composed of its bodies' (composed_law.hpp), then corrected by a few impacts of the two
 /// bodies.
 ///
-/// A composed law departs from the truth evenly in ln(overlap/onset): below the onset by nothing. So three
-/// impacts give how: ln of the loading force, at the peak and along the impact, of the largest overlap, and of the
-/// fraction of the work that is given back. The force near the peaks corrects the slow law; the rest of it along an
+/// A composed law is a guide as a body's is (atlas/departure.hpp): below the onset it is right. So three
+/// impacts give how it departs: ln of the loading force, at the peak and along the impact, of the largest overlap, and
+/// of the fraction of the work that is given back. The force near the peaks corrects the slow law; the rest of it along an
 /// impact corrects the velocity axis, as a soft partner's inertia is larger than the yielding body's.
 /// Each impact is left out in turn; where the others predict it worse than options.tolerance, an impact is
 /// added beside it. The certificate states that error, what the composed law is off by at the onset, what the

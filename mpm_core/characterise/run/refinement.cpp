@@ -84,10 +84,11 @@ double largest_miss(std::span<const LeftOutRun> runs)
   return largest;
 }
 
-double largest_miss_of_restitution(std::span<const LeftOutRun> runs)
+AtReversal largest_errors(std::span<const LeftOutRun> runs)
 {
-  double largest = 0;
-  for (const LeftOutRun& run : runs) largest = larger(largest, restitution_error(run));
+  AtReversal largest;
+  for (const LeftOutRun& run : runs)
+    largest = {larger(largest.force, force_error(run)), larger(largest.restitution, restitution_error(run))};
   return largest;
 }
 

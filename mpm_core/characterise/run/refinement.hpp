@@ -35,8 +35,8 @@ double counted(double force, double e, double restitution);
 /// Error of a prediction as it counts for the tolerance, of F or e, whichever is larger.
 double miss(const LeftOutRun& run);
 double largest_miss(std::span<const LeftOutRun> runs);
-/// Largest relative error of a predicted e.
-double largest_miss_of_restitution(std::span<const LeftOutRun> runs);
+/// Largest relative errors of a predicted F and of a predicted e.
+AtReversal largest_errors(std::span<const LeftOutRun> runs);
 
 /// ln of the ratio of two overlaps nearer than which no run is put between them. A straight line through ln F
 /// over an interval w of ln(overlap) misses by up to w^2/8 times the curvature, which is about 1 at most: d

@@ -65,7 +65,7 @@ ResolutionChoice choose_resolutions(const std::vector<Probe>& probes, const std:
       climb.coarse = std::move(climb.fine);
       climb.fine = std::move(outcomes[before + k].result);
       compare_with_another_grid(climb, coarser, runs);
-      const CellsError found = error_of_cells(climb.fine, climb.coarse);
+      const CellsError found = climb.probe->error(climb.fine, climb.coarse);
       const double error = counted(found.force, found.restitution, climb.fine.summary.restitution);
       if (!(error <= tolerance)) {  // an error that is no number is not met
         reached = error;

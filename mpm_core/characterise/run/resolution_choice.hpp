@@ -16,6 +16,7 @@ struct Probe
 {
   std::function<RunJob(int cells)> run;
   int* cells;  ///< the choice
+  std::function<CellsError(const RunResult& fine, const RunResult& coarse)> error = error_of_cells;
 };
 
 struct ResolutionChoice
@@ -24,7 +25,7 @@ struct ResolutionChoice
   std::vector<RunOutcome> beside;  ///< of the jobs made beside the first probes
 };
 
-/// Chooses each probe's cells: the fewest of the ladder whose error (accuracy.hpp) is within the tolerance; each
+/// Chooses each probe's cells: the fewest of the ladder whose error is within the tolerance; each
 /// rung is compared with the one below, which was run before. Throws Error where the most are not enough.
 ResolutionChoice choose_resolutions(const std::vector<Probe>& probes, const std::vector<RunJob>& beside,
                                     double tolerance, BuildRuns& runs);
