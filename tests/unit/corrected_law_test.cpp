@@ -1,5 +1,5 @@
 // Composed laws that a few impacts of the two bodies correct; `slow`: against a fresh impact.
-#include "characterise/pair/reduction_error.hpp"
+#include "characterise/pair/two_body_runs.hpp"
 #include "characterise/run/request.hpp"
 #include "characterise/pair/corrected_law.hpp"
 

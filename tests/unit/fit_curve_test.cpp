@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "atlas/spline.hpp"
+#include "atlas/tabulate_curve.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw::fit_curve_test {
@@ -45,6 +46,20 @@ std::vector<ContactRecord> presses(const Curve& curve, double grid_noise)
 
 const ElasticCorrection finite_sphere{SyntheticLaw::finite_sphere, 0, 0};
 
+/// The law of presses alone.
+struct FittedCurve
+{
+  Curve curve;
+  FitQuality quality;
+};
+FittedCurve fit_presses(const std::vector<ContactRecord>& presses, double onset)
+{
+  ContactRecords records;
+  records.slow = presses;
+  const FittedShape fitted = fit_shape(records, finite_sphere, onset, 0.1);
+  return {tabulate(fitted.shape, 0.1), fitted.quality};
+}
+
 /// Largest relative errors of a fitted curve against the law the presses were made from.
 struct Errors
 {
@@ -69,7 +84,7 @@ Errors compare(const Curve& fitted, const Curve& truth)
 TEST(FitCurve, RecoversALawFromSmoothPresses)
 {
   const Curve truth = SyntheticLaw{}.curve();
-  const FittedCurve fitted = fit_plastic(presses(truth, 0.0), finite_sphere, truth.onset(), 0.1);
+  const FittedCurve fitted = fit_presses(presses(truth, 0.0), truth.onset());
   const Curve& curve = fitted.curve;
   const Errors errors = compare(curve, truth);
   // Resolution of ten reversal points a factor 1.67 apart; the tolerance of laws is 1 %.
@@ -133,8 +148,8 @@ TEST(FitCurve, AnImpactWithoutItsInertiaIsAPress)
 TEST(FitCurve, DoesNotFollowTheContactEdgeNoise)
 {
   const Curve truth = SyntheticLaw{}.curve();
-  const FittedCurve smooth = fit_plastic(presses(truth, 0.0), finite_sphere, truth.onset(), 0.1);
-  const FittedCurve noisy = fit_plastic(presses(truth, 0.01), finite_sphere, truth.onset(), 0.1);
+  const FittedCurve smooth = fit_presses(presses(truth, 0.0), truth.onset());
+  const FittedCurve noisy = fit_presses(presses(truth, 0.01), truth.onset());
   const Curve &a = smooth.curve, &b = noisy.curve;
   double largest = 0;
   for (int k = 160; k <= 400; ++k) {
@@ -323,7 +338,7 @@ TEST(FitCurve, RefusesRunsThatContradictEachOther)
   const Curve truth = SyntheticLaw{}.curve();
   std::vector<ContactRecord> all = presses(truth, 0.0);
   all[5].work_ratio = 0.99;  // gives back more than the shallower press before it dissipated
-  EXPECT_THROW(fit_plastic(all, finite_sphere, truth.onset(), 0.1), Error);
+  EXPECT_THROW(fit_presses(all, truth.onset()), Error);
 }
 
 TEST(Spline, StartsWithZeroValueAndSlopeAndReproducesACubic)

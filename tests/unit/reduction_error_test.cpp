@@ -1,7 +1,6 @@
 // The estimate of what the pair rule costs, against the two-body collisions that were measured
 // (tests/validation/pairs.csv, made by pairs_study.cpp).
-#include "characterise/fit/fit_curve.hpp"
-#include "characterise/pair/reduction_error.hpp"
+#include "atlas/unlike_pair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +12,6 @@
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include "base/scales.hpp"
-#include "law/replay.hpp"
 
 namespace granulaw::reduction_error_test {
 
@@ -191,35 +187,6 @@ TEST(ReductionError, GrowsWithVelocityAndSaysWhereItEnds)
   EXPECT_FALSE(estimate_reduction_error(pair, fastest_of_law(pair, 0.01)).within_measured);
   EXPECT_FALSE(estimate_reduction_error({powder, powder, 20}, 1e-3).within_measured);
   EXPECT_FALSE(estimate_reduction_error({powder, material(1e8, 0, 0.3, 1500), 1}, 1e-3).within_measured);
-}
-
-/// A two-body law of an elastic-plastic sphere against an elastic one of like E*, where the rule's e is 4 %
-/// off.
-TEST(TwoBodyLaw, GivesBackItsPairWhereTheRuleFails)
-{
-  const UnlikePair pair{material(1, 50, 0.3, 1), material(1, 0, 0.3, 1), 1};
-  UnlikePair elastic = pair;
-  elastic.yielding.yield_stress = infinity;
-  RunOptions o;
-  o.resolution = 10, o.shifted_grids = 2, o.precision = Precision::single;
-  const double v_y = pair.yield_velocity();
-  std::vector<ContactRecord> presses;
-  for (const double speed : {1.8, 3.2, 6., 11., 20., 36.})
-    presses.push_back(two_body_record(pair, speed * v_y, o));
-  const ElasticCorrection correction = fit_elastic(two_body_record(elastic, 10 * v_y, o));
-  const FittedCurve fitted =
-      fit_plastic(presses, correction, onset_overlap(1, 0.02, 0.3), presses.back().depth);
-  BodyLaw body;
-  body.material = pair.yielding;
-  body.curve = fitted.curve;
-  const double v = 15 * v_y;
-  const Replay replay =
-      replay_collision({{&body.curve, pair.mapping()}, &body}, pair.r_eff(), pair.m_eff(), v);
-  const RunSummary truth = run_two_bodies(pair, v, o), rule = run_as_one_body(pair, v, o);
-  EXPECT_GT(std::abs(rule.restitution / truth.restitution - 1), 0.03);
-  // six coarse impacts: a few times the grid noise of two grids of 10 cells
-  EXPECT_NEAR(replay.restitution / truth.restitution, 1, 0.01);
-  EXPECT_NEAR(replay.force_max / truth.force_max, 1, 0.01);
 }
 
 }  // namespace granulaw::reduction_error_test

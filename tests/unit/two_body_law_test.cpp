@@ -1,6 +1,5 @@
 // Laws of pairs of their own: how they are looked up and kept in a file; `slow`: that one agrees with a fresh
 // impact.
-#include "characterise/pair/reduction_error.hpp"
 #include "characterise/run/request.hpp"
 #include "characterise/pair/two_body_law.hpp"
 
@@ -11,6 +10,7 @@
 #include "base/error.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
+#include "one_body_runs.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw::two_body_law_test {
@@ -210,7 +210,7 @@ TEST(TwoBodyLawSlow, AgreesWithAFreshImpactWhereTheRuleDoesNot)
   const double v = 18 * pair.yield_velocity();
   RunOptions run;
   run.resolution = 20, run.shifted_grids = 2, run.precision = Precision::single;
-  const RunSummary truth = run_two_bodies(pair, v, run), rule = run_as_one_body(pair, v, run);
+  const RunSummary truth = run_two_bodies(pair, v, run), rule = tests::run_as_one_body(pair, v, run);
   // In units of the yielding body: R = E* = rho = 1.
   const PairLaw law{{&built.law.curve, pair.mapping()}, &built.law};
   const double mass = pair.m_eff() * pair.yielding.density;  // R = 1 m

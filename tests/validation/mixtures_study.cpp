@@ -20,7 +20,7 @@
 #include "characterise/atlas_file.hpp"
 #include "base/error.hpp"
 #include "atlas/composed_law.hpp"
-#include "characterise/pair/reduction_error.hpp"
+#include "characterise/pair/two_body_runs.hpp"
 #include "farm/run_cache.hpp"
 #include "law/radiation.hpp"
 #include "law/replay.hpp"

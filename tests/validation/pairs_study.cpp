@@ -3,7 +3,7 @@
 //   pairs_study FOLDER [GROUP]     runs are kept in FOLDER and not made again; writes FOLDER/pairs.csv
 //
 // Each case is run as two bodies and as the one sphere that stands for them by the rule
-// (reduction_error.hpp), both at two resolutions. Errors are rule/two bodies - 1; the uncertainty is what the
+// (one_body_runs.hpp), both at two resolutions. Errors are rule/two bodies - 1; the uncertainty is what the
 // two resolutions differ by. Groups: radius, stiffness, strength, wall, press, mixture. Read by
 // pairs_page.py.
 #include <fmt/format.h>
@@ -17,13 +17,14 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "characterise/pair/reduction_error.hpp"
 #include "farm/run_cache.hpp"
 #include "solver/solver_id.hpp"
+#include "one_body_runs.hpp"
 
 namespace {
 
 using namespace granulaw;
+using namespace granulaw::tests;
 
 struct Case
 {

@@ -12,7 +12,7 @@
 #include "characterise/body/law_body.hpp"
 #include "characterise/body/law_material.hpp"
 #include "characterise/file/law_file_plan.hpp"
-#include "characterise/pair/reduction_error.hpp"
+#include "characterise/pair/two_body_runs.hpp"
 #include "characterise/shape/shape_certificate.hpp"
 #include "law/pair_names.hpp"
 #include "law/replay.hpp"

@@ -445,14 +445,4 @@ FittedShape fit_about(const LawShape& guide, const ContactRecords& records)
   return checked(ShapeFit{records, nullptr, true, guide}.run());
 }
 
-FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,
-                        double onset, double x_end)
-{
-  ContactRecords records;
-  records.slow = presses;
-  const FittedShape fitted = fit_shape(records, elastic, onset, x_end);
-  const Curve curve = tabulate(fitted.shape, x_end);
-  return {curve, fitted.quality, table_error(fitted.shape, curve)};
-}
-
 }  // namespace granulaw

@@ -4,7 +4,6 @@
 
 #include "atlas/law_shape.hpp"
 #include "characterise/run/sampling_plan.hpp"
-#include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
 
@@ -42,16 +41,6 @@ FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& el
 /// The law of a body with a guide, over the guide's range: guide plus departure (atlas/departure.hpp), which the
 /// records show. A reversal counts as well as the cells of its run resolve its contact.
 FittedShape fit_about(const LawShape& guide, const ContactRecords& records);
-
-/// The same from presses alone, tabulated: a rate-independent curve to x_end.
-struct FittedCurve
-{
-  Curve curve;
-  FitQuality quality;
-  double table_error = 0;  ///< largest relative difference of F between table and fit
-};
-FittedCurve fit_plastic(const std::vector<ContactRecord>& presses, const ElasticCorrection& elastic,
-                        double onset, double x_end);
 
 /// An impact as if it were slow: without these effects of inertia, by their speed.
 ContactRecord without_inertia(const ContactRecord& impact, std::span<const LawShape::VelocityEffect> effects);

@@ -6,7 +6,7 @@
 
 #include "characterise/run/request.hpp"
 #include "atlas/composed_law.hpp"
-#include "characterise/pair/reduction_error.hpp"
+#include "atlas/unlike_pair.hpp"
 
 namespace granulaw {
 

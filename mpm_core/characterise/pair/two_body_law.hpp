@@ -2,7 +2,7 @@
 
 #include "characterise/run/request.hpp"
 #include "characterise/build/build_law.hpp"
-#include "characterise/pair/reduction_error.hpp"
+#include "atlas/unlike_pair.hpp"
 
 namespace granulaw {
 

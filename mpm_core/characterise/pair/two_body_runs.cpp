@@ -4,10 +4,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "characterise/body/law_material.hpp"
 
 namespace granulaw {
+
+namespace {
+
+/// `m` in units of the yielding body's E* and density.
+Material scaled(const LawMaterial& m, const LawMaterial& unit)
+{
+  Material material;
+  material.density = m.density / unit.density;
+  material.youngs_modulus = m.youngs_modulus / unit.e_star();
+  material.poisson_ratio = m.poisson_ratio;
+  if (m.yields()) {
+    material.yield_stress = m.yield_stress / unit.e_star();
+    material.hardening_modulus = m.hardening_modulus / unit.e_star();
+  }
+  return material;
+}
+
+}  // namespace
+
+TwoBodies::TwoBodies(const UnlikePair& pair) : first(Particle::sphere(1.0, scaled(pair.yielding, pair.yielding)))
+{
+  if (!std::isfinite(pair.radius_ratio)) {
+    partner.wall = scaled(pair.partner, pair.yielding);
+    return;
+  }
+  partner.particle = Particle::sphere(pair.radius_ratio, scaled(pair.partner, pair.yielding));
+  if (pair.radius_ratio < 1) std::swap(first, *partner.particle);
+}
+
+RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOptions& options)
+{
+  const TwoBodies bodies(pair);
+  return impact(bodies.first, {velocity / pair.wave_speed()}, bodies.partner, options).summary;
+}
 
 namespace {
 

@@ -2,11 +2,24 @@
 
 #include <string>
 
-#include "characterise/pair/reduction_error.hpp"
+#include "atlas/unlike_pair.hpp"
 #include "characterise/run/sampling_plan.hpp"
 #include "farm/farm.hpp"
 
 namespace granulaw {
+
+/// The two bodies in units of the yielding one: R_s = E*_s = rho_s = 1. The smaller first: impulses act at its surface
+/// points, the finer ones.
+struct TwoBodies
+{
+  Particle first;
+  Partner partner;
+
+  explicit TwoBodies(const UnlikePair& pair);
+};
+
+/// Their impact at the relative `velocity`, m/s, in those units.
+RunSummary run_two_bodies(const UnlikePair& pair, double velocity, const RunOptions& options);
 
 /// Runs of a pair's two bodies in place of those of one: reported as the runs of the one sphere that the pair
 /// rule says they are (radius lambda R*, force lambda F; at the velocity of equal energy, so that I means the
