@@ -140,11 +140,12 @@ using UsualContact =
     ComposedContact<Physics, cm::SURFACE_DEFAULT, Off<cm::CohesionModelBase>,
                     Fixed<cm::TangentialModel<cm::TANGENTIAL_HISTORY>>, Off<cm::RollingModelBase>>;
 
-/// A tangential law of ours, which the normal law shares its memory with.
-template <NormalPhysics Physics, class Law>
+/// A tangential law of ours, which the normal law shares its memory with. `Other`: of the cohesion and the rolling
+/// model, Off or Chosen.
+template <NormalPhysics Physics, class Law, template <class> class Other>
 using OwnContact =
-    ComposedContact<Physics, cm::SURFACE_DEFAULT, Chosen<cm::CohesionModelBase>,
-                    Fixed<OwnTangential<Physics, Law>>, Chosen<cm::RollingModelBase>>;
+    ComposedContact<Physics, cm::SURFACE_DEFAULT, Other<cm::CohesionModelBase>,
+                    Fixed<OwnTangential<Physics, Law>>, Other<cm::RollingModelBase>>;
 
 /// All others, with a virtual call for each model that is on: docs/evidence/loop-time.md has the cost.
 template <NormalPhysics Physics, int surface = cm::SURFACE_DEFAULT>

@@ -35,35 +35,19 @@ class OwnTangential : public cm::TangentialModelBase
     if (s.contact_flags) *s.contact_flags |= CONTACT_TANGENTIAL_MODEL;
     const auto& entry = normal_->entry_of(s);
     const Law& law = laws_[normal_->place(entry)];
-    double* const depth = normal_->kept_of(s.contact_history);
-    const double before = *depth, r_eff = effective_radius(s);
-    const bool held = normal_->was_held();
-    ContactMotion motion{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !held},
-                         s.meff,
-                         update->dt,
-                         {s.en[0], s.en[1], s.en[2]},
-                         {s.vtr1, s.vtr2, s.vtr3}};
-    double shorter = 0.0;
-    if constexpr (requires { law.turns(); })
-      if (law.turns()) {
-        motion.turn = rolling(s);
-        shorter = shorter_lever(s);
-        if (shorter != 0.0) {  // nearer to the centre the spin moves the surface less
-          const double omega[3] = {s.omega_i[0], s.omega_i[1], s.omega_i[2]};
-          const Vector of_spin = cross(omega, s.en);
-          for (int c = 0; c < 3; ++c) motion.slide[c] += shorter * of_spin[c];
-        }
+    const double r_eff = effective_radius(s), depth = *normal_->kept_of(s.contact_history);
+    if constexpr (requires { law.holds(entry.contact, r_eff, depth); })
+      if (law.holds(entry.contact, r_eff, depth)) {
+        const double shorter = shorter_lever(s, law);
+        Ledger books;  // of friction, which is other work
+        add(s, law.hold(motion(s, r_eff, shorter), s.Fn, depth, s.contact_history + offset_, books), shorter, on_i, on_j);
+        return;
       }
-    double normal_force = s.Fn;
-    Ledger books;
-    const Grip grip = law.advance(entry.contact, motion, normal_force, depth, s.contact_history + offset_, books);
-    if (*depth != before) {
-      normal_->change_depth(s, entry, r_eff, before);
-      // it goes deeper, though its overlap is less than its depth: `elasticDamping` is of contacts that return
-      if (*depth > before && s.vn < 0.0) normal_force = std::max(normal_force + s.gamman * s.vn, 0.0);
+    const Forces now = advance(s, entry, law, r_eff);
+    for (int c = 0; c < 3; ++c) {
+      on_i.delta_F[c] += now.on_i.delta_F[c], on_i.delta_torque[c] += now.on_i.delta_torque[c];
+      on_j.delta_F[c] += now.on_j.delta_F[c], on_j.delta_torque[c] += now.on_j.delta_torque[c];
     }
-    normal_->book(s, entry, books);
-    add(s, grip, shorter, normal_force - s.Fn, on_i, on_j);
   }
 
   void surfacesClose(cm::SurfacesCloseData& contact, ForceData&, ForceData&) override
@@ -75,6 +59,45 @@ class OwnTangential : public cm::TangentialModelBase
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
 
  private:
+  struct Forces
+  {
+    ForceData on_i, on_j;
+  };
+  /// Apart from the loop over contacts, whose numbers live in registers: it gets a copy, and gives one.
+  template <class Entry>
+  [[gnu::noinline]] Forces advance(SurfacesIntersectData s, const Entry& entry, const Law& law, double r_eff)
+  {
+    double* const depth = normal_->kept_of(s.contact_history);
+    const double before = *depth, shorter = shorter_lever(s, law);
+    ContactMotion moves = motion(s, r_eff, shorter);
+    moves.turn = rolling(s);
+    double normal_force = s.Fn;
+    Ledger books;
+    const Grip grip = law.advance(entry.contact, moves, normal_force, depth, s.contact_history + offset_, books);
+    if (*depth != before) {
+      normal_->change_depth(s, entry, r_eff, before);
+      // it goes deeper, though its overlap is less than its depth: `elasticDamping` is of contacts that return
+      if (*depth > before && s.vn < 0.0) normal_force = std::max(normal_force + s.gamman * s.vn, 0.0);
+    }
+    normal_->book(s, entry, books);
+    Forces sum;
+    add(s, grip.force, shorter, sum.on_i, sum.on_j);
+    add_more(s, normal_force - s.Fn, grip.couple, sum.on_i, sum.on_j);
+    return sum;
+  }
+
+  ContactMotion motion(const SurfacesIntersectData& s, double r_eff, double shorter)
+  {
+    const bool held = normal_->was_held();
+    ContactMotion now{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !held},
+                      s.meff,
+                      update->dt,
+                      {s.en[0], s.en[1], s.en[2]},
+                      {s.vtr1, s.vtr2, s.vtr3}};
+    if (shorter != 0.0)  // nearer to the centre the spin moves the surface less
+      now.slide = sum(now.slide, cross(Vector{s.omega_i[0], s.omega_i[1], s.omega_i[2]}, now.normal), shorter);
+    return now;
+  }
   /// (omega_i - omega_j) x en; walls do not turn.
   static Vector rolling(const SurfacesIntersectData& s)
   {
@@ -84,27 +107,37 @@ class OwnTangential : public cm::TangentialModelBase
   }
   /// m, by which the tangential force acts nearer to the centre than LIGGGHTS has it. On a rigid wall that is at
   /// R - d, with the overlap d of the real contact; LIGGGHTS says R - d/2, which two like bodies have.
-  double shorter_lever(const SurfacesIntersectData& s) const
+  double shorter_lever(const SurfacesIntersectData& s, const Law& law) const
   {
-    return normal_->rigid_wall() ? s.cri - (s.radi - s.deltan * normal_->per_stretch()) : 0.0;
+    if constexpr (requires { law.turns(); })
+      if (s.is_wall && law.turns() && normal_->rigid_wall()) return s.cri - (s.radi - s.deltan * normal_->per_stretch());
+    return 0.0;
   }
 
-  /// The shear force, its torques and the couple, and the change of the normal force.
-  static void add(const SurfacesIntersectData& s, const Grip& grip, double shorter, double more, ForceData& on_i,
-                  ForceData& on_j)
+  static double share_of(const SurfacesIntersectData& s) { return s.is_wall ? s.area_ratio : 1.0; }
+  /// The shear force and its torques.
+  static void add(const SurfacesIntersectData& s, const Vector& shear, double shorter, ForceData& on_i, ForceData& on_j)
   {
-    const Vector torque = cross(s.en, grip.force);
-    const double share = s.is_wall ? s.area_ratio : 1.0, lever = s.cri - shorter;
+    const Vector torque = cross(s.en, shear);
+    const double share = share_of(s), lever = s.cri - shorter;
     for (int c = 0; c < 3; ++c) {
-      on_i.delta_F[c] += grip.force[c] * share;
+      on_i.delta_F[c] += shear[c] * share;
       on_i.delta_torque[c] += -lever * torque[c] * share;
-      if (grip.couple[c] != 0.0) on_i.delta_torque[c] += grip.couple[c] * share;
-      if (more != 0.0) on_i.delta_F[c] += more * s.en[c] * share;
       if (s.is_wall) continue;
-      on_j.delta_F[c] += -grip.force[c];
+      on_j.delta_F[c] += -shear[c];
       on_j.delta_torque[c] += -s.crj * torque[c];
-      if (grip.couple[c] != 0.0) on_j.delta_torque[c] -= grip.couple[c];
-      if (more != 0.0) on_j.delta_F[c] -= more * s.en[c];
+    }
+  }
+  /// The change of the normal force, N, and the couple.
+  static void add_more(const SurfacesIntersectData& s, double force, const Vector& couple, ForceData& on_i, ForceData& on_j)
+  {
+    const double share = share_of(s);
+    for (int c = 0; c < 3; ++c) {
+      on_i.delta_F[c] += force * s.en[c] * share;
+      on_i.delta_torque[c] += couple[c] * share;
+      if (s.is_wall) continue;
+      on_j.delta_F[c] -= force * s.en[c];
+      on_j.delta_torque[c] -= couple[c];
     }
   }
 

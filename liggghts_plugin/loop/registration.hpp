@@ -32,22 +32,31 @@ bool takes_own_tangential(const ModelIds& ids);
 /// built, it stops with a sentence.
 void refuse_other_normals(const std::string& name, int id, int normal);
 
+/// Makes the styles of these models.
+template <class Contact>
+void add_styles(const ModelIds& ids)
+{
+  const int hash = static_cast<int>(ids.hash());
+  LIGGGHTS::PairStyles::Factory::instance().addStyle(
+      "gran", hash, &make_style<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle<Contact>, PairGran>);
+  LIGGGHTS::Walls::Factory::instance().addStyle(
+      "gran", hash, &make_style<LIGGGHTS::Walls::IGranularWall, WallStyle<Contact>, FixWallGran>);
+}
+
 /// Makes `tangential NAME`, a TangentialLaw of ours, known for a normal model, with each cohesion and rolling model
 /// that is built. `id`: six bits, which none of LIGGGHTS's has; restart files hold it.
 template <NormalPhysics Physics, class Law>
 void add_tangential(const char* name, int id)
 {
-  using Contact = OwnContact<Physics, Law>;
   cm::Factory::instance().addTangentialModel(name, id);
   refuse_other_normals(name, id, Physics::id);
   each_combination(Physics::id, [id](ModelIds ids) {
     if (!takes_own_tangential(ids)) return;
     ids.tangential = id;
-    const int hash = static_cast<int>(ids.hash());
-    LIGGGHTS::PairStyles::Factory::instance().addStyle(
-        "gran", hash, &make_style<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle<Contact>, PairGran>);
-    LIGGGHTS::Walls::Factory::instance().addStyle(
-        "gran", hash, &make_style<LIGGGHTS::Walls::IGranularWall, WallStyle<Contact>, FixWallGran>);
+    if (ids.cohesion == cm::COHESION_OFF && ids.rolling == cm::ROLLING_OFF)
+      add_styles<OwnContact<Physics, Law, Off>>(ids);
+    else
+      add_styles<OwnContact<Physics, Law, Chosen>>(ids);
   });
 }
 

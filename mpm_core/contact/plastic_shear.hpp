@@ -59,66 +59,99 @@ class PlasticShear
       : elastic_(spring),
         damping_ratio_(bodies.damping_ratio),
         material_{bodies.stiffness, bodies.asymmetry, spring.friction, law.pair_modulus(), law.radius_unit(), law.flow_stress()},
-        stretch_(law.stretch())
+        stretch_(law.stretch()),
+        per_stretch_(1.0 / law.stretch())
   {
   }
 
   /// False: the body is elastic, and nothing but LIGGGHTS's spring acts.
   bool turns() const { return std::isfinite(material_.flow_stress.yield); }
 
+  /// True of a contact that never yielded: it is held, by a spring.
+  template <class Normal>
+  bool holds(const Normal& law, double r_eff, double deepest) const
+  {
+    return !turns() || deepest <= law.yield_overlap() * r_eff;
+  }
+  /// N, shear on body i of a contact that holds.
+  Vector hold(const ContactMotion& m, double force, double deepest, double* kept, Ledger& books) const
+  {
+    if (!turns()) return elastic_.advance(m, force, kept, books);
+    const DentMotion step = motion(m);
+    DentMemory held = read(kept, m.normal);
+    const double k = material_.shear_stiffness * std::sqrt(m.r_eff * step.overlap);  // Hertz's radius
+    double taken = held.stretch(step.slide, k);
+    const double pull = norm(held.pull), most = material_.friction * (force * stretch_);
+    Vector braking{};
+    if (pull > most) {
+      held.pull = times(held.pull, most / pull);
+      taken += most * (pull - most) / k;
+    } else {
+      braking = times(m.slide, 2.0 * damping_ratio_ * std::sqrt(k * m.m_eff));
+      taken += dot(braking, step.slide);
+    }
+    held.tilt = {}, held.depth = deepest * per_stretch_;
+    if (m.advances) {
+      write(held, kept);
+      books[Mechanism::friction] += taken;
+    }
+    return times(sum(held.pull, braking), -per_stretch_);
+  }
+
   template <class Normal>
   Grip advance(const Normal& law, const ContactMotion& m, double& force, double* normal_kept, double* kept,
                Ledger& books) const
   {
-    if (!turns()) return elastic_.advance(law, m, force, normal_kept, kept, books);
-    const double per_stretch = 1.0 / stretch_, time = m.advances ? m.dt * per_stretch : 0.0;
-    const DentMotion step{.radius = m.r_eff,
-                    .overlap = m.overlap * per_stretch,
-                    .deepening = m.approach * time,
-                    .slide = times(m.slide, time),
-                    .turn = times(m.turn, time)};
+    if (holds(law, m.r_eff, normal_kept[0])) return hold(m, force, normal_kept[0], kept, books);
+    const DentMotion step = motion(m);
     DentMemory held = read(kept, m.normal);
     Grip answer;
-    const double depth = normal_kept[0] * per_stretch, latched = NormalState<Normal>::impact_overlap(normal_kept);
-    if (normal_kept[0] <= law.yield_overlap() * m.r_eff) {
-      held.depth = depth;
-      const double a = std::sqrt(m.r_eff * step.overlap);  // Hertz's
-      answer.force = hold(held, material_.shear_stiffness * a, force * stretch_, step, m, books);
+    const double depth = normal_kept[0] * per_stretch_, latched = NormalState<Normal>::impact_overlap(normal_kept);
+    const auto dent_at = [&](double d) { return law.dent(m.r_eff, d, latched); };
+    const auto dent = law.dent(m.r_eff, depth, latched, normal_kept + NormalState<Normal>::own);
+    const double before = dent.force_at(step.overlap);
+    DentMemory whole = held;
+    DentState tried, now = ShearReturn(material_, dent_at, dent, before, whole, step).solve(tried);
+    double lost = now.lost;
+    if (const int parts = now.flows ? parts_of(step, dent) : 1; parts == 1) {
+      held = whole;
+      if (m.advances) book(held, step, tried, now, books);
     } else {
-      const auto dent_at = [&](double d) { return law.dent(m.r_eff, d, latched); };
-      const auto dent = law.dent(m.r_eff, depth, latched, normal_kept + NormalState<Normal>::own);
-      const double before = dent.force_at(step.overlap);
-      DentMemory whole = held;
-      DentState tried, now = ShearReturn(material_, dent_at, dent, before, whole, step).solve(tried);
-      double lost = now.lost;
-      if (const int parts = now.flows ? parts_of(step, dent) : 1; parts == 1) {
-        held = whole;
-        if (m.advances) book(held, step, tried, now, books);
-      } else {
-        for (int part = 1; part <= parts; ++part) {
-          const DentMotion some = step.part(part, parts);
-          const double begins = std::max(held.depth, some.overlap);
-          now = ShearReturn(material_, dent_at, dent_at(begins), before, held, some).solve(tried);
-          held.depth = now.depth;
-          book(held, some, tried, now, books);
-        }
-        lost = law.dissipated(m.r_eff, normal_kept[0], now.depth * stretch_, latched);
+      for (int part = 1; part <= parts; ++part) {
+        const DentMotion some = step.part(part, parts);
+        const double begins = std::max(held.depth, some.overlap);
+        now = ShearReturn(material_, dent_at, dent_at(begins), before, held, some).solve(tried);
+        held.depth = now.depth;
+        book(held, some, tried, now, books);
       }
-      held.depth = now.depth;
-      force = std::max(force + (now.force - before) * per_stretch, 0.0);  // keeps what is no number
-      answer.force = times(held.pull, -1.0);
-      answer.couple = times(cross(m.normal, held.tilt), -now.moment);
-      if (m.advances && now.depth != depth) {
+      lost = law.dissipated(m.r_eff, normal_kept[0], now.depth * stretch_, latched);
+    }
+    held.depth = now.depth;
+    force = std::max(force + (now.force - before) * per_stretch_, 0.0);  // keeps what is no number
+    answer.force = times(held.pull, -per_stretch_);
+    answer.couple = times(cross(m.normal, held.tilt), -now.moment * per_stretch_);
+    if (m.advances) {
+      write(held, kept);
+      if (now.depth != depth) {
         books[Mechanism::plastic] += lost;
         normal_kept[0] = now.depth * stretch_;
       }
     }
-    if (m.advances) write(held, kept);
-    answer.force = times(answer.force, per_stretch), answer.couple = times(answer.couple, per_stretch);
     return answer;
   }
 
  private:
+  /// A step of the real contact.
+  DentMotion motion(const ContactMotion& m) const
+  {
+    const double time = m.advances ? m.dt * per_stretch_ : 0.0;
+    return {.radius = m.r_eff,
+            .overlap = m.overlap * per_stretch_,
+            .deepening = m.approach * time,
+            .slide = times(m.slide, time),
+            .turn = times(m.turn, time)};
+  }
+
   /// A flow is explicit in its direction and in the sheared area. In dents of a tenth of R, parts of a two hundredth of
   /// the depth are as good as small steps, and whole steps as good as them in shallow dents (docs/evidence/oblique.md).
   template <class Dent>
@@ -145,24 +178,6 @@ class PlasticShear
     kept[7] = held.sheared, kept[8] = held.depth;
   }
 
-  /// A contact below yield: LIGGGHTS's spring with the law's contact radius.
-  Vector hold(DentMemory& held, double k, double normal, const DentMotion& step, const ContactMotion& m, Ledger& books) const
-  {
-    double taken = held.stretch(step.slide, k);
-    held.tilt = {};
-    const double pull = norm(held.pull), most = material_.friction * normal;
-    Vector braking{};
-    if (pull > most) {
-      held.pull = times(held.pull, most / pull);
-      taken += most * (pull - most) / k;
-    } else {
-      braking = times(m.slide, 2.0 * damping_ratio_ * std::sqrt(k * m.m_eff));
-      taken += dot(braking, step.slide);
-    }
-    if (m.advances) books[Mechanism::friction] += taken;
-    return sum(times(held.pull, -1.0), braking, -1.0);
-  }
-
   /// Books a part of a step. The flow's loss is what the contact held before it and does not hold after it, less what it
   /// was not given: motion works against the mean of the forces before and after; and less the normal law's.
   static void book(const DentMemory& held, const DentMotion& step, const DentState& tried, const DentState& now, Ledger& books)
@@ -181,7 +196,7 @@ class PlasticShear
   Spring elastic_;  // of a body that does not yield
   double damping_ratio_ = 0;
   DentMaterial material_;
-  double stretch_ = 1;
+  double stretch_ = 1, per_stretch_ = 1;
 };
 
 }  // namespace granulaw

@@ -65,10 +65,10 @@ struct DentMemory
   double stretch(const Vector& slide, double k)
   {
     double taken = 0;
-    if (stiffness > 0) {
-      const double half = 0.5 * dot(pull, pull) / stiffness, ratio = k / stiffness;
-      taken = half * (ratio < 1.0 ? 1.0 - ratio : 1.0 - 1.0 / ratio);
-      if (ratio < 1.0) pull = times(pull, ratio);
+    if (stiffness > 0) {  // its only branch: contacts load and unload at random
+      const double less = std::min(k, stiffness), more = std::max(k, stiffness);
+      taken = 0.5 * dot(pull, pull) / stiffness * (1.0 - less / more);
+      pull = times(pull, less / stiffness);
     }
     stiffness = k;
     pull = sum(pull, slide, k);

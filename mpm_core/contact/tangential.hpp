@@ -94,6 +94,10 @@ struct Spring
   Vector advance(const Normal&, const ContactMotion& m, double& force, double*, double* shear,
                  Ledger& books) const
   {
+    return advance(m, force, shear, books);
+  }
+  Vector advance(const ContactMotion& m, double force, double* shear, Ledger& books) const
+  {
     const double root = std::sqrt(m.r_eff * m.overlap), k = pair.stiffness * root;
     return advance(m, force, k, pair.damping * std::sqrt(root * m.m_eff), shear, books);
   }

@@ -2,6 +2,7 @@
 import json
 import math
 import pathlib
+import re
 
 from pytest import approx, mark
 from harness import POWDER, Deck, Material, head, plane_stl, properties, sphere_mass, worst
@@ -183,6 +184,15 @@ class TestPlasticShear(Deck):
         """Two ranks sum forces in another order; over some collisions each that differs by rounding."""
         one, two = self.end(self.gas(1, "run 600\n")), self.end(self.gas(2, "run 600\n"), ranks=2)
         assert one[1] / one[0] == approx(two[1] / two[0], abs=1e-9)
+
+    def test_a_rolling_model_of_zero_changes_nothing(self):
+        """It has another loop over contacts, the models behind virtual calls. Forces are summed in another order: rounding."""
+        alone = self.gas(1, "run 600\n")
+        rolling = re.sub("RollingFriction .*", "RollingFriction peratomtypepair 2 0 0 0 0",
+                         alone.replace("tangential plastic ", "tangential plastic rolling_friction cdt "))
+        one, two = self.end(alone), self.end(rolling)
+        assert one[1] < 0.95 * one[0]  # they collided
+        assert two[1] / two[0] == approx(one[1] / one[0], abs=1e-9)
 
     def pressed(self, tangential, friction):
         """T/F and stress over Y at DENSITIES of the packing, pressed from all sides at a rate of 0.001 c*/R."""
