@@ -270,11 +270,10 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     double& kept = sidata.contact_history[behind_offset_];
     const Bodies& bodies = setup_->session->bodies;
     if (delta_max > 0.0) return kept;
-    if (!bodies.known()) return 0.0;
-    const double* n = sidata.en;
-    const double inward[3] = {-n[0], -n[1], -n[2]}, outward[3] = {n[0], n[1], n[2]};
-    double sum = entry.behind_i * reach_behind(sidata.radi, bodies.height(sidata.i, inward, sidata.radi));
-    if (!sidata.is_wall) sum += entry.behind_j * reach_behind(sidata.radj, bodies.height(sidata.j, outward, sidata.radj));
+    if (!bodies.known() && !sidata.is_non_spherical) return 0.0;
+    const auto [i, j] = bodies_at_contact(sidata, bodies, *atom);
+    double sum = entry.behind_i * reach_behind(i.radius, i.height);
+    if (!sidata.is_wall) sum += entry.behind_j * reach_behind(j.radius, j.height);
     if (sidata.computeflag && sidata.shearupdate) kept = sum;
     return sum;
   }

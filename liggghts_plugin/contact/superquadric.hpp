@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -9,6 +11,10 @@
 #include "contact/pair.hpp"
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/shapes.hpp"
+#include "liggghts_plugin/particles/bodies.hpp"
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+#include "superquadric.h"
+#endif
 
 // Parts of a contact of superquadrics beyond one of spheres (shapes.hpp says where they are built).
 namespace granulaw::plugin {
@@ -20,6 +26,40 @@ inline double effective_radius(const cm::SurfacesIntersectData& sidata)
   if (sidata.is_non_spherical) return sidata.reff;
 #endif
   return sidata.is_wall ? sidata.radi : granulaw::effective_radius(sidata.radi, sidata.radj);
+}
+
+/// A body at its contact, m: radius of curvature, and height of its centre of mass over the contact.
+struct BodyAtContact
+{
+  double radius, height;
+};
+/// Both bodies of a contact; that of a wall has no height, and is not asked for.
+inline std::array<BodyAtContact, 2> bodies_at_contact(const cm::SurfacesIntersectData& sidata, const Bodies& bodies, LAMMPS_NS::Atom& atom)
+{
+  const double* n = sidata.en;
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+  if (sidata.is_non_spherical) {
+    const double* point = sidata.contact_point;
+    const auto height = [&](int particle) {
+      double over = 0.0;
+      for (int c = 0; c < 3; ++c) over += (atom.x[particle][c] - point[c]) * n[c];
+      return std::abs(over);
+    };
+    const auto curvature = [&](int particle) {
+      Superquadric shape(atom.x[particle], atom.quaternion[particle], atom.shape[particle], atom.blockiness[particle]);
+      return shape.calc_curvature_coefficient(0, point);  // 0: the mean one
+    };
+    if (sidata.is_wall) return {{{sidata.reff, height(sidata.i)}, {}}};
+    // of 1/R* each has the part that its curvature has of both
+    const double i = curvature(sidata.i), both = i + curvature(sidata.j), share = both > 0.0 ? i / both : 0.5;
+    return {{{sidata.reff / share, height(sidata.i)}, {sidata.reff / (1.0 - share), height(sidata.j)}}};
+  }
+#endif
+  (void)atom;
+  const double inward[3] = {-n[0], -n[1], -n[2]}, outward[3] = {n[0], n[1], n[2]};
+  const BodyAtContact i{sidata.radi, bodies.height(sidata.i, inward, sidata.radi)};
+  if (sidata.is_wall) return {{i, {}}};
+  return {{i, {sidata.radj, bodies.height(sidata.j, outward, sidata.radj)}}};
 }
 
 /// Adds the torque of the normal force (N, along en) about the centres. That of a sphere is zero.
@@ -83,8 +123,6 @@ inline void refuse_shape(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, bool superq
   if constexpr (superquadrics_built) {
     if (!superquadric_surface && lmp->atom->superquadric_flag)
       fail(setup.where, "atom_style superquadric needs 'surface superquadric' behind the other models");
-    if (superquadric_surface && setup.options.body_compliance.value_or(false))
-      fail(setup.where, "'bodyCompliance on' is for clumps of spheres");
     if (superquadric_surface && setup.session->energy)
       fail(setup.where,
            "'energy on' is for spheres: of superquadrics the normal force does work on rotations, too, which "

@@ -117,6 +117,22 @@ class TestShapes(Deck):
                 assert path[-1][1] / e == approx(1, abs=2e-5), where  # measured 4e-6, 400 steps a contact
                 assert self.result(self.text, "DEPTH")[0] * share * radius / deepest == approx(1, abs=2e-5), where
 
+    def test_the_body_behind_the_contact(self):
+        """Ellipsoids on their poles under `bodyCompliance on`: e is that of the law in series with the field between the radius of curvature
+        and the half-axis. A sphere has no body behind it."""
+        nu, (a, b, c) = POWDER.poisson_ratio, (2e-3, 2e-3, 4e-3)
+        k = (3 - 2 * nu) / (2 * math.pi * (1 - nu)) / POWDER.e_star
+        for partner, share in (("wall", 1.0), ("pair", 0.5)):
+            other, radius = "wall" if partner == "wall" else "powder", a * b / c
+            given = self.law, "powder", other, share * radius, share * mass((a, b, c)), 1 / share
+            (without, duration, _), (e, *_) = (self.fixture("mpm", *given, behind / share) for behind in (0.0, k * (1 / radius - 1 / c)))
+            assert abs(e - without) > 1e-3
+            words = self.words("mpm") + " elasticDamping off bodyCompliance on"
+            path = self.path(Impact((a, b, c), partner, "mpm", words), 1.0, duration / 400, 600)
+            assert path[-1][1] == approx(e, abs=2e-4)  # the contact point lies in the middle of the first overlap
+        paths = [self.path(Impact((a, a, a), "wall", "mpm", self.words("mpm") + f" bodyCompliance {word}"), 1.0, 2e-7, 400) for word in ("on", "off")]
+        assert harness.worst(self.difference(*paths)) < 1e-4
+
     @mark.parametrize("partner", ("wall", "mesh", "pair"))
     @mark.parametrize("friction", (0.0, 0.3))
     def test_tilted_against_stock_hertz(self, friction, partner):

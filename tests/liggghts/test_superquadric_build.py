@@ -63,4 +63,6 @@ class TestConfigure:
         for source in (*(ROOT / "liggghts_plugin" / f"{name}.cpp" for name in ("run/checks", "loop/registration", "deck/particle_sizes")),
                        STYLES / "register_thornton.cpp"):
             run("mpicxx", *words, source)
-        assert "extended_overlap_algorithm" in run("nm", self.folder / "object.o").stdout, "the pair loop has no narrow phase"
+        symbols = run("nm", self.folder / "object.o").stdout
+        assert "extended_overlap_algorithm" in symbols, "the pair loop has no narrow phase"
+        assert "calc_curvature_coefficient" in symbols, "bodies behind a contact have no curvature"

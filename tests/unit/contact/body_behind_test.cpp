@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -29,6 +30,16 @@ TEST(BodyBehind, NoneBehindASphere)
 {
   EXPECT_EQ(reach_behind(1.7e-3, 1.7e-3), 0.0);
   EXPECT_EQ(overlap_of_law(3e-5, 0.0, 1e-5, [](double) -> Response { ADD_FAILURE(); return {}; }), 3e-5);
+}
+
+/// On its pole a body of revolution of half axes a, a, c has the radius of curvature a^2/c, and its centre c over it.
+TEST(BodyBehind, OfAnEllipsoid)
+{
+  const double a = 2e-3, infinity = std::numeric_limits<double>::infinity();
+  for (const double c : {1.5e-3, 2e-3, 4e-3}) EXPECT_NEAR(reach_behind(a * a / c, c), c / (a * a) - 1 / c, 1e-9);
+  EXPECT_GT(reach_behind(a * a / 4e-3, 4e-3), 0.0);       // sharp
+  EXPECT_LT(reach_behind(a * a / 1.5e-3, 1.5e-3), 0.0);   // blunt
+  EXPECT_EQ(reach_behind(infinity, 1e-3), 0.0);           // a plane side
 }
 
 /// Loading, unloading, below the residual overlap, softer and stiffer: the parts make the whole.
