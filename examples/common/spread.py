@@ -5,6 +5,11 @@ import math
 import numpy as np
 
 
+def decimals(error):
+    """Decimals of a mean: those of the first digit of its standard error."""
+    return max(0, -math.floor(math.log10(error)))
+
+
 class Sample:
     """Values of one quantity, one a seed."""
 
@@ -28,10 +33,9 @@ class Sample:
         return None if self.deviation is None else self.deviation / math.sqrt(self.values.size)
 
     def __str__(self):
-        """The mean to the decimal of the error's first digit."""
         if not self.error:
             return f"{self.mean:.4g}" + ("" if self.error is None else " ± 0")
-        digits = max(0, -math.floor(math.log10(self.error)))
+        digits = decimals(self.error)
         return f"{self.mean:.{digits}f} ± {self.error:.{digits}f}" if digits <= 5 else f"{self.mean:.4g} ± {self.error:.1g}"
 
 

@@ -1,36 +1,28 @@
-#!/usr/bin/python3
-"""Output, files and refusals of mpm calibrate and mpm design. Run one case: test_calibrate.py MPM CASE."""
+"""Output, files and refusals of mpm calibrate and mpm design."""
 import json
-import subprocess
-import sys
-import tempfile
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2]
+from pytest import mark
+from programs import ROOT, answer, material, mpm
+
+pytestmark = mark.usefixtures("here")
 KNOWN = ["--radius", "1e-3", "--density", "1540", "--poisson-ratio", "0.25"]
-MATERIAL = """
-[material.stone]
-density = 1540
-youngs_modulus = 3.2e9
-poisson_ratio = 0.25
-yield_stress = 41e6
-"""
+MATERIAL = "\n" + material("stone", 1540, "3.2e9", 0.25, "41e6")
 
 
 def run(*words):
-    return subprocess.run([MPM, *map(str, words)], capture_output=True, text=True)
+    return mpm(*words, code=...)
 
 
-def answer(*words):
+def refused(wanted, *words):
     done = run(*words)
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    assert done.returncode == (2 if done.stderr.startswith("mpm: --") else 1) and wanted in done.stderr and done.stderr.count("\n") == 1, (words, done.stderr)
 
 
 def drops(speeds, name="drops.csv"):
     """e of the material's own law at these speeds."""
     Path("stone.toml").write_text(MATERIAL)
-    assert run("table", "stone.toml", "-o", "stone.h5", "--pair", "stone:wall").returncode == 0
+    mpm("table", "stone.toml", "-o", "stone.h5", "--pair", "stone:wall")
     rows = ["velocity_m_per_s,restitution"]
     for v in speeds:
         e = answer("law", "stone.h5", "--radius", "1e-3", "--velocity", v, "--json")["e"]
@@ -39,7 +31,7 @@ def drops(speeds, name="drops.csv"):
     return name
 
 
-def material():
+def test_material():
     """Drops give back the material that made them, and mpm table takes what is written."""
     data = drops([0.2, 0.4, 0.8, 1.6, 3.2, 6])
     found = answer("calibrate", data, *KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress", "--json",
@@ -53,11 +45,10 @@ def material():
     assert Path("fit.png").stat().st_size > 5000
     assert len(list(Path(".").glob("found-*.toml"))) == 12
     for file in ("found.toml", "found-01.toml"):
-        done = run("table", file, "-o", "law.h5", "--pair", "material:wall")
-        assert done.returncode == 0, done.stderr
+        mpm("table", file, "-o", "law.h5", "--pair", "material:wall")
 
 
-def verdicts():
+def test_verdicts():
     """Parameters that the data do not determine are named."""
     slow = drops([0.01, 0.02, 0.03])
     found = answer("calibrate", slow, *KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress", "hardening_modulus",
@@ -72,7 +63,7 @@ def verdicts():
     assert "falls faster" in said["verdict"], said["verdict"]
 
 
-def design():
+def test_design():
     """Plastic impacts give more of Y than elastic ones."""
     table = answer("design", "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN,
                    "--speeds", "0.01..5", "--displacements", "2e-5..1e-4", "--places", 5, "--json")
@@ -81,7 +72,7 @@ def design():
     assert 0 < table["best"]["yield_stress"] <= min(widths), table
 
 
-def errors():
+def test_errors():
     """One sentence each."""
     header = "velocity_m_per_s,restitution\n"
     fit = ["--youngs-modulus", "3.2e9", "--fit", "yield_stress"]
@@ -98,9 +89,8 @@ def errors():
         ("displacement_m,force_N\n0,0\n1e-6,1\n", "more rows"),
     ]:
         Path("bad.csv").write_text(text)
-        done = run("calibrate", "bad.csv", *KNOWN, *fit)
-        assert done.returncode == 1 and wanted in done.stderr, (text, done.stderr)
-        assert done.stderr.startswith("mpm: bad.csv") and done.stderr.count("\n") == 1, done.stderr
+        said = mpm("calibrate", "bad.csv", *KNOWN, *fit, code=1).stderr
+        assert wanted in said and said.startswith("mpm: bad.csv") and said.count("\n") == 1, (text, said)
     Path("good.csv").write_text(header + "1,0.7\n2,0.6\n")
     Path("curve.csv").write_text("displacement_m,force_N\n" + "".join(f"{k}e-6,{k**1.5}\n" for k in range(6)))
     Path("walls.toml").write_text(MATERIAL + "hardening = {law = \"voce\", saturation_stress = 8e7, strain = 0.1}\n")
@@ -122,16 +112,14 @@ def errors():
         ([*sphere, "--indenter-radius", "1e-3", "--indenter", "stone", "--materials", "walls.toml"], "--indenter: this material must"),
         (["good.csv", "--radius", "inf", "--density", "1500", *fit], "only an indenter"),
     ]:
-        done = run("calibrate", *words)
-        assert done.returncode == (2 if done.stderr.startswith("mpm: --") else 1) and wanted in done.stderr and done.stderr.count("\n") == 1, (words, done.stderr)
+        refused(wanted, "calibrate", *words)
     for words, wanted in [
         (["--speeds", "8..0.1"], "--speeds: the range runs downwards: found '8..0.1', allowed is '0.1..8'"),
         (["--speeds", "2..2"], "--speeds: the range is empty: found '2..2'"),
         (["--speeds", "0..2"], "--speeds: cannot be understood: found '0..2', allowed is 'LOW..HIGH', SI, both over 0"),
         (["--displacements", "1e-6"], "--displacements: cannot be understood: found '1e-6', allowed is 'LOW..HIGH'"),
     ]:
-        done = run("design", *words, "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN)
-        assert done.returncode == (2 if done.stderr.startswith("mpm: --") else 1) and wanted in done.stderr and done.stderr.count("\n") == 1, (words, done.stderr)
+        refused(wanted, "design", *words, "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN)
 
 
 def noisy_drops():
@@ -141,7 +129,7 @@ def noisy_drops():
     return [rows[0]] + [f"{v},{float(e) * (1 + 0.01 * n)}" for (v, e), n in zip((row.split(",") for row in rows[1:]), noise)]
 
 
-def range_end():
+def test_range_end():
     """A fit at an end of the method's range has neither value nor interval; units that no solid has are asked about or refused."""
     fit = ["--fit", "youngs_modulus", "yield_stress"]
     Path("fast.csv").write_text("velocity_m_per_s,restitution\n30,0.97\n60,0.96\n120,0.955\n240,0.95\n")
@@ -157,12 +145,10 @@ def range_end():
     # mm/s for m/s
     Path("mm.csv").write_text("\n".join(row if k == 0 else f"{1000 * float(row.split(',')[0])},{row.split(',')[1]}"
                                        for k, row in enumerate(noisy_drops())) + "\n")
-    done = run("calibrate", "mm.csv", *KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress")
-    assert done.returncode == 1 and "mm.csv:2: the impact is faster than the method goes" in done.stderr, done.stderr
+    assert "mm.csv:2: the impact is faster than the method goes" in mpm("calibrate", "mm.csv", *KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress", code=1).stderr
     # GPa for Pa
     Path("good.csv").write_text("\n".join(noisy_drops()) + "\n")
-    done = run("calibrate", "good.csv", *KNOWN, "--youngs-modulus", "3.2", "--fit", "yield_stress")
-    assert done.returncode == 2 and "--youngs-modulus: 'youngs_modulus' is that of no solid" in done.stderr, done.stderr
+    assert "--youngs-modulus: 'youngs_modulus' is that of no solid" in mpm("calibrate", "good.csv", *KNOWN, "--youngs-modulus", "3.2", "--fit", "yield_stress", code=2).stderr
     for old, new, code, wanted in [
         ("3.2e9", "3.2", 1, "strange.toml:4: [material.stone]: 'youngs_modulus' is that of no solid"),
         ("3.2e9", "0.9e6", 0, "warning: strange.toml:4: [material.stone]: 'youngs_modulus' is 900000 Pa"),
@@ -183,17 +169,16 @@ def range_end():
             assert wanted in done.stderr and (code == 0 or done.returncode == code), (words, new, done.stderr)
     # no laboratory drops from 32 km
     words = ["design", "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN, "--places", 4]
-    done = run(*words, "--speeds", "0.1..800")
-    assert done.returncode == 0 and "left out beyond 14 m/s, a drop from 10 m" in done.stderr, done.stderr
+    done = mpm(*words, "--speeds", "0.1..800")
+    assert "left out beyond 14 m/s, a drop from 10 m" in done.stderr
     heights = [float(x.split("from ")[1].split(" m)")[0]) for x in done.stdout.splitlines() if "(from" in x]
     assert max(heights) <= 10.01, done.stdout
-    done = run(*words, "--speeds", "100..800")
-    assert done.returncode == 2 and "none of these measurements can be made" in done.stderr, done.stderr
+    assert "none of these measurements can be made" in mpm(*words, "--speeds", "100..800", code=2).stderr
     done = run(*words, "--speeds", "0.001..0.002")
     assert "no measurement of these determines" in done.stdout, done.stdout
 
 
-def outlier():
+def test_outlier():
     """Value and interval are of one robust loss, and the picture's band is that interval."""
     fit = [*KNOWN, "--youngs-modulus", "3.2e9", "--fit", "yield_stress", "--json"]
     rows = noisy_drops()
@@ -213,7 +198,7 @@ def outlier():
             assert fitted > 0.9 or 0.15 < (high - low) / fitted / (p["high95"] / p["low95"] - 1) < 0.7, (low, fitted, high)
 
 
-def near_one():
+def test_near_one():
     """Noise lifts an e near 1 over it."""
     rows = ["velocity_m_per_s,restitution,restitution_sd", "0.002,1.004,0.03"]
     for row in noisy_drops()[1:]:
@@ -223,10 +208,9 @@ def near_one():
     assert found["parameters"]["yield_stress"]["identifiable"] and not found["misfits"], found["verdict"]
 
 
-def walls():
+def test_walls():
     """Walls of any strength are answered: a search tries what no solid has."""
-    Path("walls.toml").write_text("".join(f"[material.w{y}]\ndensity = 7850\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\n"
-                                          f"yield_stress = {y}e6\n" for y in (400, 900)))
+    Path("walls.toml").write_text("".join(material(f"w{y}", 7850, 210e9, 0.3, f"{y}e6") for y in (400, 900)))
     for wall, rows in [("w900", "0.1,0.99\n0.3,0.97\n1,0.92\n3,0.85\n"), ("w400", "1,0.8\n5,0.7\n20,0.6\n60,0.5\n")]:
         Path("steel.csv").write_text("velocity_m_per_s,restitution\n" + rows)
         done = run("calibrate", "steel.csv", "--radius", "5e-3", "--density", 7850, "--fit", "youngs_modulus", "yield_stress",
@@ -236,7 +220,7 @@ def walls():
 
 def platens():
     """The finite-element curve of the page: (header, rows, index of the peak); E = 3.185 GPa, Y = 35 MPa."""
-    lines = [x for x in (SOURCE / "examples/calibrate/platens.csv").read_text().splitlines() if not x.startswith("#")]
+    lines = [x for x in (ROOT / "examples/calibrate/platens.csv").read_text().splitlines() if not x.startswith("#")]
     rows = [tuple(map(float, x.split(","))) for x in lines[1:]]
     return lines[0], rows, max(range(len(rows)), key=lambda k: rows[k][0])
 
@@ -251,7 +235,7 @@ def holds(found, **truth):
         assert p["identifiable"] and p["low95"] <= value <= p["high95"], (name, p)
 
 
-def curves():
+def test_curves():
     """Thinned curves, curves of a machine that gives way, curves whose rows run backwards."""
     header, rows, peak = platens()
     bead = ["--radius", "1e-3", "--density", 1500, "--poisson-ratio", "0.3", "--fit", "youngs_modulus", "yield_stress", "--json"]
@@ -260,8 +244,7 @@ def curves():
         found = answer("calibrate", "thin.csv", *bead)
         holds(found, youngs_modulus=3.185e9, yield_stress=35e6)
     write_rows("backwards.csv", header, rows[::-1])
-    done = run("calibrate", "backwards.csv", *bead)
-    assert done.returncode == 1 and "as if the rows stood in reverse order" in done.stderr, done.stderr
+    assert "as if the rows stood in reverse order" in mpm("calibrate", "backwards.csv", *bead, code=1).stderr
     for compliance in (2e-8, 1e-7):
         write_rows("soft.csv", header, [(x + compliance * force, force) for x, force in rows])
         found = answer("calibrate", "soft.csv", *bead, "--compliance")
@@ -278,24 +261,15 @@ def curves():
     assert abs(float(said) / 100 / change - 1) < 0.3, (said, change)
 
 
-def block():
+def test_block():
     """A steel ball on a yielding block: the solver's own drops with noise lead back to the block's yield stress, 200 MPa."""
-    example = SOURCE / "examples/calibrate"
+    example = ROOT / "examples/calibrate"
     found = answer("calibrate", example / "block.csv", "--ball", "steel", "--materials", example / "steel.toml", "--radius", "2e-3",
                    "--density", 8500, "--poisson-ratio", "0.33", "--youngs-modulus", "100e9", "--fit", "yield_stress", "--json", "-o", "b.toml")
     holds(found, yield_stress=200e6)
     p = found["parameters"]["yield_stress"]
     assert p["high95"] / p["low95"] < 1.2 and not found["misfits"], found["verdict"]
     assert "density = 8500" in Path("b.toml").read_text()
-    done = run("calibrate", example / "block.csv", "--ball", "steel", "--wall", "steel", "--materials", example / "steel.toml", "--radius",
-               "2e-3", "--density", 8500, "--youngs-modulus", "100e9", "--fit", "yield_stress")
-    assert done.returncode == 2 and "--ball: is given beside --wall" in done.stderr, done.stderr
-
-
-if __name__ == "__main__":
-    MPM, case = Path(sys.argv[1]).resolve(), sys.argv[2]
-    import os
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        {"material": material, "verdicts": verdicts, "design": design, "errors": errors, "range_end": range_end, "outlier": outlier,
-         "near_one": near_one, "walls": walls, "curves": curves, "block": block}[case]()
+    said = mpm("calibrate", example / "block.csv", "--ball", "steel", "--wall", "steel", "--materials", example / "steel.toml", "--radius",
+               "2e-3", "--density", 8500, "--youngs-modulus", "100e9", "--fit", "yield_stress", code=2).stderr
+    assert "--ball: is given beside --wall" in said

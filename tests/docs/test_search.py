@@ -5,18 +5,13 @@ import importlib.util
 import json
 import re
 import shutil
-import subprocess
-import sys
-import tempfile
-import unittest
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-DOCS = HERE.parents[1] / "docs"
+from programs import ROOT, run
+from pytest import skip
 
 if not shutil.which("sphinx-build") or not importlib.util.find_spec("myst_parser") or not shutil.which("node"):
-    print("skipped: the book's search needs Debian's python3-sphinx, python3-myst-parser and nodejs")
-    sys.exit(77)
+    skip("the book's search needs Debian's python3-sphinx, python3-myst-parser and nodejs", allow_module_level=True)
 
 # Question; what users type; the page with the answer; words of the answer.
 QUESTIONS = (
@@ -57,23 +52,18 @@ def opening(page, anchor):
     return re.sub(r"\s+", " ", plain)[:SCREEN]
 
 
-class Questions(unittest.TestCase):
-    def test_found_within_three_results_and_on_the_first_screen(self):
-        queries = [query for _, typed, _, _ in QUESTIONS for query in typed]
-        with tempfile.TemporaryDirectory() as folder:
-            site = Path(folder) / "html"
-            subprocess.run(["sphinx-build", "-Q", "-b", "html", "-d", f"{folder}/doctrees", str(DOCS), str(site)], check=True)
-            lines = subprocess.run(["node", str(HERE / "search.js"), str(site)], input="\n".join(queries), text=True, capture_output=True,
-                                   check=True).stdout.splitlines()
-            results = dict(zip(queries, map(json.loads, lines), strict=True))
-            for question, typed, page, answer in QUESTIONS:
-                for query in typed:
-                    with self.subTest(question, query=query):
-                        first = results[query][:FIRST]
-                        anchors = [anchor for name, anchor, _ in first if name == page]
-                        self.assertTrue(anchors, f"{page} is not among {[name for name, _, _ in first]}")
-                        self.assertTrue(any(answer in opening(site / f"{page}.html", anchor) for anchor in anchors), "not on the first screen")
-
-
-if __name__ == "__main__":
-    unittest.main()
+def test_found_within_three_results_and_on_the_first_screen(folder):
+    queries = [query for _, typed, _, _ in QUESTIONS for query in typed]
+    site = folder / "html"
+    run("sphinx-build", "-Q", "-b", "html", "-d", folder / "doctrees", ROOT / "docs", site)
+    lines = run("node", Path(__file__).with_name("search.js"), site, input="\n".join(queries)).stdout.splitlines()
+    results, wrong = dict(zip(queries, map(json.loads, lines), strict=True)), []
+    for _, typed, page, answer in QUESTIONS:
+        for query in typed:
+            first = results[query][:FIRST]
+            anchors = [anchor for name, anchor, _ in first if name == page]
+            if not anchors:
+                wrong.append(f"{query}: {page} is not among {[name for name, _, _ in first]}")
+            elif not any(answer in opening(site / f"{page}.html", anchor) for anchor in anchors):
+                wrong.append(f"{query}: '{answer}' is not on the first screen of {page}")
+    assert not wrong, "\n".join(wrong)

@@ -3,16 +3,16 @@ import json
 import math
 import pathlib
 import re
-import subprocess
 import tempfile
+
+from programs import run
+from pytest import approx
 
 MARGIN = 1.25  # of `mpm plan --from` (tools/deck/visited.hpp)
 
 
 def ask(mpm, command, words, *more):
-    done = subprocess.run([mpm, command, *map(str, words), *more, "--json"], capture_output=True, text=True)
-    assert done.returncode == 0, (command, words, more, done.stderr)
-    return json.loads(done.stdout)
+    return json.loads(run(mpm, command, *words, *more, "--json").stdout)
 
 
 def key(pair):
@@ -37,17 +37,17 @@ def steps_at(mpm, words, stats, quantity):
     return {key(p): stretch * p["time_step_s"] for p in plan["pairs"] if p["time_step_s"]}
 
 
-def check(test, mpm, words, stats, screen):
+def check(mpm, words, stats, screen):
     """`words`: the deck and its variables; `stats`: JSON of the plug-in after a run of it; `screen`: what the run printed."""
     said = re.search(r"stretch ([\d.]+)", " ".join(map(str, words)))
     stretch = float(said[1]) if said else 1.0
     plan = ask(mpm, "plan", words)
-    test.assertTrue(plan["complete"], plan["asks_for"])
-    test.assertAlmostEqual(plan["time_step_s"]["advised"] / (stretch * shortest(plan)), 1, delta=1e-12)
+    assert plan["complete"], plan["asks_for"]
+    assert plan["time_step_s"]["advised"] / (stretch * shortest(plan)) == approx(1, abs=1e-12)
     soft = ask(mpm, "soften", words)
     # the smaller of the plan's step and the deck's, which both have the deck's stretch in them
     step = min(plan["time_step_s"]["advised"], plan["time_step_s"]["deck"] or math.inf)
-    test.assertAlmostEqual(soft["time_step_s"] / (soft["stretch"] / stretch * step), 1, delta=1e-12)
+    assert soft["time_step_s"] / (soft["stretch"] / stretch * step) == approx(1, abs=1e-12)
 
     # Overlap for which the plug-in calls the step in use short enough: the plan gives the same step for it.
     used = stats["time_step_used_s"]
@@ -59,12 +59,12 @@ def check(test, mpm, words, stats, screen):
         deepest = pair["overlap_over_radius_limit"] or 0.1  # of thornton, which has no table
         if pair["overlap_over_radius_limit_of_time_step"] < 0.999 * deepest:
             # 1e-3: the plug-in finds the overlap to 1e-6 of the deepest, which may be a thousand times this one
-            test.assertAlmostEqual(at_limit[key(pair)] / used, 1, delta=1e-3, msg=pair["types"])
+            assert at_limit[key(pair)] / used == approx(1, abs=1e-3), pair["types"]
         else:
-            test.assertGreater(at_limit[key(pair)], 0.999 * used, pair["types"])
+            assert at_limit[key(pair)] > 0.999 * used, pair["types"]
         # The plan takes the smallest particles, and the stiffest up to the overlap, pressed or hit. 0.5 %: a contact that others turn back
         # latched a higher speed than its overlap corresponds to, and is stiffer (0.14 % of the step in examples/packing).
         if pair["overlap_over_radius_max"]:
-            test.assertLess(at_visited[key(pair)], 1.005 * pair["time_step_allowed_s"], pair["types"])
+            assert at_visited[key(pair)] < 1.005 * pair["time_step_allowed_s"], pair["types"]
     # a run that visited what its step is short enough for is not warned of
-    test.assertNotIn("was so deep that its time step", screen)
+    assert "was so deep that its time step" not in screen

@@ -1,19 +1,12 @@
-#!/usr/bin/python3
 """A stretched contact under a static load P answers as if under s P (docs/guide/plan.md).
-
-    test_preload.py FOLDER_OF_mpm FOLDER_OF_liggghts-mpm
 
 One sphere of wax on a plane, pressed by a force that grows slowly to P, and relieved. Predicted: the deflection is s F^-1(s P), with
 F the unstretched law; it stays elastic while s P < F_y, so the force at yield falls to F_y/s."""
 import math
-import os
-import pathlib
-import subprocess
-import sys
-import tempfile
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from programs import LAUNCHER, ROOT, run, table
+from pytest import approx, fixture, mark
+
 R, RHO, E, NU, Y = 3e-3, 920.0, 91e6, 0.3, 1e6  # examples/hopper/materials.toml
 E_STAR = E / (1 - NU**2)
 MASS = RHO * 4 / 3 * math.pi * R**3
@@ -74,13 +67,10 @@ def thornton(force):
     return hertz(force) if force <= F_Y else DELTA_Y + (force - F_Y) / (math.pi * 1.6 * Y * R)
 
 
-class Preload(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="granulaw-preload-")))
-        cls.law = cls.folder / "wax.h5"
-        subprocess.run(["mpm", "table", str(ROOT / "examples/hopper/materials.toml"), "-o", str(cls.law)], check=True,
-                       capture_output=True)
+class TestPreload:
+    @fixture(autouse=True)
+    def _folder(self, folder):
+        self.folder, self.law = folder, table((ROOT / "examples/hopper/materials.toml").read_text())
 
     def press(self, model, load, s):
         """(deflection under `load`, under REST of it afterwards), m."""
@@ -94,39 +84,30 @@ class Preload(unittest.TestCase):
         dt = 0.1 * math.sqrt(MASS / k)
         text = DECK.format(E=E, NU=NU, R=R, RHO=RHO, diameter=2 * R, model=model, pair=pair, drag=2 * math.sqrt(k * MASS), dt=dt,
                            load=load, rest=REST * load, steps=6000)
-        deck = self.folder / "in.preload"
-        deck.write_text(text)
-        done = subprocess.run(["liggghts-mpm", "-in", str(deck), "-log", "none"], capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, cwd=self.folder, timeout=100)
-        found = {line.split()[0]: float(line.split()[1]) for line in done.stdout.splitlines()
-                 if line.startswith(("PRESSED", "RELIEVED"))}
-        self.assertEqual(done.returncode, 0, done.stdout[-1500:])
+        (self.folder / "in.preload").write_text(text)
+        said = run(LAUNCHER, "-in", "in.preload", "-log", "none", cwd=self.folder).stdout
+        found = {line.split()[0]: float(line.split()[1]) for line in said.splitlines() if line.startswith(("PRESSED", "RELIEVED"))}
         return found["PRESSED"], found["RELIEVED"]
 
     def check_set(self, relieved, s):
         """Elastic: back on Hertz's curve at the rest of the load. Beyond F_y/s: a set is left."""
         elastic = s * hertz(s * REST * LOAD)
         if s * LOAD < F_Y:
-            self.assertAlmostEqual(relieved / elastic, 1, delta=CURVE)
+            assert relieved / elastic == approx(1, abs=CURVE)
         else:
-            self.assertGreater(relieved / elastic, 1 + 5 * CURVE)  # no stiffness of the curve could be that wrong
+            assert relieved / elastic > 1 + 5 * CURVE  # no stiffness of the curve could be that wrong
 
-    def test_thornton_in_closed_form(self):
-        for s in STRETCHES:
-            pressed, relieved = self.press("thornton", LOAD, s)
-            self.assertAlmostEqual(pressed / (s * thornton(s * LOAD)), 1, delta=1e-4, msg=f"s = {s}")  # what the hold leaves
-            self.check_set(relieved, s)
+    @mark.parametrize("s", STRETCHES)
+    def test_thornton_in_closed_form(self, s):
+        pressed, relieved = self.press("thornton", LOAD, s)
+        assert pressed / (s * thornton(s * LOAD)) == approx(1, abs=1e-4), f"s = {s}"  # what the hold leaves
+        self.check_set(relieved, s)
 
-    def test_mpm_as_under_s_times_the_load(self):
-        for s in STRETCHES:
-            pressed, relieved = self.press("mpm", LOAD, s)
-            plain, _ = self.press("mpm", s * LOAD, 1)
-            self.assertAlmostEqual(pressed / (s * plain), 1, delta=1e-4, msg=f"s = {s}")
-            self.check_set(relieved, s)
-            if s * LOAD < F_Y:  # the deflection grows by s^(5/3)
-                self.assertAlmostEqual(pressed / (s**(5 / 3) * hertz(LOAD)), 1, delta=CURVE)
-
-
-if __name__ == "__main__":
-    os.environ["PATH"] = os.pathsep.join(sys.argv[1:3] + [os.environ["PATH"]])
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    @mark.parametrize("s", STRETCHES)
+    def test_mpm_as_under_s_times_the_load(self, s):
+        pressed, relieved = self.press("mpm", LOAD, s)
+        plain, _ = self.press("mpm", s * LOAD, 1)
+        assert pressed / (s * plain) == approx(1, abs=1e-4), f"s = {s}"
+        self.check_set(relieved, s)
+        if s * LOAD < F_Y:  # the deflection grows by s^(5/3)
+            assert pressed / (s**(5 / 3) * hertz(LOAD)) == approx(1, abs=CURVE)

@@ -1,29 +1,21 @@
-#!/usr/bin/python3
-"""Runs over threads and ranks. One case: test_farm.py CASE --mpm MPM [--mpirun MPIRUN --ranks FARM_RANKS --law UNDISTURBED].
-
-Each case works in its own temporary folder. See CMakeLists.txt for the list. No test looks at speed: the time limits
-are what a hang is recognised by, far beyond what the case takes.
-"""
-import argparse
+"""Runs over threads and ranks; each test has its line in CMakeLists.txt. No test looks at speed: the time limits are what a hang is recognised by, far
+beyond what the test takes."""
 import os
 import random
 import signal
 import subprocess
-import tempfile
 import time
 from pathlib import Path
 
 import h5py
 import numpy as np
+import programs
+from programs import MPIRUN, MPM, material
+from pytest import mark
 
-# E*/Y = 30: the cheapest law that yields, about 10 CPU s.
-CHEAP = """
-[material.powder]
-density = 1500
-youngs_modulus = 2.73e9
-poisson_ratio = 0.3
-yield_stress = 100e6
-"""
+pytestmark = mark.usefixtures("here")
+FARM_RANKS, LAW = (os.environ.get(f"GRANULAW_{name}") for name in ("FARM_RANKS", "LAW"))  # LAW: the one that nobody disturbed
+CHEAP = material("powder", 1500, "2.73e9", 0.3, "100e6")  # E*/Y = 30: the cheapest law that yields, about 10 CPU s
 HANG = 120  # s
 
 
@@ -32,8 +24,8 @@ def launched(ranks, *words):
     return ([MPIRUN, "-np", str(ranks)] if ranks else []) + list(map(str, words))
 
 
-def run(ranks, *words):
-    return subprocess.run(launched(ranks, *words), capture_output=True, text=True, timeout=HANG)
+def run(ranks, *words, code=...):
+    return programs.run(*launched(ranks, *words), code=code, timeout=HANG)
 
 
 def own_lines(text):
@@ -41,14 +33,13 @@ def own_lines(text):
     return [line for line in text.splitlines() if line.startswith(("farm_ranks:", "mpm:"))]
 
 
-def case_identical():
+def test_identical():
     """The outcomes are the same bits for any number of ranks and threads, cached or not, on every rank."""
     reference = None
     for ranks, threads in ((0, 1), (0, 3), (1, 1), (2, 1), (2, 2), (3, 1), (3, 2)):
         name = Path(f"{ranks}x{threads}")
         for cache in ([], ["--cache", "cache"]):  # the cache holds what the first such run has made
-            done = run(ranks, FARM_RANKS, "batches", "--threads", threads, "--output", name, *cache)
-            assert done.returncode == 0, done.stderr
+            run(ranks, FARM_RANKS, "batches", "--threads", threads, "--output", name, *cache, code=0)
             outputs = [name] + [Path(f"{name}.{rank}") for rank in range(1, ranks)]
             for output in outputs:
                 found = output.read_bytes()
@@ -57,7 +48,7 @@ def case_identical():
                 output.unlink()
 
 
-def case_failing():
+def test_failing():
     """A run that fails is tried again on a finer grid, and its failure is an outcome: on any rank the same."""
     expected = ["[] [] 20", "[unstable at 1] [] 28", "[unstable at 1] [unstable at 1.4] 0", "[] [] 20",
                 "made 4 retried 2 failed 1"]
@@ -66,16 +57,15 @@ def case_failing():
         assert done.returncode == 0 and done.stdout.splitlines() == expected, (ranks, done.stdout, done.stderr)
 
 
-def case_trouble():
+def test_trouble():
     """Whatever stops one rank stops all: one sentence, another exit code than 0, no hang."""
     for what, code, sentence in (("broken", 1, "rank 2: not enough memory"),
                                  ("stop-first", 130, "stopped by the user"),
                                  ("stop-last", 130, "rank 2: stopped"),
                                  ("differ", 1, "MPI: rank 2 asks for other runs than rank 0"),
                                  ("alone", 1, "the last rank: has lost its disk")):
-        done = run(3, FARM_RANKS, what)
+        done = run(3, FARM_RANKS, what, code=code)
         lines = own_lines(done.stderr)
-        assert done.returncode == code, (what, done.returncode, done.stderr)
         assert len(lines) == 1 and lines[0].startswith("farm_ranks: " + sentence), (what, done.stderr)
 
 
@@ -86,7 +76,7 @@ def alive(pid):
         return False
 
 
-def case_killed_rank():
+def test_killed_rank():
     """kill -9 of one rank ends the others."""
     for victim in (0, 2):
         farm = subprocess.Popen(launched(3, FARM_RANKS, "endless"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -99,7 +89,7 @@ def case_killed_rank():
         assert not any(map(alive, pids)), pids
 
 
-def case_commands():
+def test_commands(monkeypatch):
     """mpm table runs on ranks; the other commands say in one sentence that they do not."""
     Path("m.toml").write_text(CHEAP)
     for words in (["info", "law.h5"], ["impact", "m.toml"]):
@@ -116,7 +106,7 @@ def case_commands():
         assert done.returncode == code and len(lines) == 1 and wanted in lines[0], (words, done.stderr)
     done = run(2, MPM, "table", "--help")
     assert done.returncode == 0 and done.stdout.count("Usage:") == 1, done.stdout
-    os.environ["GRANULAW_ISA"] = "nonsense"
+    monkeypatch.setenv("GRANULAW_ISA", "nonsense")
     done = run(2, MPM, "table", "m.toml", "--no-atlas", "-o", "x.h5")
     assert done.returncode == 1 and len(own_lines(done.stderr)) == 1 and "nonsense" in done.stderr, done.stderr
 
@@ -136,7 +126,7 @@ def payload(path):
     return found
 
 
-def table(output, *words):  # the law of tests/cli's case_table
+def table(output, *words):  # the law of tests/cli's test_table
     return [MPM, "table", "m.toml", "--no-atlas", "--depth", "0.15", "--inertia", "0.03", "--pair", "powder:wall", "--pair", "powder:powder", "-o", output, *words]
 
 
@@ -173,7 +163,7 @@ def kills(count, most_runs, ranks_of):
         print(f"kill {k + 1} on {ranks or 'no'} ranks: {len(kept_runs())} runs kept")
     assert killed >= 0.6 * count, f"only {killed} builds were still alive when they were to be killed"
     kept = kept_runs()
-    done = subprocess.run(table("law.h5", "--cache", "cache"), check=True, capture_output=True, text=True)
+    done = programs.run(*table("law.h5", "--cache", "cache"))
     print(done.stdout.splitlines()[-1])
     assert {name: made for name, made in kept_runs().items() if name in kept} == kept, "a finished run was made again"
     with h5py.File("law.h5") as file:
@@ -191,25 +181,9 @@ def descendants(pid):
     return [d for child in children for d in descendants(child)] + children
 
 
-def case_three_kills():
+def test_three_kills():
     kills(3, 4, lambda k: 0)
 
 
-def case_ten_kills():
+def test_ten_kills():
     kills(10, 1, lambda k: (0, 2, 3)[k % 3])
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("case")
-    parser.add_argument("--mpm")
-    parser.add_argument("--mpirun")
-    parser.add_argument("--ranks")
-    parser.add_argument("--law")
-    arguments = parser.parse_args()
-    MPM, MPIRUN, FARM_RANKS, LAW = arguments.mpm, arguments.mpirun, arguments.ranks, arguments.law
-    with tempfile.TemporaryDirectory(prefix="granulaw_farm_") as folder:
-        os.chdir(folder)
-        os.environ["XDG_CACHE_HOME"] = str(Path(folder, "xdg"))
-        globals()["case_" + arguments.case]()
-        os.chdir("/")

@@ -1,15 +1,13 @@
-#!/usr/bin/python3
-"""tools/hard_cases passes with this mpm, goes on where it was, and finds a solver that is wrong.
-
-    test_hard_cases.py tools/hard_cases MPM quick|judges|all
-"""
+"""tools/hard_cases passes with this mpm, goes on where it was, and finds a solver that is wrong."""
 import json
 import os
-import subprocess
-import sys
-import tempfile
 from pathlib import Path
 
+import programs
+from programs import MPM, ROOT
+from pytest import mark
+
+pytestmark = mark.usefixtures("here")
 # An mpm that hands the real one's answers on, falsified: its energy balance is open, and it runs at any Courant number.
 WRONG = """#!/usr/bin/python3
 import json, subprocess, sys
@@ -25,8 +23,10 @@ sys.exit(done.returncode)
 """
 
 
-def run(mpm, output, *words):
-    return subprocess.run([TOOL, "--mpm", mpm, "-o", output, *words], capture_output=True, text=True)
+def run(mpm, output, *words, code=0):
+    done = programs.run(ROOT / "tools/hard_cases", "--mpm", mpm, "-o", output, *words, code=code, timeout=7200)
+    print(done.stdout)
+    return done
 
 
 def made(done):
@@ -34,10 +34,8 @@ def made(done):
     return sum(line.startswith("    mpm ") for line in done.stdout.splitlines())
 
 
-def case_quick():
+def test_quick():
     first = run(MPM, "table", "--quick")
-    print(first.stdout)
-    assert first.returncode == 0, first.stdout + first.stderr
     text = Path("table.md").read_text()
     assert text.count("| stable |") >= 8 and "unstable above 1" in text and "FAILED" not in text
     second = run(MPM, "table", "--quick")
@@ -49,25 +47,13 @@ def case_quick():
     assert made(run(MPM, "table", "--quick")) == 1
 
 
-def case_judges():
+def test_judges():
     Path("wrong").write_text(WRONG.format(mpm=MPM))
     os.chmod("wrong", 0o755)
-    done = run("wrong", "table", "--only", "nu = 0", "--quick")
-    assert done.returncode == 1 and "FAILED: energy error 1.0e-02" in done.stdout, done.stdout
-    done = run("wrong", "table", "--only", "Courant 1.1")
-    assert done.returncode == 1 and "FAILED: should be refused" in done.stdout, done.stdout
+    assert "FAILED: energy error 1.0e-02" in run("wrong", "table", "--only", "nu = 0", "--quick", code=1).stdout
+    assert "FAILED: should be refused" in run("wrong", "table", "--only", "Courant 1.1", code=1).stdout
     assert not Path("table.md").exists()  # a part of the rows is not the table
 
 
-def case_all():
-    done = run(MPM, "table")
-    print(done.stdout)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-if __name__ == "__main__":
-    TOOL, MPM = str(Path(sys.argv[1]).resolve()), str(Path(sys.argv[2]).resolve())
-    with tempfile.TemporaryDirectory(prefix="granulaw_hardcases_") as folder:
-        os.chdir(folder)
-        globals()["case_" + sys.argv[3]]()
-        os.chdir("/")
+def test_all():
+    run(MPM, "table")

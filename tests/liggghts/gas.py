@@ -1,7 +1,7 @@
 """A box of colliding spheres: many contacts that begin, end and begin again."""
 import random
 
-from harness import POWDER, properties
+from harness import POWDER, head, properties
 
 RADIUS = 1.7e-3
 SIDE = 5          # spheres along an edge
@@ -27,9 +27,8 @@ def data_file(path, seed=7, speed=3.0):
                     "\nAtoms\n\n" + "\n".join(atoms) + "\n\nVelocities\n\n" + "\n".join(velocities) + "\n")
 
 
-def start(extra="", neigh="delay 0"):
-    return (f"units si\nhard_particles yes\natom_style granular\natom_modify map array {extra}\nboundary p p p\n"
-            f"newton off\ncommunicate single vel yes\nread_data gas.data\nneighbor 0.0004 bin\nneigh_modify {neigh}\n")
+def start(extra="", neigh="delay 0", read="read_data gas.data"):
+    return head(read=read, boundary="p p p", skin=0.0004, extra=extra, neigh=neigh)
 
 
 def model(words, tangential="history", friction=0.3, name="mpm"):

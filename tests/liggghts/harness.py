@@ -34,12 +34,11 @@ def properties(materials, friction=0.0):
         f"fix p5 all property/global coefficientRollingFriction peratomtypepair {n} {matrix}\n")
 
 
-def head(types=1, half=0.05, units="si", boundary="f f f", skin=None, extra="", pair_first=""):
-    """Everything before the pair style; a cube of half-width `half` (m)."""
-    return (f"units {units}\nhard_particles yes\natom_style granular\natom_modify map array {extra}\n"
-            f"boundary {boundary}\nnewton off\ncommunicate single vel yes\n{pair_first}"
-            f"region box block {-half} {half} {-half} {half} {-half} {half} units box\ncreate_box {types} box\n"
-            f"neighbor {skin if skin else half / 20} bin\nneigh_modify delay 0\n")
+def head(types=1, half=0.05, units="si", boundary="f f f", skin=None, extra="", read="", neigh="delay 0"):
+    """Everything before the pair style; a cube of half-width `half` (m), or what the command `read` reads."""
+    box = read or f"region box block {-half} {half} {-half} {half} {-half} {half} units box\ncreate_box {types} box"
+    return (f"units {units}\nhard_particles yes\natom_style granular\natom_modify map array {extra}\nboundary {boundary}\nnewton off\n"
+            f"communicate single vel yes\n{box}\nneighbor {skin if skin else half / 20} bin\nneigh_modify {neigh}\n")
 
 
 def worst(values):

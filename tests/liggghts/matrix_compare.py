@@ -92,7 +92,8 @@ def process(top, variant, program):
     if variant.ranks > 1:
         command = [MPIRUN, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-np", str(variant.ranks)] + command
     with open(top / "stdout", "w") as out, open(top / "stderr", "w") as errors:
-        running = subprocess.Popen(command, stdout=out, stderr=errors, cwd=top, start_new_session=True)
+        running = subprocess.Popen(command, stdout=out, stderr=errors, cwd=top, start_new_session=True,
+                                   env={**os.environ, "OMPI_MCA_orte_tmpdir_base": str(top)})
         try:
             status = running.wait(timeout=LIMIT)
         except subprocess.TimeoutExpired:

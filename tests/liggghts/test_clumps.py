@@ -109,9 +109,7 @@ class TestClumps(Trial):
 
     def resume(self, begin, file="clump.bin"):
         """`begin` (of start()) after read_restart, without its templates."""
-        return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                f"communicate single vel yes\nread_restart {file}\nneighbor {RADIUS / 2} bin\nneigh_modify delay 0\n" +
-                begin[begin.index("fix p1"):begin.index("fix t0")] + "fix i all multisphere\n")
+        return head(read=f"read_restart {file}", skin=RADIUS / 2) + begin[begin.index("fix p1"):begin.index("fix t0")] + "fix i all multisphere\n"
 
     def check(self, model, law_variant, spheres, speed, delta, ranks=1, more="", behind=lambda height: 0.0):
         """`behind`: m/N, of the body whose centre of mass is so high above the contact."""

@@ -198,8 +198,7 @@ class TestSizes(Composed):
             self.run_deck(f"{begin}run {first}\nwrite_restart half.restart\n{rest}{dump}")
             whole = (self.folder / "end.dump").read_text().splitlines()[-2:]
             (self.folder / "end.dump").unlink()
-            again = (head(types=2).split("region")[0] + "read_restart half.restart\nneighbor 0.003 bin\nneigh_modify delay 0\n" +
-                     properties(list(MIXED)) +
+            again = (head(read="read_restart half.restart", skin=0.003) + properties(list(MIXED)) +
                      f"pair_style gran model mpm tangential history {self.words()}\npair_coeff * *\nfix i all nve/sphere\ntimestep {dt!r}\n")
             self.run_deck(again + rest + dump)
             assert (self.folder / "end.dump").read_text().splitlines()[-2:] == whole, part

@@ -42,6 +42,9 @@ def soft(types=1):
     return SOFT.format(types=types, young=" ".join(["5e6"] * types), poisson=" ".join(["0.45"] * types), e=" ".join(["0.5"] * types * types))
 
 
+DECK = HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1)
+
+
 class Convert:
     @fixture(autouse=True)
     def _folder(self, tmp_path):
@@ -74,7 +77,7 @@ class Convert:
 
 class TestFiles(Convert):
     def test_deck_law_and_page_are_written_and_the_original_stays(self):
-        text = HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + RUN
+        text = DECK + REST + RUN
         self.write("in.deck", text)
         now, said = self.convert()
         assert (self.folder / "in.deck").read_text() == text
@@ -127,14 +130,14 @@ class TestFiles(Convert):
         assert not (self.folder / "DEM/bed.restart").exists()
 
     def test_a_deck_for_several_ranks_is_converted_by_one(self):
-        self.write("in.deck", "processors 2 1 1\n" + HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + RUN)
+        self.write("in.deck", "processors 2 1 1\n" + DECK + REST + RUN)
         now, said = self.convert("--check")
         assert "processors 2 1 1" in now
         assert said["check"]["converted"]["particles"] == 50
 
     def test_stresses_of_particles_are_planned(self):
         observed = "compute s all stress/atom virial\ncompute sum all reduce sum c_s[1]\nthermo_style custom step c_sum\n"
-        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + observed + RUN)
+        self.write("in.deck", DECK + REST + observed + RUN)
         self.convert()
         self.run_converted(20)
 
@@ -193,7 +196,7 @@ class TestTime(Convert):
     FAST = REST.replace("vel constant 0 0 0", "vel constant 0 0 -3").replace("timestep 1e-5", "timestep 2e-5")
 
     def test_counts_of_steps_keep_their_times(self):
-        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + self.FAST + "fix a all ave/time 5 10 100 c_1 file post/a.txt\n".replace("c_1", "c_k") .join(["compute k all ke\n", ""]) + RUN)
+        self.write("in.deck", DECK + self.FAST + "fix a all ave/time 5 10 100 c_1 file post/a.txt\n".replace("c_1", "c_k") .join(["compute k all ke\n", ""]) + RUN)
         now, said = self.convert()
         f = said["steps_factor"]
         assert f > 1
@@ -208,7 +211,7 @@ class TestTime(Convert):
 
     def test_counts_that_follow_the_step_are_left(self):
         variables = "variable dt equal 2e-5\nvariable n equal round(0.02/${dt})\nvariable m equal 500\n"
-        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + variables + self.FAST.replace("timestep 2e-5", "timestep ${dt}") +
+        self.write("in.deck", DECK + variables + self.FAST.replace("timestep 2e-5", "timestep ${dt}") +
                    "thermo ${m}\nrun ${n}\n")
         now, said = self.convert()
         f = said["steps_factor"]
@@ -225,7 +228,7 @@ class TestTime(Convert):
         self.run_converted(3)
 
     def test_branches_and_step_numbers_are_named(self):
-        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + self.FAST + "variable s equal step\nrun 1000\nif \"${s} > 500\" then \"run 100\"\n")
+        self.write("in.deck", DECK + self.FAST + "variable s equal step\nrun 1000\nif \"${s} > 500\" then \"run 100\"\n")
         _, said = self.convert()
         left = "\n".join(said["not_converted"])
         assert "number of the step" in left
@@ -234,7 +237,7 @@ class TestTime(Convert):
 
 class TestChains(Convert):
     def test_a_deck_that_continues_has_the_stretch_of_the_first(self):
-        self.write("in.first", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + "run 300\nwrite_restart bed.restart\n")
+        self.write("in.first", DECK + REST + "run 300\nwrite_restart bed.restart\n")
         _, first = self.convert(deck="in.first")
         assert first["stretch"] > 1
         for where, deck in ((self.folder, "in.first"), (self.out, "in.first")):  # the original's and the converted one's
@@ -249,7 +252,7 @@ class TestChains(Convert):
 
 class TestQuestions(Convert):
     def test_a_missing_number_is_asked_for(self):
-        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + "fix push all addforce 0 0 1\nrun 100\n")
+        self.write("in.deck", DECK + REST + "fix push all addforce 0 0 1\nrun 100\n")
         said = self.convert(code=3)
         assert "--speed" in said
         default = re.search(r"\(--speed (\S+):", said)[1]
@@ -259,7 +262,7 @@ class TestQuestions(Convert):
 
     def test_which_material_is_asked_for(self):
         self.write("materials.toml", TWO_MATERIALS)
-        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + RUN)
+        self.write("in.deck", DECK + REST + RUN)
         assert "--materials" in self.convert(code=3)
 
     def test_a_deck_without_contacts_is_refused(self):
@@ -269,7 +272,7 @@ class TestQuestions(Convert):
 
 class TestCheck(Convert):
     def test_both_decks_are_compared(self):
-        self.write("in.deck", HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1) + REST + RUN)
+        self.write("in.deck", DECK + REST + RUN)
         _, said = self.convert("--check")
         original, now = said["check"]["original"], said["check"]["converted"]
         assert (original["particles"], now["particles"], original["steps"]) == (50, 50, 300)

@@ -2,7 +2,7 @@
 import random
 
 from pytest import approx, mark
-from harness import POWDER, Deck, properties
+from harness import POWDER, Deck, head, properties
 
 RADIUS = 1.7e-3
 SIDE = 4
@@ -27,8 +27,7 @@ def data_file(path):
 
 
 def start(read="read_data bed.data"):
-    return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary p p f\n"
-            f"newton off\ncommunicate single vel yes\n{read}\nneighbor 0.0004 bin\nneigh_modify delay 0\n")
+    return head(read=read, boundary="p p f", skin=0.0004)
 
 
 def model(words, tangential, friction, name="mpm"):

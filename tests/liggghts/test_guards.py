@@ -23,11 +23,9 @@ class TestGuards(Deck):
         small = "neigh_modify delay 0 one 5000 page 50000"
         mesh = {"wall": "mesh n_meshes 1 meshes cad", "before_wall": "fix cad all mesh/surface file plane.stl type 1\n"}
         (self.folder / "plane.stl").write_text(plane_stl())
-        for more, tangential in (("energy on contactMap on", "history"), ("", "history rolling_friction epsd2")):
-            for model in MODELS:
-                for wall in ({}, mesh):
-                    deck = self.deck(model, more, tangential=tangential, **wall)
-                    assert self.result(self.run_deck(deck.replace("neigh_modify delay 0", small)), "SPEED") == self.result(self.run_deck(deck), "SPEED")
+        decks = [self.deck(model, more, tangential=tangential, **wall) for model in MODELS for wall in ({}, mesh)
+                 for more, tangential in (("energy on contactMap on", "history"), ("", "history rolling_friction epsd2"))]
+        assert self.run_each((deck.replace("neigh_modify delay 0", small) for deck in decks), "SPEED") == self.run_each(decks, "SPEED")
 
     @mark.parametrize("model", MODELS)
     def test_multi(self, model):
@@ -96,6 +94,10 @@ class TestGuards(Deck):
             # the phase of the step at first touch differs: its error in e, 1e-3 at 25 steps a contact
             assert found[0] / found[1] == approx(1.0, abs=5e-3)
 
+    def again(self, deck, first="fix p1"):
+        """The words of `deck` behind read_restart r.bin."""
+        return head(read="read_restart r.bin", skin=RADIUS / 2) + deck[deck.index(first):deck.index("create_atoms")] + f"fix i all nve/sphere\ntimestep {DT!r}\nrun 10\n"
+
     @mark.parametrize("model", MODELS)
     def test_restart_of_another_combination(self, model):
         """Histories of as many values are not those of another model."""
@@ -103,15 +105,13 @@ class TestGuards(Deck):
         base = self.deck(model).replace("run 120", "run 20").replace("fix p1", viscous)
         write = base.replace("history ", "history rolling_friction epsd2 ") + "write_restart r.bin\n"
         self.run_deck(write)
-        text = write[write.index("fix p6"):write.index("create_atoms")]
-        read = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                f"communicate single vel yes\nread_restart r.bin\nneighbor {RADIUS / 2} bin\n" + text +
-                f"fix i all nve/sphere\ntimestep {DT!r}\nrun 10\n")
+        read = self.again(write, "fix p6")
         self.run_deck(read)
         other = read.replace("rolling_friction epsd2", "rolling_friction epsd")
         self.refused(other, "written with other models", "rolling_friction epsd2", "found model mpm tangential history rolling_friction epsd,".replace("mpm", model))
 
-    def test_restart_into_every_changed_keyword(self):
+    @mark.parametrize("model", MODELS)
+    def test_restart_into_every_changed_keyword(self, model):
         """Every keyword, said otherwise behind read_restart: one that gives the histories another meaning is refused, any other goes on.
         A keyword that is new stands in neither list: the test asks where it belongs."""
         meaning = {"stretch": "3", "tangentialStiffness": "computed", "wall": "deformable"}
@@ -125,33 +125,22 @@ class TestGuards(Deck):
         assert said - foreign == meaning.keys() | sizes.keys() | free.keys()
         other = self.folder / "other.h5"
         self.fixture("write", other, "depth", 0.8)
-        for model in MODELS:
-            base = self.deck(model).replace("run 120", "run 20")
+        base = self.deck(model).replace("run 120", "run 20")
+        self.run_deck(base + "write_restart r.bin\n")
+        read = self.again(base)
+        say = lambda key, value: read.replace("\npair_coeff", f" {key} {value}\npair_coeff") if key != "wall" else read.replace("zplane 0.0 ", f"zplane 0.0 wall {value} ")
+        for key, value in meaning.items():
+            self.refused(say(key, value), "written with other models or words", f"{key} {value}")
+        for key, value in sizes.items():
+            self.refused(say(key, value), "another number of values for each contact")
+        own = () if model == "mpm" else ("law", "materials", "beyondRange", "waves")
+        decks = [read, *(say(key, value) for key, value in free.items() if value and key not in own)]
+        self.run_deck("clear\n".join(decks + ([read.replace(str(self.law), str(other))] if model == "mpm" else [])))
+        for key in ("stretch", "tangentialStiffness"):  # and back: said before, not said behind
+            said = f"{key} {meaning[key]}"
+            base = self.deck(model, said).replace("run 120", "run 20")
             self.run_deck(base + "write_restart r.bin\n")
-            text = base[base.index("fix p1"):base.index("create_atoms")]
-            read = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                    f"communicate single vel yes\nread_restart r.bin\nneighbor {RADIUS / 2} bin\n" + text + f"fix i all nve/sphere\ntimestep {DT!r}\nrun 10\n")
-            self.run_deck(read)
-            own = ("law", "materials", "beyondRange", "waves")
-            say = lambda key, value: read.replace("\npair_coeff", f" {key} {value}\npair_coeff") if key != "wall" else read.replace("zplane 0.0 ", f"zplane 0.0 wall {value} ")
-            for key, value in meaning.items():
-                shown = f"{key} {value}"
-                self.refused(say(key, value), "written with other models or words", shown)
-            for key, value in sizes.items():
-                self.refused(say(key, value), "another number of values for each contact")
-            for key, value in free.items():
-                if value and not (model == "thornton" and key in own):
-                    self.run_deck(say(key, value))
-            if model == "mpm":
-                self.run_deck(read.replace(str(self.law), str(other)))
-        for model in MODELS:  # and back: said before, not said behind
-            for key in ("stretch", "tangentialStiffness"):
-                base = self.deck(model, f"{key} {meaning[key]}").replace("run 120", "run 20")
-                self.run_deck(base + "write_restart r.bin\n")
-                text = base[base.index("fix p1"):base.index("create_atoms")].replace(f"{key} {meaning[key]}", "")
-                self.refused("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                             f"communicate single vel yes\nread_restart r.bin\nneighbor {RADIUS / 2} bin\n" + text + f"fix i all nve/sphere\ntimestep {DT!r}\nrun 10\n",
-                             "written with other models or words", f"{key} {meaning[key]}")
+            self.refused(self.again(base).replace(said, ""), "written with other models or words", said)
 
     def test_messages_have_numbers(self):
         """Two at rest that overlap beyond the law do not stop a run; a folder in the place of a law is named."""

@@ -12,15 +12,7 @@ from trials import Trial
 RADIUS = 1.7e-3
 FULL = "GRANULAW_FULL" in os.environ
 ELASTIC = "fix q1 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
-
-
 BED = 5e-7  # s, 30 steps a contact
-
-
-def again(restart):
-    """Head of a deck that goes on from a restart file."""
-    return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-            f"communicate single vel yes\nread_restart {restart}\nneighbor {RADIUS / 2!r} bin\nneigh_modify delay 0\n")
 
 
 def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, seed=5, floor=None, speed=0.0,
@@ -31,7 +23,7 @@ def bed(law, model="mpm", n=3, layers=3, friction=0.0, run="", gravity=9.81, see
     half = n * pitch / 2
     words = {"mpm": f"law {law} materials powder {words}", "thornton": words, "hertz": "tangential_damping off"}[model]
     wall = f"wall/gran model {model} tangential history"
-    text = ((again(restart) if restart else head(half=60 * RADIUS, skin=RADIUS / 2)) + properties([POWDER], friction) +
+    text = (head(half=60 * RADIUS, skin=RADIUS / 2, read=restart and f"read_restart {restart}") + properties([POWDER], friction) +
             (ELASTIC if model == "hertz" else "") +
             f"pair_style gran model {model} tangential history {words}\npair_coeff * *\n")
     tail = "tangential_damping off" if model == "hertz" else ""

@@ -76,16 +76,13 @@ class TestHeat(Deck):
     def test_law_area_on_walls(self):
         """`heatArea law`: the circle of the law's contact radius; by default LIGGGHTS's own, of the geometric overlap."""
         depth = 0.02  # overlap/R of a sphere that is set into the wall and not moved
-        for wall in ("primitive type 1 zplane 0.0", "mesh n_meshes 1 meshes cad"):
-            for model in ("mpm", "thornton"):
-                for more, a in (("", RADIUS * math.sqrt(1 - (1 - depth)**2)), ("heatArea law", None)):
-                    deck = self.start(model, wall, more) + self.spheres([(1 - depth) * RADIUS])
-                    deck = deck.replace("fix i all nve/sphere\n", "") + 'run 0\nrun 1\nprint "TEMP ${t}"\n'
-                    gained = self.result(self.run_deck(deck), "TEMP")[0] - 300.0
-                    if a is None:
-                        a = self.radius_of_law(model, depth)
-                    # LIGGGHTS integrates with the flux of the step before: explicit, 1e-6 of the difference to the wall
-                    assert gained / self.conducted(a) == approx(1.0, abs=1e-5), f"{model} {wall} '{more}'"
+        for model in ("mpm", "thornton"):
+            cases = [(wall, more) for wall in ("primitive type 1 zplane 0.0", "mesh n_meshes 1 meshes cad") for more in ("", "heatArea law")]
+            spheres = self.spheres([(1 - depth) * RADIUS]).replace("fix i all nve/sphere\n", "") + 'run 0\nrun 1\nprint "TEMP ${t}"\n'
+            for (wall, more), (end,) in zip(cases, self.run_each((self.start(model, *case) + spheres for case in cases), "TEMP")):
+                a = self.radius_of_law(model, depth) if more else RADIUS * math.sqrt(1 - (1 - depth)**2)
+                # LIGGGHTS integrates with the flux of the step before: explicit, 1e-6 of the difference to the wall
+                assert (end - 300.0) / self.conducted(a) == approx(1.0, abs=1e-5), f"{model} {wall} '{more}'"
 
     def test_heat_of_a_body_behind_the_contact(self):
         """A rigid body of two spheres set into a wall: `heatArea overlap` takes the circle of the geometric overlap under `bodyCompliance on`,

@@ -87,9 +87,7 @@ class TestKeptReversal(Deck):
         other = self.folder / "other.h5"
         self.fixture("write", other, "depth", 0.8)
         self.check(head(half=20 * RADIUS) + self.rules(self.law) + self.start + "run 150\nwrite_restart half.restart\n", self.law)
-        again = head(half=20 * RADIUS).split("region box")[0] + "read_restart half.restart\n"
-        again += f"neighbor {RADIUS!r} bin\nneigh_modify delay 0\n"
-        self.check(again + self.rules(other), other)
+        self.check(head(read="read_restart half.restart", skin=RADIUS) + self.rules(other), other)
 
     def test_a_radius_that_changes(self):
         """Grown by 1 % within a run, and lifted a little faster (fix adapt): the law's force of the radius of now."""

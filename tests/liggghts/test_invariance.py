@@ -10,7 +10,7 @@ import os
 import random
 
 from pytest import approx
-from harness import POWDER, properties, worst
+from harness import POWDER, head, properties, worst
 from trials import Trial, dump
 
 RADIUS = 1.7e-3
@@ -62,9 +62,7 @@ class Invariance(Trial):
              output="", friction=0.3):
         """contact_distance_factor 1.01: stock models need it to drop contacts that have parted."""
         extra = {"hertz": ELASTIC, "thornton_ning": NING}.get(model, "")
-        return (f"units si\nhard_particles yes\natom_style granular\natom_modify map array {sort}\nboundary f f f\n"
-                f"newton off\ncommunicate single vel yes\n{start}\nneighbor {RADIUS / 5!r} bin\n"
-                f"neigh_modify {neigh} contact_distance_factor 1.01\n" + properties([POWDER], friction) + extra +
+        return (head(read=start, extra=sort, skin=RADIUS / 5, neigh=f"{neigh} contact_distance_factor 1.01") + properties([POWDER], friction) + extra +
                 f"pair_style gran {self.words(model)}\npair_coeff * *\n"
                 f"fix w all wall/gran {self.wall_words(model)}\n"
                 f"fix g all gravity 9.81 vector 0 0 -1\nfix i all nve/sphere\ntimestep {DT!r}\nthermo 1000000\n{output}{run}")
@@ -166,10 +164,7 @@ class TestRejoin(Invariance):
                 back = 2 * RADIUS * (1 + gap / 2) + RADIUS  # wall: elastic, stock hertz
                 flight = gap * RADIUS * (1 + 1 / (first * speed)) + 60 * DT
                 steps = int(2.5 * flight / DT) + 600
-                text = (f"units si\nhard_particles yes\natom_style granular\natom_modify map array sort 0 0.0\nboundary f f f\n"
-                        "newton off\ncommunicate single vel yes\nregion box block -0.01 0.01 -0.01 0.01 -0.01 0.01 units box\n"
-                        f"create_box 1 box\nneighbor {RADIUS!r} bin\nneigh_modify {neigh}\n" + properties([POWDER]) +
-                        ELASTIC +
+                text = (head(half=0.01, extra="sort 0 0.0", skin=RADIUS, neigh=neigh) + properties([POWDER]) + ELASTIC +
                         f"pair_style gran model mpm tangential history law {self.law} materials powder elasticDamping off\npair_coeff * *\n"
                         f"fix w all wall/gran model hertz tangential history primitive type 1 zplane {back!r} tangential_damping off\n"
                         f"create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single 0 0 {2 * RADIUS + 0.3 * DT * speed!r} units box\n"

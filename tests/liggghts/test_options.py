@@ -67,9 +67,7 @@ class TestOptions(Deck):
         for ranks in (1, 2):
             self.run_deck(gas.start() + model + gas.MOVE + gas.OUTPUT + "run 2000\nwrite_restart half.restart\n",
                           ranks=ranks)
-            again = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary p p p\n"
-                     "newton off\ncommunicate single vel yes\nread_restart half.restart\nneighbor 0.0004 bin\n"
-                     "neigh_modify delay 0\n")
+            again = gas.start(read="read_restart half.restart")
             resumed = self.run_deck(again + model + gas.MOVE + gas.OUTPUT + "run 2000\n" + gas.PRINT)
             # rounding, amplified by 2000 steps of collisions
             assert self.result(resumed, "GAS")[0] / self.result(whole, "GAS")[0] == approx(1.0, abs=1e-8)

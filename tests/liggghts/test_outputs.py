@@ -138,9 +138,7 @@ class TestOutputs(Deck):
                         "run 1500\n" + dump.format("before.txt") + "group one id 1\ndelete_atoms group one compress yes\n" + dump.format("after.txt") +
                         "write_restart kept.restart\n")
                 self.run_deck(deck, ranks=ranks)
-                again = head(half=20 * RADIUS)
-                again = again[:again.index("region")] + "read_restart kept.restart\n" + again[again.index("neighbor"):] + style
-                self.run_deck(again + "run 0\n" + dump.format("read.txt"), ranks=3 - ranks)
+                self.run_deck(head(half=20 * RADIUS, read="read_restart kept.restart") + style + "run 0\n" + dump.format("read.txt"), ranks=3 - ranks)
                 found = {}
                 for name in ("before.txt", "after.txt", "read.txt"):
                     lines = (self.folder / name).read_text().partition("ITEM: ATOMS")[2].splitlines()[1:]

@@ -90,7 +90,7 @@ class TestPlasticShear(Deck):
         begin = self.thrown(speed, 60, 0.3, steps, run="run 50\nwrite_restart half.rest\n").split("variable vx")[0]
         self.run_deck(begin)
         models, own = self.style()
-        again = (head(types=2).split("region")[0] + "read_restart half.rest\nneighbor 0.0025 bin\nneigh_modify delay 0\n" + properties([POWDER, RIGID], 0.3) +
+        again = (head(read="read_restart half.rest") + properties([POWDER, RIGID], 0.3) +
                  f"pair_style gran {models} {own}\npair_coeff * *\n" + self.wall() + f"fix i all nve/sphere\ntimestep {step_of(speed, steps)!r}\nrun 100\n" + self.motion())
         for a, b in zip(whole, self.end(again)):
             assert a == approx(b, abs=1e-9 * speed / R)

@@ -5,7 +5,7 @@ import re
 
 from pytest import mark
 from collisions import pair_deck, wall_deck
-from harness import GLASS, POWDER, Deck
+from harness import GLASS, POWDER, Deck, head
 
 RADIUS = 1.7e-3
 
@@ -59,7 +59,7 @@ class TestRateLaw(Deck):
         deck = wall_deck("mpm", f"{self.words} stats s.json", POWDER, RADIUS, 0.01, 2e-8)
         assert self.count(deck + "write_restart half.restart\n")[0] == 1
         begin, rest = deck.split("create_atoms", 1)
-        again = begin.split("region box")[0] + "read_restart half.restart\nneigh_modify delay 0\n"
+        again = head(half=20 * RADIUS, read="read_restart half.restart")
         again += "fix p1" + begin.split("fix p1", 1)[1] + "fix i all" + rest.split("fix i all", 1)[1]
         assert self.count(again)[0] == 1
 

@@ -190,7 +190,7 @@ class TestStats(Deck):
         begin = gas.start()
         for _ in range(parts):
             text = self.run_deck(begin + body, ranks=ranks)
-            begin = gas.start().replace("read_data gas.data", "read_restart half.restart")
+            begin = gas.start(read="read_restart half.restart")
         return self.result(text, "GAS")[0], json.loads((self.folder / "s.json").read_text())["pair"]
 
     def test_contact_map(self):

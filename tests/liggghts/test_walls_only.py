@@ -65,8 +65,7 @@ class TestWallsOnly(Deck):
         run = "variable d equal f_granulaw\nvariable v equal vcm(a1,z)\nrun {}\n" + 'print "SAID ${{v}} ${{d}}"\n'
         whole = self.result(self.run_deck(self.deck(self.wall()) + run.format(200)), "SAID")
         self.run_deck(self.deck(self.wall()) + run.format(100) + "write_restart half.restart\n")
-        again = ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                 "communicate single vel yes\nread_restart half.restart\nneighbor 0.0017 bin\nneigh_modify delay 0\n")
+        again = head(read="read_restart half.restart", skin=RADIUS)
         moving = "fix i all nve/sphere\ntimestep 2e-8\n"
         resumed = self.result(self.run_deck(again + properties([POWDER]) + RESTITUTION + PAIR + self.wall() + moving +
                                             run.format(100)), "SAID")

@@ -1,15 +1,9 @@
-#!/usr/bin/python3
 """tools/ensemble and what tools/report says of its runs: folders whose numbers are known, a command that is known."""
 import math
-import pathlib
-import subprocess
-import sys
-import tempfile
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "examples" / "common")]
-from reporting import ensemble_part  # noqa: E402
+from programs import ROOT, run
+from pytest import approx, fixture, mark, raises
+from reporting import ensemble_part
 
 
 def member_files(folder, yields, measure):
@@ -23,57 +17,56 @@ def member_files(folder, yields, measure):
     (folder / "ensemble.csv").write_text("\n".join(rows) + "\n")
 
 
-class Numbers(unittest.TestCase):
+class TestNumbers:
     def test_rank_correlation(self):
         rho, p = ensemble_part.rank_correlation([1, 2, 3, 4, 5], [1, 4, 9, 16, 25])
-        self.assertEqual((rho, p), (1.0, 0.0))
+        assert (rho, p) == (1.0, 0.0)
         rho, p = ensemble_part.rank_correlation([1, 2, 3, 4, 5, 6], [2, 1, 4, 3, 6, 5])
-        self.assertAlmostEqual(rho, 1 - 6 * 6 / (6 * 35))  # Spearman's formula without ties
+        assert rho == approx(1 - 6 * 6 / (6 * 35), abs=0.5e-7)  # Spearman's formula without ties
         t = rho * math.sqrt(4 / (1 - rho**2))
-        self.assertAlmostEqual(p, 0.0416, delta=5e-4, msg=f"t = {t}")  # Student's t of 4 degrees of freedom, tables
-        self.assertIsNone(ensemble_part.rank_correlation([1, 1, 1], [1, 2, 3]))
+        assert p == approx(0.0416, abs=5e-4), f"t = {t}"  # Student's t of 4 degrees of freedom, tables
+        assert ensemble_part.rank_correlation([1, 1, 1], [1, 2, 3]) is None
 
     def test_equal_values_share_their_rank(self):
-        self.assertEqual(list(ensemble_part.ranks([3, 1, 1, 2])), [4, 1.5, 1.5, 3])
+        assert list(ensemble_part.ranks([3, 1, 1, 2])) == [4, 1.5, 1.5, 3]
 
-    def test_numbers_of_a_material(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "m.toml"
-            path.write_text('[material.grain]\ndensity = 1500\nhardening = {law = "voce", strain = 0.1}\n')
-            self.assertEqual(ensemble_part.numbers_of(path), {"density": 1500.0, "hardening.strain": 0.1})
-            path.write_text("what = \n")
-            with self.assertRaises(ensemble_part.Unreadable):
-                ensemble_part.numbers_of(path)
+    def test_numbers_of_a_material(self, folder):
+        path = folder / "m.toml"
+        path.write_text('[material.grain]\ndensity = 1500\nhardening = {law = "voce", strain = 0.1}\n')
+        assert ensemble_part.numbers_of(path) == {"density": 1500.0, "hardening.strain": 0.1}
+        path.write_text("what = \n")
+        with raises(ensemble_part.Unreadable):
+            ensemble_part.numbers_of(path)
 
 
-class Folders(unittest.TestCase):
-    def setUp(self):
-        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "sweep"
+class TestFolders:
+    @fixture(autouse=True)
+    def _root(self, folder):
+        self.root = folder / "sweep"
 
     def test_what_follows_the_material_is_named(self):
         noise = [3, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8]
         member_files(self.root, [40e6 + 1e6 * k for k in range(12)],
                      lambda k, y: {"rate": 1e-9 * y, "angle": 30 + 0.01 * noise[k - 1], "constant": 2.0})
         (e,), broken = ensemble_part.read_all(self.root)
-        self.assertEqual(broken, [])
-        self.assertEqual(list(e.parameters), ["yield_stress"])  # the density does not vary
-        self.assertEqual(ensemble_part.feels(e, "rate"), ("yield_stress", 1.0))
-        self.assertIsNone(ensemble_part.feels(e, "constant"))
+        assert broken == []
+        assert list(e.parameters) == ["yield_stress"]  # the density does not vary
+        assert ensemble_part.feels(e, "rate") == ("yield_stress", 1.0)
+        assert ensemble_part.feels(e, "constant") is None
         row = ensemble_part.row_of(e, "rate")
-        self.assertEqual(row[1], "0.04550")
+        assert row[1] == "0.04550"
         # quantiles 2.5 % and 97.5 % of 12 evenly spaced values: 0.275 from either end
         low, high = map(float, row[2].split(" to "))
-        self.assertAlmostEqual(low, 0.040275, delta=1e-5)  # four digits are shown
-        self.assertAlmostEqual(high, 0.050725, delta=1e-5)
+        assert low == approx(0.040275, abs=1e-5)  # four digits are shown
+        assert high == approx(0.050725, abs=1e-5)
 
     def test_the_page(self):
         member_files(self.root, [40e6 + 1e6 * k for k in range(8)], lambda k, y: {"rate": 1e-9 * y})
-        done = subprocess.run([str(ROOT / "tools/report"), "--from", str(self.root), "-o", str(self.root / "page")], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        run(ROOT / "tools/report", "--from", self.root, "-o", self.root / "page")
         text = (self.root / "page" / "report.md").read_text()
-        self.assertIn("8 members", text)
-        self.assertIn("rate (yield_stress, +1.00)", text)
-        self.assertIn("1 of 1 observables feel the material", text)
+        assert "8 members" in text
+        assert "rate (yield_stress, +1.00)" in text
+        assert "1 of 1 observables feel the material" in text
 
     def test_a_deck_of_a_member_is_no_deck_of_the_report(self):
         member_files(self.root, [40e6 + 1e6 * k for k in range(5)], lambda k, y: {"rate": 1e-9 * y})
@@ -81,63 +74,54 @@ class Folders(unittest.TestCase):
             (self.root / f"{k:02}" / "observables.csv").unlink()
             (self.root / f"{k:02}" / "hopper.csv").write_text(f"model,seed,quantity,value\nmpm,1,rate,{k}\nmpm,2,rate,{k + 0.5}\n")
         from reporting import flow_part
-        self.assertEqual(flow_part.read_all(self.root)[0], [])
+        assert flow_part.read_all(self.root)[0] == []
         (e,), _ = ensemble_part.read_all(self.root)
         between, by_seed = e.spread("rate")
-        self.assertAlmostEqual(between, math.sqrt(2.5))
-        self.assertAlmostEqual(by_seed, 0.25)  # sd 0.3536 of two seeds, over sqrt(2)
+        assert between == approx(math.sqrt(2.5), abs=0.5e-7)
+        assert by_seed == approx(0.25, abs=0.5e-7)  # sd 0.3536 of two seeds, over sqrt(2)
 
     def test_a_member_without_results_is_named(self):
         member_files(self.root, [40e6 + 1e6 * k for k in range(6)], lambda k, y: {"rate": 1e-9 * y})
         (self.root / "03" / "observables.csv").unlink()
         (e,), broken = ensemble_part.read_all(self.root)
-        self.assertEqual(len(e.members), 5)
-        self.assertIn("neither observables.csv", str(broken[0]))
+        assert len(e.members) == 5
+        assert "neither observables.csv" in str(broken[0])
 
 
-class Driver(unittest.TestCase):
+class TestDriver:
     """A program in place of mpm writes the yield stress for a law; the command measures it."""
 
-    def setUp(self):
-        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+    @fixture(autouse=True)
+    def _root(self, folder):
+        self.root = folder
         fake = self.root / "mpm"
         fake.write_text('#!/bin/sh\necho ran >> "$(dirname "$0")/count"\ngrep yield_stress "$2" | cut -d" " -f3 > "$4"\n')
         fake.chmod(0o755)
         for k in range(1, 7):
             (self.root / f"grain-{k}.toml").write_text(f"[material.grain]\nyield_stress = {k}e6\n")
 
-    def run_tool(self, *words):
-        return subprocess.run([str(ROOT / "tools/ensemble"), *sorted(str(p) for p in self.root.glob("grain-*.toml")), "-o", str(self.root / "out"),
-                               "--mpm", str(self.root / "mpm"), *words], capture_output=True, text=True)
+    def run_tool(self, *words, code=0):
+        return run(ROOT / "tools/ensemble", *sorted(self.root.glob("grain-*.toml")), "-o", self.root / "out", "--mpm", self.root / "mpm", *words, code=code)
 
     COMMAND = ("--", "sh", "-c", "echo quantity,value > {folder}/observables.csv; echo rate,$(cat {law}) >> {folder}/observables.csv")
 
     def test_members_are_run_once(self):
         for _ in range(2):
-            done = self.run_tool("--jobs", "2", *self.COMMAND)
-            self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual((self.root / "count").read_text().count("ran"), 6)
+            self.run_tool("--jobs", "2", *self.COMMAND)
+        assert (self.root / "count").read_text().count("ran") == 6
         (e,), broken = ensemble_part.read_all(self.root)
-        self.assertEqual(broken, [])
-        self.assertEqual(ensemble_part.feels(e, "rate"), ("yield_stress", 1.0))
+        assert broken == []
+        assert ensemble_part.feels(e, "rate") == ("yield_stress", 1.0)
 
     def test_numbers_of_the_material_are_at_hand(self):
-        done = self.run_tool("--", "sh", "-c", "test {yield_stress} = {member}000000.0 && echo {other} {law} > {folder}/x")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue((self.root / "out" / "3" / "x").read_text().startswith("{other} /"))
+        self.run_tool("--", "sh", "-c", "test {yield_stress} = {member}000000.0 && echo {other} {law} > {folder}/x")
+        assert (self.root / "out" / "3" / "x").read_text().startswith("{other} /")
 
     def test_a_member_that_fails_is_named(self):
-        done = self.run_tool("--", "sh", "-c", "test {member} != 4 && touch {folder}/x {law}")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("member 4: failed", done.stderr)
-        self.assertIn("5 of 6 members", done.stdout)
+        done = self.run_tool("--", "sh", "-c", "test {member} != 4 && touch {folder}/x {law}", code=1)
+        assert "member 4: failed" in done.stderr
+        assert "5 of 6 members" in done.stdout
 
-    def test_a_command_without_law_is_refused(self):
-        for words, said in [(("--", "true", "{folder}"), "no {law}"), (("--", "true", "{law}"), "no {folder}"), ((), "no command")]:
-            done = self.run_tool(*words)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(said, done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()
+    @mark.parametrize("words, said", [(("--", "true", "{folder}"), "no {law}"), (("--", "true", "{law}"), "no {folder}"), ((), "no command")])
+    def test_a_command_without_law_is_refused(self, words, said):
+        assert said in self.run_tool(*words, code=2).stderr

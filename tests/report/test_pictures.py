@@ -1,18 +1,14 @@
-#!/usr/bin/python3
 """The pictures of tools/report and mpm plot: every panel has a name, no text leaves the picture, no two ticks run into each other."""
 import importlib.util
 import io
 import json
-import pathlib
 import sys
-import tempfile
-import unittest
 from unittest import mock
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "examples" / "common"), str(pathlib.Path(__file__).resolve().parent)]
-import run_files  # noqa: E402
-from reporting import contacts_part, flow_part, page, solver_part  # noqa: E402
+import run_files
+from programs import ROOT
+from pytest import fixture
+from reporting import contacts_part, flow_part, page, solver_part
 
 
 def script(name):
@@ -22,10 +18,12 @@ def script(name):
     return module
 
 
-class Pictures(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="granulaw-pictures-")))
-        self.addCleanup(page.plt.close, "all")
+class TestPictures:
+    @fixture(autouse=True)
+    def _folder(self, folder):
+        self.folder = folder
+        yield
+        page.plt.close("all")
 
     def check(self, figure, named=True, cropped=False):
         """`named`: panels have titles; `cropped`: the picture is cut to what it holds."""
@@ -35,7 +33,7 @@ class Pictures(unittest.TestCase):
         for axes in figure.get_axes():
             bar = hasattr(axes, "_colorbar")
             if named and not bar and axes.axison:
-                self.assertTrue(any(axes.get_title(loc=side) for side in ("left", "center")), "a panel without a name")
+                assert any(axes.get_title(loc=side) for side in ("left", "center")), "a panel without a name"
             texts += [axes.title, axes._left_title, axes.xaxis.label, axes.yaxis.label]
             for axis, place in ((axes.xaxis, 0), (axes.yaxis, 1)):
                 low, high = sorted(axis.get_view_interval())
@@ -43,12 +41,11 @@ class Pictures(unittest.TestCase):
                          if tick.label1.get_visible() and tick.label1.get_text() and low <= tick.get_loc() <= high]
                 boxes = sorted((t.get_window_extent(renderer).intervalx if place == 0 else t.get_window_extent(renderer).intervaly).tolist() for t in shown)
                 for (_, end), (begin, _) in zip(boxes, boxes[1:]):
-                    self.assertLess(end, begin + 0.5, [t.get_text() for t in shown])
+                    assert end < begin + 0.5, [t.get_text() for t in shown]
         for text in texts if not cropped else []:
             box = text.get_window_extent(renderer)
             if text.get_text().strip():
-                self.assertTrue(whole.x0 - 1 <= box.x0 and box.x1 <= whole.x1 + 1 and whole.y0 - 1 <= box.y0 and box.y1 <= whole.y1 + 1,
-                                f"leaves the picture: {text.get_text()}")
+                assert whole.x0 - 1 <= box.x0 and box.x1 <= whole.x1 + 1 and whole.y0 - 1 <= box.y0 and box.y1 <= whole.y1 + 1, f"leaves the picture: {text.get_text()}"
 
     def tidied(self, figure, named=True):
         page.tidy(figure)
@@ -57,7 +54,7 @@ class Pictures(unittest.TestCase):
     def test_report(self):
         run_files.everything(self.folder)
         decks, broken = flow_part.read_all(self.folder)
-        self.assertEqual(broken, [])
+        assert broken == []
         self.tidied(flow_part.picture(decks[0], [name for name in flow_part.observables(decks[0])]))
         self.tidied(solver_part.picture(run_files.cost()))
         found, _ = contacts_part.read(decks)
@@ -102,7 +99,3 @@ class Pictures(unittest.TestCase):
         told = {"directions": directions, "mirrors": [True] * 3, "name": "a_particle_with_a_rather_long_name",
                 "orientations": "30 orientations at 1, 2, 5 and 13 m/s, each with 8 cells across the contact"}
         self.check(self.drawn("plot_shape", "x.png", told=json.dumps(told)), cropped=True)
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

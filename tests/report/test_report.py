@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """tools/report: what the page says of files whose numbers are known, of missing files and of damaged ones."""
 import contextlib
 import html.parser
@@ -7,18 +6,13 @@ import importlib.util
 import io
 import json
 import math
-import pathlib
 import re
 import shutil
-import subprocess
-import sys
-import tempfile
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "examples" / "common"), str(pathlib.Path(__file__).resolve().parent)]
-import run_files  # noqa: E402
-from reporting import contacts_part, page, solver_part  # noqa: E402
+import run_files
+from programs import ROOT, run
+from pytest import approx, fixture, mark, raises
+from reporting import contacts_part, page, solver_part
 
 
 def module(path):
@@ -47,7 +41,7 @@ def without_drawing(folder):
 
 
 def report(folder, *words):
-    return subprocess.run([ROOT / "tools" / "report", "--from", folder, "-o", folder / "page", *words], capture_output=True, text=True, cwd=folder)
+    return run(ROOT / "tools" / "report", "--from", folder, "-o", folder / "page", *words, cwd=folder)
 
 
 class Loads(html.parser.HTMLParser):
@@ -81,10 +75,11 @@ def loads(text):
     return parser
 
 
-class Whole(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="granulaw-report-")))
+class TestWhole:
+    @fixture(autouse=True, scope="class")
+    def _page(self, request, tmp_path_factory):
+        cls = request.cls
+        cls.folder = tmp_path_factory.mktemp("report")
         run_files.everything(cls.folder)
         cls.done = report(cls.folder)
         cls.html = (cls.folder / "page" / "report.html").read_text()
@@ -93,54 +88,54 @@ class Whole(unittest.TestCase):
     def row(self, *cells):
         """The line of the Markdown that holds all of these; where it stands in two tables, it is the same in both."""
         found = {line for line in self.markdown.splitlines() if all(c in line for c in cells)}
-        self.assertEqual(len(found), 1, f"{cells}: {found}")
+        assert len(found) == 1, f"{cells}: {found}"
         return found.pop()
 
     def test_it_is_written_whole(self):
-        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+        assert (self.done.returncode, self.done.stderr) == (0, "")
         names = sorted(p.name for p in (self.folder / "page").iterdir())
         pictures = sorted(re.findall(r"!\[.*?\]\((.+?)\)", self.markdown))
-        self.assertEqual(names, sorted(pictures + ["report.html", "report.md"]))  # no temporary file stays
-        self.assertEqual(pictures, ["contacts-1.png", "flow-1-packing.png", "solver.png"])
-        self.assertNotIn("Missing", self.markdown)
+        assert names == sorted(pictures + ["report.html", "report.md"])  # no temporary file stays
+        assert pictures == ["contacts-1.png", "flow-1-packing.png", "solver.png"]
+        assert "Missing" not in self.markdown
 
     def test_nothing_is_loaded(self):
         parser = loads(self.html)
-        self.assertEqual(parser.found, [])
-        self.assertEqual(parser.figures, 3)
-        self.assertEqual(len(parser.ids), len(set(parser.ids)))  # figures do not take each other's shapes
+        assert parser.found == []
+        assert parser.figures == 3
+        assert len(parser.ids) == len(set(parser.ids))  # figures do not take each other's shapes
         for tag, bad in (("<img src='https://x/y.png'>", 2), ("<p style='background: url(http://x)'>", 1), ("<style>@import 'x';</style>", 1)):
-            self.assertEqual(len(loads(tag).found), bad)  # and the search would find it
+            assert len(loads(tag).found) == bad  # and the search would find it
 
     def test_solver(self):
         # within 1 %: of mapped double 8 cells (1.7 %) are too coarse, 16 (0.63 %) do; within 0.3 %: 24 cells; within 0.1 %: none
-        self.assertIn("| 0.210 s<br>16 cells, e +1.3 % | 0.740 s<br>24 cells, e +0.56 % | none |", self.markdown)
-        self.assertIn("F 0.05 %, e 0.1 %", self.markdown)  # the reference's own error
-        self.assertIn("changes the error of F by at most 0 %, of e by 0 %, and costs 0.62 to 0.62 of double", self.markdown)  # 0.46/0.74
-        self.assertIn("0.460 CPU s<br>mapped, single", self.row("Impact", "F within 0.3 %", "solver:"))
+        assert "| 0.210 s<br>16 cells, e +1.3 % | 0.740 s<br>24 cells, e +0.56 % | none |" in self.markdown
+        assert "F 0.05 %, e 0.1 %" in self.markdown  # the reference's own error
+        assert "changes the error of F by at most 0 %, of e by 0 %, and costs 0.62 to 0.62 of double" in self.markdown  # 0.46/0.74
+        assert "0.460 CPU s<br>mapped, single" in self.row("Impact", "F within 0.3 %", "solver:")
 
     def test_law(self):
-        self.assertIn("| 93.5 | 10.2 (9.22 to 12.3) |", self.row("| velocity axis kept | 93.5 |"))
-        self.assertIn("| 21 | 1.9e-02 |", self.row("| velocity axis dropped | 47.0 |"))
-        self.assertIn("solver's error (force 1.3 %", self.markdown)
+        assert "| 93.5 | 10.2 (9.22 to 12.3) |" in self.row("| velocity axis kept | 93.5 |")
+        assert "| 21 | 1.9e-02 |" in self.row("| velocity axis dropped | 47.0 |")
+        assert "solver's error (force 1.3 %" in self.markdown
 
     def test_flow(self):
         # solid fraction: 0.59 ± 0.01/sqrt(3) against 0.6 ± 0: -1.67 %, error 0.00577/0.6 = 0.96 %, t = 1.73 with 2 degrees of freedom: p = 0.23
-        self.assertIn("−1.67 ± 0.96 %<br>not significant", self.row("| hertz | 6 |"))
+        assert "−1.7 ± 1.0 %<br>not significant" in self.row("| hertz | 6 |")
         # stretched: +10 %, error 0.00577/0.6, t = 10.4: p = 0.009; wall-clock 2 of 20 s
-        self.assertIn("+10.00 ± 0.96 %<br>**significant**", self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |"))  # 60 microseconds
-        self.assertIn("11.00 ± 0.58", self.row("| hertz | 6 |"))  # wall-clock of 10, 11, 12 s
-        self.assertIn("**Stopped.** mpm, stretched by 30: pair_style gran model mpm: stretch less.", self.markdown)
-        self.assertIn("**Stopped.** mpm, stretched by 100: stretch far less.", self.markdown)
-        self.assertIn("LIGGGHTS-TEST 1.2", self.markdown)
+        assert "+10.0 ± 1.0 %<br>**significant**" in self.row("| mpm, stretched by 10 | 60 | 2 ± 0 | 0.1 ± 0 |")  # 60 microseconds
+        assert "11.0 ± 0.6" in self.row("| hertz | 6 |")  # wall-clock of 10, 11, 12 s
+        assert "**Stopped.** mpm, stretched by 30: pair_style gran model mpm: stretch less." in self.markdown
+        assert "**Stopped.** mpm, stretched by 100: stretch far less." in self.markdown
+        assert "LIGGGHTS-TEST 1.2" in self.markdown
 
     def test_contacts(self):
         # V_y = 0.03 m/s * ((0.8 pi/100)^2/6.4e-4)^1.25; the largest speed is 1 m/s
         unit = 0.03 * ((0.008 * math.pi)**2 / run_files.ONSET)**1.25
         line = self.row("| packing | wax-wax, particles | 300 |")
-        self.assertIn(f"| {page.number(1.0 / unit)} |", line)
-        self.assertIn("| 60 % |", line)  # 60 of 100 contacts at 0.01 m/s are below the onset at 0.03 m/s
-        self.assertIn("| 9 | 0 |", line)  # three seeds of three contact-steps beyond the table
+        assert f"| {page.number(1.0 / unit)} |" in line
+        assert "| 60 % |" in line  # 60 of 100 contacts at 0.01 m/s are below the onset at 0.03 m/s
+        assert "| 9 | 0 |" in line  # three seeds of three contact-steps beyond the table
 
     def test_contacts_by_speed_and_overlap(self):
         deck = contacts_part.Contacts.__new__(contacts_part.Contacts)
@@ -149,104 +144,95 @@ class Whole(unittest.TestCase):
         deck.add_map(entry, "x")
         deck.add_map(entry, "x")
         speed, overlap, counts = deck.plane()
-        self.assertEqual(counts.sum(), 200)
-        self.assertEqual((counts[0, 0], counts[-1, -1]), (120, 80))  # slow and flat, fast and deep; nothing between
-        self.assertAlmostEqual(speed[-2] * 0.5, 1.0, delta=1e-5)  # lower edge of the bin of 1 m/s, in V_y
-        self.assertTrue(overlap[-2] <= 0.02 < overlap[-1])
+        assert counts.sum() == 200
+        assert (counts[0, 0], counts[-1, -1]) == (120, 80)  # slow and flat, fast and deep; nothing between
+        assert speed[-2] * 0.5 == approx(1.0, abs=1e-5)  # lower edge of the bin of 1 m/s, in V_y
+        assert overlap[-2] <= 0.02 < overlap[-1]
         del entry["contact_map"]
         deck.add_map(entry, "x")
-        self.assertIsNone(deck.plane())  # one run of several did not count them
+        assert deck.plane() is None  # one run of several did not count them
 
-    def test_a_cut_map(self):
+    @mark.parametrize("damaged", ({"speed_lower_edge": [1.0], "overlap_lower_edge": [1.0], "count": [[1, 2]]}, {"count": [[1]]}, [1],
+                                  {"speed_lower_edge": ["a"], "overlap_lower_edge": [1.0], "count": [[1]]}))
+    def test_a_cut_map(self, damaged):
         deck = contacts_part.Contacts.__new__(contacts_part.Contacts)
         deck.joint, deck.mapped = {}, True
-        for damaged in ({"speed_lower_edge": [1.0], "overlap_lower_edge": [1.0], "count": [[1, 2]]}, {"count": [[1]]}, [1],
-                        {"speed_lower_edge": ["a"], "overlap_lower_edge": [1.0], "count": [[1]]}):
-            with self.assertRaises(contacts_part.files.Unreadable):
-                deck.add_map({"contact_map": damaged}, "x")
+        with raises(contacts_part.files.Unreadable):
+            deck.add_map({"contact_map": damaged}, "x")
 
     def test_hard_cases(self):
-        self.assertIn("2 cases: 1 stable with their energy balance closed, 1 refused with a sentence, 0 failed.", self.markdown)
+        assert "2 cases: 1 stable with their energy balance closed, 1 refused with a sentence, 0 failed." in self.markdown
 
 
-class Formulas(unittest.TestCase):
-    def test_map_of_a_hertz_law(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "law.h5"
-            run_files.hertz_law(path)
-            law = contacts_part.Law(path, ("wax",))
+class TestFormulas:
+    def test_map_of_a_hertz_law(self, folder):
+        run_files.hertz_law(folder / "law.h5")
+        law = contacts_part.Law(folder / "law.h5", ("wax",))
         speed, overlap = law.impacts()
         # W ~ x^2.5, so V/V_onset = (x/x_onset)^1.25; trapezoids over 20000 steps in x^(1/4): 1e-4 from a tenth of the onset up
         for v, x in list(zip(speed, overlap))[::500]:
             if x > 0.1 * run_files.ONSET:
-                self.assertAlmostEqual(v * law.yield_per_onset / (x / run_files.ONSET)**1.25, 1, delta=1e-4)
+                assert v * law.yield_per_onset / (x / run_files.ONSET)**1.25 == approx(1, abs=1e-4)
         # docs/theory/damage-number.md: rho V_y^2/Y = 25.5 (Y/E*)^4, so I = 25.5e-8 is V_y; 25.5 has three digits
-        self.assertAlmostEqual(law.fastest(25.5e-8), 1, delta=2e-3)
+        assert law.fastest(25.5e-8) == approx(1, abs=2e-3)
 
     def test_cheapest_run_stays_within(self):
         rows = [{"cpu_s": s, "L2_force": e} for s, e in ((1, 0.02), (2, 0.001), (3, 0.005), (4, 0.002))]
-        self.assertEqual(solver_part.cheapest(rows, 0.003)["cpu_s"], 4)  # 2 s was luck
-        self.assertEqual(solver_part.cheapest(rows, 0.01)["cpu_s"], 2)
-        self.assertIsNone(solver_part.cheapest(rows, 0.001))
+        assert solver_part.cheapest(rows, 0.003)["cpu_s"] == 4  # 2 s was luck
+        assert solver_part.cheapest(rows, 0.01)["cpu_s"] == 2
+        assert solver_part.cheapest(rows, 0.001) is None
 
     def test_numbers(self):
-        self.assertEqual(page.with_error(-0.0832, 0.0215, plus=True), "−0.083 ± 0.021")
-        self.assertEqual(page.with_error(12.34, 3.4), "12.3 ± 3.4")
-        self.assertEqual(page.with_error(7.009e-6, 3.2e-6), "(7.0 ± 3.2)e−6")
-        self.assertEqual(page.with_error(0.1, 1e-17), "0.1 ± 0")  # three equal numbers have a rounded spread
-        self.assertEqual(page.with_error(-1e-5, 2e-3, plus=True), "0.0000 ± 0.0020")
-        self.assertEqual(page.number(0.04567), "0.0457")
-        self.assertEqual(page.number(None), "n/a")
+        assert page.with_error(-0.0832, 0.0215, plus=True) == "−0.08 ± 0.02"
+        assert page.with_error(12.34, 3.4) == "12 ± 3"
+        assert page.with_error(7.009e-6, 3.2e-6) == "(7 ± 3)e−6"
+        assert page.with_error(0.1, 1e-17) == "0.1 ± 0"  # three equal numbers have a rounded spread
+        assert page.with_error(-1e-5, 2e-3, plus=True) == "0.000 ± 0.002"
+        assert page.number(0.04567) == "0.0457"
+        assert page.number(None) == "n/a"
 
 
-class Making(unittest.TestCase):
-    def test_what_fails_is_named_and_a_stopped_stretch_is_not(self):
+class TestMaking:
+    def test_what_fails_is_named_and_a_stopped_stretch_is_not(self, folder):
         recipes = module(ROOT / "tools" / "reporting" / "recipes.py")
-        with tempfile.TemporaryDirectory() as name:
-            script, lines = pathlib.Path(name, "run.py"), []
-            script.write_text("import sys\nsys.exit(\"'stretch 30' takes the overlap to 0.6 R*: stretch less\")\n")
-            recipes.PARTS = {"law": lambda out, quick: ["tools/no-such-program x", "true", f"/usr/bin/python3 {script}", f"/usr/bin/python3 {script} --stretch 30"]}
-            self.assertEqual(recipes.make(name, False, lines.append), ["tools/no-such-program x", f"/usr/bin/python3 {script}"])
+        script, lines = folder / "run.py", []
+        script.write_text("import sys\nsys.exit(\"'stretch 30' takes the overlap to 0.6 R*: stretch less\")\n")
+        recipes.PARTS = {"law": lambda out, quick: ["tools/no-such-program x", "true", f"/usr/bin/python3 {script}", f"/usr/bin/python3 {script} --stretch 30"]}
+        assert recipes.make(str(folder), False, lines.append) == ["tools/no-such-program x", f"/usr/bin/python3 {script}"]
         said = "\n".join(lines)
-        self.assertIn("No such file", said)
-        self.assertIn("stopped: 'stretch 30' takes the overlap to 0.6 R*: stretch less", said)
+        assert "No such file" in said
+        assert "stopped: 'stretch 30' takes the overlap to 0.6 R*: stretch less" in said
 
 
     def test_decks_that_were_named(self):
         recipes = module(ROOT / "tools" / "reporting" / "recipes.py")
         lines = recipes.flow("out", False, 3, ["drop", "heap"])
-        self.assertEqual({line.split()[1] for line in lines[1:]}, {"examples/drop/run.py", "examples/heap/run.py"})
-        self.assertTrue(all(line.endswith("--seeds 3") for line in lines[1:]), lines)
+        assert {line.split()[1] for line in lines[1:]} == {"examples/drop/run.py", "examples/heap/run.py"}
+        assert all(line.endswith("--seeds 3") for line in lines[1:]), lines
 
 
-class Missing(unittest.TestCase):
-    def test_each_part_names_its_commands(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            self.assertEqual(without_drawing(folder), (0, ""))
-            text = (folder / "page" / "report.md").read_text()
-            for command in ("granulaw_cost_study", "law_size_benchmark", "examples/packing/run.py"):
-                self.assertIn(command, text)
-            self.assertEqual(text.count("**Missing.**"), 4)  # solver, law, flow, contacts; the hard cases come with the tree
-            self.assertEqual(text.count("figure "), 0)  # no empty plot
-            self.assertNotIn("nan", text)
+class TestMissing:
+    def test_each_part_names_its_commands(self, folder):
+        assert without_drawing(folder) == (0, "")
+        text = (folder / "page" / "report.md").read_text()
+        for command in ("granulaw_cost_study", "law_size_benchmark", "examples/packing/run.py"):
+            assert command in text
+        assert text.count("**Missing.**") == 4  # solver, law, flow, contacts; the hard cases come with the tree
+        assert text.count("figure ") == 0  # no empty plot
+        assert "nan" not in text
 
-    def test_small_versions_are_not_mixed_with_the_rest(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            run_files.everything(folder / "quick")
-            self.assertEqual((without_drawing(folder), without_drawing(folder / "quick")), ((0, ""), (0, "")))
-            self.assertIn("**Missing.** No `cost.json`", (folder / "page" / "report.md").read_text())
-            self.assertNotIn("Missing", (folder / "quick" / "page" / "report.md").read_text())
+    def test_small_versions_are_not_mixed_with_the_rest(self, folder):
+        run_files.everything(folder / "quick")
+        assert (without_drawing(folder), without_drawing(folder / "quick")) == ((0, ""), (0, ""))
+        assert "**Missing.** No `cost.json`" in (folder / "page" / "report.md").read_text()
+        assert "Missing" not in (folder / "quick" / "page" / "report.md").read_text()
 
-    def test_a_folder_that_is_not_there(self):
-        with tempfile.TemporaryDirectory() as name:
-            done = subprocess.run([ROOT / "tools" / "report", "--from", pathlib.Path(name) / "no"], capture_output=True, text=True)
-            self.assertEqual(done.returncode, 1)
-            self.assertRegex(done.stderr, r"^tools/report: .*/no is no folder; .*\n$")
+    def test_a_folder_that_is_not_there(self, folder):
+        done = run(ROOT / "tools" / "report", "--from", folder / "no", code=1)
+        assert re.search(r"^tools/report: .*/no is no folder; .*\n$", done.stderr)
 
 
-class OwnDecks(unittest.TestCase):
+class TestOwnDecks:
     """Files of `stats FILE` in folders that no example made."""
 
     def write(self, folder, name="results.json", **more):
@@ -265,81 +251,76 @@ class OwnDecks(unittest.TestCase):
         status, told = without_drawing(folder)
         return status, told, (folder / "page" / "report.md").read_text()
 
-    def test_contacts_energies_and_speeds(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            self.write(folder / "mill", series=self.series())
-            run_files.hertz_law(folder / "mill" / "mine.h5")
-            status, told, text = self.page(folder)
-            self.assertEqual((status, told), (0, ""))
-            self.assertIn("| mill/results.json | wax-wax, particles | 100 |", text)
-            for figure in ("figure contacts-1", "figure run-1"):
-                self.assertIn(figure, text)
-            self.assertEqual(text.count("**Missing.**"), 2)  # solver, law
-            run, = contacts_part.read_own(folder, [])[0]
-            figure = contacts_part.picture_of_run(run)
-            energies, fastest, speeds = figure.axes
-            self.assertEqual(energies.get_ylabel(), "energy, µJ")
-            for line in energies.lines:
-                self.assertEqual(list(line.get_ydata()), [100.0 * k for k in range(5)])
-            self.assertEqual({line.get_label() for line in energies.lines}, {"kinetic", "rotation", "taken by normal contacts", "taken by waves"})
-            self.assertAlmostEqual(speeds.lines[0].get_xdata()[0] / 0.03, 1, delta=1e-12)  # the onset, as the file has it
-            page.plt.close(figure)
+    def test_contacts_energies_and_speeds(self, folder):
+        self.write(folder / "mill", series=self.series())
+        run_files.hertz_law(folder / "mill" / "mine.h5")
+        status, told, text = self.page(folder)
+        assert (status, told) == (0, "")
+        assert "| mill/results.json | wax-wax, particles | 100 |" in text
+        for figure in ("figure contacts-1", "figure run-1"):
+            assert figure in text
+        assert text.count("**Missing.**") == 2  # solver, law
+        run, = contacts_part.read_own(folder, [])[0]
+        figure = contacts_part.picture_of_run(run)
+        energies, fastest, speeds = figure.axes
+        assert energies.get_ylabel() == "energy, µJ"
+        for line in energies.lines:
+            assert list(line.get_ydata()) == [100.0 * k for k in range(5)]
+        assert {line.get_label() for line in energies.lines} == {"kinetic", "rotation", "taken by normal contacts", "taken by waves"}
+        assert speeds.lines[0].get_xdata()[0] / 0.03 == approx(1, abs=1e-12)  # the onset, as the file has it
+        page.plt.close(figure)
 
-    def test_a_body_that_does_not_yield(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            self.write(folder)
-            text = (folder / "results.json").read_text()
-            (folder / "results.json").write_text(text.replace('"onset_speed_m_per_s": 0.03', '"onset_speed_m_per_s": null'))
-            status, told, text = self.page(folder)
-            self.assertEqual((status, told), (0, ""))
-            self.assertRegex(text, r"\| 100 \| 0.01\d+ m/s \|")
-            self.assertIn("The file has no energies over time", text)
+    def test_a_body_that_does_not_yield(self, folder):
+        self.write(folder)
+        text = (folder / "results.json").read_text()
+        (folder / "results.json").write_text(text.replace('"onset_speed_m_per_s": 0.03', '"onset_speed_m_per_s": null'))
+        status, told, text = self.page(folder)
+        assert (status, told) == (0, "")
+        assert re.search(r"\| 100 \| 0.01\d+ m/s \|", text)
+        assert "The file has no energies over time" in text
 
-    def test_what_cannot_be_used_is_one_sentence(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            self.write(folder, series={"time_s": [1, 2], "kinetic_J": [1]})
-            run_files.hertz_law(folder / "mine.h5")
-            status, told, text = self.page(folder)
-            self.assertEqual(status, 1)
-            self.assertRegex(told, r"^tools/report: \S+/results\.json: 'series' is no table with columns of one length\n$")
-            (folder / "mine.h5").unlink()
-            self.write(folder)
-            status, told, text = self.page(folder)
-            self.assertRegex(told, r"^tools/report: \S+/results\.json: its law 'mpm mine\.h5' is not there any more\n$")
+    def test_what_cannot_be_used_is_one_sentence(self, folder):
+        self.write(folder, series={"time_s": [1, 2], "kinetic_J": [1]})
+        run_files.hertz_law(folder / "mine.h5")
+        status, told, text = self.page(folder)
+        assert status == 1
+        assert re.search(r"^tools/report: \S+/results\.json: 'series' is no table with columns of one length\n$", told)
+        (folder / "mine.h5").unlink()
+        self.write(folder)
+        status, told, text = self.page(folder)
+        assert re.search(r"^tools/report: \S+/results\.json: its law 'mpm mine\.h5' is not there any more\n$", told)
 
 
-class Installed(unittest.TestCase):
-    def test_it_needs_of_the_sources_what_the_package_holds(self):
+class TestInstalled:
+    def test_it_needs_of_the_sources_what_the_package_holds(self, folder):
         """In a folder as /usr/share/granulaw: tools/report, tools/reporting, examples/common."""
-        with tempfile.TemporaryDirectory() as name:
-            share, folder = pathlib.Path(name, "share"), pathlib.Path(name, "runs")
-            for part in ("tools/reporting", "examples/common"):
-                shutil.copytree(ROOT / part, share / part, ignore=shutil.ignore_patterns("__pycache__"))
-            shutil.copy(ROOT / "tools/report", share / "tools")
-            OwnDecks().write(folder)
-            run_files.hertz_law(folder / "mine.h5")
-            done = subprocess.run([share / "tools/report", "--from", folder, "-o", folder / "page"], capture_output=True, text=True, cwd=name)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertIn("contacts: results.json", done.stdout)
-            self.assertTrue((folder / "page/run-1.png").exists())
+        share, folder = (folder / "share"), (folder / "runs")
+        for part in ("tools/reporting", "examples/common"):
+            shutil.copytree(ROOT / part, share / part, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(ROOT / "tools/report", share / "tools")
+        TestOwnDecks().write(folder)
+        run_files.hertz_law(folder / "mine.h5")
+        done = run(share / "tools/report", "--from", folder, "-o", folder / "page", cwd=share.parent)
+        assert done.stderr == ""
+        assert "contacts: results.json" in done.stdout
+        assert (folder / "page/run-1.png").exists()
 
 
-class Damaged(unittest.TestCase):
+class TestDamaged:
+    @fixture(autouse=True)
+    def _folder(self, folder):
+        self.folder = folder
+
     def check(self, damage, sentence, still="cheapest run"):
         """One sentence on stderr and on the page, exit 1, and the other parts as ever."""
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            damage(folder, run_files.everything(folder))
-            status, told = without_drawing(folder)
-            self.assertEqual((status, len(told.splitlines())), (1, 1), told)
-            self.assertRegex(told, "^tools/report: .*" + sentence)
-            text = (folder / "page" / "report.md").read_text()
-            self.assertRegex(text, sentence)
-            self.assertIn(still, text)
-            self.assertEqual(loads((folder / "page" / "report.html").read_text()).found, [])
+        damage(self.folder, run_files.everything(self.folder))
+        status, told = without_drawing(self.folder)
+        assert (status, len(told.splitlines())) == (1, 1), told
+        assert re.search("^tools/report: .*" + sentence, told)
+        text = (self.folder / "page" / "report.md").read_text()
+        assert re.search(sentence, text)
+        assert still in text
+        assert loads((self.folder / "page" / "report.html").read_text()).found == []
 
     def cut(self, path):
         content = path.read_bytes()
@@ -381,25 +362,18 @@ class Damaged(unittest.TestCase):
         # the tree's own table takes the place of one that cannot be read
         self.check(lambda root, deck: (root / "hard" / "hard-cases.json").write_text('{"mpm": "m", "runs": {}}'), r"hard-cases\.json: has no 'rows'")
 
-    def test_hostile_names(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            deck = run_files.everything(folder)
-            with open(deck / "packing.csv", "a") as file:
-                for model in ("hertz", "mpm"):
-                    file.writelines(f'{model},{k},"<script src=""http://x""></script>|a",{k}\n' for k in (1, 2, 3))
-            self.assertEqual(without_drawing(folder), (0, ""))
-            self.assertEqual(loads((folder / "page" / "report.html").read_text()).found, [])
-            self.assertIn("\\|a", (folder / "page" / "report.md").read_text())
+    def test_hostile_names(self, folder):
+        deck = run_files.everything(folder)
+        with open(deck / "packing.csv", "a") as file:
+            for model in ("hertz", "mpm"):
+                file.writelines(f'{model},{k},"<script src=""http://x""></script>|a",{k}\n' for k in (1, 2, 3))
+        assert without_drawing(folder) == (0, "")
+        assert loads((folder / "page" / "report.html").read_text()).found == []
+        assert "\\|a" in (folder / "page" / "report.md").read_text()
 
 
-class Help(unittest.TestCase):
+class TestHelp:
     def test_it_teaches(self):
-        done = subprocess.run([ROOT / "tools" / "report", "--help"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0)
+        done = run(ROOT / "tools" / "report", "--help")
         for word in ("--make quick", "--from DIR", "cost.json", "law_size.json", "stats.json", "Exit:"):
-            self.assertIn(word, done.stdout)
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)
+            assert word in done.stdout

@@ -15,6 +15,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib import ticker  # noqa: E402
+from spread import decimals  # noqa: E402
 
 plt.rcParams.update({
     "font.size": 9, "axes.titlesize": 9.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.spines.top": False,
@@ -201,7 +202,7 @@ def legend_below(figure, handles, labels, columns):
 
 
 def with_error(value, error, plus=False):
-    """`value ± error` with two digits of the error and the value to the same decimals; `plus`: the sign of a change.
+    """`value ± error` to the decimals of examples/common/spread.py; `plus`: the sign of a change.
 
     `error` None: no spread is known, and the value stands alone."""
     sign = "+" if plus and value > 0 else ""
@@ -214,10 +215,10 @@ def with_error(value, error, plus=False):
     top = math.floor(math.log10(max(abs(value), error)))
     if not -4 <= top < 5:
         return f"({with_error(value / 10**top, error / 10**top, plus)})e{top}".replace("-", "−")
-    decimals = max(0, 1 - math.floor(math.log10(error)))
-    if round(value, decimals) == 0:
+    digits = decimals(error)
+    if round(value, digits) == 0:
         value, sign = 0.0, ""  # not -0
-    return sign + f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
+    return sign + f"{value:.{digits}f} ± {error:.{digits}f}".replace("-", "−")
 
 
 def number(value, digits=3):
