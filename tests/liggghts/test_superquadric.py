@@ -131,7 +131,7 @@ class TestShapes(Deck):
             path = self.path(Impact((a, b, c), partner, "mpm", words), 1.0, duration / 400, 600)
             assert path[-1][1] == approx(e, abs=2e-4)  # the contact point lies in the middle of the first overlap
         paths = [self.path(Impact((a, a, a), "wall", "mpm", self.words("mpm") + f" bodyCompliance {word}"), 1.0, 2e-7, 400) for word in ("on", "off")]
-        assert harness.worst(self.difference(*paths)) < 1e-4
+        assert worst(self.difference(*paths)) < 1e-4
 
     @mark.parametrize("partner", ("wall", "mesh", "pair"))
     @mark.parametrize("friction", (0.0, 0.3))
