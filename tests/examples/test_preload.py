@@ -4,8 +4,8 @@ One sphere of wax on a plane, pressed by a force that grows slowly to P, and rel
 F the unstretched law; it stays elastic while s P < F_y, so the force at yield falls to F_y/s."""
 import math
 
-from programs import LAUNCHER, ROOT, run, table
-from pytest import approx, fixture, mark
+from programs import LAUNCHER, ROOT, InFolder, run, table
+from pytest import approx, mark
 
 R, RHO, E, NU, Y = 3e-3, 920.0, 91e6, 0.3, 1e6  # examples/hopper/materials.toml
 E_STAR = E / (1 - NU**2)
@@ -67,10 +67,9 @@ def thornton(force):
     return hertz(force) if force <= F_Y else DELTA_Y + (force - F_Y) / (math.pi * 1.6 * Y * R)
 
 
-class TestPreload:
-    @fixture(autouse=True)
-    def _folder(self, folder):
-        self.folder, self.law = folder, table((ROOT / "examples/hopper/materials.toml").read_text())
+class TestPreload(InFolder):
+    def prepare(self):
+        self.law = table((ROOT / "examples/hopper/materials.toml").read_text())
 
     def press(self, model, load, s):
         """(deflection under `load`, under REST of it afterwards), m."""

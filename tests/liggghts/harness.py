@@ -4,7 +4,7 @@ import os
 import re
 
 import pytest
-from programs import LAUNCHER, MPIRUN, answer, run
+from programs import LAUNCHER, MPIRUN, InFolder, answer, run
 
 PLUGIN = os.environ["GRANULAW_PLUGIN"]
 FIXTURE = os.environ["GRANULAW_FIXTURE"]
@@ -47,7 +47,7 @@ def worst(values):
     return math.nan if any(v != v for v in values) else max(values)
 
 
-class Deck:
+class Deck(InFolder):
     """A test with a folder and a law of its own."""
 
     @pytest.fixture(autouse=True)
@@ -55,9 +55,6 @@ class Deck:
         self.folder, self.law = tmp_path, tmp_path / "powder.h5"
         self.fixture("write", self.law)
         self.prepare()
-
-    def prepare(self):
-        """Further files."""
 
     def fixture(self, *words):
         return [float(w) for w in run(FIXTURE, *words).stdout.split()]

@@ -3,8 +3,8 @@ import json
 import pathlib
 import re
 
-from pytest import approx, fixture
-from programs import LAUNCHER, material, mpm, run
+from pytest import approx
+from programs import LAUNCHER, InFolder, material, mpm, run
 from harness import plane_stl
 
 MATERIALS = material("bead", 2500, "5e9", 0.3, "25e6")
@@ -45,10 +45,9 @@ def soft(types=1):
 DECK = HEAD.format(types=1) + soft() + PAIR + WALL.format(type=1)
 
 
-class Convert:
-    @fixture(autouse=True)
-    def _folder(self, tmp_path):
-        self.folder, self.out = tmp_path, tmp_path / "out"
+class Convert(InFolder):
+    def prepare(self):
+        self.out = self.folder / "out"
         (self.folder / "post").mkdir()
         self.write("materials.toml", MATERIALS)
 

@@ -4,17 +4,15 @@ import os
 import pathlib
 import re
 
-from programs import ROOT, run
-from pytest import fixture
+from programs import ROOT, InFolder, run
 
 HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
 NOT_COPIED = {"register_hertz.cpp"}  # a yardstick for benchmarks
 
 
-class TestCopyToSrc:
-    @fixture(autouse=True)
-    def _folder(self, tmp_path):
-        self.src = tmp_path / "src"
+class TestCopyToSrc(InFolder):
+    def prepare(self):
+        self.src = self.folder / "src"
         self.src.mkdir()
         for header in HEADERS.glob("*.h"):
             (self.src / header.name).symlink_to(header.resolve())

@@ -3,8 +3,8 @@ that the plug-in's sources compile with the flags, against the headers at hand. 
 import os
 import pathlib
 
-from pytest import fixture, mark
-from programs import ROOT, run
+from pytest import mark
+from programs import ROOT, InFolder, run
 
 HEADERS = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_HEADERS"])
 STYLES = pathlib.Path(os.environ["GRANULAW_LIGGGHTS_STYLES"])  # the generated style_*_model.h and register_*.cpp
@@ -20,11 +20,7 @@ message(STATUS "flags=${{LIGGGHTS_FLAGS}}")
 """
 
 
-class TestConfigure:
-    @fixture(autouse=True)
-    def _folder(self, tmp_path):
-        self.folder = tmp_path
-
+class TestConfigure(InFolder):
     def configure(self, symbols, version="3.8.0"):
         """Exit status and text of liggghts_find() for a library that defines `symbols`."""
         (self.folder / "contact_models.h").write_text("")

@@ -5,18 +5,14 @@ import re
 import shutil
 import sys
 
-from pytest import approx, fixture
+from pytest import approx
 from harness import PLUGIN
-from programs import LAUNCHER, MPM, run
+from programs import LAUNCHER, MPM, InFolder, run
 
 WORLD = pathlib.Path(__file__).resolve().parent / "world"
 
 
-class World:
-    @fixture(autouse=True)
-    def _folder(self, tmp_path):
-        self.folder = tmp_path
-
+class World(InFolder):
     def take(self, name):
         """A copy of the deck's folder."""
         self.folder /= name

@@ -6,8 +6,8 @@ import pathlib
 import re
 import shutil
 
-from programs import MPM, ROOT, run
-from pytest import fixture, mark, skip
+from programs import MPM, ROOT, InFolder, run
+from pytest import mark, skip
 
 FOLDER = pathlib.Path(os.environ["GRANULAW_PACKAGES"])
 
@@ -99,11 +99,10 @@ class TestFields:
         assert f"granulaw (= {VERSION})" in self.field("Depends", "granulaw-dev")
 
 
-class TestUnpacked:
+class TestUnpacked(InFolder):
     """In a folder of its own: whatever the programs read of ours must lie in the package."""
-    @fixture(autouse=True)
-    def _unpack(self, folder):
-        self.work = folder
+    def prepare(self):
+        self.work = self.folder
         said("dpkg-deb", "--extract", package("granulaw"), self.work / "root")
         self.bin = self.work / "root/usr/bin"
 

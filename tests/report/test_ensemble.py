@@ -1,8 +1,8 @@
 """tools/ensemble and what tools/report says of its runs: folders whose numbers are known, a command that is known."""
 import math
 
-from programs import ROOT, run
-from pytest import approx, fixture, mark, raises
+from programs import ROOT, InFolder, run
+from pytest import approx, mark, raises
 from reporting import ensemble_part
 
 
@@ -39,10 +39,9 @@ class TestNumbers:
             ensemble_part.numbers_of(path)
 
 
-class TestFolders:
-    @fixture(autouse=True)
-    def _root(self, folder):
-        self.root = folder / "sweep"
+class TestFolders(InFolder):
+    def prepare(self):
+        self.root = self.folder / "sweep"
 
     def test_what_follows_the_material_is_named(self):
         noise = [3, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8]
@@ -88,12 +87,11 @@ class TestFolders:
         assert "neither observables.csv" in str(broken[0])
 
 
-class TestDriver:
+class TestDriver(InFolder):
     """A program in place of mpm writes the yield stress for a law; the command measures it."""
 
-    @fixture(autouse=True)
-    def _root(self, folder):
-        self.root = folder
+    def prepare(self):
+        self.root = self.folder
         fake = self.root / "mpm"
         fake.write_text('#!/bin/sh\necho ran >> "$(dirname "$0")/count"\ngrep yield_stress "$2" | cut -d" " -f3 > "$4"\n')
         fake.chmod(0o755)

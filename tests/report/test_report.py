@@ -10,7 +10,7 @@ import re
 import shutil
 
 import run_files
-from programs import ROOT, run
+from programs import ROOT, InFolder, run
 from pytest import approx, fixture, mark, raises
 from reporting import contacts_part, page, solver_part
 
@@ -306,11 +306,7 @@ class TestInstalled:
         assert (folder / "page/run-1.png").exists()
 
 
-class TestDamaged:
-    @fixture(autouse=True)
-    def _folder(self, folder):
-        self.folder = folder
-
+class TestDamaged(InFolder):
     def check(self, damage, sentence, still="cheapest run"):
         """One sentence on stderr and on the page, exit 1, and the other parts as ever."""
         damage(self.folder, run_files.everything(self.folder))

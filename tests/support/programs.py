@@ -6,10 +6,24 @@ import pathlib
 import subprocess
 import tempfile
 
+import pytest
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MPM = os.environ.get("GRANULAW_MPM", "mpm")
 LAUNCHER = os.environ.get("GRANULAW_LAUNCHER", "liggghts-mpm")
 MPIRUN = os.environ.get("GRANULAW_MPIRUN", "mpirun")
+
+
+class InFolder:
+    """A test with a folder of its own."""
+
+    @pytest.fixture(autouse=True)
+    def _own_folder(self, tmp_path):
+        self.folder = tmp_path
+        self.prepare()
+
+    def prepare(self):
+        """Further files."""
 
 
 def run(*words, code=0, timeout=900, env=None, **how):
