@@ -404,21 +404,18 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
 }
 
 /// Damage number up to which impacts of two bodies have shown that a composed law keeps its error. Of spheres
-/// v^2 = 0.003, v of the velocity axis. Of a deformable wall the waves that leave while the force rises are
-/// not modelled, and the wall's own damage number, by its fraction of the approach, measures them: 0.003,
-/// too; a stiff wall's stays small at any speed.
+/// v^2 = 0.003, v of the velocity axis. The inertia of the partner is not modelled, nor the waves that leave into a
+/// wall while the force rises: its own damage number, by its fraction of the approach, measures both: 0.003, too. A
+/// stiff partner's stays small at any speed.
 double measured_damage_number(const LawMaterial& yielding, const LawMaterial& partner, double radius_ratio,
                               double speed_ratio)
 {
   constexpr double measured = 0.003;
-  const bool partner_is_wall = std::isinf(radius_ratio), yielding_is_wall = radius_ratio == 0;
-  if (!partner_is_wall && !yielding_is_wall) return measured / (speed_ratio * speed_ratio);
-  const double yielding_share =
-      1 / PairMapping::deformable_partner(yielding.e_star(), partner.e_star()).sqrt_lambda;
-  const double of_wall = partner_is_wall ? (1 / yielding_share - 1) * (1 / yielding_share - 1) *
-                                               partner.density / yielding.density
-                                         : 1.0;
-  return measured / of_wall;
+  const double part = PairMapping::deformable_partner(yielding.e_star(), partner.e_star()).sqrt_lambda - 1;  // over the yielding body's
+  const double of_partner = part * part * partner.density / yielding.density;
+  if (std::isinf(radius_ratio)) return measured / of_partner;
+  const bool yielding_is_wall = radius_ratio == 0;
+  return measured / std::max(yielding_is_wall ? 1.0 : speed_ratio * speed_ratio, of_partner);
 }
 
 }  // namespace

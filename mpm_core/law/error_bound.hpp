@@ -36,6 +36,10 @@ struct ErrorBound
   std::string text() const;
 };
 
+/// Part of the error of an elastic sphere's law, by its swinging in an impact, over V/c*: V its part of the approach,
+/// c* = sqrt(E*/rho). The largest of 21 impacts (docs/evidence/atlas.md).
+inline constexpr ErrorBound elastic_swing{2.7, 0.35, 0};
+
 /// Bound of a law used for what it was made for: the law's error, and that of the solver's cells
 /// (solver_error_* of the certificate). The law's error is
 /// - from the atlas, that of its checks near this E*/Y (docs/evidence/atlas.md). These are fresh impacts, so it

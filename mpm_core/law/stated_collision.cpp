@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.hpp"
 #include "law/damage_number.hpp"
 
@@ -12,6 +15,19 @@ namespace {
 /// Past the table's last overlap the force goes on with its last stiffness: good enough for this fraction of
 /// it.
 constexpr double overlap_margin = 0.05;
+
+/// Largest V/c* of the spheres of an elastic pair, V each one's part of the approach.
+double swing_of(const Law& law, const ChosenPair& pair, double velocity)
+{
+  const auto& [a, b] = pair.names;
+  const auto soft = [&](const std::string& name) { return name == wall_name ? 0.0 : 1 / law.bodies.at(name).material.e_star(); };
+  const double both = soft(a) + soft(b);
+  const auto swing = [&](const std::string& name, double radius) {
+    if (name == wall_name || std::isinf(radius)) return 0.0;
+    return velocity * soft(name) / both * std::sqrt(law.bodies.at(name).material.density * soft(name));
+  };
+  return std::max(swing(a, pair.radius), swing(b, pair.radius2));
+}
 
 }  // namespace
 
@@ -29,6 +45,10 @@ StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity,
   result.damage_number = damage_number(pair.law, velocity);
   result.statement = statement_of(law, pair.law, a, b)
                          .at_distance(distance_in_size(law, pair.law, a, b, pair.radius, pair.radius2));
+  if (std::isinf(result.statement.damage_number_max)) {
+    const double swing = swing_of(law, pair, velocity);
+    result.statement.bound = result.statement.bound.with({elastic_swing.force * swing, elastic_swing.restitution * swing, 0});
+  }
   constexpr double rounding = 1e-9;
   result.beyond_bound = result.damage_number > result.statement.damage_number_max * (1 + rounding);
   result.needs_axis = result.beyond_bound && !pair.law.curve->axis();

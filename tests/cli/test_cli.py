@@ -534,6 +534,30 @@ def test_claims():
     expect("powder:wall", (0.053, 0.011), (lambda e: 0.0067 / e, 0.023), "told.h5")
 
 
+def test_inertia():
+    """Spheres that swing, against the solver: the law of an elastic one states what its impact lacks; that of a soft partner states no error
+    beyond a damage number of the partner of 0.003."""
+    def both(pair, bodies, speed, words):
+        law = answer("law", "law.h5", "--pair", pair, *words, "--velocity", speed, "--json")
+        hit = answer("impact", "m.toml", "--particle", *bodies, "--velocity", speed, "--resolution", 16, "--shifted-grids", 2, "--no-estimate", "--json")
+        return law, law["force_max_N"] / hit["force_max_N"] - 1, law["e"] - hit["e"]
+
+    soft, ball = (lambda nu: material("soft", 1500, 1e9 * (1 - nu**2), nu)), particle("ball", "soft", 4e-4)
+    for nu in (0.0, 0.45):
+        mpm("table", materials(soft(nu) + ball), "-o", "law.h5", "--depth", 0.2)
+        for part in (0.02, 0.05, 0.08):  # of c*
+            law, force, e = both("soft:wall", ["ball"], part * math.sqrt(1e9 / 1500), ["--radius", 4e-4])
+            assert force < law["error_force"] and e < law["error_restitution"], (nu, part, force, e, law)
+    assert force > 0.15  # measured 0.22
+    hard = material("hard", 1500, 9.1e9, 0.3, 1e8) + particle("stone", "hard", 1e-3)
+    mpm("table", materials(soft(0.3) + hard + ball), "-o", "law.h5", "--radius-ratio", 2.5, "--depth", 0.3)
+    for damage_number, stated in ((0.0025, True), (0.0035, False), (0.1, False)):  # of the soft body, which has 10/11 of the approach
+        law, force, e = both("soft:hard", ["ball", "--against", "stone"], 1.1 * math.sqrt(damage_number * 1e8 / 1500), ["--radius", 4e-4, "--radius2", 1e-3])
+        assert (law["error_force"] is not None) == stated, law
+        assert not stated or (abs(force) < law["error_force"] and abs(e) < law["error_restitution"]), (force, e, law)
+    assert force > 0.08 and e > 0.03  # measured 0.12 and 0.048
+
+
 def test_format():
     """The h5py lines of docs/reference/law-format.md run and give the library's force (mpm export); every name is documented."""
     text = (ROOT / "docs/reference/law-format.md").read_text()
