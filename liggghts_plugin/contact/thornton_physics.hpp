@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scales.hpp"
 #include "contact/thornton.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
 #include "liggghts_plugin/deck/options.hpp"

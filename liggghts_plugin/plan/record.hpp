@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/box.hpp"
-#include "contact/thornton.hpp"
+#include "base/scales.hpp"
 
 // A deck's scene as LIGGGHTS holds it in memory, in the deck's units. tools/deck reads it (deck/scene.hpp).
 namespace granulaw::plugin::plan {

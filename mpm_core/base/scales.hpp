@@ -25,13 +25,17 @@ inline double plane_strain_modulus(double youngs_modulus, double poisson_ratio)
   return youngs_modulus / (1.0 - poisson_ratio * poisson_ratio);
 }
 
-/// Customary yield velocity V_y = (pi/(2E*))^2 sqrt(2/(5 rho)) (1.6 Y)^2.5 of a sphere on a rigid wall, m/s
-/// (Thornton 1997 with p_y = 1.6 Y). A label: the true onset is onset_velocity().
+/// Customary yield pressure p_y over the yield stress (Thornton 1997). A sphere first yields at 1.6 Y in the middle of
+/// its contact; the mean pressure of the fully plastic contact is 2.8 Y.
+inline constexpr double customary_yield_pressure = 1.6;
+
+/// Customary yield velocity V_y = (pi/(2E*))^2 sqrt(2/(5 rho)) p_y^2.5 of a sphere on a rigid wall, m/s. A label: the
+/// true onset is onset_velocity().
 inline double yield_velocity(double e_star, double yield_stress, double density)
 {
   const double half_pi_over_e = M_PI / (2.0 * e_star);
   return half_pi_over_e * half_pi_over_e * std::sqrt(2.0 / (5.0 * density)) *
-         std::pow(1.6 * yield_stress, 2.5);
+         std::pow(customary_yield_pressure * yield_stress, 2.5);
 }
 
 /// C(nu): the Hertz peak pressure, in units of Y, at which J2 yield begins below the surface.
@@ -49,11 +53,11 @@ inline double onset_overlap(double e_star, double yield_stress, double poisson_r
   return q * q;
 }
 
-/// Impact velocity at the true onset of yield, m/s: V_y with C(nu) in place of 1.6.
+/// Impact velocity at the true onset of yield, m/s: V_y with C(nu) Y in place of p_y.
 inline double onset_velocity(double e_star, double yield_stress, double density, double poisson_ratio)
 {
   return yield_velocity(e_star, yield_stress, density) *
-         std::pow(onset_pressure_ratio(poisson_ratio) / 1.6, 2.5);
+         std::pow(onset_pressure_ratio(poisson_ratio) / customary_yield_pressure, 2.5);
 }
 
 }  // namespace granulaw

@@ -8,11 +8,6 @@
 
 namespace granulaw {
 
-/// Yield pressure p_y over the yield stress where a deck states none: the customary factor of Thornton 1997.
-/// A sphere first yields at 1.6 Y in the middle of its contact; the mean pressure of the fully plastic contact
-/// is 2.8 Y.
-inline constexpr double customary_yield_pressure = 1.6;
-
 /// Thornton's elastic-perfectly-plastic contact in closed form: the baseline.
 /// C. Thornton, "Coefficient of restitution for collinear collisions of elastic-perfectly plastic spheres",
 /// J. Appl. Mech. 64 (1997) 383. State: the largest overlap since first touch, as for Curve.

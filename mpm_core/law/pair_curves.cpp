@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/scales.hpp"
 #include "contact/thornton.hpp"
 #include "law/replay.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/thornton.hpp"
+#include "base/scales.hpp"
 #include "deck/geometry.hpp"
 
 namespace granulaw::deck {

@@ -18,6 +18,7 @@
 #include "atlas/atlas_numbers.hpp"
 #include "atlas/law_without_runs.hpp"
 #include "base/error.hpp"
+#include "base/scales.hpp"
 #include "contact/tabulated.hpp"
 #include "contact/thornton.hpp"
 #include "bed.hpp"
