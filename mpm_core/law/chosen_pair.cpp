@@ -19,12 +19,6 @@ PairNames names_of(const Law& law, const PairAsked& asked)
   return a == wall_name ? PairNames(b, a) : pairs.front();
 }
 
-/// kg, of a body whose radius (of curvature at the pole) is `radius`.
-double body_mass(const BodyLaw& body, double radius)
-{
-  return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
-}
-
 /// True of the radius of a thick deformable wall.
 bool is_thick_wall(double radius)
 {
@@ -61,14 +55,14 @@ ChosenPair choose_pair(const Law& law, const PairAsked& asked)
   if (a == yielding) check_size(pair, radius, "--radius");
   if (b == yielding) check_size(pair, radius2, "--radius2");
 
-  const double mass = body_mass(law.bodies.at(a), radius);
+  const double mass = law.bodies.at(a).mass(radius);
   if (b == wall_name || is_thick_wall(radius2)) return {names, radius, radius2, pair, radius, mass};
   return {names,
           radius,
           radius2,
           pair,
           effective_radius(radius, radius2),
-          effective_mass(mass, body_mass(law.bodies.at(b), radius2))};
+          effective_mass(mass, law.bodies.at(b).mass(radius2))};
 }
 
 }  // namespace granulaw

@@ -32,11 +32,8 @@ LawKind kind_of(const TwoBodyLaw* of_pair, const std::string& a, const std::stri
 double damage_number_of_rule(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
 {
   constexpr double measured = 0.002, radius = 1e-3;
-  const auto mass = [&](const std::string& name) {
-    const BodyLaw& body = law.bodies.at(name);
-    return body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
-  };
-  const double v = pair.axis_speed(radius / 2, effective_mass(mass(a), mass(b)), 1.0);
+  const double m_eff = effective_mass(law.bodies.at(a).mass(radius), law.bodies.at(b).mass(radius));
+  const double v = pair.axis_speed(radius / 2, m_eff, 1.0);
   return measured * damage_number(pair, 1.0) / (v * v);
 }
 

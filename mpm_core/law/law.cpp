@@ -85,10 +85,7 @@ void check_partners(const BodyLaw& a, const BodyLaw& b, const std::string& where
 double PairLaw::usual_mass(double r_eff) const
 {
   const bool rigid = mapping.sqrt_lambda == 1.0;
-  const double radius = rigid ? r_eff : 2 * r_eff;
-  const double mass =
-      yielding->mass_ratio * yielding->material.density * 4.0 / 3.0 * M_PI * radius * radius * radius;
-  return rigid ? mass : 0.5 * mass;
+  return rigid ? yielding->mass(r_eff) : 0.5 * yielding->mass(2 * r_eff);
 }
 
 void check_size(const PairLaw& pair, double radius, const std::string& where)

@@ -55,6 +55,8 @@ struct BodyLaw
   std::optional<ShapeCertificate> shape{};
 
   bool is_sphere() const { return body == sphere_name; }
+  /// kg, of a body whose radius (of curvature at the pole) is `radius`, m.
+  double mass(double radius) const { return mass_ratio * material.density * 4.0 / 3.0 * M_PI * radius * radius * radius; }
 };
 
 /// Name of the rigid partner in pair names: "steel:wall".

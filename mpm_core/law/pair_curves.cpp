@@ -210,8 +210,7 @@ ChosenPair on_rigid_wall(const std::string& name, const BodyLaw& body)
 {
   const PairLaw law{{&body.curve, PairMapping::rigid_partner(body.material.e_star())}, &body};
   const double radius = law.only_radius() > 0 ? law.only_radius() : 1;
-  const double mass = body.mass_ratio * 4.0 / 3.0 * M_PI * body.material.density * radius * radius * radius;
-  return {{name, wall_name}, radius, radius, law, radius, mass};
+  return {{name, wall_name}, radius, radius, law, radius, body.mass(radius)};
 }
 
 std::string title(const ChosenPair& pair)

@@ -124,6 +124,20 @@ TEST_F(PairStatements, ThePairRulesBoundHoldsForAllSizes)
   EXPECT_DOUBLE_EQ(s.bound.force, std::hypot(0.0072, 0.05));
 }
 
+/// Up to 0.002 of v^2, which is I of like bodies; a partner of r times the density has m* of 2 r/(1 + r) times theirs.
+TEST_F(PairStatements, ThePairRulesBoundEndsByTheSpeedOfTheVelocityAxis)
+{
+  law_.pair_laws.clear();
+  law_.bodies.at("powder").certificate.damage_number_max = 1;
+  BodyLaw& heavy = law_.bodies["heavy"] = law_.bodies.at("powder");
+  const auto largest = [&] {
+    return statement_of(law_, resolve_pair(law_, "powder", "powder", "here"), "powder", "heavy").damage_number_max;
+  };
+  EXPECT_NEAR(largest(), 0.002, 1e-15);
+  heavy.material.density *= 3;
+  EXPECT_NEAR(largest(), 0.002 / 1.5, 1e-15);
+}
+
 /// One definition: density and yield stress of the yielding body, its fraction of the approach.
 TEST_F(PairStatements, TheDamageNumberIsThatOfTheYieldingBodysShare)
 {
