@@ -21,37 +21,72 @@ double lever_of(TangentialKind kind, double radius, double overlap)
   return kind == TangentialKind::plastic ? radius - overlap : radius - 0.5 * overlap;
 }
 
+/// 1/(1/a + 1/b)
+double in_series(double a, double b)
+{
+  return std::isinf(b) ? a : a * b / (a + b);
+}
+
+/// One of the two spheres as it turns.
+struct Turning
+{
+  double radius, inertia, spin = 0;
+
+  static Turning sphere(double radius, double mass) { return {radius, 0.4 * mass * radius * radius}; }
+};
+
+/// In the plane of the velocities: x along the wall, z from the partner to the sphere. A sphere that rolls along x
+/// spins about y. The line of two centres turns as they pass each other.
 template <class Element>
 ObliqueAnswer collide(const Element& element, const ObliqueThrow& thrown, TangentialKind kind, double dt,
                       long most_steps)
 {
-  const double r = thrown.radius, m = thrown.mass, inertia = 0.4 * m * r * r;
-  double delta = 0, approach = thrown.velocity, along = thrown.tangential_velocity, spin = 0, deepest = 0;
+  const ObliquePartner& other = thrown.partner;
+  const bool wall = std::isinf(other.radius);
+  const double m = in_series(thrown.mass, other.mass), r = in_series(thrown.radius, other.radius);
+  Turning sphere = Turning::sphere(thrown.radius, thrown.mass), partner = Turning::sphere(other.radius, other.mass);
+  double delta = 0, deepest = 0, along = thrown.tangential_velocity, away = -thrown.velocity;
+  double x = 0, z = thrown.radius + other.radius;  // of the sphere's centre from the partner's
+  Vector normal{0, 0, 1}, along_it{1, 0, 0};
   std::array<double, Element::values> kept{};
   Ledger books;
   ContactForce now;
-  // x along the wall, z from the wall to the sphere: a sphere that rolls along x spins about y
+  const auto lever = [&](const Turning& of) {
+    return lever_of(wall ? kind : TangentialKind::history, of.radius, delta);
+  };
   const auto kick = [&](double time) {
-    approach -= time * now.normal / m;
-    along += time * now.shear[0] / m;
-    spin += time * (-now.shear[0] * lever_of(kind, r, delta) + now.couple[1]) / inertia;
+    const double push = dot(now.shear, along_it), couple = now.couple[1];
+    along += time * (now.normal * normal[0] + now.shear[0]) / m;
+    away += time * (now.normal * normal[2] + now.shear[2]) / m;
+    sphere.spin += time * (-push * lever(sphere) + couple) / sphere.inertia;
+    if (!wall) partner.spin += time * (-push * lever(partner) - couple) / partner.inertia;
   };
   for (long step = 0; step < most_steps; ++step) {
     kick(0.5 * dt);
-    delta += dt * approach;
+    if (wall) {
+      delta -= dt * away;
+    } else {
+      x += dt * along, z += dt * away;
+      const double apart = std::hypot(x, z);
+      delta = thrown.radius + other.radius - apart;
+      normal = {x / apart, 0, z / apart}, along_it = {normal[2], 0, -normal[0]};
+    }
+    const double approach = -(along * normal[0] + away * normal[2]);
     if (delta <= 0 || (approach < 0 && now.normal <= 0 && step > 0)) {
       double taken = 0;
       for (const double one : books.taken) taken += one;
-      return {-approach / thrown.velocity, along, spin, m * (thrown.velocity - approach),
+      return {away / thrown.velocity, along, sphere.spin, partner.spin, m * (thrown.velocity + away),
               m * (thrown.tangential_velocity - along), deepest, taken};
     }
     deepest = std::max(deepest, delta);
+    double slide = along * along_it[0] + away * along_it[2] - sphere.spin * lever(sphere);
+    if (!wall) slide -= partner.spin * lever(partner);
     now = element.advance({{r, delta, approach, true},
                            m,
                            dt,
-                           {0, 0, 1},
-                           {along - spin * lever_of(kind, r, delta), 0, 0},
-                           {spin, 0, 0}},
+                           normal,
+                           times(along_it, slide),
+                           times(along_it, sphere.spin - partner.spin)},
                           kept.data(), books);
     kick(0.5 * dt);
   }
@@ -63,7 +98,8 @@ ObliqueAnswer collide(const Element& element, const ObliqueThrow& thrown, Tangen
 ObliqueAnswer replay_oblique(const PairLaw& pair, const ObliqueThrow& thrown, TangentialKind kind, double friction,
                              double damping_ratio, int steps)
 {
-  const double e_star = pair.mapping.e_star_pair(), m = thrown.mass, r = thrown.radius;
+  const double e_star = pair.mapping.e_star_pair(), m = in_series(thrown.mass, thrown.partner.mass),
+               r = in_series(thrown.radius, thrown.partner.radius);
   if (const double fastest = pair.max_speed(r, m); thrown.velocity > fastest)
     fail("replay of an oblique impact", "is faster than the law holds for", fmt::format("{:.4g} m/s", thrown.velocity),
          fmt::format("up to {:.4g} m/s", fastest));
@@ -71,7 +107,7 @@ ObliqueAnswer replay_oblique(const PairLaw& pair, const ObliqueThrow& thrown, Ta
   const Tabulated normal(pair, pair.measure(), Scale{});
   const LawMaterial& material = pair.yielding->material;
   const ElasticBody body{material.youngs_modulus, material.poisson_ratio};
-  const BodiesInShear bodies = BodiesInShear::of(body, ElasticBody{}, damping_ratio);
+  const BodiesInShear bodies = BodiesInShear::of(body, thrown.partner.body, damping_ratio);
   const ShearPair spring = ShearPair::of(bodies.stiffness, friction, damping_ratio);
   const PlasticShear plastic(normal, spring, bodies);
   const long most = 100L * steps;

@@ -67,13 +67,14 @@ struct RunOptions
 };
 
 /// Approach of a particle. With the defaults of all but `velocity`: head-on along its axis, for which two
-/// dimensions suffice. Any other approach is computed in three, against the rigid plane.
+/// dimensions suffice. Any other approach is computed in three, against the rigid plane or, of a sphere, against
+/// a second sphere that has no tangential velocity.
 struct Approach
 {
   double velocity = 0;             ///< m/s, over 0: towards the plane or the partner
   double tangential_velocity = 0;  ///< m/s, along the plane
   double spin = 0;                 ///< rad/s: forward, as of a body that rolls in the direction it slides in
-  double friction = 0;             ///< Coulomb's coefficient of the plane, 0 to 10
+  double friction = 0;             ///< Coulomb's coefficient of the contact, 0 to 10
   /// Direction in the body's frame that points at the plane. The body's axis nearest to it leans towards +x,
   /// along which the tangential velocity is.
   std::array<double, 3> orientation{0, 0, -1};
@@ -109,8 +110,8 @@ struct PressPlan
 
 /// A particle thrown at a partner; runs until they have parted. Overlap: approach of the centres of mass. The
 /// dimension is the one that particle, approach and `options.grid` need. Throws Error (base/error.hpp), one
-/// sentence, where something cannot be used, or where the run fails. In three dimensions `planes` and
-/// `rebound` of the result are filled. Method and accuracy: docs/theory/method.md,
+/// sentence, where something cannot be used, or where the run fails. In three dimensions `rebound` of the result
+/// is filled and, without a partner, `planes`. Method and accuracy: docs/theory/method.md,
 /// docs/evidence/solver-accuracy.md.
 RunResult impact(const Particle& particle, const Approach& approach, const Partner& partner = {},
                  const RunOptions& options = {});

@@ -127,11 +127,11 @@ Run press(Support support, const Partner& partner = {})
 }
 
 /// Three dimensions, with all that they keep: friction, spin, impulses at the markers.
-Run oblique_impact()
+Run oblique_impact(const Partner& partner = {}, double velocity = 0.1)
 {
-  Approach thrown{0.1};
-  thrown.friction = 0.2, thrown.tangential_velocity = 0.1;
-  return [=](const RunOptions& o) { return impact(soft(), thrown, {}, o); };
+  Approach thrown{velocity};
+  thrown.friction = 0.2, thrown.tangential_velocity = velocity;
+  return [=](const RunOptions& o) { return impact(soft(), thrown, partner, o); };
 }
 
 Run cube_press()
@@ -162,6 +162,7 @@ std::vector<Job> jobs()
       {"press_two", press(Support::free, particle), small(GridKind::mapped)},
       {"oblique_impact", oblique_impact(), small(GridKind::spatial)},
       {"oblique_impact_single", oblique_impact(), small(GridKind::spatial, Precision::single)},
+      {"oblique_two_single", oblique_impact(particle, 0.02), small(GridKind::spatial, Precision::single)},
       {"cube_press_single", cube_press(), small(GridKind::spatial, Precision::single)},
   };
   RunOptions shifted = several(2);

@@ -236,10 +236,15 @@ void Planes::end_sample(std::span<const Body> bodies, double time, std::vector<P
   }
 }
 
+void Scene::meet(std::unique_ptr<Side> side)
+{
+  contact = std::make_unique<RowContact>(std::move(side), sweeps_in_three_dimensions);
+}
+
 void Scene::meet(std::unique_ptr<Planes> side)
 {
   planes = side.get();
-  contact = std::make_unique<RowContact>(std::move(side), sweeps_in_three_dimensions);
+  meet(std::unique_ptr<Side>(std::move(side)));
 }
 
 }  // namespace granulaw

@@ -37,29 +37,30 @@ GRANULAW_INLINE double square_root(double x)
 }
 
 /// Layout of the nodes' fields in three dimensions: a node is one access. Three sums side by side: the next
-/// product does not wait for the last.
+/// product does not wait for the last. The first body's markers have as many nodes as a cell, which the
+/// compiler knows; those of the second a multiple of three.
 struct InCells
 {
-  GRANULAW_INLINE Four carried(const RowNodes&, const double* field, const Stencil& marker)
+  GRANULAW_INLINE Four carried(const RowNodes&, const double* field, const Stencil& marker, int corners)
   {
     const double* from = field + marker.lowest;
     const int* __restrict offset = marker.offset;
     const double* __restrict weight = marker.weight;
     Four a{}, b{}, c{};
 #pragma GCC unroll 9
-    for (int k = 0; k < cell_nodes; k += 3) {
+    for (int k = 0; k < corners; k += 3) {
       a += weight[k] * four(from + offset[k]);
       b += weight[k + 1] * four(from + offset[k + 1]);
       c += weight[k + 2] * four(from + offset[k + 2]);
     }
     return (a + b) + c;
   }
-  GRANULAW_INLINE void push(const RowNodes& nodes, const Stencil& marker, Four impulse)
+  GRANULAW_INLINE void push(const RowNodes& nodes, const Stencil& marker, int corners, Four impulse)
   {
     double* v = nodes.v + marker.lowest;
     const double* inverse_mass = nodes.inverse_mass + marker.lowest;
 #pragma GCC unroll 9
-    for (int k = 0; k < cell_nodes; ++k) {
+    for (int k = 0; k < corners; ++k) {
       const int at = marker.offset[k];
       four(v + at) += marker.weight[k] * four(inverse_mass + at) * impulse;
     }
@@ -82,19 +83,19 @@ struct InCorners
     return Four{field[entry], 0.0, field[entry + nodes.apart], 0.0};
   }
   GRANULAW_INLINE int corners(const Stencil& marker) { return marker.corners; }
-  GRANULAW_INLINE Four carried(const RowNodes& nodes, const double* field, const Stencil& marker)
+  GRANULAW_INLINE Four carried(const RowNodes& nodes, const double* field, const Stencil& marker, int corners)
   {
     double r = 0, z = 0;
-    for (int k = 0; k < marker.corners; ++k) {
+    for (int k = 0; k < corners; ++k) {
       const double* x = field + marker.lowest + marker.offset[k];
       r += marker.weight[k] * x[0], z += marker.weight[k] * x[nodes.apart];
     }
     return Four{r, 0.0, z, 0.0};
   }
-  GRANULAW_INLINE void push(const RowNodes& nodes, const Stencil& marker, Four impulse)
+  GRANULAW_INLINE void push(const RowNodes& nodes, const Stencil& marker, int corners, Four impulse)
   {
     const double r = impulse[0], z = impulse[2];
-    for (int k = 0; k < marker.corners; ++k) {
+    for (int k = 0; k < corners; ++k) {
       const int entry = marker.lowest + marker.offset[k];
       const double* per_mass = nodes.inverse_mass + entry;
       nodes.v[entry] += marker.weight[k] * per_mass[0] * r;
@@ -107,10 +108,10 @@ template <class Layout>
 GRANULAW_INLINE Four velocity_of(const RowNodes* bodies, const ContactRow& row)
 {
   const RowNodes& near = bodies[row.near.body];
-  Four v = Layout::carried(near, near.v, row.near);
+  Four v = Layout::carried(near, near.v, row.near, Layout::corners(row.near));
   if (row.far.corners > 0) {
     const RowNodes& far = bodies[row.far.body];
-    v += four(row.of_other) * Layout::carried(far, far.v, row.far);
+    v += four(row.of_other) * Layout::carried(far, far.v, row.far, row.far.corners);
   }
   return v;
 }
@@ -118,14 +119,15 @@ GRANULAW_INLINE Four velocity_of(const RowNodes* bodies, const ContactRow& row)
 template <class Layout>
 GRANULAW_INLINE void push(const RowNodes* bodies, const ContactRow& row, Four impulse)
 {
-  Layout::push(bodies[row.near.body], row.near, impulse);
-  if (row.far.corners > 0) Layout::push(bodies[row.far.body], row.far, four(row.of_other) * impulse);
+  Layout::push(bodies[row.near.body], row.near, Layout::corners(row.near), impulse);
+  if (row.far.corners > 0)
+    Layout::push(bodies[row.far.body], row.far, row.far.corners, four(row.of_other) * impulse);
 }
 
 template <class Layout>
 void carry(const RowNodes& nodes, const double* field, const Stencil& marker, double* sum)
 {
-  const Four found = Layout::carried(nodes, field, marker);
+  const Four found = Layout::carried(nodes, field, marker, Layout::corners(marker));
   for (int c = 0; c < 4; ++c) sum[c] = found[c];
 }
 
@@ -138,9 +140,8 @@ void velocity(const RowNodes* bodies, const ContactRow& row, double* sum)
 
 /// Adds one body's share to the response, and its velocity of the last kick.
 template <class Layout>
-GRANULAW_INLINE void weigh_one(const RowNodes& nodes, const Stencil& marker, Four& response, Four& kicked)
+GRANULAW_INLINE void weigh_one(const RowNodes& nodes, const Stencil& marker, int corners, Four& response, Four& kicked)
 {
-  const int corners = Layout::corners(marker);
   for (int k = 0; k < corners; ++k) {
     const int at = marker.lowest + marker.offset[k];
     const double w = marker.weight[k];
@@ -154,10 +155,10 @@ template <class Layout>
 GRANULAW_INLINE void weigh_row(const RowNodes* bodies, double kick, Four velocity_now, ContactRow& row)
 {
   Four response{}, kicked{};
-  weigh_one<Layout>(bodies[row.near.body], row.near, response, kicked);
+  weigh_one<Layout>(bodies[row.near.body], row.near, Layout::corners(row.near), response, kicked);
   if (row.far.corners > 0) {
     Four of_far{};
-    weigh_one<Layout>(bodies[row.far.body], row.far, response, of_far);
+    weigh_one<Layout>(bodies[row.far.body], row.far, row.far.corners, response, of_far);
     kicked += four(row.of_other) * of_far;
   }
   const Four normal = four(row.normal);
@@ -184,8 +185,8 @@ int make(const RowNodes* bodies, const RowPlane& plane, const int* candidates, i
     const Stencil marker{0, cell_nodes, 4 * plane.node[m], plane.offset, plane.weight + long(cell_nodes) * m};
     double* impulse = plane.impulse + 4L * m;
     const Four start{plane.place[m][0], plane.place[m][1], plane.place[m][2], 0.0};
-    const Four velocity = Layout::carried(nodes, nodes.v, marker);
-    const double gap = dot(normal, start + Layout::carried(nodes, nodes.u, marker)) - plane.position;
+    const Four velocity = Layout::carried(nodes, nodes.v, marker, cell_nodes);
+    const double gap = dot(normal, start + Layout::carried(nodes, nodes.u, marker, cell_nodes)) - plane.position;
     const double approach = dot(normal, velocity) - plane.velocity;
     const double fast = approach < 0.0 ? -approach : approach;
     const bool pushed = largest_of(magnitude(four(impulse))) > 0.0;

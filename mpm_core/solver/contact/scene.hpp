@@ -14,7 +14,7 @@ class Planes;
 ///
 /// Axisymmetric: one body above the rigid plane z = 0, or two against each other, each in its own frame
 /// (contact pole at the origin, body in z >= 0: the second one is mirrored). Three dimensions: one body among
-/// rigid planes.
+/// rigid planes, or two spheres, the second one mirrored in z, too.
 struct Scene
 {
   std::vector<Body> bodies;
@@ -23,8 +23,9 @@ struct Scene
   Vector3 outward = Vector3::UnitZ();  ///< in each body's frame, away from what it meets first
   Vector3 centre = Vector3::Zero();    ///< three dimensions: centre of mass of the undeformed body
 
-  /// Three dimensions: the first body among planes.
+  /// Three dimensions: the first body among planes, or against the second.
   void meet(std::unique_ptr<Planes> planes);
+  void meet(std::unique_ptr<Side> side);
 
   /// Centre of mass of the first body now.
   Vector3 centre_now() const { return centre + travel_of(bodies.front()); }

@@ -115,18 +115,19 @@ struct PlaneTrace
   std::vector<PlaneSample> samples;  ///< one for each sample of the trace
 };
 
-/// Motion of a body that leaves a plane; three-dimensional impacts, SI.
+/// Motion of a body that leaves a plane, or relative to the body that it leaves; three-dimensional impacts, SI.
 struct Rebound
 {
   double normal = 0;              ///< restitution of the centre's normal velocity
   double tangential = 0;          ///< of its tangential velocity; not a number without one before
   std::array<double, 3> spin{};   ///< rad/s after, angular momentum over the tensor of inertia
+  std::array<double, 3> partner_spin{};  ///< of the second body
   double impulse_normal = 0;      ///< N s
   double impulse_tangential = 0;  ///< N s, on the body, positive against the tangential velocity or spin
 };
 
-inline constexpr std::array rebound_units{Unit::one,  Unit::one,     Unit::rate,   Unit::rate,
-                                          Unit::rate, Unit::impulse, Unit::impulse};
+inline constexpr std::array rebound_units{Unit::one,  Unit::one,  Unit::rate, Unit::rate,    Unit::rate,
+                                          Unit::rate, Unit::rate, Unit::rate, Unit::impulse, Unit::impulse};
 
 /// The numbers of a struct that holds nothing else, such as PlaneSample, and the struct of numbers.
 template <class Struct>

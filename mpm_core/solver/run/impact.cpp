@@ -42,43 +42,44 @@ Eigen::Matrix3d lumped_inertia(const Body& body, const Vector3& centre)
 class ReboundMeter
 {
  public:
-  ReboundMeter(const Scene& scene, const std::optional<Eigen::Matrix3d>& exact)
-      : start_(lumped_inertia(scene.bodies.front(), scene.centre)), exact_(exact ? *exact : start_)
+  /// `centre`: of mass of the body at rest.
+  ReboundMeter(const Body& body, const Vector3& centre, const std::optional<Eigen::Matrix3d>& exact)
+      : centre_(centre), start_(lumped_inertia(body, centre)), exact_(exact ? *exact : start_)
   {
   }
   const Eigen::Matrix3d& inertia_at_rest() const { return exact_; }
   /// Angular velocity and energy of the rigid motion.
-  Vector3 spin(const Scene& scene) const { return inertia(scene).ldlt().solve(angular(scene)); }
-  double energy(const Scene& scene) const
+  Vector3 spin(const Body& body) const { return inertia(body).ldlt().solve(angular(body)); }
+  double energy(const Body& body) const
   {
-    const Body& body = scene.bodies.front();
     return 0.5 * body.reference().copies() * body.mass() * mean_velocity(body).squaredNorm() +
-           0.5 * angular(scene).dot(spin(scene));
+           0.5 * angular(body).dot(spin(body));
   }
 
  private:
-  Eigen::Matrix3d inertia(const Scene& scene) const
-  {
-    return exact_ + lumped_inertia(scene.bodies.front(), scene.centre_now()) - start_;
-  }
-  Vector3 angular(const Scene& scene) const
-  {
-    return of_whole(scene.bodies.front(), angular_momentum(scene.bodies.front(), scene.centre_now()));
-  }
+  Vector3 centre(const Body& body) const { return centre_ + travel_of(body); }
+  Eigen::Matrix3d inertia(const Body& body) const { return exact_ + lumped_inertia(body, centre(body)) - start_; }
+  Vector3 angular(const Body& body) const { return of_whole(body, angular_momentum(body, centre(body))); }
+
+  Vector3 centre_;
   Eigen::Matrix3d start_, exact_;
 };
 
-/// A body that meets a plane in three dimensions.
+/// A body that meets a plane, or a second sphere, in three dimensions.
 std::unique_ptr<SpatialSetup> thrown_body(const Particle& particle, const Approach& thrown,
-                                          const RunOptions& options)
+                                          const Partner& partner, const RunOptions& options)
 {
   Plane wall = touching_plane(Vector3::UnitZ());
   wall.friction = thrown.friction;
   const bool slides = thrown.tangential_velocity != 0 || thrown.spin != 0;
   const Eigen::Matrix3d rotation =
       rotation_to_plane(unit_direction(thrown.orientation, "--orientation"), thrown.turn);
-  return std::make_unique<SpatialSetup>(particle, rotation, std::vector<Plane>{wall},
-                                        std::array<bool, 3>{!slides, true, false}, options);
+  auto setup = std::make_unique<SpatialSetup>(particle, rotation, std::vector<Plane>{wall},
+                                              std::array<bool, 3>{!slides, true, false}, options);
+  if (partner.particle && thrown.first_contact_only)
+    fail("first contact", "is followed on a rigid plane only", "a particle");
+  if (partner.particle) setup->meet(*partner.particle, options);
+  return setup;
 }
 
 void check_approach(const Approach& thrown, const Scales& scale)
@@ -93,18 +94,27 @@ void check_approach(const Approach& thrown, const Scales& scale)
     fail("--friction", "cannot be used", fmt::format("{:g}", thrown.friction), "0 to 10");
 }
 
-/// The body's motion after an impact, over that before; solver units.
-Rebound rebound_of(const Scene& scene, const ReboundMeter& meter, const Approach& thrown,
+/// A velocity or a spin in the frame of the second body, which is mirrored in z, in that of the first.
+const Vector3 velocity_back(1, 1, -1), spin_back(-1, -1, 1);
+
+/// The body's motion after an impact, over that before; solver units. `velocity`: of the approach.
+Rebound rebound_of(const Scene& scene, std::span<const ReboundMeter> meters, const Approach& thrown,
                    const Vector3& velocity)
 {
   const Body& body = scene.bodies.front();
-  const Vector3 after = mean_velocity(body), spin = meter.spin(scene);
-  const Vector3 impulse = body.reference().copies() * body.mass() * (after - velocity);
+  Vector3 after = mean_velocity(body), spin = meters[0].spin(body), partner_spin = Vector3::Zero();
+  if (scene.bodies.size() > 1) {
+    after -= velocity_back.cwiseProduct(mean_velocity(scene.bodies[1]));
+    partner_spin = spin_back.cwiseProduct(meters[1].spin(scene.bodies[1]));
+  }
+  const double mass = scene.bodies.size() > 1 ? scene.reduced_mass() : body.mass();
+  const Vector3 impulse = body.reference().copies() * mass * (after - velocity);
   const bool slides = thrown.tangential_velocity != 0 || thrown.spin != 0;
   Rebound rebound;
   rebound.normal = after[2] / -velocity[2];
   rebound.tangential = after[0] / velocity[0];
   rebound.spin = {spin[0], spin[1], spin[2]};
+  rebound.partner_spin = {partner_spin[0], partner_spin[1], partner_spin[2]};
   rebound.impulse_normal = impulse[2];
   rebound.impulse_tangential = slides ? -impulse[0] : 0.0;
   return rebound;
@@ -125,7 +135,7 @@ RunResult impact(const Particle& particle, const Approach& thrown, const Partner
   std::unique_ptr<SpatialSetup> spatial;
   std::unique_ptr<Setup> flat;
   if (in_three_dimensions(particle, partner, options, oblique ? "an approach that is not head-on" : nullptr))
-    spatial = thrown_body(particle, thrown, options);
+    spatial = thrown_body(particle, thrown, partner, options);
   else
     flat = std::make_unique<Collision>(particle, partner, options, Support::free);
   const Setup& setup = spatial ? *spatial : *flat;
@@ -141,22 +151,31 @@ RunResult impact(const Particle& particle, const Approach& thrown, const Partner
       [&](int cells, double shift, const auto& fields, const auto& progress, const auto& checkpoint) {
         Simulation run(setup.build(deepest, cells, shift), options, duration, scale.stress);
         Scene& scene = run.scene;
-        std::optional<ReboundMeter> meter;
-        if (spatial) meter.emplace(scene, spatial->exact_inertia());
+        std::vector<ReboundMeter> meters;
+        if (spatial) meters.emplace_back(scene.bodies[0], scene.centre, spatial->exact_inertia());
+        if (spatial && spatial->partner())
+          meters.emplace_back(scene.bodies[1], Vector3::Zero(), spatial->partner()->exact_inertia());
         std::optional<LeavingPoint> point;
         if (thrown.first_contact_only)
-          point = {spatial->first_contact() - scene.centre, meter->inertia_at_rest().inverse()};
+          point = {spatial->first_contact() - scene.centre, meters[0].inertia_at_rest().inverse()};
         const Vector3 along(thrown.tangential_velocity / scale.velocity(), 0, 0);
         const double reduced = scene.reduced_mass();
-        for (Body& body : scene.bodies)
-          throw_body(body, along - v * (reduced / body.mass()) * scene.outward, spin, scene.centre);
+        for (Body& body : scene.bodies) {
+          const bool first = &body == scene.bodies.data();  // the second one has no tangential velocity
+          const Vector3 towards = v * (reduced / body.mass()) * scene.outward;
+          if (first)
+            throw_body(body, along - towards, spin, scene.centre);
+          else
+            throw_body(body, -towards);
+        }
         Flight programme(duration, point);
         run.run(programme, {fields, scale, duration}, progress, checkpoint);
         RunSummary& s = run.result.summary;
         s.restitution_raw = scene.separation_velocity() / v;
         s.work_load = scene.bodies.front().reference().copies() * run.energy_start;
-        s.work_unload = meter ? meter->energy(scene) : s.work_load * s.restitution_raw * s.restitution_raw;
-        if (meter) run.result.rebound = rebound_of(scene, *meter, thrown, along - v * scene.outward);
+        s.work_unload = spatial ? 0 : s.work_load * s.restitution_raw * s.restitution_raw;
+        for (std::size_t b = 0; b < meters.size(); ++b) s.work_unload += meters[b].energy(scene.bodies[b]);
+        if (spatial) run.result.rebound = rebound_of(scene, meters, thrown, along - v * scene.outward);
         return std::move(run.result);
       });
 }

@@ -51,8 +51,10 @@ std::unique_ptr<Setup> among_planes(const Particle& particle, const PressPlan& p
 std::unique_ptr<Setup> setup_of(const Particle& particle, const PressPlan& plan, const Partner& partner,
                                 const RunOptions& options)
 {
-  if (in_three_dimensions(particle, partner, options, plan.planes.empty() ? nullptr : "a press by planes"))
+  if (in_three_dimensions(particle, partner, options, plan.planes.empty() ? nullptr : "a press by planes")) {
+    if (partner.particle) fail("partner", "a press in three dimensions has planes only", "a particle");
     return among_planes(particle, plan, options);
+  }
   return std::make_unique<Collision>(particle, partner, options, plan.support);
 }
 

@@ -39,8 +39,7 @@ bool in_three_dimensions(const Particle& particle, const Partner& partner, const
   if (options.grid != GridKind::spatial && options.grid != GridKind::automatic)
     fail("--grid", fmt::format("{} needs three dimensions", reason), name_of(options.grid),
          name_of(GridKind::spatial));
-  if (partner.particle || partner.wall)
-    fail("partner", "three dimensions have rigid planes only", partner.particle ? "a particle" : "a wall");
+  if (partner.wall) fail("partner", "three dimensions have rigid planes and second spheres only", "a wall");
   return true;
 }
 

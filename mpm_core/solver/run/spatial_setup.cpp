@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "solver/contact/facing.hpp"
 #include "solver/grid/spatial_grid.hpp"
 #include "solver/material/law_table.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
@@ -31,6 +32,12 @@ bool equal(const Vector3& a, const Vector3& b)
   return (a - b).lpNorm<Eigen::Infinity>() < same;
 }
 
+/// 1/(1/a + 1/b): masses, radii and moduli of two bodies.
+double in_series(double a, double b)
+{
+  return a * b / (a + b);
+}
+
 }  // namespace
 
 Plane touching_plane(const Vector3& normal)
@@ -41,7 +48,14 @@ Plane touching_plane(const Vector3& normal)
 SpatialSetup::SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation,
                            std::vector<Plane> planes, const std::array<bool, 3>& may_mirror,
                            const RunOptions& options)
-    : Setup(scales_of(particle)),
+    : SpatialSetup(particle, scales_of(particle), rotation, std::move(planes), may_mirror, options)
+{
+}
+
+SpatialSetup::SpatialSetup(const Particle& particle, const Scales& scale, const Eigen::Matrix3d& rotation,
+                           std::vector<Plane> planes, const std::array<bool, 3>& may_mirror,
+                           const RunOptions& options)
+    : Setup(scale),
       particle_(particle),
       solid_(shape_of(particle)),
       rotation_(particle.is_sphere() && particle.inclusions.empty() ? Eigen::Matrix3d::Identity() : rotation),
@@ -120,7 +134,8 @@ void SpatialSetup::drop_mirrored_planes()
 std::optional<Eigen::Matrix3d> SpatialSetup::exact_inertia() const
 {
   if (!particle_.layers.empty() || !particle_.inclusions.empty()) return {};
-  return rotation_ * solid_->mass_properties().inertia * rotation_.transpose() / std::pow(scale_.length, 5);
+  const double density = particle_.materials.front().density / scale_.density;
+  return density * rotation_ * solid_->mass_properties().inertia * rotation_.transpose() / std::pow(scale_.length, 5);
 }
 
 /// 8, as a certificate over orientations (characterise/shape_certificate.cpp).
@@ -170,17 +185,41 @@ SpatialSetup::Touch SpatialSetup::touch_of(const Plane& plane) const
   return touch;
 }
 
-double SpatialSetup::expected_overlap(double v) const
+double SpatialSetup::plastic_overlap_of(double mass, double v) const
 {
   const double radius = std::sqrt(touches_.front().sharper * touches_.front().flatter);
-  double deepest = hertz_overlap(mass_, 1.0, radius, v);
+  double deepest = 0;
   for (const Material& m : particle_.materials) {
     if (!m.yields()) continue;
     const double rate = v * scale_.velocity() / scale_.length;
     const double yield = m.yield_stress / scale_.stress * rate_factor(m, rate);
-    deepest = std::max(deepest, plastic_overlap(mass_, radius, yield, v));
+    deepest = std::max(deepest, plastic_overlap(mass, radius, yield, v));
   }
+  return deepest;
+}
+
+double SpatialSetup::expected_overlap(double v) const
+{
+  const double radius = std::sqrt(touches_.front().sharper * touches_.front().flatter);
+  const double mass = partner_ ? in_series(mass_, partner_->mass_) : mass_;
+  double deepest = std::max(hertz_overlap(mass, e_star_, radius, v), plastic_overlap_of(mass, v));
+  if (partner_) deepest = std::max(deepest, partner_->plastic_overlap_of(mass, v));
   return std::min(deepest_overlap, deepest);
+}
+
+void SpatialSetup::meet(const Particle& other, const RunOptions& options)
+{
+  for (const Particle* p : {&std::as_const(particle_), &other})
+    if (!p->is_sphere() || !p->inclusions.empty())
+      fail("partner", "two bodies in three dimensions are spheres without inclusions");
+  if (drawn_) fail("--fields", "shows one body in three dimensions");
+  partner_.reset(new SpatialSetup(other, scale_, Eigen::Matrix3d::Identity(), {touching_plane(Vector3::UnitZ())},
+                                  mirrored_, options));
+  Touch &own = touches_.front(), &others = partner_->touches_.front();
+  for (double Touch::*radius : {&Touch::sharper, &Touch::flatter})
+    own.*radius = others.*radius = in_series(own.*radius, others.*radius);
+  e_star_ = partner_->e_star_ = in_series(1, other.materials.front().e_star() / scale_.stress);
+  yield_ = partner_->yield_ = std::min(yield_, partner_->yield_);
 }
 
 /// Half widths of the fine block across and along the sharper direction: as Collision::block_for, with the
@@ -190,7 +229,7 @@ std::array<double, 2> SpatialSetup::block_of(const Touch& touch, double deepest)
   const double radius = std::sqrt(touch.sharper * touch.flatter);
   const double onset =
       std::isfinite(yield_)
-          ? radius * onset_overlap(scale_.stress, yield_, particle_.materials.front().poisson_ratio)
+          ? radius * onset_overlap(e_star_ * scale_.stress, yield_, particle_.materials.front().poisson_ratio)
           : yield_;
   const double gap = gap_at_edge(deepest, onset), widest = widest_block * (high_ - low_).maxCoeff() / 2;
   const auto half_width = [&](double r) {
@@ -265,17 +304,29 @@ SpatialSection SpatialSetup::section(double deepest, int cells, double shift) co
   return s;
 }
 
+Body SpatialSetup::body(double deepest, int cells, double shift) const
+{
+  Body body = spatial_body(section(deepest, cells, shift));
+  if (single_) body.use_single();
+  return body;
+}
+
 Scene SpatialSetup::build(double deepest, int cells, double shift) const
 {
   Scene scene;
-  scene.bodies.push_back(spatial_body(section(deepest, cells, shift)));
-  Body& body = scene.bodies.front();
-  if (single_) body.use_single();
+  scene.bodies.push_back(body(deepest, cells, shift));
+  const Body& body = scene.bodies.front();
   scene.outward = planes_.front().normal;
   for (int i = 0; i < body.nodes(); ++i)
     scene.centre += body.reference().mass_i[i] / body.mass() * reference_place(body, i);
   for (int d = 0; d < 3; ++d)
     if (mirrored_[d]) scene.centre[d] = 0;
+  if (partner_) {
+    scene.bodies.push_back(partner_->body(deepest, cells, shift));
+    const double apart = -(planes_.front().position + partner_->planes_.front().position);
+    scene.meet(std::make_unique<Facing>(scene.bodies, apart, planes_.front().friction));
+    return scene;
+  }
   std::vector<Plane> at_rest = planes_;
   for (Plane& plane : at_rest) plane.velocity = 0;
   scene.meet(std::make_unique<Planes>(body, scene.centre, at_rest));

@@ -25,10 +25,15 @@ class SpatialSetup : public Setup
   /// the motion is the same on both sides.
   SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation, std::vector<Plane> planes,
                const std::array<bool, 3>& may_mirror, const RunOptions& options);
+  /// In the place of the plane a second sphere, with the plane's friction.
+  void meet(const Particle& other, const RunOptions& options);
 
+  double e_star() const override { return e_star_; }
   double yield_stress() const override { return yield_; }
   double expected_overlap(double velocity) const override;
   int cells(const RunOptions& options, double deepest) const override;
+  /// The second sphere; null: rigid planes.
+  const SpatialSetup* partner() const { return partner_.get(); }
   /// Tensor of inertia of the whole body about its centre of mass; none of a body of several materials.
   std::optional<Eigen::Matrix3d> exact_inertia() const;
   /// Point of the body that touches the first plane.
@@ -48,6 +53,10 @@ class SpatialSetup : public Setup
     double sharper, flatter;  ///< principal radii
     Vector3 sharper_direction, flatter_direction;
   };
+  SpatialSetup(const Particle& particle, const Scales& scale, const Eigen::Matrix3d& rotation,
+               std::vector<Plane> planes, const std::array<bool, 3>& may_mirror, const RunOptions& options);
+  double plastic_overlap_of(double mass, double velocity) const;
+  Body body(double deepest, int cells, double shift) const;
   Vector3 to_body(const Vector3& x) const { return scale_.length * (rotation_.transpose() * x); }
   Touch touch_of(const Plane& plane) const;
   void find_mirrors(const std::array<bool, 3>& may_mirror);
@@ -67,7 +76,8 @@ class SpatialSetup : public Setup
   std::vector<int> computed_;  ///< of each given plane the one that is computed: itself or its mirror image
   std::array<bool, 3> mirrored_{};
   bool drawn_, single_;  ///< grids can be drawn; points in single precision
-  double yield_ = 0, mass_ = 0;
+  std::unique_ptr<SpatialSetup> partner_;
+  double e_star_ = 1, yield_ = 0, mass_ = 0;
   Vector3 low_, high_;  ///< box of the body
 };
 
