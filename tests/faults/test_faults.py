@@ -82,6 +82,7 @@ class TestFaults:
         assert not battery.alike("good", "bad")
         assert battery.told('{"e": 0.5, "cpu_s": 3}') == battery.told('{"e": 0.5, "cpu_s": 4}')
         assert battery.told('{"e": 0.5}') != battery.told('{"e": 0.6}')
+        assert battery.told("  checksum = 1a\ne 0.5\n") == battery.told("  checksum = 2b\ne 0.5\n")  # it covers the time of creation
 
     def test_page_shows_what_changed(self):
         assert page.change("a = b + c;", "a = b - c;") == ("a = b + c;", "a = b - c;")

@@ -240,7 +240,7 @@ def told(text):
             keep = True  # LIGGGHTS: only the table of the run
         elif line.startswith("Loop time"):
             keep = False
-        if keep and not re.search(r"CPU|\bcommit\b|version|\d s\b|hash|solver|built|date|created|cpu_s|ranks", line):
+        if keep and not re.search(r"CPU|\bcommit\b|version|\d s\b|hash|solver|built|date|created|checksum|cpu_s|ranks", line):
             lines.append(line)
     return "\n".join(lines)
 
