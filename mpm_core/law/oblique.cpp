@@ -21,12 +21,6 @@ double lever_of(TangentialKind kind, double radius, double overlap)
   return kind == TangentialKind::plastic ? radius - overlap : radius - 0.5 * overlap;
 }
 
-/// 1/(1/a + 1/b)
-double in_series(double a, double b)
-{
-  return std::isinf(b) ? a : a * b / (a + b);
-}
-
 /// One of the two spheres as it turns.
 struct Turning
 {
@@ -42,8 +36,8 @@ ObliqueAnswer collide(const Element& element, const ObliqueThrow& thrown, Tangen
                       long most_steps)
 {
   const ObliquePartner& other = thrown.partner;
-  const bool wall = std::isinf(other.radius);
-  const double m = in_series(thrown.mass, other.mass), r = in_series(thrown.radius, other.radius);
+  const bool wall = thrown.at_wall();
+  const double m = thrown.m_eff(), r = thrown.r_eff();
   Turning sphere = Turning::sphere(thrown.radius, thrown.mass), partner = Turning::sphere(other.radius, other.mass);
   double delta = 0, deepest = 0, along = thrown.tangential_velocity, away = -thrown.velocity;
   double x = 0, z = thrown.radius + other.radius;  // of the sphere's centre from the partner's
@@ -98,8 +92,7 @@ ObliqueAnswer collide(const Element& element, const ObliqueThrow& thrown, Tangen
 ObliqueAnswer replay_oblique(const PairLaw& pair, const ObliqueThrow& thrown, TangentialKind kind, double friction,
                              double damping_ratio, int steps)
 {
-  const double e_star = pair.mapping.e_star_pair(), m = in_series(thrown.mass, thrown.partner.mass),
-               r = in_series(thrown.radius, thrown.partner.radius);
+  const double e_star = pair.mapping.e_star_pair(), m = thrown.m_eff(), r = thrown.r_eff();
   if (const double fastest = pair.max_speed(r, m); thrown.velocity > fastest)
     fail("replay of an oblique impact", "is faster than the law holds for", fmt::format("{:.4g} m/s", thrown.velocity),
          fmt::format("up to {:.4g} m/s", fastest));

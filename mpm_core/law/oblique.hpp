@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
+#include "contact/pair.hpp"
 #include "contact/plastic_shear.hpp"
 #include "law/law.hpp"
 
@@ -21,6 +23,10 @@ struct ObliqueThrow
 {
   double radius, mass, velocity, tangential_velocity;  ///< m, kg, m/s (normal, approach), m/s
   ObliquePartner partner{};
+
+  bool at_wall() const { return std::isinf(partner.radius); }
+  double r_eff() const { return at_wall() ? radius : effective_radius(radius, partner.radius); }
+  double m_eff() const { return at_wall() ? mass : effective_mass(mass, partner.mass); }
 };
 
 struct ObliqueAnswer
