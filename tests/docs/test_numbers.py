@@ -120,9 +120,9 @@ class Limits(unittest.TestCase):
     def test_shapes(self):
         rows = {row[0].split()[0]: row for row in table_with(page("docs/evidence/shapes.md"), "| body, E\\*/Y = 100 |")}
         force, e = ({k: row[n].split(", ")[1] for k, row in rows.items()} for n in (2, 3))
-        for body, name in (("ellipsoid", "an ellipsoid"), ("clump", "a clump"), ("box", "a rounded box")):
+        for body, name in (("ellipsoid", "an ellipsoid of axes 1 : 1.2 : 1.5"), ("elongated", "one of axes 1 : 2 : 3"), ("clump", "a clump"), ("box", "a rounded box")):
             self.assertIn(f"| a sphere's law for {name} | F_max {force[body]}, e {e[body]}", self.PAGE)
-        self.assertIn(f"| {force['ellipsoid']} ellipsoid, {force['clump']} clump, {force['box']} rounded box |", self.README)
+        self.assertIn(f"| {force['ellipsoid']} ellipsoid, {force['clump']} clump, {force['box']} rounded box; axes of 1 : 2 : 3: {force['elongated']} |", self.README)
 
     def test_oblique(self):
         """Largest deviations of both tangential laws up to a contact radius of R/4."""

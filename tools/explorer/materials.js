@@ -2,8 +2,8 @@
 // brackets: the literature of docs/guide/yield-stress.md.
 const MATERIALS = [
   ["wax", 920, 91e6, 0.3, 1e6, 0, "a soft wax, representative values: the example of the first flow"],
-  ["lactose", 1540, 24.1e9, 0.12, 180e6, 0, "the example 'mixture'"],
-  ["mcc", 1460, 5e9, 0.3, 40e6, 0, "like pellets of microcrystalline cellulose: the example 'mixture'"],
+  ["lactose", 1540, 24.1e9, 0.12, 180e6, 0, "assumed, without a traceable source: the example 'mixture'"],
+  ["mcc", 1460, 5e9, 0.3, 40e6, 0, "like pellets of microcrystalline cellulose, assumed: the example 'mixture'"],
   ["m1-silo", 2500, 1e9, 0.2, 3.7e6, 0, "M1 of the silo benchmark (Dosta et al. 2024); Y set for e = 0.5 at 1 m/s"],
   ["sucrose", 1590, 35e9, 0.3, 500e6, 0, "E, H/3 of a single crystal [6]; density and nu assumed"],
   ["polyethylene-hd", 950, 0.7e9, 0.42, 25e6, 0, "middle of the ranges of E and tensile strength [11]; density and nu assumed"],
