@@ -1,7 +1,7 @@
 // Cost and benefit of the velocity axis of a contact law: bytes and nanoseconds a lookup against the error in
 // force and e of the law without it.
 //
-//   law_size_benchmark LAW.h5 [-o OUT.json]
+//   law_size_benchmark LAW.h5          prints a line of JSON for each variant, and one for Hertz's formula
 //
 // Against: the law as the file has it. That law's own errors (`mpm info LAW.h5`) come on top. Columns of each
 // variant:
@@ -18,14 +18,11 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "base/larger.hpp"
-#include "base/version.hpp"
 #include "contact/contact.hpp"
 #include "law/law_file.hpp"
 #include "law/replay.hpp"
@@ -140,10 +137,9 @@ json measured(const BodyLaw& body, const Evaluate& evaluate, std::size_t bytes)
   return found;
 }
 
-json variants_of(const BodyLaw& body)
+void print_variants(const BodyLaw& body)
 {
   const Curve& law = body.curve;
-  json rows = json::array();
   const auto add = [&](const Curve& curve) {
     const AxisTable* axis = curve.axis();
     json row = measured(
@@ -156,19 +152,17 @@ json variants_of(const BodyLaw& body)
                 {"slices", axis ? axis->level.size() : 0},
                 {"ratio_nodes", axis ? axis->shares() : 0}});
     fmt::print("{}\n", row.dump());
-    rows.push_back(std::move(row));
   };
   add(law);
   if (law.axis()) add(Curve(law.table()));
-  return rows;
 }
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  if ((argc != 2 && argc != 4) || (argc == 4 && std::string(argv[2]) != "-o")) {
-    fmt::print(stderr, "law_size_benchmark LAW.h5 [-o OUT.json]\n");
+  if (argc != 2) {
+    fmt::print(stderr, "law_size_benchmark LAW.h5\n");
     return 2;
   }
   try {
@@ -177,28 +171,13 @@ int main(int argc, char** argv)
                                    [](const auto& b) { return b.second.material.yields(); });
     if (body == law.bodies.end())
       fail(argv[1], "no material of this law yields: it is Hertz's, whatever its size");
-    const Certificate& c = body->second.certificate;
-    json found = {{"benchmark", "law_size"},
-                  {"granulaw_version", version()},
-                  {"git_hash", git_hash()},
-                  {"law", argv[1]},
-                  {"material", body->first},
-                  {"own_errors",
-                   {{"origin", c.origin},
-                    {"solver_error_force", c.solver_error_force},
-                    {"solver_error_restitution", c.solver_error_restitution},
-                    {"atlas_error_force", c.atlas_error_force},
-                    {"atlas_error_restitution", c.atlas_error_restitution}}}};
+    print_variants(body->second);
     const auto hertz = [](const Contact& contact) {
       const double a = std::sqrt(contact.x);
       return Answer{a * contact.x, 1.5 * a, a, contact.x};
     };
     const auto [low, median, high] = time_of(contacts_of_a_flow(body->second.curve, false), hertz);
-    found["hertz"] = {{"ns", median}, {"ns_low", low}, {"ns_high", high}};
-    found["rows"] = variants_of(body->second);
-    if (argc == 4)
-      write_atomically(argv[3],
-                       [&](const std::string& path) { std::ofstream(path) << found.dump(1) << "\n"; });
+    fmt::print("{}\n", json{{"ns", median}, {"ns_low", low}, {"ns_high", high}}.dump());
   } catch (const Error& error) {
     fmt::print(stderr, "law_size_benchmark: {}\n", error.what());
     return 2;

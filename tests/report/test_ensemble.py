@@ -65,7 +65,6 @@ class TestFolders(InFolder):
         text = (self.root / "page" / "report.md").read_text()
         assert "8 members" in text
         assert "rate (yield_stress, +1.00)" in text
-        assert "1 of 1 observables feel the material" in text
 
     def test_a_deck_of_a_member_is_no_deck_of_the_report(self):
         member_files(self.root, [40e6 + 1e6 * k for k in range(5)], lambda k, y: {"rate": 1e-9 * y})

@@ -36,6 +36,7 @@ def test_files_and_folders(folder):
     """Each line: the words of a command, and words of its sentence."""
     nowhere = folder / "no" / "where"
     (folder / "scene").mkdir()
+    (folder / "hopper.csv").write_text("model,seed,quantity,value\nmpm,1,rate,1\n")
     for words, sentence in (
             (("tools/report", "--from", folder, "-o", "/proc/report"), "report: /proc/report: No such file or directory"),
             (("tools/mpm/plot_fields.py", nowhere, "x.png"), "no such file"),

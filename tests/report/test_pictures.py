@@ -8,7 +8,7 @@ from unittest import mock
 import run_files
 from programs import ROOT
 from pytest import fixture
-from reporting import contacts_part, flow_part, page, solver_part
+from reporting import contacts_part, flow_part, page
 
 
 def script(name):
@@ -56,7 +56,6 @@ class TestPictures:
         decks, broken = flow_part.read_all(self.folder)
         assert broken == []
         self.tidied(flow_part.picture(decks[0], [name for name in flow_part.observables(decks[0])]))
-        self.tidied(solver_part.picture(run_files.cost()))
         found, _ = contacts_part.read(decks)
         self.tidied(contacts_part.picture(next(iter(found.values()))), named=False)  # a map between two rows of bars, named above
 

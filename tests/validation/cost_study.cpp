@@ -1,7 +1,7 @@
 // Error against CPU seconds for every grid and precision: the numbers behind docs/evidence/cost.md and its
 // picture.
 //
-//   cost_study OUT.json [quick]           quick: the plastic impact alone, coarser (half a minute)
+//   cost_study OUT.json
 //
 // Written job by job; the same build, called again, keeps the jobs that are there.
 //
@@ -82,27 +82,26 @@ json row(const std::string& job, const RunOptions& o, const RunResult& r, const 
 }
 
 /// The rows of three dimensions; `rows` is added to.
-void study_spatial(const std::string& job, const Particle& sphere, double velocity, bool quick,
+void study_spatial(const std::string& job, const Particle& sphere, double velocity,
                    const RunResult& reference, json& rows)
 {
   RunOptions o;
   o.grid = GridKind::spatial;
   for (const int shifted_grids : {1, 4})
     for (const int cells : {6, 8, 11, 16}) {
-      if (cells > (quick ? 8 : 16)) continue;
       o.resolution = cells, o.shifted_grids = shifted_grids;
       rows.push_back(row(job, o, impact(sphere, {velocity}, {}, o), reference));
     }
 }
 
-json study(const std::string& job, const Particle& sphere, double velocity, bool quick)
+json study(const std::string& job, const Particle& sphere, double velocity)
 {
   RunOptions o;
   o.grid = GridKind::mapped, o.precision = Precision::full;
-  o.resolution = quick ? 40 : 56, o.shifted_grids = 8, o.courant = 0.5;
+  o.resolution = 56, o.shifted_grids = 8, o.courant = 0.5;
   const RunResult reference = impact(sphere, {velocity}, {}, o);
   json found = {{"name", job}, {"reference_cells", o.resolution}, {"rows", json::array()}};
-  o.resolution = quick ? 28 : 40;
+  o.resolution = 40;
   found["reference"] = row(job, o, impact(sphere, {velocity}, {}, o), reference);
   o = {};
   for (const GridKind grid : {GridKind::mapped, GridKind::rectilinear, GridKind::updated})
@@ -110,13 +109,13 @@ json study(const std::string& job, const Particle& sphere, double velocity, bool
       if (grid == GridKind::updated && precision == Precision::single) continue;
       for (const int shifted_grids : {1, 4})
         for (const int cells : {8, 12, 16, 24, 32}) {
-          if (cells > (quick ? 16 : grid == GridKind::updated ? 24 : 32)) continue;
+          if (cells > (grid == GridKind::updated ? 24 : 32)) continue;
           if (shifted_grids == 1 && grid != GridKind::mapped) continue;
           o.grid = grid, o.precision = precision, o.resolution = cells, o.shifted_grids = shifted_grids;
           found["rows"].push_back(row(job, o, impact(sphere, {velocity}, {}, o), reference));
         }
     }
-  if (job == "plastic") study_spatial(job, sphere, velocity, quick, reference, found["rows"]);
+  if (job == "plastic") study_spatial(job, sphere, velocity, reference, found["rows"]);
   return found;
 }
 
@@ -142,7 +141,7 @@ json jobs_kept(const char* path, const json& now)
   std::ifstream file(path);
   const json old = json::parse(file, nullptr, false);
   if (!old.is_object() || !old.contains("jobs")) return json::array();
-  for (const char* key : {"study", "granulaw_version", "git_hash", "processor", "quick"})
+  for (const char* key : {"study", "granulaw_version", "git_hash", "processor"})
     if (!old.contains(key) || old[key] != now[key]) return json::array();
   return old["jobs"];
 }
@@ -151,25 +150,23 @@ json jobs_kept(const char* path, const json& now)
 
 int main(int argc, char** argv)
 {
-  if (argc < 2) {
-    fmt::print(stderr, "cost_study OUT.json [quick]\n");
+  if (argc != 2) {
+    fmt::print(stderr, "cost_study OUT.json\n");
     return 2;
   }
   try {
-    const bool quick = argc > 2;
     json found = {{"study", "cost"},      {"granulaw_version", version()}, {"git_hash", git_hash()},
-                  {"created", utc_now()}, {"processor", processor()},      {"quick", quick},
-                  {"jobs", json::array()}};
+                  {"created", utc_now()}, {"processor", processor()},      {"jobs", json::array()}};
     const json kept = jobs_kept(argv[1], found);
     const auto finish = [&](const std::string& name, const Particle& sphere, double velocity) {
       const auto old =
           std::find_if(kept.begin(), kept.end(), [&](const json& j) { return j["name"] == name; });
-      found["jobs"].push_back(old != kept.end() ? *old : study(name, sphere, velocity, quick));
+      found["jobs"].push_back(old != kept.end() ? *old : study(name, sphere, velocity));
       write_atomically(argv[1],
                        [&](const std::string& path) { std::ofstream(path) << found.dump(1) << "\n"; });
     };
     finish("plastic", reference::unit_sphere(100), 100 * yield_velocity(1, 0.01, 1));
-    if (!quick) finish("elastic", reference::unit_sphere(0), reference::elastic_impact_velocity());
+    finish("elastic", reference::unit_sphere(0), reference::elastic_impact_velocity());
   } catch (const Error& error) {
     fmt::print(stderr, "cost_study: {}\n", error.what());
     return 2;

@@ -44,7 +44,7 @@ MIRRORED = {
     "tools/deck": ("deck", "law", "contact", "base"),
     "tools/mpm": ("mpm_parts", "material_file", "run_files", "deck", "characterise", "farm", "solver", "law", "contact", "base"),
 }
-NO_CODE = ("faults.rules", "farm.solver_hash", "report.page", "liggghts_copy_to_src", "install.consumer", "docs.links", "docs.book")  # they run none of the seven folders
+NO_CODE = ("faults.rules", "farm.solver_hash", "report.report", "liggghts_copy_to_src", "install.consumer", "docs.links", "docs.book")  # they run none of the seven folders
 CHEAP = 2.0  # s; tests up to it come before the battery
 FAIR = 20.0  # s; up to it they are run where the battery shows no change, too
 

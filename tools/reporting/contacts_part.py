@@ -67,11 +67,11 @@ class Contacts:
     def __init__(self, key, law, entry, path):
         self.kind, self.materials = key
         self.law = law
-        onset, limit, inertia = (entry.get(k) for k in ("onset_speed_m_per_s", "overlap_over_radius_limit", "inertia_number_limit"))
+        onset, limit, fastest = (entry.get(k) for k in ("onset_speed_m_per_s", "overlap_over_radius_limit", "damage_number_limit"))
         if law:
             files.rows_with(path, [entry], ("onset_speed_m_per_s", "overlap_over_radius_limit"))
         self.yield_speed, self.limit = onset * law.yield_per_onset if law else 1.0, limit
-        self.fastest = law.fastest(inertia) if law and inertia else None
+        self.fastest = law.fastest(fastest) if law and fastest else None
         self.onset = 1 / law.yield_per_onset if law else None
         self.begun = self.beyond = self.beyond_axis = self.below_axis = 0.0
         self.speed, self.overlap = {}, {}
@@ -165,7 +165,7 @@ def law_of(run, entry):
 def add_run(kinds, laws, path, stats):
     """Adds one run's pairs to `kinds`: {(kind, materials): Contacts}."""
     if not isinstance(stats.get("pairs"), list):
-        raise files.Unreadable(path, "has no 'pairs': an older plug-in made it, run the deck anew")
+        raise files.Unreadable(path, "has no 'pairs'")
     for entry in stats["pairs"]:
         if not isinstance(entry, dict) or not entry.get("contacts_begun"):
             continue
@@ -194,7 +194,6 @@ def read(decks):
                     continue
                 add_run(kinds, laws, path, files.read_json(path))
         except files.Unreadable as error:
-            error.deck = "demo" if deck.within else deck.name
             broken.append(error)
             continue
         if kinds:
@@ -203,18 +202,16 @@ def read(decks):
 
 
 class Run:
-    """One run of a deck that is no example: `kinds` of its contacts, `series` of its energies (None: an older plug-in)."""
+    """One run of a deck that is no example: `kinds` of its contacts, `series` of its energies."""
 
     def __init__(self, path, title):
         self.path, self.title = path, title
-        stats = files.read_json(path)
+        stats = files.read_json(path, series=dict)
         kinds = {}
         add_run(kinds, {}, path, stats)
         self.kinds = sorted_kinds(kinds)
-        self.series = stats.get("series")
-        if self.series is None:
-            return
-        columns = [c for c in self.series.values() if isinstance(c, list)] if isinstance(self.series, dict) else []
+        self.series = stats["series"]
+        columns = [c for c in self.series.values() if isinstance(c, list)]
         if "time_s" not in self.series or len(columns) != len(self.series) or len({len(c) for c in columns}) != 1:
             raise files.Unreadable(path, "'series' is no table with columns of one length")
 
@@ -311,18 +308,16 @@ def prefixed(values, unit):
 
 def picture_of_run(run):
     """Energies over time, the fastest particle, and the speeds at which contacts began."""
-    figure, axes = plt.subplots(1, 3 if run.series else 1, figsize=(12.4 if run.series else 5, 3.4), squeeze=False)
-    if run.series:
-        (energies, speed), time = axes[0][:2], run.series["time_s"]
-        factor, unit = prefixed([v for name in ENERGIES for v in run.series.get(name, [])], "J")
-        for name, text in ENERGIES.items():
-            if any(run.series.get(name, [])):
-                energies.plot(time, [factor * v for v in run.series[name]], label=text)
-        energies.set(title="Energies", xlabel="time, s", ylabel=f"energy, {unit}", ylim=(0, None))
-        energies.legend()
-        speed.plot(time, run.series["fastest_particle_m_per_s"])
-        speed.set(title="Fastest particle", xlabel="time, s", ylabel="speed, m/s", ylim=(0, None))
-    axis = axes[0][-1]
+    figure, (energies, speed, axis) = plt.subplots(1, 3, figsize=(12.4, 3.4))
+    time = run.series["time_s"]
+    factor, unit = prefixed([v for name in ENERGIES for v in run.series.get(name, [])], "J")
+    for name, text in ENERGIES.items():
+        if any(run.series.get(name, [])):
+            energies.plot(time, [factor * v for v in run.series[name]], label=text)
+    energies.set(title="Energies", xlabel="time, s", ylabel=f"energy, {unit}", ylim=(0, None))
+    energies.legend()
+    speed.plot(time, run.series["fastest_particle_m_per_s"])
+    speed.set(title="Fastest particle", xlabel="time, s", ylabel="speed, m/s", ylim=(0, None))
     for k, c in enumerate(run.kinds):
         edges, counts = c.histogram("speed")
         axis.stairs(counts, edges * c.yield_speed, color=f"C{k}", label=f"{' - '.join(c.materials)}, {c.kind}")
@@ -338,28 +333,13 @@ def picture_of_run(run):
 def write_runs(page, runs, left_out):
     """Part for the user's own decks."""
     for k, run in enumerate(runs, 1):
-        page.heading(f"Energies and speeds of {run.title}")
+        page.heading(run.title)
         page.figure(picture_of_run(run), f"run-{k}", f"Run of `{run.path}`. Dashed: the speed at which yield begins, between the smallest particles.")
-        if not run.series:
-            page.text("The file has no energies over time: an older plug-in wrote it.")
     if left_out:
         page.text(f"{left_out} older runs are left out. Name their folder with --from to see them.")
 
 
-def glance(found):
-    rows = []
-    for deck, kinds in found.items():
-        kinds = [c for c in kinds if c.limit]
-        if not kinds:
-            continue
-        c = max(kinds, key=lambda c: c.overlap_max / c.limit)
-        rows.append([f"law used by {deck}, {name_of(c)}", f"{'V/V_y' if c.law else 'V'} to {number(c.speed_max)}{'' if c.law else ' m/s'}\nlaw to {number(c.fastest) if c.fastest else 'not stated'}",
-                     f"δ/R* to {number(c.overlap_max)}\nlaw to {number(c.limit)}"])
-    return rows
-
-
 def write(page, found):
-    page.glance(glance(found))
     page.text("Each contact has a speed at first touch and a largest overlap, counted in eight bins a decade: the bars above and beside each map. "
               "Blue in the map: contacts that ended, by both (`contactMap on`; runs without it show only how far the two reach, each for itself). "
               "White: what the law was computed for. Black: where a head-on impact of two free "
@@ -376,6 +356,6 @@ def write(page, found):
                          f"{c.beyond_axis:.0f}", f"{c.below_axis:.0f}"])
     page.table(["deck", "pair", "contacts", "V/V_y: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
                 "law to", "steps beyond it", "too fast for it", "too slow for it"], rows)
-    page.origin("Quantiles are read from bins a third of their value wide: good to about 15 %. V_y: yield velocity with the customary 1.6 Y "
+    page.text("Quantiles are read from bins a third of their value wide: good to about 15 %. V_y: yield velocity with the customary 1.6 Y "
                 "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its velocity axis goes; too slow for it: than the axis of a rate-dependent law begins; below onset: slower than the true onset of yield. From the "
                 "`stats.json` of each run (`fix granulaw/stats`) and the law file it names.")

@@ -1,4 +1,4 @@
-"""(f) Ensemble: one flow under the materials that a calibration leaves open (tools/ensemble): which observables depend on it.
+"""Ensemble: one flow under the materials that a calibration leaves open (tools/ensemble): which observables depend on it.
 
 Reads of each folder with an ensemble.csv (member and its material's numbers) the members' folders beside it: observables.csv
 (quantity, value), else the table of an example deck, DECK.csv (model, seed, quantity, value)."""
@@ -188,15 +188,4 @@ def write(page, ensembles):
         page.text(f"Under each parameter: Spearman's rank correlation; * p < {SMALLEST_P}. Of {tested} tested about {SMALLEST_P * tested:.1g} have a "
                   "star by chance. Where seeds alone make the width, the material does not show; with one seed a member that is not known.")
         low_high = "; ".join(f"{n} {number(v.min(), 4)} to {number(v.max(), 4)}" for n, v in e.parameters.items())
-        page.origin(f"From `{e.source}` and its members' folders; parameters: {low_high}.")
-
-
-def glance(ensembles):
-    rows = []
-    for e in ensembles:
-        if len(e.members) < FEWEST or not e.parameters:
-            continue
-        shown = [q for q in e.quantities if q not in COSTS]
-        felt = [q for q in shown if feels(e, q)]
-        rows.append([f"ensemble {e.source.parent.name}", f"{len(e.members)} members", f"{len(felt)} of {len(shown)} observables feel the material"])
-    return rows
+        page.text(f"From `{e.source}` and its members' folders; parameters: {low_high}.")

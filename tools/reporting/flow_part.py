@@ -1,11 +1,10 @@
-"""(c) Flow: wall-clock and time step against the deviation of what a flow is measured by, from the unstretched `mpm` runs.
+"""Flow: wall-clock and time step against the deviation of what a flow is measured by, from the unstretched `mpm` runs.
 
 Reads what examples/*/run.py leave: DECK.csv (model, seed, quantity, value) and of each run, in MODEL-SEED[-ranksN], `log`, `cpu` and
-`screen`; and the hopper report of tools/demo (report.csv: quantity, unit, model, value, standard_error) with timing.csv beside it."""
+`screen`; and the hopper report of tools/demo (report.csv: quantity, unit, model, value, standard_error)."""
 import math
 import pathlib
 import re
-import statistics
 
 from spread import Sample, welch
 
@@ -36,11 +35,12 @@ class Single:
 
 
 def differs(a, b):
-    """True, False, or None where a spread is missing: Welch's test on seeds, p < 0.05; of single runs 1.96 standard errors."""
+    """True, False, or None where a spread is missing or 0: Welch's test on seeds, p < 0.05; of single runs 1.96 standard errors."""
     if a.error is None or b.error is None:
         return None
     if isinstance(a, Sample) and isinstance(b, Sample):
-        return welch(a, b) < 0.05
+        p = welch(a, b)
+        return None if p is None else p < 0.05
     return abs(a.mean - b.mean) > 1.96 * math.hypot(a.error, b.error)
 
 
@@ -172,9 +172,6 @@ def read_demo(decks, path):
         deck.cost[model].read(folder / model)
         deck.folders[model] = [folder / model]
     deck.sources.append(path)
-    timing = folder / "timing.csv"
-    if timing.exists():
-        deck.sources.append(timing)
 
 
 def read_all(folder):
@@ -266,10 +263,8 @@ def against(sample, base, quantity):
     found = deviation(sample, base, unit)
     if found is None:
         return ""
-    off, error = found
-    if error is None:
-        return f"{with_error(off, None, plus=True)} {unit}, no spread"
-    return f"{with_error(off, error, plus=True)} {unit}, {'**significant**' if differs(sample, base) else 'not significant'}"
+    verdict = {None: "no verdict", True: "**significant**", False: "not significant"}[differs(sample, base)]
+    return f"{with_error(*found, plus=True)} {unit}, {verdict}"
 
 
 def two_lines(first, second):
@@ -291,6 +286,7 @@ def cost_cells(deck, model):
 
 
 def write_deck(page, deck, k):
+    """Number of deviations that were tested."""
     page.heading(deck.title[0].upper() + deck.title[1:])
     names, models = observables(deck), deck.models
     base = deck.quantities.get(REFERENCE)
@@ -307,7 +303,7 @@ def write_deck(page, deck, k):
     kept = [k for k in range(4) if any(c[k] != "n/a" for c in costs.values())]
     head = ["time step, µs", "wall-clock, s a run", "CPU, s a run", "cost / mpm's"]
     head = ["model", *[head[k] for k in kept], *[name for _, name in names]]
-    rows, stopped = [], []
+    rows = []
     for model in models:
         row = [words(model), *[costs[model][k] for k in kept]]
         for _, name in names:
@@ -315,94 +311,26 @@ def write_deck(page, deck, k):
             off = "reference" if model == REFERENCE else against(mine, base and base.get(name), name)
             row.append(two_lines(cell(mine), off.replace(", ", "\n")))  # narrow, or the page is too
         rows.append(row)
+    page.table(head, rows)
     for model, sentence in deck.stopped.items():
         if model not in models:
-            stopped.append(f"{words(model)}: {sentence}")
-    page.table(head, rows)
-    for sentence in stopped:
-        page.text(f"**Stopped.** {sentence}.")
-    if deck.name == "hopper" and deck.within and (timing := read_timing(deck)):
-        page.table(["model", "µs a particle-step, dense bed: median (range)", "over Hertz's, round by round: median (range)"], timing)
+            page.text(f"**Stopped.** {words(model)}: {sentence}.")
     shown = {name for _, name in names}
     rest = [q for q in dict.fromkeys(q for m in models for q in deck.quantities[m]) if q not in shown]
     if rest:
         full = lambda m, q: two_lines(cell(deck.quantities[m].get(q)), "" if m == REFERENCE or q.startswith(COSTS) else
                                       against(deck.quantities[m].get(q), base and base.get(q), q))
-        page.table(["quantity", *[words(m) for m in models]], [[q, *[full(m, q) for m in models]] for q in rest], fold=f"{len(rest)} other quantit{'ies' if len(rest) > 1 else 'y'} of this deck")
-    page.origin("From " + ", ".join(f"`{s}`" for s in deck.sources) + f"; ± is the standard error, {spread}.")
-
-
-def read_timing(deck):
-    """Rows of the interleaved timing runs of tools/demo."""
-    path = next((s for s in deck.sources if s.name == "timing.csv"), None)
-    if not path:
-        return []
-    times = {}
-    for line, row in enumerate(files.read_csv(path, ("round", "model", "loop_seconds", "steps", "atoms")), 2):
-        seconds, steps, atoms = (files.to_number(path, line, c, row[c]) for c in ("loop_seconds", "steps", "atoms"))
-        times.setdefault(row["model"], {})[row["round"]] = 1e6 * seconds / (steps * atoms)
-    span = lambda v: f"{statistics.median(v):.3g} ({min(v):.3g} to {max(v):.3g})" if len(v) > 1 else f"{v[0]:.3g} (one round)"
-    rows = []
-    for model in sorted(times, key=["hertz", "thornton", "mpm"].index):
-        ratios = [t / times["hertz"][r] for r, t in times[model].items() if r in times.get("hertz", {})]
-        rows.append([model, span(list(times[model].values())), span(ratios) if ratios else "n/a"])
-    return rows
-
-
-def verdicts(decks):
-    """Rows of the one table of all decks: model, observable, deck, deviation."""
-    rows = []
-    for deck in decks:
-        base = deck.quantities.get(REFERENCE)
-        for short, name in observables(deck) if base else []:
-            for model in deck.models:
-                if model != REFERENCE and name in deck.quantities[model] and name in base:
-                    cost = cost_cells(deck, model)
-                    rows.append([deck.title, name, words(model), cost[0], cost[3], against(deck.quantities[model][name], base[name], name)])
-    return rows
-
-
-def glance(decks):
-    """One row for each other model: its cost and its deviations, over all decks."""
-    found = {}
-    for deck in decks:
-        base = deck.quantities.get(REFERENCE)
-        for model in deck.models if base else []:
-            if model == REFERENCE:
-                continue
-            entry = found.setdefault(model, {"cost": [], "tested": 0, "off": {}})
-            seconds = [deck.cost[m].seconds(deck.clock()) if deck.clock() else None for m in (model, REFERENCE)]
-            if all(seconds) and min(s.mean for s in seconds) > 1.0:  # shorter runs are mostly start-up
-                entry["cost"].append(seconds[0].mean / seconds[1].mean)
-            for short, name in observables(deck):
-                mine = deck.quantities[model].get(name)
-                verdict = differs(mine, base[name]) if mine and name in base else None
-                entry["tested"] += verdict is not None
-                if verdict:
-                    entry["off"].setdefault(deck.title, []).append((short, *deviation(mine, base[name], unit_of(name)), unit_of(name)))
-    rows = []
-    for model, e in found.items():
-        span = "n/a" if not e["cost"] else f"{min(e['cost']):.2f}" + (f" to {max(e['cost']):.2f}" if len(e["cost"]) > 1 else "")
-        count = sum(map(len, e["off"].values()))
-        lines = [f"{count} of {e['tested']} observables differ significantly from mpm" if e["tested"] else "one seed: no verdict"]
-        for deck, off in e["off"].items():
-            short, value, error, unit = max(off, key=lambda o: abs(o[1]))
-            lines.append(f"{deck}: {'up to ' if len(off) > 1 else ''}{with_error(value, error, plus=True)} {unit}, {short}")
-        rows.append([f"flow under {words(model)}", f"{span} times mpm's cost" if e["cost"] else "n/a", "\n".join(lines)])
-    return rows
+        page.table(["quantity", *[words(m) for m in models]], [[q, *[full(m, q) for m in models]] for q in rest],
+                   title=f"{len(rest)} other quantit{'ies' if len(rest) > 1 else 'y'} of this deck")
+    page.text("From " + ", ".join(f"`{s}`" for s in deck.sources) + f"; ± is the standard error, {spread}.")
+    return sum("significant" in cell for row in rows for cell in row)
 
 
 def write(page, decks):
-    page.glance(glance(decks))
-    page.text("The reference is model `mpm` unstretched: the computed law, with the errors of parts (a) and (b). So a deviation here is what "
-              "another law, or stretching, does to the flow, not an error against an experiment. Cost: CPU seconds where every run kept them, else "
-              "wall-clock, which says little on a machine with other work.")
-    rows = verdicts(decks)
-    if len(decks) > 1 and rows:
-        tested = sum("significant" in r[-1] for r in rows)
-        page.heading("All decks")
-        page.table(["deck", "observable", "model", "time step, µs", "cost / mpm's", "deviation from mpm"], [[*r[:-1], r[-1].replace(", ", "\n")] for r in rows])
+    page.text("The reference is model `mpm` unstretched: the computed law. So a deviation here is what another law, or stretching, does to the flow, "
+              "not an error against an experiment. Cost: CPU seconds where every run kept them, else wall-clock, which says little on a machine with "
+              "other work.")
+    tested = sum(write_deck(page, deck, k) for k, deck in enumerate(decks, 1))
+    if tested:
         page.text(f"{tested} of these differences have a spread and were tested (Welch's t test on the seeds, p < 0.05; 1.96 standard errors "
                   f"where one run gives the spread): about {0.05 * tested:.1g} would be called significant by chance alone.")
-    for k, deck in enumerate(decks, 1):
-        write_deck(page, deck, k)
