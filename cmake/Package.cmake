@@ -42,6 +42,7 @@ and fix wall/gran.
 The package also holds the atlas, which answers most homogeneous materials at
 once, and example decks in /usr/share/granulaw/examples.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "${liggghts_range}, python3")
 # mpm plot draws with them, and the examples' run.py.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "python3-h5py, python3-matplotlib, python3-numpy")

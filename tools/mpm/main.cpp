@@ -18,7 +18,6 @@
 #include "base/version.hpp"
 #include "commands.hpp"
 #include "deck/questions.hpp"
-#include "pages.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
 
@@ -146,10 +145,6 @@ Outcome run(int argc, char** argv)
   add_commands(app);
   try {
     if (const std::string sentence = empty_word(argc, argv); !sentence.empty()) return {2, sentence};
-    if (argc == 3 && std::string(argv[1]) == "--write-pages") {  // of the build: no part of --help
-      write_pages(app, argv[2]);
-      return {};
-    }
     if (argc > 1) join_ranks(argv[1], runs_on_ranks(argv[1]));
     app.parse(argc, argv);
     return {};
