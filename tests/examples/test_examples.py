@@ -1,5 +1,4 @@
 """The examples in small; each class has its line in CMakeLists.txt."""
-import importlib.util
 import json
 import math
 import os
@@ -9,18 +8,14 @@ import readings
 import spread
 import steps
 import sweep
-from programs import LAUNCHER, MPM, ROOT
+from programs import LAUNCHER, MPM, ROOT, module
 from pytest import approx, fixture, mark
 
 os.environ["PATH"] = os.pathsep.join([os.path.dirname(MPM), os.path.dirname(LAUNCHER), os.environ["PATH"]])
 
 
 def example(name):
-    """The module examples/NAME."""
-    spec = importlib.util.spec_from_file_location(name.replace("/", "_")[:-3], ROOT / "examples" / name)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module(ROOT / "examples" / name)
 
 
 class Run:

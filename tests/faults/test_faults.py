@@ -2,8 +2,8 @@
 import json
 import sys
 
-from faulting import battery, page, rules
-from programs import ROOT, run
+from faulting import battery, page, rules, workshop
+from programs import ROOT, module, run
 
 SOURCE = """#include <cmath>  // a + b
 #define TWICE(x) (x + x)
@@ -86,3 +86,51 @@ class TestFaults:
 
     def test_page_shows_what_changed(self):
         assert page.change("a = b + c;", "a = b - c;") == ("a = b + c;", "a = b - c;")
+
+
+class TestKilled:
+    """After a kill the same command goes on: no fault is tried twice, none is left out, the scratch copy is sound again."""
+
+    def test_results_stay(self, folder, monkeypatch):
+        tool = module(ROOT / "tools/faults")
+        tried = []
+
+        def judge(trial, fault, what):
+            if len(tried) in (3, 7):
+                tried.append(None)
+                raise KeyboardInterrupt
+            tried.append(fault.id)
+            return {"id": fault.id, "folder": fault.folder, "kind": fault.kind, "file": fault.path, "line": fault.line, "named": fault.named,
+                    "before": "", "after": "", "verdict": "caught", "by": "a.test", "changed": [], "seconds": 1.0}
+        monkeypatch.setattr(tool.workshop.Workshop, "prepare", lambda shop: None)
+        monkeypatch.setattr(tool.Trial, "__init__", lambda trial, shop: None)
+        monkeypatch.setattr(tool.Trial, "judge", judge)
+        monkeypatch.setattr(sys, "argv", ["faults", "--count", "10", "--results", str(folder / "r.jsonl")])
+        assert [tool.main() for _ in range(4)] == [130, 130, 0, 0]
+        tried = [t for t in tried if t]
+        assert len(tried) == len(set(tried)) == len(list(rules.named(ROOT))) + 10
+
+    def test_scratch_copy(self, folder):
+        top = folder / "top"
+        top.mkdir()
+        (top / ".gitignore").write_text("/build\n")
+        (top / "a.cpp").write_text("sound\n")
+        run("git", "init", "-q", top)
+        shop = workshop.Workshop(top, 1, print)
+        shop.home.mkdir(parents=True)
+        shop.copy_tree()
+        (shop.source / "a.cpp").write_text("fault\n")  # as a kill leaves it
+        (shop.source / "b.cpp").write_text("of an earlier tree\n")
+        shop.copy_tree()
+        assert {p.name for p in shop.source.iterdir()} == {".gitignore", "a.cpp"}
+        assert (shop.source / "a.cpp").read_text() == "sound\n"
+
+    def test_battery_of_the_sound_tree_is_kept(self, folder, monkeypatch):
+        tool = module(ROOT / "tools/faults")
+        ran = []
+        monkeypatch.setattr(tool.battery, "run", lambda *_: ran.append(1) or {"impact": "e 0.5"})
+        monkeypatch.setattr(workshop.Workshop, "fingerprint", lambda shop: "the same")
+        shop = workshop.Workshop(folder, 1, print)
+        shop.home.mkdir(parents=True)
+        assert [tool.Trial(shop).sound for _ in range(2)] == [{"impact": "e 0.5"}] * 2
+        assert len(ran) == 1

@@ -1,21 +1,13 @@
 """The pictures of tools/report and mpm plot: every panel has a name, no text leaves the picture, no two ticks run into each other."""
-import importlib.util
 import io
 import json
 import sys
 from unittest import mock
 
 import run_files
-from programs import ROOT
+from programs import ROOT, module
 from pytest import fixture
 from reporting import contacts_part, flow_part, page
-
-
-def script(name):
-    spec = importlib.util.spec_from_file_location(name, ROOT / "tools" / "mpm" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 class TestPictures:
@@ -78,10 +70,10 @@ class TestPictures:
     def drawn(self, name, *words, told=""):
         """The figure that a script of mpm plot saves."""
         figures = []
-        module = script(name)
-        with mock.patch.object(module.plt.Figure, "savefig", lambda figure, *a, **k: figures.append(figure)), \
+        drawing = module(ROOT / f"tools/mpm/{name}.py")
+        with mock.patch.object(drawing.plt.Figure, "savefig", lambda figure, *a, **k: figures.append(figure)), \
                 mock.patch.object(sys, "stdin", io.StringIO(told)):
-            module.main(*map(str, words))
+            drawing.main(*map(str, words))
         return figures[0]
 
     def test_law_and_pair(self):

@@ -1,7 +1,5 @@
 """tools/report: what the page says of files whose numbers are known, of missing files and of damaged ones."""
 import contextlib
-import importlib.machinery
-import importlib.util
 import io
 import json
 import math
@@ -9,17 +7,9 @@ import re
 import shutil
 
 import run_files
-from programs import ROOT, run
+from programs import ROOT, module, run
 from pytest import approx, fixture, mark, raises
 from reporting import contacts_part, files, page
-
-
-def module(path):
-    loader = importlib.machinery.SourceFileLoader("report_tool", str(path))
-    found = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
-    loader.exec_module(found)
-    return found
-
 
 TOOL = module(ROOT / "tools" / "report")
 

@@ -1,5 +1,7 @@
 """Programs of the build as tests call them, and materials files."""
 import functools
+import importlib.machinery
+import importlib.util
 import json
 import os
 import pathlib
@@ -41,6 +43,14 @@ def mpm(*words, **how):
 def answer(*words, **how):
     """JSON that the command prints."""
     return json.loads(mpm(*words, **how).stdout)
+
+
+def module(path):
+    """A script of the tree as a module, whatever its ending."""
+    loader = importlib.machinery.SourceFileLoader(pathlib.Path(path).stem, str(path))
+    found = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(found)
+    return found
 
 
 @functools.cache

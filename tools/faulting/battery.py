@@ -4,12 +4,12 @@ Times, rates, hashes and paths are left out; numbers may differ by a relative 1e
 """
 import json
 import math
-import os
 import re
 import shutil
 import subprocess
-import sys
-from pathlib import Path
+
+import h5py
+import numpy as np
 
 ROUNDING = 1e-9
 LIMIT = 120.0  # s a command; all of them take about a minute
@@ -129,6 +129,53 @@ endloop
 endfacet
 endsolid plate
 """
+GAS = """units si
+hard_particles yes
+atom_style granular
+atom_modify map array sort 0 0
+boundary f f f
+newton off
+communicate single vel yes
+region box block -0.02 0.02 -0.02 0.02 -0.001 0.04 units box
+create_box 2 box
+neighbor 0.0004 bin
+neigh_modify delay 0
+fix p1 all property/global youngsModulus peratomtype 2.73e9 2.73e9
+fix p2 all property/global poissonsRatio peratomtype 0.3 0.3
+fix p3 all property/global yieldStress peratomtype 1e8 1e8
+fix p4 all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
+fix p5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
+pair_style gran model ${model} tangential history WORDS stats s.json
+pair_coeff * *
+fix w1 all wall/gran model ${model} tangential history primitive type 1 zplane 0.0
+fix cad all mesh/surface file plate.stl type 1
+fix w2 all wall/gran model ${model} tangential history mesh n_meshes 1 meshes cad
+fix g all gravity 9.81 vector 0.0 0.0 -1.0
+"""
+
+
+GASES = {"mpm": "law law.h5 materials powder powder tangentialDampingRatio 0 contactMap on", "thornton": "contactMap on",
+         "stretch": "law law.h5 materials powder powder stretch 2 elasticDamping 0.1"}
+
+
+def gas(name):
+    """Three layers of spheres, of two radii, thrown at each other, a floor and a plate."""
+    model = "thornton" if name == "thornton" else "mpm"
+    text, k = GAS.replace("${model}", model).replace("WORDS", GASES[name]), 0
+    for layer, (z, speed) in enumerate(((0.00205, -1.5), (0.006, -6.0), (0.0105, -9.0), (0.0245, -4.0))):
+        for x in range(3):
+            for y in range(3):
+                k += 1
+                text += (f"create_atoms {1 + (x + layer) % 2} single {0.0045 * (x - 1) + 2e-4 * layer:.6g} {0.0045 * (y - 1) - 3e-4 * layer:.6g} {z:.6g} units box\n"
+                         f"group a{k} id {k}\nset group a{k} diameter {4e-3 if (x + y) % 2 else 3e-3} density 1500\n"
+                         f"velocity a{k} set {0.3 * (y - 1):.6g} {-0.2 * (x - 1):.6g} {speed}\ngroup a{k} delete\n")
+    return text + ("fix i all nve/sphere\ntimestep 1e-7\ncompute rot all erotate/sphere\n"
+                   "thermo_style custom step atoms ke c_rot f_granulaw f_granulaw[1] f_granulaw[2] f_granulaw[3] f_granulaw[4] f_granulaw[5] f_granulaw[6] f_granulaw[7]\n"
+                   "thermo 2000\nthermo_modify norm no lost error format float %.12g\nrun 6000\n"
+                   "dump d all custom 1 end.txt id x y z vx vy vz fx fy fz omegax omegay omegaz\n"
+                   "dump_modify d sort id format \"%d %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g\"\nrun 0\n")
+
+
 RUNS = "--resolution 8 --phases 2 --json"
 BY_RUNS = "--no-atlas --depth 0.05 --inertia 0.01 --jobs 1 --cache runs"
 COMMANDS = {
@@ -165,9 +212,7 @@ COMMANDS = {
     "refused": "mpm impact m.toml --particle gran --velocity 1",
     "fixture": "law_fixture mpm law.h5 powder hard 1e-3 1e-5 3",
     "thornton": "law_fixture thornton 3e9 1.6e8 1e-3 1e-5 3",
-    "liggghts mpm": "liggghts-mpm -in in.gas -var model mpm -var words 'law law.h5 materials powder tangentialDampingRatio 0 contactMap on'",
-    "liggghts thornton": "liggghts-mpm -in in.gas -var model thornton -var words 'contactMap on'",
-    "liggghts stretch": "liggghts-mpm -in in.gas -var model mpm -var words 'law law.h5 materials powder stretch 2 elasticDamping 0.1'",
+    **{f"liggghts {name}": f"liggghts-mpm -in in.{name}" for name in GASES},
 }
 # Names of the commands whose programs hold the code of a folder (and of those that make their files).
 OF = {
@@ -179,48 +224,6 @@ OF = {
     "tools/deck": "plan|soften|.*deck",
     "tools/mpm": "(?!.*runs|impact, updated|impact, tolerance)",
 }
-GAS = """units si
-hard_particles yes
-atom_style granular
-atom_modify map array sort 0 0
-boundary f f f
-newton off
-communicate single vel yes
-region box block -0.02 0.02 -0.02 0.02 -0.001 0.04 units box
-create_box 2 box
-neighbor 0.0004 bin
-neigh_modify delay 0
-fix p1 all property/global youngsModulus peratomtype 2.73e9 2.73e9
-fix p2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix p3 all property/global yieldStress peratomtype 1e8 1e8
-fix p4 all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
-fix p5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
-pair_style gran model ${model} tangential history ${words} stats s.json
-pair_coeff * *
-fix w1 all wall/gran model ${model} tangential history primitive type 1 zplane 0.0
-fix cad all mesh/surface file plate.stl type 1
-fix w2 all wall/gran model ${model} tangential history mesh n_meshes 1 meshes cad
-fix g all gravity 9.81 vector 0.0 0.0 -1.0
-"""
-
-
-def gas():
-    """Three layers of spheres, of two radii, thrown at each other, a floor and a plate."""
-    text, k = GAS.replace("materials powder", "materials powder powder"), 0
-    for layer, (z, speed) in enumerate(((0.00205, -1.5), (0.006, -6.0), (0.0105, -9.0), (0.0245, -4.0))):
-        for x in range(3):
-            for y in range(3):
-                k += 1
-                text += (f"create_atoms {1 + (x + layer) % 2} single {0.0045 * (x - 1) + 2e-4 * layer:.6g} {0.0045 * (y - 1) - 3e-4 * layer:.6g} {z:.6g} units box\n"
-                         f"group a{k} id {k}\nset group a{k} diameter {4e-3 if (x + y) % 2 else 3e-3} density 1500\n"
-                         f"velocity a{k} set {0.3 * (y - 1):.6g} {-0.2 * (x - 1):.6g} {speed}\ngroup a{k} delete\n")
-    return text + ("fix i all nve/sphere\ntimestep 1e-7\ncompute rot all erotate/sphere\n"
-                   "thermo_style custom step atoms ke c_rot f_granulaw f_granulaw[1] f_granulaw[2] f_granulaw[3] f_granulaw[4] f_granulaw[5] f_granulaw[6] f_granulaw[7]\n"
-                   "thermo 2000\nthermo_modify norm no lost error format float %.12g\nrun 6000\n"
-                   "dump d all custom 1 end.txt id x y z vx vy vz fx fy fz omegax omegay omegaz\n"
-                   "dump_modify d sort id format \"%d %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g\"\nrun 0\n")
-
-
 def plain(value):
     """JSON without what time or the build decides."""
     if isinstance(value, dict):
@@ -252,20 +255,15 @@ def run(tools, folder, env, say, of=""):
     (folder / "m.toml").write_text(MATERIALS)
     (folder / "in.scene").write_text(SCENE)
     (folder / "plate.stl").write_text(PLATE)
-    (folder / "in.gas").write_text(gas())
+    for name in GASES:
+        (folder / f"in.{name}").write_text(gas(name))
     found = {}
     chosen = {name: command for name, command in COMMANDS.items() if re.match(of, name)}
     for k, (name, command) in enumerate(chosen.items()):
         say(f"battery: {k + 1} of {len(chosen)}, {name}")
-        words = re.findall(r"'[^']*'|\S+", command)
-        words = [tools[words[0]]] + [w.strip("'") for w in words[1:]]
-        if "in.gas" in words:  # one word each for -var WORDS: LIGGGHTS takes a list, the deck wants the text
-            deck = (folder / "in.gas").read_text()
-            values = dict(zip(words[words.index("-var") + 1::3], words[words.index("-var") + 2::3]))
-            (folder / "in.one").write_text(deck_with(deck, values))
-            words = [words[0], "-in", "in.one"]
+        program, *words = command.split()
         try:
-            done = subprocess.run([str(w) for w in words], cwd=folder, env=env, capture_output=True, text=True, errors="replace",
+            done = subprocess.run([tools[program], *words], cwd=folder, env=env, capture_output=True, text=True, errors="replace",
                                   stdin=subprocess.DEVNULL, timeout=LIMIT)
             text = f"exit {done.returncode}\n" + told(done.stdout) + "\n" + told(done.stderr)
         except subprocess.TimeoutExpired:
@@ -281,23 +279,20 @@ def run(tools, folder, env, say, of=""):
     return found
 
 
-def deck_with(deck, values):
-    for name, value in values.items():
-        deck = deck.replace("${" + name + "}", value.replace("materials powder", "materials powder powder"))
-    if values.get("model") == "thornton":
-        deck = deck.replace(" law law.h5 materials powder powder", "")
-    return deck
-
-
 def fields(path):
-    """Sums over every array of a file of fields, by h5dump where it is installed."""
+    """Sums over every array of a file of fields."""
+    lines = []
+
+    def add(name, data):
+        if isinstance(data, h5py.Dataset):
+            values = data[...].astype(float)
+            lines.append(f"{name} {data.shape} {np.abs(values).sum()} {values.sum()}")
     try:
-        done = subprocess.run(["/usr/bin/python3", "-c", "import h5py, sys, numpy as np\nwith h5py.File(sys.argv[1]) as f:\n"
-                               "    f.visititems(lambda n, d: print(n, d.shape, float(np.abs(d[...].astype(float)).sum()), float(d[...].astype(float).sum())) "
-                               "if isinstance(d, h5py.Dataset) else None)", path], capture_output=True, text=True)
-        return done.stdout
-    except OSError:
-        return ""
+        with h5py.File(path) as file:
+            file.visititems(add)
+    except (OSError, ValueError):
+        lines.append("cannot be read")
+    return "\n".join(lines)
 
 
 def differing(sound, faulty):
