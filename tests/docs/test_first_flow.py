@@ -61,9 +61,9 @@ class TestReadme:
     def test_commands(self, folder):
         """The commands of the README, in turn: the collision of the solver and of the law agree within the law's error bound."""
         lines = re.findall(r"(?m)^    (mpm .*?)(?:  #.*)?$", (ROOT / "README.md").read_text())
-        assert [line.split()[1] for line in lines] == ["impact", "table", "law"]
+        assert [line.split()[1] for line in lines] == ["impact", "table", "law", "convert"]
         (folder / "examples").symlink_to(ROOT / "examples")
-        said = [programs.mpm(*line.split()[1:], cwd=folder).stdout for line in lines]
+        said = [programs.mpm(*line.split()[1:], cwd=folder).stdout for line in lines[:3]]  # the last is of the reader's deck
         bound = float(re.search(r"error bound .* e ([\d.]+)", said[2])[1])
         e = [float(re.search(r"restitution e +([\d.]+)", text)[1]) for text in (said[0], said[2])]
         assert abs(e[0] - e[1]) < bound
