@@ -1,4 +1,4 @@
-"""Chromium without a window, through chromedriver (W3C WebDriver), and Firefox: standard library only."""
+"""Chromium and Firefox, as the tests of the page use them."""
 import base64
 import json
 import shutil
@@ -6,12 +6,20 @@ import socket
 import subprocess
 import tempfile
 import time
-import urllib.request
 from pathlib import Path
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.actions.action_builder import ActionBuilder
+except ImportError:
+    webdriver = None
 
 
 def missing():
-    """A sentence about the program that is missing; None: both are there."""
+    """A sentence about what is missing; None: all is there."""
+    if webdriver is None:
+        return "no module selenium (Debian: python3-selenium)"
     for program, package in (("chromium", "chromium"), ("chromedriver", "chromium-driver")):
         if not shutil.which(program):
             return f"no {program} (Debian: {package})"
@@ -29,17 +37,14 @@ def value_of(answer):
     return answer.get("value")
 
 
-def free_port():
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        return free.getsockname()[1]
-
-
 class Firefox:
-    """By its own protocol, Marionette: messages of JSON, each behind its length."""
+    """By its own protocol, Marionette: messages of JSON, each behind its length. Debian has no geckodriver, which Selenium needs."""
 
     def __init__(self):
-        port, self.last = free_port(), 0
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        self.last = 0
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         (Path(self.folder.name) / "user.js").write_text(f'user_pref("marionette.port", {port});\n')
         self.program = subprocess.Popen(["firefox-esr", "--headless", "--marionette", "--no-remote", "--profile", self.folder.name],
@@ -87,67 +92,39 @@ class Firefox:
 
 
 class Browser:
+    """Chromium without a window, by Selenium."""
+
     def __init__(self, width=1560, height=980):
-        port = free_port()
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.url, self.session = f"http://127.0.0.1:{port}", ""
-        arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
-                     f"--window-size={width},{height}",
-                     f"--user-data-dir={self.folder.name}/profile"]
-        options = {"args": arguments, "prefs": {"download.default_directory": self.folder.name, "download.prompt_for_download": False,
-                                                "profile.default_content_setting_values.automatic_downloads": 1}}
-        self._wait_for_driver()
-        made = self._call("POST", "/session", {"capabilities": {"alwaysMatch": {"browserName": "chrome", "goog:chromeOptions": options, "timeouts": {"script": 240000},
-                                                                               "goog:loggingPrefs": {"performance": "ALL", "browser": "ALL"}}}})
-        self.session = f"/session/{made['sessionId']}"
+        options = webdriver.ChromeOptions()
+        for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars", f"--window-size={width},{height}"):
+            options.add_argument(word)
+        options.add_experimental_option("prefs", {"download.default_directory": self.folder.name, "download.prompt_for_download": False,
+                                                  "profile.default_content_setting_values.automatic_downloads": 1})
+        options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
+        self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+        self.driver.set_script_timeout(240)
+        self.open, self.command = self.driver.get, self.driver.execute_cdp_cmd
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        try:
-            self._call("DELETE", "")
-        finally:
-            self.driver.terminate()
-            self.driver.wait()
-            self.folder.cleanup()
-
-    def _wait_for_driver(self):
-        for _ in range(300):
-            try:
-                return self._call("GET", "/status")
-            except OSError:
-                time.sleep(0.1)
-        raise RuntimeError("chromedriver does not answer")
-
-    def _call(self, method, path, body=None):
-        data = json.dumps(body if body is not None else {}).encode() if method == "POST" else None
-        request = urllib.request.Request(self.url + self.session + path, data, {"Content-Type": "application/json"}, method=method)
-        try:
-            with urllib.request.urlopen(request, timeout=300) as answer:
-                return json.load(answer)["value"]
-        except urllib.error.HTTPError as error:
-            raise RuntimeError(json.load(error)["value"]["message"]) from None
-
-    def open(self, address):
-        self._call("POST", "/url", {"url": address})
+        self.driver.quit()
+        self.folder.cleanup()
 
     def run(self, script, *arguments):
         """The value of an async function's body; `args` are the arguments."""
-        return value_of(self._call("POST", "/execute/async", {"script": wrapped(script), "args": list(arguments)}))
-
-    def log(self, kind):
-        return self._call("POST", "/se/log", {"type": kind})
+        return value_of(self.driver.execute_async_script(wrapped(script), *arguments))
 
     def requests(self):
         """Addresses that were asked for since the last call."""
-        events = [json.loads(entry["message"])["message"] for entry in self.log("performance")]
+        events = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
         return [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
 
     def complaints(self):
         """Errors and refusals of the page since the last call."""
-        return [entry["message"] for entry in self.log("browser") if entry["level"] == "SEVERE"]
+        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
     def resize(self, width, height):
         self.command("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
@@ -155,16 +132,11 @@ class Browser:
     def dark(self, on):
         self.command("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark" if on else "light"}]})
 
-    def command(self, name, parameters):
-        """One command of the DevTools protocol."""
-        return self._call("POST", "/goog/cdp/execute", {"cmd": name, "params": parameters})
-
     def drag(self, start, end):
         """The left button, pressed at a point of the window, moved and released."""
-        pointer = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [
-            {"type": "pointerMove", "duration": 0, "x": round(start[0]), "y": round(start[1])}, {"type": "pointerDown", "button": 0},
-            {"type": "pointerMove", "duration": 100, "x": round(end[0]), "y": round(end[1])}, {"type": "pointerUp", "button": 0}]}
-        self._call("POST", "/actions", {"actions": [pointer]})
+        actions = ActionBuilder(self.driver)
+        actions.pointer_action.move_to_location(round(start[0]), round(start[1])).pointer_down().move_to_location(round(end[0]), round(end[1])).pointer_up()
+        actions.perform()
 
     def picture(self, path):
         whole = self.command("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True})
