@@ -1,4 +1,4 @@
-"""tools/check says what was skipped and why; a skip that its caller does not allow fails. Set-up, build and ctest are stand-ins."""
+"""tools/check says what was skipped and why; a skip that its caller does not allow fails. Other scripts take the place of set-up, build and ctest."""
 import os
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""One site for all tests of the book. Skipped (77) where python3-sphinx or python3-myst-parser is absent."""
+"""One site of the documentation for all tests of this folder. Skipped (77) where python3-sphinx or python3-myst-parser is absent."""
 import importlib.util
 import shutil
 
