@@ -15,6 +15,8 @@
 #include "atlas/unlike_pair.hpp"
 #include "atlas/tabulate_curve.hpp"
 #include "contact/pair.hpp"
+#include "law/damage_number.hpp"
+#include "law/radiation.hpp"
 #include "linear/linear.hpp"
 
 namespace granulaw {
@@ -478,12 +480,31 @@ TwoBodyLaw law_of(const ComposedShape& composed, const LawRange& range)
   return result;
 }
 
+void leave_out_axis(TwoBodyLaw& own, const LawMaterial& partner, double tolerance)
+{
+  const LawMaterial& yielding = own.law.material;
+  const PairMapping mapping = PairMapping::deformable_partner(yielding.e_star(), partner.e_star());
+  const auto [radius, partner_radius] = radii_of(own.radius_ratio);
+  const double r_eff = 1 / (1 / radius + 1 / partner_radius);
+  const auto mass = [](const LawMaterial& m, double r) { return 4.0 / 3.0 * M_PI * m.density * r * r * r; };
+  const double m_eff = 1 / (1 / mass(yielding, radius) + 1 / mass(partner, partner_radius));
+  const double waves = radiation(yielding, radius, partner, partner_radius);
+  const auto pair_of = [&](const BodyLaw& law) { return PairLaw{{&law.curve, mapping, waves}, &law}; };
+  const double per_speed = pair_of(own.law).axis_speed(r_eff, m_eff, 1.0);
+  const AxisCollision collide = [&](const BodyLaw& law, double v) {
+    return replay_collision(pair_of(law), r_eff, m_eff, v / per_speed, cheap_replay);
+  };
+  const double fastest = std::sqrt(own.law.certificate.damage_number_max / damage_number(pair_of(own.law), 1.0));  // m/s
+  leave_out_axis(own.law, collide, tolerance, fastest * per_speed);
+}
+
 TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
                        double radius_ratio, const LawRange& range)
 {
-  if (yielding.yields() || partner.yields())
-    return law_of(compose_shape(atlas, yielding, partner, radius_ratio, range), range);
-  return elastic_law(yielding, partner, radius_ratio, range);
+  if (!yielding.yields() && !partner.yields()) return elastic_law(yielding, partner, radius_ratio, range);
+  TwoBodyLaw law = law_of(compose_shape(atlas, yielding, partner, radius_ratio, range), range);
+  leave_out_axis(law, partner.material(), range.tolerance);
+  return law;
 }
 
 }  // namespace granulaw

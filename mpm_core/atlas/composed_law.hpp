@@ -89,10 +89,13 @@ struct ComposedShape
 ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
                             double radius_ratio, const LawRange& range);
 
-/// Its law. range: fastest, tolerance. Throws Error where it would not be admissible.
+/// Its law, with its velocity axis. range: fastest. Throws Error where it would not be admissible.
 TwoBodyLaw law_of(const ComposedShape& composed, const LawRange& range);
 
-/// The law of any pair. As the two above.
+/// Leaves the axis out where it changes no collision of the two bodies by more than the tolerance (finish_curve.hpp).
+void leave_out_axis(TwoBodyLaw& law, const LawMaterial& partner, double tolerance);
+
+/// The law of any pair. As the three above.
 TwoBodyLaw compose_law(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
                        double radius_ratio, const LawRange& range);
 

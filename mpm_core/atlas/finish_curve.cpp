@@ -1,41 +1,61 @@
 #include "atlas/finish_curve.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "atlas/law_range.hpp"
 #include "atlas/tabulate_curve.hpp"
 #include "atlas/tabulate_velocity_axis.hpp"
-#include "law/replay.hpp"
 
 namespace granulaw {
 
 namespace {
 
-/// The certificate's errors of F and e without the axis, at its ends. Returns the largest.
-double note_axis_cost(BodyLaw& law, const Curve& slow, const AxisTable& axis,
-                      const BodyNumbers& body)
+/// F_max and e of a law without its axis over those with it, by speed.
+class AxisCosts
 {
-  const Scales unit{body.radius, law.material.e_star(), law.material.density};
-  const auto replay = [&](const Curve& curve, double v) {
-    BodyLaw other = law;
-    other.curve = curve;
-    return replay_on_wall(other, unit.length, body.mass * unit.mass(),
-                          v * std::sqrt(body.yield) * unit.velocity());
-  };
-  double worst = 0;
-  // what a rate raises at the fast end inertia may take away again
-  for (const double v : {axis.speed_begin, axis.speed_end}) {
-    if (v == 0) continue;
-    const Replay with = replay(law.curve, v), without = replay(slow, v);
-    law.certificate.axis_cost_force = without.force_max / with.force_max - 1;
-    law.certificate.axis_cost_restitution = without.restitution / with.restitution - 1;
-    worst = std::max(
-        {worst, std::abs(law.certificate.axis_cost_force), std::abs(law.certificate.axis_cost_restitution)});
+ public:
+  AxisCosts(const BodyLaw& law, const AxisCollision& collide) : law_(law), without_(law), collide_(collide)
+  {
+    without_.curve = Curve(law.curve.table());
   }
-  return worst;
-}
+
+  AxisCost at(double v) const
+  {
+    const Replay with = collide_(law_, v), without = collide_(without_, v);
+    return {v, without.force_max / with.force_max - 1, without.restitution / with.restitution - 1};
+  }
+  /// At speeds up to this one; none where one is over `most`.
+  std::vector<AxisCost> up_to(double fastest, double most) const
+  {
+    // Costs go as v to v^2: linear between such speeds within a hundredth. At the first the axis does next to nothing.
+    constexpr double step = 1.4, first = impact_speeds[0];
+    std::vector<AxisCost> all;
+    for (double v = fastest; all.empty() || v > first / step; v /= step) {  // the fastest impact mostly costs most
+      all.push_back(at(v));
+      if (!(std::max(std::abs(all.back().force), std::abs(all.back().restitution)) <= most)) return {};
+    }
+    std::reverse(all.begin(), all.end());
+    return all;
+  }
+  const Curve& slow() const { return without_.curve; }
+
+ private:
+  const BodyLaw& law_;
+  BodyLaw without_;
+  const AxisCollision& collide_;
+};
 
 }  // namespace
+
+AxisCollision collision_on_wall(const BodyNumbers& body)
+{
+  return [body](const BodyLaw& law, double v) {
+    const Scales unit{body.radius, law.material.e_star(), law.material.density};
+    return replay_collision(wall_pair(law), unit.length, body.mass * unit.mass(),
+                            v * std::sqrt(body.yield) * unit.velocity(), cheap_replay);
+  };
+}
 
 double finish_curve(BodyLaw& law, const LawShape& shape, const BodyNumbers& body, const LawRange& range)
 {
@@ -45,22 +65,28 @@ double finish_curve(BodyLaw& law, const LawShape& shape, const BodyNumbers& body
     law.curve = slow;
     return error;
   }
-  const bool rate = body.rate_dependent;
   const AxisTable axis =
-      rate ? tabulate_rate(shape, slow, 1 / body.yield, body.mass, range.fastest, body.radius)
-           : tabulate_inertia(shape, slow, 1 / body.yield, body.mass, range.fastest);
-  // It ends where an impact reaches the end of the curve.
-  if (const double slow_enough = negligible_damage_number(range.tolerance);
-      !rate && axis.speed_end * axis.speed_end <= slow_enough) {
-    law.curve = slow;
-    law.certificate.damage_number_max = std::min(range.fastest * range.fastest, slow_enough);
-    return error;
-  }
-  law.certificate.damage_number_max = axis.speed_end * axis.speed_end;
+      body.rate_dependent ? tabulate_rate(shape, slow, 1 / body.yield, body.mass, range.fastest, body.radius)
+                          : tabulate_inertia(shape, slow, 1 / body.yield, body.mass, range.fastest);
   law.curve = fitted_curve(slow.table(), axis);
-  // Model only what the scene needs.
-  if (note_axis_cost(law, slow, axis, body) <= range.tolerance) law.curve = slow;
+  Certificate& c = law.certificate;
+  c.damage_number_max = axis.speed_end * axis.speed_end;
+  const AxisCost at_end = AxisCosts(law, collision_on_wall(body)).at(axis.speed_end);
+  c.axis_cost_force = at_end.force;
+  c.axis_cost_restitution = at_end.restitution;
   return error;
+}
+
+void leave_out_axis(BodyLaw& law, const AxisCollision& collide, double tolerance, double fastest)
+{
+  const AxisTable* axis = law.curve.axis();
+  if (!axis || axis->by == AxisTable::By::rate) return;
+  const AxisCosts costs(law, collide);
+  std::vector<AxisCost> omitted = costs.up_to(axis->speed_end, tolerance);
+  if (omitted.empty()) return;
+  if (fastest < axis->speed_end) omitted = costs.up_to(fastest, tolerance);
+  law.certificate.omitted_axis = std::move(omitted);
+  law.curve = costs.slow();
 }
 
 }  // namespace granulaw

@@ -31,8 +31,9 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const LawRange
   const MaterialRatios ratios = MaterialRatios::of(material);
   if (const std::string why = atlas.why_not(ratios); !why.empty())
     fail(fmt::format("material '{}'", material.name), "is not in the atlas: " + why);
-  c.damage_number_max = range.fastest * range.fastest;
-  c.interpolation_error = finish_curve(law, atlas.shape(ratios), body_numbers(ratios), range);
+  const BodyNumbers body = body_numbers(ratios);
+  c.interpolation_error = finish_curve(law, atlas.shape(ratios), body, range);
+  leave_out_axis(law, collision_on_wall(body), range.tolerance);
   const NearBounds errors = atlas.bounds_near(ratios.stiffness);
   c.atlas_error_force = errors.force;
   c.atlas_error_restitution = errors.restitution;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <ranges>
+
 #include "law/damage_number.hpp"
 
 namespace granulaw {
@@ -27,25 +30,91 @@ LawKind kind_of(const TwoBodyLaw* of_pair, const std::string& a, const std::stri
   return c.verification_impacts > 0 ? LawKind::corrected : LawKind::composed;
 }
 
-/// I of like spheres over the square of the velocity axis's v there. The bound of the pair rule is known up
-/// to v^2 = 0.002 (docs/evidence/pairs.md).
+/// v^2 of the velocity axis up to which the bound of the pair rule is known (docs/evidence/pairs.md).
+constexpr double measured_by_rule = 0.002;
+
+/// I of like spheres there.
 double damage_number_of_rule(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
 {
-  constexpr double measured = 0.002, radius = 1e-3;
+  constexpr double radius = 1e-3;
   const double m_eff = effective_mass(law.bodies.at(a).mass(radius), law.bodies.at(b).mass(radius));
   const double v = pair.axis_speed(radius / 2, m_eff, 1.0);
-  return measured * damage_number(pair, 1.0) / (v * v);
+  return measured_by_rule * damage_number(pair, 1.0) / (v * v);
+}
+
+/// Linear between the speeds, from none at standstill; beyond the last that of the last.
+AxisCost cost_at(const std::vector<AxisCost>& costs, double v)
+{
+  AxisCost below;
+  for (const AxisCost& above : costs) {
+    if (v < above.speed) {
+      const double place = (v - below.speed) / (above.speed - below.speed);
+      return {v, below.force + place * (above.force - below.force),
+              below.restitution + place * (above.restitution - below.restitution)};
+    }
+    below = above;
+  }
+  return below;
+}
+
+/// The larger cost of two laws, at the speeds of both.
+std::vector<AxisCost> larger_costs(const std::vector<AxisCost>& a, const std::vector<AxisCost>& b)
+{
+  std::map<double, AxisCost> larger;
+  for (const std::vector<AxisCost>* costs : {&a, &b})
+    for (const double v : *costs | std::views::transform(&AxisCost::speed)) {
+      const AxisCost of_a = cost_at(a, v), of_b = cost_at(b, v);
+      larger[v] = {v, std::max(std::abs(of_a.force), std::abs(of_b.force)),
+                   std::max(std::abs(of_a.restitution), std::abs(of_b.restitution))};
+    }
+  const auto values = larger | std::views::values;
+  return {values.begin(), values.end()};
 }
 
 }  // namespace
 
+ErrorBound ErrorBound::at(double v) const
+{
+  const AxisCost cost = cost_at(omitted_axis, v);
+  return {std::abs(cost.force) + (1 + std::abs(cost.force)) * force, restitution, relative_restitution, {},
+          axis_restitution + std::abs(cost.restitution)};
+}
+
+ErrorBound ErrorBound::up_to(double v) const
+{
+  ErrorBound bound = *this;
+  std::vector<AxisCost>& costs = bound.omitted_axis;
+  if (costs.empty() || costs.back().speed <= v) return bound;
+  std::erase_if(costs, [v](const AxisCost& cost) { return cost.speed >= v; });
+  costs.push_back(cost_at(omitted_axis, v));
+  return bound;
+}
+
+ErrorBound ErrorBound::with(const ErrorBound& other) const
+{
+  return {std::hypot(force, other.force), std::hypot(restitution, other.restitution),
+          std::hypot(relative_restitution, other.relative_restitution),
+          larger_costs(omitted_axis, other.omitted_axis), std::max(axis_restitution, other.axis_restitution)};
+}
+
+ErrorBound ErrorBound::worst(const ErrorBound& other) const
+{
+  return {std::max(force, other.force), std::max(restitution, other.restitution),
+          std::max(relative_restitution, other.relative_restitution), larger_costs(omitted_axis, other.omitted_axis),
+          std::max(axis_restitution, other.axis_restitution)};
+}
+
 std::string ErrorBound::text() const
 {
   if (!stated()) return "not stated";
+  const double relative = relative_restitution + axis_restitution;
   std::string e = fmt::format("{:.2g}", restitution);
-  if (relative_restitution > 0)
-    e = (restitution > 0 ? e + " and " : "") + fmt::format("{:.2g} %", 100 * relative_restitution);
-  return fmt::format("F_max {:.2g} %, e {}", 100 * force, e);
+  if (relative > 0) e = (restitution > 0 ? e + " and " : "") + fmt::format("{:.2g} %", 100 * relative);
+  const std::string slow = fmt::format("F_max {:.2g} %, e {}", 100 * force, e);
+  if (omitted_axis.empty()) return slow;
+  ErrorBound largest;
+  for (const AxisCost& cost : omitted_axis) largest = largest.worst(at(cost.speed));
+  return slow + ", rising with speed to " + largest.text();
 }
 
 ErrorBound bound_of(const Certificate& c)
@@ -59,13 +128,15 @@ ErrorBound bound_of(const Certificate& c)
     law = {c.verification_error_force, 0, c.verification_error_restitution};
   else if (!checked)
     law = atlas.with({c.interpolation_error, 0, c.held_out_error});
-  return law.with({c.solver_error_force, 0, c.solver_error_restitution});
+  law = law.with({c.solver_error_force, 0, c.solver_error_restitution});
+  law.omitted_axis = c.omitted_axis;
+  return law;
 }
 
 ErrorBound bound_of(const BodyLaw& body)
 {
   if (!body.shape) return bound_of(body.certificate);
-  return {body.shape->force().largest, body.shape->restitution().largest, 0};
+  return {body.shape->force().largest, body.shape->restitution().largest, 0, body.certificate.omitted_axis};
 }
 
 ErrorBound size_error(double off)
@@ -118,7 +189,7 @@ PairStatement statement_of(const Law& law, const PairLaw& pair, const std::strin
   if (const LawPair* entry = law.find_pair(a, b))
     s.rule = {entry->reduction_error_force, 0, entry->reduction_error_restitution};
   if (s.kind != LawKind::reduced) return s;
-  s.bound = s.bound.with(s.rule);
+  s.bound = s.bound.with(s.rule).up_to(std::sqrt(measured_by_rule));
   if (law.bodies.contains(a) && law.bodies.contains(b))
     s.damage_number_max = std::min(s.damage_number_max, damage_number_of_rule(law, pair, a, b));
   return s;

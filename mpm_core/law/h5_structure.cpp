@@ -18,11 +18,11 @@ namespace {
 using Address = std::uint64_t;
 using Bytes = std::string_view;
 
-constexpr std::uint64_t most_bytes = 32u << 20;  // the largest law, 131072 nodes, takes 9 MB
+constexpr std::uint64_t most_bytes = 128u << 20;  // every pair of 30 materials takes 54 MB
 constexpr Address undefined = ~Address{0};
 constexpr int most_depth = 16, most_levels = 8;
 constexpr std::uint64_t leaf_k = 4, internal_k = 16;  // libhdf5's defaults, in the superblock
-constexpr std::uint64_t most_rank = 8, most_values = most_bytes, most_value_bytes = 65536;
+constexpr std::uint64_t most_rank = 8, most_values = 32u << 20, most_value_bytes = 65536;
 
 /// Message types of an object header (specification, IV.A.2).
 enum class Message : unsigned {

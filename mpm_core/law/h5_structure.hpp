@@ -12,7 +12,7 @@ namespace granulaw::h5 {
 ///
 /// Why: libhdf5 1.10 trusts what it parses. One flipped byte makes it allocate gigabytes or exabytes, and
 /// crafted ones make it crash. After this check it only meets lengths and addresses that were seen to be
-/// sound. Numbers and names are the reader's matter. Reads the whole file, at most 32 MiB.
+/// sound. Numbers and names are the reader's matter. Reads the whole file, at most 128 MiB.
 void check_structure(const std::string& path);
 
 }  // namespace granulaw::h5

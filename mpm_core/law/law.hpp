@@ -14,6 +14,14 @@
 
 namespace granulaw {
 
+/// Cost, at one speed, of the velocity axis that a law was made without; of F_max and of e, without the axis over with
+/// it, less 1 (signed).
+struct AxisCost
+{
+  double speed = 0;  ///< v of the axis (AxisTable)
+  double force = 0, restitution = 0;
+};
+
 /// Errors a law states about itself, relative (0.01 is 1 %), and the range it holds for.
 struct Certificate
 {
@@ -30,6 +38,8 @@ struct Certificate
   double axis_cost_force =
       0;  ///< F_max without the velocity axis over F_max with it, less 1, at its end; 0: none
   double axis_cost_restitution = 0;    ///< the same of e (both signed)
+  /// The same by speed, ascending, of an axis that was left out; empty: the law has its axis, or needs none.
+  std::vector<AxisCost> omitted_axis{};
   double atlas_error_force = 0;        ///< of the atlas's values, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
   std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas; or ...

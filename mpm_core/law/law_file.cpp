@@ -13,17 +13,18 @@
 #include "law/h5_checksum.hpp"
 #include "law/h5_structure.hpp"
 #include "law/layout.hpp"
+#include "law/range.hpp"
 #include "law/shape_certificate_file.hpp"
 
 namespace granulaw {
 
 namespace {
 
-// A file may be hostile: what it can make the reader allocate ends at some tens of megabytes. A node costs
-// some 200 bytes (its values and its interval's coefficients).
-constexpr std::size_t most_nodes = 65536, most_bodies = 256, most_pairs = 65536, most_notes = 1024,
-                      most_radius_ratios = 64;
-constexpr std::size_t most_nodes_together = 2 * most_nodes, most_note_bytes = 1u << 20;
+// A file may be hostile: it makes the reader allocate about four times its size. A node costs some 200 bytes (its
+// values and its interval's coefficients), and 60 in the file.
+constexpr std::size_t most_nodes = 65536, most_bodies = 256, most_pairs = 65536, most_notes = 2 * most_laws_of_file,
+                      most_radius_ratios = 64, most_axis_costs = 256;
+constexpr std::size_t most_nodes_together = 1024 * most_laws_of_file, most_note_bytes = 1u << 20;
 
 /// Text of a file within a sentence: its beginning.
 std::string shortened(const std::string& text)
@@ -77,6 +78,21 @@ void check_flow(const FlowNodes& flow, const std::string& where)
   }
 }
 
+/// Speeds ascend from above 0; costs as those of the certificate.
+void check_omitted_axis(const std::vector<AxisCost>& costs, const std::string& where)
+{
+  double before = 0;
+  for (const AxisCost& cost : costs) {
+    if (!(cost.speed > before && std::isfinite(cost.speed)))
+      fail(where, fmt::format("'{}' is no ascending row above 0", h5::axis_cost_fields[0].field.name),
+           fmt::format("{:.6g}", cost.speed));
+    before = cost.speed;
+    for (const double value : {cost.force, cost.restitution})
+      if (!(value >= -1 && std::isfinite(value)))
+        fail(where, "a cost of the omitted velocity axis is out of range", fmt::format("{:.6g}", value), "-1 or more");
+  }
+}
+
 /// Conditions between the numbers of one body, beyond what Curve::fault() finds in its nodes.
 void check_body(const BodyLaw& body, const std::string& where)
 {
@@ -98,6 +114,7 @@ void check_body(const BodyLaw& body, const std::string& where)
       // NaN fails as well; damage_number_max alone may be infinite (elastic)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
+  check_omitted_axis(body.certificate.omitted_axis, where);
   if (std::find(std::begin(h5::origins), std::end(h5::origins), body.certificate.origin) ==
       std::end(h5::origins))
     fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin),
@@ -262,12 +279,29 @@ void write_curve(hid_t group, const Curve& curve, const std::string& path)
   if (curve.axis()) write_axis(group, *curve.axis(), path);
 }
 
+/// Older files have the cost of an axis that was left out at its end alone.
+void add_omitted_axis(Certificate& c, const Curve& curve)
+{
+  const bool costs = c.axis_cost_force != 0 || c.axis_cost_restitution != 0;
+  if (!curve.axis() && costs && c.omitted_axis.empty() && c.damage_number_max > 0)
+    c.omitted_axis = {{std::sqrt(c.damage_number_max), c.axis_cost_force, c.axis_cost_restitution}};
+}
+
 Certificate read_certificate(hid_t group, const std::string& where)
 {
   const h5::Handle k = h5::open_group(group, h5::certificate, where);
   Certificate certificate;
   for (const h5::CertificateField& f : h5::certificate_fields)
     certificate.*f.value = h5::read_scalar(k, f.field, where);
+  if (h5::has_link(k, h5::axis_cost_fields[0].field.name))
+    for (const h5::AxisCostField& f : h5::axis_cost_fields) {
+      const std::vector<double> values = h5::read_vector(k, f.field, most_axis_costs, where);
+      if (&f == h5::axis_cost_fields) certificate.omitted_axis.resize(values.size());
+      if (values.size() != certificate.omitted_axis.size() || values.empty())
+        fail(where, fmt::format("'{}' has the wrong length", f.field.name), std::to_string(values.size()),
+             std::to_string(certificate.omitted_axis.size()));
+      for (std::size_t n = 0; n < values.size(); ++n) certificate.omitted_axis[n].*f.value = values[n];
+    }
   certificate.origin = h5::read_text_attribute(k, h5::origin, where);
   return certificate;
 }
@@ -277,6 +311,11 @@ void write_certificate(hid_t group, const Certificate& certificate, const std::s
   const h5::Handle k = h5::create_group(group, h5::certificate, path);
   for (const h5::CertificateField& f : h5::certificate_fields)
     h5::write_scalar(k, f.field, certificate.*f.value, path);
+  for (const h5::AxisCostField& f : h5::axis_cost_fields) {
+    std::vector<double> values;
+    for (const AxisCost& cost : certificate.omitted_axis) values.push_back(cost.*f.value);
+    if (!values.empty()) h5::write_vector(k, f.field, values, path);
+  }
   h5::write_text_attribute(k, h5::origin, certificate.origin, path);
 }
 
@@ -299,6 +338,7 @@ BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
 
   body.curve = read_curve(group, where);
   body.certificate = read_certificate(group, where);
+  add_omitted_axis(body.certificate, body.curve);
   body.body = h5::read_text_attribute(group, h5::body, where);
   body.pole_radius = h5::read_scalar(group, h5::pole_radius, where);
   body.mass_ratio = h5::read_scalar(group, h5::mass_ratio, where);
@@ -335,6 +375,7 @@ TwoBodyLaw read_two_body_law(hid_t group, const LawMaterial& yielding, const std
   own.law.material = yielding;
   own.law.curve = read_curve(group, where);
   own.law.certificate = read_certificate(group, where);
+  add_omitted_axis(own.law.certificate, own.law.curve);
   own.radius_ratio = h5::has_link(group, h5::radius_ratio_of_runs.name)
                          ? h5::read_scalar(group, h5::radius_ratio_of_runs, where)
                          : std::numeric_limits<double>::infinity();
@@ -411,7 +452,9 @@ Law read_open(const h5::Handle& file, const std::string& path)
 
   const h5::Handle bodies = h5::open_group(file, h5::bodies, path);
   std::size_t nodes = 0, orientations = 0;
+  std::size_t laws_so_far = 0;
   const auto count_nodes = [&](const Curve& curve) {
+    if (++laws_so_far > most_laws_of_file) fail(path, "holds too many laws", {}, fmt::format("up to {}", most_laws_of_file));
     nodes += node_count(curve);
     if (nodes > most_nodes_together)
       fail(path, "the curves have too many nodes together", std::to_string(nodes),
@@ -444,7 +487,7 @@ Law read_open(const h5::Handle& file, const std::string& path)
 
   if (h5::has_link(file, h5::pair_laws)) {
     const h5::Handle own_laws = h5::open_group(file, h5::pair_laws, path);
-    for (const std::string& name : h5::link_names(own_laws, most_bodies, path)) {
+    for (const std::string& name : h5::link_names(own_laws, most_laws_of_file, path)) {
       const std::string where = fmt::format("{}, law of the pair {}", path, shortened(name));
       const h5::Handle group = h5::open_group(own_laws, name.c_str(), path);
       std::vector<TwoBodyLaw>& laws = law.pair_laws[name];

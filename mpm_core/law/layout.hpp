@@ -185,6 +185,18 @@ inline constexpr CertificateField certificate_fields[] = {
      &Certificate::atlas_error_force},
     {{"atlas_error_restitution", "1", "absolute in e, of an interpolated law; 0: computed by runs"},
      &Certificate::atlas_error_restitution}};
+/// Lists of Certificate::omitted_axis: all or none, of equal length, ascending in the first.
+struct AxisCostField
+{
+  Field field;
+  double AxisCost::*value;
+};
+inline constexpr AxisCostField axis_cost_fields[] = {
+    {{"omitted_axis_speed", "1", "v = sqrt(I) of the velocity axis that was left out; absent: none was"}, &AxisCost::speed},
+    {{"omitted_axis_force", "1", "F_max without it over F_max with it, less 1, at these speeds; signed"},
+     &AxisCost::force},
+    {{"omitted_axis_restitution", "1", "e without it over e with it, less 1, at these speeds; signed"},
+     &AxisCost::restitution}};
 inline constexpr const char* origins[] = {"runs", "atlas", composed_origin};
 
 // bodies/<name>/orientations: lists of equal length, one entry for each impact

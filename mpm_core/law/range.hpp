@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
+
 namespace granulaw {
 
 /// Ends of laws, at most: overlap over the radius of one body, and damage number I = rho V^2/Y of the velocity axis.
 inline constexpr double deepest_law = 0.5, fastest_law = 0.09;
 /// `mpm table` states a pair's error up to this ratio of radii.
 inline constexpr double largest_radius_ratio = 10;
+/// Laws of one file, of bodies and of pairs at each ratio of radii, at most: every pair of 30 materials has 1400.
+inline constexpr std::size_t most_laws_of_file = 2048;
 
 }  // namespace granulaw

@@ -35,7 +35,8 @@ StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity,
 {
   if (!(velocity >= 1e-12 && velocity <= 1e6))  // as of the radii (chosen_pair.cpp)
     fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "1e-12 to 1e+06 m/s");
-  StatedCollision result{.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity)};
+  StatedCollision result;
+  result.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity);
   const double allowed = (1 + overlap_margin) * pair.limit();
   if (result.replay.delta_max > allowed)
     fail(source, "the collision leaves the law's range of overlaps by more than 5 %",
@@ -43,6 +44,7 @@ StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity,
 
   const auto& [a, b] = pair.names;
   result.damage_number = damage_number(pair.law, velocity);
+  result.axis_speed = pair.law.axis_speed(pair.r_eff, pair.m_eff, velocity);
   result.statement = statement_of(law, pair.law, a, b)
                          .at_distance(distance_in_size(law, pair.law, a, b, pair.radius, pair.radius2));
   if (std::isinf(result.statement.damage_number_max)) {

@@ -11,6 +11,7 @@ struct StatedCollision
 {
   Replay replay;
   double damage_number = 0;     ///< of damage_number.hpp
+  double axis_speed = 0;        ///< v of a velocity axis (PairLaw::axis_speed)
   PairStatement statement;      ///< for these sizes
   bool beyond_bound = false;    ///< the damage number is above that up to which the error bound holds
   bool needs_axis = false;      ///< ... and the law has no velocity axis
@@ -18,7 +19,7 @@ struct StatedCollision
   /// False where the law's error bound does not hold: beyond its damage number, and at speeds outside its velocity
   /// axis, where the corrections of the nearest speed stand in.
   bool is_bounded() const { return !(beyond_bound || replay.left_speeds || replay.held_speed); }
-  ErrorBound bound() const { return is_bounded() ? statement.bound : ErrorBound{}; }
+  ErrorBound bound() const { return is_bounded() ? statement.bound.at(axis_speed) : ErrorBound{}; }
 };
 
 /// `velocity`: m/s, of approach, 1e-12 to 1e6. Throws Error where it is another, and, led by `source`, where the

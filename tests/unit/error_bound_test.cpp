@@ -53,6 +53,24 @@ TEST(ErrorBound, NamesWhetherItIsOfItself)
   EXPECT_EQ(ErrorBound{}.text(), "not stated");
 }
 
+/// A known difference adds in full; between two speeds it is linear, beyond the last it stays.
+TEST(ErrorBound, GrowsByWhatAnOmittedAxisCosts)
+{
+  ErrorBound bound{0.01, 0.003, 0.004};
+  bound.omitted_axis = {{0.1, -0.02, 0.01}, {0.2, 0.04, 0.03}};
+  EXPECT_DOUBLE_EQ(bound.at(0).force, 0.01);
+  EXPECT_DOUBLE_EQ(bound.at(0.05).force, 0.01 + 0.01 * 1.01);
+  EXPECT_DOUBLE_EQ(bound.at(0.15).force, 0.01 + 0.01 * 1.01);
+  EXPECT_DOUBLE_EQ(bound.at(1).force, 0.04 + 0.01 * 1.04);
+  EXPECT_DOUBLE_EQ(bound.at(0.2).restitution_at(0.5), 0.015 + std::hypot(0.003, 0.002));
+  EXPECT_EQ(bound.text(), "F_max 1 %, e 0.003 and 0.4 %, rising with speed to F_max 5 %, e 0.003 and 3.4 %");
+  EXPECT_EQ(bound.up_to(0.15).omitted_axis.size(), 2u);
+  EXPECT_DOUBLE_EQ(bound.up_to(0.15).at(1).force, 0.01 + 0.01 * 1.01);
+  const ErrorBound worst = bound.worst({0.02, 0, 0, {{0.05, 0.5, 0}}});
+  EXPECT_DOUBLE_EQ(worst.at(0.05).force, 0.5 + 0.02 * 1.5);
+  EXPECT_DOUBLE_EQ(worst.at(0.2).restitution_at(1), 0.03 + std::hypot(0.003, 0.004));
+}
+
 /// A law of like sizes, and one for a deformable wall: what `mpm table` makes where no --radius-ratio is
 /// given.
 class PairStatements : public ::testing::Test

@@ -1,8 +1,11 @@
 #include "characterise/atlas_file.hpp"
 #include "characterise/file/law_file_plan.hpp"
 
+#include <fmt/format.h>
+
 #include "characterise/body/law_material.hpp"
 #include "own_atlas.hpp"
+#include "refusal.hpp"
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
 
@@ -33,6 +36,18 @@ TEST(LawFilePlan, WithoutPairsEveryMaterialMeetsEveryOtherItselfAndTheWall)
             "stronger:stronger stronger:wall ");
   EXPECT_EQ(plan.bodies.size(), 3u);
   EXPECT_FALSE(plan.needs_runs());
+}
+
+/// Every pair of 30 materials fits; with all ratios of radii to 10 the plan is refused before any work.
+TEST(LawFilePlan, CountsTheLawsOfAFile)
+{
+  LawFileRequest r = request();
+  const Material powder = r.materials.materials.at("powder");
+  r.materials.materials.clear();
+  for (int k = 0; k < 30; ++k) r.materials.materials[fmt::format("m{}", k)] = powder;
+  EXPECT_EQ(plan_law_file(r).pairs.size(), 30u * 31 / 2 + 30);
+  r.radius_ratio = 10;
+  expect_error("495 pairs, with a law for each ratio of radii, are too many for one file", [&] { plan_law_file(r); });
 }
 
 TEST(LawFilePlan, TheWallMayStandFirst)

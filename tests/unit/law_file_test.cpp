@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 
+#include "law/error_bound.hpp"
 #include "law/layout.hpp"
 #include "scratch_folder.hpp"
 #include "synthetic_law.hpp"
@@ -245,6 +246,47 @@ TEST_F(LawFile, TheAxisTheBodyAndThePairErrorsComeBackBitExact)
     EXPECT_EQ(a.pole_radius, b.pole_radius);
     EXPECT_EQ(a.mass_ratio, b.mass_ratio);
   }
+}
+
+/// As many nodes as the laws of 21 materials for every ratio of radii.
+TEST_F(LawFile, ManyLawsComeBack)
+{
+  Law law = SyntheticLaw{}.whole_law(60, 80);
+  std::vector<TwoBodyLaw>& laws = law.pair_laws["powder:glass"];
+  for (int k = 1; k < 60; ++k) laws.push_back(laws.front()), laws.back().radius_ratio += 0.1 * k;
+  write_law(law, path_);
+  EXPECT_EQ(read_law(path_).pair_laws.at("powder:glass").size(), 60u);
+}
+
+TEST_F(LawFile, CostsOfAnOmittedAxisComeBackAndAreChecked)
+{
+  Law law = SyntheticLaw{}.law();
+  std::vector<AxisCost>& costs = law.bodies.at("powder").certificate.omitted_axis;
+  costs = {{0.01, -0.001, 0.002}, {0.02, 0.003, 0.01}};
+  const std::string folder = "bodies/powder/certificate/";
+  EXPECT_EQ(after([](hid_t) {}, law), "");
+  const Law read = read_law(path_);
+  const std::vector<AxisCost>& back = read.bodies.at("powder").certificate.omitted_axis;
+  ASSERT_EQ(back.size(), 2u);
+  for (const h5::AxisCostField& f : h5::axis_cost_fields)
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(back[k].*f.value, costs[k].*f.value) << f.field.name;
+  says(without(folder + "omitted_axis_force"), "omitted_axis_force", law);
+  says(set(folder + "omitted_axis_speed", 0.01, true), "ascending", law);
+  says(set(folder + "omitted_axis_restitution", NAN), "omitted velocity axis", law);
+  says([&](hid_t f) { replace(f, (folder + "omitted_axis_force").c_str(), H5T_IEEE_F64LE, 3); }, "omitted_axis_force", law);
+}
+
+/// An older file states the cost at the end alone; slower impacts take a part of it.
+TEST_F(LawFile, AnOlderFilesOmittedAxisIsInTheBound)
+{
+  Law law = SyntheticLaw{}.law();
+  Certificate& c = law.bodies.at("powder").certificate;
+  c.axis_cost_force = 0.08, c.axis_cost_restitution = -0.06, c.damage_number_max = 0.04;
+  write_law(law, path_);
+  const ErrorBound bound = bound_of(read_law(path_).bodies.at("powder"));
+  EXPECT_DOUBLE_EQ(bound.at(0.2).force - bound.force, 0.08 * (1 + bound.force));
+  EXPECT_DOUBLE_EQ(bound.at(0.2).restitution_at(0.5) - bound.restitution_at(0.5), 0.03);
+  EXPECT_DOUBLE_EQ(bound.at(0.05).force - bound.force, 0.02 * (1 + bound.force));
 }
 
 TEST_F(LawFile, WhatIsMissingIsNamed)

@@ -185,7 +185,7 @@ Json limits_json(const Limits& l)
 }
 
 /// e of the law, its error bound, and Thornton's e, at speeds around those of interest.
-Json sweep_json(const ChosenPair& c, const Limits& l, const PairStatement& statement, double speed)
+Json sweep_json(const ChosenPair& c, const Limits& l, const ErrorBound& bound, double speed)
 {
   const double high = std::isfinite(l.end) ? l.end : 10 * speed;
   const double low = std::min(std::isfinite(l.onset) ? 0.3 * l.onset : 1e-4 * high, 0.3 * speed);
@@ -198,7 +198,7 @@ Json sweep_json(const ChosenPair& c, const Limits& l, const PairStatement& state
     speeds.push_back(v);
     e.push_back(replay.restitution);
     deepest.push_back(replay.delta_max);
-    error.push_back(v <= l.bound * (1 + 1e-9) ? Json(statement.bound.restitution_at(replay.restitution)) : Json());
+    error.push_back(v <= l.bound * (1 + 1e-9) ? Json(bound.at(c.law.axis_speed(c.r_eff, c.m_eff, v)).restitution_at(replay.restitution)) : Json());
     thornton.push_back(formula.collision(v, sweep_steps).restitution);
   }
   return {{"speed", speeds}, {"e", e}, {"error", error}, {"thornton", thornton}, {"overlap", deepest}};
@@ -251,7 +251,7 @@ Json explore(const char* text)
   out["overlap_limit"] = c.limit();
   out["hertz"] = formula_json(hertz_of(c), a.request.speed);
   out["thornton"] = formula_json(thornton_of(c), a.request.speed);
-  out["sweep"] = sweep_json(c, limits, a.found.statement, a.request.speed);
+  out["sweep"] = sweep_json(c, limits, a.found.statement.bound, a.request.speed);
   return out;
 }
 

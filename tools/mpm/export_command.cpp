@@ -74,9 +74,7 @@ void write_statement(std::ostream& out, const Law& law, const PairLaw& pair, con
                                           : std::string("radii 1 : a deformable wall");
   }
   out << fmt::format("# {}:{}: {} law, {}, error bound {}{}\n", a, b, name_of(stated.kind), radii,
-                     stated.bound.stated() ? fmt::format("F_max {:.2g}, e {:.2g}", stated.bound.force,
-                                                         stated.bound.restitution)
-                                           : std::string("not stated"),
+                     stated.bound.text(),
                      stated.covers_size() ? std::string()
                                           : fmt::format(", but the nearest law is {:.2g} off in R_s/(R_s + R_h)",
                                                         stated.size_off));

@@ -255,8 +255,9 @@ void add_range_options(Options& command, LawFileRequest& file)
 {
   command
       .add_option("--tolerance", file.tolerance,
-                  "relative error of force and e (of an e below 0.5, over 0.5). An axis of a smaller effect "
-                  "is left out")
+                  "relative error of force and e (of an e below 0.5, over 0.5). A velocity axis of a smaller effect "
+                  "is left out,\n"
+                  "and the error bound states that effect")
       ->check(from_to(1e-4, 0.5))
       ->capture_default_str();
   command.add_option("--depth", file.depth, "largest overlap over the radius, up to 0.5")

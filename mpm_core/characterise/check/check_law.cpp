@@ -91,8 +91,8 @@ class Checking
           impact(characterised->particle, {velocity * scale.velocity()}, {}, options_of(name)).summary;
       const Replay replay =
           replay_on_wall(body, unit.length, characterised->mass * unit.mass(), velocity * unit.velocity());
-      keep(name, body.certificate, velocity * unit.velocity(), run, run.force_max / scale.force(), replay,
-           unit.force());
+      keep(name, bound_of(body.certificate).at(velocity / std::sqrt(body.material.yield_stress / body.material.e_star())),
+           velocity * unit.velocity(), run, run.force_max / scale.force(), replay, unit.force());
     }
   }
 
@@ -111,7 +111,8 @@ class Checking
           velocity * std::sqrt(yielding.e_star() / yielding.density) * pair.mapping().sqrt_lambda;  // m/s
       const RunSummary run = run_two_bodies(pair, relative, options_of(name));
       const Replay replay = replay_collision(law, pair.r_eff(), pair.m_eff() * yielding.density, relative);
-      keep(name, own.law.certificate, relative, run, run.force_max, replay, yielding.e_star());
+      const double v = law.axis_speed(pair.r_eff(), pair.m_eff() * yielding.density, relative);
+      keep(name, bound_of(own.law.certificate).at(v), relative, run, run.force_max, replay, yielding.e_star());
     }
   }
 
@@ -134,11 +135,11 @@ class Checking
   }
 
   /// `force`: of the run, in units of `unit`, N.
-  void keep(const std::string& name, const Certificate& certificate, double velocity, const RunSummary& run,
+  void keep(const std::string& name, const ErrorBound& bound, double velocity, const RunSummary& run,
             double force, const Replay& replay, double unit)
   {
     FreshImpact found{name, velocity, std::abs(replay.force_max / unit / force - 1),
-                      std::abs(replay.restitution / run.restitution - 1), 0, bound_of(certificate)};
+                      std::abs(replay.restitution / run.restitution - 1), 0, bound};
     found.restitution_bound = found.bound.restitution_at(run.restitution) / run.restitution;
     if (made_) made_(found);
     check_.impacts.push_back(std::move(found));

@@ -160,6 +160,20 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   return pair;
 }
 
+/// Throws where one file cannot hold the laws of all pairs.
+void check_count(const LawFilePlan& plan)
+{
+  std::size_t laws = plan.bodies.size();
+  for (const LawFilePlan::Pair& pair : plan.pairs)
+    laws += std::max(pair.composed_at.size(), static_cast<std::size_t>(pair.own_law));
+  if (laws > most_laws_of_file)
+    fail(plan.request.words.pair,
+         fmt::format("{} pairs, with a law for each ratio of radii, are too many for one file: name those that meet, "
+                     "or take a smaller ratio of radii",
+                     plan.pairs.size()),
+         fmt::format("{} laws", laws), fmt::format("up to {}", most_laws_of_file));
+}
+
 }  // namespace
 
 bool LawFilePlan::needs_runs() const
@@ -192,6 +206,7 @@ LawFilePlan plan_law_file(LawFileRequest request)
     if (!body.from_atlas())
       require_reachable(body.body->material, body.body->characterised, plan.build_options());
   for (const Names& names : pairs) plan.pairs.push_back(plan_pair(names, plan));
+  check_count(plan);
   return plan;
 }
 

@@ -46,12 +46,8 @@ std::string text_of(const FlowLaw& law)
 /// The size and the speeds that the law of a rate-dependent body holds for.
 std::string size_of(const LawBody& body, const BodyLaw& law)
 {
-  const double radius = body.characterised.scale.length;
-  if (const AxisTable* axis = law.curve.axis())
-    return fmt::format("rate-dependent: holds for R = {:g} m and from {:.3g} m/s on a wall", radius,
-                       axis->speed_begin * speed_unit(body.material));
-  return fmt::format("rate-dependent, by less than the tolerance at R = {:g} m and in this range of speeds",
-                     radius);
+  return fmt::format("rate-dependent: holds for R = {:g} m and from {:.3g} m/s on a wall", body.characterised.scale.length,
+                     law.curve.axis()->speed_begin * speed_unit(body.material));
 }
 
 void note_holes(const std::string& name, const std::vector<std::string>& holes, Provenance& provenance)

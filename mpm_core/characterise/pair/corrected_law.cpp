@@ -21,14 +21,6 @@ namespace granulaw {
 
 namespace {
 
-/// The range of a law that keeps its velocity axis down to a tenth of the tolerance. By the yielding body's damage
-/// number a shallow law has none, but the inertia of a soft partner counts there.
-LawRange with_axis(LawRange range)
-{
-  range.tolerance *= 0.1;
-  return range;
-}
-
 /// An impact of the two bodies beside the composed law's replay at its speed. Waves and the yielding body's inertia are
 /// in both.
 struct Beside
@@ -127,7 +119,7 @@ class PairImpacts
 PairImpacts::PairImpacts(const UnlikePair& pair, const ComposedShape& composed, const BuildOptions& options, Farm& farm)
     : pair_(pair),
       composed_(composed),
-      guide_(law_of(composed, with_axis(options)).law),
+      guide_(law_of(composed, options).law),
       slow_(tabulate(composed.shape, composed.end)),
       body_(yielding_body(pair)),
       options_(options),
@@ -367,7 +359,6 @@ CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, c
   check(options);
   ThreadFarm alone(1);
   Farm& farm = options.farm ? *options.farm : alone;
-  const LawRange range = with_axis(options);
   const auto composed = [&](double ratio) { return compose_shape(*options.atlas, yielding, partner, ratio, options); };
   CorrectedLaws made;
   std::vector<std::unique_ptr<PairImpacts>> impacts;  // which stay where they are: jobs refer to them
@@ -376,15 +367,16 @@ CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, c
     at_ratio.radius_ratio = ratio;
     PairImpacts& own = *impacts.emplace_back(std::make_unique<PairImpacts>(at_ratio, composed(ratio), options, farm));
     own.sample();
-    own.compare_with(corrected(own.composed(), {{&own, 1}}, range));
+    own.compare_with(corrected(own.composed(), {{&own, 1}}, options));
     made.runs += own.runs().count();
     made.holes.insert(made.holes.end(), own.runs().holes().begin(), own.runs().holes().end());
     made.sampling_error = larger(made.sampling_error, own.sampling_error());
   }
   for (const double ratio : ratios) {
     const std::vector<Neighbour> neighbours = neighbours_of(impacts, 1 / (1 + ratio));
-    Certificate& certificate = made.laws.emplace_back(corrected(composed(ratio), neighbours, range)).law.certificate;
-    for (const Neighbour& neighbour : neighbours) neighbour.impacts->certify(certificate);
+    TwoBodyLaw& law = made.laws.emplace_back(corrected(composed(ratio), neighbours, options));
+    for (const Neighbour& neighbour : neighbours) neighbour.impacts->certify(law.law.certificate);
+    leave_out_axis(law, pair.partner, options.tolerance);
   }
   return made;
 }
