@@ -144,23 +144,29 @@ class Places
   std::map<std::string, int> places_;
 };
 
-/// {kind = "NAME", ...}: the shape, and the radius of the sphere of its volume.
-void read_shape_of(const Section& s, Particle& particle, const std::string& folder)
+/// {kind = "NAME", ...}: the shape, and the radius of the sphere of its volume. Returns the fault of a file that it
+/// names, which stops only those who use the particle.
+std::string read_shape_of(const Section& s, Particle& particle, const std::string& folder)
 {
   if (s.has("profile")) fail(s.where(s.node("shape")), "a particle has a 'shape' or a 'profile', not both");
   const double radius = s.has("radius") ? s.positive("radius", "m") : 0;
   const NamedShape named =
       read_shape(s.table("shape", "{kind = \"ellipsoid\", axes = [1e-3, 1e-3, 1.5e-3]}"), folder, radius);
-  particle.shape = named.kind->shape(named.values);
   if (radius > 0 && !named.kind->takes_radius())
     fail(s.where(s.node("radius")), "'radius' cannot go with this shape, which says its own size");
+  try {
+    particle.shape = named.kind->shape(named.values);
+  } catch (const Error& fault) {
+    if (named.values.path.empty()) throw;
+    return fault.what();
+  }
   particle.radius = std::cbrt(particle.volume() * 3 / (4 * std::numbers::pi));
+  return {};
 }
 
-/// Radius and profile, or shape.
-void read_outside(const Section& s, Particle& particle, const std::string& folder)
+/// Radius and profile.
+void read_revolved(const Section& s, Particle& particle)
 {
-  if (s.has("shape")) return read_shape_of(s, particle, folder);
   if (!s.has("profile")) {
     particle.radius = s.positive("radius", "m");
     return;
@@ -172,9 +178,9 @@ void read_outside(const Section& s, Particle& particle, const std::string& folde
   particle.profile = named.kind->profile(named.values);
 }
 
-Particle::Inclusion read_inclusion(const Section& i, const Particle& particle, Places& places)
+Particle::Inclusion read_inclusion(const Section& i, bool has_shape, Places& places)
 {
-  if (particle.shape)
+  if (has_shape)
     i.check_keys({"material", "pore", "radius", "x", "y", "z"});
   else
     i.check_keys({"material", "pore", "radius", "z", "r"});
@@ -184,21 +190,24 @@ Particle::Inclusion read_inclusion(const Section& i, const Particle& particle, P
   if (i.has("pore")) i.check_true("pore");
   const auto optional = [&](const char* key) { return i.has(key) ? i.number(key, "m") : 0.0; };
   return {optional("r"),
-          particle.shape ? optional("z") : i.number("z", "m"),
+          has_shape ? optional("z") : i.number("z", "m"),
           i.positive("radius", "m"),
           i.has("pore") ? -1 : places.of(i),
           optional("x"),
           optional("y")};
 }
 
-Particle read_particle(const Section& s, const std::map<std::string, Material>& materials,
-                       const std::string& folder)
+void read_particle(const std::string& name, const Section& s, MaterialsFile& file, const std::string& folder)
 {
   s.check_keys({"radius", "material", "layers", "inclusions", "profile", "shape"});
-  Particle particle;
-  Places places(materials, particle);
+  Particle& particle = file.particles[name];
+  Places places(file.materials, particle);
   places.of(s);
-  read_outside(s, particle, folder);
+  std::string fault;
+  if (s.has("shape"))
+    fault = read_shape_of(s, particle, folder);
+  else
+    read_revolved(s, particle);
   if (s.has("layers"))
     for (const Section& layer : s.tables("layers", "[{material = \"shell\", thickness = 20e-6}]")) {
       layer.check_keys({"material", "thickness"});
@@ -206,10 +215,13 @@ Particle read_particle(const Section& s, const std::map<std::string, Material>& 
     }
   if (s.has("inclusions"))
     for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]"))
-      particle.inclusions.push_back(read_inclusion(i, particle, places));
+      particle.inclusions.push_back(read_inclusion(i, s.has("shape"), places));
+  if (!fault.empty()) {
+    file.faults[name] = fault;
+    return;
+  }
   validate(particle, s.where());
   check_plausible(s.where(), "radius", "radius", particle.radius);
-  return particle;
 }
 
 void check_name(const std::string& name, const std::string& where)
@@ -262,7 +274,7 @@ MaterialsFile read_materials(const std::string& path)
   each_section(path, root, "material",
                [&](const std::string& name, const Section& s) { file.materials[name] = read_material(s); });
   each_section(path, root, "particle", [&](const std::string& name, const Section& s) {
-    file.particles[name] = read_particle(s, file.materials, folder);
+    read_particle(name, s, file, folder);
   });
   if (file.materials.empty()) fail(path, "the file defines no material, as [material.NAME]");
   return file;

@@ -56,7 +56,8 @@ namespace granulaw {
 ///     inclusions = [{pore = true, radius = 0.1e-3, x = 0.3e-3, y = 0, z = 0}]    # balls
 using MaterialsFile = Materials;
 
-/// Every problem is one sentence with file, line and key, as Error.
+/// Every problem is one sentence with file, line and key, as Error. A file that a particle names and that cannot be used
+/// stops those who use the particle (Materials::faults).
 MaterialsFile read_materials(const std::string& path);
 
 }  // namespace granulaw

@@ -189,7 +189,7 @@ CheckpointStore CheckpointFile::store()
 void CheckpointFile::remove() const
 {
   std::error_code ignored;  // nothing is there if the run was shorter than the interval
-  fs::remove(path_, ignored);
+  fs::remove(linked_file(path_), ignored);
 }
 
 }  // namespace granulaw

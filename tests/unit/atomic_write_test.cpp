@@ -1,6 +1,7 @@
 #include "base/atomic_write.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +13,8 @@
 #include "synthetic_law.hpp"
 
 namespace granulaw::atomic_write_test {
+
+namespace fs = std::filesystem;
 
 class AtomicWrite : public ScratchFolder
 {
@@ -72,6 +75,44 @@ TEST_F(AtomicWrite, AFailingWriterLeavesTheOldFile)
                std::runtime_error);
   EXPECT_EQ(read(path("text")), "old");
   EXPECT_EQ(files(), 1u) << "a temporary file was left";
+}
+
+TEST_F(AtomicWrite, ALinkStaysAndItsFileIsWritten)
+{
+  fs::create_directory(path("data"));
+  write_text_atomically(path("data/file"), "old");
+  fs::create_symlink("data/file", path("near"));
+  fs::create_symlink(path("near"), path("far"));  // absolute, to a link
+  fs::create_symlink("data/none", path("dangling"));
+  for (const char* link : {"near", "far", "dangling"}) {
+    require_writable(path(link), "here");
+    write_text_atomically(path(link), link);
+    EXPECT_TRUE(fs::is_symlink(path(link))) << link;
+    EXPECT_EQ(read(path(link)), link);
+  }
+  EXPECT_EQ(read(path("data/file")), "far");
+  EXPECT_EQ(read(path("data/none")), "dangling");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("data")), {}), 2) << "a temporary file was left";
+
+  fs::create_symlink("ring", path("ring"));
+  expect_error("leads to itself", [&] { write_text_atomically(path("ring"), ""); });
+}
+
+/// As root a rename replaces the device node by a file.
+TEST_F(AtomicWrite, WhatIsNoRegularFileIsRefused)
+{
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/full", path("device"));
+  fs::create_directory(path("folder"));
+  for (const auto& [name, what] : {std::pair<std::string, const char*>{path("pipe"), "no regular file"},
+                                   {path("device"), "no regular file"},
+                                   {"/dev/full", "no regular file"},
+                                   {"/dev/null", "no regular file"},
+                                   {path("folder"), "is a folder"}}) {
+    expect_error(what, [&] { require_writable(name, "here"); });
+    expect_error(what, [&] { write_text_atomically(name, ""); });
+    EXPECT_FALSE(fs::is_regular_file(name)) << name;
+  }
 }
 
 }  // namespace granulaw::atomic_write_test

@@ -32,7 +32,8 @@ class ShapeReader : public ScratchFolder
   {
     const std::string said = sentence_of([&] {
       read("[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = 0.3\n[particle.grain]\n" +
-           lines + "\nmaterial = \"powder\"\n");
+           lines + "\nmaterial = \"powder\"\n")
+          .particle("grain");
     });
     return said.empty() ? "accepted" : said.substr(path("").size());
   }
@@ -147,6 +148,22 @@ TEST_F(ShapeReader, ParticlesThatCannotBeUsed)
       {"radius = 1\nshape = {kind = \"sphere\"}", "accepted"},
   };
   for (const auto& c : cases) EXPECT_EQ(sentence(c.text), c.sentence) << c.text;
+}
+
+/// A file that a particle names stops those who use that particle; a wrong key stops all.
+TEST_F(ShapeReader, AFaultyFileStopsNobodyElse)
+{
+  const std::string text =
+      "[material.powder]\ndensity = 1500\nyoungs_modulus = 9.1e9\npoisson_ratio = 0.3\n"
+      "[particle.ball]\nmaterial = \"powder\"\nradius = 1e-3\n"
+      "[particle.scan]\nmaterial = \"powder\"\nshape = {kind = \"mesh\", file = \"none.stl\"}\n"
+      "inclusions = [{pore = true, radius = 0.1, x = 0.3, y = 0";
+  const MaterialsFile file = read(text + "}]\n");
+  EXPECT_EQ(file.particle("ball").radius, 1e-3);
+  EXPECT_EQ(file.material("powder").density, 1500);
+  file.require("scan");
+  expect_error("none.stl", [&] { file.particle("scan"); });
+  expect_error("unknown key 'q'", [&] { read(text + ", q = 0}]\n"); });
 }
 
 }  // namespace granulaw::shape_reader_test

@@ -1,10 +1,9 @@
 #include "python_script.hpp"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <csignal>
 
 #include "atlas_path.hpp"
 #include "base/error.hpp"
@@ -31,13 +30,15 @@ std::string read_all(int pipe_end)
   return all;
 }
 
-/// All of `text`, or as much as is read: one who ended without reading says why on stderr.
-void write_all(int pipe_end, const std::string& text)
+/// A file in memory that holds `text`: a pipe would have to be filled while the script is heard.
+int file_of(const char* command, const std::string& text)
 {
-  std::signal(SIGPIPE, SIG_IGN);
+  const int file = memfd_create("input", 0);
   std::size_t done = 0;
-  for (ssize_t length; done < text.size(); done += static_cast<std::size_t>(length))
-    if ((length = write(pipe_end, text.data() + done, text.size() - done)) <= 0) return;
+  for (ssize_t length; file >= 0 && done < text.size(); done += static_cast<std::size_t>(length))
+    if ((length = write(file, text.data() + done, text.size() - done)) <= 0) break;
+  if (file < 0 || done < text.size() || lseek(file, 0, SEEK_SET) != 0) fail(command, "cannot hand over its data (memory full?)");
+  return file;
 }
 
 /// Runs the script with these words; it reads `input` on stdin.
@@ -48,21 +49,20 @@ Ended run_python(const char* command, const std::string& script, const std::vect
   std::vector<const char*> arguments{python, script.c_str()};
   for (const std::string& word : words) arguments.push_back(word.c_str());
   arguments.push_back(nullptr);
-  int told[2], complaints[2];
-  if (pipe(told) != 0 || pipe(complaints) != 0) fail(command, "cannot make a pipe");
+  const int told = file_of(command, input);
+  int complaints[2];
+  if (pipe(complaints) != 0) fail(command, "cannot make a pipe");
   const pid_t child = fork();
   if (child < 0) fail(command, fmt::format("cannot start {}", python));
   if (child == 0) {
-    dup2(told[0], STDIN_FILENO);
+    dup2(told, STDIN_FILENO);
     dup2(complaints[1], STDERR_FILENO);
-    for (const int end : {told[0], told[1], complaints[0], complaints[1]}) close(end);
+    for (const int end : {told, complaints[0], complaints[1]}) close(end);
     execv(python, const_cast<char* const*>(arguments.data()));
     _exit(127);
   }
-  close(told[0]);
+  close(told);
   close(complaints[1]);
-  write_all(told[1], input);
-  close(told[1]);
   Ended ended{0, read_all(complaints[0])};
   close(complaints[0]);
   waitpid(child, &ended.status, 0);

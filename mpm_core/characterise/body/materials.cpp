@@ -15,6 +15,7 @@ const Material& Materials::material(const std::string& name) const
 
 const Particle& Materials::particle(const std::string& name) const
 {
+  if (const auto fault = faults.find(name); fault != faults.end()) throw Error(fault->second);
   const auto found = particles.find(name);
   if (found != particles.end()) return found->second;
   if (particles.empty())

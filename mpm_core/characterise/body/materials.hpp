@@ -16,9 +16,10 @@ struct Materials
 {
   std::string source;  ///< leads every message about them: the path of a file, or what the caller likes
   std::map<std::string, Material> materials;  ///< validate(Material) holds for each
-  std::map<std::string, Particle> particles;  ///< validate(Particle) holds for each
+  std::map<std::string, Particle> particles;  ///< validate(Particle) holds for each without a fault
+  std::map<std::string, std::string> faults{};  ///< by particle: the sentence about the file of its shape, which it lacks
 
-  /// Throw Error naming the nearest name where there is no such material or particle.
+  /// Throw Error naming the nearest name where there is no such material or particle, or the particle's fault.
   const Material& material(const std::string& name) const;
   const Particle& particle(const std::string& name) const;
 
