@@ -4,7 +4,9 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -27,18 +29,27 @@ extern "C" void granulaw_end_short_run();
 
 namespace {
 
-/// Takes `OPTION VALUE...` out of the words; the values. Empty: it is not among them.
+/// Takes `OPTION VALUE...` out of the words, where it is the first of them: elsewhere it is a value of LIGGGHTS's own
+/// options. The values; empty: it is not there.
 std::vector<char*> take_option(std::vector<char*>& words, const char* option, std::size_t values)
 {
-  for (std::size_t k = 1; k + values < words.size(); ++k)
-    if (std::strcmp(words[k], option) == 0) {
-      const auto first = words.begin() + static_cast<std::ptrdiff_t>(k);
-      const auto end = first + static_cast<std::ptrdiff_t>(values) + 1;
-      const std::vector<char*> found(first + 1, end);
-      words.erase(first, end);
-      return found;
-    }
-  return {};
+  if (words.size() < values + 2 || std::strcmp(words[1], option) != 0) return {};
+  const auto first = words.begin() + 2, end = first + static_cast<std::ptrdiff_t>(values);
+  const std::vector<char*> found(first, end);
+  words.erase(first - 1, end);
+  return found;
+}
+
+/// Number of steps; ends the process where the word is none.
+long long steps_of(const char* word)
+{
+  long long steps = 0;
+  const char* end = word + std::strlen(word);
+  const auto [at, error] = std::from_chars(word, end, steps);
+  if (error == std::errc() && at == end && steps >= 0) return steps;
+  std::fprintf(stderr, "ERROR: -steps: found %s, allowed is a whole number\n", word);
+  MPI_Abort(MPI_COMM_WORLD, 2);
+  return 0;
 }
 
 void require_one_rank()
@@ -100,6 +111,7 @@ int main(int argc, char** argv)
   std::vector<char*> words(argv, argv + argc);
   if (const auto file = take_option(words, "-plan", 1); !file.empty()) plan(words, file[0]);
   const auto limit = take_option(words, "-steps", 2);
+  const long long steps = limit.empty() ? 0 : steps_of(limit[0]);
   auto* lammps = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), words.data(), MPI_COMM_WORLD);
   granulaw_provide_contact_histories(lammps);
   int ranks = 0;
@@ -108,7 +120,7 @@ int main(int argc, char** argv)
     granulaw::plan::read_on_one_rank([=](std::FILE* stream) { return stream == lammps->infile; });
   if (!limit.empty())
     granulaw::plan::follow_reads([=](std::FILE* stream) {
-      if (stream == lammps->infile) granulaw_limit_steps(lammps, std::atoll(limit[0]), limit[1]);
+      if (stream == lammps->infile) granulaw_limit_steps(lammps, steps, limit[1]);
     });
   lammps->input->file();
   granulaw_end_short_run();

@@ -1,6 +1,8 @@
 #include "liggghts_plugin/books/energy_series.hpp"
 
-#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "liggghts_plugin/books/stats_json.hpp"
 
 namespace granulaw::plugin {
 
@@ -24,8 +26,9 @@ void EnergySeries::add(std::int64_t step, const Row& row)
   next_ = step + spacing_;
 }
 
-std::string EnergySeries::json(const DeckUnits& units, bool energies, const std::string& indent) const
+nlohmann::ordered_json EnergySeries::json(const DeckUnits& units, bool energies) const
 {
+  constexpr int digits = 6;
   struct Entry
   {
     const char* name;
@@ -43,16 +46,14 @@ std::string EnergySeries::json(const DeckUnits& units, bool energies, const std:
   entries.insert(entries.end(), {{"elastic_J", elastic, joule, energies},
                                  {"other_work_J", other_work, joule, energies},
                                  {"fastest_particle_m_per_s", fastest, units.length, true}});
-  std::string text;
+  nlohmann::ordered_json series;
   for (const Entry& entry : entries) {
     if (!entry.shown) continue;
-    text += fmt::format("{}{}\"{}\": [", text.empty() ? "" : ",\n", indent, entry.name);
-    for (std::size_t k = 0; k < rows_.size(); ++k)
-      text += fmt::format("{}{:.6g}", k ? ", " : "",
-                          rows_[k][static_cast<std::size_t>(entry.column)] * entry.unit);
-    text += "]";
+    nlohmann::ordered_json& values = series[entry.name] = nlohmann::ordered_json::array();
+    for (const Row& row : rows_)
+      values.push_back(json_number(row[static_cast<std::size_t>(entry.column)] * entry.unit, digits));
   }
-  return text;
+  return series;
 }
 
 }  // namespace granulaw::plugin

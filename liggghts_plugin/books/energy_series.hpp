@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "contact/ledger.hpp"
@@ -33,8 +33,8 @@ class EnergySeries
 
   bool due(std::int64_t step) const { return step >= next_; }
   void add(std::int64_t step, const Row& row);
-  /// The array of each column in SI, as the inside of a JSON object; `energies`: with elastic and other_work.
-  std::string json(const DeckUnits& units, bool energies, const std::string& indent) const;
+  /// The array of each column in SI, by name; `energies`: with elastic and other_work.
+  nlohmann::ordered_json json(const DeckUnits& units, bool energies) const;
 
  private:
   std::vector<Row> rows_;

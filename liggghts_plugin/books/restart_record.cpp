@@ -1,13 +1,63 @@
 #include "liggghts_plugin/books/restart_record.hpp"
 
+#include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <span>
 #include <string_view>
+
+#include "base/state_archive.hpp"
 
 namespace granulaw::plugin {
 
 namespace {
 
-constexpr std::string_view stretch_of = " stretch";  // behind a command's name, which has no blank
+constexpr std::string_view stretch_of = " stretch";  // behind a command's name, which does not end so
+
+/// A double that no count of an older record is.
+constexpr double mark = -4.7113e300;
+constexpr std::size_t header_length = 4;
+constexpr double most_numbers = 1 << 27;  // a gigabyte: what a damaged length makes us read ends there
+
+/// As a double, exactly.
+double checksum_of(const double* values, std::size_t count)
+{
+  constexpr int more_than_a_double = 12;  // bits
+  const std::string_view bytes(reinterpret_cast<const char*>(values), count * sizeof(double));
+  return static_cast<double>(checksum(bytes) >> more_than_a_double);
+}
+
+/// Walk through a record's numbers that ends where they do.
+class Numbers
+{
+ public:
+  explicit Numbers(std::span<const double> all) : rest_(all) {}
+  double next()
+  {
+    if (rest_.empty()) return fail();
+    const double value = rest_.front();
+    rest_ = rest_.subspan(1);
+    return value;
+  }
+  std::span<const double> next(double count)
+  {
+    if (!(count >= 0 && count <= static_cast<double>(rest_.size()))) return fail(), std::span<const double>();
+    const auto part = rest_.first(static_cast<std::size_t>(count));
+    rest_ = rest_.subspan(part.size());
+    return part;
+  }
+  bool ended() const { return rest_.empty() || failed_; }
+  bool failed() const { return failed_; }
+
+ private:
+  double fail()
+  {
+    failed_ = true;
+    return 0;
+  }
+  std::span<const double> rest_;
+  bool failed_ = false;
+};
 
 }  // namespace
 
@@ -24,28 +74,37 @@ std::vector<double> RestartRecord::numbers() const
     add(command, static_cast<double>(meaning.combination));
     add(command + std::string(stretch_of), meaning.stretch);
   }
+  const auto count = static_cast<double>(values.size());
+  values.insert(values.begin(), {mark, count, -count, checksum_of(values.data(), values.size())});
   return values;
 }
 
-RestartRecord RestartRecord::from(const std::vector<double>& numbers)
+std::optional<RestartRecord> RestartRecord::from(const char* bytes)
 {
+  double header[header_length];
+  std::memcpy(header, bytes, sizeof header);
+  const double count = header[1];
+  if (header[0] != mark || header[2] != -count || !(count >= 0 && count <= most_numbers && count == std::trunc(count)))
+    return {};
+  std::vector<double> values(static_cast<std::size_t>(count));
+  std::memcpy(values.data(), bytes + sizeof header, values.size() * sizeof(double));
+  if (checksum_of(values.data(), values.size()) != header[3]) return {};
+
   RestartRecord record;
-  if (numbers.empty()) return record;
-  const auto begin = numbers.begin();
-  const auto counts = static_cast<std::size_t>(numbers[0]);
-  if (counts >= numbers.size()) return record;
-  record.counts.assign(begin + 1, begin + 1 + static_cast<std::ptrdiff_t>(counts));
-  for (std::size_t k = counts + 2; k + 1 < numbers.size();) {
-    const auto length = static_cast<std::size_t>(numbers[k + 1]);
-    if (k + 2 + length > numbers.size()) break;
+  Numbers numbers(values);
+  const std::span<const double> counted = numbers.next(numbers.next());
+  record.counts.assign(counted.begin(), counted.end());
+  numbers.next();  // how many entries
+  while (!numbers.ended()) {
+    const double value = numbers.next();
     std::string name;
-    for (std::size_t c = 0; c < length; ++c) name += static_cast<char>(numbers[k + 2 + c]);
+    for (const double letter : numbers.next(numbers.next())) name += static_cast<char>(letter);
     if (name.ends_with(stretch_of))
-      record.meanings[name.substr(0, name.size() - stretch_of.size())].stretch = numbers[k];
+      record.meanings[name.substr(0, name.size() - stretch_of.size())].stretch = value;
     else
-      record.meanings[name] = {static_cast<long>(numbers[k]), 0.0};
-    k += 2 + length;
+      record.meanings[name].combination = static_cast<long>(value);
   }
+  if (numbers.failed()) return {};
   return record;
 }
 

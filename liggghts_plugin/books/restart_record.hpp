@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,14 @@ struct HistoryMeaning
       deformable_wall = 1l << 34,           ///< `wall deformable`: X is over lambda R*, lambda of the pair
       body_compliance = 1l << 36,           ///< `bodyCompliance on`: a value of its own
       computed_stiffness = 1l << 35;        ///< `tangentialStiffness computed`: of the spring in the history
-  static constexpr long since_stretch = deformable_wall | computed_stiffness;  ///< kept since stretch is
-  /// `stretch S`: overlaps are S times the real ones. 0: of a file that does not say.
+  /// `stretch S`: overlaps are S times the real ones.
   double stretch = 1.0;
 
   bool operator==(const HistoryMeaning&) const = default;
 };
+
+/// Name of the pair style's entry in RestartRecord::meanings.
+inline constexpr const char* pairs_record = "pair";
 
 /// Record of fix granulaw/stats in a restart file.
 struct RestartRecord
@@ -31,11 +34,13 @@ struct RestartRecord
   std::vector<double> counts;                      ///< ContactStatistics::pack
   std::map<std::string, HistoryMeaning> meanings;  ///< Session::meanings, by command
 
-  /// As numbers: how many counts, the counts, how many entries; then for each a number, the length of its
-  /// name and the letters. A command has two: its combination under its name, its stretch behind it.
+  /// As numbers: a mark, the length of the rest, its negative and its checksum; how many counts, the counts, how many
+  /// entries; then for each a number, the length of its name and the letters. A command has two: its combination
+  /// under its name, its stretch behind it.
   std::vector<double> numbers() const;
-  /// Record from the result of numbers(). If it is cut short, as much as is whole.
-  static RestartRecord from(const std::vector<double>& numbers);
+  /// Record from the result of numbers(), whose length LIGGGHTS does not hand over. Null: it is damaged, or from
+  /// another version.
+  static std::optional<RestartRecord> from(const char* bytes);
 };
 
 }  // namespace granulaw::plugin

@@ -64,8 +64,10 @@ bool ContactStatistics::unpack(const double* values, std::size_t count, bool sum
     Pair& counts =
         pairs[{static_cast<int>(v[0]) - map_record, static_cast<int>(v[1]), static_cast<int>(v[2])}];
     counts.open_map();
-    const double* record_end = std::min(end, v + key_length + 1 + static_cast<std::size_t>(v[key_length]));
-    for (v += key_length + 1; v + 1 < record_end; v += 2)
+    v += key_length + 1;
+    const double length = v[-1];
+    const double* record_end = length >= 0 && length < static_cast<double>(end - v) ? v + static_cast<std::size_t>(length) : end;
+    for (; v + 1 < record_end; v += 2)
       if (v[0] >= 0 && v[0] < static_cast<double>(counts.map.size()))
         counts.map[static_cast<std::size_t>(v[0])] = v[1];
     v = record_end;

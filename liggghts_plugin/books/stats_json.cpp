@@ -2,37 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
 namespace granulaw::plugin {
 
-std::string quoted(const std::string& text)
+using Json = nlohmann::ordered_json;
+
+Json json_number(double value, int digits)
 {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + '"';
+  if (!std::isfinite(value)) return nullptr;
+  constexpr double exact = 1e15;  // whole numbers up to here are written without a point
+  const double rounded = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+  if (rounded == std::trunc(rounded) && std::abs(rounded) < exact) return static_cast<std::int64_t>(rounded);
+  return rounded;
 }
 
 namespace {
 
-std::string histogram_json(const LogHistogram& histogram, const char* quantity)
+constexpr int edge_digits = 6;
+
+Json lower_edges(const LogHistogram& histogram, int low, int high)
+{
+  Json edges = Json::array();
+  for (int b = low; b <= high; ++b) edges.push_back(json_number(histogram.lower_edge(b), edge_digits));
+  return edges;
+}
+
+Json histogram_json(const LogHistogram& histogram, const char* quantity)
 {
   int low = 0, high = LogHistogram::bins - 1;
   while (low < high && histogram.count[low] == 0) ++low;
   while (high > low && histogram.count[high] == 0) --high;
-  std::string edges, counts;
-  for (int b = low; b <= high; ++b) {
-    edges += fmt::format("{}{:.6g}", b > low ? ", " : "", histogram.lower_edge(b));
-    counts += fmt::format("{}{:.10g}", b > low ? ", " : "", histogram.count[b]);
-  }
-  return fmt::format(
-      "{{\"quantity\": \"{}\", \"bins_per_decade\": {}, \"lower_edge\": [{}], \"count\": [{}]}}", quantity,
-      LogHistogram::per_decade, edges, counts);
+  Json counts = Json::array();
+  for (int b = low; b <= high; ++b) counts.push_back(json_number(histogram.count[b]));
+  return {{"quantity", quantity},
+          {"bins_per_decade", LogHistogram::per_decade},
+          {"lower_edge", lower_edges(histogram, low, high)},
+          {"count", counts}};
 }
 
 /// The part of the map that holds something: rows by speed, columns by overlap.
-std::string map_json(const ContactStatistics::Pair& s)
+Json map_json(const ContactStatistics::Pair& s)
 {
   constexpr int bins = LogHistogram::bins;
   int low[2] = {bins, bins}, high[2] = {-1, -1};
@@ -42,46 +55,32 @@ std::string map_json(const ContactStatistics::Pair& s)
     for (int axis = 0; axis < 2; ++axis)
       low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
   }
-  std::string edges[2], rows;
-  const LogHistogram* axes[2] = {&s.speed, &s.overlap};
-  for (int axis = 0; axis < 2; ++axis)
-    for (int b = low[axis]; b <= high[axis]; ++b)
-      edges[axis] += fmt::format("{}{:.6g}", b > low[axis] ? ", " : "", axes[axis]->lower_edge(b));
+  Json rows = Json::array();
   for (int i = low[0]; i <= high[0]; ++i) {
-    std::string row;
+    Json row = Json::array();
     for (int j = low[1]; j <= high[1]; ++j)
-      row += fmt::format("{}{:.10g}", j > low[1] ? ", " : "", s.map[static_cast<std::size_t>(i * bins + j)]);
-    rows += fmt::format("{}[{}]", i > low[0] ? ", " : "", row);
+      row.push_back(json_number(s.map[static_cast<std::size_t>(i * bins + j)]));
+    rows.push_back(row);
   }
-  return fmt::format(
-      "{{\"quantity\": \"contacts that ended, by approach speed at first touch (rows), m/s, and largest "
-      "overlap/R* (columns)\", \"bins_per_decade\": {}, \"speed_lower_edge\": [{}], "
-      "\"overlap_lower_edge\": [{}], \"count\": [{}]}}",
-      LogHistogram::per_decade, edges[0], edges[1], rows);
+  return {{"quantity",
+           "contacts that ended, by approach speed at first touch (rows), m/s, and largest overlap/R* (columns)"},
+          {"bins_per_decade", LogHistogram::per_decade},
+          {"speed_lower_edge", lower_edges(s.speed, low[0], high[0])},
+          {"overlap_lower_edge", lower_edges(s.overlap, low[1], high[1])},
+          {"count", rows}};
 }
 
-/// JSON has no infinity: null.
-std::string number(double value)
+/// Adds the counts of a pair to an object.
+void add_counts(Json& object, const ContactStatistics::Pair& s)
 {
-  return std::isfinite(value) ? fmt::format("{:.10g}", value) : "null";
-}
-
-/// The counts of a pair, as the inside of a JSON object.
-std::string counts_json(const ContactStatistics::Pair& s, const std::string& indent)
-{
-  std::string text;
-  const auto add = [&](const char* name, const std::string& value) {
-    text += fmt::format("{}{}\"{}\": {}", text.empty() ? "" : ",\n", indent, name, value);
-  };
   for (const Quantity& q : quantities)
-    if (q.key) add(q.key, number(q.value.of(s)));
-  add("inertia_number_max", number(s.damage_number_max));  // the older name of the damage number
-  add("time_step_allowed_s", number(s.dt_allowed()));
-  add("impact_speed", histogram_json(s.speed, "approach speed at first touch, m/s"));
-  add("largest_overlap_over_radius",
-      histogram_json(s.overlap, "largest overlap/R* of each contact that ended"));
-  if (!s.map.empty()) text += fmt::format(",\n{}\"contact_map\": {}", indent, map_json(s));
-  return text;
+    if (q.key) object[q.key] = json_number(q.value.of(s));
+  object["inertia_number_max"] = json_number(s.damage_number_max);  // the older name of the damage number
+  object["time_step_allowed_s"] = json_number(s.dt_allowed());
+  object["impact_speed"] = histogram_json(s.speed, "approach speed at first touch, m/s");
+  object["largest_overlap_over_radius"] =
+      histogram_json(s.overlap, "largest overlap/R* of each contact that ended");
+  if (!s.map.empty()) object["contact_map"] = map_json(s);
 }
 
 const char* kind_name(int kind)
@@ -91,35 +90,75 @@ const char* kind_name(int kind)
                                        : "deformable wall";
 }
 
-std::string pair_json(const PairKey& key, const ContactStatistics::Pair& s)
+/// Number, or null where it is not above 0: not known.
+Json known(double value)
+{
+  return value > 0 ? json_number(value) : Json();
+}
+
+Json pair_json(const PairKey& key, const ContactStatistics::Pair& s)
 {
   const PairInfo& info = s.info;
-  const std::string damage_number_limit =
-      info.damage_number_limit > 0 ? number(info.damage_number_limit) : "null";
-  return fmt::format(
-      "    {{\n      \"kind\": \"{}\",\n      \"types\": [{}, {}],\n      \"materials\": [{}, {}],\n"
-      "      \"law\": {},\n      \"rule\": {},\n      \"overlap_over_radius_limit\": {},\n"
-      "      \"damage_number_limit\": {},\n      \"inertia_number_limit\": {},\n      "
-      "\"onset_speed_m_per_s\": {},\n"
-      "      \"time_step_limit_of_law_s\": {},\n      \"overlap_over_radius_limit_of_time_step\": {},\n{}\n    }}",
-      kind_name(key.kind), key.i, key.j, quoted(info.a), quoted(info.b), quoted(info.law), quoted(info.kind),
-      number(info.overlap_limit), damage_number_limit, damage_number_limit, number(info.onset_speed),
-      info.dt_limit > 0 ? number(info.dt_limit) : "null",
-      info.dt_limit > 0 ? number(info.dt_overlap) : "null", counts_json(s, "      "));
+  Json pair{{"kind", kind_name(key.kind)},
+            {"types", {key.i, key.j}},
+            {"materials", {info.a, info.b}},
+            {"law", info.law},
+            {"rule", info.kind},
+            {"overlap_over_radius_limit", json_number(info.overlap_limit)},
+            {"damage_number_limit", known(info.damage_number_limit)},
+            {"inertia_number_limit", known(info.damage_number_limit)},
+            {"onset_speed_m_per_s", json_number(info.onset_speed)},
+            {"time_step_limit_of_law_s", known(info.dt_limit)},
+            {"overlap_over_radius_limit_of_time_step", info.dt_limit > 0 ? json_number(info.dt_overlap) : Json()}};
+  add_counts(pair, s);
+  return pair;
+}
+
+Json counts_json(const ContactStatistics::Pair& s)
+{
+  Json counts = Json::object();
+  add_counts(counts, s);
+  return counts;
+}
+
+void append(std::string& text, const Json& value, const std::string& indent)
+{
+  const bool holds_objects =
+      value.is_array() && std::any_of(value.begin(), value.end(), [](const Json& one) { return one.is_object(); });
+  if (!value.is_structured()) {
+    text += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return;
+  }
+  const bool spread = value.is_object() || holds_objects;
+  const std::string within = spread ? '\n' + indent + "  " : "";
+  text += value.is_object() ? '{' : '[';
+  for (auto member = value.begin(); member != value.end(); ++member) {
+    if (member != value.begin()) text += spread ? "," : ", ";
+    text += within;
+    if (value.is_object()) text += '"' + member.key() + "\": ";
+    append(text, *member, indent + "  ");
+  }
+  if (spread && !value.empty()) text += '\n' + indent;
+  text += value.is_object() ? '}' : ']';
 }
 
 }  // namespace
 
-std::string to_json(const ContactStatistics& statistics, const std::string& header, const DeckUnits& units)
+Json to_json(const ContactStatistics& statistics, const DeckUnits& units)
 {
-  std::string pairs;
+  Json pairs = Json::array();
   for (const auto& [key, counts] : statistics.pairs)
-    if (counts.info.needed || counts.touches > 0)
-      pairs += fmt::format("{}{}", pairs.empty() ? "" : ",\n", pair_json(key, counts.in_si(units)));
-  return fmt::format(
-      "{{\n{}  \"pair\": {{\n{}\n  }},\n  \"wall\": {{\n{}\n  }},\n  \"pairs\": [\n{}\n  ]\n}}\n", header,
-      counts_json(statistics.total(false).in_si(units), "    "),
-      counts_json(statistics.total(true).in_si(units), "    "), pairs);
+    if (counts.info.needed || counts.touches > 0) pairs.push_back(pair_json(key, counts.in_si(units)));
+  return {{"pair", counts_json(statistics.total(false).in_si(units))},
+          {"wall", counts_json(statistics.total(true).in_si(units))},
+          {"pairs", pairs}};
+}
+
+std::string text_of(const Json& object)
+{
+  std::string text;
+  append(text, object, "");
+  return text + '\n';
 }
 
 }  // namespace granulaw::plugin

@@ -1,16 +1,20 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "liggghts_plugin/books/contact_statistics.hpp"
 
+// The statistics file. Schema: docs/reference/fix_granulaw_stats.md.
 namespace granulaw::plugin {
 
-/// Text as a JSON string.
-std::string quoted(const std::string& text);
+/// Number of so many digits; null where it is not finite.
+nlohmann::ordered_json json_number(double value, int digits = 10);
 
-/// `contact statistics` (summed over ranks, in the deck's units) as JSON, in SI; `header` is placed first
-/// ("\"key\": value,\n" lines). Schema: docs/reference/fix_granulaw_stats.md.
-std::string to_json(const ContactStatistics& statistics, const std::string& header, const DeckUnits& units);
+/// Members "pair", "wall", "pairs" of contact statistics (summed over ranks, in the deck's units), in SI.
+nlohmann::ordered_json to_json(const ContactStatistics& statistics, const DeckUnits& units);
+
+/// Object as text: a line for each member, lists of numbers on one line.
+std::string text_of(const nlohmann::ordered_json& object);
 
 }  // namespace granulaw::plugin

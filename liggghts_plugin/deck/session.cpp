@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "liggghts_plugin/engine/liggghts.hpp"
+
 namespace granulaw::plugin {
 
 const Setup* Setup::current = nullptr;
@@ -13,6 +15,12 @@ std::shared_ptr<Session> Session::of(LAMMPS_NS::LAMMPS* lmp)
   std::shared_ptr<Session> session = slot.lock();
   if (!session) slot = session = std::make_shared<Session>();
   return session;
+}
+
+std::string Setup::command() const
+{
+  const std::string id = wall ? wall->id : pairs_record;
+  return wall && id == pairs_record ? "fix " + id : id;
 }
 
 }  // namespace granulaw::plugin

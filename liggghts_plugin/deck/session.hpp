@@ -120,8 +120,8 @@ class Session
   /// radius, in the deck's units. Radii and types may change in a run.
   std::map<const Setup*, std::map<int, std::function<void(double radius)>>> one_size;
 
-  /// The histories of the restart file that this deck continues, by command: "pair" or the wall's id. A
-  /// command that has been compared is taken out.
+  /// The histories of the restart file that this deck continues, by command (Setup::command). One that has been
+  /// compared is taken out.
   std::map<std::string, HistoryMeaning> restarted;
   /// Those of the commands of this deck.
   std::map<std::string, HistoryMeaning> meanings;
@@ -149,13 +149,18 @@ struct Setup
   mutable const ContactInquiry* contacts = nullptr;  ///< the model, once it has read its words
 
   static const Setup* current;
+
+  /// The command's name in restart records: pairs_record, or the wall's id. A wall of the id "pair" is "fix pair": no id
+  /// has a blank.
+  std::string command() const;
 };
 
 /// Registers the fix style `granulaw/stats`; if the simulation box exists adds `fix granulaw all
 /// granulaw/stats` where there is no such fix, and the per-atom property with `energy on`.
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp);
 
-/// Ends the run with "ERROR: MESSAGE" on all ranks (each must call it). error->all does this too, but
+/// Ends the run with "ERROR: MESSAGE" on all ranks. Each must call it; where one does so alone, as nobody foresaw, it ends
+/// the run by stop_one() after some seconds. error->all does this too, but
 /// in 3.8.0 it adds a "special message" from freed memory: bytes of garbage in one run of eight (seen).
 [[noreturn]] void stop_all(LAMMPS_NS::LAMMPS* lmp, const std::string& message);
 /// Ends the run from one rank. Unlike error->one it reaches the user from every rank and through a pipe: that

@@ -76,7 +76,7 @@ void note_meaning(const CommandModels& models, Setup& setup)
                        bit(options.deformable_wall, HistoryMeaning::deformable_wall) |
                        bit(options.tangential_computed.value_or(false), HistoryMeaning::computed_stiffness),
                    options.stretch.value_or(1.0)};
-  setup.session->meanings[setup.wall ? setup.wall->id : "pair"] = setup.meaning;
+  setup.session->meanings[setup.command()] = setup.meaning;
 }
 
 /// The energy tally counts what happens in contact.

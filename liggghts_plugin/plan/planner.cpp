@@ -231,8 +231,8 @@ void Planner::begin_run()
 {
   after_command();
   const auto& written = Session::of(lmp_)->restarted;
-  if (const auto pair = written.find("pair"); pair != written.end())
-    record_.restart_stretch = pair->second.stretch > 0 ? pair->second.stretch : 1.0;
+  if (const auto pair = written.find(pairs_record); pair != written.end())
+    record_.restart_stretch = pair->second.stretch;
   find_settings();
   find_materials();
   find_walls();

@@ -77,13 +77,9 @@ void check_inherited(const Setup& setup)
 void check_restarted(const Setup& setup)
 {
   std::map<std::string, HistoryMeaning>& restarted = setup.session->restarted;
-  const auto found = restarted.find(setup.wall ? setup.wall->id : "pair");
+  const auto found = restarted.find(setup.command());
   if (found == restarted.end()) return;
-  HistoryMeaning written = found->second;
-  if (written.stretch == 0.0) {  // a file of a version that kept neither the stretch nor these bits
-    written.stretch = setup.meaning.stretch;
-    written.combination |= setup.meaning.combination & HistoryMeaning::since_stretch;
-  }
+  const HistoryMeaning& written = found->second;
   if (written != setup.meaning)
     fail(setup.where,
          "the restart file was written with other models or words, whose contact histories mean something else",

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
@@ -162,12 +163,13 @@ void FixStats::warn_of_clumps() const
 void FixStats::warn_of_lost_contacts() const
 {
   for (const auto& [name, meaning] : session_->restarted) {
-    const std::string command = name == "pair" ? "pair_style gran" : fmt::format("fix {} wall/gran", name);
+    const bool is_pair = name == pairs_record;
+    const std::string command = is_pair ? "pair_style gran" : fmt::format("{} wall/gran", name.starts_with("fix ") ? name : "fix " + name);
     warn("restarted " + name,
          fmt::format(
              "granulaw: the restart file holds contacts of {} ({}), which this deck has not: their dents are "
              "lost{}",
-             command, describe(meaning), name == "pair" ? "" : "; give the walls their old ids"));
+             command, describe(meaning), is_pair ? "" : "; give the walls their old ids"));
   }
 }
 
@@ -481,9 +483,8 @@ void write_stats_at_stop(LAMMPS_NS::LAMMPS* lmp, const std::string& message)
 void FixStats::write_restart(FILE* file)
 {
   // with the open contacts, which go on after the restart
-  std::vector<double> values = RestartRecord{sum_of_ranks(true).pack(), session_->meanings}.numbers();
+  const std::vector<double> values = RestartRecord{sum_of_ranks(true).pack(), session_->meanings}.numbers();
   if (comm->me != 0) return;
-  values.insert(values.begin(), static_cast<double>(values.size()));
   const int size = static_cast<int>(values.size() * sizeof(double));
   std::fwrite(&size, sizeof(int), 1, file);
   std::fwrite(values.data(), sizeof(double), values.size(), file);
@@ -491,14 +492,13 @@ void FixStats::write_restart(FILE* file)
 
 void FixStats::restart(char* buffer)
 {
-  // LIGGGHTS hands over what follows the size, but does not say how long that is: the first number does
-  double count = 0;
-  std::memcpy(&count, buffer, sizeof(double));
-  std::vector<double> values(static_cast<std::size_t>(count));
-  std::memcpy(values.data(), buffer + sizeof(double), values.size() * sizeof(double));
-  const RestartRecord record = RestartRecord::from(values);
-  for (const auto& [command, meaning] : record.meanings) session_->restarted[command] = meaning;
-  if (!session_->statistics.unpack(record.counts.data(), record.counts.size(), comm->me == 0) &&
+  const std::optional<RestartRecord> record = RestartRecord::from(buffer);
+  if (!record)
+    stop_all(lmp, fmt::format("fix {} granulaw/stats: its record in the restart file is damaged, or of another version "
+                              "of the plug-in",
+                              id));
+  for (const auto& [command, meaning] : record->meanings) session_->restarted[command] = meaning;
+  if (!session_->statistics.unpack(record->counts.data(), record->counts.size(), comm->me == 0) &&
       comm->me == 0)
     error->warning(FLERR, fmt::format("fix {} granulaw/stats: the restart file holds the counts of another "
                                       "version of the plug-in: they begin at zero",
@@ -509,22 +509,22 @@ void FixStats::restart(char* buffer)
 void FixStats::write_json(const ContactStatistics& sum, const DeepContacts& deep,
                           const std::string& path) const
 {
-  const double limit = sum.damage_number_limit();
-  const std::string header =
-      fmt::format(
-          "  \"granulaw_version\": \"{}\",\n  \"git_hash\": \"{}\",\n  \"step\": {},\n  \"time_s\": "
-          "{:.10g},\n"
-          "  \"ranks\": {},\n  \"time_step_used_s\": {:.10g},\n  \"damage_number_limit_of_law\": {:.6g},\n"
-          "  \"inertia_number_limit_of_law\": {:.6g},\n  \"contacts_over_a_tenth_of_radius\": {:.10g},\n"
-          "  \"particles_with_several_of_them\": {:.10g},\n",
-          version(), git_hash(), update->ntimestep, update->get_cur_time(), comm->nprocs, largest_dt_, limit,
-          limit, deep.contacts, deep.particles) +
-      (stopped_.empty() ? ""
-                        : fmt::format("  \"stopped\": {},\n  \"ranks_in_this_file\": 1,\n", quoted(stopped_))) +
-      fmt::format("  \"series\": {{\n{}\n  }},\n",
-                  energies_.json(deck_units(), session_->energy != nullptr, "    "));
+  const nlohmann::ordered_json limit = json_number(sum.damage_number_limit(), 6);
+  nlohmann::ordered_json file{{"granulaw_version", version()},
+                              {"git_hash", git_hash()},
+                              {"step", update->ntimestep},
+                              {"time_s", json_number(update->get_cur_time())},
+                              {"ranks", comm->nprocs},
+                              {"time_step_used_s", json_number(largest_dt_)},
+                              {"damage_number_limit_of_law", limit},
+                              {"inertia_number_limit_of_law", limit},
+                              {"contacts_over_a_tenth_of_radius", json_number(deep.contacts)},
+                              {"particles_with_several_of_them", json_number(deep.particles)}};
+  if (!stopped_.empty()) file.update({{"stopped", stopped_}, {"ranks_in_this_file", 1}});
+  file["series"] = energies_.json(deck_units(), session_->energy != nullptr);
+  file.update(to_json(sum, deck_units()));
   try {
-    write_text_atomically(path, to_json(sum, header, deck_units()));
+    write_text_atomically(path, text_of(file));
   } catch (const Error&) {
     error->warning(FLERR, fmt::format("fix {} granulaw/stats: cannot write '{}'", id, path).c_str());
   }

@@ -1,6 +1,8 @@
 """The ways a deck can be written: order of commands, restart, LD_PRELOAD, rolling friction, converted Hertz decks."""
+import json
 
 from pytest import approx, mark
+from programs import LAUNCHER, run
 import gas
 from collisions import wall_deck
 from harness import PLUGIN, POWDER, Deck, properties
@@ -27,6 +29,18 @@ class TestOptions(Deck):
         early, late = self.run_deck(early), self.run_deck(deck)
         for name in ("SPEED", "LOSS"):
             assert self.result(early, name) == self.result(late, name)
+
+    def test_steps_of_a_short_run(self):
+        """`-steps N FILE`, by which `mpm convert --check` compares decks, stands first and has a whole number."""
+        (self.folder / "in.deck").write_text(self.deck())
+        def short(*words, **how):
+            return run(LAUNCHER, *words, "-in", "in.deck", "-log", "none", cwd=self.folder, **how)
+        short("-steps", 7, "state.json")
+        assert json.loads((self.folder / "state.json").read_text())["steps"] == 7
+        for steps in ("x", "7.5", "-1", "1e300"):
+            assert f"-steps: found {steps}, allowed is a whole number" in short("-steps", steps, "none.json", code=None).stderr
+        short("-var", "word", "a", "-steps", "7", "none.json", code=None)  # LIGGGHTS has no such option
+        assert not (self.folder / "none.json").exists()
 
     def test_ld_preload_with_the_stock_binary(self):
         found = self.speed(self.deck(), launcher="liggghts", environment={"LD_PRELOAD": PLUGIN})

@@ -1,8 +1,25 @@
 """Two MPI ranks: the same physics, the same statistics, and a clean stop when something is wrong."""
 
 from pytest import approx, mark
+from programs import LAUNCHER, run
 import gas
 from harness import Deck
+
+
+# Stands before LIGGGHTS's function on one rank: memory ends there, where a run begins.
+LONE_FAULT = r"""
+#include <dlfcn.h>
+#include <cstring>
+#include <new>
+#define FIND _ZN9LAMMPS_NS6Modify17find_fix_propertyEPKcS2_S2_iiS2_b
+#define TEXT_OF(name) #name
+#define TEXT(name) TEXT_OF(name)
+extern "C" void* FIND(void* self, const char* name, const char* style, const char* kind, int a, int b, const char* caller, bool required)
+{
+  if (std::strcmp(name, "youngsModulus") == 0) throw std::bad_alloc();
+  return reinterpret_cast<decltype(&FIND)>(dlsym(RTLD_NEXT, TEXT(FIND)))(self, name, style, kind, a, b, caller, required);
+}
+"""
 
 
 class TestParallel(Deck):
@@ -20,6 +37,16 @@ class TestParallel(Deck):
         two = self.result(self.run_deck(deck, ranks=2), "GAS")
         for value, expected in zip(two, one):
             assert value / expected == approx(1.0, abs=1e-6), model  # order of summation, as in test_history
+
+    def test_error_of_one_rank_alone_ends_the_run(self):
+        """The others wait for it in a sum; without its message they would do so for ever."""
+        (self.folder / "fault.cpp").write_text(LONE_FAULT)
+        run("c++", "-shared", "-fPIC", self.folder / "fault.cpp", "-o", self.folder / "fault.so")
+        start = self.folder / "start"
+        start.write_text(f'#!/bin/sh\n[ "$OMPI_COMM_WORLD_RANK" = 1 ] && export LD_PRELOAD={self.folder}/fault.so\nexec {LAUNCHER} "$@"\n')
+        start.chmod(0o755)
+        deck = gas.start() + gas.model(f"law {self.law} materials powder") + gas.MOVE + "run 1\n"
+        assert "ERROR on proc 1: std::bad_alloc" in self.run_deck(deck, ranks=2, launcher=start, expect_failure=True)
 
     def test_error_stops_all_ranks(self):
         for words, sentence in ((f"law missing.h5 materials powder", "missing.h5"),

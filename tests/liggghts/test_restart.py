@@ -1,6 +1,8 @@
 """Restart files: the trajectory, the contacts' history, the contact statistics' counts and the particles' energies go on."""
 import json
+import math
 import re
+import struct
 
 from pytest import approx
 from test_energy import DT, PRINT, SUM, data_file, model, start
@@ -28,6 +30,27 @@ class TestRestart(Deck):
                     assert stats[side][name] / whole_stats[side][name] == approx(1.0, abs=1e-7), name
                 assert stats[side]["impact_speed"]["count"] == whole_stats[side]["impact_speed"]["count"]
             assert whole_stats["pair"]["contacts_begun"] > 10
+
+    def test_a_wall_named_pair(self):
+        """Its models' words are not taken for the pair style's."""
+        data_file(self.folder / "bed.data")
+        rules = model(f"law {self.law} materials powder", "history", 0.3).replace("fix w all", "fix pair all").replace("zplane 0.0", "zplane 0.0 wall deformable")
+        self.run_deck(start() + rules + "run 10\nwrite_restart half.restart\n")
+        assert "holds contacts of" not in self.run_deck(start("read_restart half.restart") + rules + "run 1\n")
+        renamed = rules.replace("fix pair all", "fix w all")
+        assert "the restart file holds contacts of fix pair wall/gran" in self.run_deck(start("read_restart half.restart") + renamed + "run 1\n")
+
+    def test_a_damaged_record(self):
+        """LIGGGHTS hands over a fix's record without its length."""
+        data_file(self.folder / "bed.data")
+        rules = model(f"law {self.law} materials powder", "history", 0.3)
+        self.run_deck(start() + rules + "run 10\nwrite_restart half.restart\n")
+        whole = (self.folder / "half.restart").read_bytes()
+        record = whole.index(struct.pack("<d", -4.7113e300))  # the mark that it begins with (books/restart_record.cpp)
+        for place, value in ((0, 387.0), (1, math.nan), (1, -1.0), (1, 1e18), (1, 1e6), (4, 2.0)):
+            at = record + 8 * place
+            (self.folder / "half.restart").write_bytes(whole[:at] + struct.pack("<d", value) + whole[at + 8:])
+            self.refused(start("read_restart half.restart") + rules + "run 1\n", "granulaw/stats: its record in the restart file is damaged")
 
     def test_pair_style_forgotten(self):
         data_file(self.folder / "bed.data")

@@ -86,11 +86,21 @@ class TestStats(Deck):
     def test_a_path_that_cannot_be_written_stops_before_the_first_step(self):
         deck = wall_deck("mpm", f"law {self.law} materials powder stats @path", POWDER, RADIUS, 1.0, 2e-8)
         for path, sentence in (("/proc/stats.json", "the folder '/proc' cannot be written to"), ("none/s.json", "the folder 'none' does not exist"),
-                               (".", "is a folder, not a file")):
+                               (".", "is a folder, not a file"), ("/dev/full", "'/dev/full' is no regular file")):
             text = self.run_deck(deck.replace("@path", path), expect_failure=True)
             assert "pair_style gran: stats: " in text
             assert sentence in text
             assert "granulaw contacts" not in text
+
+    def test_file_of_a_run_that_stops_at_a_number_that_is_none(self):
+        deck = wall_deck("mpm", f"law {self.law} materials powder stats s.json", POWDER, RADIUS, 1.0, 2e-8)
+        push = 'variable bad equal "(1e308*10)-(1e308*10)"\nfix push all addforce v_bad 0 0\n'
+        first, last = deck.split("fix i all")
+        text = self.run_deck(f"{first}{push}fix i all{last}", expect_failure=True)
+        assert "is not a number" in text
+        stats = json.loads((self.folder / "s.json").read_text())
+        assert "is not a number" in stats["stopped"]
+        assert stats["series"]["kinetic_J"][-1] is None and stats["series"]["time_s"][-1] > 0
 
     @mark.parametrize("squeeze, contacts, particles", ((0.09, 0, 0), (0.11, 2, 1)))
     def test_contacts_of_a_squeezed_sphere(self, squeeze, contacts, particles):

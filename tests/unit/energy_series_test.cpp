@@ -7,7 +7,7 @@
 
 namespace granulaw::plugin::energy_series_test {
 
-nlohmann::json after(std::int64_t steps, const DeckUnits& units = {}, bool energies = false)
+nlohmann::ordered_json after(std::int64_t steps, const DeckUnits& units = {}, bool energies = false)
 {
   EnergySeries series;
   for (std::int64_t step = 0; step <= steps; ++step) {
@@ -18,7 +18,7 @@ nlohmann::json after(std::int64_t steps, const DeckUnits& units = {}, bool energ
     row[EnergySeries::fastest] = 3.0;
     series.add(step, row);
   }
-  return nlohmann::json::parse("{" + series.json(units, energies, "") + "}");
+  return series.json(units, energies);
 }
 
 TEST(EnergySeries, KeepsAFewHundredRowsOfAnyRun)
@@ -47,8 +47,8 @@ TEST(EnergySeries, ARowOfTheSameStepIsReplaced)
   EnergySeries series;
   series.add(7, {0.7, 1});
   series.add(7, {0.7, 2});
-  const auto found = nlohmann::json::parse("{" + series.json({}, false, "") + "}");
-  EXPECT_EQ(found["particles"], nlohmann::json::array({2}));
+  const auto found = series.json({}, false);
+  EXPECT_EQ(found["particles"], nlohmann::ordered_json::array({2}));
 }
 
 }  // namespace granulaw::plugin::energy_series_test

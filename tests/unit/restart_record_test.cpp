@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "liggghts_plugin/books/contact_statistics.hpp"
 
 namespace granulaw::plugin::restart_record_test {
@@ -11,26 +13,34 @@ RestartRecord some_record()
   return {{1.5, -2.0, 3.0}, {{"pair", {40l + HistoryMeaning::energy, 2.5}}, {"walls", {41, 1.0}}}};
 }
 
+std::optional<RestartRecord> read(const std::vector<double>& numbers)
+{
+  return RestartRecord::from(reinterpret_cast<const char*>(numbers.data()));
+}
+
 TEST(RestartRecord, ComesBackAsItWas)
 {
   for (const RestartRecord& record :
        {some_record(), RestartRecord{}, RestartRecord{{}, {{"w", {1, 1.0}}}}, RestartRecord{{1.0}, {}}}) {
-    const RestartRecord back = RestartRecord::from(record.numbers());
-    EXPECT_EQ(back.counts, record.counts);
-    EXPECT_EQ(back.meanings, record.meanings);
+    const std::optional<RestartRecord> back = read(record.numbers());
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->counts, record.counts);
+    EXPECT_EQ(back->meanings, record.meanings);
   }
 }
 
-TEST(RestartRecord, OfACutRecordComesWhatIsWhole)
+/// LIGGGHTS says nothing of a record's length: whatever its first numbers are, no byte beyond it is read.
+TEST(RestartRecord, IsRefusedWhereItIsDamaged)
 {
   const std::vector<double> whole = some_record().numbers();
-  for (std::size_t length = 0; length < whole.size(); ++length) {
-    const RestartRecord back =
-        RestartRecord::from({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)});
-    EXPECT_EQ(back.counts.size(), length > 3 ? 3u : 0u) << length;
-    const bool whole_stretch = back.meanings.contains("walls") && back.meanings.at("walls").stretch > 0;
-    EXPECT_FALSE(whole_stretch) << length;
-  }
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    for (const double value : std::initializer_list<double>{std::nextafter(whole[k], 1e308), -1.0, NAN, INFINITY, 1e18, 0.5}) {
+      if (value == whole[k]) continue;
+      std::vector<double> damaged = whole;
+      damaged[k] = value;
+      EXPECT_FALSE(read(damaged)) << k << " " << value;
+    }
+  EXPECT_FALSE(read({3.0, 1.5, -2.0, 3.0}));  // an older record began with its length
 }
 
 TEST(ContactStatistics, PacksAndUnpacks)
@@ -66,6 +76,20 @@ TEST(ContactStatistics, AnotherLayoutIsNotTaken)
   EXPECT_FALSE(statistics.unpack(values.data(), values.size(), true));
   EXPECT_FALSE(statistics.unpack(nullptr, 0, true));
   EXPECT_EQ(statistics.pairs[{}].touches, 1.0);
+}
+
+TEST(ContactStatistics, ReadNothingBeyondTheirEnd)
+{
+  ContactStatistics statistics;
+  statistics.pairs[{}].count(7, 3.0, 1.0);
+  std::vector<double> values = statistics.pack();
+  const std::size_t length = values.size() - 3;  // of the map that follows, one bin and its count
+  ASSERT_EQ(values[length], 2.0);
+  for (const double damaged : {-1.0, 1e18, static_cast<double>(NAN)}) {
+    values[length] = damaged;
+    ContactStatistics read;
+    EXPECT_TRUE(read.unpack(values.data(), values.size(), true));
+  }
 }
 
 }  // namespace granulaw::plugin::restart_record_test

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -111,7 +112,9 @@ ShortRun short_run(const std::string& folder, const std::vector<std::string>& wo
   result.ended = run.ended && state.is_object();
   if (!result.ended) return result;
   result.steps = state["steps"], result.time = state["time"];
-  result.particles = state["particles"], result.kinetic_energy = state["kinetic_energy"];
+  result.particles = state["particles"];
+  const nlohmann::json& energy = state["kinetic_energy"];  // null: no number
+  result.kinetic_energy = energy.is_null() ? std::numeric_limits<double>::quiet_NaN() : energy.get<double>();
   return result;
 }
 
