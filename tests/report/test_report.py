@@ -160,6 +160,15 @@ class TestOwnDecks:
         assert speeds.lines[0].get_xdata()[0] / 0.03 == approx(1, abs=1e-12)  # the onset, as the file has it
         page.plt.close(figure)
 
+    def test_a_run_that_stopped_at_a_number_that_is_none(self, folder):
+        none = {"time_s": [0, 1, 2], "kinetic_J": [2e-3, 1e-3, None], "fastest_particle_m_per_s": [1, 2, None]}
+        own_deck(folder, series=none)
+        assert without_drawing(folder)[:2] == (0, "")
+        figure = contacts_part.picture_of_run(contacts_part.read_own(folder, [])[0][0])
+        assert figure.axes[0].get_ylabel() == "energy, mJ"
+        assert list(figure.axes[1].lines[0].get_ydata())[:2] == [1, 2]
+        page.plt.close(figure)
+
     def test_a_body_that_does_not_yield(self, folder):
         own_deck(folder)
         text = (folder / "results.json").read_text()

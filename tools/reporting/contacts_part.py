@@ -212,6 +212,8 @@ class Run:
         self.kinds = sorted_kinds(kinds)
         self.series = stats["series"]
         columns = [c for c in self.series.values() if isinstance(c, list)]
+        for column in columns:  # null: a number that was none, where the run stopped
+            column[:] = [math.nan if v is None else v for v in column]
         if "time_s" not in self.series or len(columns) != len(self.series) or len({len(c) for c in columns}) != 1:
             raise files.Unreadable(path, "'series' is no table with columns of one length")
 
@@ -301,7 +303,7 @@ def picture(all_contacts):
 
 def prefixed(values, unit):
     """(factor, "mJ"): so that the largest of `values` is 1 to 1000."""
-    top = max(map(abs, values), default=0)
+    top = max((abs(v) for v in values if math.isfinite(v)), default=0)
     step = min(max(math.floor(math.log10(top) / 3), -4), 2) if top > 0 else 0
     return 1000.0**-step, {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M"}[step] + unit
 

@@ -132,6 +132,7 @@ std::vector<double> ComposedModel::changes(const PairBody& own, const PairBody& 
   LawRange options;
   options.depth = Atlas::depth;
   options.fastest = std::clamp(1.2 * measured_->largest_x() * per_speed, 0.03, SphereLaws::fastest);
+  options.tolerance = 0;  // laws with their velocity axis: one left out here and there would be a jump between candidates
   Law law;
   law.bodies[sphere_body].material = sphere.material();
   law.bodies[wall_body].material = wall.material();
