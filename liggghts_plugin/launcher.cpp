@@ -4,6 +4,7 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -24,6 +25,7 @@ extern "C" void granulaw_plan(LAMMPS_NS::LAMMPS* lmp, const char* file);
 extern "C" void granulaw_plan_line(const char* where, const char* text);
 extern "C" void granulaw_plan_file(const char* path, bool is_written);
 extern "C" bool granulaw_plan_end(int status);
+extern "C" void granulaw_plan_crash();
 extern "C" void granulaw_limit_steps(LAMMPS_NS::LAMMPS* lmp, long long steps, const char* file);
 extern "C" void granulaw_end_short_run();
 
@@ -52,6 +54,18 @@ long long steps_of(const char* word)
   return 0;
 }
 
+/// LIGGGHTS's meshes and others write to a screen that `-screen none` makes a null pointer.
+void keep_screen(std::vector<char*>& words)
+{
+  static char nowhere[] = "/dev/null";
+  const auto is = [](const char* word, std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return std::strcmp(word, name) == 0; });
+  };
+  if (std::any_of(words.begin(), words.end(), [&](const char* word) { return is(word, {"-partition", "-p"}); })) return;
+  for (std::size_t k = 1; k + 1 < words.size(); ++k)
+    if (is(words[k], {"-screen", "-sc"}) && is(words[k + 1], {"none"})) words[k + 1] = nowhere;
+}
+
 void require_one_rank()
 {
   int ranks = 0;
@@ -73,10 +87,28 @@ void end_plan(int status, void*)
   _exit(ended ? 0 : 1);
 }
 
+void end_by_signal(int)
+{
+  granulaw_plan_crash();
+}
+
+/// A crash leaves the command that was executed. The signal comes again, and ends the process.
+void follow_crashes()
+{
+  static char stack[65536];  // that of the process may be full
+  stack_t own{};
+  own.ss_sp = stack;
+  own.ss_size = sizeof stack;
+  sigaltstack(&own, nullptr);
+  struct sigaction crash{};
+  crash.sa_handler = &end_by_signal;
+  crash.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &crash, nullptr);
+}
+
 void plan(std::vector<char*> words, const char* file)
 {
   require_one_rank();
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   static char log[] = "-log", none[] = "none";
   words.insert(words.end(), {log, none});
   granulaw::plan::close_files();
@@ -84,6 +116,7 @@ void plan(std::vector<char*> words, const char* file)
   lammps = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), words.data(), MPI_COMM_WORLD);
   granulaw_plan(lammps, file);
   on_exit(&end_plan, nullptr);
+  follow_crashes();
   const auto is_deck = [](std::FILE* stream) { return stream == lammps->infile; };
   granulaw::plan::follow_lines(is_deck, &granulaw_plan_line);
   granulaw::plan::read_on_one_rank(is_deck);
@@ -107,8 +140,10 @@ int main(int argc, char** argv)
 
   // Else Open MPI starts a daemon where there is no mpirun, which takes 0.4 s.
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a file has all lines, however the process ends
   MPI_Init(&argc, &argv);
   std::vector<char*> words(argv, argv + argc);
+  keep_screen(words);
   if (const auto file = take_option(words, "-plan", 1); !file.empty()) plan(words, file[0]);
   const auto limit = take_option(words, "-steps", 2);
   const long long steps = limit.empty() ? 0 : steps_of(limit[0]);

@@ -43,9 +43,12 @@ void check_material(LAMMPS_NS::LAMMPS* lmp, const Setup& setup, const Types& typ
   if (density_differs && setup.session->first_time(fmt::format("density {}", t)) && lmp->comm->me == 0)
     lmp->error->warning(
         FLERR, fmt::format("{}: particles of type {} have density {:.6g} to {:.6g} kg/m^3, '{}' in {} "
-                           "has {:.6g}: the force law does not depend on it, its limit of velocity does",
+                           "has {:.6g}: the force law does not depend on it, its limit of velocity does{}",
                            setup.where, t, types.density_low[t], types.density_high[t], material.name,
-                           setup.law->path, material.density)
+                           setup.law->path, material.density,
+                           lmp->domain->dimension == 2
+                               ? ". Under 'dimension 2' LIGGGHTS gives a sphere the mass of a disk one unit of length thick"
+                               : "")
                    .c_str());
 }
 

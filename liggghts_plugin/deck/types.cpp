@@ -23,10 +23,12 @@ void find_particle_types(LAMMPS_NS::LAMMPS* lmp, Types& types)
     types.density_low[t] = std::min(types.density_low[t], density);
     types.density_high[t] = std::max(types.density_high[t], density);
   };
+  const bool is_flat = lmp->domain->dimension == 2;
   for (int a = 0; a < atom.nlocal; ++a) {
     const int t = atom.type[a];
     types.of_particles[t] = 1;
-    if (atom.density) include_density(t, atom.density[a]);
+    if (is_flat && atom.rmass) include_density(t, atom.rmass[a] / (4.0 / 3.0 * M_PI * std::pow(atom.radius[a], 3)));
+    else if (atom.density) include_density(t, atom.density[a]);
   }
   each_template(lmp, [&](LAMMPS_NS::FixTemplateSphere& particle, double density) {
     for (int t = particle.mintype(); t <= particle.maxtype(); ++t) include_density(t, density);

@@ -7,11 +7,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace granulaw::plan {
 
@@ -19,14 +21,17 @@ namespace {
 
 bool closed = false;
 
+/// A file of commands, read as LIGGGHTS reads it (Input::file): a line may come in parts, as its buffer grows, and a
+/// command may go over several lines.
 struct Place
 {
   std::string path;
-  int line = 0, first_line = 1;  ///< of the command that is being read
-  bool continued = false;
+  int line = 0;  ///< lines that were read to their end
+  int first_line = 0;  ///< of the command that is being read; 0: none is
+  std::string command{};
 };
 
-/// Files that the deck wrote, by path: in memory, where it can read them again.
+/// Files that the deck wrote, by path: in memory, where it can read them again. Negative: it took the file away.
 std::map<std::string, int>& written()
 {
   static std::map<std::string, int> files;
@@ -74,16 +79,52 @@ void copy_into(int memory, const char* path)
   std::fclose(from);
 }
 
+std::string path_in_memory(int file)
+{
+  return "/proc/self/fd/" + std::to_string(file);
+}
+
 /// In place of a file that is opened to write.
 std::FILE* open_in_memory(const char* path, const char* mode)
 {
   const bool keeps = mode[0] != 'w';
   const auto [found, is_new] = written().try_emplace(key_of(path), -1);
-  if (is_new) {
+  if (found->second < 0) {
     found->second = memfd_create("deck", MFD_CLOEXEC);
-    if (keeps) copy_into(found->second, path);
+    if (keeps && is_new) copy_into(found->second, path);
   }
-  return really_open(("/proc/self/fd/" + std::to_string(found->second)).c_str(), mode);
+  return really_open(path_in_memory(found->second).c_str(), mode);
+}
+
+bool is_there(const char* path)
+{
+  const auto own = written().find(key_of(path));
+  return own == written().end() ? ::access(path, F_OK) == 0 : own->second >= 0;
+}
+
+int not_there()
+{
+  errno = ENOENT;
+  return -1;
+}
+
+int take_away(const char* path)
+{
+  if (!is_there(path)) return not_there();
+  written()[key_of(path)] = -1;
+  return 0;
+}
+
+/// A folder stays where it is.
+int move_file(const char* from, const char* to)
+{
+  if (!is_there(from)) return not_there();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(from, ignored)) return 0;
+  const auto [found, is_new] = written().try_emplace(key_of(from), -1);
+  if (is_new) copy_into(found->second = memfd_create("deck", MFD_CLOEXEC), from);
+  written()[key_of(to)] = std::exchange(found->second, -1);
+  return 0;
 }
 
 std::FILE* open_file(const char* path, const char* mode)
@@ -96,8 +137,11 @@ std::FILE* open_file(const char* path, const char* mode)
     return open_in_memory(path, mode);
   }
   const auto own = written().find(key_of(path));
-  std::FILE* file = really_open(
-      own == written().end() ? path : ("/proc/self/fd/" + std::to_string(own->second)).c_str(), mode);
+  if (own != written().end() && own->second < 0) {
+    errno = ENOENT;
+    return nullptr;
+  }
+  std::FILE* file = really_open(own == written().end() ? path : path_in_memory(own->second).c_str(), mode);
   if (file) places()[file] = {path};
   if (file && on_file && own == written().end()) on_file(path, false);
   return file;
@@ -119,19 +163,23 @@ void free_grid(char* text)
   }
 }
 
-void count_line(std::FILE* file, const char* text)
+/// `part`: what was read; null: the file has ended.
+void follow_part(std::FILE* file, const char* part)
 {
   const auto found = places().find(file);
   if (found == places().end() || !is_deck_file || !is_deck_file(file)) return;
   Place& place = found->second;
-  ++place.line;
-  if (!place.continued) {
-    place.first_line = place.line;
-    on_line((place.path + ":" + std::to_string(place.line)).c_str(), text);
+  if (part) {
+    if (place.first_line == 0) place.first_line = place.line + 1;
+    place.command += part;
+    if (!place.command.ends_with('\n')) return;
+    ++place.line;
+    const auto last = place.command.find_last_not_of(" \t\n\v\f\r");
+    if (last != std::string::npos && place.command[last] == '&') return place.command.resize(last);
   }
-  std::size_t end = std::strlen(text);
-  while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1]))) --end;
-  place.continued = end > 0 && text[end - 1] == '&';
+  if (place.first_line == 0) return;
+  const Place whole = std::exchange(place, {place.path, place.line});
+  on_line((whole.path + ":" + std::to_string(whole.first_line)).c_str(), whole.command.c_str());
 }
 
 }  // namespace
@@ -186,7 +234,7 @@ GRANULAW_OWN char* fgets(char* text, int size, std::FILE* file)
   if (granulaw::plan::on_read) granulaw::plan::on_read(file);
   char* result = read(text, size, file);
   if (result && granulaw::plan::is_of_one_rank && granulaw::plan::is_of_one_rank(file)) granulaw::plan::free_grid(text);
-  if (granulaw::plan::closed && result) granulaw::plan::count_line(file, text);
+  if (granulaw::plan::closed) granulaw::plan::follow_part(file, result);
   return result;
 }
 
@@ -195,7 +243,7 @@ GRANULAW_OWN void rewind(std::FILE* file)
   static auto* const back = granulaw::plan::next<void(std::FILE*)>("rewind");
   if (granulaw::plan::closed)
     if (const auto place = granulaw::plan::places().find(file); place != granulaw::plan::places().end())
-      place->second.line = 0, place->second.continued = false;
+      place->second = {place->second.path};
   back(file);
 }
 
@@ -228,19 +276,19 @@ GRANULAW_OWN int rmdir(const char* path) noexcept
 GRANULAW_OWN int unlink(const char* path) noexcept
 {
   static auto* const take = granulaw::plan::next<int(const char*)>("unlink");
-  return granulaw::plan::closed ? 0 : take(path);
+  return granulaw::plan::closed ? granulaw::plan::take_away(path) : take(path);
 }
 
 GRANULAW_OWN int remove(const char* path) noexcept
 {
   static auto* const take = granulaw::plan::next<int(const char*)>("remove");
-  return granulaw::plan::closed ? 0 : take(path);
+  return granulaw::plan::closed ? granulaw::plan::take_away(path) : take(path);
 }
 
 GRANULAW_OWN int rename(const char* from, const char* to) noexcept
 {
   static auto* const move = granulaw::plan::next<int(const char*, const char*)>("rename");
-  return granulaw::plan::closed ? 0 : move(from, to);
+  return granulaw::plan::closed ? granulaw::plan::move_file(from, to) : move(from, to);
 }
 
 GRANULAW_OWN int MPI_File_open(MPI_Comm comm, const char* path, int mode, MPI_Info info, MPI_File* file)
@@ -257,9 +305,10 @@ GRANULAW_OWN int MPI_Finalize()
   return PMPI_Finalize();
 }
 
-/// LIGGGHTS's error->one: its message is on a stream that MPI_Abort does not write out.
+/// It ends the process at once: what streams hold, the reason as well, would be lost.
 GRANULAW_OWN int MPI_Abort(MPI_Comm comm, int status)
 {
   if (granulaw::plan::closed) std::exit(1);
+  std::fflush(nullptr);
   return PMPI_Abort(comm, status);
 }

@@ -12,7 +12,7 @@ void close_files();
 /// As ever again: Open MPI takes its own files away when it ends.
 void open_files();
 
-/// Called for each line that is read from a file: its name, the number of the command's first line, the line.
+/// Called for each command that is read from a file, before it is executed: "FILE:LINE" of its first line, its text.
 /// `is_deck`: the file is one of commands.
 void follow_lines(std::function<bool(std::FILE*)> is_deck,
                   std::function<void(const char* where, const char* text)> line);

@@ -4,6 +4,7 @@
 #include <regex>
 #include <set>
 
+#include "compute_pair_gran_local.h"
 #include "liggghts_plugin/engine/fix_style.hpp"
 #include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/plan/planner.hpp"
@@ -56,17 +57,18 @@ LAMMPS_NS::Fix* make_no_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
   return new NoFix(lmp, narg, arg);
 }
 
-/// In place of a list of contacts: none, of as many columns as a deck may ask for.
-class NoContacts final : public LAMMPS_NS::Compute
+/// In place of a list of contacts, for all that takes one: none, of as many columns as a deck may ask for.
+class NoContacts final : public LAMMPS_NS::ComputePairGranLocal
 {
  public:
-  NoContacts(LAMMPS_NS::LAMMPS* lmp, int iarg, int narg, char** arg) : Compute(lmp, iarg, narg, arg)
+  NoContacts(LAMMPS_NS::LAMMPS* lmp, int iarg, int narg, char** arg) : ComputePairGranLocal(lmp, iarg, narg, arg)
   {
-    local_flag = 1;
-    timeflag = 1;
-    size_local_rows = 0;
-    size_local_cols = 100;
+    size_local_rows = ncount = ncount_added_via_pair = 0;
+    size_local_cols = nvalues = 100;
+    dnum = 0;
   }
+  void post_create() override {}  // no pair, wall or heat fix hands it anything
+  void pre_delete(bool) override {}
   void init() override {}
   void compute_local() override { invoked_local = update->ntimestep; }
 };

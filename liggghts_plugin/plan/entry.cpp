@@ -30,6 +30,11 @@ extern "C" __attribute__((visibility("default"))) void granulaw_end_short_run()
   granulaw::plugin::plan::write_short_run();
 }
 
+extern "C" __attribute__((visibility("default"))) void granulaw_plan_crash()
+{
+  Planner::current()->note_crash();
+}
+
 extern "C" __attribute__((visibility("default"))) bool granulaw_plan_end(int status)
 {
   return Planner::current()->finish(status);

@@ -177,8 +177,8 @@ void Planner::begin_line(const std::string& where, const std::string& text)
   drop_written_histories();
   stop_where_late();
   where_ = where;
-  text_ = text;
-  if (!branches_on_run(lmp_->input->variable, text)) return;
+  crash_ = Record::json_of_stop(where);
+  if ((lmp_->input->*exposed(SoughtLabel{})) != 0 || !branches_on_run(lmp_->input->variable, text)) return;
   record_.note(where + ": the branch depends on a value of a run: it takes the side of the start");
   if (text.find("jump") != std::string::npos) record_.left_loop = where;
 }
@@ -214,6 +214,7 @@ void Planner::after_command()
   record_.units = lmp_->update->unit_style;
   record_.types = std::max(record_.types, lmp_->atom->ntypes);
   const lmp::Domain& domain = *lmp_->domain;
+  record_.dimension = domain.dimension;
   if (!domain.box_exist) {  // not yet, or `clear`
     atoms_.clear();
     cleared_ = record_.count();
@@ -229,6 +230,7 @@ void Planner::after_command()
 
 void Planner::begin_run()
 {
+  record_command();  // the commands that it repeats (run ... every) stand in its place behind it
   after_command();
   const auto& written = Session::of(lmp_)->restarted;
   if (const auto pair = written.find(pairs_record); pair != written.end())
@@ -608,6 +610,13 @@ bool Planner::finish(int status)
   if (out >= 0 && done == text.size() && close(out) == 0) return ended;
   std::fprintf(stderr, "ERROR: %s: cannot be written\n", file_.c_str());
   return false;
+}
+
+void Planner::note_crash() const
+{
+  const int out = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (out < 0 || write(out, crash_.data(), crash_.size()) < 0) return;
+  close(out);
 }
 
 }  // namespace plan

@@ -27,7 +27,7 @@ class Planner
   /// The one of this process; null: it does not plan.
   static Planner* current();
 
-  /// The next line of the deck: all commands before it have been executed.
+  /// The next command of the deck, as it stands there: all before it have been executed.
   void begin_line(const std::string& where, const std::string& text);
   /// A file is opened.
   void note_file(const std::string& path, bool is_written) { record_.add_file(path, is_written); }
@@ -43,6 +43,8 @@ class Planner
   void add_run(int steps);
   /// The process ends: writes the record. True: the deck was read to its end.
   bool finish(int status);
+  /// A signal ends the process: writes the command that is executed, by calls that a signal may make.
+  void note_crash() const;
 
   /// Words of a command; `wall` is null for the pair style.
   void note_style(const LAMMPS_NS::FixWallGran* wall, const std::string& model, const Options& options);
@@ -95,7 +97,7 @@ class Planner
   void each_fix(Visit&& visit) const;
 
   LAMMPS_NS::LAMMPS* lmp_;
-  std::string file_, where_, text_;
+  std::string file_, where_, crash_;
   Record record_;
   std::map<const LAMMPS_NS::Fix*, std::pair<std::string, std::string>> places_;  ///< id and where of each fix
   std::map<const LAMMPS_NS::FixWallGran*, Style> styles_;

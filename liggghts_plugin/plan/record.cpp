@@ -130,6 +130,7 @@ std::string Record::json() const
       {"gravity", gravity},
       {"domain", to_json(domain)},
       {"periodic", periodic},
+      {"dimension", dimension},
       {"types", types},
       {"materials", types_list},
       {"restitution", to_json(restitution)},
@@ -149,6 +150,11 @@ std::string Record::json() const
       {"left_loop", left_loop},
       {"stopped_at", stopped_at}};
   return root.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string Record::json_of_stop(const std::string& where)
+{
+  return nlohmann::json{{"stopped_at", where}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace granulaw::plugin::plan

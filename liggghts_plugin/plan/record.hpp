@@ -59,7 +59,7 @@ struct Record
   std::array<double, 3> gravity{};
   Box domain;
   std::array<bool, 3> periodic{};
-  int types = 0;
+  int dimension = 3, types = 0;
   std::map<int, Material> materials;
   std::optional<double> restitution;  ///< the smallest coefficientRestitution
   std::vector<double> friction;       ///< coefficientFriction, types x types; empty: the deck has none
@@ -86,6 +86,8 @@ struct Record
   /// All that a plan uses but the runs: what a run that brings nothing new leaves as it is.
   std::vector<double> fingerprint() const;
   std::string json() const;
+  /// The record of a process that a signal ended.
+  static std::string json_of_stop(const std::string& where);
 
  private:
   std::map<std::string, std::vector<std::size_t>> places_;  ///< of commands

@@ -1,7 +1,9 @@
 """Input that a user can get wrong: each ends with one clear sentence and a non-zero status."""
+import re
 
 from collisions import wall_deck
-from harness import POWDER, Deck, Material
+from harness import POWDER, Deck, Material, head, plane_stl, properties
+from programs import LAUNCHER, MPIRUN, run
 
 RADIUS = 1.7e-3
 
@@ -85,3 +87,27 @@ class TestBadInput(Deck):
         text = self.run_deck(wall_deck("mpm", self.good() + " beyondRange continue", POWDER, RADIUS, 60.0, 2e-7,
                                        wall_words="beyondRange continue"))
         assert "contact-steps beyond the law's table" in text
+
+
+class TestLastWords(Deck):
+    """LIGGGHTS's error->one ends all ranks at once: its sentence is in the output of a batch job all the same."""
+
+    def test_a_stop_of_one_rank(self):
+        plane = plane_stl()
+        triangle = plane[plane.index("facet"):plane.index("endfacet") + 9]
+        (self.folder / "floor.stl").write_text(plane.replace("endsolid", triangle + "endsolid"))
+        (self.folder / "in.deck").write_text(head() + properties([POWDER]) + "fix p6 all property/global coefficientRestitution peratomtypepair 1 0.5\npair_style gran model hertz tangential history\npair_coeff * *\n"
+                                             "fix floor all mesh/surface file floor.stl type 1\n"
+                                             "fix w all wall/gran model hertz tangential history mesh n_meshes 1 meshes floor\ncreate_atoms 1 single 0 0 0.01 units box\n"
+                                             "set group all density 2500 diameter 0.002\nfix move all nve/sphere\ntimestep 1e-6\nrun 1\n")
+        for ranks in (1, 2):
+            for words in ((), ("-screen", "none")):
+                mpirun = [MPIRUN, "--oversubscribe", "-np", ranks] if ranks > 1 else []
+                done = run(*mpirun, LAUNCHER, "-in", "in.deck", "-log", "log.liggghts", *words, cwd=self.folder, code=None)
+                assert re.search(r"ERROR on proc \d: .*duplicate", done.stdout + done.stderr), (ranks, words)
+                assert "duplicate" in (self.folder / "log.liggghts").read_text(), (ranks, words)
+
+    def test_what_came_before_a_signal(self):
+        """Self-reference of a variable ends LIGGGHTS by a signal."""
+        (self.folder / "in.deck").write_text('print "begun"\nvariable a equal v_a\nprint $a\n')
+        assert "begun" in run(LAUNCHER, "-in", "in.deck", "-log", "none", cwd=self.folder, code=None).stdout

@@ -222,8 +222,56 @@ run 100
         assert source["radius"][1] == approx(0.003, abs=1e-5)
 
 
+LONG = "".join(f" {k}" for k in range(1000))  # LIGGGHTS reads lines with a buffer that grows: 256, 2048 and so on
+
+
+class TestLines(Planned):
+    """A command is joined to the line of the file where it begins, whatever the lines before it are."""
+
+    def commands(self, text, *words):
+        return {(c["where"], *c["words"][:2]) for c in self.scene(text, *words)["commands"]}
+
+    @mark.parametrize("line", ("#{}", "variable a string \"{}\"", "print '{}' # ends", "thermo 10 # a note {} &\nand its second line", "thermo &\n10 # {}"))
+    def test_long_lines(self, line):
+        deck, expected = BOX, set()
+        for k, length in enumerate((254, 255, 256, 257, 510, 511, 512, 1024, 2047, 2048, 2049, 3000)):
+            before = len(line.format("").split("\n")[-1 if line.startswith("thermo &") else 0])
+            text = line.format(LONG[:length - before])
+            assert max(map(len, text.split("\n"))) == length
+            deck += f"{text}\nvariable behind_{k} index 1\n"
+            expected.add((f"in.deck:{deck.count(chr(10))}", "variable", f"behind_{k}"))
+        deck += FLOOR + ONE + "run 10"  # no newline at the end
+        expected |= {(f"in.deck:{deck.count(chr(10)) - 2}", "fix", "floor"), (f"in.deck:{deck.count(chr(10)) + 1}", "run", "10")}
+        assert expected <= self.commands(deck)
+
+    def test_lines_of_all_kinds(self):
+        """Tabs, CRLF, continuations, branches, loops, jumps and includes."""
+        (self.folder / "more.in").write_text(f"# {LONG}\n\n\tthermo \t&\n\t\t12\r\n#{LONG}\nvariable inner equal 1")
+        deck = BOX + (f"#{LONG}\r\n\tvariable a index 1 2\r\n# a comment that goes on &\r\nthermo 77\r\nlabel again\n#{LONG}\ninclude\tmore.in\nvariable b index &\n"
+                      f"  1 &\n  $a # {LONG} &\n and on\n\nif \"$a == 2\" then &\n  \"jump SELF out\" # {LONG}\nthermo 1$a\nnext a\njump SELF again # {LONG}\nthermo 5\n"
+                      f"label out\n#{LONG}\n") + FLOOR + ONE + "run 10 every 5 \"thermo 3\"\n"
+        lines = deck.split("\n")
+        found = self.commands(deck)
+        for words, line in ((("variable", "a"), "\tvariable a index 1 2\r"), (("include", "more.in"), "include\tmore.in"), (("variable", "b"), "variable b index &"),
+                            (("thermo", "11"), "thermo 1$a"), (("fix", "floor"), FLOOR.strip()), (("run", "10"), "run 10 every 5 \"thermo 3\"")):
+            assert [c[0] for c in found if c[1:] == words] == [f"in.deck:{lines.index(line) + 1}"], words
+        assert {("more.in:3", "thermo", "12"), ("more.in:6", "variable", "inner")} <= found
+        assert not {"77", "5"} & {c[2] for c in found if c[1] == "thermo"}  # in a comment, and jumped over
+
+    def test_messages_name_the_line(self):
+        for before in (f"# {LONG}\n", f"# {LONG}\r\n", f"thermo &\n 10 # {LONG}\n", f"variable a string '{LONG}'\n"):
+            self.refused(BOX + before + "\nfix p all mesh/surface file gone.stl type 1\n", f"in.deck:{(BOX + before).count(chr(10)) + 2}:", "gone.stl")
+
+    def test_a_branch_over_several_lines_is_named(self):
+        start = BOX + FLOOR + ONE + "compute ke all ke\nthermo_style custom step c_ke\nrun 10\nvariable k equal c_ke\n"
+        for branch in ('if &\n  "${k} > 1" &\n  then "run 5" else "run 7"\n', f'if "${{k}} > 1" then "run 5" else "run 7" # {LONG}\n'):
+            assert self.scene(start + branch)["notes"] == [f"in.deck:{start.count(chr(10)) + 1}: the branch depends on a value of a run: it takes the side of the start"]
+        skipped = start + 'jump SELF behind\nif "${k} > 1" then "run 5"\nlabel behind\nrun 1\n'
+        assert self.scene(skipped)["notes"] == []
+
+
 class TestWeakPoints(Planned):
-    """What a deck can do that a run of two steps cannot."""
+    """Decks that do more than a run of two steps shows."""
 
     def test_nothing_is_written(self):
         (self.folder / "keep").write_text("as it was")
@@ -282,9 +330,43 @@ run 1
 
     def test_lists_of_contacts_are_empty(self):
         """No contact acts, and no history is kept: decks that list contacts are planned all the same."""
-        lists = ("compute l all pair/gran/local pos id force history contactRadius\ncompute one all pair/gran/local delta\ncompute n all reduce sum c_l[20]\n"
+        lists = ("compute l all pair/gran/local pos id force history contactArea\ncompute one all pair/gran/local delta\ncompute n all reduce sum c_l[20]\n"
                  "dump l all local 1 contacts c_l[1] c_l[30] c_one[1]\nthermo_style custom step c_n\n")
         assert len(self.scene(BOX + FLOOR + ONE + lists + "run 10\n")["runs"]) == 1
+
+    @mark.parametrize("dump", ("pair/gran/local pos force\ndump l all local/gran/vtk 1 c*.vtp l", "pair/gran/local\ndump l all local/gran/vtk 1 c*.vtk l",
+                                "pair/gran/local pos id force_normal torque contactArea delta contactPoint ms_id\ndump l all local/gran/vtk 1 c*.vtu l",
+                                "wall/gran/local pos id\ndump l all local/gran/vtk 1 c*.vtp l", "wall/gran/local\ndump l all local 1 c*.txt c_l[1] c_l[2]"))
+    def test_dumps_of_contacts_change_no_plan(self, dump):
+        (self.folder / "plate.stl").write_text(two_triangles())
+        start = BOX + FLOOR + ONE + "fix plate all mesh/surface file plate.stl type 2 move 0 0 0.1\nfix plates all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
+        plain, dumped = self.scene(start + "run 10\nrun 10\n"), self.scene(start + f"compute l all {dump}\nrun 10\nundump l\nuncompute l\nrun 10\n")
+        for scene in (plain, dumped):
+            for run in scene["runs"]:
+                run.pop("where")
+            scene["files_read"], scene["files_written"], scene["commands"] = [], [], []
+        assert dumped == plain
+
+    def test_loops_over_a_universe(self):
+        """LIGGGHTS keeps the value that is next in a file, which it renames while it reads it."""
+        loop = 'variable speed universe 0.5 1.0 2.0\nvariable k uloop 3\nlabel again\nclear\n' + BOX + FLOOR + ONE + "velocity all set 0 0 -${speed}\nrun 10\nnext speed k\njump SELF again\n"
+        scene = self.scene(loop)
+        assert len(scene["runs"]) == 3
+        assert max(s["speed"] for s in scene["sources"]) == 2
+        assert sorted(p.name for p in self.folder.iterdir() if p.suffix != ".h5") == ["in.deck", "scene.json"]
+
+    def test_files_that_the_deck_moves_and_removes(self):
+        (self.folder / "there").write_text("variable a index 5\n")
+        moved = 'print "variable b index 6" file made\nshell mv made other\nshell mv there elsewhere\ninclude other\ninclude elsewhere\n'
+        scene = self.scene(moved + BOX + FLOOR + ONE + "run $a$b\n")
+        assert [r["steps"] for r in scene["runs"]] == [56]
+        assert (self.folder / "there").is_file()
+        self.refused("shell rm there\ninclude there\n", "in.deck:2", "Cannot open input script there")
+        self.refused('print "run 1" file made\nshell mv made other\ninclude made\n', "in.deck:3", "Cannot open input script made")
+
+    def test_a_crash_names_its_command(self):
+        """A variable that is computed from itself fills LIGGGHTS's stack."""
+        self.refused("units si\n# a note\nvariable a equal v_a\nprint &\n $a\n", "in.deck:4", "LIGGGHTS was ended by signal 11")
 
     def test_scenes_behind_clear(self):
         two = "create_atoms 1 single 0 0 0.1 units box\n"
