@@ -163,17 +163,22 @@ void free_grid(char* text)
   }
 }
 
-/// `part`: what was read; null: the file has ended.
-void follow_part(std::FILE* file, const char* part)
+/// True of a file of commands.
+bool is_followed(std::FILE* file)
 {
-  const auto found = places().find(file);
-  if (found == places().end() || !is_deck_file || !is_deck_file(file)) return;
-  Place& place = found->second;
+  return closed && is_deck_file && is_deck_file(file) && places().contains(file);
+}
+
+/// `part`: what was read, of `length` bytes; null: the file has ended. LIGGGHTS takes it up to a byte of zero, and goes on.
+void follow_part(std::FILE* file, const char* part, std::size_t length)
+{
+  Place& place = places().at(file);
   if (part) {
     if (place.first_line == 0) place.first_line = place.line + 1;
     place.command += part;
+    place.line += length > 0 && part[length - 1] == '\n' ? 1 : 0;
+    if (place.command.empty()) place.first_line = 0;
     if (!place.command.ends_with('\n')) return;
-    ++place.line;
     const auto last = place.command.find_last_not_of(" \t\n\v\f\r");
     if (last != std::string::npos && place.command[last] == '&') return place.command.resize(last);
   }
@@ -232,9 +237,11 @@ GRANULAW_OWN char* fgets(char* text, int size, std::FILE* file)
 {
   static auto* const read = granulaw::plan::next<char*(char*, int, std::FILE*)>("fgets");
   if (granulaw::plan::on_read) granulaw::plan::on_read(file);
+  const bool is_followed = granulaw::plan::is_followed(file);
+  const auto begin = is_followed ? ftello(file) : 0;
   char* result = read(text, size, file);
   if (result && granulaw::plan::is_of_one_rank && granulaw::plan::is_of_one_rank(file)) granulaw::plan::free_grid(text);
-  if (granulaw::plan::closed) granulaw::plan::follow_part(file, result);
+  if (is_followed) granulaw::plan::follow_part(file, result, static_cast<std::size_t>(ftello(file) - begin));
   return result;
 }
 

@@ -141,6 +141,30 @@ class TestFiles(Convert):
         self.run_converted(20)
 
 
+class TestLines(Convert):
+    """A line is converted alike behind lines of any length and kind."""
+    NOTES = ("#" + " a note" * 500 + "\n", "#" + " a note" * 500 + " &\nthat goes on\n", "variable note string \"" + "heights in mm, " * 40 + "\"\n", "print 'a # b'" + " " * 3000 + "# \"\n")
+
+    def changes(self, deck, name="in.deck"):
+        self.write(name, deck)
+        self.write("parts/in.more", self.more)
+        now, said = self.convert("--check", deck=name)
+        assert said["check"]["converted"]["ended"]
+        return now, {re.sub(r"^.*:", "", c["before"]): (c["after"], c["why"]) for c in said["changes"]}, said
+
+    def test_long_lines(self):
+        self.more = WALL.format(type=1)
+        plain = DECK.replace(WALL.format(type=1), "include parts/in.more\n") + REST + "run 400\nrun 100"
+        _, expected, said = self.changes(plain)
+        assert said["not_converted"] == []
+        for note in self.NOTES:
+            head, tail = plain.split("fix m1")
+            self.more = note + WALL.format(type=1)
+            now, found, _ = self.changes(note + head + note + "fix m1" + tail.replace("\nrun 400", "\n" + note + "run 400"))
+            assert found == expected, note[:20]
+            assert now.count(note.split("\n")[0][:200]) == 3
+
+
 class TestModels(Convert):
     def converted(self, pair, more="", materials=None, types=1, wall=None, properties=None):
         self.write("in.deck", HEAD.format(types=types) + (soft(types) if properties is None else properties) + more + pair + "pair_coeff * *\n" + (wall or WALL.format(type=types)) + REST + RUN)
@@ -203,7 +227,8 @@ class TestTime(Convert):
         assert int(re.search(r"^thermo (\d+)", now, re.M)[1]) == round(100 * f)
         assert int(re.search(r"custom (\d+)", now)[1]) == round(100 * f)
         every, _, frequency = map(int, re.search(r"ave/time (\d+) (\d+) (\d+)", now).groups())
-        assert frequency == 20 * every  # 100 of 5, or LIGGGHTS refuses it
+        assert frequency % every == 0  # or LIGGGHTS refuses it
+        assert frequency == approx(100 * f, rel=0.05)
         assert float(re.search(r"^timestep (\S+)", now, re.M)[1]) == approx(2e-5 / f, abs=1e-12)
         assert said["not_converted"] == []
         assert self.run_converted(round(300 * f))["time"] == approx(300 * 2e-5, abs=2e-5)
@@ -217,6 +242,61 @@ class TestTime(Convert):
         assert "run ${n}" in now
         assert f"thermo {round(500 * f)}" in now
         assert float(re.search(r"variable dt equal (\S+)", now)[1]) == approx(2e-5 / f, abs=1e-12)
+        assert said["not_converted"] == []
+
+    def test_counts_are_whole_under_the_new_step(self):
+        """Counts worked out from a time and the time step, as most public decks have them."""
+        counts = ("${seconds}/${dt}", "round(${seconds}/${dt})", "v_seconds/v_dt", "\"v_seconds/v_dt\"", "$(v_seconds/v_dt)", "${seconds}/dt", "${half}+${half}")
+        first = "variable dt equal 2e-5\nvariable seconds equal 0.012\nvariable half equal ${seconds}/${dt}/2\n"
+        behind = "variable many equal 2*${n}\nfix a all ave/time 1 1 ${n} c_k\ndump e all custom ${n} post/e*.txt id\n"
+        for count in counts:
+            step = "timestep ${dt}\n"
+            self.write("in.deck", first + DECK + self.FAST.replace("timestep 2e-5\n", step) + f"variable n equal {count}\ncompute k all ke\n{behind}thermo ${{n}}\nrun ${{many}}\nrun $(2 * v_seconds/v_dt)\n")
+            now, said = self.convert()
+            assert said["steps_factor"] > 1
+            assert said["not_converted"] == [], count
+            assert "run ${many}" in now
+            assert self.run_converted(10**6)["time"] == approx(0.048, rel=2e-3), count
+
+    def test_counts_do_not_change_what_else_follows_the_step(self):
+        """A speed that is worked out from the time step stays; so do variables that LIGGGHTS gets by -var."""
+        variables = "variable seconds equal 0.01\nvariable v equal 6e-5/${dt}\nvariable n equal ${seconds}/${dt}\n"
+        for dt, speed, words in (("variable dt equal 2e-5\n", "-${v}", ()), ("variable dt index 1e-5\n", "-3", ("--var", "dt", "2e-5"))):
+            self.write("in.deck", DECK + dt + variables + self.FAST.replace("timestep 2e-5", "timestep ${dt}").replace("0 0 -3", f"0 0 {speed}") + "thermo ${n}\nrun ${n}\nrun ${n}\n")
+            now, said = self.convert(*words)
+            assert said["steps_factor"] > 1
+            assert dt in now
+            run(LAUNCHER, "-steps", 10**6, self.folder / "state.json", "-in", "in.deck", "-log", "none", *(["-var", *words[1:]] if words else []), cwd=self.out)
+            assert json.loads((self.folder / "state.json").read_text())["time"] == approx(0.02, rel=2e-3)
+            assert said["not_converted"] == []
+
+    def test_averages_fit_into_their_periods(self):
+        first = "variable dt equal 2e-5\nvariable n equal 0.012/${dt}\n" + DECK + self.FAST.replace("timestep 2e-5", "timestep ${dt}") + "compute k all ke\n"
+        for average in ("1 1 ${n}", "5 120 ${n}", "1 600 ${n}", "1 ${n} ${n}", "6 10 ${n}", "${n} 1 ${n}", "5 10 600"):
+            self.write("in.deck", first + f"fix a all ave/time {average} c_k file post/a.txt\nrun ${{n}}\nrun 0\n")
+            _, said = self.convert()
+            assert (said["steps_factor"] > 1, said["not_converted"]) == (True, []), average
+            steps = []
+            for folder in (self.folder, self.out):
+                run(LAUNCHER, "-in", "in.deck", "-log", "none", cwd=folder)
+                steps.append([int(row.split()[0]) for row in (folder / "post/a.txt").read_text().splitlines() if not row.startswith("#")])
+            assert [round(0.012 / 2e-5 * step / steps[1][-1]) for step in steps[1]] == steps[0], average
+
+    def test_counts_of_a_loop_over_steps(self):
+        """A stride and its period, each worked out for each pass."""
+        loop = ("variable dt index 2e-5 1e-5\nlabel again\nclear\n" + DECK + self.FAST.replace("timestep 2e-5", "timestep ${dt}") +
+                "variable s equal 1e-4/${dt}\nvariable n equal 0.002/${dt}\ncompute k all ke\nfix a all ave/time ${s} 10 ${n} c_k\nthermo ${n}\nrun ${n}\nnext dt\njump SELF again\n")
+        self.write("in.deck", loop)
+        _, said = self.convert()
+        assert said["steps_factor"] > 1
+        assert said["not_converted"] == []
+        run(LAUNCHER, "-in", "in.deck", "-log", "none", cwd=self.out)
+
+    def test_a_step_by_a_formula(self):
+        self.write("in.deck", "variable tenth equal 2e-4\nvariable dt equal ${tenth}*0.1\n" + DECK + self.FAST.replace("timestep 2e-5", "timestep ${dt}") + "variable n equal 0.01/${dt}\nrun ${n}\n")
+        now, said = self.convert()
+        assert re.search(r"variable dt equal \(\$\{tenth\}\*0.1\)/", now)
+        assert self.run_converted(10**6)["time"] == approx(0.01, rel=2e-3)
         assert said["not_converted"] == []
 
     def test_a_deck_that_moves_nothing_keeps_its_step(self):
@@ -246,7 +326,89 @@ class TestChains(Convert):
         self.write("in.second", head + soft() + PAIR + WALL.format(type=1) + fast)
         now, second = self.convert(deck="in.second")
         assert second["stretch"] == first["stretch"]
+        assert (second["law"], re.search(r"law (\S+)", now)[1]) == ("out/in.second.law.h5", "in.second.law.h5")
+        assert "in.first, converted" in (self.out / "conversion.md").read_text()
+        assert "in.second, converted" in (self.out / "in.second.conversion.md").read_text()
+        self.convert(deck="in.second")  # once more
         assert self.run_converted(100, deck="in.second")["particles"] == 50
+
+
+class TestFolders(Convert):
+    """No file is lost that another deck's conversion wrote."""
+
+    def files(self):
+        return {p: p.read_bytes() for p in self.out.rglob("*") if p.is_file()}
+
+    def test_another_decks_folder_is_refused(self):
+        self.write("in.deck", DECK + REST + RUN)
+        self.convert()
+        self.convert("--no-stretch")  # once more
+        before = self.files()
+        for other in ("in.other", "below/in.deck"):
+            self.write(other, DECK + REST + RUN)
+            said = self.convert(deck=other, code=2)
+            assert "-o: it holds the conversion of another deck (../in.deck)" in said
+            assert "name another folder" in said
+        assert self.files() == before
+
+    def test_files_of_another_origin_are_refused(self):
+        self.write("in.deck", DECK + REST + RUN)
+        for name in ("law.h5", "in.deck", "conversion.md"):
+            self.write(f"out/{name}", "precious")
+            assert name in self.convert(code=2)
+            assert (self.out / name).read_text() == "precious"
+            (self.out / name).unlink()
+        self.write("out/notes.txt", "mine")
+        self.convert()
+        assert (self.out / "notes.txt").read_text() == "mine"
+
+    def test_a_conversion_that_did_not_end_is_made_again(self):
+        self.write("in.deck", DECK + REST + RUN)
+        self.convert()
+        page = self.out / "conversion.md"
+        page.write_text(next(line for line in page.read_text().splitlines() if line.startswith("Original: ")))
+        (self.out / "law.h5").unlink()
+        self.convert()
+
+
+class TestClumps(Convert):
+    def test_clumps_yield_behind_their_spheres(self):
+        self.write("two", "0 0 -0.001 0.002\n0 0 0.001 0.002\n")
+        rest = REST.replace("particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.002",
+                            "particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 2 ntry 10000 spheres file two scale 1.0 type 1").replace("nve/sphere", "multisphere")
+        self.write("in.deck", DECK + rest + RUN)
+        now, said = self.convert()
+        assert re.search(r"^pair_style gran model mpm .*bodyCompliance on$", now, re.M)
+        assert any("bodyCompliance: what a clump of 'fix multisphere' yields" in c["why"] for c in said["changes"])
+        assert self.run_converted()["particles"] == 100
+
+
+class TestDensities(Convert):
+    DISK = "the mass of a disk one unit of length thick"
+
+    def test_other_densities_are_named(self):
+        self.write("in.deck", DECK + REST.replace("2500", "25000") + RUN)
+        _, said = self.convert()
+        assert "the materials file says 2500 kg/m^3, the deck's particles have 2.5e+04" in said["not_converted"][0]
+        assert self.DISK not in said["not_converted"][0]
+
+    def test_two_dimensions(self):
+        head = HEAD.format(types=1).replace("units si", "units si\ndimension 2").replace("boundary f f f", "boundary f f p").replace("-0.005 0.2", "-0.001 0.001")
+        bed = "create_atoms 1 single 0 0.01 0 units box\nset group all density {} diameter 0.002\nfix move all nve/sphere\nfix flat all enforce2d\nfix grav all gravity 9.81 vector 0 -1 0\ntimestep 1e-5\nrun 300\n"
+        floor = WALL.format(type=1).replace("zplane", "yplane")
+        self.write("in.deck", head + soft() + PAIR + floor + bed.format(2500))
+        _, said = self.convert()
+        told = said["not_converted"][0]
+        assert "the deck's particles have 1.875e+06" in told  # 3/(4 R) of the material's
+        assert self.DISK in told
+        assert self.DISK in (self.out / "conversion.md").read_text()
+        ran = run(LAUNCHER, "-in", "in.deck", "-log", "none", cwd=self.out).stdout
+        assert "density 1.875e+06 to 1.875e+06" in ran
+        assert self.DISK in ran
+        density = re.search(r"a density of (\S+) kg/m\^3 in the deck", told)[1]
+        self.write("in.deck", head + soft() + PAIR + floor + bed.format(density))
+        _, said = self.convert()
+        assert said["not_converted"] == []
 
 
 class TestQuestions(Convert):
@@ -263,6 +425,22 @@ class TestQuestions(Convert):
         self.write("materials.toml", TWO_MATERIALS)
         self.write("in.deck", DECK + REST + RUN)
         assert "--materials" in self.convert(code=3)
+
+    def test_lists_by_blanks_or_commas(self):
+        """The same list in every command."""
+        self.write("materials.toml", TWO_MATERIALS)
+        self.write("in.deck", HEAD.format(types=2) + soft(2) + PAIR + WALL.format(type=2) + REST + RUN)
+        answers = []
+        for words in (["bead", "steel"], ["bead,steel"], ["bead,", "steel"], ["bead", ",steel"], ["bead , steel"], ["bead steel"]):
+            of = ["--materials-file", "materials.toml", "--materials", *words]
+            plan = json.loads(self.mpm("plan", "in.deck", *of, "--json").stdout)
+            soften = json.loads(self.mpm("soften", "in.deck", *of, "--json").stdout)
+            table = self.mpm("table", "materials.toml", "--deck", "in.deck", "--materials", *words, "-o", "law.h5").stdout
+            answers.append((plan["pairs"], soften, re.search("wrote .*", table)[0], self.convert("--materials", *words)[1]["pairs"]))
+        assert all(answer == answers[0] for answer in answers)
+        self.mpm("convert", "--materials", "bead,steel", "in.deck", "--materials-file", "materials.toml", "-o", "out")
+        assert self.mpm("plan", "in.deck", "--radius=1e-3,2e-3", "--materials-file", "materials.toml", "--materials=bead,steel", "--json").stdout
+        assert "DECK is required" in self.mpm("convert", "--materials", "bead,steel", "--materials-file", "materials.toml", code=2).stderr
 
     def test_a_deck_without_contacts_is_refused(self):
         self.write("in.deck", HEAD.format(types=1) + "atom_modify sort 0 0\nrun 0\n")

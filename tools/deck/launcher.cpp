@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -86,7 +87,7 @@ DryRun start_launcher(const std::string& folder, const std::vector<std::string>&
   if (child < 0 || waitpid(child, &status, 0) != child || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
     fail(program, "cannot be started");
   if (WIFSIGNALED(status))
-    result.said += fmt::format("\nERROR: LIGGGHTS was ended by signal {}\n", WTERMSIG(status));
+    result.said += fmt::format("\nERROR: LIGGGHTS was ended by signal {} ({})\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
   result.ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   lseek(scene, 0, SEEK_SET);
   result.scene = read_all(scene);

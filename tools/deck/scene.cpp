@@ -123,6 +123,7 @@ Scene scene_of(const json& j, const Places& places)
   scene.gravity = j["gravity"].get<Vec3>();
   scene.domain = box_of(j["domain"]);
   scene.periodic = j["periodic"];
+  scene.dimension = j["dimension"];
   scene.types = j["types"];
   scene.time_step = j["time_step"];
   for (const json& m : j["materials"]) scene.materials[m["type"]] = material_of(m);
@@ -155,6 +156,8 @@ Scene scene_of(const json& j, const Places& places)
   if (!run.scene.empty())
     if (const std::string at = json::parse(run.scene)["stopped_at"]; !at.empty()) where = places.path(at);
   const std::string what = complaint(run.said);
+  if (what.starts_with("LIGGGHTS was ended by signal"))
+    fail(where, what + " in this command: where LIGGGHTS runs the deck, please report it");
   if (what.starts_with("Cannot open restart file "))
     fail(where, "the restart file is not there: the deck that writes it must run first, some steps suffice",
          what.substr(25));
@@ -210,6 +213,7 @@ Scene read_scene(const std::string& deck, const Presets& presets)
   Scene scene = scene_of(json::parse(run.scene), places);
   scene.deck = deck;
   scene.folder = folder;
+  scene.presets = presets;
   to_si(scene);
   return scene;
 }

@@ -63,6 +63,9 @@ struct DeckCommand
   std::vector<std::string> words;
 };
 
+/// Variables that are set before the deck, as liggghts -var does.
+using Presets = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
 /// Content of a deck, SI units.
 struct Scene
 {
@@ -71,6 +74,7 @@ struct Scene
   Vec3 gravity{0, 0, 0};     ///< m/s^2
   Box domain;
   std::array<bool, 3> periodic{};
+  int dimension = 3;
   int types = 0;
   std::map<int, TypeMaterial> materials;  ///< by atom type
   std::vector<Source> sources;
@@ -88,6 +92,7 @@ struct Scene
   std::vector<std::string> notes;           ///< "FILE:LINE: what was not followed"
   /// Why particles, heights or velocities may be others than those above: "FILE:LINE: reason".
   std::vector<std::string> unknown_particles, unknown_heights, unknown_speeds;
+  Presets presets;
   std::string folder;                  ///< where LIGGGHTS was started; empty: here
   std::vector<DeckCommand> commands;   ///< one that a loop repeats with the same words once
   std::vector<std::string> files_read, files_written;  ///< paths, as the deck has them
@@ -95,8 +100,6 @@ struct Scene
   /// Particles at the end, at most.
   double count() const;
 };
-
-using Presets = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 /// LIGGGHTS's own sentence of what it said, without the place in its source.
 std::string complaint(const std::string& said);

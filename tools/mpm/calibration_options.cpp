@@ -108,7 +108,7 @@ void CalibrationOptions::add_to(Options& command, bool needs_data)
 {
   Option files = command.add_option("DATA", data, data_help());
   if (needs_data) files->required();
-  command.add_option("--fit", fit, fit_help())->required();
+  command.add_option("--fit", fit, fit_help())->required()->list();
   command
       .add_option("--hardening", hardening,
                   "law: linear, from the atlas; with any other some laws are made by the solver")

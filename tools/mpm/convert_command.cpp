@@ -15,6 +15,8 @@
 #include "command.hpp"
 #include "deck/convert/folder.hpp"
 #include "deck/convert/page.hpp"
+#include "deck/convert/time_steps.hpp"
+#include "deck/densities.hpp"
 #include "deck/launcher.hpp"
 #include "deck_options.hpp"
 #include "farm_options.hpp"
@@ -94,7 +96,7 @@ deck::Presets presets_of(const DeckOptions& o)
   return presets;
 }
 
-fs::path choose_folder(const ConvertRequest& r)
+deck::Destination choose_folder(const ConvertRequest& r, const deck::Scene& scene)
 {
   fs::path folder = r.folder.empty() ? fs::path(fs::path(r.deck).filename().string() + ".mpm") : fs::path(r.folder);
   std::error_code ignored;
@@ -102,8 +104,7 @@ fs::path choose_folder(const ConvertRequest& r)
   if (fs::equivalent(folder, of_deck, ignored))
     fail("-o", "this is the deck's own folder: the original would be lost", folder.string());
   if (fs::exists(folder) && !fs::is_directory(folder)) fail("-o", "is no folder", folder.string());
-  fs::create_directories(folder);
-  return folder;
+  return deck::open_destination(scene, folder);
 }
 
 /// Runs that last another time than the original's.
@@ -123,22 +124,42 @@ void compare_times(deck::Converted& c, const deck::Scene& now)
   }
 }
 
-/// The converted deck and its includes, by the choices made.
-void write_deck(deck::Converted& c, const deck::Presets& presets)
+/// The deck under its new time step alone, as LIGGGHTS reads it; nothing: no variable follows the step.
+std::optional<deck::Scene> read_probe(const deck::Converted& c)
 {
   const deck::Scene& scene = c.planned.scene;
-  std::optional<deck::Scene> probe;
-  if (const auto files = deck::probe_deck(scene, c.conversion); !files.empty()) {
-    deck::write_files(scene, c.folder, files);
-    probe = deck::read_scene(c.deck.string(), presets);
-    // its files stand under other names only where the deck is not in the folder from which LIGGGHTS reads it
-    for (deck::DeckCommand& command : probe->commands)
-      for (const auto& [path, text] : files)
-        if (deck::name_in_folder(scene, path) == command.file) {
-          command.file = path;
-          break;
-        }
+  const auto files = deck::probe_deck(scene, c.conversion);
+  if (files.empty()) return {};
+  deck::write_files(scene, c.folder, files);
+  deck::Scene probe = deck::read_scene(c.deck.string(), scene.presets);
+  // its files stand under other names only where the deck is not in the folder from which LIGGGHTS reads it
+  for (deck::DeckCommand& command : probe.commands)
+    for (const auto& [path, text] : files)
+      if (deck::name_in_folder(scene, path) == command.file) {
+        command.file = path;
+        break;
+      }
+  return probe;
+}
+
+/// The same; where more than counts of steps would follow, or LIGGGHTS refuses the deck, variables stay as they are.
+std::optional<deck::Scene> choose_what_follows(deck::Converted& c)
+{
+  c.conversion.variables_follow = true;
+  try {
+    const auto probe = read_probe(c);
+    if (!probe || deck::only_counts_follow(c.planned.scene, *probe)) return probe;
+  } catch (const Error&) {
   }
+  c.conversion.variables_follow = false;
+  return read_probe(c);
+}
+
+/// The converted deck and its includes, by the choices made.
+void write_deck(deck::Converted& c)
+{
+  const deck::Scene& scene = c.planned.scene;
+  const std::optional<deck::Scene> probe = choose_what_follows(c);
   c.result = deck::convert(scene, c.conversion, probe ? &*probe : nullptr);
   deck::write_files(scene, c.folder, c.result.files);
 }
@@ -158,16 +179,21 @@ deck::Converted convert(ConvertRequest& r)
   c.conversion.materials = scene.material_names;
   c.step = deck::choose_time_step(c.conversion, c.planned, !r.no_stretch);
   deck::choose_moduli(c.conversion, c.planned, known);
-  c.folder = choose_folder(r);
+  c.destination = choose_folder(r, scene);
+  c.folder = c.destination.folder;
+  c.conversion.law = c.destination.law;
   c.deck = c.folder / fs::path(r.deck).filename();
-  c.restarts = deck::copy_data(scene, c.folder);
-  write_deck(c, presets);
+  c.restarts = deck::copy_data(scene, c.destination);
+  write_deck(c);
   deck::Scene now = deck::read_scene(c.deck.string(), presets);
   if (now.restart_stretch && std::abs(*now.restart_stretch / c.conversion.stretch - 1) > 1e-6) {
     c.step = deck::continue_stretch(c.conversion, c.planned, *now.restart_stretch);
-    write_deck(c, presets);
+    write_deck(c);
     now = deck::read_scene(c.deck.string(), presets);
   }
+  deck::require_shared_files(c.destination);
+  for (const deck::OtherDensity& other : deck::other_densities(scene, c.planned.options))
+    c.result.left.push_back(fmt::format("atom type {} ('{}'): {}", other.type, other.name, other.sentence()));
   for (const std::string& sentence : deck::beyond_laws(c.planned.plan)) c.result.left.push_back(sentence);
   write_law_of(c, file);
   compare_times(c, now);
@@ -207,7 +233,7 @@ ordered_json to_json(const deck::Converted& c, const ConvertRequest& r)
 
 void print(const deck::Converted& c)
 {
-  fmt::print("wrote {}, {}, {}\n", c.deck.string(), (c.folder / c.conversion.law).string(), (c.folder / "conversion.md").string());
+  fmt::print("wrote {}, {}, {}\n", c.deck.string(), (c.folder / c.conversion.law).string(), (c.folder / c.destination.page).string());
   fmt::print("materials: {}\n", fmt::join(c.conversion.materials, ", "));
   fmt::print("time step: {}\n", printable(deck::time_step_line(c)));
   fmt::print("{} lines changed\n", c.result.changes.size());
@@ -220,8 +246,8 @@ void print(const deck::Converted& c)
 void carry_out(ConvertRequest& r)
 {
   deck::Converted c = convert(r);
-  if (r.check) c.checked = deck::check(c.planned.scene, c.folder, c.conversion.step_factor, presets_of(r.options));
-  write_text_atomically((c.folder / "conversion.md").string(), deck::page(c, command_line));
+  if (r.check) c.checked = deck::check(c.planned.scene, c.folder, c.conversion.step_factor);
+  write_text_atomically((c.folder / c.destination.page).string(), deck::page(c, command_line));
   if (r.json)
     print_json(to_json(c, r));
   else
@@ -236,8 +262,8 @@ void define(Options& command)
   command.add_option("DECK", r->deck, "LIGGGHTS input script, of any normal model")->required();
   r->options.add_to(command, true);
   command.get_option("--materials-file")->required();
-  command.get_option("--materials")->delimiter(',')->one_word()->description(
-      "NAME,NAME,...: one for each atom type. A name that the materials file lacks stands for a rigid wall's\n"
+  command.get_option("--materials")->description(
+      "NAME,NAME,... or NAME NAME ...: one for each atom type. A name that the materials file lacks stands for a rigid wall's\n"
       "material (default: the deck's own, or the only one of the file)");
   command.add_option("-o,--output", r->folder, "folder to write (default: DECK.mpm, here)");
   command.add_flag("--no-stretch", r->no_stretch, "real contacts: the time step follows from them");

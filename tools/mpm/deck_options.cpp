@@ -78,14 +78,17 @@ void DeckOptions::add_to(Options& command, bool own_materials, Option needed)
       ->pairs_of_words();
   if (own_materials)
     command.add_option("--materials-file", materials_file, "MATERIALS.toml: yield stresses and hardening");
-  command.add_option(
-      "--materials", materials,
-      "names of its materials, one for each atom type in their order (default: the words after "
-      "'materials'\nin the deck's pair_style)");
+  command
+      .add_option(
+          "--materials", materials,
+          "names of its materials, one for each atom type in their order (default: the words after "
+          "'materials'\nin the deck's pair_style)")
+      ->list();
   command.add_option("--drop-height", drop_height, "m, from which every particle falls to the lowest wall")
       ->check(above_zero());
   command.add_option("--radius", radius, "R or R_MIN R_MAX, m, of particles that the deck does not show")
       ->expected(1, 2)
+      ->list()
       ->check(above_zero());
   command.add_option("--density", density, "kg/m^3, of the same")->check(above_zero());
   command.add_option("--speed", speed, "m/s, the largest approach speed of any two bodies")

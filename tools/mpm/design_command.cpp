@@ -210,10 +210,12 @@ void define(Options& command)
   r->options.add_to(command, false);
   command.add_option("--guess", r->guess,
                      "NAME=VALUE of what is fitted, Pa: the material to go by (default: what DATA say)");
-  command.add_option(
-      "--measure", r->measure,
-      "kinds that could be measured: restitution, hardness, ... (default: restitution at --speeds, "
-      "curves of --kind to --displacements)");
+  command
+      .add_option(
+          "--measure", r->measure,
+          "kinds that could be measured: restitution, hardness, ... (default: restitution at --speeds, "
+          "curves of --kind to --displacements)")
+      ->list();
   command.add_option("--speeds", r->speeds, "LOW..HIGH, m/s: impacts that could be made");
   command
       .add_option("--highest", r->highest, "m: highest drop that can be made; faster impacts are left out")

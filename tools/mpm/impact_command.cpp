@@ -169,7 +169,7 @@ void define(Options& command)
           "--orientation", r->orientation,
           "three dimensions: X,Y,Z, the direction in the body's frame that points at the wall. The body's "
           "axis nearest to it leans towards +x of the wall")
-      ->delimiter(',')
+      ->list()
       ->expected(3);
   command.add_option("--friction", r->friction,
                      "three dimensions: Coulomb's coefficient of the wall, 0 to 10");

@@ -20,6 +20,7 @@
 #include "deck/questions.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
+#include "word_lists.hpp"
 
 namespace granulaw {
 std::string command_line;
@@ -138,6 +139,26 @@ bool names_an_option(const std::string& sentence)
   return sentence.starts_with("--") || sentence.starts_with("-o: ");
 }
 
+/// CLI11 takes the words from their end.
+void parse_reversed(CLI::App& app, std::vector<std::string> words)
+{
+  std::reverse(words.begin(), words.end());
+  app.parse(std::move(words));
+}
+
+void parse(CLI::App& app, const std::vector<std::string>& words)
+{
+  const CLI::App* command = words.empty() ? nullptr : command_named(words[0], app);
+  if (!command) return parse_reversed(app, words);
+  try {
+    parse_reversed(app, split_lists(*command, words));
+  } catch (const CLI::RequiredError&) {
+    const std::vector<std::string> other = give_file_back(*command, words);
+    if (other.empty()) throw;
+    parse_reversed(app, split_lists(*command, other));
+  }
+}
+
 /// Carries out the command line.
 Outcome run(int argc, char** argv)
 {
@@ -146,7 +167,7 @@ Outcome run(int argc, char** argv)
   try {
     if (const std::string sentence = empty_word(argc, argv); !sentence.empty()) return {2, sentence};
     if (argc > 1) join_ranks(argv[1], runs_on_ranks(argv[1]));
-    app.parse(argc, argv);
+    parse(app, {argv + 1, argv + argc});
     return {};
   } catch (const CLI::Success& asked) {  // --help, --version
     return {app.exit(asked), {}};

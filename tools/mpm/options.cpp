@@ -55,15 +55,9 @@ Option& Option::pairs_of_words()
   return *this;
 }
 
-Option& Option::delimiter(char between)
+Option& Option::list()
 {
-  option_->delimiter(between);
-  return *this;
-}
-
-Option& Option::one_word()
-{
-  option_->allow_extra_args(false);
+  option_->delimiter(',');
   return *this;
 }
 

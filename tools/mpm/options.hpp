@@ -36,9 +36,8 @@ class Option
   Option& among(const std::vector<std::string>& words);
   Option& expected(int least, int most);
   Option& expected(int words) { return expected(words, words); }
-  Option& pairs_of_words();         ///< two words at a time, several times
-  Option& delimiter(char between);  ///< several values in one word
-  Option& one_word();               ///< takes the next word alone, whatever it holds
+  Option& pairs_of_words();  ///< two words at a time, several times
+  Option& list();            ///< its values are divided by blanks or commas (word_lists.hpp)
   Option& description(const std::string& text);
   /// --help shows the value as it is now.
   Option& capture_default_str();

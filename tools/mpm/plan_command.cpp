@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "atlas/composed_law.hpp"
 #include "command.hpp"
+#include "deck/densities.hpp"
 #include "deck/tangential_need.hpp"
 #include "deck_options.hpp"
 #include "json_output.hpp"
@@ -58,6 +59,9 @@ ordered_json types_json(const PlannedDeck& d)
     }
     types.push_back(t);
   }
+  for (const deck::OtherDensity& other : deck::other_densities(d.scene, d.options))
+    for (ordered_json& t : types)
+      if (t["type"] == other.type) t["density_kg_per_m3"] = {{"deck", other.of_deck}, {"material", other.of_material}, {"reason", other.reason}};
   return types;
 }
 
@@ -145,21 +149,12 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
   return root;
 }
 
-/// kg/m^3, the largest of the deck's particles of this type; 0: it shows none.
-double deck_density(const deck::Scene& scene, int type)
-{
-  double density = 0;
-  for (const deck::Source& s : scene.sources)
-    if (s.type == type) density = std::max(density, s.density);
-  return density;
-}
-
 bool differ(double a, double b)
 {
   return std::abs(a / b - 1) > 1e-3;  // decks round to four figures
 }
 
-void print_type(const deck::Scene& scene, int type, const deck::TypeMaterial& m, const LawMaterial* named)
+void print_type(const PlannedDeck& d, int type, const deck::TypeMaterial& m, const LawMaterial* named)
 {
   const double stress = named ? named->yield_stress : m.yield_stress.value_or(-1);
   std::string yield = "yield stress not known";
@@ -170,10 +165,8 @@ void print_type(const deck::Scene& scene, int type, const deck::TypeMaterial& m,
   if (!named) return;
   if (differ(named->youngs_modulus, *m.youngs_modulus))
     fmt::print("    the materials file says E {:.4g} Pa: that is used\n", named->youngs_modulus);
-  const double density = deck_density(scene, type);
-  if (density > 0 && named->density > 0 && differ(named->density, density))
-    fmt::print("    the materials file says {:.4g} kg/m^3, the deck's particles have {:.4g}: theirs is used\n",
-               named->density, density);
+  for (const deck::OtherDensity& other : deck::other_densities(d.scene, d.options))
+    if (other.type == type) fmt::print("    {}\n", other.sentence());
 }
 
 void print_scene(const PlannedDeck& d)
@@ -188,7 +181,7 @@ void print_scene(const PlannedDeck& d)
         d.plan.radius_min, d.plan.radius_max, d.plan.mass_min, d.plan.mass_max, d.plan.fall,
         deck::norm(d.scene.gravity));
   for (const auto& [type, m] : d.scene.materials)
-    if (m.has_moduli()) print_type(d.scene, type, m, named_material(d, type));
+    if (m.has_moduli()) print_type(d, type, m, named_material(d, type));
 }
 
 constexpr const char* pair_row = "  {:<9} {:<18} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}  {}\n";

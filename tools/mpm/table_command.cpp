@@ -300,6 +300,7 @@ void add_shape_options(Options& command, ShapeQuestion& shapes)
       .add_option("--velocity", shapes.velocities,
                   "of a particle with a shape: speeds of the certificate's impacts, m/s (default: where rho\n"
                   "V^2/Y is 0.0025)")
+      ->list()
       ->check(above_zero());
 }
 
@@ -310,10 +311,12 @@ void define(Options& command)
   const Option deck = command.add_option(
       "--deck", r->deck, "LIGGGHTS deck: only the pairs, speeds and overlaps that it can reach (mpm plan)");
   r->scene.add_to(command, false, deck);
-  command.add_option(
-      "--pair", r->pairs,
-      "a:b or a:wall (rigid), names of materials or particles; several times; default: every pair of\n"
-      "materials");
+  command
+      .add_option(
+          "--pair", r->pairs,
+          "a:b or a:wall (rigid), names of materials or particles; several; default: every pair of\n"
+          "materials")
+      ->list();
   add_range_options(command, r->file);
   add_shape_options(command, r->file.shapes);
   command.add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");

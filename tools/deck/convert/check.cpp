@@ -68,13 +68,13 @@ struct Trial
 
 /// Runs a deck in a copy of its data.
 Trial try_deck(const fs::path& data, const fs::path& scratch, const std::map<std::string, std::string>& files,
-               const Scene& scene, const std::string& name, const Presets& presets, long long steps)
+               const Scene& scene, const std::string& name, long long steps)
 {
   fs::copy(data, scratch, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   write_files(scene, scratch, files);
   const std::set<std::string> before = files_below(scratch);
   Trial trial;
-  trial.run = short_run(scratch.string(), words_of(name, presets), steps);
+  trial.run = short_run(scratch.string(), words_of(name, scene.presets), steps);
   const std::set<std::string> after = files_below(scratch);
   std::set<std::string> written;
   std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::inserter(written, written.end()));
@@ -84,14 +84,14 @@ Trial try_deck(const fs::path& data, const fs::path& scratch, const std::map<std
 
 }  // namespace
 
-Checked check(const Scene& scene, const fs::path& folder, double step_factor, const Presets& presets)
+Checked check(const Scene& scene, const fs::path& folder, double step_factor)
 {
   constexpr long long steps = 300;
   const Scratch scratch(fs::temp_directory_path() / fmt::format("granulaw-check-{}", getpid()));
   const std::string name = fs::path(scene.deck).filename().string();
-  const Trial before = try_deck(folder, scratch.path() / "original", command_files(scene), scene, name, presets, steps);
+  const Trial before = try_deck(folder, scratch.path() / "original", command_files(scene), scene, name, steps);
   const double done = before.run.ended ? before.run.steps : static_cast<double>(steps);
-  const Trial after = try_deck(folder, scratch.path() / "converted", {}, scene, name, presets,
+  const Trial after = try_deck(folder, scratch.path() / "converted", {}, scene, name,
                                static_cast<long long>(std::ceil(done * step_factor)));
   Checked result{before.run, after.run, {}, {}};
   std::set_difference(before.written.begin(), before.written.end(), after.written.begin(), after.written.end(),

@@ -17,6 +17,6 @@ struct Checked
 };
 
 /// Runs both in copies of the folder: 300 steps of the original, `step_factor` times as many of the converted deck.
-Checked check(const Scene& scene, const std::filesystem::path& folder, double step_factor, const Presets& presets);
+Checked check(const Scene& scene, const std::filesystem::path& folder, double step_factor);
 
 }  // namespace granulaw::deck

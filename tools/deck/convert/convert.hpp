@@ -17,6 +17,8 @@ struct Conversion
   std::map<int, double> youngs_modulus, poisson_ratio;  ///< by type, Pa: those that change
   double stretch = 1;
   double step_factor = 1;  ///< the time step is so many times shorter, every count of steps as much larger
+  /// Definitions of variables for the time step change, and what is computed from them. False: the commands alone do.
+  bool variables_follow = true;
   std::string law = "law.h5";
 };
 
@@ -45,8 +47,8 @@ std::string main_file(const Scene& scene);
 /// Files of commands that LIGGGHTS read, and their texts. Throws Error where one cannot be read.
 std::map<std::string, std::string> command_files(const Scene& scene);
 
-/// The deck in which only the definitions of variables for time steps are changed: LIGGGHTS reads it to show
-/// which counts of steps follow them. Empty: there are none, all counts stay as they are.
+/// The deck in which only the time steps are changed: LIGGGHTS reads it to show which counts of steps follow them.
+/// Empty: no variable does, all counts stay as they are.
 std::map<std::string, std::string> probe_deck(const Scene& scene, const Conversion& conversion);
 
 /// `probe`: as LIGGGHTS reads probe_deck; null: there is none. Throws Error where the deck has nothing to convert.

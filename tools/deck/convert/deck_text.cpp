@@ -1,37 +1,59 @@
 #include "deck/convert/deck_text.hpp"
 
-#include <cctype>
+#include <algorithm>
+#include <sstream>
+#include <string_view>
 
 namespace granulaw::deck {
 
 namespace {
 
-bool is_blank(char c)
-{
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
+// LIGGGHTS's own reading (Input::file, parse, nextword).
+constexpr const char* blanks = " \t\n\v\f\r";
 
 std::vector<std::string> lines_of(const std::string& text)
 {
   std::vector<std::string> lines;
-  std::string line;
-  for (const char c : text) {
-    if (c != '\n') {
-      if (c != '\r') line += c;
-      continue;
-    }
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.ends_with('\r')) line.pop_back();
     lines.push_back(line);
-    line.clear();
   }
-  if (!line.empty()) lines.push_back(line);
   return lines;
 }
 
 /// Position of the '&' that continues the line; npos: it ends here.
 std::size_t continuation(const std::string& line)
 {
-  const auto last = line.find_last_not_of(" \t");
+  const auto last = line.find_last_not_of(blanks);
   return last != std::string::npos && line[last] == '&' ? last : std::string::npos;
+}
+
+/// Position of the '#' that begins the comment: not one within quotes.
+std::size_t comment_in(const std::string& text)
+{
+  char quote = 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c == '#' && !quote) return k;
+    if (c == quote) quote = 0;
+    else if (c == '"' || c == '\'') quote = c;
+  }
+  return text.size();
+}
+
+/// Position behind the word that begins at `first`. A formula, "$(a + b)", becomes a number before words are divided.
+std::size_t end_of_word(const std::string& text, std::size_t first, std::size_t end)
+{
+  const char c = text[first];
+  if (const auto quote = text.find(c, first + 1); (c == '"' || c == '\'') && quote != std::string::npos) return std::min(end, quote + 1);
+  int open = 0;
+  for (std::size_t k = first; k < end; ++k) {
+    const bool begins = text[k] == '(' && (open > 0 || (k > first && text[k - 1] == '$'));
+    open += begins ? 1 : text[k] == ')' && open > 0 ? -1 : 0;
+    if (open == 0 && std::string_view(blanks).find(text[k]) != std::string_view::npos) return k;
+  }
+  return end;
 }
 
 }  // namespace
@@ -52,24 +74,17 @@ std::string DeckLine::text() const
 DeckLine parse_line(const std::string& text)
 {
   DeckLine line;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    Word word;
-    while (at < text.size() && is_blank(text[at])) word.blanks += text[at++];
-    if (at == text.size() || text[at] == '#') {
-      line.comment = word.blanks + text.substr(at);
-      break;
+  const std::size_t end = comment_in(text);
+  for (std::size_t at = 0;;) {
+    const std::size_t first = std::min(end, text.find_first_not_of(blanks, at));
+    if (first == end) {
+      line.comment = text.substr(at);
+      return line;
     }
-    char quote = 0;  // a quote begins anywhere in a word, as in print "a"
-    for (; at < text.size(); ++at) {
-      const char c = text[at];
-      if (quote ? c == quote : (c == '"' || c == '\'')) quote = quote ? 0 : c;
-      if (!quote && (is_blank(c) || c == '#')) break;
-      word.text += c;
-    }
-    line.words.push_back(word);
+    const std::size_t last = end_of_word(text, first, end);
+    line.words.push_back({text.substr(at, first - at), text.substr(first, last - first)});
+    at = last;
   }
-  return line;
 }
 
 DeckText::DeckText(std::string path, const std::string& text) : path_(std::move(path))

@@ -48,13 +48,16 @@ std::string time_step_line(const Converted& c)
 
 std::string run_line(const Converted& c)
 {
-  return fmt::format("cd {} && liggghts-mpm -in {}", c.folder.string(), c.deck.filename().string());
+  std::string line = fmt::format("cd {} && liggghts-mpm", c.folder.string());
+  for (const std::string& word : words_of(c.deck.filename().string(), c.planned.scene.presets)) line += " " + word;
+  return line;
 }
 
 std::string page(const Converted& c, const std::string& command)
 {
   const PlannedDeck& d = c.planned;
-  std::string text = fmt::format("# {}, converted to model mpm\n\nMade by `{}`. Run it:\n\n    {}\n\n", d.scene.deck, command, run_line(c));
+  std::string text = fmt::format("# {}, converted to model mpm\n\n{}\n\nMade by `{}`. Run it:\n\n    {}\n\n", d.scene.deck,
+                                 original_line(d.scene, c.folder), command, run_line(c));
   text += "| | |\n|---|---|\n";
   for (int t = 1; t <= d.scene.types; ++t) {
     const std::string& name = c.conversion.materials[static_cast<std::size_t>(t) - 1];
@@ -62,7 +65,7 @@ std::string page(const Converted& c, const std::string& command)
     text += fmt::format("| atom type {} | {}{}{} |\n", t, name, d.options.materials.contains(t) ? "" : ", rigid",
                         young == c.conversion.youngs_modulus.end() ? "" : fmt::format(", E {:.4g} Pa", young->second));
   }
-  text += fmt::format("| law.h5 | {} |\n", c.law_pairs.empty() ? "none: no particle has a law" : fmt::format("{}", fmt::join(c.law_pairs, ", ")));
+  text += fmt::format("| {} | {} |\n", c.conversion.law, c.law_pairs.empty() ? "none: no particle has a law" : fmt::format("{}", fmt::join(c.law_pairs, ", ")));
   text += fmt::format("| time step | {} |\n", time_step_line(c));
   for (const PairPlan& p : d.plan.pairs)
     text += fmt::format("| {} {}:{} | up to {:.3g} m/s, overlap {:.3g} R*, I {:.3g}; time step {} |\n", types_text(p.meeting), p.meeting.name_a,

@@ -8,6 +8,7 @@
 #include "deck/convert/check.hpp"
 #include "deck/convert/choices.hpp"
 #include "deck/convert/convert.hpp"
+#include "deck/convert/folder.hpp"
 #include "deck/planned_deck.hpp"
 
 namespace granulaw::deck {
@@ -18,6 +19,7 @@ struct Converted
   PlannedDeck planned;
   Conversion conversion;
   ConvertedDeck result;
+  Destination destination;
   std::filesystem::path folder, deck;
   StepChoice step;
   std::vector<std::string> law_pairs, accepted, restarts;

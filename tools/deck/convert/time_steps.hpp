@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "deck/convert/deck_variables.hpp"
+#include "deck/convert/edited_deck.hpp"
+
+namespace granulaw::deck {
+
+/// The time step of a converted deck, and what counts in it.
+class TimeSteps
+{
+ public:
+  /// `probe`: the deck after change_steps() alone, as LIGGGHTS reads it; null: there is none.
+  TimeSteps(EditedDeck& deck, const Scene& scene, const Conversion& conversion, const Scene* probe);
+
+  /// Every `timestep`, and variables that follow it: one that was a whole number stays one.
+  void change_steps();
+  /// A variable is computed from the time step.
+  bool is_followed() const { return is_changed() && variables_.any_follows(step_variables_); }
+  /// Counts of steps that do not follow the time step by themselves.
+  void convert_counts(const At& at, const std::vector<std::string>& words);
+  /// True if a command within a branch counts steps, and these do not follow.
+  bool is_left_in_branch(const std::vector<std::string>& words) const;
+  /// Conditions and formulas that depend on the number of the step.
+  void warn_of_step(const At& at);
+
+ private:
+  bool is_changed() const { return conversion_.step_factor != 1; }
+  bool follows(const std::string& text) const { return variables_.follows(text, step_variables_); }
+  void change_step(const At& at);
+  bool change_definition(const std::string& name);
+  void keep_whole_numbers();
+  void keep_whole(const std::string& name);
+  std::optional<double> count_now(const At& at, std::size_t k, const std::string& old) const;
+  double scaled(double count) const;
+  double wanted_stride(const At& at, const std::vector<std::string>& words, double old) const;
+  std::string new_variable(const At& at, const std::string& formula, const std::string& kind);
+
+  EditedDeck& deck_;
+  const Scene& scene_;
+  const Conversion& conversion_;
+  std::optional<Executed> probe_;
+  DeckVariables variables_;
+  std::set<std::string> step_variables_;  ///< whose definitions are changed
+  int made_ = 0;
+};
+
+/// False where words of a command that are no counts of steps follow the time step: a speed, a size.
+bool only_counts_follow(const Scene& scene, const Scene& probe);
+
+}  // namespace granulaw::deck
