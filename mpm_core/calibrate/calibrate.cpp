@@ -1,6 +1,7 @@
 #include "calibrate/calibrate.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
@@ -43,9 +44,16 @@ const char* name_of(Told told)
       return "from above";
     case Told::at_bound:
       return "at a bound";
+    case Told::not_followed:
+      return "not followed";
     default:
       return "not determined";
   }
+}
+
+double Widening::deviations(double probability) const
+{
+  return std::sqrt(scale) * boost::math::quantile(boost::math::students_t(degrees), 0.5 + 0.5 * probability);
 }
 
 Told told_by(const CalibrationProblem& problem, std::size_t unknown, const ParameterProfile& p)
@@ -70,22 +78,31 @@ void judge(Calibration& c, const CalibrationProblem& problem)
   c.chi_squared = scatter.chi_squared;
   c.degrees_of_freedom = static_cast<long>(problem.data_count() + problem.request().priors.size()) -
                          static_cast<long>(problem.fitted_count());
-  c.p_value = c.interval_scale = 1;
+  c.p_value = 1, c.widening = {};
   if (c.degrees_of_freedom <= 0) return;
   const auto degrees = static_cast<double>(c.degrees_of_freedom);
   c.p_value = boost::math::gamma_q(degrees / 2, c.chi_squared / 2);
   // the variance of an estimate by a loss of slope psi is that of psi over psi' (Huber, Ann. Math. Statist.
   // 35, 1964); the curvature of the summed loss has one psi' of it already
-  if (c.p_value < unlikely) c.interval_scale = c.chi_squared / degrees / scatter.share_within;
+  if (c.p_value < unlikely) c.widening = {c.chi_squared / degrees / scatter.share_within, degrees};
 }
 
-/// Values alone, where the fit lies at an end of the method's range.
-void state_bound(Calibration& c, const CalibrationProblem& problem)
+/// The differences from the fit have a pattern, and are too large for noise that was stated too small.
+bool follows(const Calibration& c)
+{
+  constexpr double unlikely = 1e-3, most_scale = 4;  // intervals doubled
+  const bool has_pattern = std::any_of(c.misfits.begin(), c.misfits.end(),
+                                       [](const Misfit& m) { return m.name != misfit_of_outliers; });
+  return !has_pattern || c.p_value >= unlikely || c.widening.scale <= most_scale;
+}
+
+/// Values alone, where they are none that the data determine.
+void withdraw(Calibration& c, const CalibrationProblem& problem, Told told)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   c.parameters.clear();
   for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
-    FittedParameter f{problem.request().fit[k], {}, Told::at_bound};
+    FittedParameter f{problem.request().fit[k], {}, told};
     f.profile.value = problem.value(k, c.minimum.q[static_cast<Eigen::Index>(k)]);
     f.profile.within68 = f.profile.within95 = {none, none, false, false};
     c.parameters.push_back(f);
@@ -97,7 +114,7 @@ std::optional<Coordinates> profile_all(Calibration& c, const CalibrationProblem&
 {
   c.parameters.clear();
   for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {
-    FittedParameter f{problem.request().fit[k], profile_likelihood(problem, c.minimum, k, c.interval_scale)};
+    FittedParameter f{problem.request().fit[k], profile_likelihood(problem, c.minimum, k, c.widening)};
     if (may_move && f.profile.better) return f.profile.better;
     f.told = told_by(problem, k, f.profile);
     c.parameters.push_back(f);
@@ -109,9 +126,9 @@ void add_compliances(Calibration& c, const CalibrationProblem& problem)
 {
   c.compliances.assign(problem.request().measurements.size(), std::nullopt);
   for (std::size_t u = 0; u < problem.count(); ++u)
-    if (problem.unknowns()[u].machine == &MachineState::compliance && c.bound.empty())
+    if (problem.unknowns()[u].machine == &MachineState::compliance && c.has_values())
       c.compliances[problem.unknowns()[u].measurement] =
-          profile_likelihood(problem, c.minimum, u, c.interval_scale).within95;
+          profile_likelihood(problem, c.minimum, u, c.widening).within95;
 }
 
 /// Shift of Young's modulus if all curves' machines give way, at the minimum of the problem in which none
@@ -125,7 +142,7 @@ double machine_shift_of(const CalibrationProblem& problem, const Calibration& c)
     curves = curves || (m.kind->has_machine && !m.fit_compliance);
     m.fit_compliance = m.fit_compliance || m.kind->has_machine;
   }
-  if (!curves || modulus == request.fit.end() || !request.known.hardens_linearly() || !c.bound.empty())
+  if (!curves || modulus == request.fit.end() || !request.known.hardens_linearly() || !c.has_values())
     return 0;
   const CalibrationProblem gives_way(problem.laws().atlas(), request);
   const auto count = static_cast<Eigen::Index>(gives_way.count());
@@ -157,10 +174,7 @@ Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
   for (int moves = 0;; ++moves) {
     judge(c, problem);
     c.bound = problem.bound_met(c.minimum.q);
-    if (!c.bound.empty()) {
-      state_bound(c, problem);
-      break;
-    }
+    if (!c.bound.empty()) break;
     const std::optional<Coordinates> better = profile_all(c, problem, moves < most_moves);
     if (!better) break;
     c.minimum = polished(problem, *better);
@@ -170,6 +184,8 @@ Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
     c.machines.push_back(problem.machine(c.minimum.q, k));
   c.correlation = correlation_of(c.minimum, problem.request().fit.size());
   c.misfits = name_misfits(problem, c.minimum);
+  c.followed = follows(c);
+  if (!c.has_values()) withdraw(c, problem, c.bound.empty() ? Told::not_followed : Told::at_bound);
   add_compliances(c, problem);
   c.machine_shift = machine_shift_of(problem, c);
   return c;
@@ -179,7 +195,7 @@ Calibration calibrate_at(const CalibrationProblem& problem, Minimum minimum)
 
 Band band_of(const CalibrationProblem& problem, const Calibration& c, std::size_t index)
 {
-  if (!c.bound.empty()) return {};
+  if (!c.has_values()) return {};
   const auto fit_at = [&](const Coordinates& q) { return problem.compare(q, index).with_errors; };
   const std::vector<double> fit = fit_at(c.minimum.q);
   const auto count = static_cast<Eigen::Index>(c.parameters.size());

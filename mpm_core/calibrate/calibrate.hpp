@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "calibrate/problem.hpp"
 
@@ -29,13 +30,24 @@ struct ParameterProfile
       better;  ///< a place with a smaller sum of squares than the minimum's, if one was met
 };
 
+/// Intervals of data that scatter more than was stated.
+struct Widening
+{
+  double scale = 1;                                           ///< of chi^2
+  double degrees = std::numeric_limits<double>::infinity();  ///< of freedom that the scale is known by
+  /// Square root of the rise of chi^2 at the ends of an interval of this probability: Student's t.
+  double deviations(double probability) const;
+};
+
 /// A systematic difference between data and fit that has a name.
 struct Misfit
 {
   std::string source;    ///< the measurement's; empty: between several
-  std::string name;      ///< in one or two words
+  std::string name;      ///< in one or two words; of values that are no pattern: misfit_of_outliers
   std::string sentence;  ///< the difference, and its likely causes
 };
+
+inline constexpr const char* misfit_of_outliers = "outliers";
 
 /// The answer of the data on a parameter, in one word.
 enum class Told {
@@ -43,7 +55,8 @@ enum class Told {
   from_below,  ///< it is larger than the interval's low end; nothing else
   from_above,  ///< it is smaller than the high end; nothing else
   nothing,
-  at_bound  ///< the fit lies at an end of the method's range: neither value nor interval
+  at_bound,     ///< the fit lies at an end of the method's range: neither value nor interval
+  not_followed  ///< no parameters follow the data: neither value nor interval
 };
 /// "value", "from below", ..., "not determined".
 const char* name_of(Told told);
@@ -63,10 +76,10 @@ struct Calibration
   std::vector<FittedParameter> parameters;
   Eigen::MatrixXd correlation;  ///< of the parameters, in their order
   std::string bound;            ///< the end of the method's range at which the fit lies; empty: within
+  bool followed = true;         ///< some parameters follow the data, but for noise and the model's own error
   double chi_squared = 0, p_value = 1;
   long degrees_of_freedom = 0;
-  double interval_scale =
-      1;  ///< of chi^2 in the intervals: over 1 where the data scatter more than was stated
+  Widening widening;                   ///< of the intervals
   std::vector<MachineState> machines;  ///< by measurement
   /// By measurement: of the machine's compliance, m/N, 95 %; none where it is not fitted.
   std::vector<std::optional<Interval>> compliances;
@@ -75,6 +88,8 @@ struct Calibration
   double machine_shift = 0;
   std::vector<Misfit> misfits;
   Minimum minimum;
+
+  bool has_values() const { return bound.empty() && followed; }
 };
 
 /// m/N: a stiff laboratory frame gives way by 1 mm at 100 kN.
@@ -96,7 +111,7 @@ struct Band
 };
 /// Band of a measurement's prediction. One parameter: the fits at both ends of its interval. Several: their
 /// departures h from the fit, over the square root of h' R^-1 h with the correlations R, as an ellipsoid that
-/// touches all intervals has. Empty if the fit lies at an end of the method's range.
+/// touches all intervals has. Empty if there are none.
 Band band_of(const CalibrationProblem& problem, const Calibration& calibration, std::size_t measurement);
 
 /// Values, bounds and misfits as sentences; the last of all says whether the model fits.

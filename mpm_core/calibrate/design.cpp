@@ -63,7 +63,7 @@ Design::Design(const Atlas& atlas, CalibrationRequest request, const CandidateMa
     if (m - all.begin() >= given) fill(*m, assumed, atlas, request.fit, relative_sd);
     first_rows.push_back(first_rows.back() + m->data.size());
   }
-  request.robust = false;
+  request.robust = false, request.planned = true;
   const CalibrationProblem problem(atlas, std::move(request));
   Coordinates q = Coordinates::Zero(static_cast<Eigen::Index>(problem.count()));
   for (std::size_t k = 0; k < problem.request().fit.size(); ++k) {

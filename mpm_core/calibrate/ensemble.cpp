@@ -28,7 +28,7 @@ std::vector<CandidateMaterial> draw_materials(const CalibrationProblem& problem,
   std::uniform_real_distribution<double> uniform;
   const auto unknowns = static_cast<double>(problem.count());
   // the fraction of the covariance at which a random walk gets about fastest (Roberts, Gelman and Gilks 1997)
-  const Eigen::MatrixXd step = 2.4 / std::sqrt(unknowns) * std::sqrt(c.interval_scale) * steps_of(c.minimum);
+  const Eigen::MatrixXd step = 2.4 / std::sqrt(unknowns) * std::sqrt(c.widening.scale) * steps_of(c.minimum);
   Coordinates q = c.minimum.q;
   double cost = c.minimum.cost;
   std::vector<CandidateMaterial> drawn;
@@ -37,7 +37,7 @@ std::vector<CandidateMaterial> draw_materials(const CalibrationProblem& problem,
     for (Eigen::Index i = 0; i < q.size(); ++i) next[i] = normal(random);
     next = q + step * next;
     const double there = problem.residuals(next).squaredNorm();
-    if (std::isfinite(there) && std::log(uniform(random)) < 0.5 * (cost - there) / c.interval_scale)
+    if (std::isfinite(there) && std::log(uniform(random)) < 0.5 * (cost - there) / c.widening.scale)
       q = next, cost = there;
     if (k > burn_in && k % between == 0) drawn.push_back(problem.material(q));
   }

@@ -42,18 +42,44 @@ std::size_t Measurement::reversal() const
   return static_cast<std::size_t>(std::max_element(data.begin(), data.end(), is_shallower) - data.begin());
 }
 
-std::size_t Measurement::loading_rows() const
+std::vector<Unloading> Measurement::unloadings() const
 {
-  const std::size_t top = reversal();
-  const bool turned = top > 0 && top + 1 < data.size() && data[top].y < data[top - 1].y;
-  return turned ? top : top + 1;
-}
-
-double Measurement::turn_gap() const
-{
-  const std::size_t top = reversal();
-  if (top < 2 || loading_rows() == data.size()) return 0;
-  return std::max(data[top].x - data[top - 1].x, data[top - 1].x - data[top - 2].x);
+  constexpr double falls = 0.97;       // of the force at the reversal: less is scatter of the displacement
+  constexpr double clear = 1.5;        // of the scatter's largest
+  constexpr double no_contact = 0.02;  // of the largest force
+  struct Recession
+  {
+    std::size_t top, last;
+    double depth;
+  };
+  std::vector<Recession> found;
+  double scatter = 0;
+  const double unloaded = no_contact * largest_y();
+  for (std::size_t top = 0; top + 1 < data.size();) {
+    std::size_t last = top + 1;
+    double least = data[top].x;
+    for (; last < data.size() && data[last].x < data[top].x; ++last) least = std::min(least, data[last].x);
+    const double depth = data[top].x - least;
+    double sum = 0, count = 0;
+    for (std::size_t k = top + 1; k < last; ++k)
+      if (data[top].x - data[k].x >= 0.5 * depth) sum += data[k].y, count += 1;
+    const double force = std::max(data[top].y, top > 0 ? data[top - 1].y : 0.0);
+    if (count > 0 && force > unloaded) {
+      if (sum / count < falls * force)
+        found.push_back({top, last, depth});
+      else
+        scatter = std::max(scatter, depth);
+    }
+    top = last;
+  }
+  std::vector<Unloading> all;
+  for (const Recession& r : found) {
+    if (r.depth < clear * scatter || r.top < 2) continue;
+    const auto x = [&](std::size_t back) { return data[r.top - back].x; };
+    const bool turned = data[r.top].y < data[r.top - 1].y;
+    all.push_back({turned ? r.top : r.top + 1, r.last, std::max(x(0) - x(1), x(1) - x(2))});
+  }
+  return all;
 }
 
 }  // namespace granulaw

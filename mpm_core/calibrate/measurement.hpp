@@ -31,9 +31,19 @@ struct Datum
   double sd = 0;           ///< its standard deviation; 0: not stated
   int line = 0;            ///< of the file
   double relative_sd = 0;  ///< over 0: none was stated, and it is this fraction of the true value
+  int rows = 1;            ///< of the file, of which x and y are the means
 
   /// Noise about an assumed true value: a measured value that is far too low has no smaller noise.
   double sd_at(double value) const { return relative_sd > 0 ? relative_sd * std::abs(value) : sd; }
+};
+
+/// Data of a curve from `first` until before `last` at displacements below one that was reached before: an
+/// unloading, and the reloading that follows a partial one.
+struct Unloading
+{
+  std::size_t first, last;
+  /// Length, m, of the spacing of the data at the reversal point, beyond which the curve may have turned.
+  double gap;
 };
 
 /// The values of one file.
@@ -53,6 +63,7 @@ struct Measurement
   /// Known before the data: 95 % of the ratio of the value to the yield stress lie between, in place of the
   /// model's own ratio.
   std::optional<std::pair<double, double>> ratio_to_yield;
+  std::vector<std::string> set_aside{};  ///< sentences on data of the file that are not used
 
   /// The law of the contact is composed of the laws of two bodies.
   bool is_composed() const { return counterpart || indenter_radius > 0; }
@@ -68,12 +79,10 @@ struct Measurement
   double largest_overlap() const;
   /// Curves: index of the datum of largest displacement; unloading follows.
   std::size_t reversal() const;
-  /// Curves: number of data on loading. Where the curve turned between two rows, the datum of largest
-  /// displacement may be the first on unloading: its force is below that of the datum before.
-  std::size_t loading_rows() const;
-  /// Curves with unloading: how far beyond the largest displacement, m, the curve may have turned: the
-  /// spacing of the rows there. 0: no datum is on unloading.
-  double turn_gap() const;
+  /// Curves: all unloadings in their order. The datum of largest displacement is the first of one if its
+  /// force is below that of the datum before: the curve turned between the two. A displacement that recedes
+  /// without a fall of the force is loading whose displacements scatter.
+  std::vector<Unloading> unloadings() const;
 };
 
 /// Fills in the standard deviations that are not stated, as the kind does: of a curve its scatter, of other
@@ -85,7 +94,8 @@ struct MachineState
 {
   double offset = 0;      ///< m, displacement at first touch
   double compliance = 0;  ///< m/N
-  double beyond = 0;      ///< m, displacement at which the curve turned, less the largest of its data
+  /// m, by Measurement::unloadings(): displacement at the reversal point, less the largest of the data there
+  std::vector<double> beyond{};
 };
 
 }  // namespace granulaw

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -11,12 +13,13 @@
 
 #include "base/error.hpp"
 #include "calibrate/kind/kind.hpp"
+#include "calibrate/text_table.hpp"
 
 namespace granulaw {
 
 namespace {
 
-constexpr std::size_t most_rows = 20000;
+constexpr std::size_t most_rows = 200000;  // half an hour at 100 Hz
 
 std::string known_headers()
 {
@@ -25,21 +28,41 @@ std::string known_headers()
   return all + "each with NAME_sd of the last column, if known";
 }
 
-std::string trimmed(std::string_view word)
+/// Units as they are written: "m/s" for "m_per_s", "-" for a pure number; in brackets or not.
+bool is_unit(std::string word, const std::string& unit)
 {
-  const char* blank = " \t\r\xef\xbb\xbf";  // with a byte order mark
-  const auto first = word.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return std::string(word.substr(first, word.find_last_not_of(blank) - first + 1));
+  std::erase_if(word, [](char c) { return std::string(" []()").find(c) != std::string::npos; });
+  if (word == unit) return true;
+  if (unit == "m_per_s") return word == "m/s" || word == "ms-1" || word == "ms^-1";
+  return unit.empty() && (word == "-" || word == "1");
 }
 
-std::vector<std::string> columns_of(const std::string& line)
+std::string lower(std::string word)
 {
-  std::vector<std::string> words;
-  std::stringstream rest(line);
-  for (std::string word; std::getline(rest, word, ',');) words.push_back(trimmed(word));
-  if (!line.empty() && line.back() == ',') words.emplace_back();
-  return words;
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  return word;
+}
+
+/// A word of the header as the kinds spell it: "Force [N]", or "force" above the unit "N", is "force_N".
+std::string spelled(const std::string& word, const std::string& unit, const std::string& where)
+{
+  for (const Kind* kind : kinds())
+    for (const Column& known : {kind->x, kind->y})
+      for (const std::string ending : {"", "_sd"}) {
+        if (!known.exists()) continue;
+        const std::string quantity = known.quantity + ending, name = known.name() + ending;
+        const bool has_unit = lower(word) == lower(name);
+        if (!unit.empty() && (has_unit || lower(word) == quantity)) {
+          if (is_unit(unit, known.unit)) return name;
+          fail(where, fmt::format("the unit of '{}' is no SI unit of it", cut(word)), fmt::format("'{}'", cut(unit)),
+               *known.unit ? known.unit : "-");
+        }
+        if (has_unit) return name;
+        const auto bracket = word.find_first_of("[(");
+        if (bracket == std::string::npos || !is_unit(word.substr(bracket), known.unit)) continue;
+        if (lower(word.substr(0, word.find_last_not_of(" _[(", bracket) + 1)) == quantity) return name;
+      }
+  return word;
 }
 
 /// Fails where a column of the header is a known quantity without its unit.
@@ -81,10 +104,8 @@ Columns read_header(const std::vector<std::string>& words, const std::string& wh
 
 double number(const std::string& word, const std::string& where, const std::string& column)
 {
-  char* end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  if (word.empty() || *end != '\0')
-    fail(where, fmt::format("'{}' is no number", column), fmt::format("'{}'", cut(word)), "a number");
+  if (!is_number(word)) fail(where, fmt::format("'{}' is no number", column), fmt::format("'{}'", cut(word)), "a number");
+  const double value = std::strtod(word.c_str(), nullptr);
   if (!std::isfinite(value))
     fail(where, fmt::format("'{}' is not finite", column), cut(word), "a finite number");
   return value;
@@ -111,34 +132,38 @@ Measurement parse_measurement(const std::string& text, const std::string& source
 {
   Measurement m;
   m.source = source;
-  std::stringstream lines(text);
-  std::string line;
-  int count = 0;
-  Columns columns{};
-  while (std::getline(lines, line)) {
-    const std::string where = fmt::format("{}:{}", source, ++count);
-    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
-    const std::vector<std::string> words = columns_of(trimmed(line));
-    if (!columns.kind) {
-      columns = read_header(words, where, curves);
-      continue;
-    }
+  std::vector<TextRow> rows = parse_table(text, source);
+  if (rows.empty()) fail(source, "the file is empty", {}, known_headers());
+  const auto where = [&](const TextRow& row) { return fmt::format("{}:{}", source, row.line); };
+  std::size_t first = 1;
+  point_decimals(rows, first, source);
+  std::vector<std::string> header = rows[0].words, units(header.size());
+  const bool has_units = rows.size() > 1 && rows[1].words.size() <= header.size() &&
+                         std::none_of(rows[1].words.begin(), rows[1].words.end(), is_number);
+  if (has_units) std::copy(rows[1].words.begin(), rows[1].words.end(), units.begin()), ++first;
+  for (std::size_t k = 0; k < header.size(); ++k) header[k] = spelled(header[k], units[k], where(rows[first - 1]));
+  const Columns columns = read_header(header, where(rows[0]), curves);
+  if (rows.size() - first > most_rows) fail(source, "too many rows", {}, fmt::format("up to {}", most_rows));
+  for (std::size_t k = first; k < rows.size(); ++k) {
+    const std::vector<std::string>& words = rows[k].words;
+    const std::string here = where(rows[k]);
     if (words.size() != columns.count())
-      fail(where, "the row has another number of columns than the header", std::to_string(words.size()),
-           std::to_string(columns.count()));
+      fail(here,
+           words.size() == 2 * columns.count() ? "the row has twice as many columns as the header, as if commas were "
+                                                 "decimal ones and separated columns, too"
+                                               : "the row has another number of columns than the header",
+           std::to_string(words.size()), std::to_string(columns.count()));
     const Column &x = columns.kind->x, &y = columns.kind->y;
     Datum d;
-    d.line = count;
+    d.line = rows[k].line;
     std::size_t next = 0;
-    if (x.exists()) d.x = number(words[next++], where, x.name());
-    d.y = number(words[next++], where, y.name());
-    if (columns.sd) d.sd = number(words[next++], where, "the standard deviation");
-    check(x, d.x, where), check(y, d.y, where);
-    if (columns.sd) check({.quantity = "the standard deviation"}, d.sd, where);
+    if (x.exists()) d.x = number(words[next++], here, x.name());
+    d.y = number(words[next++], here, y.name());
+    if (columns.sd) d.sd = number(words[next++], here, "the standard deviation");
+    check(x, d.x, here), check(y, d.y, here);
+    if (columns.sd) check({.quantity = "the standard deviation"}, d.sd, here);
     m.data.push_back(d);
-    if (m.data.size() > most_rows) fail(source, "too many rows", {}, fmt::format("up to {}", most_rows));
   }
-  if (!columns.kind) fail(source, "the file is empty", {}, known_headers());
   if (m.data.empty()) fail(source, "holds no row of numbers after the header");
   m.kind = columns.kind;
   m.kind->check_rows(m);

@@ -13,9 +13,9 @@ namespace granulaw {
 
 bool Factors::seen(int k, double model) const
 {
-  const double limit = scatter < 1 ? clear_by_scatter : clear_by_stated;
-  return std::abs(value[k]) > limit * std::hypot(std::min(1.0, scatter) * sd[k], model) ||
-         std::abs(value[k]) > clear_by_stated * std::hypot(sd[k], model);
+  const double size = std::abs(value[k]);
+  return (scatter < 1 && size > clear_by_scatter * std::hypot(scatter * sd[k], model)) ||
+         size > clear_by_stated * std::hypot(std::max(1.0, scatter) * sd[k], model);
 }
 
 Factors legendre_factors(const Differences& d)
@@ -90,7 +90,7 @@ std::vector<double> Inspection::model_errors() const
 {
   std::vector<double> taken;
   for (std::size_t u = 0; u < problem_.count(); ++u)
-    if (problem_.unknowns()[u].is_model_error() && problem_.unknowns()[u].measurement == index_)
+    if (problem_.unknowns()[u].is_model_error() && problem_.unknowns()[u].measurement == problem_.sharer(index_))
       taken.push_back(minimum_.q[static_cast<Eigen::Index>(u)]);
   return taken;
 }
@@ -124,7 +124,7 @@ void Inspection::look_for_outliers()
     lines += fmt::format("{} ({:+.1f} sd)", measurement.data[k].line, residual(k));
     if (lines.size() > 100) break;
   }
-  say("outliers", fmt::format("single values lie far off the fit, in line {}: outliers count less", lines));
+  say(misfit_of_outliers, fmt::format("single values lie far off the fit, in line {}: outliers count less", lines));
 }
 
 namespace {

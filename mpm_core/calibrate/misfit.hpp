@@ -12,8 +12,9 @@ namespace granulaw {
 /// material than slow measurements, or a weaker one.
 std::vector<Misfit> name_misfits(const CalibrationProblem& problem, const Minimum& minimum);
 
-/// A pattern counts from so many standard deviations on: of those stated; of the scatter about the pattern,
-/// where that is less: of eight values it is itself known to a third, and Student's t has 0.4 % beyond.
+/// A pattern counts from so many standard deviations on: of those stated, or of the scatter about the pattern
+/// where that is more; and of the scatter where that is less: of eight values it is itself known to a third,
+/// and Student's t has 0.4 % beyond.
 inline constexpr double clear_by_stated = 3, clear_by_scatter = 5;
 
 /// Relative differences of some values from the fit, over a coordinate from -1 to 1.

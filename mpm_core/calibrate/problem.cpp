@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "calibrate/kind/composed.hpp"
@@ -31,6 +33,44 @@ double tempered(double r)
   return size <= robust_from
              ? r
              : std::copysign(std::sqrt(2 * robust_from * size - robust_from * robust_from), r);
+}
+
+/// Misses of a measurement's data, over their sd, each less what those before it along the curve say of the
+/// model's own error there (a Kalman filter). That error decays with the distance as exp(-distance) (Ornstein
+/// and Uhlenbeck 1930), so data that lie closer than its length say little more than one of them does. A
+/// robust fit takes an outlier for one at its limit.
+std::vector<double> independent_misses(const CalibrationRequest& request, std::size_t measurement,
+                                       const CalibrationProblem::Comparison& c)
+{
+  const Measurement& m = request.measurements[measurement];
+  const std::size_t count = c.sd.size();
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  const bool correlated = !c.place.empty() && (m.kind->has_machine || !request.planned);
+  if (correlated && !m.kind->has_machine)
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return c.place[a] < c.place[b]; });
+  std::vector<double> misses(count);
+  double mean = 0, variance = 1, last = 0;  // of the model's own error there, over its sd
+  for (const std::size_t k : order) {
+    const double kept = correlated ? std::exp(-std::abs(c.place[k] - last)) : 0;
+    mean *= kept, variance = kept * kept * variance + 1 - kept * kept;
+    const double sd = std::hypot(c.noise[k], c.scatter[k] * std::sqrt(variance));
+    misses[k] = (m.data[k].y - c.with_errors[k] - c.scatter[k] * mean) / sd;
+    const double gain = variance * c.scatter[k] / sd, limit = request.robust ? robust_from : unbounded;
+    mean += gain * std::clamp(misses[k], -limit, limit), variance -= gain * gain;
+    if (correlated) last = c.place[k];
+  }
+  return misses;
+}
+
+/// One law is held against both measurements: of curves, to depths within a factor of two.
+bool share_a_law(const Measurement& a, const Measurement& b)
+{
+  const auto partner = [](const Measurement& m) {
+    return std::tuple(m.indenter_radius, m.counterpart ? m.counterpart->name : "", m.counterpart_is_ball);
+  };
+  return a.kind == b.kind && partner(a) == partner(b) &&
+         (!a.kind->has_machine || std::abs(std::log2(a.largest_overlap() / b.largest_overlap())) < 1);
 }
 
 /// The parameters of the hardening law are fitted or given, no other law's are fitted.
@@ -99,7 +139,11 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
     constexpr double none = std::numeric_limits<double>::infinity();
     if (m.fit_offset) add(&MachineState::offset, 0.01 * m.largest_x(), -none, none);
     if (m.fit_compliance) add(&MachineState::compliance, 0.01 * m.largest_x() / m.largest_y(), 0, none);
-    if (m.kind->has_machine && m.turn_gap() > 0) add(&MachineState::beyond, m.turn_gap(), 0, 1);
+    if (!m.kind->has_machine) continue;
+    const std::vector<Unloading> unloadings = m.unloadings();
+    for (std::size_t u = 0; u < unloadings.size(); ++u)
+      if (unloadings[u].gap > 0)
+        unknowns_.push_back({.unloading = u, .measurement = k, .scale = unloadings[u].gap, .step = 1e-2, .least = 0, .most = 1});
   }
   const std::size_t wanted = std::max<std::size_t>(2, fitted_count());
   if (data_ + request_.priors.size() < wanted)
@@ -107,7 +151,10 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
          std::to_string(data_), fmt::format("{} or more", wanted));
   for (std::size_t k = 0; k < request_.measurements.size(); ++k) {
     const Measurement& m = request_.measurements[k];
-    unknowns_.insert(unknowns_.end(), m.kind->smooth_errors, {.measurement = k, .step = 0.5});
+    const auto all = request_.measurements.begin();
+    sharers_.push_back(static_cast<std::size_t>(
+        std::find_if(all, all + static_cast<std::ptrdiff_t>(k), [&](const Measurement& o) { return share_a_law(m, o); }) - all));
+    if (sharers_[k] == k) unknowns_.insert(unknowns_.end(), m.kind->smooth_errors, {.measurement = k, .step = 0.5});
     composed_.push_back(m.is_composed() ? std::make_unique<ComposedModel>(atlas, m, request_.fit) : nullptr);
   }
   // the hardening's reference is a yield stress: the one given, else of the middle of what is likely
@@ -151,8 +198,12 @@ MachineState CalibrationProblem::machine(const Coordinates& q, std::size_t measu
 {
   MachineState state;
   for (std::size_t k = 0; k < count(); ++k)
-    if (unknowns_[k].machine && unknowns_[k].measurement == measurement)
-      state.*unknowns_[k].machine = value(k, q[index(k)]);
+    if (const Unknown& u = unknowns_[k]; u.measurement == measurement) {
+      if (u.machine) state.*u.machine = value(k, q[index(k)]);
+      if (!u.unloading) continue;
+      state.beyond.resize(*u.unloading + 1);
+      state.beyond[*u.unloading] = value(k, q[index(k)]);
+    }
   return state;
 }
 
@@ -162,12 +213,14 @@ CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q,
 {
   const Measurement& m = request_.measurements[k];
   const Prediction p = m.kind->predict(m, {material, laws, machine(q, k), composed_[k].get()});
-  Comparison c{p.values, p.values, {}, p.beyond};
-  for (std::size_t i = 0; i < p.values.size(); ++i)
-    c.sd.push_back(std::hypot(m.data[i].sd_at(p.values[i]), p.scatter[i]));
+  Comparison c{p.values, p.values, {}, p.scatter, {}, p.place, p.beyond};
+  for (std::size_t i = 0; i < p.values.size(); ++i) {
+    c.noise.push_back(m.data[i].sd_at(p.values[i]));
+    c.sd.push_back(std::hypot(c.noise[i], c.scatter[i]));
+  }
   auto error = p.errors.begin();
   for (std::size_t u = 0; u < count(); ++u)
-    if (unknowns_[u].is_model_error() && unknowns_[u].measurement == k) {
+    if (unknowns_[u].is_model_error() && unknowns_[u].measurement == sharers_[k]) {
       for (std::size_t i = 0; i < p.values.size(); ++i) c.with_errors[i] += q[index(u)] * (*error)[i];
       ++error;
     }
@@ -230,8 +283,7 @@ CalibrationProblem::Misses CalibrationProblem::misses(const Coordinates& q, cons
   for (std::size_t k = 0; k < request_.measurements.size(); ++k) {
     const Comparison c = compare(q, k, m, laws);
     found.beyond = std::max(found.beyond, c.beyond);
-    for (std::size_t i = 0; i < c.sd.size(); ++i)
-      found.data.push_back((request_.measurements[k].data[i].y - c.with_errors[i]) / c.sd[i]);
+    for (const double r : independent_misses(request_, k, c)) found.data.push_back(r);
   }
   return found;
 }
@@ -343,16 +395,18 @@ std::vector<Coordinates> CalibrationProblem::starts() const
     CandidateMaterial m = request_.known;
     m.youngs_modulus = modulus, m.yield_stress = yield;
     // of what hardening adds over Y, and at about which strain
-    for (const auto& [gain, strain] : {std::pair{0.2, 0.03}, {0.6, 0.03}, {0.6, 0.15}, {1.5, 0.15}}) {
+    for (const auto& [gain, strain] : {std::pair{0.01, 0.03}, {0.2, 0.03}, {0.6, 0.03}, {0.6, 0.15}, {1.5, 0.15}}) {
       Coordinates q = Coordinates::Zero(index(count()));
       for (std::size_t k = 0; k < request_.fit.size(); ++k) {
         const Parameter p = request_.fit[k];
         const bool of_hardening = p != Parameter::youngs_modulus && p != Parameter::yield_stress;
-        q[index(k)] = coordinate(k, of_hardening ? start_of(m, p, gain, strain) : value_of(m, p));
+        q[index(k)] = coordinate(k, unknowns_[k].is_hardening() ? gain / strain * yield
+                                    : of_hardening              ? start_of(m, p, gain, strain)
+                                                                : value_of(m, p));
       }
       const double cost = residuals(q).squaredNorm();
       if (std::isfinite(cost)) candidates.push_back({cost, q, modulus / (softening * yield)});
-      if (linear) break;  // its start is the same for all
+      if (linear && !request_.fits(Parameter::hardening_modulus)) break;
     }
   };
   const std::vector<double> likely = likely_yield_stresses();

@@ -28,7 +28,8 @@ struct CalibrationRequest
   CandidateMaterial known;  ///< density and nu; of what is not fitted, its value; of what is, ignored
   std::vector<Parameter> fit;
   std::vector<ParameterRange> priors, bounds;
-  bool robust = true;  ///< outliers count in proportion to their distance, not to its square
+  bool robust = true;   ///< outliers count in proportion to their distance, not to its square
+  bool planned = false;  ///< single values are candidates, each of which counts alone
 
   bool fits(Parameter parameter) const;
 };
@@ -50,6 +51,8 @@ class CalibrationProblem
 
   const CalibrationRequest& request() const { return request_; }
   SphereLawsCache& laws() const { return *laws_; }
+  /// The first measurement whose law is this one's, to about the same depth: both have one error of the model.
+  std::size_t sharer(std::size_t measurement) const { return sharers_[measurement]; }
   /// Model of the measurement's two bodies; null: it has one.
   const ComposedModel* composed(std::size_t measurement) const { return composed_[measurement].get(); }
 
@@ -57,13 +60,14 @@ class CalibrationProblem
   struct Unknown
   {
     std::optional<Parameter> parameter{};
-    double MachineState::*machine = nullptr;  ///< null, and no parameter: one of the model's own errors
+    double MachineState::*machine = nullptr;  ///< an offset or a compliance
+    std::optional<std::size_t> unloading{};   ///< of the measurement: MachineState::beyond
     std::size_t measurement = 0;              ///< of an unknown that is no parameter
     double scale = 1;                         ///< unit; of the hardening: Y_ref/2
     double step = 1e-3;                       ///< of a coordinate, for differences
     double least = -std::numeric_limits<double>::infinity(), most = -least;  ///< coordinates
 
-    bool is_model_error() const { return !parameter && !machine; }
+    bool is_model_error() const { return !parameter && !machine && !unloading; }
     bool is_hardening() const { return parameter == Parameter::hardening_modulus; }
   };
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
@@ -81,11 +85,13 @@ class CalibrationProblem
 
   /// Residuals: (measured - predicted)/sd for each datum; priors; model errors; walls.
   Eigen::VectorXd residuals(const Coordinates& q) const;
-  /// One measurement's prediction, without and with the model's own errors, and the sd of its data.
+  /// One measurement's prediction, without and with the model's own errors, and the sd of its data: of noise,
+  /// of Prediction::scatter, of both.
   struct Comparison
   {
-    std::vector<double> predicted, with_errors, sd;
-    double beyond = 0;  ///< Prediction::beyond
+    std::vector<double> predicted, with_errors, noise, scatter, sd;
+    std::vector<double> place;  ///< Prediction::place
+    double beyond = 0;          ///< Prediction::beyond
   };
   Comparison compare(const Coordinates& q, std::size_t measurement) const;
   /// Scatter of data, priors and model errors about the fit, as the loss counts it.
@@ -122,6 +128,7 @@ class CalibrationProblem
 
   CalibrationRequest request_;
   std::unique_ptr<SphereLawsCache> laws_;
+  std::vector<std::size_t> sharers_;                      ///< by measurement
   std::vector<std::unique_ptr<ComposedModel>> composed_;  ///< by measurement
   std::vector<Unknown> unknowns_;
   std::size_t data_ = 0;

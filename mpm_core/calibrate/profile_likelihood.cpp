@@ -10,8 +10,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr double rise68 = 0.9889, rise95 = 3.8415;  // of chi^2, one degree of freedom: 68 and 95 %
-constexpr double tolerance = 0.03;                  // of sqrt(rise), at an interval's end
+constexpr double tolerance = 0.03;  // of sqrt(rise), at an interval's end
 constexpr int most_places = 14;
 
 /// One side of a profile.
@@ -112,25 +111,26 @@ class Side
 }  // namespace
 
 ParameterProfile profile_likelihood(const CalibrationProblem& problem, const Minimum& minimum,
-                                    std::size_t unknown, double scale)
+                                    std::size_t unknown, const Widening& widening)
 {
   const auto u = static_cast<Eigen::Index>(unknown);
   const Range allowed = problem.allowed(unknown, minimum.q);
   const double q = std::clamp(minimum.q[u], allowed.low, allowed.high);
   const Eigen::MatrixXd spread = covariance(minimum);
   const Coordinates along = spread.col(u) / spread(u, u);
-  const double sd = std::clamp(std::sqrt(spread(u, u)), 1e-4, 2.0) * std::sqrt(scale);
+  const double sd = std::clamp(std::sqrt(spread(u, u)), 1e-4, 2.0) * std::sqrt(widening.scale);
   ParameterProfile profile;
   profile.value = problem.value(unknown, q);
   Side below(problem, minimum, unknown, along, allowed.low, sd),
       above(problem, minimum, unknown, along, allowed.high, sd);
-  const auto fill = [&](Interval& interval, double rise) {
-    const Side::End low = below.reach(std::sqrt(rise * scale)), high = above.reach(std::sqrt(rise * scale));
+  const auto fill = [&](Interval& interval, double probability) {
+    const double root_rise = widening.deviations(probability);
+    const Side::End low = below.reach(root_rise), high = above.reach(root_rise);
     interval = {problem.value(unknown, low.q), problem.value(unknown, high.q), low.told, high.told};
     profile.low95 = low.all, profile.high95 = high.all;
   };
-  fill(profile.within68, rise68);
-  fill(profile.within95, rise95);
+  fill(profile.within68, 0.68);
+  fill(profile.within95, 0.95);
   profile.better = below.better() ? below.better() : above.better();
   return profile;
 }

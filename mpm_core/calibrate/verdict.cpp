@@ -74,14 +74,28 @@ std::string clause(const FittedParameter& p)
   }
 }
 
-std::string bound_clause(const Calibration& c)
+std::string names_of(const Calibration& c)
 {
   std::string names;
   for (const FittedParameter& p : c.parameters) names += (names.empty() ? "" : ", ") + name_of(p.parameter);
+  return names;
+}
+
+std::string bound_clause(const Calibration& c)
+{
   return fmt::format(
       "the fit lies at an end of the method's range, {}: neither value nor interval of {}. A value may be in "
       "another unit than SI, what is held fixed may be wrong, or the material lies outside.",
-      c.bound, names);
+      c.bound, names_of(c));
+}
+
+std::string misfit_clauses(const Calibration& c)
+{
+  std::string text;
+  for (const Misfit& m : c.misfits)
+    text += m.source.empty() ? fmt::format(" Misfit: {}.", m.sentence)
+                             : fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
+  return text;
 }
 
 std::string correlation_clause(const Calibration& c)
@@ -136,20 +150,19 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& c)
   constexpr double unlikely = 0.01;
   std::string text = span_of(problem, c) + ": ";
   if (!c.bound.empty()) return text + bound_clause(c);
+  if (!c.followed)
+    return text +
+           fmt::format("no value of {} follows them, the differences are {:.2g} times the standard deviations (chi^2 "
+                       "{:.3g} of {}): neither value nor interval.",
+                       names_of(c), std::sqrt(c.chi_squared / static_cast<double>(c.degrees_of_freedom)), c.chi_squared, c.degrees_of_freedom) +
+           misfit_clauses(c);
   for (std::size_t k = 0; k < c.parameters.size(); ++k)
     text.append(k > 0 ? "; " : "").append(clause(c.parameters[k]));
-  text += "." + correlation_clause(c);
-  for (const Misfit& m : c.misfits)
-    text += m.source.empty() ? fmt::format(" Misfit: {}.", m.sentence)
-                             : fmt::format(" Misfit of {}: {}.", m.source, m.sentence);
-  text += rate_clause(problem, c) + machine_clause(c);
-  if (c.misfits.empty())
-    text += c.degrees_of_freedom > 0 && c.p_value < unlikely
-                ? fmt::format(
-                      " The data scatter more than stated (p = {:.2g}); the intervals are widened by {:.2g}.",
-                      c.p_value, std::sqrt(c.interval_scale))
-                : std::string(" The fit is as good as the data.");
-  return text;
+  text += "." + correlation_clause(c) + misfit_clauses(c) + rate_clause(problem, c) + machine_clause(c);
+  if (c.degrees_of_freedom > 0 && c.p_value < unlikely)
+    return text + fmt::format(" The data scatter more than stated (p = {:.2g}); the intervals are widened by {:.2g}.",
+                              c.p_value, c.widening.deviations(0.95) / normal95);
+  return c.misfits.empty() ? text + " The fit is as good as the data." : text;
 }
 
 }  // namespace granulaw

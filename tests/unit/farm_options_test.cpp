@@ -48,6 +48,20 @@ TEST_F(FarmOptionsTest, TheCacheIsAFolder)
   EXPECT_EQ(sentence_of([&] { options.check(), options.farm(); }), "");
 }
 
+TEST_F(FarmOptionsTest, ACacheThatCannotBeWrittenIsToldBeforeTheRuns)
+{
+  FarmOptions options;
+  options.cache = "/proc/self";  // a folder that not even root writes to
+  expect_error("--cache: the folder '/proc/self' cannot be written to", [&] { options.farm(); });
+  setenv("XDG_CACHE_HOME", write("file", "").c_str(), 1);
+  testing::internal::CaptureStderr();
+  EXPECT_NE(FarmOptions{}.farm(), nullptr);
+  const std::string said = testing::internal::GetCapturedStderr();
+  unsetenv("XDG_CACHE_HOME");
+  EXPECT_NE(said.find("mpm: warning: --cache: the folder"), std::string::npos) << said;
+  EXPECT_NE(said.find("runs that finish are not kept"), std::string::npos) << said;
+}
+
 TEST_F(FarmOptionsTest, WhatItCostIsOneLine)
 {
   const auto said = [](const FarmCount& count) {

@@ -166,7 +166,7 @@
     const data = drops_csv(), {material, radius, partner} = request_of(state);
     drops.fit = data ? granulaw.calibrate_now({data, relative_sd: drops.scatter / 100, material, radius, partner}) : null;
     const fit = drops.fit, yield_stress = fit && !fit.problem ? fit.parameters.yield_stress : null;
-    byId("take").disabled = !yield_stress || fit.bound !== "";
+    byId("take").disabled = !yield_stress || fit.bound !== "" || !fit.followed;
     byId("fitted").textContent = !fit ? "" : fit.problem ? `${fit.problem}.`
       : `${fit.verdict} E, ν, H and ρ above are taken as known. To fit several numbers, or other measurements, use mpm calibrate: the tab drops.csv has the command.`;
   }

@@ -6,6 +6,7 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
+#include "calibrate/cycles.hpp"
 #include "calibrate/material_toml.hpp"
 #include "calibrate/sphere_laws.hpp"
 #include "characterise/build/slow_law.hpp"
@@ -88,34 +89,35 @@ Calibration fit_by_runs(const CalibrateRequest& r, CalibrationProblem& problem, 
   return std::move(fit.calibration);
 }
 
-/// Message in place of a material for a fit at an end of the method's range.
-void state_bound(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& result,
-                 const nlohmann::ordered_json& json)
+/// Message in place of a material where there is none.
+void state_no_values(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& result,
+                     const nlohmann::ordered_json& json)
 {
   if (r.json)
     print_json(json);
   else
     print_calibration(problem, result);
-  if (!r.output.empty())
-    fail(r.output, "is not written: the fit lies at an end of the method's range, " + result.bound);
-  if (!r.plot.empty())
-    fail(r.plot, "is not drawn: the fit lies at an end of the method's range, " + result.bound);
+  const std::string why =
+      result.bound.empty() ? "no parameters follow the data" : "the fit lies at an end of the method's range, " + result.bound;
+  if (!r.output.empty()) fail(r.output, "is not written: " + why);
+  if (!r.plot.empty()) fail(r.plot, "is not drawn: " + why);
 }
 
 void run(const CalibrateRequest& r)
 {
   check_outputs(r);
   r.farm.check();
-  const CalibrationRequest request = r.options.request();
+  CalibrationRequest request = r.options.request();
   const std::optional<Atlas> atlas = own_atlas();
   if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
+  set_cycles_aside(*atlas, request);
   CalibrationProblem problem(*atlas, request);
   nlohmann::ordered_json runs;
   const Calibration result =
       request.known.hardens_linearly() ? calibrate(problem) : fit_by_runs(r, problem, runs);
   nlohmann::ordered_json json = calibration_json(problem, result);
   if (!runs.empty()) json["runs"] = runs;
-  if (!result.bound.empty()) return state_bound(r, problem, result, json);
+  if (!result.has_values()) return state_no_values(r, problem, result, json);
   for (const FittedParameter& p : result.parameters)
     if (p.identifiable() && p.parameter <= Parameter::yield_stress)
       check_plausible("the fit", name_of(p.parameter), name_of(p.parameter), p.profile.value);

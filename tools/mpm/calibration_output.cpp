@@ -25,8 +25,9 @@ nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const
       out["compliance_low95"] = c.compliances[k]->low, out["compliance_high95"] = c.compliances[k]->high;
   }
   std::vector<double> x, y;
-  for (const Datum& d : m.data) x.push_back(d.x), y.push_back(d.y);
-  out["x"] = x, out["measured"] = y, out["sd"] = compared.sd, out["fit"] = compared.with_errors;
+  std::vector<int> rows;
+  for (const Datum& d : m.data) x.push_back(d.x), y.push_back(d.y), rows.push_back(d.rows);
+  out["x"] = x, out["measured"] = y, out["rows"] = rows, out["sd"] = compared.sd, out["fit"] = compared.with_errors;
   const Band band = band_of(problem, c, k);
   std::vector<double> sd;
   for (std::size_t i = 0; i < band.low.size(); ++i)
@@ -58,9 +59,10 @@ nlohmann::ordered_json calibration_json(const CalibrationProblem& problem, const
   out["chi2"] = json_number(c.chi_squared);
   out["degrees_of_freedom"] = c.degrees_of_freedom;
   out["p_value"] = json_number(c.p_value);
-  out["interval_scale"] = c.interval_scale;
+  out["interval_scale"] = c.widening.scale;
   out["verdict"] = verdict(problem, c);
   out["bound"] = c.bound;
+  out["followed"] = c.followed;
   out["misfits"] = nlohmann::ordered_json::array();
   for (const Misfit& m : c.misfits)
     out["misfits"].push_back({{"source", m.source}, {"name", m.name}, {"sentence", m.sentence}});
@@ -85,7 +87,7 @@ void print_calibration(const CalibrationProblem& problem, const Calibration& c)
   fmt::print("{:<20}{:>12}{:>26}{:>26}\n", "", "SI", "68 %", "95 %");
   for (const FittedParameter& p : c.parameters) {
     const Interval &a = p.profile.within68, &b = p.profile.within95;
-    if (p.told == Told::at_bound) {
+    if (!c.has_values()) {
       fmt::print("{:<20}{:>12.4g}{:>26}{:>26}\n", name_of(p.parameter), p.profile.value, "no interval",
                  name_of(p.told));
       continue;

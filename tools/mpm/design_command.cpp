@@ -54,8 +54,9 @@ CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequ
       fail("--guess",
            "is missing: without data the design needs a material to go by, such as yield_stress=50e6");
     const Calibration c = calibrate(CalibrationProblem(atlas, request));
-    if (!c.bound.empty())
-      fail("mpm design", "the fit of DATA lies at an end of the method's range, " + c.bound +
+    if (!c.has_values())
+      fail("mpm design", (c.bound.empty() ? "no parameters follow DATA"
+                                          : "the fit of DATA lies at an end of the method's range, " + c.bound) +
                              ": give a --guess without these data");
     return c.material;
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "option_checks.hpp"
 #include "ranks.hpp"
@@ -34,10 +35,22 @@ std::unique_ptr<Farm> FarmOptions::farm() const
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = jobs > 0 ? jobs : ranks() > 1 ? 1 : cores;
   if (no_cache || cache.empty() || rank() != 0) return make_farm(threads, RunCache{});
+  try {
+    prepare_cache();
+  } catch (const Error& refused) {
+    // a folder that nobody named stops no run
+    if (cache != default_cache_folder()) throw;
+    fmt::print(stderr, "mpm: warning: {}: runs that finish are not kept\n", refused.what());
+  }
+  return make_farm(threads, RunCache(cache));
+}
+
+void FarmOptions::prepare_cache() const
+{
   std::error_code problem;
   std::filesystem::create_directories(cache, problem);
   if (problem) fail("--cache", fmt::format("the folder '{}' cannot be made ({})", cache, problem.message()));
-  return make_farm(threads, RunCache(cache));
+  require_writable((std::filesystem::path(cache) / "a.run").string(), "--cache");
 }
 
 void print_count(const FarmCount& c)

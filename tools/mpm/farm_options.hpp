@@ -18,7 +18,11 @@ struct FarmOptions
   void add_to(Options& command);
   /// Throws Error if the cache cannot be a folder: before anything is computed.
   void check() const;
+  /// Makes the cache, too. Throws Error if it cannot be written to; of the default one that is a warning.
   std::unique_ptr<Farm> farm() const;
+
+ private:
+  void prepare_cache() const;
 };
 
 /// Runs that the farm spent and saved, as one line.

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "calibrate/condense.hpp"
 #include "calibrate/kind/composed.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/misfit.hpp"
@@ -34,42 +35,62 @@ double unloading_force(const Reversal& top, double share)
 
 Prediction predict_curve(const Measurement& m, const CurveModel& model, const MachineState& machine)
 {
+  // of ln overlap and of the recovery: of finite-element curves and of presses, as their rows depart from a
+  // fit
+  constexpr double loading_length = 0.2, unloading_length = 0.2;
+  constexpr double span = 4.6;        // ln 100: of the overlap, over which the errors were measured
+  constexpr double roughness = 1e-3;  // of the largest force: contact curves of the atlas are no smoother
   Prediction p;
   p.errors.resize(m.kind->smooth_errors);
+  const double unit = m.kind->contacts * model.length;
   const auto overlap = [&](const Datum& d) {
-    return (d.x - machine.offset - machine.compliance * d.y) / m.kind->contacts / model.length;
+    return (d.x - machine.offset - machine.compliance * d.y) / unit;
   };
-  const std::size_t loading = m.loading_rows();
-  double x_m = 0;
+  const std::vector<Unloading> unloadings = m.unloadings();
+  const auto reversal_point = [&](std::size_t k) {
+    const std::size_t first = unloadings[k].first;
+    return std::max(overlap(m.data[first]), overlap(m.data[first - 1])) +
+           std::max(0.0, k < machine.beyond.size() ? machine.beyond[k] : 0.0) / unit;
+  };
+  double x_m = 1e-12;
   for (const Datum& d : m.data) x_m = std::max(x_m, overlap(d));
-  x_m += std::max(0.0, machine.beyond) / m.kind->contacts / model.length;
-  const Reversal top = model.curve.reversal(std::max(x_m, 1e-12));
+  for (std::size_t k = 0; k < unloadings.size(); ++k) x_m = std::max(x_m, reversal_point(k));
+  const double rough = roughness * m.largest_y();
   // The checks' errors are each one curve's: smooth. Unloading is off by a fraction of what it recovers,
   // however far the press went.
-  const double factor_error = model.force_error, recovery_error = model.recovery_error,
-               recovery = x_m - top.residual();
-  constexpr double span = 4.6;  // ln 100: of the overlap, over which the errors were measured
+  const double factor_error = model.force_error, recovery_error = model.recovery_error;
+  double reached = 0;
+  Reversal top;
+  auto unloading = unloadings.begin();
   for (std::size_t k = 0; k < m.data.size(); ++k) {
-    const double x = overlap(m.data[k]);
-    const bool unloads = k >= loading && x_m > model.curve.onset();
-    double force = 0, stretched = 0, steep = 0, place = 1;
-    if (unloads) {
-      const double share = (x - top.residual()) / recovery;
+    if (unloading != unloadings.end() && k == unloading->first) {
+      reached = std::max(reached, reversal_point(static_cast<std::size_t>(unloading - unloadings.begin())));
+      top = model.curve.reversal(reached);
+    }
+    const bool within = unloading != unloadings.end() && k >= unloading->first;
+    if (within && k + 1 == unloading->last) ++unloading;
+    const double x = overlap(m.data[k]), relative = std::log(std::max(x / x_m, 1e-3));
+    double force = 0, stretched = 0, steep = 0, polynomial = 1, place = relative / loading_length;
+    if ((within || x < reached) && reached > model.curve.onset()) {
+      const double share = (x - top.residual()) / (reached - top.residual());
       force = unloading_force(top, share);
       stretched = unloading_force(top, 1 - (1 - share) / (1 - recovery_error)) - force;
       steep =
           0.5 * (unloading_force(top, share + recovery_error) - unloading_force(top, share - recovery_error));
+      place = std::log(reached / x_m) / loading_length - (1 - std::clamp(share, 0.0, 1.0)) / unloading_length;
     } else if (x > 0) {
       force = model.curve.loading(x).force;
-      place = 1 + 2 * std::log(x / x_m) / span;
+      polynomial = 1 + 2 * relative / span;
     }
     p.values.push_back(model.force * force);
     double shape[3];
-    legendre(place, shape);
+    legendre(polynomial, shape);
     for (std::size_t j = 0; j < 3; ++j)
       p.errors[j].push_back(model.force * force * factor_error / std::sqrt(3.0) * shape[j]);
     p.errors[3].push_back(model.force * stretched);
-    p.scatter.push_back(rough_share * model.force * std::hypot(force * factor_error, steep));
+    p.scatter.push_back(
+        std::hypot(rough_share * model.force * std::hypot(force * factor_error, steep), rough));
+    p.place.push_back(place);
   }
   return p;
 }
@@ -100,7 +121,7 @@ Prediction predict_indenter(const Measurement& m, const Trial& t)
   return p;
 }
 
-Reach reach(const Measurement& m, const Trial& t)
+Reach curve_reach(const Measurement& m, const Trial& t)
 {
   const LawMaterial& specimen = t.material;
   const double e_star =
@@ -111,7 +132,7 @@ Reach reach(const Measurement& m, const Trial& t)
   return r;
 }
 
-void starts(const Measurement& m, const LawMaterial&, std::vector<double>& likely)
+void curve_starts(const Measurement& m, const LawMaterial&, std::vector<double>& likely)
 {
   // a mean pressure of 2.8 Y over 2 pi R delta
   const double overlap = m.largest_x() / m.kind->contacts;
@@ -181,55 +202,86 @@ void check_depth(const Measurement& m, const CalibrationRequest&, const Atlas&)
          fmt::format("{:.3g}", m.largest_overlap()), fmt::format("up to {:g}", end));
 }
 
-/// Noise of a curve: its scatter, and 0.1 % of its largest force at least. Contact curves of the atlas are no
-/// smoother.
-void complete(Measurement& m, double)
+/// The data that load a curve further than before.
+std::vector<std::size_t> loading_data(const Measurement& m)
 {
-  if (std::all_of(m.data.begin(), m.data.end(), [](const Datum& d) { return d.sd > 0; })) return;
-  const ForceScatter scatter = scatter_of(m);
-  const double floor = 1e-3 * m.largest_y();
-  for (Datum& d : m.data) d.sd = std::max(floor, scatter.at(d.y));
+  std::vector<std::size_t> all;
+  std::size_t next = 0;
+  const auto add_until = [&](std::size_t end) {
+    for (; next < end; ++next) all.push_back(next);
+  };
+  for (const Unloading& u : m.unloadings()) add_until(u.first), next = u.last;
+  add_until(m.data.size());
+  return all;
 }
 
-/// Loading in even steps, and half as many rows that unload to half of the displacement.
+/// Noise of a curve: its scatter. Noise that neighbouring data share, as of a filter or of a saw-tooth that
+/// many rows resolve, shows in means over longer stretches of the loading only: the largest counts.
+void complete(Measurement& m, double)
+{
+  condense(m);
+  if (std::all_of(m.data.begin(), m.data.end(), [](const Datum& d) { return d.sd > 0; })) return;
+  std::vector<ForceScatter> found{scatter_of(m)};
+  Measurement loading = m;
+  loading.data.clear();
+  for (const std::size_t k : loading_data(m)) loading.data.push_back(m.data[k]), loading.data.back().rows = 1;
+  for (const double width : {2.0, 4.0}) {
+    Measurement means = loading;
+    condense(means, width);
+    found.push_back(scatter_of_means(means));
+    found.back().averages = false;
+  }
+  for (Datum& d : m.data)
+    for (const ForceScatter& scatter : found) d.sd = std::max(d.sd, scatter.at(d.y, d.rows));
+}
+
+/// Loading in even steps, and half as many rows that unload to half of the displacement, at a lower force.
 std::vector<Datum> planned(double displacement)
 {
   constexpr int rows = 60;
   std::vector<Datum> data;
   for (int k = 1; k <= rows; ++k) data.push_back({displacement * k / rows, 1, 1, k});
   for (int k = rows / 2; k > 0; --k)
-    data.push_back({displacement * (0.5 + k / (rows + 2.0)), 1, 1, 2 * rows - k});
+    data.push_back({displacement * (0.5 + k / (rows + 2.0)), 0.5, 1, 2 * rows - k});
   return data;
 }
 
 void look_for_a_drop(Inspection& i)
 {
   constexpr double least_drop = 0.03, clear = 4;  // of the largest force so far; standard deviations
+  constexpr double at_rest = 0.002;               // of the displacement
   const std::vector<Datum>& data = i.measurement.data;
-  const std::size_t loading = i.measurement.loading_rows();
+  const std::vector<std::size_t> loading = loading_data(i.measurement);
   double peak = 0, peak_at = 0, sd = 0;
-  for (std::size_t k = 0; k < loading; ++k) {
-    const Datum& d = data[k];
+  for (std::size_t n = 0; n < loading.size(); ++n) {
+    const Datum& d = data[loading[n]];
     if (d.y > peak) peak = d.y, peak_at = d.x, sd = d.sd;
-    const bool stays = k + 1 >= loading || data[k + 1].y < peak - clear * sd;
-    if (peak - d.y > least_drop * peak + clear * std::hypot(sd, d.sd) && stays)
+    const bool stays = n + 1 >= loading.size() || data[loading[n + 1]].y < peak - clear * sd;
+    if (!(peak - d.y > least_drop * peak + clear * std::hypot(sd, d.sd) && stays)) continue;
+    const double share = 100 * (peak - d.y) / peak;
+    if (d.x - peak_at < at_rest * i.measurement.largest_x())
       return i.say(
-          "fracture",
-          fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, "
-                      "as by fracture; rows beyond do not describe a contact",
-                      100 * (peak - d.y) / peak, peak_at));
+          "relaxation",
+          fmt::format(
+              "the force falls by {:.2g} % at rest, at {:.4g} m: the particle relaxes, and no law here "
+              "depends on time",
+              share, peak_at));
+    return i.say("fracture",
+                 fmt::format("the force falls by {:.2g} % on loading, after {:.4g} m: the particle softens, "
+                             "as by fracture; rows beyond do not describe a contact",
+                             share, peak_at));
   }
 }
 
 void look_at_unloading(Inspection& i)
 {
   const std::vector<Datum>& data = i.measurement.data;
-  const std::size_t loading = i.measurement.loading_rows();
-  double difference = 0, weights = 0, largest = data[loading - 1].y;
-  for (std::size_t k = loading; k < data.size(); ++k)
-    difference += data[k].y - i.comparison.with_errors[k], weights += 1;
-  if (weights < 4 || !(largest > 0)) return;
-  const double mean = difference / weights / largest;
+  double difference = 0, weights = 0;
+  for (const Unloading& u : i.measurement.unloadings())
+    for (std::size_t k = u.first; k < u.last; ++k)
+      difference += data[k].y - i.comparison.with_errors[k], weights += 1;
+  if (weights < 4) return;
+  const double mean = difference / weights / i.measurement.largest_y();
   if (std::abs(mean) > 0.03)
     i.say("unloading",
           fmt::format("unloading lies {} the fit by {:.1f} % of the largest force: {}",
@@ -238,18 +290,27 @@ void look_at_unloading(Inspection& i)
                                : "time-dependent recovery, or E is higher than the loading says"));
 }
 
-/// The loading against the logarithm of the force, from a tenth of the largest on.
+/// The loading data from a tenth of the largest predicted force on.
+std::vector<std::size_t> clear_loading_data(const Inspection& i)
+{
+  const std::vector<double>& predicted = i.comparison.predicted;
+  std::vector<std::size_t> all = loading_data(i.measurement);
+  double largest = 0;
+  for (const std::size_t k : all) largest = std::max(largest, predicted[k]);
+  std::erase_if(all, [&](std::size_t k) { return !(predicted[k] >= 0.1 * largest); });
+  return all;
+}
+
+/// The loading against the logarithm of the force.
 void look_at_loading(Inspection& i)
 {
-  const std::size_t loading = i.measurement.loading_rows();
   const std::vector<double>& predicted = i.comparison.predicted;
-  const double largest = std::max(
-      0.0, *std::max_element(predicted.begin(), predicted.begin() + static_cast<std::ptrdiff_t>(loading)));
+  const std::vector<std::size_t> data = clear_loading_data(i);
+  if (data.size() < 8) return;
+  double largest = 0;
+  for (const std::size_t k : data) largest = std::max(largest, predicted[k]);
   Differences d;
-  for (std::size_t k = 0; k < loading; ++k)
-    if (predicted[k] >= 0.1 * largest)
-      i.add_to(d, k, 1 + 2 * std::log(predicted[k] / largest) / std::log(10.0));
-  if (d.place.size() < 8) return;
+  for (const std::size_t k : data) i.add_to(d, k, 1 + 2 * std::log(predicted[k] / largest) / std::log(10.0));
   const Factors f = legendre_factors(d);
   const double model = i.model_error();
   if (f.seen(2, model))
@@ -295,21 +356,20 @@ void look_at_model_errors(Inspection& i)
 void look_for_long_runs(Inspection& i)
 {
   constexpr double clear = 4;  // standard deviations
-  const std::vector<double>& predicted = i.comparison.predicted;
-  const double largest = *std::max_element(predicted.begin(), predicted.end());
+  constexpr double most =
+      2;  // of the model's own error: of eight lengths of it, its rms is known to a quarter
   std::vector<double> left;
-  double squares = 0;
-  for (std::size_t k = 0; k < i.measurement.loading_rows(); ++k)
-    if (predicted[k] >= 0.1 * largest) {
-      left.push_back((i.measurement.data[k].y - i.comparison.with_errors[k]) / predicted[k]);
-      squares += left.back() * left.back();
-    }
-  const double rms = std::sqrt(squares / static_cast<double>(left.size()));
-  if (left.size() < 8 || !(missing_runs(left) > clear && rms > i.model_error())) return;
+  double squares = 0, allowed = 0;
+  for (const std::size_t k : clear_loading_data(i)) {
+    const double predicted = i.comparison.predicted[k];
+    left.push_back((i.measurement.data[k].y - i.comparison.with_errors[k]) / predicted);
+    squares += left.back() * left.back(), allowed += std::pow(i.comparison.sd[k] / predicted, 2);
+  }
+  if (left.size() < 8 || !(missing_runs(left) > clear && squares > most * most * allowed)) return;
   i.say("long runs",
         fmt::format("the differences from the fit keep their sign over long stretches (rms {:.2g} % of "
                     "the force): systematic, though of no known pattern",
-                    100 * rms));
+                    100 * std::sqrt(squares / static_cast<double>(left.size()))));
 }
 
 void inspect(Inspection& i)
@@ -318,6 +378,7 @@ void inspect(Inspection& i)
   look_at_loading(i);
   if (i.found.empty()) look_at_model_errors(i);
   if (i.found.empty()) look_for_long_runs(i);
+  for (const std::string& sentence : i.measurement.set_aside) i.say("cycle", sentence);
 }
 
 constexpr Kind curves(Kind k)
@@ -325,9 +386,13 @@ constexpr Kind curves(Kind k)
   k.x = {.quantity = "displacement", .unit = "m", .above = -std::numeric_limits<double>::infinity()};
   k.y = {.quantity = "force", .unit = "N", .above = -1e9, .allowed = "a force, pushing is positive"};
   k.has_machine = true, k.shows = Kind::Shows::slow, k.smooth_errors = 4;
-  k.reach = reach, k.starts = starts, k.inspect = inspect, k.planned = planned, k.deepest = deepest;
+  k.reach = curve_reach, k.starts = curve_starts, k.inspect = inspect, k.planned = planned,
+  k.deepest = deepest;
   k.check_rows = check_rows, k.check_request = check_depth, k.complete = complete;
-  k.tells_strength = [](const Measurement& m, std::size_t row, double) { return row < m.loading_rows(); };
+  k.tells_strength = [](const Measurement& m, std::size_t row, double) {
+    const std::vector<std::size_t> loading = loading_data(m);
+    return std::binary_search(loading.begin(), loading.end(), row);
+  };
   return k;
 }
 

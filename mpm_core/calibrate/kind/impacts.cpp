@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/error.hpp"
 #include "base/scales.hpp"
@@ -36,6 +37,7 @@ Prediction predict_restitution(const Measurement& m, const Trial& t)
   const double slow = std::log(
       yield_velocity(t.material.e_star(), t.material.yield_stress, m.sphere_density(t.material.density)));
   constexpr double decades = 6.9;  // ln 1000: of V/V_y, over which the errors were measured
+  constexpr double length = 0.45;  // of ln V: as of curves, a sixteenth of that
   for_each_impact(m, t, p, [&](double speed, const SphereLaws::Impact& impact) {
     // none where nothing yields
     const double e = impact.restitution,
@@ -45,6 +47,7 @@ Prediction predict_restitution(const Measurement& m, const Trial& t)
     for (std::size_t k = 0; k < 3; ++k) p.errors[k].push_back(error / std::sqrt(3.0) * shape[k]);
     p.values.push_back(e);
     p.scatter.push_back(rough_share * error);
+    p.place.push_back(std::log(speed) / length);
   });
   if (!t.composed) return p;
   const std::vector<double> change = t.composed->change(t.material);
@@ -92,7 +95,7 @@ Shown time_of(const Measurement& m, const SphereLaws::Impact& impact, double spe
   return {time, 0.01 * time};
 }
 
-Reach reach(const Measurement& m, const Trial& t)
+Reach impact_reach(const Measurement& m, const Trial& t)
 {
   Reach r;
   const double e_star = t.material.e_star(), density = m.sphere_density(t.material.density);
@@ -107,7 +110,7 @@ Reach reach(const Measurement& m, const Trial& t)
   return r;
 }
 
-void starts(const Measurement& m, const LawMaterial& known, std::vector<double>& likely)
+void impact_starts(const Measurement& m, const LawMaterial& known, std::vector<double>& likely)
 {
   const double fastest = m.largest_x();
   for (const double v : {0.28, 0.14, 0.07, 0.035, 0.017, 0.008, 0.004, 0.002, 0.001})
@@ -135,6 +138,40 @@ void check_speeds(const Measurement& m, const CalibrationRequest& r, const Atlas
                        fits_yield ? fmt::format(" and E*/Y {:g}", least_stiffness) : ""));
 }
 
+/// Standard deviations by which e rises with ln V over some drops, in order of the speed: of those stated, or
+/// of the scatter about the line where that is more.
+double rise_of(std::span<const Datum> drops)
+{
+  double weights = 0, x = 0, y = 0;
+  const auto weight = [](const Datum& d) { return 1 / (d.sd * d.sd); };
+  for (const Datum& d : drops) weights += weight(d), x += weight(d) * std::log(d.x), y += weight(d) * d.y;
+  x /= weights, y /= weights;
+  double xx = 0, xy = 0, yy = 0;
+  for (const Datum& d : drops) {
+    const double dx = std::log(d.x) - x, dy = d.y - y;
+    xx += weight(d) * dx * dx, xy += weight(d) * dx * dy, yy += weight(d) * dy * dy;
+  }
+  if (!(xx > 0)) return 0;
+  const double left = std::max(0.0, yy - xy * xy / xx) / static_cast<double>(drops.size() - 2);
+  return xy / std::sqrt(xx) / std::sqrt(std::max(1.0, left));
+}
+
+/// The drops, slowest first, over which e rises clearest, from the slowest or to the fastest; none: nowhere.
+std::vector<Datum> rising_drops(const Inspection& i)
+{
+  constexpr std::size_t fewest = 4;
+  std::vector<Datum> all = i.measurement.data;
+  std::sort(all.begin(), all.end(), [](const Datum& a, const Datum& b) { return a.x < b.x; });
+  std::span<const Datum> clearest;
+  double most = clear_by_stated;
+  for (std::size_t count = fewest; count <= all.size(); ++count)
+    for (const std::span<const Datum> drops : {std::span(all).first(count), std::span(all).last(count)})
+      if (const double rise = rise_of(drops);
+          rise > most && drops.back().y - drops.front().y > clear_by_stated * i.model_error())
+        most = rise, clearest = drops;
+  return {clearest.begin(), clearest.end()};
+}
+
 /// e against the logarithm of the speed.
 void inspect_restitution(Inspection& i)
 {
@@ -160,6 +197,15 @@ void inspect_restitution(Inspection& i)
                     "take energy, not plasticity",
                     loss));
   if (d.place.size() < 4 || range < 0.3) return;
+  if (const std::vector<Datum> rising = rising_drops(i); !rising.empty()) {
+    const Datum &slow = rising.front(), &fast = rising.back();
+    return i.say(
+        "rises",
+        fmt::format("e rises with the speed, from {:.3g} at {:.3g} m/s to {:.3g} at {:.3g} m/s; that of a "
+                    "material of this law falls: adhesion, waves in the wall, or an error of the "
+                    "measurement",
+                    slow.y, slow.x, fast.y, fast.x));
+  }
   const Factors f = legendre_factors(d);
   const double model = i.model_error() / least;
   const bool trend = f.seen(1, model);
@@ -187,7 +233,7 @@ constexpr Kind impacts(Kind k)
 {
   k.x = {.quantity = "velocity", .unit = "m_per_s", .allowed = "over 0 m/s"};
   k.needs_density = true;
-  k.reach = reach, k.starts = starts, k.check_request = check_speeds;
+  k.reach = impact_reach, k.starts = impact_starts, k.check_request = check_speeds;
   return k;
 }
 

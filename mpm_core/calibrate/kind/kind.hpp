@@ -42,7 +42,9 @@ struct Prediction
   /// model is a smooth function of speed or overlap, no scatter: Legendre polynomials, whose factors a fit
   /// has for unknowns of mean 0.
   std::vector<std::vector<double>> errors;
-  std::vector<double> scatter;  ///< sd of the rest of that error, which differs from value to value
+  std::vector<double> scatter;  ///< sd of the rest of that error
+  /// Places of the values, in lengths over which that rest is correlated; none: it differs from value to value.
+  std::vector<double> place{};
   double beyond = 0;            ///< ln of how far the data are beyond the atlas's end; 0: within
 };
 

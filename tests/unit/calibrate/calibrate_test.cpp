@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <span>
 
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
 #include "characterise/build/slow_law.hpp"
+#include "calibrate/cycles.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
@@ -53,7 +55,7 @@ Measurement curve(const LawMaterial& m, double depth, double offset)
   measured.radius = radius;
   measured.fit_offset = true;
   for (int k = 1; k <= 40; ++k) measured.data.push_back({2 * depth * radius * k / 40 + offset, 1, 0, k});
-  for (int k = 39; k > 20; --k) measured.data.push_back({2 * depth * radius * k / 40 + offset, 1, 0, 80 - k});
+  for (int k = 39; k > 20; --k) measured.data.push_back({2 * depth * radius * k / 40 + offset, 0.5, 0, 80 - k});
   const SphereLaws laws(atlas(), MaterialRatios::of(m));
   const std::vector<double> force = measured.kind->predict(measured, {m, laws, {offset, 0}}).values;
   for (std::size_t k = 0; k < force.size(); ++k)
@@ -173,6 +175,121 @@ CandidateMaterial voce()
   CandidateMaterial m = stone();
   m.hardening = {"voce", {{"saturation_stress", {120e6}}, {"strain", {0.1}}}};
   return m;
+}
+
+/// A sphere of the stone pressed on a flat by its law: loading with complete and partial unloadings.
+Measurement cycles(double depth, std::vector<std::pair<double, double>> tops_and_shares, int rest)
+{
+  Measurement measured;
+  measured.kind = &kind_named("flat", "test");
+  measured.source = "cycles.csv";
+  measured.radius = radius;
+  measured.fit_offset = true;
+  const SphereLaws laws(atlas(), MaterialRatios::of(stone()));
+  const double unit = 4.0 / 3.0 * stone().e_star() * radius * radius;
+  const auto add = [&](double x, double force) {
+    measured.data.push_back({x * radius, unit * force, 0, static_cast<int>(measured.data.size()) + 2});
+  };
+  double reached = 0;
+  tops_and_shares.emplace_back(depth, 0.1);
+  for (const auto& [top, share] : tops_and_shares) {
+    for (int k = 1; k <= 40; ++k) {
+      const double x = reached + (top - reached) * k / 40;
+      add(x, laws.free().loading(x).force);
+    }
+    const Reversal r = laws.free().reversal(top);
+    for (int k = 0; k < rest; ++k) add(top, r.top());
+    const double low = r.residual() + share * (top - r.residual());
+    for (int k = 19; k >= 0; --k) add(low + (top - low) * k / 20, r.force(low + (top - low) * k / 20));
+    if (top < depth)
+      for (int k = 1; k < 20; ++k) add(low + (top - low) * k / 20, r.force(low + (top - low) * k / 20));
+    reached = top;
+  }
+  complete_standard_deviations(measured, 0.01);
+  return measured;
+}
+
+TEST(Calibrate, PartialUnloadingsAreUsed)
+{
+  const auto fit_of = [](const Measurement& m) {
+    return calibrate(CalibrationProblem(atlas(), request_for(m, {Parameter::youngs_modulus, Parameter::yield_stress})));
+  };
+  const auto width = [](const Calibration& c) {
+    const Interval& i = c.parameters[0].profile.within95;
+    return std::log(i.high / i.low);
+  };
+  const Calibration plain = fit_of(cycles(0.05, {}, 0));
+  for (const int rest : {0, 50}) {
+    const Calibration c = fit_of(cycles(0.05, {{0.01, 0.6}, {0.02, 0.5}, {0.035, 0.0}}, rest));
+    EXPECT_THAT(c.misfits, IsEmpty());
+    // the law itself made the data
+    EXPECT_NEAR(c.material.youngs_modulus / 10e9, 1, 5e-3);
+    EXPECT_NEAR(c.material.yield_stress / 60e6, 1, 5e-3);
+    EXPECT_LT(width(c), width(plain));
+  }
+  // a stiffness that no unloading of such a material has
+  const Measurement cycle = cycles(0.05, {{0.02, 0.5}, {0.035, 0.4}}, 0);
+  CalibrationRequest r = request_for(cycle, {Parameter::youngs_modulus, Parameter::yield_stress});
+  set_cycles_aside(atlas(), r);
+  EXPECT_EQ(r.measurements[0].data.size(), cycle.data.size());
+  Measurement& stiff = r.measurements[0];
+  const Unloading u = stiff.unloadings().front();
+  for (Datum& d : std::span(stiff.data).subspan(u.first, u.last - u.first))
+    d.x = stiff.data[u.first - 1].x - 0.4 * (stiff.data[u.first - 1].x - d.x);
+  set_cycles_aside(atlas(), r);
+  ASSERT_EQ(stiff.set_aside.size(), 1u);
+  EXPECT_THAT(stiff.set_aside[0], HasSubstr("the partial unloading from 2e-05 m"));
+  EXPECT_EQ(stiff.unloadings().size(), 2u);
+  const Calibration c = calibrate(CalibrationProblem(atlas(), r));
+  EXPECT_NEAR(c.material.youngs_modulus / 10e9, 1, 5e-3);
+  ASSERT_EQ(c.misfits.size(), 1u);
+  EXPECT_EQ(c.misfits[0].name, "cycle");
+}
+
+/// A search that began at weak hardening alone ended at none, with a modulus a third too low.
+TEST(Calibrate, HardeningOfThirtyYieldStressesIsFound)
+{
+  const LawMaterial hard{"hard", 2000, 18.6e9, 0.14, 11e6, 340e6};
+  CalibrationRequest r = request_for(
+      curve(hard, 0.11, 3e-6), {Parameter::youngs_modulus, Parameter::yield_stress, Parameter::hardening_modulus});
+  r.known.poisson_ratio = 0.14;
+  const Calibration c = calibrate(CalibrationProblem(atlas(), r));
+  // the same model made the data; three parameters go nearly together
+  EXPECT_NEAR(c.material.youngs_modulus / 18.6e9, 1, 0.02);
+  EXPECT_NEAR(c.material.hardening_modulus / 340e6, 1, 0.02);
+}
+
+/// Neither rows nor files that repeat a measurement narrow an interval to less than the model's own error.
+TEST(Calibrate, RepetitionIsBoundedByTheModelsOwnError)
+{
+  const auto width = [](const CalibrationRequest& r) {
+    const Interval i = calibrate(CalibrationProblem(atlas(), r)).parameters[0].profile.within95;
+    return std::log(i.high / i.low);
+  };
+  const std::vector<double> speeds{0.2, 0.5, 1, 2, 4};
+  const CalibrationRequest once = request_for(drops(stone(), speeds), {Parameter::yield_stress});
+  std::vector<double> thousand;
+  for (int k = 0; k < 200; ++k) thousand.insert(thousand.end(), speeds.begin(), speeds.end());
+  CalibrationRequest exact = once;
+  for (Datum& d : exact.measurements[0].data) d.sd /= std::sqrt(200);
+  EXPECT_NEAR(width(request_for(drops(stone(), thousand), {Parameter::yield_stress})) / width(exact), 1, 0.1);
+  CalibrationRequest files = request_for(curve(stone(), 0.05, 0), {Parameter::yield_stress});
+  const double single = width(files);
+  files.measurements.resize(8, files.measurements[0]);
+  EXPECT_GT(width(files), 0.6 * single);
+}
+
+TEST(Calibrate, ARestitutionThatRisesHasNoValue)
+{
+  Measurement m = drops(stone(), {0.2, 0.4, 0.8, 1.6, 3.2});
+  for (std::size_t k = 0; k < 5; ++k) m.data[k].y = 0.7 + 0.02 * static_cast<double>(k), m.data[k].sd = 0.007;
+  const CalibrationProblem problem(atlas(), request_for(m, {Parameter::yield_stress}));
+  const Calibration c = calibrate(problem);
+  EXPECT_EQ(c.parameters[0].told, Told::not_followed);
+  EXPECT_FALSE(c.parameters[0].identifiable());
+  EXPECT_TRUE(std::isnan(c.parameters[0].profile.within95.low));
+  EXPECT_THAT(verdict(problem, c), HasSubstr("neither value nor interval"));
+  EXPECT_THAT(verdict(problem, c), HasSubstr("e rises with the speed, from 0.7 at 0.2 m/s to 0.78 at 3.2 m/s"));
 }
 
 const Parameter saturation_stress = parameter_named("saturation_stress", "test");
